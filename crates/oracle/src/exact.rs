@@ -1,0 +1,92 @@
+//! Determinants by definition, over big integers.
+
+use std::cmp::Ordering;
+
+use num_bigint::BigInt;
+
+/// A point of the plane.
+pub type Point2 = [f64; 2];
+
+/// Coordinates as integers: every `f64` of the tuple divided by one common power of two.
+fn integers(points: &[Point2]) -> Vec<[BigInt; 2]> {
+    let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff).max(1) as i64;
+    let scale = points.iter().flatten().filter(|x| **x != 0.0).map(|x| exponent(*x)).min().unwrap_or(0);
+    let integer = |x: f64| {
+        assert!(x.is_finite(), "the oracle was given {x}");
+        let normal = (x.to_bits() >> 52) & 0x7ff != 0;
+        let digits = (x.to_bits() & 0x000f_ffff_ffff_ffff) + if normal { 1 << 52 } else { 0 };
+        let magnitude = BigInt::from(digits) << (exponent(x) - scale).max(0);
+        if x < 0.0 { -magnitude } else { magnitude }
+    };
+    points.iter().map(|p| [integer(p[0]), integer(p[1])]).collect()
+}
+
+/// The determinant of a square matrix by expansion along its first column.
+fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
+    if rows.len() == 1 {
+        return rows[0][0].clone();
+    }
+    let mut sum = BigInt::ZERO;
+    for i in 0..rows.len() {
+        let term = &rows[i][0] * determinant(&minor(rows, i, 0));
+        if i % 2 == 0 { sum += term } else { sum -= term }
+    }
+    sum
+}
+
+/// The matrix without one row and one column.
+fn minor(rows: &[Vec<BigInt>], row: usize, column: usize) -> Vec<Vec<BigInt>> {
+    let keep = |r: &Vec<BigInt>| {
+        r.iter().enumerate().filter(|(j, _)| *j != column).map(|(_, x)| x.clone()).collect()
+    };
+    rows.iter().enumerate().filter(|(i, _)| *i != row).map(|(_, r)| keep(r)).collect()
+}
+
+fn sign(value: &BigInt) -> i8 {
+    match value.cmp(&BigInt::ZERO) {
+        Ordering::Less => -1,
+        Ordering::Equal => 0,
+        Ordering::Greater => 1,
+    }
+}
+
+/// The sign of the determinant with rows (x, y, 1): 1 when a, b, c turn left.
+pub fn orient2d(a: Point2, b: Point2, c: Point2) -> i8 {
+    let rows: Vec<_> =
+        integers(&[a, b, c]).into_iter().map(|[x, y]| vec![x, y, BigInt::from(1)]).collect();
+    sign(&determinant(&rows))
+}
+
+fn lifted(points: &[Point2; 4]) -> Vec<Vec<BigInt>> {
+    let lift = |[x, y]: [BigInt; 2]| {
+        let z = &x * &x + &y * &y;
+        vec![x, y, z, BigInt::from(1)]
+    };
+    integers(points).into_iter().map(lift).collect()
+}
+
+/// The sign of the determinant with rows (x, y, x^2 + y^2, 1): 1 when d is inside the circle through a, b, c
+/// in counter-clockwise order. Zero on ties.
+pub fn in_circle_unperturbed(a: Point2, b: Point2, c: Point2, d: Point2) -> i8 {
+    sign(&determinant(&lifted(&[a, b, c, d])))
+}
+
+/// The same with heights x^2 + y^2 + e_i, where e_i is infinitesimal and infinitely larger for
+/// lexicographically larger points: the sign of the first non-zero term of the expansion in the e_i.
+pub fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> i8 {
+    let points = [a, b, c, d];
+    let rows = lifted(&points);
+    let constant = sign(&determinant(&rows));
+    if constant != 0 {
+        return constant;
+    }
+    let mut largest_first = [0, 1, 2, 3];
+    largest_first.sort_by(|&i, &j| points[j].partial_cmp(&points[i]).expect("finite"));
+    for i in largest_first {
+        let cofactor = sign(&determinant(&minor(&rows, i, 2)));
+        if cofactor != 0 {
+            return if i % 2 == 0 { cofactor } else { -cofactor };
+        }
+    }
+    0
+}

@@ -1,0 +1,326 @@
+//! Named, seeded point sets: the same seed gives the same bits on every machine.
+//!
+//! The random numbers are xoshiro256++ seeded by splitmix64 (Blackman & Vigna, "Scrambled linear
+//! pseudorandom number generators", TOMS 2021), and the functions beyond + - * / sqrt come from the pure-Rust
+//! `libm`, because those of operating systems differ in the last bit.
+
+use std::f64::consts::TAU;
+
+use crate::exact::Point2;
+
+/// A generator of pseudo-random numbers with a fixed algorithm.
+#[derive(Clone, Debug)]
+pub struct Random([u64; 4]);
+
+impl Random {
+    /// The stream of `seed`.
+    pub fn new(seed: u64) -> Self {
+        let mut state = seed;
+        Self([(); 4].map(|()| {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let z = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ z >> 31
+        }))
+    }
+
+    /// 64 random bits.
+    pub fn bits(&mut self) -> u64 {
+        let s = &mut self.0;
+        let result = s[0].wrapping_add(s[3]).rotate_left(23).wrapping_add(s[0]);
+        let t = s[1] << 17;
+        s[2] ^= s[0];
+        s[3] ^= s[1];
+        s[1] ^= s[2];
+        s[0] ^= s[3];
+        s[2] ^= t;
+        s[3] = s[3].rotate_left(45);
+        result
+    }
+
+    /// A multiple of 2^-53 in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * (f64::EPSILON / 2.0)
+    }
+
+    /// A number in [low, high).
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// An integer in 0..n, by the multiply-and-shift method (a bias below n / 2^64).
+    pub fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.bits()) * n as u128) >> 64) as usize
+    }
+
+    /// A number of the standard normal distribution (Box & Muller).
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * libm::log(1.0 - self.unit())).sqrt();
+        radius * libm::cos(TAU * self.unit())
+    }
+
+    /// A uniformly random permutation (Fisher & Yates).
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for i in (1..items.len()).rev() {
+            items.swap(i, self.below(i + 1));
+        }
+    }
+}
+
+macro_rules! kinds {
+    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal, $make:expr;)+) => {
+        /// A named family of point sets.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Kind { $($(#[doc = $doc])+ $variant,)+ }
+
+        impl Kind {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)+];
+
+            /// The name by which programs and reports know it.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)+ }
+            }
+
+            /// One sentence about it.
+            pub fn about(self) -> &'static str {
+                match self { $(Self::$variant => concat!($($doc),+).trim_ascii(),)+ }
+            }
+
+            /// The first `n` points of this family for a seed.
+            pub fn points(self, n: usize, seed: u64) -> Vec<Point2> {
+                let mut random = Random::new(seed);
+                let make: fn(usize, &mut Random) -> Vec<Point2> = match self { $(Self::$variant => $make,)+ };
+                make(n, &mut random)
+            }
+        }
+    };
+}
+
+kinds! {
+    /// Uniform in the unit square.
+    Uniform = "uniform", |n, r| repeat(n, || [r.unit(), r.unit()]);
+    /// Log-normal coordinates: dense near the origin, with far tails.
+    LogNormal = "lognormal", |n, r| repeat(n, || [libm::exp(r.normal()), libm::exp(r.normal())]);
+    /// Uniform in the unit square, and ten points up to a billion times as far away.
+    Outliers = "outliers", outliers;
+    /// Centres of disjoint unit disks, at distance above 2, in a square of side 4 sqrt(n).
+    Disks = "disks", disks;
+    /// A hundred normal clusters.
+    Clusters = "clusters", clusters;
+    /// The square integer grid, in random order: every cell is cocircular.
+    Grid = "grid", grid;
+    /// On a circle, rounded to 24-bit integers.
+    Circle = "circle", |n, r| repeat(n, || on_ellipse(r, HALF_RANGE, HALF_RANGE));
+    /// On an ellipse of ratio 2, rounded to 24-bit integers.
+    Ellipse = "ellipse", |n, r| repeat(n, || on_ellipse(r, HALF_RANGE, HALF_RANGE / 2.0));
+    /// 95% on an ellipse and 5% in a square, 24-bit integers.
+    Ellipse2 = "ellipse2", ellipse2;
+    /// On a parabola, rounded to 24-bit integers.
+    Parabola = "parabola", |n, r| repeat(n, || on_parabola(r));
+    /// The grid in steps of a tenth: cocircular up to rounding.
+    TenthGrid = "tenth-grid", |n, r| map(grid(n, r), |x| x * 0.1);
+    /// The grid rotated by three degrees: nearly cocircular and nearly collinear everywhere.
+    RotatedGrid = "rotated-grid", rotated_grid;
+    /// Doubles on the unit circle: cocircular up to rounding.
+    UnitCircle = "unit-circle", |n, r| repeat(n, || { let t = TAU * r.unit(); [libm::cos(t), libm::sin(t)] });
+    /// On the line y = x / 3 + 0.1 up to rounding.
+    NearLine = "near-line", |n, r| repeat(n, || { let x = r.unit(); [x, x / 3.0 + 0.1] });
+    /// Exactly collinear.
+    Line = "line", |n, r| repeat(n, || { let x = (r.bits() >> 40) as f64; [x, 3.0 * x - 7.0] });
+    /// A lattice of steps 2^-53 at (0.5, 0.5), and the points (12, 12) and (24, 24).
+    TinyLattice = "tiny-lattice", tiny_lattice;
+    /// Two unit clusters 1e12 apart.
+    FarClusters = "far-clusters", |n, r| repeat(n, || {
+        let far = if r.unit() < 0.5 { 0.0 } else { 1e12 };
+        [far + r.unit(), r.unit()]
+    });
+    /// Each point about four times.
+    Duplicates = "duplicates", duplicates;
+    /// Small integers: duplicates, collinear and cocircular points in plenty.
+    SmallIntegers = "small-integers", |n, r| {
+        let side = 2 + (n as f64).sqrt() as usize;
+        repeat(n, || [r.below(side) as f64, r.below(side) as f64])
+    };
+    /// Magnitudes from 1e-300 to 1e300, both signs.
+    HugeSpan = "huge-span", |n, r| repeat(n, || [any_magnitude(r), any_magnitude(r)]);
+    /// Three concentric circles and two crossing lines on integers: symmetric in many ways.
+    Spokes = "spokes", spokes;
+    /// Uniform in a square kilometre at a UTM-like offset, in millimetres.
+    Utm = "utm", |n, r| repeat(n, || {
+        [500_000.0 + (r.unit() * 1e6).floor() / 1e3, 5_400_000.0 + (r.unit() * 1e6).floor() / 1e3]
+    });
+}
+
+impl Kind {
+    /// The family of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|kind| kind.name() == name)
+    }
+}
+
+/// Half the range of the 24-bit integers of the paper of the Delaunay hierarchy: [-2^24, 2^24].
+const HALF_RANGE: f64 = 16_777_216.0;
+
+fn repeat(n: usize, mut make: impl FnMut() -> Point2) -> Vec<Point2> {
+    (0..n).map(|_| make()).collect()
+}
+
+fn map(points: Vec<Point2>, f: impl Fn(f64) -> f64) -> Vec<Point2> {
+    points.into_iter().map(|p| p.map(&f)).collect()
+}
+
+fn on_ellipse(random: &mut Random, a: f64, b: f64) -> Point2 {
+    let angle = TAU * random.unit();
+    [(a * libm::cos(angle)).round(), (b * libm::sin(angle)).round()]
+}
+
+fn on_parabola(random: &mut Random) -> Point2 {
+    let x = random.between(-HALF_RANGE, HALF_RANGE).round();
+    [x, (x * x / HALF_RANGE).round()]
+}
+
+fn ellipse2(n: usize, random: &mut Random) -> Vec<Point2> {
+    let in_square = |r: &mut Random| r.between(-HALF_RANGE, HALF_RANGE).round();
+    repeat(n, || {
+        if random.unit() < 0.95 {
+            on_ellipse(random, HALF_RANGE, HALF_RANGE / 2.0)
+        } else {
+            [in_square(random), in_square(random)]
+        }
+    })
+}
+
+fn outliers(n: usize, random: &mut Random) -> Vec<Point2> {
+    let mut points = repeat(n, || [random.unit(), random.unit()]);
+    for k in 0..n.min(10) {
+        let (angle, radius) = (TAU * random.unit(), libm::exp10(k as f64));
+        let place = random.below(n);
+        points[place] = [radius * libm::cos(angle), radius * libm::sin(angle)];
+    }
+    points
+}
+
+/// Dart throwing with one cell list: the density, 0.196 of the plane, is far below saturation (0.547).
+fn disks(n: usize, random: &mut Random) -> Vec<Point2> {
+    let side = 4.0 * (n as f64).sqrt();
+    let cells = ((side / 2.0) as usize).max(1);
+    let mut cell_list: Vec<Vec<Point2>> = vec![Vec::new(); cells * cells];
+    let cell = |x: f64| ((x / 2.0) as usize).min(cells - 1);
+    let mut points = Vec::with_capacity(n);
+    while points.len() < n {
+        let p = [random.between(0.0, side), random.between(0.0, side)];
+        let [i, j] = p.map(cell);
+        let near = (i.saturating_sub(1)..=(i + 1).min(cells - 1))
+            .flat_map(|i| (j.saturating_sub(1)..=(j + 1).min(cells - 1)).map(move |j| (i, j)))
+            .flat_map(|(i, j)| &cell_list[i * cells + j])
+            .any(|q| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2) <= 4.0);
+        if !near {
+            cell_list[i * cells + j].push(p);
+            points.push(p);
+        }
+    }
+    points
+}
+
+fn clusters(n: usize, random: &mut Random) -> Vec<Point2> {
+    let centres = repeat(100, || [random.unit(), random.unit()]);
+    repeat(n, || {
+        let [x, y] = centres[random.below(100)];
+        [x + 0.005 * random.normal(), y + 0.005 * random.normal()]
+    })
+}
+
+fn grid(n: usize, random: &mut Random) -> Vec<Point2> {
+    let columns = (n as f64).sqrt().ceil().max(1.0) as usize;
+    let mut points: Vec<_> = (0..n).map(|i| [(i % columns) as f64, (i / columns) as f64]).collect();
+    random.shuffle(&mut points);
+    points
+}
+
+fn rotated_grid(n: usize, random: &mut Random) -> Vec<Point2> {
+    let (sin, cos) = libm::sincos(3f64.to_radians());
+    grid(n, random).into_iter().map(|[x, y]| [x * cos - y * sin, x * sin + y * cos]).collect()
+}
+
+fn tiny_lattice(n: usize, random: &mut Random) -> Vec<Point2> {
+    let mut points = grid(n.saturating_sub(2), random);
+    for p in &mut points {
+        *p = p.map(|x| 0.5 + x * (f64::EPSILON / 2.0));
+    }
+    points.extend([[12.0, 12.0], [24.0, 24.0]].into_iter().take(n));
+    points
+}
+
+fn duplicates(n: usize, random: &mut Random) -> Vec<Point2> {
+    let distinct = repeat(n.div_ceil(4), || [random.unit(), random.unit()]);
+    repeat(n, || distinct[random.below(distinct.len())])
+}
+
+fn any_magnitude(random: &mut Random) -> f64 {
+    let magnitude = libm::exp10(random.between(-300.0, 300.0));
+    if random.unit() < 0.5 { -magnitude } else { magnitude }
+}
+
+fn spokes(n: usize, random: &mut Random) -> Vec<Point2> {
+    // Integer points at distances 65, 325 and 1105 from the origin: circles rich in lattice points.
+    let on_circle = |radius: i64| {
+        (-radius..=radius).filter_map(move |x| {
+            let y = ((radius * radius - x * x) as f64).sqrt().round() as i64;
+            (x * x + y * y == radius * radius).then_some([x as f64, y as f64])
+        })
+    };
+    let mut places: Vec<_> = [65, 325, 1105].into_iter().flat_map(on_circle).collect();
+    places.extend(places.clone().into_iter().map(|[x, y]| [x, -y]));
+    places.extend((-40..=40).flat_map(|i| [[f64::from(i) * 30.0; 2], [f64::from(i) * 30.0, f64::from(i) * -30.0]]));
+    repeat(n, || places[random.below(places.len())])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, Random};
+
+    #[test]
+    fn the_stream_never_changes() {
+        let mut random = Random::new(1);
+        let first = [(); 3].map(|()| random.bits());
+        assert_eq!(first, [0xcfc5_d07f_6f03_c29b, 0xbf42_4132_963f_e08d, 0x19a3_7d57_57aa_f520]);
+    }
+
+    #[test]
+    fn every_kind_gives_what_was_asked() {
+        for &kind in Kind::ALL {
+            assert_eq!(Kind::named(kind.name()), Some(kind));
+            assert!(!kind.about().is_empty());
+            for n in [0, 1, 2, 3, 11, 1000] {
+                let points = kind.points(n, 7);
+                assert_eq!(points.len(), n, "{}", kind.name());
+                assert!(points.iter().flatten().all(|x| x.is_finite()), "{}", kind.name());
+                assert_eq!(points, kind.points(n, 7), "{}", kind.name());
+            }
+        }
+    }
+
+    #[test]
+    fn disks_are_disjoint() {
+        let points = Kind::Disks.points(500, 3);
+        for (i, p) in points.iter().enumerate() {
+            for q in &points[..i] {
+                assert!((p[0] - q[0]).hypot(p[1] - q[1]) > 2.0);
+            }
+        }
+    }
+
+    /// A change of any generator is a change of everybody's data.
+    #[test]
+    fn bits_are_fixed() {
+        let hash = |kind: Kind| {
+            let bits = kind.points(200, 42).into_iter().flatten().map(f64::to_bits);
+            bits.fold(0u64, |h, b| (h ^ b).wrapping_mul(0x0100_0000_01b3).rotate_left(23))
+        };
+        let all: Vec<_> = Kind::ALL.iter().map(|&kind| (kind.name(), format!("{:016x}", hash(kind)))).collect();
+        let expected = include_str!("bits.txt");
+        let found: String = all.iter().map(|(name, hash)| format!("{name} {hash}\n")).collect();
+        assert_eq!(found, expected);
+    }
+}

@@ -1,0 +1,75 @@
+//! How many decisions each stage made.
+//!
+//! Off by default and then free: [`count`] is empty without the feature `counters`. The numbers are
+//! process-wide.
+
+/// A predicate that is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Predicate {
+    /// Orientation of three points.
+    Orient2d,
+    /// In-circle test of four points.
+    InCircle,
+}
+
+/// The stage that decided, in the order in which they are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Floating point with an error bound, or floating point that is exact on a small grid.
+    Filter,
+    /// 64- to 256-bit integers.
+    Integers,
+    /// Floating-point expansions (the `robust` crate).
+    Expansions,
+    /// Arbitrary precision.
+    Big,
+    /// The canonical perturbation; the exact stage before it is counted too.
+    Perturb,
+}
+
+/// Counts by predicate and stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts([[u64; 5]; 2]);
+
+impl Counts {
+    /// The number of decisions of `predicate` at `stage`.
+    pub fn get(&self, predicate: Predicate, stage: Stage) -> u64 {
+        self.0[predicate as usize][stage as usize]
+    }
+}
+
+#[cfg(any(test, feature = "counters"))]
+mod on {
+    use super::{Counts, Predicate, Stage};
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    static COUNTS: [[AtomicU64; 5]; 2] = [const { [const { AtomicU64::new(0) }; 5] }; 2];
+
+    #[inline]
+    pub(crate) fn count(predicate: Predicate, stage: Stage) {
+        COUNTS[predicate as usize][stage as usize].fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// What has been counted since the process started or since the last call, which starts anew.
+    pub fn take() -> Counts {
+        let mut counts = Counts::default();
+        for (row, cells) in counts.0.iter_mut().zip(&COUNTS) {
+            for (value, cell) in row.iter_mut().zip(cells) {
+                *value = cell.swap(0, Ordering::Relaxed);
+            }
+        }
+        counts
+    }
+}
+
+#[cfg(not(any(test, feature = "counters")))]
+mod on {
+    use super::{Predicate, Stage};
+
+    #[inline]
+    pub(crate) fn count(_: Predicate, _: Stage) {}
+}
+
+pub(crate) use on::count;
+#[cfg(any(test, feature = "counters"))]
+pub use on::take;

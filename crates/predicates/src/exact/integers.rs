@@ -1,0 +1,89 @@
+//! Exact signs in machine integers: coordinates scaled to a common power of two that fit 61 bits.
+//!
+//! Differences then fit 62 bits and a sign, dot and cross products 125, and the in-circle determinant
+//! compares two products of 250 bits.
+
+use super::decode;
+use crate::Sign;
+
+/// The coordinates as integers on their common scale, if they fit 61 bits.
+fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
+    let parts = coordinates.map(decode);
+    let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
+    let mut aligned = [0; N];
+    for (out, (mantissa, exponent)) in aligned.iter_mut().zip(parts) {
+        if mantissa == 0 {
+            continue;
+        }
+        let shift = (exponent - scale).unsigned_abs();
+        let room = mantissa.unsigned_abs().leading_zeros(); // at least 11
+        if shift + 3 > room {
+            return None;
+        }
+        *out = mantissa << shift;
+    }
+    Some(aligned)
+}
+
+/// Dot and cross product of q - l and q - r.
+fn dot_cross(l: [i64; 2], r: [i64; 2], q: [i64; 2]) -> (i128, i128) {
+    let [lx, ly] = [i128::from(q[0] - l[0]), i128::from(q[1] - l[1])];
+    let [rx, ry] = [i128::from(q[0] - r[0]), i128::from(q[1] - r[1])];
+    (lx * rx + ly * ry, lx * ry - ly * rx)
+}
+
+pub(super) fn orient2d(coordinates: &[f64; 6]) -> Option<Sign> {
+    let [ax, ay, bx, by, cx, cy] = align(coordinates)?;
+    let (_, cross) = dot_cross([ax, ay], [bx, by], [cx, cy]);
+    Some(Sign::of(&cross, &0))
+}
+
+pub(super) fn in_circle(coordinates: &[f64; 8]) -> Option<Sign> {
+    let [ax, ay, bx, by, cx, cy, dx, dy] = align(coordinates)?;
+    let (dot_c, cross_c) = dot_cross([ax, ay], [bx, by], [cx, cy]);
+    let (dot_d, cross_d) = dot_cross([ax, ay], [bx, by], [dx, dy]);
+    Some(compare_products(dot_c, cross_d, dot_d, cross_c))
+}
+
+/// The sign of a b - c d.
+fn compare_products(a: i128, b: i128, c: i128, d: i128) -> Sign {
+    let sign = |x: i128, y: i128| Sign::of(&x, &0) * Sign::of(&y, &0);
+    let (left, right) = (sign(a, b), sign(c, d));
+    if left != right {
+        return Sign::of(&left, &right);
+    }
+    let left_magnitude = wide_product(a.unsigned_abs(), b.unsigned_abs());
+    let right_magnitude = wide_product(c.unsigned_abs(), d.unsigned_abs());
+    left * Sign::of(&left_magnitude, &right_magnitude)
+}
+
+/// The 256-bit product, high half first, so that tuples compare as numbers.
+fn wide_product(x: u128, y: u128) -> (u128, u128) {
+    const LOW: u128 = u64::MAX as u128;
+    let (x1, x0, y1, y0) = (x >> 64, x & LOW, y >> 64, y & LOW);
+    let low = x0 * y0;
+    let middle = x1 * y0 + (low >> 64); // at most (2^64 - 1)^2 + 2^64 - 1: fits
+    let (carry, middle) = (middle >> 64, (middle & LOW) + x0 * y1);
+    (x1 * y1 + carry + (middle >> 64), middle << 64 | low & LOW)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{align, wide_product};
+
+    #[test]
+    fn products_of_the_largest_factors() {
+        assert_eq!(wide_product(u128::MAX, u128::MAX), (u128::MAX - 1, 1));
+        assert_eq!(wide_product(1 << 127, 6), (3, 0));
+        assert_eq!(wide_product(u128::from(u64::MAX), u128::from(u64::MAX)).0, 0);
+    }
+
+    #[test]
+    fn aligning_refuses_more_than_61_bits() {
+        assert_eq!(align(&[1.0, 2f64.powi(60)]), Some([1, 1 << 60]));
+        assert_eq!(align(&[1.0, 2f64.powi(61)]), None);
+        assert_eq!(align(&[0.0, 1e300]).map(|x| x[0]), Some(0));
+        assert_eq!(align(&[0.5, -0.75]), Some([2, -3]));
+        assert_eq!(align(&[1e-300, 1e300]), None);
+    }
+}

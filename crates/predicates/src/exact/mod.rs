@@ -1,0 +1,86 @@
+//! Stage two: the sign of the real-number expression, whatever it takes.
+//!
+//! Three ways, the cheapest that holds: [`integers`] when the coordinates fit 61 bits on a common scale
+//! (nearly all real data: grids, centimetres, coordinates of similar size), expansions of the `robust` crate
+//! when no product can leave the exponent range, [`big`] integers for the rest.
+//!
+//! All three evaluate the base-and-apex form (see `pencil`): with l = a, r = b, the orientation of a, b, c is
+//! `(c - a) x (c - b)`, and the in-circle determinant of a, b, c, d is `dot_c cross_d - dot_d cross_c`.
+
+mod big;
+mod integers;
+
+use crate::counters::{Predicate, Stage, count};
+use crate::{Point2, Sign};
+
+pub(crate) fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
+    let coordinates = [a[0], a[1], b[0], b[1], c[0], c[1]];
+    if let Some(sign) = integers::orient2d(&coordinates) {
+        count(Predicate::Orient2d, Stage::Integers);
+        return sign;
+    }
+    if expansions_hold(&coordinates) {
+        count(Predicate::Orient2d, Stage::Expansions);
+        return Sign::of(&robust::orient2d(coord(a), coord(b), coord(c)), &0.0);
+    }
+    count(Predicate::Orient2d, Stage::Big);
+    big::orient2d(&coordinates)
+}
+
+pub(crate) fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
+    let coordinates = [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]];
+    if let Some(sign) = integers::in_circle(&coordinates) {
+        count(Predicate::InCircle, Stage::Integers);
+        return sign;
+    }
+    if expansions_hold(&coordinates) {
+        count(Predicate::InCircle, Stage::Expansions);
+        return Sign::of(&robust::incircle(coord(a), coord(b), coord(c), coord(d)), &0.0);
+    }
+    count(Predicate::InCircle, Stage::Big);
+    big::in_circle(&coordinates)
+}
+
+fn coord(p: Point2) -> robust::Coord<f64> {
+    robust::Coord { x: p[0], y: p[1] }
+}
+
+/// Whether expansion arithmetic of degree four can neither overflow nor underflow: every coordinate is zero
+/// or has a magnitude between 2^-142 and 2^200 (Shewchuk 1997, §2.1: the product of four tails must stay
+/// normal).
+fn expansions_hold(coordinates: &[f64]) -> bool {
+    const LOW: f64 = f64::from_bits((1023 - 142) << 52);
+    const HIGH: f64 = f64::from_bits((1023 + 200) << 52);
+    coordinates.iter().all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
+}
+
+/// A finite `f64` as `mantissa * 2^exponent` with an odd mantissa, or (0, i32::MAX) for zero.
+fn decode(x: f64) -> (i64, i32) {
+    if x == 0.0 {
+        return (0, i32::MAX);
+    }
+    let bits = x.to_bits();
+    let biased = (bits >> 52) as i32 & 0x7ff;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let mantissa = if biased == 0 { fraction } else { fraction | 1 << 52 };
+    let zeros = mantissa.trailing_zeros() as i32;
+    let magnitude = mantissa >> zeros;
+    (if x < 0.0 { -magnitude } else { magnitude }, biased.max(1) - 1075 + zeros)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decode;
+
+    #[test]
+    fn decoding_is_exact() {
+        for x in [1.0, -3.0, 0.1, 1e308, -1e-308, f64::from_bits(1), f64::MAX, f64::MIN_POSITIVE, 6.0] {
+            let (mantissa, exponent) = decode(x);
+            assert_eq!(mantissa & 1, 1);
+            // Two steps, because 2^exponent alone may be subnormal.
+            let half = exponent / 2;
+            assert_eq!(mantissa as f64 * 2f64.powi(half) * 2f64.powi(exponent - half), x);
+        }
+        assert_eq!(decode(-0.0).0, 0);
+    }
+}

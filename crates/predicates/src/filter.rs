@@ -1,0 +1,149 @@
+//! Stage one: floating point with a proven error bound.
+//!
+//! Source of the bounds: forward error analysis with unit roundoff u = 2^-53 (Shewchuk, "Adaptive precision
+//! floating-point arithmetic and fast robust geometric predicates", DCG 1997); `tests` below derives every
+//! constant again, by running the formulas on magnitudes and errors instead of numbers.
+//!
+//! Relative error analysis holds while nothing underflows, so every bound carries a floor that covers all
+//! underflow, and a ceiling on the operands that makes the floor valid. Overflow gives an infinite or NaN
+//! comparison, which no bound passes: the exact stage decides.
+
+use crate::{Point2, Sign};
+
+const U: f64 = f64::EPSILON / 2.0;
+
+/// Orientation from differences: 3u (|l| + |r|) with a little room for the higher orders.
+const ORIENT_BOUND: f64 = (3.0 + 16.0 * U) * U;
+/// Three-term lifted in-circle determinant: 10u times its permanent.
+const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * U) * U;
+
+/// All errors by underflow in an orientation: two products, each off by at most 2^-1075.
+const ORIENT_FLOOR: f64 = f64::MIN_POSITIVE;
+/// The largest sum of squared differences for which [`CIRCLE_FLOOR`] is valid: 2^500.
+const CIRCLE_CEILING: f64 = f64::from_bits((1023 + 500) << 52);
+/// All errors by underflow in an in-circle test whose squared differences stay below 2^500: each of fewer
+/// than 32 roundings is off by at most 2^-1075 and is multiplied by at most 2^501.
+const CIRCLE_FLOOR: f64 = f64::from_bits((1023 - 560) << 52);
+
+/// Orientation of three points if floating point can tell.
+#[inline]
+pub(crate) fn orient2d_filter(a: Point2, b: Point2, c: Point2) -> Option<Sign> {
+    let left = (a[0] - c[0]) * (b[1] - c[1]);
+    let right = (a[1] - c[1]) * (b[0] - c[0]);
+    let bound = ORIENT_BOUND * (left.abs() + right.abs()) + ORIENT_FLOOR;
+    outside_of(left - right, bound)
+}
+
+/// In-circle test of four points if floating point can tell.
+#[inline]
+pub(crate) fn in_circle_filter(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<Sign> {
+    let (ax, ay) = (a[0] - d[0], a[1] - d[1]);
+    let (bx, by) = (b[0] - d[0], b[1] - d[1]);
+    let (cx, cy) = (c[0] - d[0], c[1] - d[1]);
+    let (bc, cb) = (bx * cy, cx * by);
+    let (ca, ac) = (cx * ay, ax * cy);
+    let (ab, ba) = (ax * by, bx * ay);
+    let (la, lb, lc) = (ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy);
+    let det = la * (bc - cb) + lb * (ca - ac) + lc * (ab - ba);
+    let permanent = la * (bc.abs() + cb.abs()) + lb * (ca.abs() + ac.abs()) + lc * (ab.abs() + ba.abs());
+    if la + lb + lc < CIRCLE_CEILING {
+        outside_of(det, IN_CIRCLE_BOUND * permanent + CIRCLE_FLOOR)
+    } else {
+        None
+    }
+}
+
+/// The sign of a value known up to `bound`, unless the bound covers zero (or anything is NaN).
+#[inline]
+fn outside_of(value: f64, bound: f64) -> Option<Sign> {
+    if value > bound {
+        Some(Sign::Positive)
+    } else if value < -bound {
+        Some(Sign::Negative)
+    } else {
+        None
+    }
+}
+
+/// A lattice of the form 2^e Z x 2^e Z on which all points of a set lie. On a small enough box of it plain
+/// `f64` arithmetic is exact and no error bound is needed: grids, integers, 24-bit data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    step: f64,
+}
+
+impl Grid {
+    /// The coarsest such lattice holding every coordinate, or `None` where it is finer than 2^-200 or a
+    /// coordinate is larger than 2^53 steps, so that differences would round. O(n), and it gives up at once
+    /// on coordinates that use their whole mantissa over differing exponents.
+    pub fn of(coordinates: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let (mut lowest, mut largest) = (i32::MAX, 0.0_f64);
+        for x in coordinates {
+            if x == 0.0 {
+                continue;
+            }
+            let bits = x.to_bits();
+            let biased = (bits >> 52) as i32 & 0x7ff;
+            let mantissa = bits & ((1 << 52) - 1) | u64::from(biased != 0) << 52;
+            lowest = lowest.min(biased.max(1) - 1075 + mantissa.trailing_zeros() as i32);
+            largest = largest.max(x.abs());
+            if lowest < -200 || largest > power_of_two(lowest.min(200) + 53) {
+                return None;
+            }
+        }
+        (lowest <= 200 || largest == 0.0).then(|| Self { step: power_of_two(lowest.min(200)) })
+    }
+}
+
+fn power_of_two(exponent: i32) -> f64 {
+    debug_assert!((-1022..=1023).contains(&exponent), "2^{exponent} is no normal number");
+    f64::from_bits(((1023 + exponent) as u64) << 52)
+}
+
+/// A static filter: error bounds that hold for all points of one box, computed once.
+///
+/// Divide and conquer keeps one for each level of its cells: points of a cell are close together, so the
+/// bound shrinks with the level and nearly nothing reaches the exact stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Filter {
+    orient: f64,
+    circle: f64,
+    /// Arithmetic inside the box is exact: what the bound (zero) does not decide is zero.
+    exact: bool,
+}
+
+impl Filter {
+    /// For points whose x coordinates differ by at most `width` and y coordinates by at most `height`,
+    /// all of them on `grid` if one is known.
+    ///
+    /// The base-and-apex expressions of [`crate::Pencil`] are wrong by at most 8u w h (orientation) and
+    /// 28u w h (w^2 + h^2) (in-circle); 9u and 32u leave room for computing the bounds themselves.
+    pub fn for_box(width: f64, height: f64, grid: Option<Grid>) -> Self {
+        let area = width * height;
+        let square = width * width + height * height;
+        if let Some(Grid { step }) = grid {
+            let (w, h) = (width / step, height / step);
+            if 2.0 * w * h * (w * w + h * h) < 4e15 {
+                return Self { orient: 0.0, circle: 0.0, exact: true };
+            }
+        }
+        let circle =
+            if square < CIRCLE_CEILING { 32.0 * U * area * square + CIRCLE_FLOOR } else { f64::INFINITY };
+        Self { orient: 9.0 * U * area + ORIENT_FLOOR, circle, exact: false }
+    }
+
+    /// The sign of a computed orientation, or `None` where the exact stage must be asked.
+    #[inline]
+    pub(crate) fn orient(&self, value: f64) -> Option<Sign> {
+        outside_of(value, self.orient).or(if self.exact { Some(Sign::Zero) } else { None })
+    }
+
+    /// The sign of a computed in-circle determinant, or `None` where the exact stage must be asked.
+    #[inline]
+    pub(crate) fn circle(&self, value: f64) -> Option<Sign> {
+        outside_of(value, self.circle).or(if self.exact { Some(Sign::Zero) } else { None })
+    }
+}
+
+#[cfg(test)]
+mod tests;

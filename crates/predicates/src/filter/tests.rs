@@ -1,0 +1,100 @@
+//! Every constant of the filters, derived again by running the formulas on bounds instead of numbers.
+
+use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, U};
+
+/// A computed quantity: a bound on its magnitude and a bound on its error.
+#[derive(Clone, Copy)]
+struct Bounded {
+    max: f64,
+    error: f64,
+}
+
+impl Bounded {
+    /// The difference of two coordinates at most `side` apart: one rounding.
+    fn difference(side: f64) -> Self {
+        Self { max: side, error: U * side }
+    }
+
+    fn times(self, other: Self) -> Self {
+        let max = self.max * other.max;
+        let inherited = self.max * other.error + other.max * self.error + self.error * other.error;
+        Self { max, error: inherited + U * (max + inherited) }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        self.plus_at_most(other, self.max + other.max)
+    }
+
+    /// A sum (or difference) that geometry bounds better than the sum of the parts.
+    fn plus_at_most(self, other: Self, max: f64) -> Self {
+        let inherited = self.error + other.error;
+        Self { max, error: inherited + U * (max + inherited) }
+    }
+}
+
+#[test]
+fn box_bounds_cover_the_pencil_formulas() {
+    for (w, h) in [(1.0, 1.0), (1.0, 1e-9), (1e-9, 1.0), (3e70, 2e-70), (0.3, 0.7)] {
+        let (dx, dy) = (Bounded::difference(w), Bounded::difference(h));
+        // Twice the area of a triangle in the box is at most w h; |(q-l).(q-r)| is at most w^2 + h^2.
+        let cross = dx.times(dy).plus_at_most(dx.times(dy), w * h);
+        let dot = dx.times(dx).plus_at_most(dy.times(dy), w * w + h * h);
+        let det = dot.times(cross).plus(dot.times(cross));
+        let filter = Filter::for_box(w, h, None);
+        assert!(cross.error <= 8.0 * U * w * h * (1.0 + 1e-9), "{w} {h}");
+        assert!(det.error <= 28.0 * U * w * h * (w * w + h * h) * (1.0 + 1e-9), "{w} {h}");
+        assert!(cross.error < filter.orient && filter.orient < cross.error * 1.5 + 1e-300);
+        assert!(det.error < filter.circle && filter.circle < det.error * 1.5 + 1e-160);
+    }
+}
+
+/// The bounds taken from the operands are relative to a sum of absolute values that is itself computed, so
+/// the analysis runs on one term of magnitude 1: differences with relative error u each.
+#[test]
+fn operand_bounds_cover_their_formulas() {
+    let difference = Bounded { max: 1.0, error: U };
+    let product = difference.times(difference); // 3u, relative to the exact product
+    // Orientation: two products and one subtraction; the rounding of the subtraction is relative to the
+    // result, so it moves only the point of comparison: 3u (1 + a few u) of the computed sum.
+    let orient = product.error * (1.0 + 4.0 * U);
+    assert!(orient <= ORIENT_BOUND * (1.0 - 2.0 * U) + 8.0 * U * U, "{orient:e}");
+    // In-circle: lift (3u + u) times cross (3u + u), one product (u), two additions (2u): 10u where the last
+    // rounding is relative to the result again.
+    let lift = product.error + U * (1.0 + product.error);
+    let cross = lift;
+    let term = lift + cross + lift * cross + U;
+    let sum = term + U * (1.0 + term);
+    assert!(sum <= IN_CIRCLE_BOUND * (1.0 + 8.0 * U), "{} u", sum / U);
+}
+
+#[test]
+fn grids_are_found() {
+    let grid = |x: &[f64]| Grid::of(x.iter().copied()).map(|g| g.step);
+    assert_eq!(grid(&[3.0, 5.0, -8.0]), Some(1.0));
+    assert_eq!(grid(&[4.0, 12.0, 0.0]), Some(4.0));
+    assert_eq!(grid(&[0.25, 7.0]), Some(0.25));
+    assert_eq!(grid(&[0.1, 7.0]), None);
+    assert_eq!(grid(&[1e300, 1e300]), None);
+    assert_eq!(grid(&[0.0]), Some(2f64.powi(200)));
+    assert_eq!(grid(&[f64::from_bits(1)]), None);
+    assert_eq!(grid(&[9_007_199_254_740_992.0, 1.0]), Some(1.0));
+    assert_eq!(grid(&[9_007_199_254_740_994.0, 1.0]), None);
+}
+
+#[test]
+fn small_boxes_of_a_grid_are_exact() {
+    let grid = Grid::of([1.0, 2.0]);
+    assert!(Filter::for_box(4000.0, 4000.0, grid).exact);
+    assert!(!Filter::for_box(8000.0, 8000.0, grid).exact);
+    assert!(!Filter::for_box(f64::INFINITY, 1.0, grid).exact);
+}
+
+#[test]
+fn a_filter_without_room_decides_nothing() {
+    let filter = Filter::for_box(1e300, 1e300, None);
+    assert_eq!(filter.circle(f64::MAX), None);
+    assert_eq!(filter.circle(f64::NAN), None);
+    let tiny = Filter::for_box(1e-200, 1e-200, None);
+    assert_eq!(tiny.circle(0.0), None);
+    assert_eq!(tiny.orient(f64::MIN_POSITIVE / 2.0), None);
+}

@@ -1,0 +1,45 @@
+//! Exact geometric predicates: points in, a [`Sign`] out.
+//!
+//! Every geometric decision of Delone is made here, and this crate knows no mesh. Coordinates are any
+//! finite `f64`, subnormals and `1e308` in one tuple included; the sign returned is always that of the
+//! real-number expression. NaN and infinities must be refused before they come here.
+//!
+//! Each door reads in stages, and a stage is asked only when the one before it cannot tell:
+//!
+//! 1. **filter**: floating point with a proven error bound. [`Filter`] takes its bound from a bounding
+//!    box, once for many decisions; without a box the bound comes from the operands themselves.
+//! 2. **exact**: integers when the operands fit 61 bits on a common scale, expansions (the `robust` crate)
+//!    when no product can overflow or underflow, arbitrary precision otherwise.
+//! 3. **perturb**: an exact tie of the in-circle test is broken by the canonical rule (see [`in_circle`]).
+//!
+//! ```
+//! use delone_predicates::{Sign, in_circle, orient2d};
+//!
+//! let (a, b, c) = ([0.0, 0.0], [1.0, 0.0], [1.0, 1.0]);
+//! assert_eq!(orient2d(a, b, c), Sign::Positive); // a, b, c turn left
+//! assert_eq!(in_circle(a, b, c, [0.5, 0.5]), Sign::Positive); // inside
+//! // Cocircular: (1, 1) is the lexicographic maximum, so it is raised out of the others' circle.
+//! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
+//! ```
+
+pub mod counters;
+mod exact;
+mod filter;
+mod in_circle;
+mod lexicographic;
+mod orient;
+mod pencil;
+mod perturb;
+mod sign;
+#[cfg(test)]
+mod stages;
+
+pub use filter::{Filter, Grid};
+pub use in_circle::in_circle;
+pub use lexicographic::{lexicographic, strictly_between};
+pub use orient::orient2d;
+pub use pencil::{Member, Pencil};
+pub use sign::Sign;
+
+/// A point of the plane: x, then y. Both finite.
+pub type Point2 = [f64; 2];

@@ -1,0 +1,67 @@
+//! All circles through two points: the language of a divide-and-conquer merge.
+//!
+//! For a base l-r and a candidate q let
+//! `dot = (q - l) . (q - r)` and `cross = (q - l) x (q - r)`. Then q is above the base (left of l to r) iff
+//! `cross > 0`, the angle at q has cotangent `dot / cross`, and `in_circle(l, r, p, q)` has the sign of
+//! `dot_p cross_q - dot_q cross_p` (Cline & Renka, "A storage-efficient method for construction of a
+//! Thiessen triangulation", 1984): four products a candidate, two a comparison.
+
+use crate::counters::{Predicate, Stage, count};
+use crate::in_circle::{in_circle_exact, in_circle_tie};
+use crate::orient::orient2d_exact;
+use crate::{Filter, Point2, Sign};
+
+/// The circles through a base l-r, with the error bounds of a box that holds all points asked about.
+#[derive(Clone, Copy, Debug)]
+pub struct Pencil {
+    l: Point2,
+    r: Point2,
+}
+
+/// A candidate and its two numbers over a base.
+#[derive(Clone, Copy, Debug)]
+pub struct Member {
+    point: Point2,
+    dot: f64,
+    cross: f64,
+}
+
+impl Pencil {
+    /// The circles through `l` and `r`.
+    #[inline]
+    pub fn new(l: Point2, r: Point2) -> Self {
+        Self { l, r }
+    }
+
+    /// The circle of the pencil that passes through `q`.
+    #[inline]
+    pub fn member(&self, q: Point2) -> Member {
+        let (lx, ly) = (q[0] - self.l[0], q[1] - self.l[1]);
+        let (rx, ry) = (q[0] - self.r[0], q[1] - self.r[1]);
+        Member { point: q, dot: lx * rx + ly * ry, cross: lx * ry - ly * rx }
+    }
+
+    /// The side of the base on which `m` lies: positive above, that is left of l to r.
+    #[inline]
+    pub fn side(&self, m: &Member, filter: &Filter) -> Sign {
+        if let Some(sign) = filter.orient(m.cross) {
+            count(Predicate::Orient2d, Stage::Filter);
+            return sign;
+        }
+        orient2d_exact(self.l, self.r, m.point)
+    }
+
+    /// `in_circle(l, r, p, q)`, canonical on ties: positive iff q is inside the circle through l, r and a
+    /// point p above the base.
+    #[inline]
+    pub fn in_circle(&self, p: &Member, q: &Member, filter: &Filter) -> Sign {
+        match filter.circle(p.dot * q.cross - q.dot * p.cross) {
+            Some(Sign::Zero) => in_circle_tie(self.l, self.r, p.point, q.point),
+            Some(sign) => {
+                count(Predicate::InCircle, Stage::Filter);
+                sign
+            }
+            None => in_circle_exact(self.l, self.r, p.point, q.point),
+        }
+    }
+}

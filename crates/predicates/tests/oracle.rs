@@ -1,0 +1,186 @@
+//! Every predicate against integer determinants of unlimited size, on random and adversarial tuples.
+
+use delone_oracle::exact;
+use delone_oracle::generate::Random;
+use delone_predicates::{Filter, Grid, Pencil, Point2, Sign, in_circle, lexicographic, orient2d};
+
+/// A family of hostile tuples of four points.
+type Family = fn(&mut Random) -> [Point2; 4];
+
+const FAMILIES: &[(&str, Family)] = &[
+    ("uniform", |r| four(|| [r.unit(), r.unit()])),
+    ("small integers", |r| four(|| [r.below(5) as f64, r.below(5) as f64])),
+    ("integers near 2^53", |r| four(|| [near_2_53(r), near_2_53(r)])),
+    ("integers near 2^53 and small ones", |r| {
+        four(|| if r.below(2) == 0 { [near_2_53(r), r.below(9) as f64] } else { [r.below(9) as f64, near_2_53(r)] })
+    }),
+    ("any magnitude", |r| four(|| [any_bits(r), any_bits(r)])),
+    ("subnormal", |r| four(|| [f64::from_bits(r.bits() >> 50), -f64::from_bits(r.bits() >> 50)])),
+    ("the largest", |r| four(|| [f64::MAX * (r.unit() - 0.5) * 2.0, f64::MAX * (r.unit() - 0.5) * 2.0])),
+    ("nearly collinear", |r| {
+        let (slope, start) = (r.unit(), r.unit());
+        four(|| {
+            let x = r.unit();
+            nudged(r, [x, start + slope * x])
+        })
+    }),
+    ("nearly cocircular", |r| {
+        let radius = r.between(0.5, 2.0);
+        four(|| {
+            let angle = r.between(0.0, 6.283);
+            nudged(r, [3.0 + radius * angle.cos(), radius * angle.sin() - 1.0])
+        })
+    }),
+    ("cocircular rectangles, nudged", |r| {
+        let (x, y, w, h) = (r.unit(), r.unit(), r.unit(), r.unit());
+        [[x, y], [x + w, y], [x + w, y + h], [x, y + h]].map(|p| nudged(r, p))
+    }),
+    ("cocircular lattice points", |r| {
+        // Of the circle with radius 65: exact ties, in any order and at any binary scale.
+        let octant = [[65, 0], [63, 16], [60, 25], [56, 33], [52, 39], [39, 52], [33, 56], [16, 63]];
+        let scale = 2f64.powi(r.below(400) as i32 - 200);
+        four(|| {
+            let [x, y] = octant[r.below(8)].map(f64::from);
+            let sign = |r: &mut Random| if r.below(2) == 0 { 1.0 } else { -1.0 };
+            [x * sign(r) * scale, y * sign(r) * scale]
+        })
+    }),
+    ("collinear on a diagonal with far points", |r| {
+        four(|| {
+            let x = 2f64.powi(r.below(600) as i32 - 300);
+            if r.below(4) == 0 { nudged(r, [x, x]) } else { [x, x] }
+        })
+    }),
+    ("cm at a UTM offset", |r| {
+        four(|| [500_000.0 + r.below(300) as f64 / 100.0, 5_400_000.0 + r.below(300) as f64 / 100.0])
+    }),
+];
+
+fn four(mut make: impl FnMut() -> Point2) -> [Point2; 4] {
+    [(); 4].map(|()| make())
+}
+
+fn near_2_53(random: &mut Random) -> f64 {
+    9_007_199_254_740_992.0 - random.below(8) as f64
+}
+
+fn any_bits(random: &mut Random) -> f64 {
+    loop {
+        let x = f64::from_bits(random.bits());
+        if x.is_finite() {
+            return x;
+        }
+    }
+}
+
+/// Each coordinate moved by up to two units in the last place.
+fn nudged(random: &mut Random, p: Point2) -> Point2 {
+    p.map(|x| {
+        let steps = random.below(5) as i64 - 2;
+        f64::from_bits(x.to_bits().wrapping_add_signed(steps))
+    })
+}
+
+fn sign(value: i8) -> Sign {
+    Sign::of(&value, &0)
+}
+
+fn tuples(seed: u64, n: usize, mut judge: impl FnMut(&str, [Point2; 4])) {
+    for (name, family) in FAMILIES {
+        let mut random = Random::new(seed);
+        for _ in 0..n {
+            let points = family(&mut random);
+            // The perturbation raises points, not places: the in-circle test is for distinct ones.
+            if (0..4).all(|i| (0..i).all(|j| points[i] != points[j])) {
+                judge(name, points);
+            }
+        }
+    }
+}
+
+#[test]
+fn orient2d_is_exact() {
+    tuples(1, 150_000, |name, [a, b, c, _]| {
+        assert_eq!(orient2d(a, b, c), sign(exact::orient2d(a, b, c)), "{name}: {a:?} {b:?} {c:?}");
+    });
+}
+
+#[test]
+fn in_circle_is_exact_and_canonical() {
+    tuples(2, 60_000, |name, [a, b, c, d]| {
+        assert_eq!(
+            in_circle(a, b, c, d),
+            sign(exact::in_circle(a, b, c, d)),
+            "{name}: {a:?} {b:?} {c:?} {d:?}"
+        );
+    });
+}
+
+#[test]
+fn in_circle_ties_are_decided_for_distinct_points() {
+    tuples(3, 20_000, |name, points| {
+        let [a, b, c, d] = points;
+        if !orient2d(a, b, c).is_zero() {
+            assert_ne!(in_circle(a, b, c, d), Sign::Zero, "{name}: {points:?}");
+        }
+    });
+}
+
+/// The static filters may never say more than is true, whatever box or grid they are given.
+#[test]
+fn pencils_with_static_filters_are_exact() {
+    tuples(4, 60_000, |name, [l, r, p, q]| {
+        let points = [l, r, p, q];
+        let extent = |k: usize| {
+            let low = points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+            let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+            (high - low) * (1.0 + f64::EPSILON)
+        };
+        let filter = Filter::for_box(extent(0), extent(1), Grid::of(points.into_iter().flatten()));
+        let pencil = Pencil::new(l, r);
+        let (mp, mq) = (pencil.member(p), pencil.member(q));
+        assert_eq!(pencil.side(&mp, &filter), sign(exact::orient2d(l, r, p)), "{name}: {points:?}");
+        assert_eq!(
+            pencil.in_circle(&mp, &mq, &filter),
+            sign(exact::in_circle(l, r, p, q)),
+            "{name}: {points:?}"
+        );
+    });
+}
+
+#[test]
+fn swapping_two_points_flips_the_sign() {
+    tuples(5, 60_000, |name, [a, b, c, d]| {
+        let (turn, circle) = (orient2d(a, b, c), in_circle(a, b, c, d));
+        assert_eq!(orient2d(b, a, c), -turn, "{name}");
+        assert_eq!(orient2d(b, c, a), turn, "{name}");
+        assert_eq!(orient2d(c, a, b), turn, "{name}");
+        for swapped in [in_circle(b, a, c, d), in_circle(a, c, b, d), in_circle(a, b, d, c), in_circle(d, b, c, a)] {
+            assert_eq!(swapped, -circle, "{name}: {a:?} {b:?} {c:?} {d:?}");
+        }
+        assert_eq!(in_circle(b, c, a, d), circle, "{name}");
+    });
+}
+
+#[test]
+fn lexicographic_order_is_total() {
+    tuples(6, 20_000, |name, points| {
+        for p in points {
+            for q in points {
+                assert_eq!(lexicographic(p, q), lexicographic(q, p).reverse(), "{name}");
+                assert_eq!(lexicographic(p, q).is_eq(), p == q, "{name}");
+            }
+        }
+    });
+}
+
+#[test]
+fn orientation_of_equal_points_is_zero() {
+    let mut random = Random::new(7);
+    for _ in 0..10_000 {
+        let (a, b) = ([any_bits(&mut random), any_bits(&mut random)], [any_bits(&mut random), 1.0]);
+        for turn in [orient2d(a, a, b), orient2d(a, b, a), orient2d(b, a, a), orient2d(a, a, a)] {
+            assert_eq!(turn, Sign::Zero);
+        }
+    }
+}
