@@ -1,0 +1,171 @@
+//! Walks over all of a mesh, and around its vertices and its hull.
+
+use super::{Dimension, Mesh};
+use crate::ids::{EdgeId, TriangleId, VertexId};
+
+impl Mesh {
+    /// The finite vertices, by increasing index.
+    pub fn vertices(&self) -> Vertices<'_> {
+        Vertices { mesh: self, next: 0 }
+    }
+
+    /// The finite triangles.
+    pub fn triangles(&self) -> Triangles<'_> {
+        Triangles { mesh: self, next: 0 }
+    }
+
+    /// The finite edges, each in one of its two directions. Hull edges are included.
+    pub fn undirected_edges(&self) -> UndirectedEdges<'_> {
+        UndirectedEdges { mesh: self, next: 0 }
+    }
+
+    /// The edges that leave a vertex, counter-clockwise, those to the ghost vertex included. Empty for an
+    /// index that is no vertex, and for a lone one.
+    pub fn star(&self, v: VertexId) -> Star<'_> {
+        let first = self.incident.get(v.index()).copied().unwrap_or(EdgeId::NONE);
+        Star { mesh: self, first, next: first }
+    }
+
+    /// The vertices joined to `v` by an edge, counter-clockwise.
+    pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        self.star(v).map(|e| self.destination(e)).filter(|w| !w.is_ghost())
+    }
+
+    /// The vertices on the border of the convex hull, counter-clockwise, those inside a hull edge included;
+    /// the vertices from end to end of a line; or the only vertex.
+    pub fn hull(&self) -> Hull<'_> {
+        let next = match self.dimension() {
+            Dimension::Empty | Dimension::Point => EdgeId::NONE,
+            // An end of the line has one neighbour: the two ghosts of its segment are all of its star.
+            Dimension::Line => Hull { mesh: self, first: self.ghost_edge, next: self.ghost_edge, line: false, lone: None }
+                .map(|v| self.incident[v.index()])
+                .find(|&e| self.spin(self.spin(e)) == e)
+                .map_or(EdgeId::NONE, |e| {
+                    let outward = if self.destination(e).is_ghost() { e } else { self.spin(e) };
+                    self.twin(outward)
+                }),
+            Dimension::Plane => self.ghost_edge,
+        };
+        let line = self.dimension() == Dimension::Line;
+        Hull { mesh: self, first: next, next, line, lone: self.lone }
+    }
+}
+
+/// See [`Mesh::vertices`].
+#[derive(Clone, Debug)]
+pub struct Vertices<'a> {
+    mesh: &'a Mesh,
+    next: usize,
+}
+
+impl Iterator for Vertices<'_> {
+    type Item = VertexId;
+
+    fn next(&mut self) -> Option<VertexId> {
+        while self.next < self.mesh.incident.len() {
+            let v = VertexId::new(self.next);
+            self.next += 1;
+            if self.mesh.contains(v) {
+                return Some(v);
+            }
+        }
+        None
+    }
+}
+
+/// See [`Mesh::triangles`].
+#[derive(Clone, Debug)]
+pub struct Triangles<'a> {
+    mesh: &'a Mesh,
+    next: usize,
+}
+
+impl Iterator for Triangles<'_> {
+    type Item = TriangleId;
+
+    fn next(&mut self) -> Option<TriangleId> {
+        while self.next < self.mesh.slot_count() {
+            let t = TriangleId::new(self.next);
+            self.next += 1;
+            if !self.mesh.is_ghost(t) {
+                return Some(t);
+            }
+        }
+        None
+    }
+}
+
+/// See [`Mesh::undirected_edges`].
+#[derive(Clone, Debug)]
+pub struct UndirectedEdges<'a> {
+    mesh: &'a Mesh,
+    next: usize,
+}
+
+impl Iterator for UndirectedEdges<'_> {
+    type Item = EdgeId;
+
+    fn next(&mut self) -> Option<EdgeId> {
+        while self.next < self.mesh.edges.len() {
+            let at = self.next;
+            self.next += if at % 4 == 2 { 2 } else { 1 };
+            let e = EdgeId::new(at);
+            let finite = !self.mesh.origin(e).is_ghost() && !self.mesh.destination(e).is_ghost();
+            if finite && e < self.mesh.twin(e) {
+                return Some(e);
+            }
+        }
+        None
+    }
+}
+
+/// See [`Mesh::star`].
+#[derive(Clone, Debug)]
+pub struct Star<'a> {
+    mesh: &'a Mesh,
+    first: EdgeId,
+    next: EdgeId,
+}
+
+impl Iterator for Star<'_> {
+    type Item = EdgeId;
+
+    fn next(&mut self) -> Option<EdgeId> {
+        if self.next == EdgeId::NONE {
+            return None;
+        }
+        let e = self.next;
+        let following = self.mesh.spin(e);
+        self.next = if following == self.first { EdgeId::NONE } else { following };
+        Some(e)
+    }
+}
+
+/// See [`Mesh::hull`].
+#[derive(Clone, Debug)]
+pub struct Hull<'a> {
+    mesh: &'a Mesh,
+    /// Edges that leave the ghost vertex; turning clockwise around it is counter-clockwise on the hull.
+    first: EdgeId,
+    next: EdgeId,
+    /// Stop at the far end of a line instead of coming back on its other side.
+    line: bool,
+    lone: Option<VertexId>,
+}
+
+impl Iterator for Hull<'_> {
+    type Item = VertexId;
+
+    fn next(&mut self) -> Option<VertexId> {
+        if self.next == EdgeId::NONE {
+            return self.lone.take();
+        }
+        let e = self.next;
+        let v = self.mesh.destination(e);
+        let following = self.mesh.twin(e).next();
+        // At the far end of a line the next hull vertex is the previous one again.
+        let turned = self.line && e != self.first && self.mesh.destination(following) == self.mesh.apex(e);
+        self.next = if following == self.first || turned { EdgeId::NONE } else { following };
+        Some(v)
+    }
+}

@@ -1,0 +1,80 @@
+//! Coordinates to the integer cells of a square, monotonically: x <= y implies cell(x) <= cell(y).
+//!
+//! Monotone rounding is all that the orders need: a cut between two cells then separates the points
+//! strictly, whatever the rounding did to the cells' borders.
+
+/// A square of 2^bits x 2^bits cells around some points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Quantizer {
+    low: [f64; 2],
+    /// 1/2 where the extent of the points overflows, else 1.
+    half: f64,
+    /// Two factors, because their product overflows when the extent is subnormal.
+    scale: [f64; 2],
+    last: u32,
+    /// The larger side of the bounding box, in `half` units.
+    side: f64,
+    /// Both sides of the bounding box.
+    extent: [f64; 2],
+}
+
+impl Quantizer {
+    /// Cells for the points inside a bounding box. `None` if the box is a single point.
+    pub(crate) fn new(low: [f64; 2], high: [f64; 2], bits: u32) -> Option<Self> {
+        let extent = [high[0] - low[0], high[1] - low[1]];
+        let half = if extent[0].max(extent[1]).is_finite() { 1.0 } else { 0.5 };
+        let side = (high[0] * half - low[0] * half).max(high[1] * half - low[1] * half);
+        if side == 0.0 {
+            return None;
+        }
+        // A power of two that brings the smallest subnormal extent into the normal range.
+        let lift = if side < 1e-290 { 2f64.powi(200) } else { 1.0 };
+        let cells = 2f64.powi(bits as i32);
+        let low = low.map(|x| x * half);
+        Some(Self { low, half, scale: [lift, cells / (side * lift)], last: (1 << bits) - 1, side, extent })
+    }
+
+    /// The column and row of a point's cell.
+    #[inline]
+    pub(crate) fn cell(&self, p: [f64; 2]) -> [u32; 2] {
+        let along = |k: usize| {
+            let cell = (p[k] * self.half - self.low[k]) * self.scale[0] * self.scale[1];
+            (cell as u32).min(self.last)
+        };
+        [along(0), along(1)]
+    }
+
+    /// Upper bounds on the width and the height of a block of cells, `halvings` of the square in each
+    /// direction. The cells' borders are rounded, by far less than the thousandth added here.
+    pub(crate) fn block(&self, halvings: [u32; 2]) -> [f64; 2] {
+        let side = self.side / self.half * 1.001;
+        [0, 1].map(|k| (side * 2f64.powi(-(halvings[k] as i32))).min(self.extent[k]))
+    }
+}
+
+/// The smallest box around points: the least and the greatest corner.
+pub(crate) fn bounds(points: impl IntoIterator<Item = [f64; 2]>) -> ([f64; 2], [f64; 2]) {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in points {
+        for k in 0..2 {
+            low[k] = if p[k] < low[k] { p[k] } else { low[k] };
+            high[k] = if p[k] > high[k] { p[k] } else { high[k] };
+        }
+    }
+    (low, high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Quantizer;
+
+    #[test]
+    fn every_range_is_cut_from_end_to_end() {
+        for (low, high) in [(0.0, 1.0), (-1.0, 1e-300), (f64::MIN, f64::MAX), (0.0, 5e-324), (1.0, 1.0 + 1e-15)] {
+            let quantizer = Quantizer::new([low; 2], [high; 2], 4).expect("two distinct corners");
+            assert_eq!(quantizer.cell([low; 2]), [0, 0], "{low} {high}");
+            assert_eq!(quantizer.cell([high; 2]), [15, 15], "{low} {high}");
+        }
+        assert!(Quantizer::new([2.0; 2], [2.0; 2], 4).is_none());
+    }
+}

@@ -1,0 +1,260 @@
+//! The merge step: two triangulations, separated by a cut, become one.
+//!
+//! A bubble rises through the gap between them (Guibas & Stolfi 1985, figure 17). Its bottom is the base
+//! l -> r, at first the lower common tangent. Each side offers the next vertex along its hull, after removing
+//! the edges that the other side's base vertex destroys; the candidate whose circle through the base is empty
+//! becomes connected, and the new edge is the next base. All tests of a step are members of the pencil of
+//! circles through the base.
+//!
+//! ```text
+//!        l1              r1          top    ghost above the base, of the hull edge r -> l
+//!          \   (bubble)  /           left   ghost of l -> l1, the next hull edge after top's
+//!     left  \           /  right     right  ghost of r1 -> r, the hull edge before top's
+//!            l ------- r
+//!               base                 bottom ghost below the first base, of l -> r
+//! ```
+//!
+//! A cut by y is a cut by x in coordinates turned by a quarter: (y, -x). The lower part is then on the left,
+//! orientations stay as they are, and only the choice of the first l and r differs.
+
+use delone_predicates::{Filter, Member, Pencil};
+
+use super::divide_and_conquer::Builder;
+use crate::ids::{TriangleId, VertexId};
+
+/// A triangulated run of positions, with the strict corners of its hull from which merges start.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub(super) start: usize,
+    pub(super) end: usize,
+    /// Lexicographic minimum by (x, y).
+    pub(super) west: VertexId,
+    /// Lexicographic maximum by (x, y).
+    pub(super) east: VertexId,
+    /// Lexicographic minimum by (y, -x).
+    pub(super) south: VertexId,
+    /// Lexicographic maximum by (y, -x).
+    pub(super) north: VertexId,
+}
+
+impl Part {
+    fn is_single(&self) -> bool {
+        self.end - self.start == 1
+    }
+}
+
+/// A base of the bubble and the ghosts beside it.
+struct Base {
+    l: VertexId,
+    r: VertexId,
+    /// The ghost of the hull edge that enters l; meaningless for a single point.
+    entering_l: TriangleId,
+    /// The ghost of the hull edge that leaves r; meaningless for a single point.
+    leaving_r: TriangleId,
+}
+
+impl Builder<'_> {
+    /// Merges the parts on both sides of a cut: `a` to the left (or below), `b` to the right (or above). The
+    /// filter holds for both.
+    pub(super) fn merge(&mut self, a: &Part, b: &Part, by_x: bool, filter: &Filter) -> Part {
+        self.counters.merges += 1;
+        let (l, r) = if by_x { (a.east, b.west) } else { (a.north, b.south) };
+        let base = self.lower_tangent(l, r, a.is_single(), b.is_single(), filter);
+        let bottom = TriangleId::new(2 * b.start - 2);
+        let top = TriangleId::new(2 * b.start - 1);
+        self.connect_first(&base, bottom, top, a.is_single(), b.is_single());
+        self.rise(base.l, base.r, bottom, top, filter);
+        Part::union(self.points, a, b)
+    }
+
+    /// The common tangent below both parts, closest to the gap: from the facing corners downwards, each side
+    /// in turn as long as its next vertex is strictly below.
+    fn lower_tangent(&self, l: VertexId, r: VertexId, l_single: bool, r_single: bool, filter: &Filter) -> Base {
+        let entering_l = if l_single { TriangleId::new(0) } else { self.previous_ghost(self.leaving[l.index()]) };
+        let mut base = Base { l, r, entering_l, leaving_r: self.leaving[r.index()] };
+        loop {
+            let pencil = Pencil::new(self.point(base.l), self.point(base.r));
+            let below = |v: VertexId| pencil.side(&pencil.member(self.point(v)), filter).is_negative();
+            if !l_single {
+                let previous = self.origin(base.entering_l.edge(1));
+                if below(previous) {
+                    base.l = previous;
+                    base.entering_l = self.previous_ghost(base.entering_l);
+                    continue;
+                }
+            }
+            if !r_single {
+                let next = self.origin(base.leaving_r.edge(0));
+                if below(next) {
+                    base.r = next;
+                    base.leaving_r = self.next_ghost(base.leaving_r);
+                    continue;
+                }
+            }
+            return base;
+        }
+    }
+
+    /// Joins the hulls by the edge l - r, with a ghost on either side.
+    fn connect_first(&mut self, base: &Base, bottom: TriangleId, top: TriangleId, l_single: bool, r_single: bool) {
+        let &Base { l, r, entering_l, leaving_r } = base;
+        // Read before linking: what follows on the upper side.
+        let leaving_l = if l_single { bottom } else { self.next_ghost(entering_l) };
+        let entering_r = if r_single { bottom } else { self.previous_ghost(leaving_r) };
+        self.set_ghost_corners(bottom, l, r);
+        self.set_ghost_corners(top, r, l);
+        self.link(bottom.edge(0), top.edge(0));
+        self.link(bottom.edge(1), if l_single { top.edge(2) } else { entering_l.edge(2) });
+        self.link(bottom.edge(2), if r_single { top.edge(1) } else { leaving_r.edge(1) });
+        if !r_single {
+            self.link(top.edge(1), entering_r.edge(2));
+        }
+        if !l_single {
+            self.link(top.edge(2), leaving_l.edge(1));
+        }
+        self.leaving[l.index()] = bottom;
+    }
+
+    /// Lets the bubble rise until no vertex is above the base.
+    fn rise(&mut self, l: VertexId, r: VertexId, bottom: TriangleId, mut top: TriangleId, filter: &Filter) {
+        let (mut l, mut r) = (self.point(l), self.point(r));
+        loop {
+            let pencil = Pencil::new(l, r);
+            let left = self.left_candidate(&pencil, top, bottom, filter);
+            let right = self.right_candidate(&pencil, top, bottom, filter);
+            let connect_right = match (&left, &right) {
+                (None, None) => break,
+                (Some(_), None) => false,
+                (None, Some(_)) => true,
+                (Some(left), Some(right)) => pencil.in_circle(left, right, filter).is_positive(),
+            };
+            self.counters.connected += 1;
+            if connect_right {
+                top = self.connect_right(top);
+                r = self.point(self.origin(top.edge(1)));
+            } else {
+                top = self.connect_left(top);
+                l = self.point(self.origin(top.edge(0)));
+            }
+        }
+        // Vertices passed on the way may be on the outer hull too; only the last two surely left by here.
+        let (l, r) = (self.origin(top.edge(0)), self.origin(top.edge(1)));
+        self.leaving[l.index()] = self.next_ghost(top);
+        self.leaving[r.index()] = top;
+    }
+
+    /// The vertex that the left part offers, after removing the edges at l whose circle with the base
+    /// contains the vertex behind them.
+    #[inline]
+    fn left_candidate(&mut self, pencil: &Pencil, top: TriangleId, bottom: TriangleId, filter: &Filter) -> Option<Member> {
+        let left = self.next_ghost(top);
+        if left == bottom {
+            return None; // a single point
+        }
+        let mut candidate = pencil.member(self.point(self.origin(left.edge(0))));
+        if !pencil.side(&candidate, filter).is_positive() {
+            return None;
+        }
+        loop {
+            let apex = self.origin(self.twin(left.edge(0)).previous());
+            if apex.is_ghost() {
+                return Some(candidate); // nothing behind this edge
+            }
+            let behind = pencil.member(self.point(apex));
+            if !pencil.in_circle(&candidate, &behind, filter).is_positive() {
+                return Some(candidate);
+            }
+            self.remove_left(left, apex);
+            candidate = behind;
+        }
+    }
+
+    /// The mirror image of [`Self::left_candidate`].
+    #[inline]
+    fn right_candidate(&mut self, pencil: &Pencil, top: TriangleId, bottom: TriangleId, filter: &Filter) -> Option<Member> {
+        let right = self.previous_ghost(top);
+        if right == bottom {
+            return None;
+        }
+        let mut candidate = pencil.member(self.point(self.origin(right.edge(1))));
+        if !pencil.side(&candidate, filter).is_positive() {
+            return None;
+        }
+        loop {
+            let apex = self.origin(self.twin(right.edge(0)).previous());
+            if apex.is_ghost() {
+                return Some(candidate);
+            }
+            let behind = pencil.member(self.point(apex));
+            if !pencil.in_circle(&candidate, &behind, filter).is_positive() {
+                return Some(candidate);
+            }
+            self.remove_right(right, apex);
+            candidate = behind;
+        }
+    }
+
+    /// Removes the hull edge l -> l1: its ghost becomes that of l -> x, the triangle (l, l1, x) behind it the
+    /// ghost of x -> l1.
+    fn remove_left(&mut self, ghost: TriangleId, x: VertexId) {
+        self.counters.removed += 1;
+        let e = self.twin(ghost.edge(0)); // l -> l1
+        let (l1_x, x_l) = (self.twin(e.next()), self.twin(e.previous()));
+        let after = self.twin(ghost.edge(2));
+        let l1 = self.origin(ghost.edge(0));
+        let freed = e.triangle();
+        self.set_ghost_corners(freed, x, l1);
+        self.edges[ghost.edge(0).index()].origin = x;
+        self.link(ghost.edge(0), x_l);
+        self.link(freed.edge(0), l1_x);
+        self.link(freed.edge(1), ghost.edge(2));
+        self.link(freed.edge(2), after);
+    }
+
+    /// Removes the hull edge r1 -> r: its ghost becomes that of y -> r, the triangle (r1, r, y) behind it the
+    /// ghost of r1 -> y.
+    fn remove_right(&mut self, ghost: TriangleId, y: VertexId) {
+        self.counters.removed += 1;
+        let e = self.twin(ghost.edge(0)); // r1 -> r
+        let (r_y, y_r1) = (self.twin(e.next()), self.twin(e.previous()));
+        let before = self.twin(ghost.edge(1));
+        let r1 = self.origin(ghost.edge(1));
+        let freed = e.triangle();
+        self.set_ghost_corners(freed, r1, y);
+        self.edges[ghost.edge(1).index()].origin = y;
+        self.link(ghost.edge(0), r_y);
+        self.link(freed.edge(0), y_r1);
+        self.link(freed.edge(1), before);
+        self.link(freed.edge(2), ghost.edge(1));
+        if self.leaving[r1.index()] == ghost {
+            self.leaving[r1.index()] = freed;
+        }
+    }
+
+    /// Connects l1 to r: `top` becomes the triangle (l, r, l1), and the ghost of l -> l1 that of the new base,
+    /// which is returned.
+    fn connect_left(&mut self, top: TriangleId) -> TriangleId {
+        let left = self.next_ghost(top);
+        let (before, inside) = (self.twin(top.edge(1)), self.twin(left.edge(0)));
+        let (r, l1) = (self.origin(top.edge(1)), self.origin(left.edge(0)));
+        self.edges[top.edge(2).index()].origin = l1;
+        self.link(top.edge(1), left.edge(0));
+        self.link(top.edge(2), inside);
+        self.edges[left.edge(1).index()].origin = r;
+        self.link(left.edge(1), before);
+        left
+    }
+
+    /// Connects l to r1: `top` becomes the triangle (l, r, r1), and the ghost of r1 -> r that of the new base.
+    fn connect_right(&mut self, top: TriangleId) -> TriangleId {
+        let right = self.previous_ghost(top);
+        let (after, inside) = (self.twin(top.edge(2)), self.twin(right.edge(0)));
+        let (l, r1) = (self.origin(top.edge(0)), self.origin(right.edge(1)));
+        self.edges[top.edge(2).index()].origin = r1;
+        self.link(top.edge(1), inside);
+        self.link(top.edge(2), right.edge(0));
+        self.edges[right.edge(0).index()].origin = l;
+        self.link(right.edge(2), after);
+        right
+    }
+}
