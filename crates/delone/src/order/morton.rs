@@ -144,8 +144,10 @@ impl Sorter<'_> {
                 _ => self.key_box(&mut entries[start..end], cut),
             }
             if let Some(following) = entries.get(end) {
-                let differing = 63 - (following ^ entries[start]).leading_zeros(); // bit 32 + (depth - 1 - d)
-                cut = Cut((depth - (differing - 32)) as u8); // 1 + d
+                // Keys that first differ at depth d differ in bit depth - 1 - d. (The entries of a long run have
+                // the keys of their own box by now.)
+                let differing = (following >> 32 ^ key).ilog2();
+                cut = Cut((depth - differing) as u8);
             }
             start = end;
         }
@@ -258,14 +260,20 @@ mod tests {
         for &kind in Kind::ALL {
             let sorted = sort(&kind.points(2000, 6));
             for key_box in &sorted.boxes {
+                let inside = |b: &super::KeyBox, at: usize| b.start < at && at < b.end;
+                let nested: Vec<_> = sorted
+                    .boxes
+                    .iter()
+                    .filter(|b| key_box.start <= b.start && b.end <= key_box.end)
+                    .filter(|b| b.end - b.start < key_box.end - key_box.start)
+                    .collect();
                 for at in key_box.start + 1..key_box.end {
-                    let cut = sorted.cuts[at];
-                    let nested = |b: &&super::KeyBox| b.start < at && at < b.end && b.start >= key_box.start && b.end <= key_box.end;
-                    if sorted.boxes.iter().filter(nested).count() > 1 {
-                        continue; // of a box inside this one
+                    if nested.iter().any(|b| inside(b, at)) {
+                        continue;
                     }
+                    let cut = sorted.cuts[at];
                     let (depth, by_x) = key_box.split(cut);
-                    let same_side = |i: &usize| sorted.cuts[*i] > cut;
+                    let same_side = |i: &usize| nested.iter().any(|b| inside(b, *i)) || sorted.cuts[*i] > cut;
                     let left = (key_box.start + 1..at).rev().take_while(same_side).last().unwrap_or(at) - 1;
                     let right = (at + 1..key_box.end).take_while(same_side).last().unwrap_or(at);
                     assert_ne!(cut, Cut::OUTSIDE);

@@ -14,7 +14,7 @@ pub struct Duplicate {
 pub struct Delaunay2 { pub points: Vec<[f64;2]>, pub mesh: Mesh, pub duplicates: Vec<Duplicate>}
 impl Delaunay2 {
     pub fn from_points(points: &[[f64;2]]) -> Self {
-        let (mesh, duplicates, _) = build::divide_and_conquer(points);
+        let (mesh, duplicates, c) = build::divide_and_conquer(points); if std::env::var("CNT").is_ok() {eprintln!("{c:?}");}
         Self { points: points.to_vec(), mesh, duplicates }
     }
 }

@@ -1,0 +1,15 @@
+//! Builds the CGAL shim where CGAL's headers are installed (Debian: `libcgal-dev`), and says so to the program.
+
+use std::path::Path;
+
+fn main() {
+    println!("cargo::rustc-check-cfg=cfg(cgal)");
+    println!("cargo::rerun-if-changed=src/cgal.cpp");
+    println!("cargo::rerun-if-changed=/usr/include/CGAL");
+    if Path::new("/usr/include/CGAL/Delaunay_triangulation_2.h").exists() {
+        cc::Build::new().cpp(true).std("c++17").opt_level(3).define("NDEBUG", None).warnings(false).file("src/cgal.cpp").compile("cgal_shim");
+        println!("cargo::rustc-cfg=cgal");
+        println!("cargo::rustc-link-lib=gmp");
+        println!("cargo::rustc-link-lib=mpfr");
+    }
+}
