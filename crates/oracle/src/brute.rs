@@ -82,10 +82,7 @@ mod tests {
     fn a_square_has_its_canonical_diagonal() {
         let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
         // (1, 1) is raised, so the other three keep their triangle.
-        let expected = [
-            [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
-            [[0.0, 1.0], [1.0, 0.0], [1.0, 1.0]],
-        ];
+        let expected = [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [1.0, 0.0], [1.0, 1.0]]];
         assert_eq!(delaunay(&square), expected);
     }
 

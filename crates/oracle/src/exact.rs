@@ -52,8 +52,7 @@ fn sign(value: &BigInt) -> i8 {
 
 /// The sign of the determinant with rows (x, y, 1): 1 when a, b, c turn left.
 pub fn orient2d(a: Point2, b: Point2, c: Point2) -> i8 {
-    let rows: Vec<_> =
-        integers(&[a, b, c]).into_iter().map(|[x, y]| vec![x, y, BigInt::from(1)]).collect();
+    let rows: Vec<_> = integers(&[a, b, c]).into_iter().map(|[x, y]| vec![x, y, BigInt::from(1)]).collect();
     sign(&determinant(&rows))
 }
 

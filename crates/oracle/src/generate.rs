@@ -272,7 +272,9 @@ fn spokes(n: usize, random: &mut Random) -> Vec<Point2> {
     };
     let mut places: Vec<_> = [65, 325, 1105].into_iter().flat_map(on_circle).collect();
     places.extend(places.clone().into_iter().map(|[x, y]| [x, -y]));
-    places.extend((-40..=40).flat_map(|i| [[f64::from(i) * 30.0; 2], [f64::from(i) * 30.0, f64::from(i) * -30.0]]));
+    places.extend(
+        (-40..=40).flat_map(|i| [[f64::from(i) * 30.0; 2], [f64::from(i) * 30.0, f64::from(i) * -30.0]]),
+    );
     repeat(n, || places[random.below(places.len())])
 }
 
@@ -318,7 +320,8 @@ mod tests {
             let bits = kind.points(200, 42).into_iter().flatten().map(f64::to_bits);
             bits.fold(0u64, |h, b| (h ^ b).wrapping_mul(0x0100_0000_01b3).rotate_left(23))
         };
-        let all: Vec<_> = Kind::ALL.iter().map(|&kind| (kind.name(), format!("{:016x}", hash(kind)))).collect();
+        let all: Vec<_> =
+            Kind::ALL.iter().map(|&kind| (kind.name(), format!("{:016x}", hash(kind)))).collect();
         let expected = include_str!("bits.txt");
         let found: String = all.iter().map(|(name, hash)| format!("{name} {hash}\n")).collect();
         assert_eq!(found, expected);

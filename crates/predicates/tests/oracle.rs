@@ -12,7 +12,13 @@ const FAMILIES: &[(&str, Family)] = &[
     ("small integers", |r| four(|| [r.below(5) as f64, r.below(5) as f64])),
     ("integers near 2^53", |r| four(|| [near_2_53(r), near_2_53(r)])),
     ("integers near 2^53 and small ones", |r| {
-        four(|| if r.below(2) == 0 { [near_2_53(r), r.below(9) as f64] } else { [r.below(9) as f64, near_2_53(r)] })
+        four(|| {
+            if r.below(2) == 0 {
+                [near_2_53(r), r.below(9) as f64]
+            } else {
+                [r.below(9) as f64, near_2_53(r)]
+            }
+        })
     }),
     ("any magnitude", |r| four(|| [any_bits(r), any_bits(r)])),
     ("subnormal", |r| four(|| [f64::from_bits(r.bits() >> 50), -f64::from_bits(r.bits() >> 50)])),
@@ -155,7 +161,9 @@ fn swapping_two_points_flips_the_sign() {
         assert_eq!(orient2d(b, a, c), -turn, "{name}");
         assert_eq!(orient2d(b, c, a), turn, "{name}");
         assert_eq!(orient2d(c, a, b), turn, "{name}");
-        for swapped in [in_circle(b, a, c, d), in_circle(a, c, b, d), in_circle(a, b, d, c), in_circle(d, b, c, a)] {
+        for swapped in
+            [in_circle(b, a, c, d), in_circle(a, c, b, d), in_circle(a, b, d, c), in_circle(d, b, c, a)]
+        {
             assert_eq!(swapped, -circle, "{name}: {a:?} {b:?} {c:?} {d:?}");
         }
         assert_eq!(in_circle(b, c, a, d), circle, "{name}");

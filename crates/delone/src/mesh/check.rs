@@ -1,0 +1,139 @@
+//! Combinatorial validity: is this a sphere of triangles around its vertices and the ghost?
+//!
+//! Cost: O(n).
+
+use super::{Dimension, Mesh};
+use crate::ids::{EdgeId, TriangleId, VertexId};
+
+/// What is wrong with a mesh, one sentence each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Flaw {
+    /// The count of triangles contradicts Euler's relation.
+    #[error("{vertices} vertices need {} triangles with ghosts, not {triangles}", 2 * vertices - 2)]
+    Euler {
+        /// Vertices, the ghost not counted.
+        vertices: usize,
+        /// Triangles, ghosts included.
+        triangles: usize,
+    },
+    /// The twin of an edge's twin is not the edge.
+    #[error("the twin of edge {0:?} is not mutual")]
+    Twin(EdgeId),
+    /// An edge and its twin do not join the same vertices.
+    #[error("edge {0:?} and its twin join different vertices")]
+    Ends(EdgeId),
+    /// A triangle has a corner twice.
+    #[error("triangle {0:?} has a corner twice")]
+    Corners(TriangleId),
+    /// A corner is no vertex of the mesh.
+    #[error("corner {0:?} of triangle {1:?} is no vertex")]
+    Stranger(VertexId, TriangleId),
+    /// The edge remembered for a vertex does not leave it.
+    #[error("the edge remembered for vertex {0:?} does not leave it")]
+    Incident(VertexId),
+    /// The triangles around a vertex are not one cycle.
+    #[error("the star of vertex {0:?} is not one cycle")]
+    Star(VertexId),
+    /// Not every triangle can be reached from the first one.
+    #[error("the triangles are not connected")]
+    Connected,
+}
+
+impl Mesh {
+    /// Checks twins, corners, stars, connectedness and Euler's relation: together they prove a sphere.
+    /// Returns the first flaw found.
+    pub fn check(&self) -> Result<(), Flaw> {
+        let n = self.vertices().count();
+        if n != self.vertex_count || self.slot_count() != (2 * n).saturating_sub(2) {
+            return Err(Flaw::Euler { vertices: n, triangles: self.slot_count() });
+        }
+        if matches!(self.dimension_by_count(), Dimension::Empty | Dimension::Point) {
+            return Ok(());
+        }
+        self.check_edges()?;
+        self.check_stars()?;
+        self.check_connected()
+    }
+
+    fn dimension_by_count(&self) -> Dimension {
+        match self.vertex_count {
+            0 => Dimension::Empty,
+            1 => Dimension::Point,
+            _ => Dimension::Plane,
+        }
+    }
+
+    fn all_edges(&self) -> impl Iterator<Item = EdgeId> {
+        (0..self.slot_count()).map(TriangleId::new).flat_map(|t| [0, 1, 2].map(|k| t.edge(k)))
+    }
+
+    fn check_edges(&self) -> Result<(), Flaw> {
+        for e in self.all_edges() {
+            let twin = self.twin(e);
+            let mutual =
+                twin.index() < self.edges.len() && twin.corner() < 3 && twin != e && self.twin(twin) == e;
+            if !mutual {
+                return Err(Flaw::Twin(e));
+            }
+            if self.origin(twin) != self.destination(e) || self.origin(e) != self.destination(twin) {
+                return Err(Flaw::Ends(e));
+            }
+            let corners @ [a, b, c] = self.corners(e.triangle());
+            if a == b || b == c || c == a {
+                return Err(Flaw::Corners(e.triangle()));
+            }
+            if let Some(v) = corners.into_iter().find(|&v| !v.is_ghost() && !self.contains(v)) {
+                return Err(Flaw::Stranger(v, e.triangle()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Each vertex is left by as many edges as its star has: all of them are one cycle.
+    fn check_stars(&self) -> Result<(), Flaw> {
+        let mut degrees = vec![0_usize; self.incident.len()];
+        let mut ghost_degree = 0;
+        for e in self.all_edges() {
+            match self.origin(e) {
+                VertexId::GHOST => ghost_degree += 1,
+                v => degrees[v.index()] += 1,
+            }
+        }
+        let cycle = |first: EdgeId, limit: usize| {
+            std::iter::successors(Some(first), |&e| Some(self.spin(e)).filter(|&e| e != first))
+                .take(limit + 1)
+                .count()
+        };
+        for v in self.vertices() {
+            let first = self.incident[v.index()];
+            if first.index() >= self.edges.len() || self.origin(first) != v {
+                return Err(Flaw::Incident(v));
+            }
+            if cycle(first, degrees[v.index()]) != degrees[v.index()] {
+                return Err(Flaw::Star(v));
+            }
+        }
+        let first = self.ghost_edge;
+        if first.index() >= self.edges.len() || !self.origin(first).is_ghost() {
+            return Err(Flaw::Incident(VertexId::GHOST));
+        }
+        if cycle(first, ghost_degree) != ghost_degree {
+            return Err(Flaw::Star(VertexId::GHOST));
+        }
+        Ok(())
+    }
+
+    fn check_connected(&self) -> Result<(), Flaw> {
+        let mut seen = vec![false; self.slot_count()];
+        let mut pending = vec![TriangleId::new(0)];
+        let mut count = 0;
+        while let Some(t) = pending.pop() {
+            if !std::mem::replace(&mut seen[t.index()], true) {
+                count += 1;
+                pending.extend(self.adjacent(t));
+            }
+        }
+        if count == self.slot_count() { Ok(()) } else { Err(Flaw::Connected) }
+    }
+}

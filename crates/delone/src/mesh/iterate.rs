@@ -37,13 +37,15 @@ impl Mesh {
         let next = match self.dimension() {
             Dimension::Empty | Dimension::Point => EdgeId::NONE,
             // An end of the line has one neighbour: the two ghosts of its segment are all of its star.
-            Dimension::Line => Hull { mesh: self, first: self.ghost_edge, next: self.ghost_edge, line: false, lone: None }
-                .map(|v| self.incident[v.index()])
-                .find(|&e| self.spin(self.spin(e)) == e)
-                .map_or(EdgeId::NONE, |e| {
-                    let outward = if self.destination(e).is_ghost() { e } else { self.spin(e) };
-                    self.twin(outward)
-                }),
+            Dimension::Line => {
+                Hull { mesh: self, first: self.ghost_edge, next: self.ghost_edge, line: false, lone: None }
+                    .map(|v| self.incident[v.index()])
+                    .find(|&e| self.spin(self.spin(e)) == e)
+                    .map_or(EdgeId::NONE, |e| {
+                        let outward = if self.destination(e).is_ghost() { e } else { self.spin(e) };
+                        self.twin(outward)
+                    })
+            }
             Dimension::Plane => self.ghost_edge,
         };
         let line = self.dimension() == Dimension::Line;

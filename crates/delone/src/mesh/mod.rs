@@ -155,7 +155,11 @@ impl Mesh {
             // has no such pair, a line nothing else.
             _ => {
                 let hull_edge = self.ghost_edge.next();
-                if self.is_ghost(self.twin(hull_edge).triangle()) { Dimension::Line } else { Dimension::Plane }
+                if self.is_ghost(self.twin(hull_edge).triangle()) {
+                    Dimension::Line
+                } else {
+                    Dimension::Plane
+                }
             }
         }
     }

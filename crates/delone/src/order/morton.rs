@@ -239,7 +239,8 @@ mod tests {
                 let points = kind.points(n, 5);
                 let sorted = sort(&points);
                 assert_eq!(sorted.points.len() + sorted.duplicates.len(), n, "{}", kind.name());
-                let mut seen: Vec<_> = sorted.indices.iter().chain(sorted.duplicates.iter().map(|d| &d.0)).collect();
+                let mut seen: Vec<_> =
+                    sorted.indices.iter().chain(sorted.duplicates.iter().map(|d| &d.0)).collect();
                 seen.sort_unstable();
                 seen.dedup();
                 assert_eq!(seen.len(), n, "{}", kind.name());

@@ -70,7 +70,9 @@ mod tests {
 
     #[test]
     fn every_range_is_cut_from_end_to_end() {
-        for (low, high) in [(0.0, 1.0), (-1.0, 1e-300), (f64::MIN, f64::MAX), (0.0, 5e-324), (1.0, 1.0 + 1e-15)] {
+        for (low, high) in
+            [(0.0, 1.0), (-1.0, 1e-300), (f64::MIN, f64::MAX), (0.0, 5e-324), (1.0, 1.0 + 1e-15)]
+        {
             let quantizer = Quantizer::new([low; 2], [high; 2], 4).expect("two distinct corners");
             assert_eq!(quantizer.cell([low; 2]), [0, 0], "{low} {high}");
             assert_eq!(quantizer.cell([high; 2]), [15, 15], "{low} {high}");

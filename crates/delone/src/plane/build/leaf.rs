@@ -8,7 +8,7 @@ use delone_predicates::{Filter, Member, Pencil, Sign};
 
 use super::divide_and_conquer::Builder;
 use super::merge::Part;
-use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::ids::{TriangleId, VertexId};
 use crate::mesh::HalfEdge;
 
 /// What became of a few points.
@@ -104,8 +104,12 @@ const fn layout(signs: usize) -> Layout {
         let convex = left_012 && left_123 && left_230 && left_301;
         let fan = left_012 && left_123 && !left_230 && left_301;
         if convex || fan {
-            let swaps = (p[0] > p[1]) as u8 + (p[0] > p[2]) as u8 + (p[0] > p[3]) as u8
-                + (p[1] > p[2]) as u8 + (p[1] > p[3]) as u8 + (p[2] > p[3]) as u8;
+            let swaps = (p[0] > p[1]) as u8
+                + (p[0] > p[2]) as u8
+                + (p[0] > p[3]) as u8
+                + (p[1] > p[2]) as u8
+                + (p[1] > p[3]) as u8
+                + (p[2] > p[3]) as u8;
             return Layout { corners: p, convex, even: swaps.is_multiple_of(2) };
         }
     }
@@ -153,7 +157,8 @@ impl Builder<'_> {
         if signs.contains(&Sign::Zero) {
             return false;
         }
-        let code = signs.iter().enumerate().map(|(i, sign)| usize::from(sign.is_positive()) << i).sum::<usize>();
+        let code =
+            signs.iter().enumerate().map(|(i, sign)| usize::from(sign.is_positive()) << i).sum::<usize>();
         let Layout { corners: p, convex, even } = LAYOUTS[code];
         if convex {
             // The diagonal 0-2 stays unless corner 3 is inside the circle of the other three.
@@ -168,7 +173,12 @@ impl Builder<'_> {
 
     /// Writes a template for the points `start + corners[i]`, into the triangles that they own.
     #[inline]
-    fn write<const C: usize, const N: usize>(&mut self, start: usize, corners: [u8; C], template: &Template<N>) {
+    fn write<const C: usize, const N: usize>(
+        &mut self,
+        start: usize,
+        corners: [u8; C],
+        template: &Template<N>,
+    ) {
         let first = 2 * start;
         let records = &mut self.edges[4 * first..4 * (first + N)];
         for (slot, (triangle, records)) in template.iter().zip(records.chunks_exact_mut(4)).enumerate() {
@@ -187,7 +197,11 @@ impl Builder<'_> {
 /// The vertex that plays a corner of a template.
 #[inline]
 fn vertex(start: usize, corners: &[u8], corner: u8) -> VertexId {
-    if corner == G { VertexId::GHOST } else { VertexId::new(start + usize::from(corners[usize::from(corner)])) }
+    if corner == G {
+        VertexId::GHOST
+    } else {
+        VertexId::new(start + usize::from(corners[usize::from(corner)]))
+    }
 }
 
 #[cfg(test)]

@@ -69,8 +69,16 @@ impl Builder<'_> {
 
     /// The common tangent below both parts, closest to the gap: from the facing corners downwards, each side
     /// in turn as long as its next vertex is strictly below.
-    fn lower_tangent(&self, l: VertexId, r: VertexId, l_single: bool, r_single: bool, filter: &Filter) -> Base {
-        let entering_l = if l_single { TriangleId::new(0) } else { self.previous_ghost(self.leaving[l.index()]) };
+    fn lower_tangent(
+        &self,
+        l: VertexId,
+        r: VertexId,
+        l_single: bool,
+        r_single: bool,
+        filter: &Filter,
+    ) -> Base {
+        let entering_l =
+            if l_single { TriangleId::new(0) } else { self.previous_ghost(self.leaving[l.index()]) };
         let mut base = Base { l, r, entering_l, leaving_r: self.leaving[r.index()] };
         loop {
             let pencil = Pencil::new(self.point(base.l), self.point(base.r));
@@ -96,7 +104,14 @@ impl Builder<'_> {
     }
 
     /// Joins the hulls by the edge l - r, with a ghost on either side.
-    fn connect_first(&mut self, base: &Base, bottom: TriangleId, top: TriangleId, l_single: bool, r_single: bool) {
+    fn connect_first(
+        &mut self,
+        base: &Base,
+        bottom: TriangleId,
+        top: TriangleId,
+        l_single: bool,
+        r_single: bool,
+    ) {
         let &Base { l, r, entering_l, leaving_r } = base;
         // Read before linking: what follows on the upper side.
         let leaving_l = if l_single { bottom } else { self.next_ghost(entering_l) };
@@ -146,7 +161,13 @@ impl Builder<'_> {
     /// The vertex that the left part offers, after removing the edges at l whose circle with the base
     /// contains the vertex behind them.
     #[inline]
-    fn left_candidate(&mut self, pencil: &Pencil, top: TriangleId, bottom: TriangleId, filter: &Filter) -> Option<Member> {
+    fn left_candidate(
+        &mut self,
+        pencil: &Pencil,
+        top: TriangleId,
+        bottom: TriangleId,
+        filter: &Filter,
+    ) -> Option<Member> {
         let left = self.next_ghost(top);
         if left == bottom {
             return None; // a single point
@@ -171,7 +192,13 @@ impl Builder<'_> {
 
     /// The mirror image of [`Self::left_candidate`].
     #[inline]
-    fn right_candidate(&mut self, pencil: &Pencil, top: TriangleId, bottom: TriangleId, filter: &Filter) -> Option<Member> {
+    fn right_candidate(
+        &mut self,
+        pencil: &Pencil,
+        top: TriangleId,
+        bottom: TriangleId,
+        filter: &Filter,
+    ) -> Option<Member> {
         let right = self.previous_ghost(top);
         if right == bottom {
             return None;

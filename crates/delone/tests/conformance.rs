@@ -1,0 +1,135 @@
+//! One suite for every algorithm on every named generator: the same triangles, checked, and for small sets
+//! those of the oracle.
+
+use delone::{Algorithm, Delaunay2, Dimension};
+use delone_oracle::brute;
+use delone_oracle::generate::{Kind, Random};
+
+/// Every way to build a triangulation.
+const ALGORITHMS: [Algorithm; 3] =
+    [Algorithm::DivideAndConquer, Algorithm::Incremental { seed: 0 }, Algorithm::Incremental { seed: 77 }];
+
+fn build(points: &[[f64; 2]], algorithm: Algorithm) -> Delaunay2 {
+    Delaunay2::with_algorithm(points, algorithm).expect("finite points")
+}
+
+/// The triangles by coordinates, so that permutations of the input compare too.
+fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
+    brute::normalized(d.triangles().map(|corners| corners.map(|v| d.point(v))))
+}
+
+/// Builds with all algorithms, checks each result and their agreement, and returns the triangles.
+fn agreed(points: &[[f64; 2]], what: &str) -> Vec<[[f64; 2]; 3]> {
+    let first = build(points, ALGORITHMS[0]);
+    let expected = triangles(&first);
+    for algorithm in ALGORITHMS {
+        let d = build(points, algorithm);
+        assert_eq!(d.check(), Ok(()), "{what} {algorithm:?}");
+        assert!(triangles(&d) == expected, "{what} {algorithm:?} differs");
+        assert_eq!(d.duplicates(), first.duplicates(), "{what} {algorithm:?}");
+        assert_eq!(d.dimension(), first.dimension(), "{what} {algorithm:?}");
+        assert_eq!(d.hull().count(), first.hull().count(), "{what} {algorithm:?}");
+    }
+    expected
+}
+
+#[test]
+fn all_subsets_of_a_small_grid() {
+    let grid: Vec<_> = (0..16).map(|i| [f64::from(i % 4), f64::from(i / 4)]).collect();
+    let table = brute::Table::new(&grid);
+    for subset in 0..1_u64 << 16 {
+        let points: Vec<_> = (0..16).filter(|i| subset >> i & 1 == 1).map(|i| grid[i]).collect();
+        let expected = table.delaunay(subset);
+        for algorithm in &ALGORITHMS[..2] {
+            let d = build(&points, *algorithm);
+            assert_eq!(triangles(&d), expected, "{algorithm:?} {points:?}");
+        }
+    }
+}
+
+#[test]
+fn thousands_of_small_sets_against_the_oracle() {
+    for &kind in Kind::ALL {
+        for seed in 0..60 {
+            let points = kind.points(1 + seed as usize % 13, seed);
+            assert_eq!(agreed(&points, kind.name()), brute::delaunay(&points), "{} {seed}", kind.name());
+        }
+    }
+}
+
+#[test]
+fn medium_sets_against_the_oracle() {
+    for &kind in Kind::ALL {
+        for seed in 0..2 {
+            let points = kind.points(if kind == Kind::HugeSpan { 16 } else { 32 }, 1000 + seed);
+            assert_eq!(agreed(&points, kind.name()), brute::delaunay(&points), "{} {seed}", kind.name());
+        }
+    }
+}
+
+#[test]
+fn large_sets_agree_across_algorithms_and_shuffles() {
+    for &kind in Kind::ALL {
+        let n = if kind == Kind::HugeSpan { 3_000 } else { 100_000 };
+        let mut points = kind.points(n, 11);
+        let expected = agreed(&points, kind.name());
+        Random::new(5).shuffle(&mut points);
+        assert!(triangles(&build(&points, Algorithm::default())) == expected, "{} shuffled", kind.name());
+    }
+}
+
+#[test]
+fn sets_of_lower_dimension() {
+    for (points, dimension, hull) in [
+        (vec![], Dimension::Empty, vec![]),
+        (vec![[1.0, 2.0]], Dimension::Point, vec![0]),
+        (vec![[1.0, 2.0]; 3], Dimension::Point, vec![0]),
+        (vec![[0.0, 0.0], [-0.0, 0.0]], Dimension::Point, vec![0]),
+        (vec![[0.0, 0.0], [1.0, 0.0]], Dimension::Line, vec![0, 1]),
+        (vec![[1.0, 1.0], [0.0, 0.0], [3.0, 3.0], [2.0, 2.0]], Dimension::Line, vec![1, 0, 3, 2]),
+        (vec![[0.0, 5.0], [0.0, 1.0], [0.0, 3.0]], Dimension::Line, vec![1, 2, 0]),
+    ] {
+        for algorithm in ALGORITHMS {
+            let d = build(&points, algorithm);
+            assert_eq!(d.check(), Ok(()), "{points:?} {algorithm:?}");
+            assert_eq!(d.dimension(), dimension, "{points:?} {algorithm:?}");
+            assert_eq!(d.triangles().count(), 0);
+            let mut found: Vec<_> = d.hull().map(|v| v.index()).collect();
+            if found.first() > found.last() && hull.first() < hull.last() {
+                found.reverse(); // a line may be read from either end
+            }
+            let mut sorted_hull: Vec<_> = hull.clone();
+            sorted_hull.sort_unstable();
+            let mut sorted: Vec<_> = found.clone();
+            sorted.sort_unstable();
+            assert_eq!(sorted, sorted_hull, "{points:?} {algorithm:?}");
+            assert!(
+                found
+                    .windows(2)
+                    .all(|w| d.mesh().neighbors(delone::VertexId::new(w[0])).any(|v| v.index() == w[1]))
+            );
+        }
+    }
+}
+
+#[test]
+fn counts_obey_euler() {
+    for &kind in Kind::ALL {
+        let d = build(&kind.points(500, 2), Algorithm::default());
+        if d.dimension() != Dimension::Plane {
+            continue;
+        }
+        let (n, h) = (d.vertex_count(), d.hull().count());
+        assert_eq!(d.triangles().count(), 2 * n - 2 - h, "{}", kind.name());
+        assert_eq!(d.edges().count(), 3 * n - 3 - h, "{}", kind.name());
+        let degrees: usize = d.vertices().map(|v| d.mesh().neighbors(v).count()).sum();
+        assert_eq!(degrees, 2 * d.edges().count(), "{}", kind.name());
+        let hull: Vec<_> = d.hull().map(|v| d.point(v)).collect();
+        let around: f64 =
+            (0..h).map(|i| hull[i][0] * hull[(i + 1) % h][1] - hull[i][1] * hull[(i + 1) % h][0]).sum();
+        let inside: f64 = d.mesh().triangles().map(|t| d.area(t)).sum();
+        if kind == Kind::Uniform {
+            assert!((around / 2.0 - inside).abs() < 1e-12);
+        }
+    }
+}
