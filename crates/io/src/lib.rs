@@ -1,1 +1,127 @@
-//! x
+//! Files in and out: points, meshes and pictures, one file of code for each format.
+//!
+//! Reading gives a [`Cloud`]; writing takes a [`Surface`], a triangulation with the heights of its points.
+//! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
+//! ([`Output`]), so no reader ever sees half a file.
+
+mod cloud;
+mod error;
+mod format;
+mod formats;
+mod output;
+pub mod picture;
+
+pub use cloud::Cloud;
+pub use error::Error;
+pub use format::Format;
+pub use output::Output;
+
+use std::io::{BufRead, Seek};
+
+use delone::Delaunay2;
+
+/// What a format may be read from: files, and standard input once it is in memory.
+pub trait Source: BufRead + Seek + Send + Sync {}
+
+impl<T: BufRead + Seek + Send + Sync> Source for T {}
+
+/// How to read points.
+#[derive(Clone, Debug, Default)]
+pub struct ReadOptions {
+    /// LAS classes to keep; all when empty.
+    pub classes: Vec<u8>,
+    /// Columns of text that are x, y and perhaps z: names of the header, or numbers from 1.
+    pub columns: Vec<String>,
+    /// Coordinates of a point where the format does not tell (raw numbers): 2 or 3.
+    pub dimension: usize,
+}
+
+/// Reads the points of a file, in its order.
+///
+/// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
+pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
+    use formats::{geojson, las, npy, obj, ply, raw, text, triangle};
+    match format {
+        Format::Text => text::read(source, &options.columns),
+        Format::Npy => npy::read_points(source),
+        Format::Raw => raw::read(source, options.dimension),
+        Format::Node => triangle::read_node(source),
+        Format::Las => las::read(source, &options.classes),
+        Format::Ply => ply::read_points(source),
+        Format::Obj => obj::read_points(source),
+        Format::GeoJson => geojson::read(source),
+        _ => Err(Error::NotPoints(format)),
+    }
+}
+
+/// Reads the triangles of a mesh file as indices into its points, from 0.
+pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 3]>, Error> {
+    use formats::{npy, obj, ply, triangle};
+    match format {
+        Format::Npy => npy::read_triangles(source),
+        Format::Ele => triangle::read_ele(source),
+        Format::Ply => ply::read_triangles(source),
+        Format::Obj => obj::read_triangles(source),
+        _ => Err(Error::NotTriangles(format)),
+    }
+}
+
+/// A triangulation to be written, with what lies beside it.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a> {
+    /// The triangulation of x and y.
+    pub triangulation: &'a Delaunay2,
+    /// The height of each input point.
+    pub heights: Option<&'a [f64]>,
+}
+
+impl Surface<'_> {
+    /// The coordinates of all input points, zero where there is no height.
+    fn positions(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let heights = self.heights.unwrap_or_default();
+        let z = |i: usize| heights.get(i).copied().unwrap_or_default();
+        self.triangulation.points().iter().enumerate().map(move |(i, &[x, y])| [x, y, z(i)])
+    }
+
+    /// The triangles as indices of points.
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+        self.triangulation.triangles().map(|corners| corners.map(delone::VertexId::index))
+    }
+}
+
+/// Writes a triangulation. Indices in the file are those of the input points (duplicates are written as points
+/// that no triangle uses), from 0 unless the format counts from 1.
+pub fn write_surface(out: &mut dyn std::io::Write, format: Format, surface: &Surface) -> Result<(), Error> {
+    use formats::{geojson, npy, obj, ply, stl, triangle, vtu};
+    match format {
+        Format::Npy => npy::write_triangles(out, surface)?,
+        Format::Node => triangle::write_node(out, surface)?,
+        Format::Ele => triangle::write_ele(out, surface)?,
+        Format::Neigh => triangle::write_neigh(out, surface)?,
+        Format::Edge => triangle::write_edge(out, surface)?,
+        Format::Ply => ply::write(out, surface)?,
+        Format::Obj => obj::write(out, surface)?,
+        Format::Stl => stl::write(out, surface)?,
+        Format::Vtu => vtu::write(out, surface)?,
+        Format::GeoJson => geojson::write(out, surface)?,
+        Format::Svg | Format::Png => picture::write(out, format, surface, &picture::Options::default())?,
+        Format::Text | Format::Raw | Format::Las => return Err(Error::NotAMesh(format)),
+    }
+    Ok(())
+}
+
+/// Writes bare points.
+pub fn write_points(out: &mut dyn std::io::Write, format: Format, points: &[[f64; 2]]) -> Result<(), Error> {
+    use formats::{geojson, npy, obj, ply, raw, text, triangle};
+    match format {
+        Format::Text => text::write(out, points)?,
+        Format::Npy => npy::write_points(out, points)?,
+        Format::Raw => raw::write(out, points)?,
+        Format::Node => triangle::write_points(out, points)?,
+        Format::Ply => ply::write_points(out, points)?,
+        Format::Obj => obj::write_points(out, points)?,
+        Format::GeoJson => geojson::write_points(out, points)?,
+        _ => return Err(Error::NotPoints(format)),
+    }
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! What can go wrong with a file: what, and where in it.
+
+use crate::Format;
+
+/// Why a file could not be read or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The operating system said no, or the file ended too early.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+    /// A line of a text format is wrong.
+    #[error("line {line}: {what}")]
+    Line {
+        /// Counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// The content contradicts the format.
+    #[error("{0}")]
+    Content(String),
+    /// No format has this extension.
+    #[error("{0}: no format has this extension")]
+    UnknownExtension(String),
+    /// The format holds no points, or cannot be read yet.
+    #[error("points are not read from or written to {0} files")]
+    NotPoints(Format),
+    /// The format holds no triangles.
+    #[error("triangles are not read from {0} files")]
+    NotTriangles(Format),
+    /// The format holds points only.
+    #[error("{0} files hold points, not triangles")]
+    NotAMesh(Format),
+}
+
+impl Error {
+    pub(crate) fn content(what: impl Into<String>) -> Self {
+        Self::Content(what.into())
+    }
+
+    /// What the user can do about it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Io(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+                "the file is shorter than it says: copy or download it again"
+            }
+            Self::Io(_) => "check the name, the permissions and the room on the disk",
+            Self::Line { .. } => "correct that line, or choose columns with --columns",
+            Self::Content(_) => "check that the file is what its extension says, or name the format with --from",
+            Self::UnknownExtension(_) => "name the format with --from or --to",
+            Self::NotPoints(_) => "points: csv xyz txt npy bin node las laz ply obj geojson",
+            Self::NotTriangles(_) => "triangles are read from: npy ele ply obj",
+            Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",
+        }
+    }
+}

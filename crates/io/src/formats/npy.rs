@@ -1,0 +1,96 @@
+//! NumPy arrays: points are float64 of shape (n, 2) or (n, 3), triangles integers of shape (t, 3).
+
+use std::io::{self, Write};
+
+use npyz::{DType, NpyFile, Order, WriterBuilder};
+
+use crate::{Cloud, Error, Source, Surface};
+
+fn open(source: Box<dyn Source>) -> Result<NpyFile<Box<dyn Source>>, Error> {
+    NpyFile::new(source).map_err(|error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => error.into(),
+        _ => Error::content(format!("no NumPy array: {error}")),
+    })
+}
+
+/// The rows and columns of a two-dimensional array in C order; NumPy writes Fortran order for transposed ones.
+fn shape(file: &NpyFile<Box<dyn Source>>, columns: &[u64], what: &str) -> Result<[usize; 2], Error> {
+    match *file.shape() {
+        [rows, width] if columns.contains(&width) => Ok([rows as usize, width as usize]),
+        ref other => Err(Error::content(format!("the array has the shape {other:?}, not {what}"))),
+    }
+}
+
+fn type_name(file: &NpyFile<Box<dyn Source>>) -> String {
+    match file.dtype() {
+        DType::Plain(plain) => plain.to_string(),
+        other => other.descr(),
+    }
+}
+
+pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    let file = open(source)?;
+    let [rows, columns] = shape(&file, &[2, 3], "(n, 2) or (n, 3)")?;
+    let (found, order) = (type_name(&file), file.order());
+    let wrong = |_| Error::content(format!("the array is of type {found}, not float64"));
+    if order == Order::Fortran {
+        let values = file.data::<f64>().map_err(wrong)?.collect::<io::Result<Vec<_>>>()?;
+        let z = (columns == 3).then(|| values[2 * rows..].to_vec());
+        return Ok(Cloud { xy: (0..rows).map(|i| [values[i], values[rows + i]]).collect(), z });
+    }
+    let mut cloud = Cloud::with_capacity(rows, columns == 3);
+    let mut values = file.data::<f64>().map_err(wrong)?;
+    let mut next = || values.next().unwrap_or_else(|| Err(io::ErrorKind::UnexpectedEof.into()));
+    for _ in 0..rows {
+        let xy = [next()?, next()?];
+        cloud.push(xy, if columns == 3 { next()? } else { 0.0 });
+    }
+    Ok(cloud)
+}
+
+pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> {
+    let file = open(source)?;
+    let [rows, _] = shape(&file, &[3], "(t, 3)")?;
+    let (found, order) = (type_name(&file), file.order());
+    let values: Vec<i128> = match found.trim_start_matches(['<', '>', '|', '=']) {
+        "i4" => integers(file.data::<i32>())?,
+        "u4" => integers(file.data::<u32>())?,
+        "i8" => integers(file.data::<i64>())?,
+        "u8" => integers(file.data::<u64>())?,
+        _ => return Err(Error::content(format!("the array is of type {found}, not an integer type"))),
+    };
+    if let Some(&negative) = values.iter().find(|&&i| i < 0) {
+        return Err(Error::content(format!("the array has the negative index {negative}")));
+    }
+    let at = |row: usize, k: usize| match order {
+        Order::C => values[3 * row + k] as u64,
+        Order::Fortran => values[k * rows + row] as u64,
+    };
+    Ok((0..rows).map(|row| [0, 1, 2].map(|k| at(row, k))).collect())
+}
+
+fn integers<T: Into<i128>, E: std::fmt::Display>(
+    values: Result<impl Iterator<Item = io::Result<T>>, E>,
+) -> Result<Vec<i128>, Error> {
+    let values = values.map_err(|error| Error::content(error.to_string()))?;
+    Ok(values.map(|value| value.map(Into::into)).collect::<io::Result<_>>()?)
+}
+
+/// Writes the triangles: int64 of shape (t, 3), from 0, counter-clockwise.
+pub(crate) fn write_triangles(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+    let count = surface.triangles().count() as u64;
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&[count, 3]).writer(out).begin_nd()?;
+    for triangle in surface.triangles() {
+        for index in triangle {
+            writer.push(&(index as i64))?;
+        }
+    }
+    writer.finish()
+}
+
+pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
+    let shape = [points.len() as u64, 2];
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
+    writer.extend(points.as_flattened().iter().copied())?;
+    writer.finish()
+}

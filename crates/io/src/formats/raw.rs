@@ -1,0 +1,32 @@
+//! Raw little-endian f64, point after point: the dimension must be told.
+
+use std::io::{self, Write};
+
+use crate::{Cloud, Error, Source};
+
+pub(crate) fn read(mut source: Box<dyn Source>, dimension: usize) -> Result<Cloud, Error> {
+    let mut cloud = Cloud::with_capacity(0, dimension == 3);
+    let mut record = vec![0; 8 * dimension.max(2)];
+    loop {
+        let mut filled = 0;
+        while filled < record.len() {
+            match source.read(&mut record[filled..])? {
+                0 if filled == 0 => return Ok(cloud),
+                0 => {
+                    let at = cloud.xy.len();
+                    return Err(Error::content(format!("the file ends inside point {at} of {dimension} numbers each")));
+                }
+                count => filled += count,
+            }
+        }
+        let mut numbers = [0.0; 3];
+        for (number, bytes) in numbers.iter_mut().zip(record.as_chunks().0) {
+            *number = f64::from_le_bytes(*bytes);
+        }
+        cloud.push([numbers[0], numbers[1]], numbers[2]);
+    }
+}
+
+pub(crate) fn write(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
+    points.as_flattened().iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))
+}

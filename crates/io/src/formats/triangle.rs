@@ -1,0 +1,123 @@
+//! The files of Shewchuk's Triangle: `.node`, `.ele`, `.neigh`, `.edge`. Read with indices from 0 or from 1,
+//! written from 0.
+
+use std::io::{self, Write};
+
+use delone::{Delaunay2, TriangleId};
+
+use super::lines::Lines;
+use crate::{Cloud, Error, Source, Surface};
+
+/// Points: `count dimension attributes markers`, then `index x y ...` each. A dimension of 3 (as TetGen has it)
+/// or else the first attribute gives the height.
+pub(crate) fn read_node(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    let mut lines = Lines::new(source);
+    let Some(line) = lines.next()? else {
+        return Err(Error::content("the file has no header line"));
+    };
+    let mut words = line.text.split_whitespace();
+    let count: usize = line.number(words.next(), "the number of points")?;
+    let dimension: usize = line.number(words.next(), "the dimension")?;
+    if !(2..=3).contains(&dimension) {
+        return Err(line.error(format!("the dimension is {dimension}, not 2 or 3")));
+    }
+    let attributes: usize = words.next().map_or(Ok(0), |word| line.number(Some(word), "the number of attributes"))?;
+    let with_heights = dimension == 3 || attributes > 0;
+    let mut cloud = Cloud::with_capacity(count, with_heights);
+    for i in 0..count {
+        let Some(line) = lines.next()? else {
+            return Err(Error::content(format!("the file ends after {i} of {count} points")));
+        };
+        let mut words = line.text.split_whitespace();
+        let _: u64 = line.number(words.next(), "the index")?;
+        let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
+        cloud.push(xy, if with_heights { line.number(words.next(), "z")? } else { 0.0 });
+    }
+    Ok(cloud)
+}
+
+/// Triangles: `count corners attributes`, then `index a b c ...` each. The first index tells whether the file
+/// counts from 0 or from 1.
+pub(crate) fn read_ele(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> {
+    let mut lines = Lines::new(source);
+    let Some(line) = lines.next()? else {
+        return Err(Error::content("the file has no header line"));
+    };
+    let mut words = line.text.split_whitespace();
+    let count: usize = line.number(words.next(), "the number of triangles")?;
+    let mut triangles = Vec::new();
+    let mut base = 0;
+    for i in 0..count {
+        let Some(line) = lines.next()? else {
+            return Err(Error::content(format!("the file ends after {i} of {count} triangles")));
+        };
+        let mut words = line.text.split_whitespace();
+        let index: u64 = line.number(words.next(), "the index")?;
+        if i == 0 {
+            base = index.min(1);
+        }
+        let mut corner = || {
+            let corner: u64 = line.number(words.next(), "a corner")?;
+            corner.checked_sub(base).ok_or_else(|| line.error("corner 0 in a file that counts from 1"))
+        };
+        triangles.push([corner()?, corner()?, corner()?]);
+    }
+    Ok(triangles)
+}
+
+pub(crate) fn write_node(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+    let attributes = usize::from(surface.heights.is_some());
+    writeln!(out, "{} 2 {attributes} 0", surface.triangulation.points().len())?;
+    for (i, [x, y, z]) in surface.positions().enumerate() {
+        write!(out, "{i} {x:?} {y:?}")?;
+        if attributes == 1 {
+            write!(out, " {z:?}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
+    writeln!(out, "{} 2 0 0", points.len())?;
+    for (i, [x, y]) in points.iter().enumerate() {
+        writeln!(out, "{i} {x:?} {y:?}")?;
+    }
+    Ok(())
+}
+
+pub(crate) fn write_ele(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+    writeln!(out, "{} 3 0", surface.triangles().count())?;
+    for (i, [a, b, c]) in surface.triangles().enumerate() {
+        writeln!(out, "{i} {a} {b} {c}")?;
+    }
+    Ok(())
+}
+
+/// Neighbours opposite corners 0, 1 and 2, numbered as in the `.ele` file; -1 across the hull.
+pub(crate) fn write_neigh(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+    let mesh = surface.triangulation.mesh();
+    let mut numbers = vec![-1_i64; mesh.slot_count()];
+    for (i, t) in mesh.triangles().enumerate() {
+        numbers[t.index()] = i as i64;
+    }
+    writeln!(out, "{} 3", mesh.triangles().count())?;
+    for (i, t) in mesh.triangles().enumerate() {
+        // The neighbour opposite corner k is across the edge that leaves the next corner.
+        let [across_0, across_1, across_2] = mesh.adjacent(t).map(|t: TriangleId| numbers[t.index()]);
+        writeln!(out, "{i} {across_1} {across_2} {across_0}")?;
+    }
+    Ok(())
+}
+
+/// Edges with a marker that is 1 on the hull.
+pub(crate) fn write_edge(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+    let triangulation: &Delaunay2 = surface.triangulation;
+    let mesh = triangulation.mesh();
+    writeln!(out, "{} 1", triangulation.edges().count())?;
+    for (i, e) in mesh.undirected_edges().enumerate() {
+        let on_hull = mesh.apex(e).is_ghost() || mesh.apex(mesh.twin(e)).is_ghost();
+        writeln!(out, "{i} {} {} {}", mesh.origin(e).index(), mesh.destination(e).index(), u8::from(on_hull))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! Colours and ramps.
+
+/// Red, green, blue.
+pub(super) type Rgb = [u8; 3];
+
+pub(super) const PAPER: Rgb = [255, 255, 255];
+pub(super) const INK: Rgb = [38, 50, 56];
+pub(super) const EDGE: Rgb = [96, 125, 139];
+pub(super) const HULL: Rgb = [216, 67, 21];
+pub(super) const POINT: Rgb = [26, 35, 126];
+
+/// Equally spaced colours, interpolated.
+pub(super) struct Ramp(&'static [Rgb]);
+
+/// Heights: valley green over ochre to snow.
+pub(super) const HEIGHT: Ramp = Ramp(&[
+    [46, 105, 88],
+    [104, 154, 96],
+    [170, 190, 120],
+    [226, 214, 156],
+    [205, 165, 108],
+    [164, 118, 82],
+    [150, 122, 110],
+    [244, 242, 238],
+]);
+
+/// Densities: from sparse (light) to dense (dark), readable without colour vision.
+pub(super) const DENSITY: Ramp =
+    Ramp(&[[247, 244, 220], [199, 226, 180], [127, 196, 187], [65, 153, 192], [44, 97, 170], [30, 45, 110]]);
+
+impl Ramp {
+    /// The colour at `t` from 0 to 1.
+    pub(super) fn at(&self, t: f64) -> Rgb {
+        let last = self.0.len() - 1;
+        let position = if t > 0.0 { t.min(1.0) * last as f64 } else { 0.0 };
+        let k = (position as usize).min(last - 1);
+        mix(self.0[k], self.0[k + 1], position - k as f64)
+    }
+}
+
+/// From `a` to `b`.
+pub(super) fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
+    [0, 1, 2].map(|i| (f64::from(a[i]) * (1.0 - t) + f64::from(b[i]) * t).round() as u8)
+}
+
+/// Darker below 1, lighter above.
+pub(super) fn shade(colour: Rgb, light: f64) -> Rgb {
+    if light <= 1.0 { mix([16, 24, 32], colour, light.max(0.0)) } else { mix(colour, PAPER, (light - 1.0).min(1.0)) }
+}

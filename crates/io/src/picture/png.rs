@@ -1,0 +1,197 @@
+//! Pixel pictures.
+
+use std::io::Write;
+
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
+use tiny_skia::{Color, LineCap, LineJoin, Paint as Brush, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, Transform};
+
+use super::Layers;
+use super::colour::{EDGE, HULL, INK, PAPER, POINT, Rgb};
+use super::raster::Raster;
+use super::relief::Paint;
+use super::view::View;
+use crate::{Error, Surface};
+
+pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers: Layers) -> Result<(), Error> {
+    let paint = Paint::of(surface);
+    let mut raster = Raster::new(view.width, view.height, PAPER);
+    if layers.fill {
+        fill(&mut raster, surface, view, &paint);
+    }
+    let mut canvas = Canvas::from(&raster)?;
+    drop(raster);
+    if layers.edges {
+        let alpha = if surface.heights.is_some() { 90 } else { 255 };
+        canvas.edges(surface, view, layers.line_width(), alpha);
+    }
+    canvas.hull(surface, view, layers.line_width() * 1.5);
+    if layers.points || surface.triangulation.vertex_count() < 3 {
+        canvas.points(surface, view, layers.point_radius());
+    }
+    canvas.strip(view, &paint, layers.fill);
+    let png = canvas.0.encode_png().map_err(|error| Error::content(format!("PNG: {error}")))?;
+    out.write_all(&png)?;
+    Ok(())
+}
+
+fn fill(raster: &mut Raster, surface: &Surface, view: &View, paint: &Paint) {
+    let d = surface.triangulation;
+    for t in d.mesh().triangles() {
+        let triangle = d.mesh().corners(t).map(delone::VertexId::index);
+        let corners = triangle.map(|i| view.place(d.points()[i]));
+        let values = paint.corners(triangle, d.area(t));
+        raster.dot(corners[0], paint.colour(values[0]));
+        raster.triangle(corners, values, |value| paint.colour(value));
+    }
+}
+
+/// The picture in tiny-skia's hands.
+struct Canvas(Pixmap);
+
+fn brush([r, g, b]: Rgb, alpha: u8) -> Brush<'static> {
+    let mut brush = Brush { anti_alias: true, ..Brush::default() };
+    brush.set_color(Color::from_rgba8(r, g, b, alpha));
+    brush
+}
+
+impl Canvas {
+    fn from(raster: &Raster) -> Result<Self, Error> {
+        let mut pixmap = Pixmap::new(raster.width as u32, raster.height as u32)
+            .ok_or_else(|| Error::content("the picture is too large"))?;
+        for (to, &[r, g, b]) in pixmap.pixels_mut().iter_mut().zip(&raster.pixels) {
+            if let Some(opaque) = PremultipliedColorU8::from_rgba(r, g, b, 255) {
+                *to = opaque;
+            }
+        }
+        Ok(Self(pixmap))
+    }
+
+    /// Strokes a set of lines at once.
+    fn lines(&mut self, lines: impl Iterator<Item = [[f64; 2]; 2]>, colour: Rgb, alpha: u8, width: f64) {
+        let stroke =
+            Stroke { width: width as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        let mut path = PathBuilder::new();
+        for [[ax, ay], [bx, by]] in lines {
+            path.move_to(ax as f32, ay as f32);
+            path.line_to(bx as f32, by as f32);
+            // Overlaps within one path do not add up, but very long paths are slow.
+            if path.len() > 2000 {
+                let part = std::mem::take(&mut path);
+                self.stroke(part, colour, alpha, &stroke);
+            }
+        }
+        self.stroke(path, colour, alpha, &stroke);
+    }
+
+    fn stroke(&mut self, path: PathBuilder, colour: Rgb, alpha: u8, stroke: &Stroke) {
+        if let Some(path) = path.finish() {
+            self.0.stroke_path(&path, &brush(colour, alpha), stroke, Transform::identity(), None);
+        }
+    }
+
+    fn edges(&mut self, surface: &Surface, view: &View, width: f64, alpha: u8) {
+        let d = surface.triangulation;
+        let ends = d.edges().map(|edge| edge.map(|v| view.place(d.point(v))));
+        self.lines(ends, EDGE, alpha, width);
+    }
+
+    fn hull(&mut self, surface: &Surface, view: &View, width: f64) {
+        let hull: Vec<_> = surface.triangulation.hull().map(|v| view.place(surface.triangulation.point(v))).collect();
+        let n = hull.len();
+        let sides = if n < 2 { 0 } else { n };
+        self.lines((0..sides).map(|i| [hull[i], hull[(i + 1) % n]]), HULL, 255, width);
+    }
+
+    fn points(&mut self, surface: &Surface, view: &View, radius: f64) {
+        let d = surface.triangulation;
+        for v in d.vertices() {
+            let [x, y] = view.place(d.point(v));
+            let mut path = PathBuilder::new();
+            path.push_circle(x as f32, y as f32, radius as f32);
+            if let Some(path) = path.finish() {
+                self.0.fill_path(
+                    &path,
+                    &brush(POINT, 255),
+                    tiny_skia::FillRule::Winding,
+                    Transform::identity(),
+                    None,
+                );
+            }
+        }
+    }
+
+    /// Legend and scale below the drawing.
+    fn strip(&mut self, view: &View, paint: &Paint, filled: bool) {
+        let Some(top) = view.strip() else { return };
+        let (baseline, margin) = (top + 14.0, 24.0);
+        let width = f64::from(view.width);
+        if filled {
+            let bar = (width / 4.0).min(360.0);
+            for i in 0..bar as u32 {
+                let colour = paint.ramp().at(f64::from(i) / bar);
+                self.rectangle([margin + f64::from(i), baseline], [1.0, 12.0], colour);
+            }
+            let (low, high) = match paint {
+                Paint::Relief(relief) => (Short(relief.low).to_string(), Short(relief.high).to_string()),
+                Paint::Density { .. } => ("sparse".to_owned(), "dense".to_owned()),
+            };
+            self.text([margin, baseline + 16.0], &low);
+            self.text([margin + bar - text_width(&high), baseline + 16.0], &high);
+        }
+        if let Some((length, pixels)) = view.scale_bar() {
+            let left = width - margin - pixels;
+            self.rectangle([left, baseline + 4.0], [pixels, 3.0], INK);
+            for x in [left, left + pixels - 2.0] {
+                self.rectangle([x, baseline], [2.0, 11.0], INK);
+            }
+            let label = format!("{}", Short(length));
+            self.text([left + (pixels - text_width(&label)) / 2.0, baseline + 16.0], &label);
+        }
+    }
+
+    fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], colour: Rgb) {
+        if let Some(rectangle) = Rect::from_xywh(x as f32, y as f32, width as f32, height as f32) {
+            self.0.fill_rect(rectangle, &brush(colour, 255), Transform::identity(), None);
+        }
+    }
+
+    fn text(&mut self, [x, y]: [f64; 2], text: &str) {
+        let (width, height) = (self.0.width() as usize, self.0.height() as usize);
+        let mut left = x.max(0.0) as usize;
+        for character in text.chars() {
+            let Some(glyph) = get_raster(character, FontWeight::Regular, RasterHeight::Size20) else { continue };
+            for (row, line) in glyph.rows().enumerate() {
+                for (column, &coverage) in line.iter().enumerate() {
+                    let (px, py) = (left + column, y as usize + row);
+                    if coverage == 0 || px >= width || py >= height {
+                        continue;
+                    }
+                    let mixed = super::colour::mix(PAPER, INK, f64::from(coverage) / 255.0);
+                    if let Some(pixel) = PremultipliedColorU8::from_rgba(mixed[0], mixed[1], mixed[2], 255) {
+                        self.0.pixels_mut()[py * width + px] = pixel;
+                    }
+                }
+            }
+            left += glyph.width();
+        }
+    }
+}
+
+fn text_width(text: &str) -> f64 {
+    (text.len() * get_raster_width(FontWeight::Regular, RasterHeight::Size20)) as f64
+}
+
+/// A number for a label: few digits, an exponent only where it is needed.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let magnitude = self.0.abs();
+        if magnitude != 0.0 && !(1e-3..1e6).contains(&magnitude) {
+            return write!(f, "{:e}", (self.0 / 10f64.powf(magnitude.log10().floor())).round() * 10f64.powf(magnitude.log10().floor()));
+        }
+        let digits = if magnitude >= 100.0 { 0 } else if magnitude >= 1.0 { 1 } else { 4 };
+        let text = format!("{:.digits$}", self.0);
+        f.write_str(if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
+    }
+}

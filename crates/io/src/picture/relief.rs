@@ -1,0 +1,114 @@
+//! What colour a triangle has: shaded height, or density.
+
+use super::colour::{DENSITY, HEIGHT, Ramp, Rgb, shade};
+use crate::Surface;
+
+/// The direction of the light: from the north-west, 45 degrees up.
+const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
+
+/// The colours of a surface's triangles.
+pub(super) enum Paint<'a> {
+    Relief(Relief<'a>),
+    /// By the logarithm of the area, between these two.
+    Density { low: f64, high: f64 },
+}
+
+/// Height colours and light at each point.
+pub(super) struct Relief<'a> {
+    heights: &'a [f64],
+    /// The brightness at each point, 1 for flat ground.
+    light: Vec<f64>,
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+impl<'a> Paint<'a> {
+    pub(super) fn of(surface: &'a Surface) -> Self {
+        match surface.heights {
+            Some(heights) if !heights.is_empty() => Self::Relief(Relief::of(surface, heights)),
+            _ => Self::density(surface),
+        }
+    }
+
+    fn density(surface: &Surface) -> Self {
+        let d = surface.triangulation;
+        let mut areas: Vec<f64> = d.mesh().triangles().map(|t| d.area(t).ln()).filter(|a| a.is_finite()).collect();
+        let (low, high) = spread(&mut areas);
+        Self::Density { low, high }
+    }
+
+    pub(super) fn ramp(&self) -> &'static Ramp {
+        match self {
+            Self::Relief(_) => &HEIGHT,
+            Self::Density { .. } => &DENSITY,
+        }
+    }
+
+    /// Colour and light at the corners of a triangle of `area`: the value on the ramp, and the brightness.
+    pub(super) fn corners(&self, triangle: [usize; 3], area: f64) -> [[f64; 2]; 3] {
+        match self {
+            Self::Relief(relief) => triangle.map(|i| [relief.value(i), relief.light[i]]),
+            Self::Density { low, high } => [[1.0 - fraction(area.ln(), *low, *high), 1.0]; 3],
+        }
+    }
+
+    /// The colour of a value and a brightness.
+    pub(super) fn colour(&self, [value, light]: [f64; 2]) -> Rgb {
+        shade(self.ramp().at(value), light)
+    }
+}
+
+impl<'a> Relief<'a> {
+    fn of(surface: &Surface, heights: &'a [f64]) -> Self {
+        let mut sorted: Vec<f64> = heights.iter().copied().filter(|z| z.is_finite()).collect();
+        let (low, high) = spread(&mut sorted);
+        Self { heights, light: light(surface), low, high }
+    }
+
+    fn value(&self, i: usize) -> f64 {
+        fraction(self.heights[i], self.low, self.high)
+    }
+}
+
+/// Where a value lies between two others, 0.5 if these are equal.
+fn fraction(value: f64, low: f64, high: f64) -> f64 {
+    if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.5 }
+}
+
+/// All but the lowest and the highest hundredth: outliers must not eat the ramp.
+fn spread(values: &mut [f64]) -> (f64, f64) {
+    if values.is_empty() {
+        return (0.0, 0.0);
+    }
+    values.sort_unstable_by(f64::total_cmp);
+    let cut = values.len() / 100;
+    (values[cut], values[values.len() - 1 - cut])
+}
+
+/// The light at each point, from the mean normal of its triangles. Flat land is exaggerated until its typical
+/// slope can be seen.
+fn light(surface: &Surface) -> Vec<f64> {
+    let positions: Vec<_> = surface.positions().collect();
+    let mut normals = vec![[0.0_f64; 3]; positions.len()];
+    for triangle in surface.triangles() {
+        let [a, b, c] = triangle.map(|i| positions[i]);
+        let (u, v) = ([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
+        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        for i in triangle {
+            (0..3).for_each(|k| normals[i][k] += normal[k]);
+        }
+    }
+    let slope = |n: &[f64; 3]| (n[0] * n[0] + n[1] * n[1]).sqrt() / n[2];
+    let mut slopes: Vec<f64> = normals.iter().map(slope).filter(|s| s.is_finite()).collect();
+    slopes.sort_unstable_by(f64::total_cmp);
+    let typical = slopes.get(slopes.len() / 2).copied().unwrap_or_default();
+    let exaggeration = if typical > 0.0 { (0.3 / typical).clamp(0.01, 20.0) } else { 1.0 };
+    let brightness = |n: &[f64; 3]| {
+        let tilted = [n[0] * exaggeration, n[1] * exaggeration, n[2]];
+        let length = tilted.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let facing: f64 = tilted.iter().zip(LIGHT).map(|(x, l)| x * l).sum::<f64>() / length;
+        let light = 0.3 + 0.7 * facing.max(0.0) / LIGHT[2];
+        if light.is_finite() { light } else { 1.0 }
+    };
+    normals.iter().map(brightness).collect()
+}
