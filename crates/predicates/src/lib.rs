@@ -35,7 +35,7 @@ mod sign;
 mod stages;
 
 pub use filter::{Filter, Grid};
-pub use in_circle::in_circle;
+pub use in_circle::{in_circle, in_circle_with_ties};
 pub use lexicographic::{lexicographic, strictly_between};
 pub use orient::orient2d;
 pub use pencil::{Member, Pencil};

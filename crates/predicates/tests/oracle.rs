@@ -2,7 +2,7 @@
 
 use delone_oracle::exact;
 use delone_oracle::generate::Random;
-use delone_predicates::{Filter, Grid, Pencil, Point2, Sign, in_circle, lexicographic, orient2d};
+use delone_predicates::{Filter, Grid, Pencil, Point2, Sign, in_circle, in_circle_with_ties, lexicographic, orient2d};
 
 /// A family of hostile tuples of four points.
 type Family = fn(&mut Random) -> [Point2; 4];
@@ -119,6 +119,14 @@ fn in_circle_is_exact_and_canonical() {
             sign(exact::in_circle(a, b, c, d)),
             "{name}: {a:?} {b:?} {c:?} {d:?}"
         );
+    });
+}
+
+#[test]
+fn in_circle_with_ties_is_exact() {
+    tuples(8, 20_000, |name, [a, b, c, d]| {
+        let expected = sign(exact::in_circle_unperturbed(a, b, c, d));
+        assert_eq!(in_circle_with_ties(a, b, c, d), expected, "{name}: {a:?} {b:?} {c:?} {d:?}");
     });
 }
 

@@ -7,6 +7,7 @@ mod ground;
 mod insert;
 mod line;
 mod position;
+pub mod verify;
 
 pub use build::{Algorithm, Counters};
 pub use position::Position2;

@@ -1,0 +1,227 @@
+//! Judging triangles from elsewhere: are they a Delaunay triangulation of these points, and are they *the*
+//! canonical one?
+//!
+//! Nothing is believed: indices, orientation, edges, hull and circles are proved with exact predicates, as in
+//! `check`, but from bare triples and with sentences that name the culprit. Cost: O(n log n).
+
+use delone_predicates::{Sign, in_circle, in_circle_with_ties, lexicographic, orient2d, strictly_between};
+
+use crate::error::Error;
+
+/// What is right about triangles that are a Delaunay triangulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Verdict {
+    /// Pairs of neighbours whose four corners are cocircular and divided by the other diagonal than the
+    /// canonical one. None of them: it is *the* canonical triangulation.
+    pub other_diagonals: usize,
+    /// Triangles given in clockwise order.
+    pub clockwise: usize,
+    /// Points that equal a corner without being one.
+    pub duplicates: usize,
+}
+
+impl Verdict {
+    /// Whether the triangles are those that Delone gives.
+    pub fn is_canonical(&self) -> bool {
+        self.other_diagonals == 0
+    }
+}
+
+/// Why triangles are not a Delaunay triangulation of the points. Triangles and points are named by their index.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Objection {
+    /// The points themselves are not valid.
+    #[error(transparent)]
+    Points(#[from] Error),
+    /// A corner that no point has.
+    #[error("triangle {triangle} has the corner {corner}, but there are {points} points")]
+    Index {
+        /// The triangle.
+        triangle: usize,
+        /// Its corner.
+        corner: u64,
+        /// The number of points.
+        points: usize,
+    },
+    /// Three collinear corners.
+    #[error("triangle {0} is flat: its corners are collinear")]
+    Flat(usize),
+    /// Two triangles on the same side of an edge.
+    #[error("triangles {0} and {1} overlap: they lie on the same side of a common edge")]
+    Overlap(usize, usize),
+    /// The edge rule fails.
+    #[error("triangle {triangle} is not Delaunay: its circle contains point {point}, a corner of triangle {neighbor}")]
+    Circle {
+        /// The triangle.
+        triangle: usize,
+        /// The triangle across its edge.
+        neighbor: usize,
+        /// The corner of that triangle inside the circle.
+        point: usize,
+    },
+    /// A border that is not the convex hull.
+    #[error("the border is not the convex hull: it turns inwards at point {0}")]
+    Dent(usize),
+    /// A border of more than one loop, or one that touches itself.
+    #[error("the triangles have a hole or fall apart: their border is not one loop (at point {0})")]
+    Border(usize),
+    /// Triangles that wind around more than once, or are of several pieces.
+    #[error("the triangles cover some place more than once or fall apart")]
+    Cover,
+    /// A point left out.
+    #[error("point {0} is not a corner of any triangle")]
+    Missing(usize),
+}
+
+/// Judges `triangles`, corners as indices of `points`, in either orientation.
+pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection> {
+    if let Some(at) = points.as_flattened().iter().position(|x| !x.is_finite()) {
+        return Err(Error::NotFinite { index: at / 2, axis: at % 2, value: points.as_flattened()[at] }.into());
+    }
+    let (triangles, clockwise) = oriented(points, triangles)?;
+    let duplicates = check_coverage(points, &triangles)?;
+    if triangles.is_empty() {
+        return Ok(Verdict { other_diagonals: 0, clockwise: 0, duplicates });
+    }
+    let sides = sides(&triangles);
+    let other_diagonals = check_pairs(points, &triangles, &sides)?;
+    let hull_size = check_border(points, &triangles, &sides)?;
+    let mut corners: Vec<usize> = triangles.as_flattened().to_vec();
+    corners.sort_unstable();
+    corners.dedup();
+    // A disk: V - E + F = 1, where 2 E = 3 F + h.
+    if 2 * corners.len() != triangles.len() + hull_size + 2 {
+        return Err(Objection::Cover);
+    }
+    Ok(Verdict { other_diagonals, clockwise, duplicates })
+}
+
+/// The triangles counter-clockwise, and how many were not.
+fn oriented(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<(Vec<[usize; 3]>, usize), Objection> {
+    let mut clockwise = 0;
+    let mut result = Vec::with_capacity(triangles.len());
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(&corner) = corners.iter().find(|&&corner| corner >= points.len() as u64) {
+            return Err(Objection::Index { triangle, corner, points: points.len() });
+        }
+        let [a, b, c] = corners.map(|corner| corner as usize);
+        result.push(match orient2d(points[a], points[b], points[c]) {
+            Sign::Positive => [a, b, c],
+            Sign::Zero => return Err(Objection::Flat(triangle)),
+            Sign::Negative => {
+                clockwise += 1;
+                [a, c, b]
+            }
+        });
+    }
+    Ok((result, clockwise))
+}
+
+/// Every point is a corner or equals one; without triangles all points must be collinear. Returns the number of
+/// points that are no corner.
+fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<usize, Objection> {
+    if triangles.is_empty() {
+        let mut distinct = points.iter().copied();
+        let Some(a) = distinct.next() else { return Ok(0) };
+        let Some(b) = distinct.find(|&p| p != a) else { return Ok(points.len() - 1) };
+        return match points.iter().position(|&c| !orient2d(a, b, c).is_zero()) {
+            Some(off) => Err(Objection::Missing(off)),
+            None => Ok(0),
+        };
+    }
+    let mut used = vec![false; points.len()];
+    triangles.as_flattened().iter().for_each(|&corner| used[corner] = true);
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_unstable_by(|&i, &j| lexicographic(points[i], points[j]).then(used[j].cmp(&used[i])));
+    let mut duplicates = 0;
+    let mut corner = None;
+    for i in order {
+        if used[i] {
+            corner = Some(points[i]);
+        } else if corner == Some(points[i]) {
+            duplicates += 1;
+        } else {
+            return Err(Objection::Missing(i));
+        }
+    }
+    Ok(duplicates)
+}
+
+/// A side of a triangle: its ends, the smaller index first, whether it runs from the smaller to the larger, and
+/// the triangle and corner that it leaves.
+type Side = (usize, usize, bool, usize, usize);
+
+/// All sides, those on one edge together.
+fn sides(triangles: &[[usize; 3]]) -> Vec<Side> {
+    let mut sides = Vec::with_capacity(3 * triangles.len());
+    for (t, corners) in triangles.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            sides.push((a.min(b), a.max(b), a < b, t, k));
+        }
+    }
+    sides.sort_unstable();
+    sides
+}
+
+/// The sides of each edge.
+fn edges(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
+    sides.chunk_by(|s, t| (s.0, s.1) == (t.0, t.1))
+}
+
+/// Each edge has one triangle on each side at most, and neither contains the other's apex in its circle.
+/// Returns the number of ties that were broken in another way.
+fn check_pairs(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection> {
+    let mut other_diagonals = 0;
+    for edge in edges(sides) {
+        if let Some(pair) = edge.windows(2).find(|pair| pair[0].2 == pair[1].2) {
+            return Err(Objection::Overlap(pair[0].3, pair[1].3));
+        }
+        let &[(.., triangle, _), (.., neighbor, k)] = edge else { continue };
+        let [a, b, c] = triangles[triangle].map(|corner| points[corner]);
+        let point = triangles[neighbor][(k + 2) % 3];
+        match in_circle_with_ties(a, b, c, points[point]) {
+            Sign::Negative => {}
+            Sign::Positive => return Err(Objection::Circle { triangle, neighbor, point }),
+            Sign::Zero => other_diagonals += usize::from(in_circle(a, b, c, points[point]).is_positive()),
+        }
+    }
+    Ok(other_diagonals)
+}
+
+/// The edges with one triangle are one convex loop, once around. Returns their number.
+fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection> {
+    let mut next: Vec<(usize, usize)> = Vec::new();
+    for edge in edges(sides) {
+        if let &[(.., t, k)] = edge {
+            next.push((triangles[t][k], triangles[t][(k + 1) % 3]));
+        }
+    }
+    next.sort_unstable();
+    if let Some(pair) = next.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+        return Err(Objection::Border(pair[0].0));
+    }
+    let follow = |v: usize| next.binary_search_by_key(&v, |edge| edge.0).ok().map(|i| next[i].1);
+    let Some(&(start, _)) = next.first() else { return Err(Objection::Cover) };
+    let (mut at, mut length, mut minima) = (start, 0, 0);
+    loop {
+        let (Some(b), true) = (follow(at), length <= next.len()) else { return Err(Objection::Border(at)) };
+        let Some(c) = follow(b) else { return Err(Objection::Border(b)) };
+        let [pa, pb, pc] = [at, b, c].map(|v| points[v]);
+        let turn = orient2d(pa, pb, pc);
+        if turn.is_negative() || (turn.is_zero() && !strictly_between(pa, pc, pb)) {
+            return Err(Objection::Dent(b));
+        }
+        minima += usize::from(lexicographic(pb, pa).is_lt() && lexicographic(pb, pc).is_lt());
+        (at, length) = (b, length + 1);
+        if at == start {
+            break;
+        }
+    }
+    if length != next.len() {
+        let outside = next.iter().find(|edge| edge.0 != start).map_or(start, |edge| edge.0);
+        return Err(Objection::Border(outside));
+    }
+    if minima == 1 { Ok(length) } else { Err(Objection::Cover) }
+}
