@@ -38,8 +38,14 @@ fn objections_name_the_culprit() {
     kite[2] = [1.5, 1.5];
     kite.push([0.4, 0.4]);
     let points = &kite[..4];
-    assert_eq!(verify(points, &[[0, 1, 2], [0, 2, 3]]), Err(Objection::Circle { triangle: 0, neighbor: 1, point: 3 }));
-    assert_eq!(verify(points, &[[0, 1, 3], [1, 2, 4]]), Err(Objection::Index { triangle: 1, corner: 4, points: 4 }));
+    assert_eq!(
+        verify(points, &[[0, 1, 2], [0, 2, 3]]),
+        Err(Objection::Circle { triangle: 0, neighbor: 1, point: 3 })
+    );
+    assert_eq!(
+        verify(points, &[[0, 1, 3], [1, 2, 4]]),
+        Err(Objection::Index { triangle: 1, corner: 4, points: 4 })
+    );
     assert_eq!(verify(points, &[[0, 1, 3]]), Err(Objection::Missing(2)));
     assert_eq!(verify(points, &[]), Err(Objection::Missing(2)));
     assert_eq!(verify(points, &[[0, 1, 3], [1, 2, 3], [1, 3, 0]]), Err(Objection::Overlap(0, 2)));

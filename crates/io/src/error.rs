@@ -17,6 +17,9 @@ pub enum Error {
         /// What is wrong with it.
         what: String,
     },
+    /// The file ends too early.
+    #[error("the file ends {0}")]
+    Truncated(String),
     /// The content contradicts the format.
     #[error("{0}")]
     Content(String),
@@ -42,12 +45,12 @@ impl Error {
     /// What the user can do about it.
     pub fn help(&self) -> &'static str {
         match self {
-            Self::Io(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-                "the file is shorter than it says: copy or download it again"
-            }
+            Self::Truncated(_) => "copy or download it again: it is shorter than it says",
             Self::Io(_) => "check the name, the permissions and the room on the disk",
             Self::Line { .. } => "correct that line, or choose columns with --columns",
-            Self::Content(_) => "check that the file is what its extension says, or name the format with --from",
+            Self::Content(_) => {
+                "check that the file is what its extension says, or name the format with --from"
+            }
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => "points: csv xyz txt npy bin node las laz ply obj geojson",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj",

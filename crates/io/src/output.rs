@@ -37,7 +37,9 @@ impl Output {
             name.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let file = name.tempfile_in(folder.unwrap_or(Path::new(".")))?;
-        Ok(Self { target: Target::File { path: path.to_owned(), file: BufWriter::with_capacity(1 << 16, file) } })
+        Ok(Self {
+            target: Target::File { path: path.to_owned(), file: BufWriter::with_capacity(1 << 16, file) },
+        })
     }
 
     /// Ends the file and gives it its name.

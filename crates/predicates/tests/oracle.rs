@@ -2,7 +2,9 @@
 
 use delone_oracle::exact;
 use delone_oracle::generate::Random;
-use delone_predicates::{Filter, Grid, Pencil, Point2, Sign, in_circle, in_circle_with_ties, lexicographic, orient2d};
+use delone_predicates::{
+    Filter, Grid, Pencil, Point2, Sign, in_circle, in_circle_with_ties, lexicographic, orient2d,
+};
 
 /// A family of hostile tuples of four points.
 type Family = fn(&mut Random) -> [Point2; 4];

@@ -51,7 +51,9 @@ pub enum Objection {
     #[error("triangles {0} and {1} overlap: they lie on the same side of a common edge")]
     Overlap(usize, usize),
     /// The edge rule fails.
-    #[error("triangle {triangle} is not Delaunay: its circle contains point {point}, a corner of triangle {neighbor}")]
+    #[error(
+        "triangle {triangle} is not Delaunay: its circle contains point {point}, a corner of triangle {neighbor}"
+    )]
     Circle {
         /// The triangle.
         triangle: usize,

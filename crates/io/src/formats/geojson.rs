@@ -8,7 +8,8 @@ use crate::{Cloud, Error, Source, Surface};
 
 /// Reads the positions of all Point and MultiPoint geometries, in their order.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let content = GeoJson::from_reader(source).map_err(|error| Error::content(format!("GeoJSON: {error}")))?;
+    let content =
+        GeoJson::from_reader(source).map_err(|error| Error::content(format!("GeoJSON: {error}")))?;
     let mut positions = Vec::new();
     match &content {
         GeoJson::Geometry(geometry) => collect(geometry, &mut positions),
@@ -32,8 +33,12 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
 fn collect<'a>(geometry: &'a Geometry, positions: &mut Vec<&'a [f64]>) {
     match &geometry.value {
         GeometryValue::Point { coordinates } => positions.push(coordinates.as_slice()),
-        GeometryValue::MultiPoint { coordinates } => positions.extend(coordinates.iter().map(|p| p.as_slice())),
-        GeometryValue::GeometryCollection { geometries } => geometries.iter().for_each(|g| collect(g, positions)),
+        GeometryValue::MultiPoint { coordinates } => {
+            positions.extend(coordinates.iter().map(|p| p.as_slice()))
+        }
+        GeometryValue::GeometryCollection { geometries } => {
+            geometries.iter().for_each(|g| collect(g, positions))
+        }
         _ => {}
     }
 }

@@ -18,7 +18,7 @@ pub(crate) fn read(source: Box<dyn Source>, classes: &[u8]) -> Result<Cloud, Err
     while seen < total {
         let count = reader.fill_points(CHUNK.min(total - seen), &mut chunk).map_err(broken)?;
         if count == 0 {
-            return Err(Error::content(format!("the file ends after {seen} of {total} points")));
+            return Err(Error::Truncated(format!("after {seen} of {total} points")));
         }
         seen += count;
         for (((x, y), z), class) in chunk.x().zip(chunk.y()).zip(chunk.z()).zip(chunk.classification()) {

@@ -58,6 +58,7 @@ impl Line<'_> {
     /// The next word as a number.
     pub(super) fn number<T: std::str::FromStr>(&self, word: Option<&str>, meaning: &str) -> Result<T, Error> {
         let word = word.ok_or_else(|| self.error(format!("{meaning} is missing")))?;
-        word.parse().map_err(|_| self.error(format!("{meaning} is {word:?}, not a number of the kind expected")))
+        word.parse()
+            .map_err(|_| self.error(format!("{meaning} is {word:?}, not a number of the kind expected")))
     }
 }

@@ -8,7 +8,7 @@ use crate::{Cloud, Error, Source, Surface};
 
 fn open(source: Box<dyn Source>) -> Result<NpyFile<Box<dyn Source>>, Error> {
     NpyFile::new(source).map_err(|error| match error.kind() {
-        io::ErrorKind::UnexpectedEof => error.into(),
+        io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
         _ => Error::content(format!("no NumPy array: {error}")),
     })
 }
@@ -40,8 +40,12 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     }
     let mut cloud = Cloud::with_capacity(rows, columns == 3);
     let mut values = file.data::<f64>().map_err(wrong)?;
-    let mut next = || values.next().unwrap_or_else(|| Err(io::ErrorKind::UnexpectedEof.into()));
-    for _ in 0..rows {
+    for row in 0..rows {
+        let mut next = || match values.next() {
+            Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => Err(error.into()),
+            Some(Ok(value)) => Ok(value),
+            _ => Err(Error::Truncated(format!("inside row {row} of {rows}"))),
+        };
         let xy = [next()?, next()?];
         cloud.push(xy, if columns == 3 { next()? } else { 0.0 });
     }

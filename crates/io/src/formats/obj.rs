@@ -29,7 +29,8 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
         match words.next() {
             Some("v") => vertices += 1,
             Some("f") => {
-                let corners = words.map(|word| corner(&line, word, vertices)).collect::<Result<Vec<_>, _>>()?;
+                let corners =
+                    words.map(|word| corner(&line, word, vertices)).collect::<Result<Vec<_>, _>>()?;
                 let triangle = corners.try_into();
                 triangles.push(triangle.map_err(|list: Vec<u64>| {
                     line.error(format!("a face of {} corners, not 3", list.len()))

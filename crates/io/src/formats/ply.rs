@@ -68,7 +68,8 @@ fn elements<E: PropertyAccess>(source: impl BufRead, name: &str) -> Result<(Head
     let mut found = Vec::new();
     for element in header.elements.values() {
         if element.name == name {
-            found = Parser::<E>::new().read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
+            found =
+                Parser::<E>::new().read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
             break;
         }
         skipper.read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
@@ -78,7 +79,9 @@ fn elements<E: PropertyAccess>(source: impl BufRead, name: &str) -> Result<(Head
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let (header, vertices) = elements::<Vertex>(source, "vertex")?;
-    let has = |axis: &str| header.elements.get("vertex").is_some_and(|element| element.properties.contains_key(axis));
+    let has = |axis: &str| {
+        header.elements.get("vertex").is_some_and(|element| element.properties.contains_key(axis))
+    };
     if !has("x") || !has("y") {
         return Err(Error::content("PLY: there is no element vertex with properties x and y"));
     }
@@ -91,7 +94,9 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
     let (_, faces) = elements::<Face>(source, "face")?;
     let triangle = |(i, face): (usize, Face)| {
         let corners: Result<[u64; 3], _> = face.0.try_into();
-        corners.map_err(|list: Vec<u64>| Error::content(format!("PLY: face {i} has {} corners, not 3", list.len())))
+        corners.map_err(|list: Vec<u64>| {
+            Error::content(format!("PLY: face {i} has {} corners, not 3", list.len()))
+        })
     };
     faces.into_iter().enumerate().map(triangle).collect()
 }

@@ -14,7 +14,7 @@ pub(crate) fn read(mut source: Box<dyn Source>, dimension: usize) -> Result<Clou
                 0 if filled == 0 => return Ok(cloud),
                 0 => {
                     let at = cloud.xy.len();
-                    return Err(Error::content(format!("the file ends inside point {at} of {dimension} numbers each")));
+                    return Err(Error::Truncated(format!("inside point {at} of {dimension} numbers each")));
                 }
                 count => filled += count,
             }

@@ -26,7 +26,8 @@ pub(crate) fn read(source: Box<dyn Source>, columns: &[String]) -> Result<Cloud,
         return Ok(Cloud::default());
     };
     let separator = Separator::of(first.text);
-    let fields: Vec<String> = separator.split(first.text).map(|field| field.trim_matches('"').to_owned()).collect();
+    let fields: Vec<String> =
+        separator.split(first.text).map(|field| field.trim_matches('"').to_owned()).collect();
     let width = fields.len();
     let header = fields.iter().any(|field| field.parse::<f64>().is_err());
     let chosen = choose(&fields, header, columns).map_err(|what| first.error(what))?;
@@ -40,7 +41,13 @@ pub(crate) fn read(source: Box<dyn Source>, columns: &[String]) -> Result<Cloud,
     Ok(cloud)
 }
 
-fn push(cloud: &mut Cloud, line: &Line, separator: Separator, chosen: &[usize], width: usize) -> Result<(), Error> {
+fn push(
+    cloud: &mut Cloud,
+    line: &Line,
+    separator: Separator,
+    chosen: &[usize],
+    width: usize,
+) -> Result<(), Error> {
     let mut point = [0.0; 3];
     let mut count = 0;
     for (column, field) in separator.split(line.text).enumerate() {
@@ -64,7 +71,8 @@ fn choose(fields: &[String], header: bool, columns: &[String]) -> Result<Vec<usi
     let named = |name: &str| fields.iter().position(|field| header && field.eq_ignore_ascii_case(name));
     if !columns.is_empty() {
         let column = |name: &String| {
-            let number = || name.parse::<usize>().ok().filter(|k| (1..=fields.len()).contains(k)).map(|k| k - 1);
+            let number =
+                || name.parse::<usize>().ok().filter(|k| (1..=fields.len()).contains(k)).map(|k| k - 1);
             named(name).or_else(number).ok_or_else(|| format!("there is no column {name:?}"))
         };
         return columns.iter().map(column).collect();
@@ -123,7 +131,13 @@ mod tests {
     #[test]
     fn separators_and_headers() {
         let plain = Cloud { xy: vec![[1.0, 2.0], [3.5, -4.0]], z: None };
-        for text in ["1,2\n3.5,-4", "1 2\n3.5   -4\n\n", "x;y\n1;2\n3.5;-4\n", "# made by hand\n1\t2\n3.5\t-4", "lat,lon\n2,1\n-4,3.5"] {
+        for text in [
+            "1,2\n3.5,-4",
+            "1 2\n3.5   -4\n\n",
+            "x;y\n1;2\n3.5;-4\n",
+            "# made by hand\n1\t2\n3.5\t-4",
+            "lat,lon\n2,1\n-4,3.5",
+        ] {
             assert_eq!(parse(text, &[]), Ok(plain.clone()), "{text:?}");
         }
         let high = parse("id,x,y,z\n7,1,2,3", &[]).expect("valid");

@@ -21,12 +21,13 @@ pub(crate) fn read_node(source: Box<dyn Source>) -> Result<Cloud, Error> {
     if !(2..=3).contains(&dimension) {
         return Err(line.error(format!("the dimension is {dimension}, not 2 or 3")));
     }
-    let attributes: usize = words.next().map_or(Ok(0), |word| line.number(Some(word), "the number of attributes"))?;
+    let attributes: usize =
+        words.next().map_or(Ok(0), |word| line.number(Some(word), "the number of attributes"))?;
     let with_heights = dimension == 3 || attributes > 0;
     let mut cloud = Cloud::with_capacity(count, with_heights);
     for i in 0..count {
         let Some(line) = lines.next()? else {
-            return Err(Error::content(format!("the file ends after {i} of {count} points")));
+            return Err(Error::Truncated(format!("after {i} of {count} points")));
         };
         let mut words = line.text.split_whitespace();
         let _: u64 = line.number(words.next(), "the index")?;
@@ -49,7 +50,7 @@ pub(crate) fn read_ele(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> 
     let mut base = 0;
     for i in 0..count {
         let Some(line) = lines.next()? else {
-            return Err(Error::content(format!("the file ends after {i} of {count} triangles")));
+            return Err(Error::Truncated(format!("after {i} of {count} triangles")));
         };
         let mut words = line.text.split_whitespace();
         let index: u64 = line.number(words.next(), "the index")?;
@@ -117,7 +118,13 @@ pub(crate) fn write_edge(out: &mut dyn Write, surface: &Surface) -> io::Result<(
     writeln!(out, "{} 1", triangulation.edges().count())?;
     for (i, e) in mesh.undirected_edges().enumerate() {
         let on_hull = mesh.apex(e).is_ghost() || mesh.apex(mesh.twin(e)).is_ghost();
-        writeln!(out, "{i} {} {} {}", mesh.origin(e).index(), mesh.destination(e).index(), u8::from(on_hull))?;
+        writeln!(
+            out,
+            "{i} {} {} {}",
+            mesh.origin(e).index(),
+            mesh.destination(e).index(),
+            u8::from(on_hull)
+        )?;
     }
     Ok(())
 }

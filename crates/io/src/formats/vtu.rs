@@ -9,7 +9,8 @@ const TRIANGLE: u8 = 5;
 
 pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
     let (points, cells) = (surface.triangulation.points().len(), surface.triangles().count());
-    let sizes = [24 * points, 8 * points * usize::from(surface.heights.is_some()), 24 * cells, 8 * cells, cells];
+    let sizes =
+        [24 * points, 8 * points * usize::from(surface.heights.is_some()), 24 * cells, 8 * cells, cells];
     // Each array is preceded by its length in eight bytes.
     let offsets: Vec<usize> =
         sizes.iter().scan(0, |offset, size| Some(std::mem::replace(offset, *offset + size + 8))).collect();

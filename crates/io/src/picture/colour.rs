@@ -45,5 +45,9 @@ pub(super) fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
 
 /// Darker below 1, lighter above.
 pub(super) fn shade(colour: Rgb, light: f64) -> Rgb {
-    if light <= 1.0 { mix([16, 24, 32], colour, light.max(0.0)) } else { mix(colour, PAPER, (light - 1.0).min(1.0)) }
+    if light <= 1.0 {
+        mix([16, 24, 32], colour, light.max(0.0))
+    } else {
+        mix(colour, PAPER, (light - 1.0).min(1.0))
+    }
 }

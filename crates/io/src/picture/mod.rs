@@ -71,7 +71,10 @@ impl Layers {
 /// Draws a triangulation.
 pub fn write(out: &mut dyn Write, format: Format, surface: &Surface, options: &Options) -> Result<(), Error> {
     if !(16..=20_000).contains(&options.size) {
-        return Err(Error::content(format!("a picture of {} pixels: from 16 to 20000 are possible", options.size)));
+        return Err(Error::content(format!(
+            "a picture of {} pixels: from 16 to 20000 are possible",
+            options.size
+        )));
     }
     let view = View::of(surface, options.size);
     let layers = Layers::choose(surface, &view, options);

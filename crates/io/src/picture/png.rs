@@ -3,7 +3,10 @@
 use std::io::Write;
 
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
-use tiny_skia::{Color, LineCap, LineJoin, Paint as Brush, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke, Transform};
+use tiny_skia::{
+    Color, LineCap, LineJoin, Paint as Brush, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke,
+    Transform,
+};
 
 use super::Layers;
 use super::colour::{EDGE, HULL, INK, PAPER, POINT, Rgb};
@@ -12,7 +15,12 @@ use super::relief::Paint;
 use super::view::View;
 use crate::{Error, Surface};
 
-pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers: Layers) -> Result<(), Error> {
+pub(super) fn write(
+    out: &mut dyn Write,
+    surface: &Surface,
+    view: &View,
+    layers: Layers,
+) -> Result<(), Error> {
     let paint = Paint::of(surface);
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if layers.fill {
@@ -68,8 +76,12 @@ impl Canvas {
 
     /// Strokes a set of lines at once.
     fn lines(&mut self, lines: impl Iterator<Item = [[f64; 2]; 2]>, colour: Rgb, alpha: u8, width: f64) {
-        let stroke =
-            Stroke { width: width as f32, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        let stroke = Stroke {
+            width: width as f32,
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
         let mut path = PathBuilder::new();
         for [[ax, ay], [bx, by]] in lines {
             path.move_to(ax as f32, ay as f32);
@@ -96,7 +108,8 @@ impl Canvas {
     }
 
     fn hull(&mut self, surface: &Surface, view: &View, width: f64) {
-        let hull: Vec<_> = surface.triangulation.hull().map(|v| view.place(surface.triangulation.point(v))).collect();
+        let hull: Vec<_> =
+            surface.triangulation.hull().map(|v| view.place(surface.triangulation.point(v))).collect();
         let n = hull.len();
         let sides = if n < 2 { 0 } else { n };
         self.lines((0..sides).map(|i| [hull[i], hull[(i + 1) % n]]), HULL, 255, width);
@@ -159,7 +172,9 @@ impl Canvas {
         let (width, height) = (self.0.width() as usize, self.0.height() as usize);
         let mut left = x.max(0.0) as usize;
         for character in text.chars() {
-            let Some(glyph) = get_raster(character, FontWeight::Regular, RasterHeight::Size20) else { continue };
+            let Some(glyph) = get_raster(character, FontWeight::Regular, RasterHeight::Size20) else {
+                continue;
+            };
             for (row, line) in glyph.rows().enumerate() {
                 for (column, &coverage) in line.iter().enumerate() {
                     let (px, py) = (left + column, y as usize + row);
@@ -188,9 +203,20 @@ impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let magnitude = self.0.abs();
         if magnitude != 0.0 && !(1e-3..1e6).contains(&magnitude) {
-            return write!(f, "{:e}", (self.0 / 10f64.powf(magnitude.log10().floor())).round() * 10f64.powf(magnitude.log10().floor()));
+            return write!(
+                f,
+                "{:e}",
+                (self.0 / 10f64.powf(magnitude.log10().floor())).round()
+                    * 10f64.powf(magnitude.log10().floor())
+            );
         }
-        let digits = if magnitude >= 100.0 { 0 } else if magnitude >= 1.0 { 1 } else { 4 };
+        let digits = if magnitude >= 100.0 {
+            0
+        } else if magnitude >= 1.0 {
+            1
+        } else {
+            4
+        };
         let text = format!("{:.digits$}", self.0);
         f.write_str(if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
     }

@@ -17,9 +17,16 @@ impl Raster {
     }
 
     /// Fills the pixels whose centres are in a triangle, interpolating two values between its corners.
-    pub(super) fn triangle(&mut self, corners: [[f64; 2]; 3], values: [[f64; 2]; 3], colour: impl Fn([f64; 2]) -> Rgb) {
+    pub(super) fn triangle(
+        &mut self,
+        corners: [[f64; 2]; 3],
+        values: [[f64; 2]; 3],
+        colour: impl Fn([f64; 2]) -> Rgb,
+    ) {
         let [a, b, c] = corners;
-        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
         let area = cross(a, b, c);
         if area == 0.0 || !area.is_finite() {
             return;

@@ -10,7 +10,10 @@ const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
 pub(super) enum Paint<'a> {
     Relief(Relief<'a>),
     /// By the logarithm of the area, between these two.
-    Density { low: f64, high: f64 },
+    Density {
+        low: f64,
+        high: f64,
+    },
 }
 
 /// Height colours and light at each point.
@@ -32,7 +35,8 @@ impl<'a> Paint<'a> {
 
     fn density(surface: &Surface) -> Self {
         let d = surface.triangulation;
-        let mut areas: Vec<f64> = d.mesh().triangles().map(|t| d.area(t).ln()).filter(|a| a.is_finite()).collect();
+        let mut areas: Vec<f64> =
+            d.mesh().triangles().map(|t| d.area(t).ln()).filter(|a| a.is_finite()).collect();
         let (low, high) = spread(&mut areas);
         Self::Density { low, high }
     }

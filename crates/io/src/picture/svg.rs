@@ -11,7 +11,10 @@ use crate::Surface;
 pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers: Layers) -> io::Result<()> {
     let d = surface.triangulation;
     let (width, height) = (view.width, view.height);
-    writeln!(out, r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">"#)?;
+    writeln!(
+        out,
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">"#
+    )?;
     writeln!(out, r#"<rect width="100%" height="100%" fill="white"/>"#)?;
     if layers.fill {
         let paint = Paint::of(surface);
@@ -27,13 +30,23 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
         writeln!(out, "</g>")?;
     }
     if layers.edges {
-        write!(out, r#"<path fill="none" stroke="{}" stroke-width="{:.2}" d=""#, hex(EDGE), layers.line_width())?;
+        write!(
+            out,
+            r#"<path fill="none" stroke="{}" stroke-width="{:.2}" d=""#,
+            hex(EDGE),
+            layers.line_width()
+        )?;
         for [a, b] in d.edges() {
             write!(out, "M{}L{}", place(view, d.point(a)), place(view, d.point(b)))?;
         }
         writeln!(out, r#""/>"#)?;
     }
-    write!(out, r#"<path fill="none" stroke="{}" stroke-width="{:.2}" d=""#, hex(HULL), 1.5 * layers.line_width())?;
+    write!(
+        out,
+        r#"<path fill="none" stroke="{}" stroke-width="{:.2}" d=""#,
+        hex(HULL),
+        1.5 * layers.line_width()
+    )?;
     for (i, v) in d.hull().enumerate() {
         write!(out, "{}{}", if i == 0 { 'M' } else { 'L' }, place(view, d.point(v)))?;
     }
@@ -42,15 +55,28 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
         writeln!(out, r#"<g fill="{}">"#, hex(POINT))?;
         for v in d.vertices() {
             let [x, y] = view.place(d.point(v));
-            writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{:.2}"><title>{}</title></circle>"#, layers.point_radius(), v.index())?;
+            writeln!(
+                out,
+                r#"<circle cx="{x:.2}" cy="{y:.2}" r="{:.2}"><title>{}</title></circle>"#,
+                layers.point_radius(),
+                v.index()
+            )?;
         }
         writeln!(out, "</g>")?;
     }
     if let (Some(top), Some((length, pixels))) = (view.strip(), view.scale_bar()) {
         let right = f64::from(width) - 24.0;
         let (left, y) = (right - pixels, top + 14.0);
-        writeln!(out, r#"<path fill="none" stroke="black" stroke-width="2" d="M{left:.1} {y:.1}v10m0-5H{right:.1}m0-5v10"/>"#)?;
-        writeln!(out, r#"<text x="{:.1}" y="{:.1}" font-family="sans-serif" font-size="16" text-anchor="middle">{length}</text>"#, (left + right) / 2.0, y + 28.0)?;
+        writeln!(
+            out,
+            r#"<path fill="none" stroke="black" stroke-width="2" d="M{left:.1} {y:.1}v10m0-5H{right:.1}m0-5v10"/>"#
+        )?;
+        writeln!(
+            out,
+            r#"<text x="{:.1}" y="{:.1}" font-family="sans-serif" font-size="16" text-anchor="middle">{length}</text>"#,
+            (left + right) / 2.0,
+            y + 28.0
+        )?;
     }
     writeln!(out, "</svg>")
 }

@@ -1,0 +1,120 @@
+//! Files as the commands use them: names checked first, points read, outputs written whole.
+
+use std::fs::File;
+use std::io::{BufReader, Cursor, Read};
+use std::path::{Path, PathBuf};
+
+use delone_io::{Cloud, Format, Output, ReadOptions, Source};
+
+use crate::args::InputArgs;
+use crate::message::Failure;
+use crate::progress::Phase;
+
+/// The format of a file: as said, or by its extension.
+pub(crate) fn format(path: &Path, said: Option<Format>, option: &str) -> Result<Format, Failure> {
+    match said {
+        Some(format) => Ok(format),
+        None if is_standard(path) => Err(Failure::usage(
+            "the format of - is not known",
+            format!("name it with {option}, as in {option} csv"),
+        )),
+        None => Format::of(path).map_err(|error| Failure::file(path, &error)),
+    }
+}
+
+fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Outputs with their formats, none of them an input or the same file twice.
+pub(crate) fn outputs(
+    paths: &[PathBuf],
+    to: Option<Format>,
+    inputs: &[&Path],
+) -> Result<Vec<(PathBuf, Format)>, Failure> {
+    let place = |path: &Path| match path.file_name() {
+        // The file may not exist yet, its folder should.
+        Some(name) if !is_standard(path) => {
+            let folder =
+                path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            path.canonicalize().ok().or_else(|| Some(folder.canonicalize().ok()?.join(name)))
+        }
+        _ => None,
+    };
+    let mut places: Vec<(PathBuf, &Path)> = Vec::new();
+    for (i, path) in inputs.iter().copied().chain(paths.iter().map(PathBuf::as_path)).enumerate() {
+        let Some(here) = place(path) else { continue };
+        if i >= inputs.len() && places.iter().any(|(there, _)| *there == here) {
+            return Err(Failure::usage(
+                format!("{} would overwrite another file of this command", path.display()),
+                "choose another name for the output",
+            ));
+        }
+        places.push((here, path));
+    }
+    let by_extension = |path: &PathBuf| {
+        // With several outputs, --to is for those that do not tell by themselves.
+        let known = if paths.len() > 1 { Format::of(path).ok() } else { None };
+        Ok((path.clone(), known.map_or_else(|| format(path, to, "--to"), Ok)?))
+    };
+    paths.iter().map(by_extension).collect()
+}
+
+/// Opens a file, or takes all of standard input into memory.
+fn open(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
+    let failed = |error: std::io::Error| Failure::file(path, &error.into());
+    if is_standard(path) {
+        let phase = Phase::start(quiet, "reading");
+        let mut bytes = Vec::new();
+        std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
+        return Ok((Box::new(Cursor::new(bytes)), phase));
+    }
+    let file = File::open(path).map_err(failed)?;
+    let about = file.metadata().map_err(failed)?;
+    if about.is_dir() {
+        return Err(Failure::new(format!("{} is a folder", path.display()), "name a file in it"));
+    }
+    let phase = Phase::bytes(quiet, "reading", about.len());
+    let reader = phase.watch(BufReader::with_capacity(1 << 16, file));
+    Ok((Box::new(reader), phase))
+}
+
+/// Reads the points of a command.
+pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+    let format = format(&args.input, args.from, "--from")?;
+    if !args.class.is_empty() && format != Format::Las {
+        return Err(Failure::usage("--class is for LAS and LAZ files", "leave --class out"));
+    }
+    if !args.columns.is_empty() && format != Format::Text {
+        return Err(Failure::usage("--columns is for text files", "leave --columns out"));
+    }
+    let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension };
+    let (source, _phase) = open(&args.input, quiet)?;
+    delone_io::read_points(source, format, &options).map_err(|error| Failure::file(&args.input, &error))
+}
+
+/// Reads triangles.
+pub(crate) fn triangles(path: &Path, quiet: bool) -> Result<Vec<[u64; 3]>, Failure> {
+    let format = format(path, None, "the extension")?;
+    let (source, _phase) = open(path, quiet)?;
+    delone_io::read_triangles(source, format).map_err(|error| Failure::file(path, &error))
+}
+
+/// Writes a file whole, or leaves what was there.
+pub(crate) fn write(
+    path: &Path,
+    content: impl FnOnce(&mut Output) -> Result<(), delone_io::Error>,
+) -> Result<(), Failure> {
+    let attempt = || {
+        let mut output = Output::create(path)?;
+        content(&mut output)?;
+        Ok(output.commit()?)
+    };
+    attempt().map_err(|error: delone_io::Error| match error {
+        delone_io::Error::Io(error) => Failure::new(
+            format!("cannot write {}: {error}", path.display()),
+            "check the name, the permissions and the room on the disk",
+        ),
+        other => Failure::file(path, &other),
+    })
+}

@@ -1,0 +1,110 @@
+//! What the program says when something is wrong: one line, then what to do.
+
+use std::fmt::Display;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+
+/// Why a command did not do its work.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    message: String,
+    help: String,
+    /// 1 for bad data or failed work, 2 for wrong usage.
+    status: u8,
+}
+
+impl Failure {
+    /// Bad data, or work that failed.
+    pub(crate) fn new(message: impl Display, help: impl Display) -> Self {
+        Self { message: message.to_string(), help: help.to_string(), status: 1 }
+    }
+
+    /// Wrong usage.
+    pub(crate) fn usage(message: impl Display, help: impl Display) -> Self {
+        Self { status: 2, ..Self::new(message, help) }
+    }
+
+    /// Something wrong with a file.
+    pub(crate) fn file(path: &Path, error: &delone_io::Error) -> Self {
+        use delone_io::Error;
+        let message = match error {
+            Error::UnknownExtension(_) => error.to_string(),
+            _ => format!("{}: {error}", path.display()),
+        };
+        let usage = matches!(
+            error,
+            Error::UnknownExtension(_) | Error::NotPoints(_) | Error::NotTriangles(_) | Error::NotAMesh(_)
+        );
+        Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
+    }
+
+    /// Something wrong with points.
+    pub(crate) fn points(path: &Path, error: &delone::Error) -> Self {
+        let help = match error {
+            delone::Error::NotFinite { .. } => {
+                "remove that point or repair its coordinates: every finite number is accepted"
+            }
+            _ => "split the points into smaller sets",
+        };
+        Self::new(format!("{}: {error}", path.display()), help)
+    }
+
+    /// Prints the failure and gives the exit status.
+    pub(crate) fn report(&self) -> ExitCode {
+        eprintln!("error: {}", one_line(&self.message));
+        eprintln!("help: {}", one_line(&self.help));
+        ExitCode::from(self.status)
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Prints help and version where they were asked for, and a usage error in one line otherwise.
+pub(crate) fn usage(error: &clap::Error) -> ExitCode {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        _ = error.print();
+        return ExitCode::from(2);
+    }
+    let rendered = error.render().to_string();
+    let message = rendered.split("\n\n").next().unwrap_or_default().trim_start_matches("error: ").to_owned();
+    let suggestion =
+        [ContextKind::SuggestedArg, ContextKind::SuggestedValue, ContextKind::SuggestedSubcommand]
+            .into_iter()
+            .find_map(|kind| match error.get(kind) {
+                Some(ContextValue::String(name)) => Some(name.clone()),
+                Some(ContextValue::Strings(names)) => names.first().cloned(),
+                _ => None,
+            });
+    let help = match suggestion {
+        Some(name) => format!("did you mean {name}? see delone --help"),
+        None => "see delone --help, or delone COMMAND --help".to_owned(),
+    };
+    Failure::usage(message, help).report()
+}
+
+/// A remark on standard error.
+pub(crate) fn note(quiet: bool, text: impl Display) {
+    if !quiet {
+        eprintln!("note: {text}");
+    }
+}
+
+/// Prints a command's answer on standard output. A reader that has seen enough (`| head`) is no failure.
+pub(crate) fn answer(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::new(format!("cannot write the answer: {error}"), "check where standard output goes"))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,99 @@
+//! Progress on standard error: on a terminal only, and only for what takes over a second.
+
+use std::io::{self, BufRead, IsTerminal, Read, Seek, SeekFrom};
+use std::sync::mpsc::{self, Sender};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// How long a phase may take in silence.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// One phase of the work. The bar appears after a second and goes away with the phase.
+pub(crate) struct Phase {
+    bar: ProgressBar,
+    /// Dropped, it ends the thread that waits to show the bar.
+    done: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Phase {
+    /// A phase of unknown length.
+    pub(crate) fn start(quiet: bool, what: &'static str) -> Self {
+        Self::with_bar(quiet, ProgressBar::hidden(), what, "{spinner} {msg} {elapsed}")
+    }
+
+    /// A phase that goes through `bytes`.
+    pub(crate) fn bytes(quiet: bool, what: &'static str, bytes: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(bytes), ProgressDrawTarget::hidden());
+        Self::with_bar(quiet, bar, what, "{spinner} {msg} {wide_bar} {bytes}/{total_bytes} {eta}")
+    }
+
+    fn with_bar(quiet: bool, bar: ProgressBar, what: &'static str, template: &str) -> Self {
+        if quiet || !io::stderr().is_terminal() {
+            return Self { bar, done: None };
+        }
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.set_message(what);
+        let (done, wait) = mpsc::channel();
+        let shown = bar.clone();
+        let waiter = std::thread::spawn(move || {
+            if wait.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
+                shown.set_draw_target(ProgressDrawTarget::stderr());
+                shown.enable_steady_tick(Duration::from_millis(100));
+                _ = wait.recv();
+                shown.finish_and_clear();
+            }
+        });
+        Self { bar, done: Some((done, waiter)) }
+    }
+
+    /// A reader that moves the bar.
+    pub(crate) fn watch<R>(&self, reader: R) -> Watched<R> {
+        Watched { reader, bar: self.bar.clone() }
+    }
+}
+
+impl Drop for Phase {
+    fn drop(&mut self) {
+        if let Some((done, waiter)) = self.done.take() {
+            drop(done);
+            _ = waiter.join();
+        }
+    }
+}
+
+/// A reader whose position a bar shows. Buffered bytes count as read.
+pub(crate) struct Watched<R> {
+    reader: R,
+    bar: ProgressBar,
+}
+
+impl<R: Read> Read for Watched<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.reader.read(buffer)?;
+        self.bar.inc(count as u64);
+        Ok(count)
+    }
+}
+
+impl<R: BufRead> BufRead for Watched<R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.reader.fill_buf()
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.bar.inc(count as u64);
+        self.reader.consume(count);
+    }
+}
+
+impl<R: Seek> Seek for Watched<R> {
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        let position = self.reader.seek(position)?;
+        self.bar.set_position(position);
+        Ok(position)
+    }
+}

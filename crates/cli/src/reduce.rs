@@ -1,0 +1,167 @@
+//! `delone reduce`: the smallest set that still fails, as a test.
+//!
+//! Delta debugging (Zeller & Hildebrandt, "Simplifying and isolating failure-inducing input", TSE 2002): drop
+//! ever smaller pieces as long as the rest still fails. O(n log n) trials when few points matter.
+
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use delone::plane::verify::verify;
+use delone::{Algorithm, Delaunay2};
+use delone_io::Format;
+use delone_oracle::brute::normalized;
+
+use crate::args::ReduceArgs;
+use crate::files;
+use crate::message::{Failure, answer, note};
+use crate::progress::Phase;
+use crate::stats::Stats;
+
+type Points = [[f64; 2]];
+
+pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
+    let outputs = files::outputs(args.output.as_slice(), None, &[&args.input.input])?;
+    let mut stats = Stats::start();
+    let points = files::points(&args.input, 2, quiet)?.xy;
+    stats.phase("read");
+    stats.set("points", points.len());
+    let folder = tempfile::tempdir().map_err(|error| Failure::new(error, "check the temporary folder"))?;
+    let reason = |points: &Points| match &args.against {
+        Some(command) => failure_of_command(command, points, folder.path()),
+        None => failure_of_delone(points),
+    };
+    let Some(first) = reason(&points) else {
+        answer("nothing to reduce: these points do not fail\n")?;
+        stats.set("fails", false);
+        return stats.write(args.input.stats.as_deref());
+    };
+    note(quiet, format_args!("{} points fail: {first}", points.len()));
+    let small = {
+        let _phase = Phase::start(quiet, "reducing");
+        reduce(points, |points| reason(points).is_some())
+    };
+    stats.phase("build");
+    let why = reason(&small).unwrap_or(first);
+    let rows: String = small.iter().map(|[x, y]| format!("        [{x:?}, {y:?}],\n")).collect();
+    answer(&format!(
+        "// {} points: {why}
+#[test]
+fn reduced() {{
+    let points = [
+{rows}    ];
+    let d = delone::Delaunay2::from_points(&points).unwrap();
+    assert_eq!(d.check(), Ok(()));
+}}
+",
+        small.len()
+    ))?;
+    stats.set("fails", true);
+    stats.set("reduced", small.len());
+    for (path, format) in &outputs {
+        files::write(path, |out| delone_io::write_points(out, *format, &small))?;
+    }
+    stats.phase("write");
+    stats.write(args.input.stats.as_deref())
+}
+
+/// A subset that fails, no point of which can be left out.
+fn reduce(mut points: Vec<[f64; 2]>, fails: impl Fn(&Points) -> bool) -> Vec<[f64; 2]> {
+    let mut piece = points.len() / 2;
+    while piece > 0 {
+        let mut at = 0;
+        let before = points.len();
+        while at < points.len() {
+            let end = (at + piece).min(points.len());
+            let rest: Vec<_> = points[..at].iter().chain(&points[end..]).copied().collect();
+            if fails(&rest) {
+                points = rest;
+            } else {
+                at = end;
+            }
+        }
+        // Single points are tried again until none goes.
+        if piece > 1 {
+            piece /= 2;
+        } else if points.len() == before {
+            break;
+        }
+    }
+    points
+}
+
+/// Why Delone fails on some points, if it does: a panic, a failed check, two algorithms that disagree.
+fn failure_of_delone(points: &Points) -> Option<String> {
+    let build = |algorithm| {
+        let attempt = panic::catch_unwind(AssertUnwindSafe(|| Delaunay2::with_algorithm(points, algorithm)));
+        let d = attempt.map_err(|_| format!("{algorithm:?} panics"))?.map_err(|error| error.to_string())?;
+        d.check().map_err(|flaw| format!("{algorithm:?}: {flaw}"))?;
+        Ok::<_, String>(normalized(d.triangles().map(|corners| corners.map(|v| d.point(v)))))
+    };
+    let outcome = build(Algorithm::DivideAndConquer)
+        .and_then(|fast| Ok((fast, build(Algorithm::Incremental { seed: 0 })?)));
+    match outcome {
+        Err(why) => Some(why),
+        Ok((fast, slow)) => (fast != slow).then(|| "the algorithms disagree".to_owned()),
+    }
+}
+
+/// Why another program fails on some points, if it does.
+fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Option<String> {
+    let (input, output) = (folder.join("points.npy"), folder.join("triangles.npy"));
+    _ = std::fs::remove_file(&output);
+    if let Err(failure) = files::write(&input, |out| delone_io::write_points(out, Format::Npy, points)) {
+        return Some(format!("{failure:?}"));
+    }
+    let command = command
+        .replace("{points}", &input.display().to_string())
+        .replace("{triangles}", &output.display().to_string());
+    let status = Command::new("sh")
+        .args(["-c", &command])
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    match status {
+        Err(error) => return Some(format!("the command cannot be run: {error}")),
+        Ok(status) if !status.success() => return Some(format!("the command fails ({status})")),
+        Ok(_) => {}
+    }
+    match files::triangles(&output, true) {
+        Err(_) => Some("the command writes no triangles".to_owned()),
+        Ok(triangles) => verify(points, &triangles).err().map(|objection| objection.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{failure_of_command, failure_of_delone, reduce};
+    use delone_oracle::generate::Kind;
+
+    #[test]
+    fn reduces_to_the_points_that_matter() {
+        let points = Kind::Uniform.points(500, 1);
+        let culprits = [points[17], points[18], points[400]];
+        let small = reduce(points, |points| culprits.iter().all(|p| points.contains(p)));
+        assert_eq!(small, culprits);
+        assert!(reduce(vec![[0.0; 2]; 5], |_| true).is_empty());
+    }
+
+    #[test]
+    fn delone_does_not_fail() {
+        assert_eq!(failure_of_delone(&Kind::SmallIntegers.points(300, 2)), None);
+    }
+
+    #[test]
+    fn a_command_that_fails_is_seen() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let points = Kind::Uniform.points(5, 1);
+        assert!(
+            failure_of_command("exit 3", &points, folder.path()).is_some_and(|why| why.contains("fails"))
+        );
+        assert!(
+            failure_of_command("true", &points, folder.path())
+                .is_some_and(|why| why.contains("no triangles"))
+        );
+    }
+}

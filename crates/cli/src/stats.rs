@@ -1,0 +1,63 @@
+//! What was counted and timed, as JSON.
+
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+use delone::{Counters, Delaunay2};
+use serde_json::{Map, Value, json};
+
+use crate::files;
+use crate::message::Failure;
+
+/// Collects numbers while a command works.
+pub(crate) struct Stats {
+    started: Instant,
+    seconds: Map<String, Value>,
+    facts: Map<String, Value>,
+}
+
+impl Stats {
+    pub(crate) fn start() -> Self {
+        Self { started: Instant::now(), seconds: Map::new(), facts: Map::new() }
+    }
+
+    /// Ends a phase: everything since the last one.
+    pub(crate) fn phase(&mut self, name: &str) {
+        let now = Instant::now();
+        let seconds = now.duration_since(self.started).as_secs_f64();
+        self.seconds.insert(name.to_owned(), json!(seconds));
+        self.started = now;
+    }
+
+    /// Notes a fact.
+    pub(crate) fn set(&mut self, name: &str, value: impl Into<Value>) {
+        self.facts.insert(name.to_owned(), value.into());
+    }
+
+    /// Notes what a triangulation has.
+    pub(crate) fn triangulation(&mut self, d: &Delaunay2) {
+        self.set("points", d.points().len());
+        self.set("duplicates", d.duplicates().len());
+        self.set("vertices", d.vertex_count());
+        self.set("simplices", d.triangles().count());
+        self.set("hull", d.hull().count());
+        self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
+        let counters = match d.counters() {
+            Counters::DivideAndConquer(c) => {
+                json!({ "leaves": c.leaves, "merges": c.merges, "connected": c.connected, "removed": c.removed })
+            }
+            Counters::Incremental { conflict_tests } => json!({ "conflict_tests": conflict_tests }),
+            _ => json!({}),
+        };
+        self.set("counters", counters);
+    }
+
+    /// Writes all of it, if a file was named.
+    pub(crate) fn write(mut self, path: Option<&Path>) -> Result<(), Failure> {
+        let Some(path) = path else { return Ok(()) };
+        self.facts.insert("seconds".to_owned(), Value::Object(self.seconds));
+        let text = format!("{:#}\n", Value::Object(self.facts));
+        files::write(path, |out| Ok(out.write_all(text.as_bytes())?))
+    }
+}

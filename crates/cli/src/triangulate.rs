@@ -1,0 +1,91 @@
+//! `delone triangulate`: points in, triangles out.
+
+use std::path::Path;
+
+use delone::{Algorithm, Delaunay2, Dimension};
+use delone_io::{Cloud, Surface};
+
+use crate::args::{AlgorithmName, TriangulateArgs};
+use crate::files;
+use crate::message::{Failure, note};
+use crate::progress::Phase;
+use crate::stats::Stats;
+
+pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    if args.dim == 3 {
+        return Err(Failure::usage(
+            "triangulation in space (--dim 3) is not available in this version",
+            "leave --dim out: x and y are triangulated and z is kept",
+        ));
+    }
+    if args.locate.is_some() && args.algorithm != AlgorithmName::Incremental {
+        return Err(Failure::usage(
+            "--locate is for the incremental algorithm",
+            "add --algorithm incremental",
+        ));
+    }
+    let stats_path = args.input.stats.as_deref();
+    let mut files_in: Vec<&Path> = vec![&args.input.input];
+    files_in.extend(stats_path);
+    let outputs = files::outputs(&args.output, args.to, &files_in)?;
+    let mut stats = Stats::start();
+    let Cloud { xy, z } = files::points(&args.input, usize::from(args.dim), quiet)?;
+    stats.phase("read");
+    let algorithm = match args.algorithm {
+        AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
+        AlgorithmName::Incremental => Algorithm::Incremental { seed: args.seed },
+    };
+    let triangulation = build(xy, algorithm, &args.input.input, quiet)?;
+    stats.phase("build");
+    stats.set(
+        "algorithm",
+        if algorithm == Algorithm::DivideAndConquer { "divide-conquer" } else { "incremental" },
+    );
+    stats.set("threads", 1);
+    remark(&triangulation, quiet);
+    if args.check {
+        let _phase = Phase::start(quiet, "checking");
+        triangulation.check().map_err(|flaw| {
+            Failure::new(
+                format!("the triangulation is wrong: {flaw}"),
+                "please report this with the input: it is a bug",
+            )
+        })?;
+        stats.phase("check");
+        note(quiet, "checked: this is the canonical Delaunay triangulation");
+    }
+    stats.triangulation(&triangulation);
+    let surface = Surface { triangulation: &triangulation, heights: z.as_deref() };
+    let _phase = Phase::start(quiet, "writing");
+    for (path, format) in &outputs {
+        files::write(path, |out| delone_io::write_surface(out, *format, &surface))?;
+    }
+    stats.phase("write");
+    stats.write(stats_path)
+}
+
+/// Triangulates, with progress.
+pub(crate) fn build(
+    xy: Vec<[f64; 2]>,
+    algorithm: Algorithm,
+    input: &Path,
+    quiet: bool,
+) -> Result<Delaunay2, Failure> {
+    let _phase = Phase::start(quiet, "triangulating");
+    Delaunay2::from_vec(xy, algorithm).map_err(|error| Failure::points(input, &error))
+}
+
+/// Notes on what might surprise.
+pub(crate) fn remark(d: &Delaunay2, quiet: bool) {
+    let (points, duplicates) = (d.points().len(), d.duplicates().len());
+    if duplicates > 0 {
+        let word = if duplicates == 1 { "point equals an earlier one" } else { "points equal earlier ones" };
+        note(quiet, format_args!("{duplicates} of {points} {word} and are no vertices"));
+    }
+    match d.dimension() {
+        Dimension::Empty => note(quiet, "there are no points, so there are no triangles"),
+        Dimension::Point => note(quiet, "there is only one distinct point, so there are no triangles"),
+        Dimension::Line => note(quiet, "all points are on one line, so there are no triangles"),
+        Dimension::Plane => {}
+    }
+}

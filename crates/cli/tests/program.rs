@@ -1,0 +1,335 @@
+//! The program as a user meets it: outputs, exit statuses, messages, and no half-written files.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+/// A folder of its own for each test.
+struct Place(TempDir);
+
+impl Place {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        std::fs::write(self.path(name), content).expect("written");
+        self.path(name)
+    }
+
+    /// Runs the program in this folder.
+    fn run(&self, line: &str) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_delone"));
+        command.current_dir(self.0.path()).args(line.split_whitespace()).stdin(Stdio::null());
+        command.output().expect("the program starts")
+    }
+
+    /// Runs a line that must succeed; returns standard output.
+    fn succeed(&self, line: &str) -> String {
+        let output = self.run(line);
+        assert!(output.status.success(), "{line}: {}", text(&output.stderr));
+        text(&output.stdout)
+    }
+
+    /// Runs a line that must fail with a status, a message of two lines, and no new file.
+    fn fail(&self, line: &str, status: i32, message: &str) {
+        let before = self.names();
+        let output = self.run(line);
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{line}: {stderr}");
+        let lines: Vec<_> = stderr.lines().filter(|line| !line.starts_with("note: ")).collect();
+        assert_eq!(lines.len(), 2, "{line}: {stderr}");
+        assert!(lines[0].starts_with("error: ") && lines[0].contains(message), "{line}: {stderr}");
+        assert!(lines[1].starts_with("help: "), "{line}: {stderr}");
+        assert_eq!(self.names(), before, "{line} left something behind");
+    }
+
+    fn names(&self) -> Vec<PathBuf> {
+        let mut names: Vec<_> = std::fs::read_dir(self.0.path())
+            .expect("readable")
+            .map(|entry| entry.expect("readable").path())
+            .collect();
+        names.sort();
+        names
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
+}
+
+#[test]
+fn real_ground_points_become_a_mesh_and_a_picture() {
+    let place = Place::new();
+    let tile = data("autzen_trim.laz");
+    place.succeed(&format!(
+        "triangulate {} --class 2 -o t.ply -o t.png -o t.npy --check --stats s.json",
+        tile.display()
+    ));
+    let stats: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
+    assert_eq!(
+        (&stats["points"], &stats["simplices"], &stats["hull"]),
+        (&26107.into(), &52187.into(), &25.into())
+    );
+    for phase in ["read", "build", "check", "write"] {
+        assert!(stats["seconds"][phase].is_number(), "{phase}");
+    }
+    assert!(std::fs::read(place.path("t.png")).expect("a picture").starts_with(b"\x89PNG"));
+    assert!(std::fs::metadata(place.path("t.ply")).expect("a mesh").len() > 1_000_000);
+    // The PLY holds the points too, so that it can be judged by itself.
+    assert!(place.succeed("check t.ply t.ply").contains("and the canonical"));
+    assert!(place.succeed("check t.ply t.npy").contains("52187 triangles"));
+}
+
+#[test]
+fn every_format_that_is_written_can_be_judged() {
+    let place = Place::new();
+    for points in ["csv", "xyz", "npy", "bin", "node", "ply", "obj", "geojson"] {
+        place.succeed(&format!("generate uniform -n 300 --seed 3 -o p.{points}"));
+        for mesh in ["npy", "ele", "ply", "obj"] {
+            place.succeed(&format!("-q triangulate p.{points} -o m.{mesh}"));
+            let verdict = place.succeed(&format!("check p.{points} m.{mesh}"));
+            assert!(verdict.starts_with("Delaunay, and the canonical"), "{points} {mesh}: {verdict}");
+        }
+        place.succeed(&format!(
+            "triangulate p.{points} -o m.neigh -o m.edge -o m.stl -o m.vtu -o m.geojson -o m.svg"
+        ));
+    }
+}
+
+#[test]
+fn algorithms_write_the_same_triangles() {
+    let place = Place::new();
+    place.succeed("generate grid -n 400 -o p.npy");
+    for algorithm in ["divide-conquer", "incremental --locate spatial --seed 5", "incremental --threads 4"] {
+        place.succeed(&format!("triangulate p.npy -o m.npy --check --algorithm {algorithm}"));
+        assert!(place.succeed("check p.npy m.npy").contains("and the canonical"), "{algorithm}");
+    }
+}
+
+#[test]
+fn standard_input_and_output() {
+    let place = Place::new();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_delone"))
+        .args(["triangulate", "-", "--from", "csv", "-o", "-", "--to", "ele"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    std::io::Write::write_all(&mut program.stdin.take().expect("piped"), b"0,0\n1,0\n0,1\n")
+        .expect("written");
+    let output = program.wait_with_output().expect("ended");
+    assert_eq!(text(&output.stdout), "1 3 0\n0 0 1 2\n");
+    place.fail("triangulate - -o m.npy", 2, "format of - is not known");
+    assert!(place.succeed("generate uniform -n 2 -o - --to csv").starts_with("x,y\n"));
+}
+
+#[test]
+fn sets_without_triangles_are_valid() {
+    let place = Place::new();
+    for (name, content, note) in [
+        ("empty.csv", "", "no points"),
+        ("header.csv", "x,y\n", "no points"),
+        ("one.csv", "1,2\n", "only one distinct point"),
+        ("two.csv", "1,2\n3,4\n", "on one line"),
+        ("line.csv", "1,1\n2,2\n3,3\n4,4\n", "on one line"),
+        ("equal.csv", "1,1\n1,1\n1,1\n", "only one distinct point"),
+    ] {
+        place.file(name, content);
+        let output = place.run(&format!(
+            "triangulate {name} -o m.npy -o m.ply -o m.vtu -o m.svg -o m.png -o m.ele --check"
+        ));
+        let stderr = text(&output.stderr);
+        assert!(output.status.success(), "{name}: {stderr}");
+        assert!(stderr.contains("note: ") && stderr.contains(note), "{name}: {stderr}");
+        assert!(place.succeed(&format!("check {name} m.npy")).contains("0 triangles"));
+        place.succeed(&format!("info {name}"));
+    }
+}
+
+#[test]
+fn bad_points_are_named() {
+    let place = Place::new();
+    for (name, content, message) in [
+        ("nan.csv", "0,0\n1,nan\n", "point 1 has the y coordinate NaN"),
+        ("infinite.csv", "0,0\n1,0\n-inf,1\n", "point 2 has the x coordinate -inf"),
+        ("huge.csv", "0,0\n1,1e999\n", "point 1 has the y coordinate inf"),
+        ("ragged.csv", "0,0\n1,2,3\n", "line 2: 3 fields"),
+        ("word.csv", "0,0\n1,two\n", "line 2: field 2 is \"two\""),
+        ("narrow.csv", "0\n1\n", "needs two numbers"),
+        ("binary.csv", "\u{0}\u{1}", "line 1"),
+        ("short.bin", "0123456789", "inside point 0"),
+        ("empty.npy", "", "no NumPy array"),
+        ("no.npy", "not an array at all", "no NumPy array"),
+        ("bad.las", "LASF but nothing else", "LAS"),
+        ("bad.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "PLY"),
+        ("bad.geojson", "{\"type\":", "GeoJSON"),
+        ("bad.node", "3 2 0 0\n0 1 2\n", "ends after 1 of 3 points"),
+        ("bad.obj", "v 1 2\n", "line 1: z is missing"),
+    ] {
+        place.file(name, content);
+        place.fail(&format!("triangulate {name} -o m.npy"), 1, message);
+        place.fail(&format!("draw {name} -o m.svg"), 1, message);
+    }
+    place.fail("triangulate missing.csv -o m.npy", 1, "missing.csv");
+    place.fail("triangulate . --from csv -o m.npy", 1, "folder");
+}
+
+/// A NumPy array of a type and a shape, with zeros for content.
+fn array(kind: &str, shape: &str, bytes: usize) -> Vec<u8> {
+    let mut header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+    while (header.len() + 11) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut content = b"\x93NUMPY\x01\x00".to_vec();
+    content.extend((header.len() as u16).to_le_bytes());
+    content.extend(header.bytes());
+    content.extend(std::iter::repeat_n(0, bytes));
+    content
+}
+
+#[test]
+fn wrong_arrays_are_refused() {
+    let place = Place::new();
+    for (kind, shape, bytes, message) in [
+        ("<f4", "(2, 2)", 16, "type <f4, not float64"),
+        ("<i8", "(2, 2)", 32, "type <i8, not float64"),
+        ("<f8", "(4,)", 32, "shape [4], not (n, 2) or (n, 3)"),
+        ("<f8", "(1, 4)", 32, "shape [1, 4]"),
+        ("<f8", "(2, 2, 1)", 32, "shape [2, 2, 1]"),
+        ("<f8", "(3, 2)", 32, "ends inside row 2 of 3"),
+        ("<f8", "(1000000000000, 2)", 32, "ends inside row 2"),
+    ] {
+        place.file("p.npy", array(kind, shape, bytes));
+        place.fail("triangulate p.npy -o m.ply", 1, message);
+    }
+    place.file("p.npy", array("<f8", "(0, 2)", 0));
+    assert!(place.succeed("triangulate p.npy -o - --to ele").starts_with("0 3 0"));
+    place.file("p.npy", array(">f8", "(2, 3)", 48));
+    place.succeed("triangulate p.npy -o m.npy");
+}
+
+#[test]
+fn a_truncated_tile_is_refused() {
+    let place = Place::new();
+    let whole = std::fs::read(data("autzen_trim.laz")).expect("the tile");
+    for length in [10, 300, 5_000, whole.len() / 2, whole.len() - 100] {
+        place.file("cut.laz", &whole[..length]);
+        place.fail("triangulate cut.laz -o m.ply", 1, "LAS");
+    }
+}
+
+#[test]
+fn wrong_usage() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n1,0\n0,1\n");
+    for (line, message) in [
+        ("triangulate p.csv", "required"),
+        ("triangulate p.csv -o m.what", "no format has this extension"),
+        ("triangulate p.csv -o m", "no format has this extension"),
+        ("triangulate p.csv -o m.las", "hold points"),
+        ("triangulate p.csv -o p.csv", "would overwrite"),
+        ("triangulate p.csv -o ./p.csv --to ply", "would overwrite"),
+        ("triangulate p.csv -o m.ply -o ./m.ply", "would overwrite"),
+        ("triangulate p.csv -o m.ply --stats m.ply", "would overwrite"),
+        ("triangulate p.csv -o m.ply --algorithm sweep", "sweep"),
+        ("triangulate p.csv -o m.ply --locate spatial", "--locate"),
+        ("triangulate p.csv -o m.ply --dim 4", "4"),
+        ("triangulate p.csv -o m.ply --dim 3", "not available"),
+        ("triangulate p.csv -o m.ply --threads 0", "0"),
+        ("triangulate p.csv -o m.ply --class 2", "--class"),
+        ("triangulate p.csv -o m.ply --class two", "two"),
+        ("draw p.csv -o m.ply", "no picture"),
+        ("draw p.csv -o m.png --size 3", "3"),
+        ("generate nothing -n 5 -o p.npy", "no set named"),
+        ("generate uniform -n 5", "output file is missing"),
+        ("generate uniform -n x -o q.npy", "x"),
+        ("frobnicate", "frobnicate"),
+        ("check p.csv m.laz", "m.laz"),
+    ] {
+        let status = if line.starts_with("check") { 1 } else { 2 };
+        place.fail(line, status, message);
+    }
+    place.file("p.stl", "");
+    place.fail("triangulate p.stl -o m.ply", 2, "points are not read");
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n1,0\n0,1\n");
+    place.fail("triangulate p.csv -o no/such/folder/m.ply", 1, "cannot write");
+    std::fs::create_dir(place.path("taken.ply")).expect("made");
+    place.fail("triangulate p.csv -o taken.ply", 1, "cannot write");
+    let kept = place.file("kept.ply", "precious");
+    place.file("bad.csv", "0,0\nx,y\n");
+    place.fail("triangulate bad.csv -o kept.ply", 1, "line 2");
+    assert_eq!(std::fs::read(kept).expect("still there"), b"precious");
+}
+
+#[test]
+fn triangles_are_judged() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n1,0\n1,1\n0,1\n");
+    place.file("good.ele", "2 3 0\n1 1 2 4\n2 2 3 4\n");
+    place.file("other.obj", "f 1 2 3\nf 1 3 4\n");
+    place.file("overlap.obj", "f 1 2 3\nf 1 2 4\n");
+    place.file("index.obj", "f 1 2 9\n");
+    assert!(place.succeed("check p.csv good.ele --stats s.json").contains("and the canonical"));
+    assert!(place.succeed("check p.csv other.obj").contains("not the canonical triangulation: 1 of its"));
+    place.fail("check p.csv overlap.obj", 1, "triangles 0 and 1 overlap");
+    place.fail("check p.csv index.obj", 1, "triangle 0 has the corner 8, but there are 4 points");
+    place.file("q.csv", "0,0\n1,0\n1.2,1.2\n0,1\n");
+    place.fail("check q.csv other.obj", 1, "triangle 0 is not Delaunay: its circle contains point 3");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let place = Place::new();
+    place.succeed("generate disks -n 500 --seed 9 -o a.bin");
+    place.succeed("generate disks -n 500 --seed 9 -o b.bin");
+    assert_eq!(
+        std::fs::read(place.path("a.bin")).expect("a"),
+        std::fs::read(place.path("b.bin")).expect("b")
+    );
+    assert!(place.succeed("generate list").contains("ellipse2"));
+}
+
+#[test]
+fn points_that_fail_are_reduced() {
+    let place = Place::new();
+    place.succeed("generate uniform -n 60 -o p.npy");
+    assert!(place.succeed("reduce p.npy").starts_with("nothing to reduce"));
+    // A program that gives up on arrays of 300 bytes: on eleven points or more.
+    let program = env!("CARGO_BIN_EXE_delone");
+    let fails_on_eleven =
+        format!("test $(wc -c < {{points}}) -lt 300 && {program} triangulate {{points}} -o {{triangles}}");
+    let output = Command::new(program)
+        .current_dir(place.0.path())
+        .args(["reduce", "p.npy", "-o", "small.npy", "--against", &fails_on_eleven])
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success());
+    assert!(text(&output.stdout).starts_with("// 11 points: the command fails"));
+    assert!(place.path("small.npy").exists());
+}
+
+#[test]
+fn help_shows_examples() {
+    let place = Place::new();
+    for command in ["triangulate", "check", "generate", "draw", "info", "reduce"] {
+        assert!(place.succeed(&format!("{command} --help")).contains("Example"), "{command}");
+    }
+    assert!(place.succeed("--version").starts_with("delone "));
+}
