@@ -1,0 +1,71 @@
+//! Inputs on which other libraries failed, in public: every algorithm on every file of `data/torture`.
+
+use std::path::Path;
+
+use delone::plane::verify::verify;
+use delone::{Algorithm, Delaunay2};
+use delone_oracle::brute;
+use delone_oracle::generate::{Kind, Random};
+
+const ALGORITHMS: [Algorithm; 2] = [Algorithm::DivideAndConquer, Algorithm::Incremental { seed: 3 }];
+
+fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
+    brute::normalized(d.triangles().map(|corners| corners.map(|v| d.point(v))))
+}
+
+/// Canonical, checked, verified, whatever the algorithm and the order of the points.
+fn endure(name: &str, points: &[[f64; 2]]) {
+    let mut shuffled = points.to_vec();
+    Random::new(1).shuffle(&mut shuffled);
+    let mut expected = None;
+    for algorithm in ALGORITHMS {
+        for points in [points, &shuffled] {
+            let d = Delaunay2::with_algorithm(points, algorithm).unwrap_or_else(|error| panic!("{name}: {error}"));
+            assert_eq!(d.check(), Ok(()), "{name} {algorithm:?}");
+            let bare: Vec<_> = d.triangles().map(|t| t.map(|v| v.index() as u64)).collect();
+            let verdict = verify(points, &bare).unwrap_or_else(|objection| panic!("{name}: {objection}"));
+            assert!(verdict.is_canonical(), "{name} {algorithm:?}");
+            let found = triangles(&d);
+            assert!(*expected.get_or_insert(found.clone()) == found, "{name} {algorithm:?}");
+        }
+    }
+    if points.len() <= 40 {
+        assert_eq!(expected, Some(brute::delaunay(points)), "{name}");
+    }
+}
+
+#[test]
+fn public_bug_cases() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/torture");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).expect("data/torture") {
+        let path = entry.expect("readable").path();
+        let text = std::fs::read_to_string(&path).expect("text");
+        let name = path.display().to_string();
+        assert!(text.starts_with("# github.com/"), "{name} names no source");
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let points: Vec<[f64; 2]> = lines
+            .map(|line| {
+                let mut numbers = line.split(' ').map(|word| word.parse().expect("a number"));
+                [(); 2].map(|()| numbers.next().expect("two numbers"))
+            })
+            .collect();
+        endure(&name, &points);
+        count += 1;
+    }
+    assert!(count >= 30, "only {count} files");
+}
+
+/// Sets on which many libraries return wrong triangles, lose points or hang.
+#[test]
+fn stress_sets() {
+    for (kind, n) in [
+        (Kind::TinyLattice, 256 * 256 + 2),
+        (Kind::NearLine, 50_000),
+        (Kind::RotatedGrid, 300 * 300),
+        (Kind::UnitCircle, 50_000),
+        (Kind::FarClusters, 50_000),
+    ] {
+        endure(kind.name(), &kind.points(n, 1));
+    }
+}
