@@ -20,7 +20,8 @@ fn endure(name: &str, points: &[[f64; 2]]) {
     let mut expected = None;
     for algorithm in ALGORITHMS {
         for points in [points, &shuffled] {
-            let d = Delaunay2::with_algorithm(points, algorithm).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let d = Delaunay2::with_algorithm(points, algorithm)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
             assert_eq!(d.check(), Ok(()), "{name} {algorithm:?}");
             let bare: Vec<_> = d.triangles().map(|t| t.map(|v| v.index() as u64)).collect();
             let verdict = verify(points, &bare).unwrap_or_else(|objection| panic!("{name}: {objection}"));

@@ -1,6 +1,6 @@
 //! How many decisions each stage made.
 //!
-//! Off by default and then free: [`count`] is empty without the feature `counters`. The numbers are
+//! Off by default and then free: counting is empty without the feature `counters`. The numbers are
 //! process-wide.
 
 /// A predicate that is counted.

@@ -35,7 +35,7 @@ const FAMILIES: &[(&str, Family)] = &[
     ("nearly cocircular", |r| {
         let radius = r.between(0.5, 2.0);
         four(|| {
-            let angle = r.between(0.0, 6.283);
+            let angle = r.between(0.0, std::f64::consts::TAU);
             nudged(r, [3.0 + radius * angle.cos(), radius * angle.sin() - 1.0])
         })
     }),

@@ -34,10 +34,10 @@ fn collect<'a>(geometry: &'a Geometry, positions: &mut Vec<&'a [f64]>) {
     match &geometry.value {
         GeometryValue::Point { coordinates } => positions.push(coordinates.as_slice()),
         GeometryValue::MultiPoint { coordinates } => {
-            positions.extend(coordinates.iter().map(|p| p.as_slice()))
+            positions.extend(coordinates.iter().map(|p| p.as_slice()));
         }
         GeometryValue::GeometryCollection { geometries } => {
-            geometries.iter().for_each(|g| collect(g, positions))
+            geometries.iter().for_each(|g| collect(g, positions));
         }
         _ => {}
     }

@@ -30,6 +30,6 @@ pub(crate) fn read(source: Box<dyn Source>, classes: &[u8]) -> Result<Cloud, Err
     Ok(cloud)
 }
 
-fn broken(error: las::Error) -> Error {
+fn broken(error: impl std::fmt::Display) -> Error {
     Error::content(format!("LAS: {error}"))
 }

@@ -74,7 +74,7 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
         writeln!(
             out,
             r#"<text x="{:.1}" y="{:.1}" font-family="sans-serif" font-size="16" text-anchor="middle">{length}</text>"#,
-            (left + right) / 2.0,
+            f64::midpoint(left, right),
             y + 28.0
         )?;
     }

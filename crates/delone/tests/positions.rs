@@ -1,0 +1,27 @@
+//! Points of other types give the same triangulation.
+
+use delone::Delaunay2;
+
+#[test]
+fn numbers_of_other_types() {
+    let count = |d: Result<Delaunay2, delone::Error>| d.expect("finite").triangles().count();
+    assert_eq!(count(Delaunay2::from_points(&[[0.0_f32, 0.0], [1.0, 0.0], [0.0, 1.0]])), 1);
+    assert_eq!(count(Delaunay2::from_points(&[[0_i32, 0], [1, 0], [0, 1]])), 1);
+    assert_eq!(count(Delaunay2::from_points(&[(0.0_f64, 0.0), (1.0, 0.0), (0.0, 1.0)])), 1);
+}
+
+#[cfg(feature = "mint")]
+#[test]
+fn mint_points() {
+    let points = [[0.0_f64, 0.0], [1.0, 0.0], [0.0, 1.0]].map(mint::Point2::from);
+    assert_eq!(Delaunay2::from_points(&points).expect("finite").triangles().count(), 1);
+}
+
+#[cfg(feature = "geo-types")]
+#[test]
+fn geo_types_points() {
+    let points = [[0.0_f64, 0.0], [1.0, 0.0], [0.0, 1.0]].map(geo_types::Point::from);
+    assert_eq!(Delaunay2::from_points(&points).expect("finite").triangles().count(), 1);
+    let coordinates = points.map(|p| p.0);
+    assert_eq!(Delaunay2::from_points(&coordinates).expect("finite").triangles().count(), 1);
+}
