@@ -7,7 +7,14 @@ fn main() {
     println!("cargo::rerun-if-changed=src/cgal.cpp");
     println!("cargo::rerun-if-changed=/usr/include/CGAL");
     if Path::new("/usr/include/CGAL/Delaunay_triangulation_2.h").exists() {
-        cc::Build::new().cpp(true).std("c++17").opt_level(3).define("NDEBUG", None).warnings(false).file("src/cgal.cpp").compile("cgal_shim");
+        cc::Build::new()
+            .cpp(true)
+            .std("c++17")
+            .opt_level(3)
+            .define("NDEBUG", None)
+            .warnings(false)
+            .file("src/cgal.cpp")
+            .compile("cgal_shim");
         println!("cargo::rustc-cfg=cgal");
         println!("cargo::rustc-link-lib=gmp");
         println!("cargo::rustc-link-lib=mpfr");

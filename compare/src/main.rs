@@ -1,22 +1,139 @@
+//! Delone beside its peers: one command, runs interleaved, every result judged exactly.
+//!
+//! `cargo run --release --manifest-path compare/Cargo.toml -- --help`
+
+mod engines;
+mod memory;
+
+use std::panic::{self, AssertUnwindSafe};
+use std::time::Duration;
+
+use clap::Parser;
+use delone::plane::verify::verify;
+use delone_oracle::generate::Kind;
+
+use engines::{ENGINES, Engine};
+
+/// Time and memory per point of Delone and of other Delaunay software; wrong results are shown as wrong.
+#[derive(Parser)]
+struct Args {
+    /// Points in each set.
+    #[arg(long, default_value_t = 1_000_000)]
+    size: usize,
+    /// Runs of each engine, interleaved; the minimum counts.
+    #[arg(long, default_value_t = 5)]
+    runs: usize,
+    /// Sets of points.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "uniform,clusters,grid,circle,ellipse2,parabola,lognormal,outliers"
+    )]
+    kinds: Vec<String>,
+    /// Engines; all when empty.
+    #[arg(long, value_delimiter = ',')]
+    engines: Vec<String>,
+    /// Measure peak memory too (one more process for each engine and set).
+    #[arg(long)]
+    memory: bool,
+    /// An engine that takes longer than this many seconds is not run again on the same set.
+    #[arg(long, default_value_t = 5.0)]
+    patience: f64,
+}
+
+/// What is known of an engine on a set.
+struct Entry {
+    engine: &'static Engine,
+    times: Vec<Duration>,
+    /// Why the result is wrong.
+    wrong: Option<String>,
+}
+
+impl Entry {
+    fn nanoseconds(&self, n: usize) -> Option<f64> {
+        self.times.iter().min().map(|time| time.as_secs_f64() * 1e9 / n as f64)
+    }
+}
+
 fn main() {
-    use std::time::Instant;
-    use delone_oracle::generate::Kind;
-    unsafe extern "C" { fn cgal_plain(xy: *const f64, n: usize) -> usize; fn cgal_indexed(xy: *const f64, n: usize, t: *mut u32) -> usize; }
-    for name in ["uniform","clusters","grid","circle","ellipse","ellipse2","parabola","lognormal","outliers"] {
-        let n = 1_000_000;
-        let p = Kind::named(name).unwrap().points(n, 1);
-        let mut best = [f64::MAX; 6];
-        for _ in 0..2 {
-            let mut time = |i: usize, f: &mut dyn FnMut()| { let t = Instant::now(); f(); best[i] = best[i].min(t.elapsed().as_nanos() as f64 / n as f64); };
-            time(0, &mut || { std::hint::black_box(delone::plane::Delaunay2::from_points(&p)); });
-            time(1, &mut || unsafe { cgal_plain(p.as_ptr().cast(), n); });
-            let mut t = vec![0u32; 6*n];
-            time(2, &mut || unsafe { cgal_indexed(p.as_ptr().cast(), n, t.as_mut_ptr()); });
-            if name != "ellipse" {
-            time(3, &mut || { let q: Vec<_> = p.iter().map(|p| delaunator::Point{x:p[0],y:p[1]}).collect(); std::hint::black_box(delaunator::triangulate(&q)); });
-            time(4, &mut || { use spade::Triangulation; let q: Vec<_> = p.iter().map(|p| spade::Point2::new(p[0],p[1])).collect(); std::hint::black_box(spade::DelaunayTriangulation::<spade::Point2<f64>>::bulk_load(q).unwrap()); });
+    if let Ok(task) = std::env::var(memory::CHILD) {
+        memory::child(&task);
+        return;
+    }
+    let args = Args::parse();
+    let chosen: Vec<&'static Engine> = ENGINES
+        .iter()
+        .filter(|e| args.engines.is_empty() || args.engines.iter().any(|name| name == e.name))
+        .collect();
+    println!(
+        "ns/point, minimum of {} interleaved runs, one thread, {} points; output included",
+        args.runs, args.size
+    );
+    panic::set_hook(Box::new(|_| {})); // peers may panic: that is a result, not a report
+    for name in &args.kinds {
+        let Some(kind) = Kind::named(name) else {
+            println!("\nthere is no set named {name}");
+            continue;
+        };
+        let points = kind.points(args.size, 1);
+        let mut entries: Vec<_> =
+            chosen.iter().map(|engine| Entry { engine, times: Vec::new(), wrong: None }).collect();
+        for run in 0..args.runs {
+            for entry in &mut entries {
+                measure(entry, &points, run == 0, args.patience);
             }
         }
-        println!("{name:10} delone {:.0} cgal {:.0} indexed {:.0} delaunator {:.0} spade {:.0}", best[0], best[1], best[2], best[3], best[4]);
+        report(name, kind, &entries, &args);
+    }
+}
+
+/// One run, judged if it is the first.
+fn measure(entry: &mut Entry, points: &[[f64; 2]], judge: bool, patience: f64) {
+    if points.len() > entry.engine.most {
+        entry.wrong = Some(format!("(not run: too slow beyond {} points)", entry.engine.most));
+    }
+    if entry.wrong.is_some() || entry.times.last().is_some_and(|time| time.as_secs_f64() > patience) {
+        return;
+    }
+    let outcome = panic::catch_unwind(AssertUnwindSafe(|| (entry.engine.run)(points, judge)));
+    match outcome {
+        Err(_) => entry.wrong = Some("panics".to_owned()),
+        Ok(Err(error)) => entry.wrong = Some(error),
+        Ok(Ok((time, triangles))) => {
+            entry.times.push(time);
+            if judge {
+                entry.wrong = verify(points, &triangles).err().map(|objection| objection.to_string());
+            }
+        }
+    }
+}
+
+fn report(name: &str, kind: Kind, entries: &[Entry], args: &Args) {
+    println!("\n{name}");
+    let ours = entries.iter().find(|e| e.engine.name == "delone").and_then(|e| e.nanoseconds(args.size));
+    for entry in entries {
+        let time = entry.nanoseconds(args.size).map_or("-".to_owned(), |ns| format!("{ns:.0}"));
+        let ratio = match (ours, entry.nanoseconds(args.size)) {
+            (Some(ours), Some(theirs)) => format!("{:.2} x", theirs / ours),
+            _ => String::new(),
+        };
+        let bytes = if args.memory { memory::peak(entry.engine.name, kind, args.size) } else { None };
+        let bytes = bytes.map_or(String::new(), |bytes| format!("{bytes:.0} B/point"));
+        let wrong = entry.wrong.as_ref().map_or(String::new(), |why| {
+            if why.starts_with('(') { why.clone() } else { format!("WRONG: {why}") }
+        });
+        println!("  {:20} {time:>8} {ratio:>8} {bytes:>12}  {wrong}", entry.engine.name);
+    }
+    let best = |among: fn(&Engine) -> bool| {
+        let right = entries.iter().filter(|e| e.wrong.is_none() && among(e.engine));
+        right.filter_map(|e| e.nanoseconds(args.size)).min_by(f64::total_cmp)
+    };
+    if let Some(ours) = ours {
+        let ratio = |time: Option<f64>| time.map_or("-".to_owned(), |time| format!("{:.2} x", time / ours));
+        println!(
+            "  best correct Rust crate / delone: {}; CGAL / delone: {}",
+            ratio(best(|e| e.is_peer_crate)),
+            ratio(best(|e| e.name.starts_with("cgal")))
+        );
     }
 }
