@@ -14,7 +14,13 @@ use crate::Point2;
 /// ```
 #[inline]
 pub fn lexicographic(a: Point2, b: Point2) -> Ordering {
-    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+    if a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]) {
+        Ordering::Less
+    } else if a[0] == b[0] && a[1] == b[1] {
+        Ordering::Equal
+    } else {
+        Ordering::Greater
+    }
 }
 
 /// Whether `q`, known to be collinear with `a` and `b`, lies strictly between them: the in-circle test one

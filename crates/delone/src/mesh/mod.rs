@@ -170,22 +170,4 @@ impl Mesh {
         self.edges[e.index()].twin = f;
         self.edges[f.index()].twin = e;
     }
-
-    /// Sets `incident`, `ghost_edge` and `vertex_count` from the edges.
-    pub(crate) fn index_vertices(&mut self) {
-        let mut count = 0;
-        for (slot, records) in self.edges.chunks_exact(4).enumerate() {
-            for (k, record) in records[..3].iter().enumerate() {
-                let e = EdgeId::new(4 * slot + k);
-                if record.origin.is_ghost() {
-                    self.ghost_edge = e;
-                } else {
-                    let incident = &mut self.incident[record.origin.index()];
-                    count += usize::from(*incident == EdgeId::NONE);
-                    *incident = e;
-                }
-            }
-        }
-        self.vertex_count = count + usize::from(self.lone.is_some());
-    }
 }

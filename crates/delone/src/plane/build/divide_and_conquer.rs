@@ -69,10 +69,9 @@ pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counter
     }
     let Builder { edges, counters, .. } = builder;
     drop((ordered, cuts));
-    let mut mesh = Mesh { edges, ..Mesh::empty(points.len()) };
+    let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(points.len()) };
     mesh.lone = if n == 1 { Some(VertexId::new(indices[0] as usize)) } else { None };
-    mesh.rename(&indices);
-    mesh.index_vertices();
+    mesh.number_vertices(&indices);
     let mut duplicates: Vec<_> = duplicates
         .into_iter()
         .map(|(point, vertex)| Duplicate { point: point as usize, vertex: VertexId::new(vertex as usize) })
@@ -82,11 +81,18 @@ pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counter
 }
 
 impl Mesh {
-    /// Replaces positions in an order by the input indices at those positions.
-    fn rename(&mut self, indices: &[u32]) {
-        for record in &mut self.edges {
-            if !record.origin.is_ghost() {
-                record.origin = VertexId::new(indices[record.origin.index()] as usize);
+    /// Replaces positions in an order by the input indices at those positions, and remembers an edge of each
+    /// vertex.
+    fn number_vertices(&mut self, indices: &[u32]) {
+        for (slot, records) in self.edges.chunks_exact_mut(4).enumerate() {
+            for (k, record) in records[..3].iter_mut().enumerate() {
+                let e = EdgeId::new(4 * slot + k);
+                if record.origin.is_ghost() {
+                    self.ghost_edge = e;
+                } else {
+                    record.origin = VertexId::new(indices[record.origin.index()] as usize);
+                    self.incident[record.origin.index()] = e;
+                }
             }
         }
     }
@@ -208,31 +214,47 @@ impl Part {
     /// The extreme corners of a few points.
     pub(super) fn of_points(points: &[[f64; 2]], start: usize, end: usize) -> Self {
         let mut part = Self::single(start);
+        part.end = end;
         for at in start + 1..end {
-            part = Self::union(points, &part, &Self::single(at));
+            let v = VertexId::new(at);
+            let p = |v: VertexId| points[v.index()];
+            part.west = if precedes(p(v), p(part.west)) { v } else { part.west };
+            part.east = if precedes(p(part.east), p(v)) { v } else { part.east };
+            part.south = if precedes(turned(p(v)), turned(p(part.south))) { v } else { part.south };
+            part.north = if precedes(turned(p(part.north)), turned(p(v))) { v } else { part.north };
         }
         part
     }
 
-    /// The positions and extreme corners of two neighbouring parts together, however they lie.
-    pub(super) fn union(points: &[[f64; 2]], a: &Self, b: &Self) -> Self {
+    /// The positions and extreme corners of two parts, `a` to the left of `b` if cut by x, else below.
+    pub(super) fn union(points: &[[f64; 2]], a: &Self, b: &Self, by_x: bool) -> Self {
         let p = |v: VertexId| points[v.index()];
-        let turned = |v: VertexId| [p(v)[1], -p(v)[0]];
-        let least = |u, v| if lexicographic(p(v), p(u)).is_lt() { v } else { u };
-        let greatest = |u, v| if lexicographic(p(v), p(u)).is_gt() { v } else { u };
-        let lowest = |u, v| if lexicographic(turned(v), turned(u)).is_lt() { v } else { u };
-        let highest = |u, v| if lexicographic(turned(v), turned(u)).is_gt() { v } else { u };
-        Self {
-            start: a.start,
-            end: b.end,
-            west: least(a.west, b.west),
-            east: greatest(a.east, b.east),
-            south: lowest(a.south, b.south),
-            north: highest(a.north, b.north),
+        let mut part = Self { end: b.end, ..*a };
+        if by_x {
+            part.east = b.east;
+            part.south = if precedes(turned(p(b.south)), turned(p(a.south))) { b.south } else { a.south };
+            part.north = if precedes(turned(p(a.north)), turned(p(b.north))) { b.north } else { a.north };
+        } else {
+            part.north = b.north;
+            part.west = if precedes(p(b.west), p(a.west)) { b.west } else { a.west };
+            part.east = if precedes(p(a.east), p(b.east)) { b.east } else { a.east };
         }
+        part
     }
 
     fn end(&self) -> usize {
         self.end
     }
+}
+
+/// Lexicographic order of points, for choosing corners.
+#[inline]
+fn precedes(p: [f64; 2], q: [f64; 2]) -> bool {
+    lexicographic(p, q).is_lt()
+}
+
+/// A quarter turn: the order by (y, -x) is the lexicographic order of turned points.
+#[inline]
+fn turned([x, y]: [f64; 2]) -> [f64; 2] {
+    [y, -x]
 }

@@ -64,7 +64,7 @@ impl Builder<'_> {
         let top = TriangleId::new(2 * b.start - 1);
         self.connect_first(&base, bottom, top, a.is_single(), b.is_single());
         self.rise(base.l, base.r, bottom, top, filter);
-        Part::union(self.points, a, b)
+        Part::union(self.points, a, b, by_x)
     }
 
     /// The common tangent below both parts, closest to the gap: from the facing corners downwards, each side
