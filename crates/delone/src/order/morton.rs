@@ -11,6 +11,8 @@
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
+use std::ops::Range;
+
 use super::quantize::{Quantizer, bounds};
 
 /// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
@@ -68,120 +70,183 @@ pub(crate) struct Cut(u8);
 impl Cut {
     /// The border of a box.
     pub(crate) const OUTSIDE: Self = Self(0);
+    /// Not decided by keys: both are in one cell.
+    const SAME_CELL: Self = Self(254);
+    /// Before a point that equals the one before it. None is left when sorting is done.
+    const DUPLICATE: Self = Self(255);
+
+    /// Between keys of `depth` bits.
+    #[inline]
+    fn between(left: u64, right: u64, depth: u32) -> Self {
+        match (left ^ right) >> 32 {
+            0 => Self::SAME_CELL,
+            // Keys that first differ at depth d differ in bit depth - 1 - d.
+            differing => Self((depth - differing.ilog2()) as u8),
+        }
+    }
+
+    /// Before the `i`th of the points of one cell: balanced, because between two equal numbers of trailing
+    /// zeros lies a larger one.
+    fn within_cell(i: u32, depth: u32) -> Self {
+        const { assert!(SHORT_RUN <= 32) };
+        Self((depth + 6 - i.trailing_zeros()) as u8)
+    }
 }
 
 /// Sorts points. All must be finite, and fewer than 2^32.
 pub(crate) fn sort(points: &[[f64; 2]]) -> Sorted {
     let n = points.len();
     let mut sorter = Sorter {
-        input: points,
         sorted: Sorted {
-            points: Vec::with_capacity(n),
-            indices: Vec::with_capacity(n),
-            cuts: Vec::with_capacity(n),
+            points: vec![[0.0; 2]; n],
+            indices: vec![0; n],
+            cuts: vec![Cut::OUTSIDE; n],
             boxes: Vec::new(),
             duplicates: Vec::new(),
         },
-        spare: vec![0; n],
+        removed: Vec::new(),
     };
-    let mut entries: Vec<u64> = (0..n as u64).collect();
     if n > 0 {
-        sorter.key_box(&mut entries, Cut::OUTSIDE);
+        let depth = sorter.key_box(points, |i| i as u32, 0);
+        sorter.runs(0, n, depth);
+        sorter.close_gaps();
     }
     sorter.sorted
 }
 
-struct Sorter<'a> {
-    input: &'a [[f64; 2]],
+struct Sorter {
     sorted: Sorted,
-    spare: Vec<u64>,
+    /// Ascending positions of duplicates.
+    removed: Vec<usize>,
 }
 
-/// An entry holds a key above and an input index below.
-fn index(entry: u64) -> usize {
-    entry as u32 as usize
-}
-
-impl Sorter<'_> {
-    /// Sorts the points of `entries`, which are in input order, and appends them to the result.
-    fn key_box(&mut self, entries: &mut [u64], before: Cut) {
-        let n = entries.len();
-        let (low, high) = bounds(entries.iter().map(|&e| self.input[index(e)]));
+impl Sorter {
+    /// Sorts points, which are in input order, into the positions from `start` on. The cut before the first is
+    /// left as it is.
+    fn key_box(&mut self, points: &[[f64; 2]], index_of: impl Fn(usize) -> u32, start: usize) -> u32 {
+        let n = points.len();
+        let (low, high) = bounds(points);
         let bits = ((n as f64).log2() / 2.0 + 1.5).ceil() as u32;
         let quantizer = Quantizer::new(low, high, bits);
-        let start = self.sorted.points.len();
-        let place = self.sorted.boxes.len();
-        self.sorted.boxes.push(KeyBox { start, end: start, quantizer, depth: 2 * bits });
-        if let Some(quantizer) = quantizer {
-            for entry in entries.iter_mut() {
-                let [column, row] = quantizer.cell(self.input[index(*entry)]);
-                *entry = u64::from(spread(column) << 1 | spread(row)) << 32 | (*entry & 0xffff_ffff);
-            }
-            radix_sort(entries, &mut self.spare[..n], 2 * bits);
-            self.runs(entries, 2 * bits, before);
-        } else {
-            self.push(entries[0], before);
-            for &entry in &entries[1..] {
-                self.push_duplicate(entry);
-            }
-        }
-        self.sorted.boxes[place].end = self.sorted.points.len();
+        self.sorted.boxes.push(KeyBox { start, end: start + n, quantizer, depth: 2 * bits });
+        // An entry holds a key above and a place in `points` below. Without a box all keys are equal.
+        let key = |&p: &[f64; 2]| {
+            let [column, row] = quantizer.map_or([0, 0], |quantizer| quantizer.cell(p));
+            u64::from(spread(column) << 1 | spread(row))
+        };
+        let mut entries: Vec<u64> = points.iter().enumerate().map(|(i, p)| key(p) << 32 | i as u64).collect();
+        radix_sort(&mut entries, 2 * bits);
+        self.place(&entries, points, index_of, start, 2 * bits);
+        2 * bits
     }
 
-    /// Appends sorted entries, run by run of equal keys.
-    fn runs(&mut self, entries: &mut [u64], depth: u32, before: Cut) {
-        let mut cut = before;
-        let mut start = 0;
-        while start < entries.len() {
-            let key = entries[start] >> 32;
-            let mut end = start + 1;
-            while end < entries.len() && entries[end] >> 32 == key {
-                end += 1;
-            }
-            match end - start {
-                1 => self.push(entries[start], cut),
-                2..=SHORT_RUN => self.short_run(&mut entries[start..end], depth, cut),
-                _ => self.key_box(&mut entries[start..end], cut),
-            }
-            if let Some(following) = entries.get(end) {
-                // Keys that first differ at depth d differ in bit depth - 1 - d. (The entries of a long run have
-                // the keys of their own box by now.)
-                let differing = (following >> 32 ^ key).ilog2();
-                cut = Cut((depth - differing) as u8);
-            }
-            start = end;
+    /// Writes points, indices and cuts of sorted entries: three plain loops, because the points come from
+    /// everywhere in memory and nothing should stand in the way of fetching many at once.
+    fn place(
+        &mut self,
+        entries: &[u64],
+        points: &[[f64; 2]],
+        index_of: impl Fn(usize) -> u32,
+        start: usize,
+        depth: u32,
+    ) {
+        let range = start..start + entries.len();
+        let place = |entry: u64| entry as u32 as usize;
+        for (point, &entry) in self.sorted.points[range.clone()].iter_mut().zip(entries) {
+            *point = points[place(entry)];
+        }
+        for (index, &entry) in self.sorted.indices[range.clone()].iter_mut().zip(entries) {
+            *index = index_of(place(entry));
+        }
+        for (cut, pair) in self.sorted.cuts[range].iter_mut().skip(1).zip(entries.windows(2)) {
+            *cut = Cut::between(pair[0], pair[1], depth);
         }
     }
 
-    /// Appends points of one cell in lexicographic order, with the cuts of a balanced tree.
-    fn short_run(&mut self, run: &mut [u64], depth: u32, before: Cut) {
-        let input = self.input;
-        let point = |entry: u64| input[index(entry)];
-        run.sort_unstable_by(|&a, &b| {
-            point(a).partial_cmp(&point(b)).expect("finite").then(index(a).cmp(&index(b)))
-        });
-        let mut distinct = 0_u32;
-        for (i, &entry) in run.iter().enumerate() {
-            if i > 0 && point(run[i - 1]) == point(entry) {
-                self.push_duplicate(entry);
+    /// Sorts what shares a cell, among the points of the box sorted last.
+    fn runs(&mut self, start: usize, end: usize, depth: u32) {
+        let mut at = start + 1;
+        while let Some(found) =
+            self.sorted.cuts[at.min(end)..end].iter().position(|&cut| cut == Cut::SAME_CELL)
+        {
+            let first = at + found - 1;
+            let same = self.sorted.cuts[first + 1..end].iter().take_while(|&&cut| cut == Cut::SAME_CELL);
+            let run = first..first + 1 + same.count();
+            at = run.end + 1;
+            if run.len() <= SHORT_RUN {
+                self.short_run(run.start, run.len(), depth);
+            } else {
+                self.nested_box(run);
+            }
+        }
+    }
+
+    /// Sorts a long run of one cell by keys of its own.
+    fn nested_box(&mut self, run: Range<usize>) {
+        // The copies are gone before anything is nested deeper.
+        let points = self.sorted.points[run.clone()].to_vec();
+        let indices = self.sorted.indices[run.clone()].to_vec();
+        if points.iter().all(|p| *p == points[0]) {
+            drop((points, indices));
+            run.clone().skip(1).for_each(|at| self.remove(at, run.start));
+            return;
+        }
+        let depth = self.key_box(&points, |i| indices[i], run.start);
+        drop((points, indices));
+        self.runs(run.start, run.end, depth);
+    }
+
+    /// Sorts points of one cell lexicographically, with the cuts of a balanced tree.
+    fn short_run(&mut self, start: usize, length: usize, depth: u32) {
+        let mut run = [([0.0; 2], 0); SHORT_RUN];
+        let run = &mut run[..length];
+        for (i, item) in run.iter_mut().enumerate() {
+            *item = (self.sorted.points[start + i], self.sorted.indices[start + i]);
+        }
+        run.sort_unstable_by(|a, b| a.partial_cmp(b).expect("finite"));
+        let (mut distinct, mut last) = (0, start);
+        for (i, &(point, index)) in run.iter().enumerate() {
+            let at = start + i;
+            self.sorted.points[at] = point;
+            self.sorted.indices[at] = index;
+            if i > 0 && run[i - 1].0 == point {
+                self.remove(at, last);
                 continue;
             }
-            // Between two equal numbers of trailing zeros lies a larger one: a tree, cut highest at 16.
-            let balanced = || Cut((depth + 1 + 5 - distinct.trailing_zeros()) as u8);
-            self.push(entry, if distinct == 0 { before } else { balanced() });
-            distinct += 1;
+            if distinct > 0 {
+                self.sorted.cuts[at] = Cut::within_cell(distinct, depth);
+            }
+            (distinct, last) = (distinct + 1, at);
         }
     }
 
-    fn push(&mut self, entry: u64, cut: Cut) {
-        self.sorted.points.push(self.input[index(entry)]);
-        self.sorted.indices.push(entry as u32);
-        self.sorted.cuts.push(cut);
+    /// Marks the point at a position as a duplicate of another.
+    fn remove(&mut self, at: usize, representative: usize) {
+        self.sorted.cuts[at] = Cut::DUPLICATE;
+        self.removed.push(at);
+        self.sorted.duplicates.push((self.sorted.indices[at], self.sorted.indices[representative]));
     }
 
-    fn push_duplicate(&mut self, entry: u64) {
-        let representative = *self.sorted.indices.last().expect("a duplicate follows its point");
-        self.sorted.duplicates.push((entry as u32, representative));
+    /// Moves points together where duplicates were.
+    fn close_gaps(&mut self) {
+        if self.removed.is_empty() {
+            return;
+        }
+        let Sorted { points, indices, cuts, boxes, .. } = &mut self.sorted;
+        let mut to = 0;
+        for from in 0..points.len() {
+            if cuts[from] != Cut::DUPLICATE {
+                (points[to], indices[to], cuts[to]) = (points[from], indices[from], cuts[from]);
+                to += 1;
+            }
+        }
+        points.truncate(to);
+        indices.truncate(to);
+        cuts.truncate(to);
+        let moved = |at: usize| at - self.removed.partition_point(|&removed| removed < at);
+        for key_box in boxes {
+            (key_box.start, key_box.end) = (moved(key_box.start), moved(key_box.end));
+        }
     }
 }
 
@@ -194,7 +259,7 @@ fn spread(x: u32) -> u32 {
 }
 
 /// Sorts entries by `key_bits` bits from bit 32 up, stably: least significant digits first.
-fn radix_sort(entries: &mut [u64], spare: &mut [u64], key_bits: u32) {
+fn radix_sort(entries: &mut [u64], key_bits: u32) {
     // Below this length a comparison sort is faster; indices ascend, so it is stable too.
     if entries.len() < 512 {
         entries.sort_unstable();
@@ -202,6 +267,7 @@ fn radix_sort(entries: &mut [u64], spare: &mut [u64], key_bits: u32) {
     }
     let passes = key_bits.div_ceil(11);
     let digit_bits = key_bits.div_ceil(passes);
+    let mut spare = vec![0; entries.len()];
     let (mut from, mut to) = (&mut *entries, &mut *spare);
     for pass in 0..passes {
         let shift = 32 + pass * digit_bits;
