@@ -17,9 +17,9 @@ use engines::{ENGINES, Engine};
 /// Time and memory per point of Delone and of other Delaunay software; wrong results are shown as wrong.
 #[derive(Parser)]
 struct Args {
-    /// Points in each set.
-    #[arg(long, default_value_t = 1_000_000)]
-    size: usize,
+    /// Points in each set; several sizes give several tables.
+    #[arg(long, value_delimiter = ',', default_value = "1000000")]
+    size: Vec<usize>,
     /// Runs of each engine, interleaved; the minimum counts.
     #[arg(long, default_value_t = 5)]
     runs: usize,
@@ -65,25 +65,30 @@ fn main() {
         .iter()
         .filter(|e| args.engines.is_empty() || args.engines.iter().any(|name| name == e.name))
         .collect();
-    println!(
-        "ns/point, minimum of {} interleaved runs, one thread, {} points; output included",
-        args.runs, args.size
-    );
+    println!("ns/point, minimum of {} interleaved runs, one thread; output included", args.runs);
+    let mut all_right = true;
     panic::set_hook(Box::new(|_| {})); // peers may panic: that is a result, not a report
     for name in &args.kinds {
         let Some(kind) = Kind::named(name) else {
             println!("\nthere is no set named {name}");
             continue;
         };
-        let points = kind.points(args.size, 1);
-        let mut entries: Vec<_> =
-            chosen.iter().map(|engine| Entry { engine, times: Vec::new(), wrong: None }).collect();
-        for run in 0..args.runs {
-            for entry in &mut entries {
-                measure(entry, &points, run == 0, args.patience);
+        for &size in &args.size {
+            let points = kind.points(size, 1);
+            let mut entries: Vec<_> =
+                chosen.iter().map(|engine| Entry { engine, times: Vec::new(), wrong: None }).collect();
+            for run in 0..args.runs {
+                for entry in &mut entries {
+                    measure(entry, &points, run == 0, args.patience);
+                }
             }
+            report(kind, size, &entries, args.memory);
+            all_right &= entries.iter().all(|e| !e.engine.name.starts_with("delone") || e.wrong.is_none());
         }
-        report(name, kind, &entries, &args);
+    }
+    if !all_right {
+        println!("\nDelone is wrong somewhere: see above");
+        std::process::exit(1);
     }
 }
 
@@ -108,16 +113,16 @@ fn measure(entry: &mut Entry, points: &[[f64; 2]], judge: bool, patience: f64) {
     }
 }
 
-fn report(name: &str, kind: Kind, entries: &[Entry], args: &Args) {
-    println!("\n{name}");
-    let ours = entries.iter().find(|e| e.engine.name == "delone").and_then(|e| e.nanoseconds(args.size));
+fn report(kind: Kind, size: usize, entries: &[Entry], memory: bool) {
+    println!("\n{} {size}", kind.name());
+    let ours = entries.iter().find(|e| e.engine.name == "delone").and_then(|e| e.nanoseconds(size));
     for entry in entries {
-        let time = entry.nanoseconds(args.size).map_or("-".to_owned(), |ns| format!("{ns:.0}"));
-        let ratio = match (ours, entry.nanoseconds(args.size)) {
+        let time = entry.nanoseconds(size).map_or("-".to_owned(), |ns| format!("{ns:.0}"));
+        let ratio = match (ours, entry.nanoseconds(size)) {
             (Some(ours), Some(theirs)) => format!("{:.2} x", theirs / ours),
             _ => String::new(),
         };
-        let bytes = if args.memory { memory::peak(entry.engine.name, kind, args.size) } else { None };
+        let bytes = if memory { crate::memory::peak(entry.engine.name, kind, size) } else { None };
         let bytes = bytes.map_or(String::new(), |bytes| format!("{bytes:.0} B/point"));
         let wrong = entry.wrong.as_ref().map_or(String::new(), |why| {
             if why.starts_with('(') { why.clone() } else { format!("WRONG: {why}") }
@@ -126,7 +131,7 @@ fn report(name: &str, kind: Kind, entries: &[Entry], args: &Args) {
     }
     let best = |among: fn(&Engine) -> bool| {
         let right = entries.iter().filter(|e| e.wrong.is_none() && among(e.engine));
-        right.filter_map(|e| e.nanoseconds(args.size)).min_by(f64::total_cmp)
+        right.filter_map(|e| e.nanoseconds(size)).min_by(f64::total_cmp)
     };
     if let Some(ours) = ours {
         let ratio = |time: Option<f64>| time.map_or("-".to_owned(), |time| format!("{:.2} x", time / ours));

@@ -1,7 +1,7 @@
 //! Files as the commands use them: names checked first, points read, outputs written whole.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor, Read};
+use std::io::{BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use delone_io::{Cloud, Format, Output, ReadOptions, Source};
@@ -110,7 +110,14 @@ pub(crate) fn write(
         content(&mut output)?;
         Ok(output.commit()?)
     };
-    attempt().map_err(|error: delone_io::Error| match error {
+    let outcome = match attempt() {
+        // A reader that has seen enough (`| head`) is no failure.
+        Err(delone_io::Error::Io(error)) if is_standard(path) && error.kind() == ErrorKind::BrokenPipe => {
+            Ok(())
+        }
+        outcome => outcome,
+    };
+    outcome.map_err(|error: delone_io::Error| match error {
         delone_io::Error::Io(error) => Failure::new(
             format!("cannot write {}: {error}", path.display()),
             "check the name, the permissions and the room on the disk",

@@ -28,6 +28,9 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     let mut files_in: Vec<&Path> = vec![&args.input.input];
     files_in.extend(stats_path);
     let outputs = files::outputs(&args.output, args.to, &files_in)?;
+    if let Some((path, format)) = outputs.iter().find(|(_, format)| !format.holds_meshes()) {
+        return Err(Failure::file(path, &delone_io::Error::NotAMesh(*format)));
+    }
     let mut stats = Stats::start();
     let Cloud { xy, z } = files::points(&args.input, usize::from(args.dim), quiet)?;
     stats.phase("read");
@@ -79,8 +82,11 @@ pub(crate) fn build(
 pub(crate) fn remark(d: &Delaunay2, quiet: bool) {
     let (points, duplicates) = (d.points().len(), d.duplicates().len());
     if duplicates > 0 {
-        let word = if duplicates == 1 { "point equals an earlier one" } else { "points equal earlier ones" };
-        note(quiet, format_args!("{duplicates} of {points} {word} and are no vertices"));
+        let text = match duplicates {
+            1 => "equals an earlier one and is no vertex",
+            _ => "equal earlier ones and are no vertices",
+        };
+        note(quiet, format_args!("{duplicates} of {points} points {text}"));
     }
     match d.dimension() {
         Dimension::Empty => note(quiet, "there are no points, so there are no triangles"),

@@ -221,6 +221,22 @@ fn wrong_arrays_are_refused() {
 }
 
 #[test]
+fn arrays_in_either_order() {
+    let place = Place::new();
+    let bytes = |numbers: &[f64]| numbers.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>();
+    let rows = [array("<f8", "(3, 2)", 0), bytes(&[0.0, 0.0, 5.0, 0.0, 0.0, 7.0])].concat();
+    place.file("rows.npy", &rows);
+    assert!(place.succeed("info rows.npy").contains("y                      0.0 to 7.0"));
+    let mut turned = rows.clone();
+    let at = rows.windows(5).position(|w| w == b"False").expect("the flag");
+    turned[at..at + 5].copy_from_slice(b"True ");
+    turned.truncate(rows.len() - 48);
+    turned.extend(bytes(&[0.0, 5.0, 0.0, 0.0, 0.0, 7.0]));
+    place.file("columns.npy", turned);
+    assert_eq!(place.succeed("info columns.npy"), place.succeed("info rows.npy"));
+}
+
+#[test]
 fn a_truncated_tile_is_refused() {
     let place = Place::new();
     let whole = std::fs::read(data("autzen_trim.laz")).expect("the tile");

@@ -1,6 +1,6 @@
 //! Points of other types give the same triangulation.
 
-use delone::Delaunay2;
+use delone::{Delaunay2, Error, MAX_POINTS, Position2};
 
 #[test]
 fn numbers_of_other_types() {
@@ -24,4 +24,23 @@ fn geo_types_points() {
     assert_eq!(Delaunay2::from_points(&points).expect("finite").triangles().count(), 1);
     let coordinates = points.map(|p| p.0);
     assert_eq!(Delaunay2::from_points(&coordinates).expect("finite").triangles().count(), 1);
+}
+
+/// Takes no memory, so that a slice of it can be longer than memory.
+#[derive(Clone)]
+struct Origin;
+
+impl Position2 for Origin {
+    fn xy(&self) -> [f64; 2] {
+        [0.0, 0.0]
+    }
+}
+
+#[test]
+fn too_many_points_are_refused() {
+    for count in [MAX_POINTS + 1, u32::MAX as usize, 1 << 40] {
+        let error = Delaunay2::from_points(&vec![Origin; count]).expect_err("too many");
+        assert_eq!(error, Error::TooManyPoints { count });
+    }
+    assert_eq!(Delaunay2::from_points(&vec![Origin; 1000]).expect("finite").duplicates().len(), 999);
 }

@@ -74,6 +74,13 @@ impl Format {
     }
 }
 
+impl Format {
+    /// Whether a triangulation can be written in it.
+    pub fn holds_meshes(self) -> bool {
+        !matches!(self, Self::Text | Self::Raw | Self::Las)
+    }
+}
+
 impl FromStr for Format {
     type Err = Error;
 

@@ -11,7 +11,7 @@ use crate::in_circle::{in_circle_exact, in_circle_tie};
 use crate::orient::orient2d_exact;
 use crate::{Filter, Point2, Sign};
 
-/// The circles through a base l-r, with the error bounds of a box that holds all points asked about.
+/// The circles through a base l-r. The filter given with a question must hold for all points in it.
 #[derive(Clone, Copy, Debug)]
 pub struct Pencil {
     l: Point2,

@@ -146,7 +146,7 @@ impl Mesh {
         self.edges.len() / 4
     }
 
-    /// What the vertices span. O(h) for h hull vertices of a line, else O(1).
+    /// What the vertices span. O(1).
     pub fn dimension(&self) -> Dimension {
         match self.vertex_count {
             0 => Dimension::Empty,

@@ -33,21 +33,31 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let [rows, columns] = shape(&file, &[2, 3], "(n, 2) or (n, 3)")?;
     let (found, order) = (type_name(&file), file.order());
     let wrong = |_| Error::content(format!("the array is of type {found}, not float64"));
-    if order == Order::Fortran {
-        let values = file.data::<f64>().map_err(wrong)?.collect::<io::Result<Vec<_>>>()?;
-        let z = (columns == 3).then(|| values[2 * rows..].to_vec());
-        return Ok(Cloud { xy: (0..rows).map(|i| [values[i], values[rows + i]]).collect(), z });
-    }
-    let mut cloud = Cloud::with_capacity(rows, columns == 3);
     let mut values = file.data::<f64>().map_err(wrong)?;
-    for row in 0..rows {
-        let mut next = || match values.next() {
-            Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => Err(error.into()),
-            Some(Ok(value)) => Ok(value),
-            _ => Err(Error::Truncated(format!("inside row {row} of {rows}"))),
-        };
-        let xy = [next()?, next()?];
-        cloud.push(xy, if columns == 3 { next()? } else { 0.0 });
+    let mut next = |row: usize| match values.next() {
+        Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => Err(error.into()),
+        Some(Ok(value)) => Ok(value),
+        _ => Err(Error::Truncated(format!("inside row {row} of {rows}"))),
+    };
+    let mut cloud = Cloud::with_capacity(rows, columns == 3);
+    if order == Order::Fortran {
+        // Column after column: all x, all y, all z.
+        for row in 0..rows {
+            cloud.xy.push([next(row)?, 0.0]);
+        }
+        for (row, point) in cloud.xy.iter_mut().enumerate() {
+            point[1] = next(row)?;
+        }
+        if let Some(heights) = &mut cloud.z {
+            for row in 0..rows {
+                heights.push(next(row)?);
+            }
+        }
+    } else {
+        for row in 0..rows {
+            let xy = [next(row)?, next(row)?];
+            cloud.push(xy, if columns == 3 { next(row)? } else { 0.0 });
+        }
     }
     Ok(cloud)
 }

@@ -3,7 +3,7 @@
 use std::io::{self, BufRead, Write};
 
 use ply_rs_bw::parser::{Parser, Reader};
-use ply_rs_bw::ply::{DefaultElement, Header, Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{DefaultElement, ElementDef, Property, PropertyAccess, PropertyAccessResult};
 
 use crate::{Cloud, Error, Source, Surface};
 
@@ -60,45 +60,65 @@ fn broken(error: impl std::fmt::Display) -> Error {
     Error::content(format!("PLY: {error}"))
 }
 
-/// Reads the elements of one name into `E`, and those before it into nothing.
-fn elements<E: PropertyAccess>(source: impl BufRead, name: &str) -> Result<(Header, Vec<E>), Error> {
+/// Elements parsed at a time: bounded memory beside the result.
+const CHUNK: usize = 50_000;
+
+/// Hands the elements of one name to `take`, chunk by chunk, and skips those before it.
+fn elements<E: PropertyAccess>(
+    source: impl BufRead,
+    name: &str,
+    mut take: impl FnMut(&ElementDef, Vec<E>) -> Result<(), Error>,
+) -> Result<(), Error> {
     let mut reader = Reader::new(source);
-    let skipper = Parser::<DefaultElement>::new();
-    let header = skipper.read_header(&mut reader).map_err(broken)?;
-    let mut found = Vec::new();
+    let header = Parser::<DefaultElement>::new().read_header(&mut reader).map_err(broken)?;
     for element in header.elements.values() {
+        let mut part = element.clone();
+        let mut rest = element.count;
+        while rest > 0 {
+            part.count = rest.min(CHUNK);
+            rest -= part.count;
+            if element.name == name {
+                let parser = Parser::<E>::new();
+                take(element, parser.read_payload_for_element(&mut reader, &part, &header).map_err(broken)?)?;
+            } else {
+                let parser = Parser::<DefaultElement>::new();
+                parser.read_payload_for_element(&mut reader, &part, &header).map_err(broken)?;
+            }
+        }
         if element.name == name {
-            found =
-                Parser::<E>::new().read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
             break;
         }
-        skipper.read_payload_for_element(&mut reader, element, &header).map_err(broken)?;
     }
-    Ok((header, found))
+    Ok(())
 }
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let (header, vertices) = elements::<Vertex>(source, "vertex")?;
-    let has = |axis: &str| {
-        header.elements.get("vertex").is_some_and(|element| element.properties.contains_key(axis))
-    };
-    if !has("x") || !has("y") {
-        return Err(Error::content("PLY: there is no element vertex with properties x and y"));
-    }
-    let mut cloud = Cloud::with_capacity(vertices.len(), has("z"));
-    vertices.iter().for_each(|&Vertex([x, y, z])| cloud.push([x, y], z));
-    Ok(cloud)
+    let mut cloud = None;
+    elements::<Vertex>(source, "vertex", |element, vertices| {
+        let has = |axis: &str| element.properties.contains_key(axis);
+        if !has("x") || !has("y") {
+            return Err(Error::content("PLY: the vertices have no properties x and y"));
+        }
+        let cloud = cloud.get_or_insert_with(|| Cloud::with_capacity(element.count, has("z")));
+        vertices.iter().for_each(|&Vertex([x, y, z])| cloud.push([x, y], z));
+        Ok(())
+    })?;
+    Ok(cloud.unwrap_or_default())
 }
 
 pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> {
-    let (_, faces) = elements::<Face>(source, "face")?;
-    let triangle = |(i, face): (usize, Face)| {
-        let corners: Result<[u64; 3], _> = face.0.try_into();
-        corners.map_err(|list: Vec<u64>| {
-            Error::content(format!("PLY: face {i} has {} corners, not 3", list.len()))
-        })
-    };
-    faces.into_iter().enumerate().map(triangle).collect()
+    let mut triangles = Vec::new();
+    elements::<Face>(source, "face", |_, faces| {
+        for face in faces {
+            let i = triangles.len();
+            let corners: Result<[u64; 3], _> = face.0.try_into();
+            triangles.push(corners.map_err(|list: Vec<u64>| {
+                Error::content(format!("PLY: face {i} has {} corners, not 3", list.len()))
+            })?);
+        }
+        Ok(())
+    })?;
+    Ok(triangles)
 }
 
 pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
