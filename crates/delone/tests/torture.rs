@@ -70,3 +70,12 @@ fn stress_sets() {
         endure(kind.name(), &kind.points(n, 1));
     }
 }
+
+/// Boxes nested hundreds of times, on a thread with a small stack.
+#[test]
+fn points_of_all_magnitudes_need_no_deep_stack() {
+    let points = Kind::Octaves.points(20_000, 1);
+    let build = move || Delaunay2::from_points(&points).expect("finite").vertex_count();
+    let small = std::thread::Builder::new().stack_size(1 << 20).spawn(build).expect("a thread");
+    assert_eq!(small.join().expect("no overflow"), 20_000);
+}

@@ -144,6 +144,11 @@ kinds! {
     };
     /// Magnitudes from 1e-300 to 1e300, both signs.
     HugeSpan = "huge-span", |n, r| repeat(n, || [any_magnitude(r), any_magnitude(r)]);
+    /// At every distance from the origin from 2^-1000 to 2^1000: boxes within boxes.
+    Octaves = "octaves", |n, r| (0..n).map(|i| {
+        let scale = libm::exp2((i % 2001) as f64 - 1000.0);
+        [scale * r.between(0.5, 1.0), scale * r.unit()]
+    }).collect();
     /// Three concentric circles and two crossing lines on integers: symmetric in many ways.
     Spokes = "spokes", spokes;
     /// Uniform in a square kilometre at a UTM-like offset, in millimetres.
