@@ -122,7 +122,11 @@ fn report(kind: Kind, size: usize, entries: &[Entry], memory: bool) {
             (Some(ours), Some(theirs)) => format!("{:.2} x", theirs / ours),
             _ => String::new(),
         };
-        let bytes = if memory && !entry.times.is_empty() { crate::memory::peak(entry.engine.name, kind, size) } else { None };
+        let bytes = if memory && !entry.times.is_empty() {
+            crate::memory::peak(entry.engine.name, kind, size)
+        } else {
+            None
+        };
         let bytes = bytes.map_or(String::new(), |bytes| format!("{bytes:.0} B/point"));
         let wrong = entry.wrong.as_ref().map_or(String::new(), |why| {
             if why.starts_with('(') { why.clone() } else { format!("WRONG: {why}") }

@@ -2,7 +2,7 @@
 //!
 //! Cost: O(n).
 
-use super::{Dimension, Mesh};
+use super::Mesh;
 use crate::ids::{EdgeId, TriangleId, VertexId};
 
 /// What is wrong with a mesh, one sentence each.
@@ -48,7 +48,7 @@ impl Mesh {
         if n != self.vertex_count || self.slot_count() != (2 * n).saturating_sub(2) {
             return Err(Flaw::Euler { vertices: n, triangles: self.slot_count() });
         }
-        if matches!(self.dimension_by_count(), Dimension::Empty | Dimension::Point) {
+        if n < 2 {
             return Ok(());
         }
         self.check_edges()?;
@@ -56,20 +56,8 @@ impl Mesh {
         self.check_connected()
     }
 
-    fn dimension_by_count(&self) -> Dimension {
-        match self.vertex_count {
-            0 => Dimension::Empty,
-            1 => Dimension::Point,
-            _ => Dimension::Plane,
-        }
-    }
-
-    fn all_edges(&self) -> impl Iterator<Item = EdgeId> {
-        (0..self.slot_count()).map(TriangleId::new).flat_map(|t| [0, 1, 2].map(|k| t.edge(k)))
-    }
-
     fn check_edges(&self) -> Result<(), Flaw> {
-        for e in self.all_edges() {
+        for e in self.directed_edges() {
             let twin = self.twin(e);
             let mutual =
                 twin.index() < self.edges.len() && twin.corner() < 3 && twin != e && self.twin(twin) == e;
@@ -94,7 +82,7 @@ impl Mesh {
     fn check_stars(&self) -> Result<(), Flaw> {
         let mut degrees = vec![0_usize; self.incident.len()];
         let mut ghost_degree = 0;
-        for e in self.all_edges() {
+        for e in self.directed_edges() {
             match self.origin(e) {
                 VertexId::GHOST => ghost_degree += 1,
                 v => degrees[v.index()] += 1,

@@ -5,18 +5,24 @@ use crate::ids::{EdgeId, TriangleId, VertexId};
 
 impl Mesh {
     /// The finite vertices, by increasing index.
-    pub fn vertices(&self) -> Vertices<'_> {
-        Vertices { mesh: self, next: 0 }
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        (0..self.incident.len()).map(VertexId::new).filter(|&v| self.contains(v))
     }
 
     /// The finite triangles.
-    pub fn triangles(&self) -> Triangles<'_> {
-        Triangles { mesh: self, next: 0 }
+    pub fn triangles(&self) -> impl Iterator<Item = TriangleId> + Clone + '_ {
+        (0..self.slot_count()).map(TriangleId::new).filter(|&t| !self.is_ghost(t))
     }
 
     /// The finite edges, each in one of its two directions. Hull edges are included.
-    pub fn undirected_edges(&self) -> UndirectedEdges<'_> {
-        UndirectedEdges { mesh: self, next: 0 }
+    pub fn undirected_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+        let finite = |e: &EdgeId| !self.origin(*e).is_ghost() && !self.destination(*e).is_ghost();
+        self.directed_edges().filter(move |e| *e < self.twin(*e) && finite(e))
+    }
+
+    /// All edges, in both directions, those of ghost triangles included.
+    pub(super) fn directed_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+        (0..self.slot_count()).map(TriangleId::new).flat_map(|t| [0, 1, 2].map(|k| t.edge(k)))
     }
 
     /// The edges that leave a vertex, counter-clockwise, those to the ghost vertex included. Empty for an
@@ -50,74 +56,6 @@ impl Mesh {
         };
         let line = self.dimension() == Dimension::Line;
         Hull { mesh: self, first: next, next, line, lone: self.lone }
-    }
-}
-
-/// See [`Mesh::vertices`].
-#[derive(Clone, Debug)]
-pub struct Vertices<'a> {
-    mesh: &'a Mesh,
-    next: usize,
-}
-
-impl Iterator for Vertices<'_> {
-    type Item = VertexId;
-
-    fn next(&mut self) -> Option<VertexId> {
-        while self.next < self.mesh.incident.len() {
-            let v = VertexId::new(self.next);
-            self.next += 1;
-            if self.mesh.contains(v) {
-                return Some(v);
-            }
-        }
-        None
-    }
-}
-
-/// See [`Mesh::triangles`].
-#[derive(Clone, Debug)]
-pub struct Triangles<'a> {
-    mesh: &'a Mesh,
-    next: usize,
-}
-
-impl Iterator for Triangles<'_> {
-    type Item = TriangleId;
-
-    fn next(&mut self) -> Option<TriangleId> {
-        while self.next < self.mesh.slot_count() {
-            let t = TriangleId::new(self.next);
-            self.next += 1;
-            if !self.mesh.is_ghost(t) {
-                return Some(t);
-            }
-        }
-        None
-    }
-}
-
-/// See [`Mesh::undirected_edges`].
-#[derive(Clone, Debug)]
-pub struct UndirectedEdges<'a> {
-    mesh: &'a Mesh,
-    next: usize,
-}
-
-impl Iterator for UndirectedEdges<'_> {
-    type Item = EdgeId;
-
-    fn next(&mut self) -> Option<EdgeId> {
-        while self.next < self.mesh.edges.len() {
-            let at = self.next;
-            self.next += if at % 4 == 2 { 2 } else { 1 };
-            let e = EdgeId::new(at);
-            let finite = !self.mesh.origin(e).is_ghost() && !self.mesh.destination(e).is_ghost();
-            if finite && e < self.mesh.twin(e) {
-                return Some(e);
-            }
-        }
-        None
     }
 }
 

@@ -26,7 +26,7 @@
 pub mod check;
 mod iterate;
 
-pub use iterate::{Hull, Star, Triangles, UndirectedEdges, Vertices};
+pub use iterate::{Hull, Star};
 
 use crate::ids::{EdgeId, TriangleId, VertexId};
 

@@ -135,8 +135,8 @@ impl Builder<'_> {
         let (mut l, mut r) = (self.point(l), self.point(r));
         loop {
             let pencil = Pencil::new(l, r);
-            let left = self.left_candidate(&pencil, top, bottom, filter);
-            let right = self.right_candidate(&pencil, top, bottom, filter);
+            let left = self.candidate::<true>(&pencil, top, bottom, filter);
+            let right = self.candidate::<false>(&pencil, top, bottom, filter);
             let connect_right = match (&left, &right) {
                 (None, None) => break,
                 (Some(_), None) => false,
@@ -158,26 +158,27 @@ impl Builder<'_> {
         self.leaving[r.index()] = top;
     }
 
-    /// The vertex that the left part offers, after removing the edges at l whose circle with the base
-    /// contains the vertex behind them.
+    /// The vertex that the left or the right part offers, after removing the edges at its end of the base whose
+    /// circle with the base contains the vertex behind them.
     #[inline]
-    fn left_candidate(
+    fn candidate<const LEFT: bool>(
         &mut self,
         pencil: &Pencil,
         top: TriangleId,
         bottom: TriangleId,
         filter: &Filter,
     ) -> Option<Member> {
-        let left = self.next_ghost(top);
-        if left == bottom {
+        let ghost = if LEFT { self.next_ghost(top) } else { self.previous_ghost(top) };
+        if ghost == bottom {
             return None; // a single point
         }
-        let mut candidate = pencil.member(self.point(self.origin(left.edge(0))));
+        let far = self.origin(ghost.edge(usize::from(!LEFT)));
+        let mut candidate = pencil.member(self.point(far));
         if !pencil.side(&candidate, filter).is_positive() {
             return None;
         }
         loop {
-            let apex = self.origin(self.twin(left.edge(0)).previous());
+            let apex = self.origin(self.twin(ghost.edge(0)).previous());
             if apex.is_ghost() {
                 return Some(candidate); // nothing behind this edge
             }
@@ -185,38 +186,11 @@ impl Builder<'_> {
             if !pencil.in_circle(&candidate, &behind, filter).is_positive() {
                 return Some(candidate);
             }
-            self.remove_left(left, apex);
-            candidate = behind;
-        }
-    }
-
-    /// The mirror image of [`Self::left_candidate`].
-    #[inline]
-    fn right_candidate(
-        &mut self,
-        pencil: &Pencil,
-        top: TriangleId,
-        bottom: TriangleId,
-        filter: &Filter,
-    ) -> Option<Member> {
-        let right = self.previous_ghost(top);
-        if right == bottom {
-            return None;
-        }
-        let mut candidate = pencil.member(self.point(self.origin(right.edge(1))));
-        if !pencil.side(&candidate, filter).is_positive() {
-            return None;
-        }
-        loop {
-            let apex = self.origin(self.twin(right.edge(0)).previous());
-            if apex.is_ghost() {
-                return Some(candidate);
+            if LEFT {
+                self.remove_left(ghost, apex);
+            } else {
+                self.remove_right(ghost, apex);
             }
-            let behind = pencil.member(self.point(apex));
-            if !pencil.in_circle(&candidate, &behind, filter).is_positive() {
-                return Some(candidate);
-            }
-            self.remove_right(right, apex);
             candidate = behind;
         }
     }
