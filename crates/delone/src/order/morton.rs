@@ -126,7 +126,7 @@ impl Sorter {
     fn key_box(&mut self, points: &[[f64; 2]], index_of: impl Fn(usize) -> u32, start: usize) -> u32 {
         let n = points.len();
         let (low, high) = bounds(points);
-        let bits = ((n as f64).log2() / 2.0 + 1.5).ceil() as u32;
+        let bits = (n.next_power_of_two().ilog2() + 3).div_ceil(2);
         let quantizer = Quantizer::new(low, high, bits);
         self.sorted.boxes.push(KeyBox { start, end: start + n, quantizer, depth: 2 * bits });
         // An entry holds a key above and a place in `points` below. Without a box all keys are equal.

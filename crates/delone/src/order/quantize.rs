@@ -29,7 +29,7 @@ impl Quantizer {
         }
         // A power of two that brings the smallest subnormal extent into the normal range.
         let lift = if side < 1e-290 { 2f64.powi(200) } else { 1.0 };
-        let cells = 2f64.powi(bits as i32);
+        let cells = f64::from(1 << bits);
         let low = low.map(|x| x * half);
         Some(Self { low, half, scale: [lift, cells / (side * lift)], last: (1 << bits) - 1, side, extent })
     }
@@ -48,7 +48,7 @@ impl Quantizer {
     /// direction. The cells' borders are rounded, by far less than the thousandth added here.
     pub(crate) fn block(&self, halvings: [u32; 2]) -> [f64; 2] {
         let side = self.side / self.half * 1.001;
-        [0, 1].map(|k| (side * 2f64.powi(-(halvings[k] as i32))).min(self.extent[k]))
+        [0, 1].map(|k| (side / f64::from(1 << halvings[k])).min(self.extent[k]))
     }
 }
 
