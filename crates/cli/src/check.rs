@@ -24,6 +24,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("canonical", verdict.is_ok_and(|verdict| verdict.is_canonical()));
     if let Ok(verdict) = verdict {
         stats.set("duplicates", verdict.duplicates);
+        stats.set("hull", verdict.hull);
         stats.set("clockwise", verdict.clockwise);
         stats.set("other_diagonals", verdict.other_diagonals);
     }

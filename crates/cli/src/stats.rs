@@ -56,6 +56,14 @@ impl Stats {
     /// Writes all of it, if a file was named.
     pub(crate) fn write(mut self, path: Option<&Path>) -> Result<(), Failure> {
         let Some(path) = path else { return Ok(()) };
+        // The same keys from every command: null where nothing was counted, zero where nothing was done.
+        for key in ["points", "duplicates", "simplices", "hull"] {
+            self.facts.entry(key).or_insert(Value::Null);
+        }
+        self.facts.entry("counters").or_insert(json!({}));
+        for phase in ["read", "build", "write"] {
+            self.seconds.entry(phase).or_insert(json!(0.0));
+        }
         self.facts.insert("seconds".to_owned(), Value::Object(self.seconds));
         let text = format!("{:#}\n", Value::Object(self.facts));
         files::write(path, |out| Ok(out.write_all(text.as_bytes())?))

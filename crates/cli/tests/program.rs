@@ -342,6 +342,30 @@ fn points_that_fail_are_reduced() {
 }
 
 #[test]
+fn every_command_writes_stats() {
+    let place = Place::new();
+    for line in [
+        "generate uniform -n 50 -o p.npy",
+        "triangulate p.npy -o m.npy",
+        "check p.npy m.npy",
+        "draw p.npy -o m.svg",
+        "info p.npy",
+        "reduce p.npy",
+    ] {
+        place.succeed(&format!("{line} --stats s.json"));
+        let bytes = std::fs::read(place.path("s.json")).expect("stats");
+        let stats: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
+        assert_eq!(stats["points"], 50, "{line}");
+        for key in ["duplicates", "simplices", "hull", "counters"] {
+            assert!(stats.get(key).is_some(), "{line}: {key}");
+        }
+        for phase in ["read", "build", "write"] {
+            assert!(stats["seconds"][phase].is_number(), "{line}: {phase}");
+        }
+    }
+}
+
+#[test]
 fn help_shows_examples() {
     let place = Place::new();
     for command in ["triangulate", "check", "generate", "draw", "info", "reduce"] {

@@ -18,6 +18,8 @@ pub struct Verdict {
     pub clockwise: usize,
     /// Points that equal a corner without being one.
     pub duplicates: usize,
+    /// Points on the border of the convex hull; none without triangles.
+    pub hull: usize,
 }
 
 impl Verdict {
@@ -84,19 +86,19 @@ pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Ob
     let (triangles, clockwise) = oriented(points, triangles)?;
     let duplicates = check_coverage(points, &triangles)?;
     if triangles.is_empty() {
-        return Ok(Verdict { other_diagonals: 0, clockwise: 0, duplicates });
+        return Ok(Verdict { other_diagonals: 0, clockwise: 0, duplicates, hull: 0 });
     }
     let sides = sides(&triangles);
     let other_diagonals = check_pairs(points, &triangles, &sides)?;
-    let hull_size = check_border(points, &triangles, &sides)?;
+    let hull = check_border(points, &triangles, &sides)?;
     let mut corners: Vec<usize> = triangles.as_flattened().to_vec();
     corners.sort_unstable();
     corners.dedup();
     // A disk: V - E + F = 1, where 2 E = 3 F + h.
-    if 2 * corners.len() != triangles.len() + hull_size + 2 {
+    if 2 * corners.len() != triangles.len() + hull + 2 {
         return Err(Objection::Cover);
     }
-    Ok(Verdict { other_diagonals, clockwise, duplicates })
+    Ok(Verdict { other_diagonals, clockwise, duplicates, hull })
 }
 
 /// The triangles counter-clockwise, and how many were not.
