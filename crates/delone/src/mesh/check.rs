@@ -10,7 +10,7 @@ use crate::ids::{EdgeId, TriangleId, VertexId};
 #[non_exhaustive]
 pub enum Flaw {
     /// The count of triangles contradicts Euler's relation.
-    #[error("{vertices} vertices need {} triangles with ghosts, not {triangles}", 2 * vertices - 2)]
+    #[error("{vertices} vertices need {} triangles with ghosts, not {triangles}", (2 * vertices).saturating_sub(2))]
     Euler {
         /// Vertices, the ghost not counted.
         vertices: usize,

@@ -49,16 +49,17 @@ fn conflicts(mesh: &Mesh, points: &[[f64; 2]], t: TriangleId, q: [f64; 2]) -> bo
 
 impl Cavity {
     /// Makes `v` a vertex: removes the triangles in conflict with its point, starting from `seed`, one of
-    /// them, and joins `v` to their border. Returns a triangle of the new star, and counts the conflict tests.
+    /// them, and joins `v` to their border. Returns the number of conflict tests.
     pub(super) fn insert(
         &mut self,
         mesh: &mut Mesh,
         points: &[[f64; 2]],
         v: VertexId,
         seed: TriangleId,
-    ) -> (TriangleId, u64) {
+    ) -> u64 {
         let tests = self.find(mesh, points, points[v.index()], seed);
-        (self.refill(mesh, v), tests)
+        self.refill(mesh, v);
+        tests
     }
 
     /// Collects the triangles in conflict, depth first in counter-clockwise order, so that the border comes in
@@ -94,7 +95,7 @@ impl Cavity {
     }
 
     /// Joins `v` to every edge of the border. There are two more of them than triangles removed.
-    fn refill(&mut self, mesh: &mut Mesh, v: VertexId) -> TriangleId {
+    fn refill(&mut self, mesh: &mut Mesh, v: VertexId) {
         debug_assert_eq!(
             self.border.len(),
             self.triangles.len() + 2,
@@ -121,6 +122,5 @@ impl Cavity {
         }
         mesh.incident[v.index()] = self.triangles[0].edge(2);
         mesh.vertex_count += 1;
-        self.triangles[0]
     }
 }

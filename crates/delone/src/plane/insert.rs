@@ -92,8 +92,7 @@ impl<'a> Inserter<'a> {
     }
 
     fn fill(&mut self, v: VertexId, seed: TriangleId) {
-        let (_, tests) = self.cavity.insert(&mut self.mesh, self.points, v, seed);
-        self.tests += tests;
+        self.tests += self.cavity.insert(&mut self.mesh, self.points, v, seed);
     }
 
     /// Lets `new` stand where `old` stood: the same point under another index.

@@ -119,6 +119,8 @@ fn mutual_neighbours_with_other_ends() {
 fn a_triangle_too_few() {
     let broken = flaw(|d| d.mesh.edges.truncate(d.mesh.edges.len() - 4));
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Euler { .. })));
+    let none = flaw(|d| d.mesh.incident.fill(EdgeId::NONE));
+    assert!(none.to_string().starts_with("0 vertices need 0 triangles"), "{none}");
 }
 
 #[test]
