@@ -9,6 +9,7 @@ use crate::progress::Phase;
 use crate::stats::Stats;
 
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+    files::keep_apart(&[&args.input.input, &args.mesh], args.input.stats.as_deref())?;
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     let triangles = files::triangles(&args.mesh, quiet)?;

@@ -10,7 +10,7 @@ use crate::stats::Stats;
 use crate::{files, triangulate};
 
 pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
-    let outputs = files::outputs(&args.output, args.to, &[&args.input.input])?;
+    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &[&args.input.input])?;
     if let Some((path, format)) =
         outputs.iter().find(|(_, format)| !matches!(format, Format::Svg | Format::Png))
     {

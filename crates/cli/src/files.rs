@@ -26,12 +26,11 @@ fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Outputs with their formats, none of them an input or the same file twice.
-pub(crate) fn outputs(
-    paths: &[PathBuf],
-    to: Option<Format>,
-    inputs: &[&Path],
-) -> Result<Vec<(PathBuf, Format)>, Failure> {
+/// Refuses a command that would write over a file it reads, or write a file twice.
+pub(crate) fn keep_apart<'a>(
+    inputs: &[&'a Path],
+    outputs: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), Failure> {
     let place = |path: &Path| match path.file_name() {
         // The file may not exist yet, its folder should.
         Some(name) if !is_standard(path) => {
@@ -41,17 +40,28 @@ pub(crate) fn outputs(
         }
         _ => None,
     };
-    let mut places: Vec<(PathBuf, &Path)> = Vec::new();
-    for (i, path) in inputs.iter().copied().chain(paths.iter().map(PathBuf::as_path)).enumerate() {
+    let mut places: Vec<PathBuf> = inputs.iter().filter_map(|path| place(path)).collect();
+    for path in outputs {
         let Some(here) = place(path) else { continue };
-        if i >= inputs.len() && places.iter().any(|(there, _)| *there == here) {
+        if places.contains(&here) {
             return Err(Failure::usage(
                 format!("{} would overwrite another file of this command", path.display()),
                 "choose another name for the output",
             ));
         }
-        places.push((here, path));
+        places.push(here);
     }
+    Ok(())
+}
+
+/// Outputs with their formats, kept apart from the inputs, from each other and from the statistics.
+pub(crate) fn outputs(
+    paths: &[PathBuf],
+    to: Option<Format>,
+    stats: Option<&Path>,
+    inputs: &[&Path],
+) -> Result<Vec<(PathBuf, Format)>, Failure> {
+    keep_apart(inputs, paths.iter().map(PathBuf::as_path).chain(stats))?;
     let by_extension = |path: &PathBuf| {
         // With several outputs, --to is for those that do not tell by themselves.
         let known = if paths.len() > 1 { Format::of(path).ok() } else { None };
@@ -95,6 +105,12 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
 
 /// Reads triangles.
 pub(crate) fn triangles(path: &Path, quiet: bool) -> Result<Vec<[u64; 3]>, Failure> {
+    if is_standard(path) {
+        return Err(Failure::usage(
+            "triangles are not read from standard input",
+            "name a file: npy ele ply obj",
+        ));
+    }
     let format = format(path, None, "the extension")?;
     let (source, _phase) = open(path, quiet)?;
     delone_io::read_triangles(source, format).map_err(|error| Failure::file(path, &error))

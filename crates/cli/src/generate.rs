@@ -29,7 +29,7 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
         ));
     }
     let mut stats = Stats::start();
-    let outputs = files::outputs(args.output.as_slice(), args.to, &[])?;
+    let outputs = files::outputs(args.output.as_slice(), args.to, args.stats.as_deref(), &[])?;
     let points = {
         let _phase = Phase::start(quiet, "generating");
         kind.points(args.n, args.seed)

@@ -9,6 +9,7 @@ use crate::stats::Stats;
 use crate::{files, triangulate};
 
 pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
+    files::keep_apart(&[&args.input.input], args.input.stats.as_deref())?;
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");

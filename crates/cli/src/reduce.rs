@@ -21,7 +21,8 @@ use crate::stats::Stats;
 type Points = [[f64; 2]];
 
 pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
-    let outputs = files::outputs(args.output.as_slice(), None, &[&args.input.input])?;
+    let outputs =
+        files::outputs(args.output.as_slice(), None, args.input.stats.as_deref(), &[&args.input.input])?;
     let mut stats = Stats::start();
     let points = files::points(&args.input, 2, quiet)?.xy;
     stats.phase("read");

@@ -25,9 +25,7 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         ));
     }
     let stats_path = args.input.stats.as_deref();
-    let mut files_in: Vec<&Path> = vec![&args.input.input];
-    files_in.extend(stats_path);
-    let outputs = files::outputs(&args.output, args.to, &files_in)?;
+    let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
     if let Some((path, format)) = outputs.iter().find(|(_, format)| !format.holds_meshes()) {
         return Err(Failure::file(path, &delone_io::Error::NotAMesh(*format)));
     }

@@ -259,6 +259,10 @@ fn wrong_usage() {
         ("triangulate p.csv -o ./p.csv --to ply", "would overwrite"),
         ("triangulate p.csv -o m.ply -o ./m.ply", "would overwrite"),
         ("triangulate p.csv -o m.ply --stats m.ply", "would overwrite"),
+        ("triangulate p.csv -o m.ply --stats p.csv", "would overwrite"),
+        ("draw p.csv -o m.svg --stats p.csv", "would overwrite"),
+        ("info p.csv --stats p.csv", "would overwrite"),
+        ("reduce p.csv --stats ./p.csv", "would overwrite"),
         ("triangulate p.csv -o m.ply --algorithm sweep", "sweep"),
         ("triangulate p.csv -o m.ply --locate spatial", "--locate"),
         ("triangulate p.csv -o m.ply --dim 4", "4"),
@@ -272,9 +276,11 @@ fn wrong_usage() {
         ("generate uniform -n 5", "output file is missing"),
         ("generate uniform -n x -o q.npy", "x"),
         ("frobnicate", "frobnicate"),
+        ("check p.csv p.csv --stats p.csv", "would overwrite"),
+        ("check p.csv -", "standard input"),
         ("check p.csv m.laz", "m.laz"),
     ] {
-        let status = if line.starts_with("check") { 1 } else { 2 };
+        let status = if line.ends_with("m.laz") { 1 } else { 2 };
         place.fail(line, status, message);
     }
     place.file("p.stl", "");
