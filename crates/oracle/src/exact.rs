@@ -89,3 +89,23 @@ pub fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> i8 {
     }
     0
 }
+
+/// The sign of |a - q|^2 - |b - q|^2.
+pub fn compare_distances(q: Point2, a: Point2, b: Point2) -> i8 {
+    let p = integers(&[q, a, b]);
+    let squared = |i: usize| (0..2).map(|k| (&p[i][k] - &p[0][k]).pow(2)).sum::<BigInt>();
+    sign(&(squared(1) - squared(2)))
+}
+
+/// The sign of |a - q|^2 - radius^2.
+pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> i8 {
+    let p = integers(&[q, a, [radius, radius]]);
+    let squared = (0..2).map(|k| (&p[1][k] - &p[0][k]).pow(2)).sum::<BigInt>();
+    sign(&(squared - p[2][0].pow(2)))
+}
+
+/// The sign of the scalar product (a - o) . (b - o).
+pub fn angle(o: Point2, a: Point2, b: Point2) -> i8 {
+    let p = integers(&[o, a, b]);
+    sign(&(0..2).map(|k| (&p[1][k] - &p[0][k]) * (&p[2][k] - &p[0][k])).sum())
+}

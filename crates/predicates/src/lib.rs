@@ -23,6 +23,7 @@
 //! ```
 
 pub mod counters;
+mod distance;
 mod exact;
 mod filter;
 mod in_circle;
@@ -34,6 +35,7 @@ mod sign;
 #[cfg(test)]
 mod stages;
 
+pub use distance::{angle, compare_distances, compare_with_radius};
 pub use filter::{Filter, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use lexicographic::{lexicographic, strictly_between};

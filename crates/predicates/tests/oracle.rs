@@ -3,7 +3,8 @@
 use delone_oracle::exact;
 use delone_oracle::generate::Random;
 use delone_predicates::{
-    Filter, Grid, Pencil, Point2, Sign, in_circle, in_circle_with_ties, lexicographic, orient2d,
+    Filter, Grid, Pencil, Point2, Sign, angle, compare_distances, compare_with_radius, in_circle,
+    in_circle_with_ties, lexicographic, orient2d,
 };
 
 /// A family of hostile tuples of four points.
@@ -201,4 +202,25 @@ fn orientation_of_equal_points_is_zero() {
             assert_eq!(turn, Sign::Zero);
         }
     }
+}
+
+#[test]
+fn distances_and_angles_are_exact() {
+    let mut equal = 0;
+    tuples(9, 60_000, |name, [q, a, b, d]| {
+        let expected = sign(exact::compare_distances(q, a, b)) as i8;
+        assert_eq!(compare_distances(q, a, b) as i8, expected, "{name}: {q:?} {a:?} {b:?}");
+        equal += usize::from(expected == 0);
+        // A radius that is nearly the distance: the rounded distance itself.
+        for radius in [d[0], (a[0] - q[0]).hypot(a[1] - q[1])] {
+            let expected = if radius < 0.0 || !radius.is_finite() {
+                continue;
+            } else {
+                exact::compare_with_radius(q, a, radius)
+            };
+            assert_eq!(compare_with_radius(q, a, radius) as i8, expected, "{name}: {q:?} {a:?} {radius:?}");
+        }
+        assert_eq!(angle(q, a, b), sign(exact::angle(q, a, b)), "{name}: {q:?} {a:?} {b:?}");
+    });
+    assert!(equal > 1000, "only {equal} ties were met");
 }

@@ -1,5 +1,7 @@
 //! Exact signs in arbitrary precision: the last resort, for tuples that span hundreds of binary orders.
 
+use std::cmp::Ordering;
+
 use num_bigint::{BigInt, Sign as BigSign};
 
 use super::decode;
@@ -48,4 +50,24 @@ pub(super) fn in_circle(coordinates: &[f64; 8]) -> Sign {
     let (ca, cb) = (difference(&p[2], &p[0]), difference(&p[2], &p[1]));
     let (da, db) = (difference(&p[3], &p[0]), difference(&p[3], &p[1]));
     sign(&(dot(&ca, &cb) * cross(&da, &db) - dot(&da, &db) * cross(&ca, &cb)))
+}
+
+fn squared(q: &Vector, p: &Vector) -> BigInt {
+    let d = difference(q, p);
+    dot(&d, &d)
+}
+
+pub(super) fn compare_distances(coordinates: &[f64; 6]) -> Ordering {
+    let p = align(coordinates);
+    squared(&p[0], &p[1]).cmp(&squared(&p[0], &p[2]))
+}
+
+pub(super) fn compare_with_radius(coordinates: &[f64; 6]) -> Ordering {
+    let p = align(coordinates);
+    squared(&p[0], &p[1]).cmp(&dot(&p[2], &p[2]))
+}
+
+pub(super) fn angle(coordinates: &[f64; 6]) -> Sign {
+    let p = align(coordinates);
+    sign(&dot(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])))
 }

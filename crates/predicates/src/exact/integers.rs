@@ -3,6 +3,8 @@
 //! Differences then fit 62 bits and a sign, dot and cross products 125, and the in-circle determinant
 //! compares two products of 250 bits.
 
+use std::cmp::Ordering;
+
 use super::decode;
 use crate::Sign;
 
@@ -43,6 +45,28 @@ pub(super) fn in_circle(coordinates: &[f64; 8]) -> Option<Sign> {
     let (dot_c, cross_c) = dot_cross([ax, ay], [bx, by], [cx, cy]);
     let (dot_d, cross_d) = dot_cross([ax, ay], [bx, by], [dx, dy]);
     Some(compare_products(dot_c, cross_d, dot_d, cross_c))
+}
+
+/// Points q, a, b: the distance of a from q against that of b.
+pub(super) fn compare_distances(coordinates: &[f64; 6]) -> Option<Ordering> {
+    let [qx, qy, ax, ay, bx, by] = align(coordinates)?;
+    let (to_a, _) = dot_cross([qx, qy], [qx, qy], [ax, ay]);
+    let (to_b, _) = dot_cross([qx, qy], [qx, qy], [bx, by]);
+    Some(to_a.cmp(&to_b))
+}
+
+/// Points q, a, (radius, 0): the distance of a from q against the radius.
+pub(super) fn compare_with_radius(coordinates: &[f64; 6]) -> Option<Ordering> {
+    let [qx, qy, ax, ay, radius, _] = align(coordinates)?;
+    let (to_a, _) = dot_cross([qx, qy], [qx, qy], [ax, ay]);
+    Some(to_a.cmp(&(i128::from(radius) * i128::from(radius))))
+}
+
+/// Points a, b, o: the scalar product of a - o and b - o.
+pub(super) fn angle(coordinates: &[f64; 6]) -> Option<Sign> {
+    let [ax, ay, bx, by, ox, oy] = align(coordinates)?;
+    let (dot, _) = dot_cross([ax, ay], [bx, by], [ox, oy]);
+    Some(Sign::of(&dot, &0))
 }
 
 /// The sign of a b - c d.

@@ -10,6 +10,8 @@
 mod big;
 mod integers;
 
+use std::cmp::Ordering;
+
 use crate::counters::{Predicate, Stage, count};
 use crate::{Point2, Sign};
 
@@ -39,6 +41,22 @@ pub(crate) fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
     }
     count(Predicate::InCircle, Stage::Big);
     big::in_circle(&coordinates)
+}
+
+pub(crate) fn compare_distances(q: Point2, a: Point2, b: Point2) -> Ordering {
+    let coordinates = [q[0], q[1], a[0], a[1], b[0], b[1]];
+    integers::compare_distances(&coordinates).unwrap_or_else(|| big::compare_distances(&coordinates))
+}
+
+pub(crate) fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering {
+    // The radius is the distance of (radius, 0) from the origin, on the common scale.
+    let coordinates = [q[0], q[1], a[0], a[1], radius, 0.0];
+    integers::compare_with_radius(&coordinates).unwrap_or_else(|| big::compare_with_radius(&coordinates))
+}
+
+pub(crate) fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
+    let coordinates = [a[0], a[1], b[0], b[1], o[0], o[1]];
+    integers::angle(&coordinates).unwrap_or_else(|| big::angle(&coordinates))
 }
 
 fn coord(p: Point2) -> robust::Coord<f64> {

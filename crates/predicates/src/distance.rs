@@ -1,0 +1,86 @@
+//! Comparisons of distances and angles: filter, exact. Degree two, without perturbation: equal is an answer.
+
+use std::cmp::Ordering;
+
+use crate::{Point2, Sign, exact};
+
+/// Relative error of a squared distance or a scalar product of two rounded differences, doubled for safety:
+/// two roundings of differences, one of a product, one of a sum.
+const ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
+/// Below this magnitude an underflow could be as large as the error bound.
+const SMALLEST: f64 = 1e-290;
+
+/// Compares the distances of `a` and of `b` from `q`: `Less` if `a` is nearer.
+///
+/// Exact for every finite input. O(1).
+///
+/// ```
+/// use std::cmp::Ordering;
+/// use delone_predicates::compare_distances;
+/// assert_eq!(compare_distances([0.0, 0.0], [3.0, 4.0], [5.0, 0.0]), Ordering::Equal);
+/// assert_eq!(compare_distances([1e-300, 0.0], [3.0, 4.0], [5.0, 0.0]), Ordering::Greater);
+/// ```
+#[inline]
+pub fn compare_distances(q: Point2, a: Point2, b: Point2) -> Ordering {
+    let (to_a, to_b) = (squared(q, a), squared(q, b));
+    let (difference, sum) = (to_a - to_b, to_a + to_b);
+    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
+        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
+    }
+    exact_comparison(q, a, b)
+}
+
+#[cold]
+#[inline(never)]
+fn exact_comparison(q: Point2, a: Point2, b: Point2) -> Ordering {
+    exact::compare_distances(q, a, b)
+}
+
+/// Compares the distance of `a` from `q` with `radius`: `Less` if `a` is strictly inside the circle. A negative
+/// radius is smaller than every distance.
+///
+/// Exact for every finite input. O(1).
+///
+/// ```
+/// use std::cmp::Ordering;
+/// use delone_predicates::compare_with_radius;
+/// assert_eq!(compare_with_radius([0.0, 0.0], [3.0, 4.0], 5.0), Ordering::Equal);
+/// ```
+#[inline]
+pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering {
+    if radius < 0.0 {
+        return Ordering::Greater;
+    }
+    let (distance, limit) = (squared(q, a), radius * radius);
+    let (difference, sum) = (distance - limit, distance + limit);
+    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
+        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
+    }
+    exact::compare_with_radius(q, a, radius)
+}
+
+/// The sign of the scalar product (a - o) . (b - o): positive if the angle at `o` is acute, zero if it is right.
+///
+/// Exact for every finite input. O(1).
+///
+/// ```
+/// use delone_predicates::{Sign, angle};
+/// assert_eq!(angle([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]), Sign::Zero);
+/// assert_eq!(angle([0.0, 0.0], [1.0, 0.0], [1.0, 1.0]), Sign::Positive);
+/// ```
+#[inline]
+pub fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
+    let x = (a[0] - o[0]) * (b[0] - o[0]);
+    let y = (a[1] - o[1]) * (b[1] - o[1]);
+    let (dot, size) = (x + y, x.abs() + y.abs());
+    if dot.abs() > ERROR * size && size >= SMALLEST && size.is_finite() {
+        return Sign::of(&dot, &0.0);
+    }
+    exact::angle(o, a, b)
+}
+
+#[inline]
+fn squared(q: Point2, a: Point2) -> f64 {
+    let (x, y) = (a[0] - q[0], a[1] - q[1]);
+    x * x + y * y
+}
