@@ -20,7 +20,7 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:22} {value}\n");
     line("points", d.points().len().to_string());
-    line("duplicates", d.duplicates().len().to_string());
+    line("duplicates", d.duplicates().count().to_string());
     let span = match d.dimension() {
         Dimension::Empty => "nothing: there is no point",
         Dimension::Point => "a point",

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
-use delone::{Counters, Delaunay2};
+use delone::{Counters, Delaunay2, Work};
 use serde_json::{Map, Value, json};
 
 use crate::files;
@@ -38,7 +38,7 @@ impl Stats {
     /// Notes what a triangulation has.
     pub(crate) fn triangulation(&mut self, d: &Delaunay2) {
         self.set("points", d.points().len());
-        self.set("duplicates", d.duplicates().len());
+        self.set("duplicates", d.duplicates().count());
         self.set("vertices", d.vertex_count());
         self.set("simplices", d.triangles().count());
         self.set("hull", d.hull().count());
@@ -47,7 +47,12 @@ impl Stats {
             Counters::DivideAndConquer(c) => {
                 json!({ "leaves": c.leaves, "merges": c.merges, "connected": c.connected, "removed": c.removed })
             }
-            Counters::Incremental { conflict_tests } => json!({ "conflict_tests": conflict_tests }),
+            Counters::Incremental(work) => work_done(&work),
+            Counters::ConflictLists { work, moved } => {
+                let mut counters = work_done(&work);
+                counters["moved"] = json!(moved);
+                counters
+            }
             _ => json!({}),
         };
         self.set("counters", counters);
@@ -68,4 +73,16 @@ impl Stats {
         let text = format!("{:#}\n", Value::Object(self.facts));
         files::write(path, |out| Ok(out.write_all(text.as_bytes())?))
     }
+}
+
+/// Work by name.
+pub(crate) fn work_done(work: &Work) -> Value {
+    json!({
+        "visited": work.visited,
+        "compared": work.compared,
+        "orientations": work.orientations,
+        "in_circles": work.in_circles,
+        "created": work.created,
+        "destroyed": work.destroyed,
+    })
 }

@@ -78,7 +78,7 @@ pub(crate) fn build(
 
 /// Notes on what might surprise.
 pub(crate) fn remark(d: &Delaunay2, quiet: bool) {
-    let (points, duplicates) = (d.points().len(), d.duplicates().len());
+    let (points, duplicates) = (d.points().len(), d.duplicates().count());
     if duplicates > 0 {
         let text = match duplicates {
             1 => "equals an earlier one and is no vertex",

@@ -1,8 +1,8 @@
-//! What can be wrong with an input: what, and where.
+//! What can be wrong with what was asked for: what, and where.
 
-use crate::ids::MAX_POINTS;
+use crate::ids::{MAX_POINTS, VertexId};
 
-/// Why a triangulation could not be built.
+/// Why a triangulation could not be built, changed or asked.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -21,5 +21,38 @@ pub enum Error {
     TooManyPoints {
         /// The number of points given.
         count: usize,
+    },
+    /// A coordinate of a point given alone is NaN or infinite.
+    #[error("the {} coordinate {value} is not finite", ["x", "y", "z"][*.axis])]
+    Coordinate {
+        /// 0 for x, 1 for y, 2 for z.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
+    },
+    /// An id that is no vertex: it was removed, is that of a duplicate, or was never given here.
+    #[error("{} is no vertex of this triangulation", .vertex.index())]
+    NoSuchVertex {
+        /// The id.
+        vertex: VertexId,
+    },
+    /// A vertex was to be moved to the place of another one.
+    #[error("vertex {} is there already", .vertex.index())]
+    Occupied {
+        /// The vertex that is there.
+        vertex: VertexId,
+    },
+    /// Location by history forgets nothing, so nothing can be removed or moved.
+    #[error("a triangulation that is located by history cannot lose vertices")]
+    InsertOnly,
+    /// A parameter is out of range.
+    #[error("{name} is {value}; it must be {range}")]
+    Parameter {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        range: &'static str,
     },
 }

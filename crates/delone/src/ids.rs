@@ -9,7 +9,7 @@ use std::fmt;
 /// The largest number of points of one triangulation: 2^29 = 536,870,912.
 pub const MAX_POINTS: usize = 1 << 29;
 
-/// A vertex: the index of its point in the input.
+/// A vertex: the index of its point, counted over the input and all later insertions.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct VertexId(u32);
 
@@ -17,14 +17,20 @@ impl VertexId {
     /// The vertex at infinity, which closes the surface: every hull edge has a ghost triangle with it.
     pub const GHOST: Self = Self(u32::MAX);
 
-    /// The vertex of the point with this index in the input.
+    /// The vertex of the point with this index.
     #[inline]
     pub fn new(index: usize) -> Self {
         debug_assert!(index < MAX_POINTS, "vertex index {index} is out of range");
         Self(index as u32)
     }
 
-    /// The index of the vertex's point in the input. Meaningless for the ghost vertex.
+    /// The place of this index, as long as places are indices.
+    #[inline]
+    pub(crate) fn same(self) -> Place {
+        Place(self.0)
+    }
+
+    /// The index of the vertex's point. Meaningless for the ghost vertex.
     #[inline]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -40,6 +46,44 @@ impl VertexId {
 impl fmt::Debug for VertexId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_ghost() { f.write_str("ghost") } else { write!(f, "v{}", self.0) }
+    }
+}
+
+/// Where a vertex is kept: the index of its coordinates and of its star inside a mesh. It equals the vertex's
+/// index until a triangulation is changed; then it follows the memory, and the [`VertexId`] stays.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Place(u32);
+
+impl Place {
+    /// The place of the vertex at infinity, which has no coordinates.
+    pub(crate) const GHOST: Self = Self(u32::MAX);
+
+    #[inline]
+    pub(crate) fn new(index: usize) -> Self {
+        debug_assert!(index < 4 * MAX_POINTS, "place {index} is out of range");
+        Self(index as u32)
+    }
+
+    #[inline]
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    #[inline]
+    pub(crate) fn is_ghost(self) -> bool {
+        self == Self::GHOST
+    }
+
+    /// The vertex whose index this is, as long as places are indices.
+    #[inline]
+    pub(crate) fn same(self) -> VertexId {
+        VertexId(self.0)
+    }
+}
+
+impl fmt::Debug for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_ghost() { f.write_str("ghost") } else { write!(f, "p{}", self.0) }
     }
 }
 

@@ -40,5 +40,7 @@ pub mod plane;
 
 pub use error::Error;
 pub use ids::{EdgeId, MAX_POINTS, TriangleId, VertexId};
+pub use locate::tally::{Tally, Work};
+pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::{Dimension, Mesh};
-pub use plane::{Algorithm, Counters, Delaunay2, Duplicate, Position2};
+pub use plane::{Algorithm, Counters, Delaunay2, Duplicate, Inserted, Location, Position2};

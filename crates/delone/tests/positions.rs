@@ -42,5 +42,5 @@ fn too_many_points_are_refused() {
         let error = Delaunay2::from_points(&vec![Origin; count]).expect_err("too many");
         assert_eq!(error, Error::TooManyPoints { count });
     }
-    assert_eq!(Delaunay2::from_points(&vec![Origin; 1000]).expect("finite").duplicates().len(), 999);
+    assert_eq!(Delaunay2::from_points(&vec![Origin; 1000]).expect("finite").duplicates().count(), 999);
 }

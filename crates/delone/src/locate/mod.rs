@@ -1,21 +1,127 @@
 //! Where does a point fall? Strategies of location, free of coordinates.
 //!
-//! A strategy proposes where to start; the exact [`walk`] alone decides. What location needs to know of a
-//! triangulation is the port [`Ground`], which each dimension implements with its predicates.
+//! A strategy proposes where to start; the exact [`walk`] alone decides, so that every strategy gives every
+//! answer. What location needs to know of a triangulation is the port [`Ground`], which each dimension
+//! implements with its predicates.
+//!
+//! | strategy | source | expected cost of a query | choose it |
+//! | --- | --- | --- | --- |
+//! | [`Locate::Tree`] | Bentley 1975 | O(log n) | always, unless there is a reason |
+//! | [`Locate::Walk`] | Devillers, Pion & Teillaud 2002 | O(sqrt n), O(1) from nearby | queries follow each other in space |
+//! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
+//! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n) for any data | adversarial data that change a lot |
+//! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
 
+pub(crate) mod conflict_lists;
+pub(crate) mod hierarchy;
+pub(crate) mod history;
+pub(crate) mod jump_and_walk;
+pub(crate) mod tally;
+pub(crate) mod tree;
 pub(crate) mod walk;
 
-use crate::ids::EdgeId;
+pub use hierarchy::Hierarchy;
+pub use jump_and_walk::JumpAndWalk;
+pub use walk::Walk;
+
+use std::cmp::Ordering;
+
+use crate::error::Error;
+use crate::ids::{EdgeId, Place};
 use crate::mesh::Mesh;
+use tally::Tally;
+
+/// How to find where a point falls. The answer is the same; only cost differs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Locate {
+    /// A k-d tree of hints, rebuilt when the number of points doubles.
+    #[default]
+    Tree,
+    /// No structure: a walk from the vertex inserted last.
+    Walk(Walk),
+    /// A walk from the nearest of a few random vertices.
+    JumpAndWalk(JumpAndWalk),
+    /// A descent through triangulations of ever larger random samples.
+    Hierarchy(Hierarchy),
+    /// A descent through all triangles that ever were. Removal is an error.
+    History,
+}
+
+impl Locate {
+    /// Whether the parameters are in range.
+    pub(crate) fn validate(&self) -> Result<(), Error> {
+        match self {
+            Self::JumpAndWalk(options) => options.validate(),
+            Self::Hierarchy(options) => options.validate(),
+            Self::Tree | Self::Walk(_) | Self::History => Ok(()),
+        }
+    }
+}
 
 /// A triangulation as location sees it.
 pub(crate) trait Ground {
     /// A point that is looked for.
-    type Query: Copy;
+    type Point: Copy + PartialEq;
+    /// The number of coordinates.
+    const DIMENSIONS: usize;
 
     /// The topology.
     fn mesh(&self) -> &Mesh;
 
+    /// Whether there are triangles.
+    fn is_spanned(&self) -> bool;
+
+    /// The point of a vertex.
+    fn point(&self, v: Place) -> Self::Point;
+
+    /// A coordinate, for trees and hashes; no decision hangs on it.
+    fn coordinate(q: Self::Point, axis: usize) -> f64;
+
     /// Whether `q` is strictly on the right of a finite edge: beyond it, seen from the edge's triangle.
-    fn is_beyond(&self, e: EdgeId, q: Self::Query) -> bool;
+    fn is_beyond(&self, e: EdgeId, q: Self::Point) -> bool;
+
+    /// On which side of the line from `from` to `to` a vertex is: `Greater` on the left.
+    fn side(&self, from: Self::Point, to: Self::Point, v: Place) -> Ordering;
+
+    /// Compares the distances of two vertices from `q`.
+    fn compare_distances(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
+
+    /// Whether the angle at `w` between `q` and `x` is acute.
+    fn is_acute(&self, w: Place, q: Self::Point, x: Place) -> bool;
+}
+
+/// A triangulation that changes: what a level of the hierarchy must be able to do.
+pub(crate) trait Level: Ground + Default {
+    /// Makes a point a vertex, and returns its place; `start` is near it. The point is not a vertex yet.
+    fn add(&mut self, q: Self::Point, start: Start) -> Place;
+
+    /// Removes the vertex at a place.
+    fn take(&mut self, v: Place);
+}
+
+/// Where a walk starts, and which walk.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Start {
+    /// At the triangle of this edge, by the walk given.
+    Edge(EdgeId, Walk),
+    /// At this vertex, along the straight line to the goal.
+    Vertex(Place),
+    /// Anywhere.
+    Anywhere,
+}
+
+/// A strategy of location. It is told of every change.
+pub(crate) trait Strategy<G: Ground> {
+    /// Where to start the walk to `q`.
+    fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start;
+
+    /// A vertex has appeared.
+    fn inserted(&mut self, ground: &G, v: Place);
+
+    /// A vertex is about to go.
+    fn removing(&mut self, ground: &G, v: Place);
+
+    /// The ground has been laid out anew: `moved` gives for each old place the new one.
+    fn rearranged(&mut self, ground: &G, moved: &[Place]);
 }

@@ -1,41 +1,167 @@
-//! The visibility walk: cross any edge that separates the triangle from the goal.
+//! Walks from triangle to triangle: visibility, stochastic, straight. They alone decide where a point is.
 //!
-//! Source: Devillers, Pion & Teillaud, "Walking in a triangulation", IJFCS 2002. In a Delaunay triangulation
-//! the walk cannot visit a triangle twice, because each step goes to a circle of smaller power, so it ends
-//! without randomness. Cost: O(sqrt n) triangles on evenly spread points, O(n) at worst; from a near start,
-//! O(1). One or two orientation tests a triangle.
+//! Source: Devillers, Pion & Teillaud, "Walking in a triangulation", IJFCS 2002.
+//!
+//! - The *visibility* walk crosses any edge that separates the triangle from the goal. In a Delaunay
+//!   triangulation it cannot visit a triangle twice, because each step goes to a circle of smaller power, so it
+//!   ends without randomness.
+//! - The *stochastic* walk asks the edges of each triangle in random order, which ends in any triangulation.
+//! - The *straight* walk visits the triangles on the segment from a vertex to the goal.
+//!
+//! Cost: O(sqrt n) triangles on evenly spread points, O(n) at worst; from a near start, O(1). One or two
+//! orientation tests a triangle.
 
-use super::Ground;
-use crate::ids::{TriangleId, VertexId};
+use std::cmp::Ordering;
 
-/// Walks from `start` to the finite triangle that contains `q` in its inside or on its border, or else to the
-/// ghost triangle of a hull edge that `q` is strictly beyond. The triangulation must span the plane.
-pub(crate) fn walk<G: Ground>(ground: &G, start: TriangleId, q: G::Query) -> TriangleId {
+use super::tally::Tally;
+use super::{Ground, Start};
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::mesh::Mesh;
+use crate::order::random::SplitMix;
+
+/// Which walk.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Walk {
+    /// Cross any edge that has the goal beyond it: the fewest tests.
+    #[default]
+    Visibility,
+    /// The same, edges in random order.
+    Stochastic {
+        /// Decides the order.
+        seed: u64,
+    },
+    /// Visit the triangles on the straight line to the goal.
+    Straight,
+}
+
+/// The end of a walk.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    /// The finite triangle that contains the goal in its inside or on its border, or else the ghost triangle of
+    /// a hull edge that the goal is strictly beyond.
+    pub(crate) triangle: TriangleId,
+    /// Triangles visited.
+    pub(crate) steps: usize,
+}
+
+/// Walks to `q`. The triangulation must span the plane.
+#[inline]
+pub(crate) fn walk<G: Ground, T: Tally>(ground: &G, start: Start, q: G::Point, tally: &mut T) -> Goal {
     let mesh = ground.mesh();
-    // A ghost has one finite edge; start inside of it.
-    let mut from = match mesh.corners(start).iter().position(|v| v.is_ghost()) {
-        Some(k) => mesh.twin(start.edge(k).next()),
-        None => start.edge(0),
-    };
+    match start {
+        Start::Edge(e, Walk::Visibility) => visibility(ground, e, q, |_| false, tally),
+        Start::Edge(e, Walk::Stochastic { seed }) => {
+            let mut random = SplitMix(seed);
+            visibility(ground, e, q, move |_| random.next() & 1 == 1, tally)
+        }
+        Start::Edge(e, Walk::Straight) => match mesh.tail(finite_side(mesh, e)) {
+            Place::GHOST => visibility(ground, e, q, |_| false, tally),
+            v => straight(ground, v, q, tally),
+        },
+        Start::Vertex(v) => straight(ground, v, q, tally),
+        Start::Anywhere => visibility(ground, mesh.ghost_edge, q, |_| false, tally),
+    }
+}
+
+/// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
+fn finite_side(mesh: &Mesh, e: EdgeId) -> EdgeId {
+    let t = e.triangle();
+    match mesh.places(t).iter().position(|v| v.is_ghost()) {
+        Some(k) => mesh.twin(t.edge(k).next()),
+        None => e,
+    }
+}
+
+/// `turned` says for each triangle whether its edges are asked clockwise.
+#[inline]
+fn visibility<G: Ground, T: Tally>(
+    ground: &G,
+    start: EdgeId,
+    q: G::Point,
+    mut turned: impl FnMut(TriangleId) -> bool,
+    tally: &mut T,
+) -> Goal {
+    let mesh = ground.mesh();
+    let mut from = finite_side(mesh, start);
+    let mut steps = 1;
+    tally.visited();
+    tally.orientation();
     if ground.is_beyond(from, q) {
         from = mesh.twin(from);
-        if mesh.apex(from) == VertexId::GHOST {
-            return from.triangle();
+        steps += 1;
+        tally.visited();
+        if mesh.tip(from).is_ghost() {
+            return Goal { triangle: from.triangle(), steps };
         }
     }
     loop {
         // `q` is not beyond `from`: it came from there.
-        let (next, previous) = (from.next(), from.previous());
-        let crossed = if ground.is_beyond(next, q) {
-            next
-        } else if ground.is_beyond(previous, q) {
-            previous
+        let (mut first, mut second) = (from.next(), from.previous());
+        if turned(from.triangle()) {
+            (first, second) = (second, first);
+        }
+        tally.orientation();
+        let crossed = if ground.is_beyond(first, q) {
+            first
         } else {
-            return from.triangle();
+            tally.orientation();
+            if !ground.is_beyond(second, q) {
+                return Goal { triangle: from.triangle(), steps };
+            }
+            second
         };
         from = mesh.twin(crossed);
-        if mesh.apex(from) == VertexId::GHOST {
-            return from.triangle();
+        steps += 1;
+        tally.visited();
+        if mesh.tip(from).is_ghost() {
+            return Goal { triangle: from.triangle(), steps };
         }
+    }
+}
+
+/// From a vertex along the segment to `q`. A vertex on the line counts as being on its right.
+fn straight<G: Ground, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut T) -> Goal {
+    let mesh = ground.mesh();
+    let from = ground.point(v);
+    let mut steps = 0;
+    let mut is_left = |w: Place| {
+        tally.orientation();
+        ground.side(from, q, w) == Ordering::Greater
+    };
+    // The spoke on the right of the line whose next spoke is on the left. Around a vertex of the hull there may
+    // be none, and around `q` itself: the visibility walk knows what to do.
+    let first = mesh.incident[v.index()];
+    let mut spoke = first;
+    let mut right = !mesh.head(spoke).is_ghost() && !is_left(mesh.head(spoke));
+    let mut side = loop {
+        let next = mesh.spin(spoke);
+        let head = mesh.head(next);
+        steps += 1;
+        let next_right = !head.is_ghost() && !is_left(head);
+        if right && !next_right && !head.is_ghost() {
+            break spoke.next();
+        }
+        if next == first {
+            return visibility(ground, spoke, q, |_| false, tally);
+        }
+        (spoke, right) = (next, next_right);
+    };
+    (0..steps).for_each(|_| tally.visited());
+    loop {
+        tally.orientation();
+        if !ground.is_beyond(side, q) {
+            return Goal { triangle: side.triangle(), steps };
+        }
+        let entered = mesh.twin(side);
+        steps += 1;
+        tally.visited();
+        let tip = mesh.tip(entered);
+        if tip.is_ghost() {
+            return Goal { triangle: entered.triangle(), steps };
+        }
+        tally.orientation();
+        let is_left = ground.side(from, q, tip) == Ordering::Greater;
+        side = if is_left { entered.next() } else { entered.previous() };
     }
 }

@@ -3,7 +3,7 @@
 //! Cost: O(n).
 
 use super::Mesh;
-use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 
 /// What is wrong with a mesh, one sentence each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -44,9 +44,10 @@ impl Mesh {
     /// Checks twins, corners, stars, connectedness and Euler's relation: together they prove a sphere.
     /// Returns the first flaw found.
     pub fn check(&self) -> Result<(), Flaw> {
-        let n = self.vertices().count();
-        if n != self.vertex_count || self.slot_count() != (2 * n).saturating_sub(2) {
-            return Err(Flaw::Euler { vertices: n, triangles: self.slot_count() });
+        let n = self.inhabited().count();
+        let triangles = self.triangle_count();
+        if n != self.vertex_count || triangles != (2 * n).saturating_sub(2) {
+            return Err(Flaw::Euler { vertices: n, triangles });
         }
         if n < 2 {
             return Ok(());
@@ -64,15 +65,15 @@ impl Mesh {
             if !mutual {
                 return Err(Flaw::Twin(e));
             }
-            if self.origin(twin) != self.destination(e) || self.origin(e) != self.destination(twin) {
+            if self.tail(twin) != self.head(e) || self.tail(e) != self.head(twin) {
                 return Err(Flaw::Ends(e));
             }
-            let corners @ [a, b, c] = self.corners(e.triangle());
+            let corners @ [a, b, c] = self.places(e.triangle());
             if a == b || b == c || c == a {
                 return Err(Flaw::Corners(e.triangle()));
             }
-            if let Some(v) = corners.into_iter().find(|&v| !v.is_ghost() && !self.contains(v)) {
-                return Err(Flaw::Stranger(v, e.triangle()));
+            if let Some(v) = corners.into_iter().find(|&v| !v.is_ghost() && !self.is_vertex(v)) {
+                return Err(Flaw::Stranger(self.name(v), e.triangle()));
             }
         }
         Ok(())
@@ -83,8 +84,8 @@ impl Mesh {
         let mut degrees = vec![0_usize; self.incident.len()];
         let mut ghost_degree = 0;
         for e in self.directed_edges() {
-            match self.origin(e) {
-                VertexId::GHOST => ghost_degree += 1,
+            match self.tail(e) {
+                Place::GHOST => ghost_degree += 1,
                 v => degrees[v.index()] += 1,
             }
         }
@@ -93,17 +94,17 @@ impl Mesh {
                 .take(limit + 1)
                 .count()
         };
-        for v in self.vertices() {
+        for v in self.inhabited() {
             let first = self.incident[v.index()];
-            if first.index() >= self.edges.len() || self.origin(first) != v {
-                return Err(Flaw::Incident(v));
+            if first.index() >= self.edges.len() || self.tail(first) != v {
+                return Err(Flaw::Incident(self.name(v)));
             }
             if cycle(first, degrees[v.index()]) != degrees[v.index()] {
-                return Err(Flaw::Star(v));
+                return Err(Flaw::Star(self.name(v)));
             }
         }
         let first = self.ghost_edge;
-        if first.index() >= self.edges.len() || !self.origin(first).is_ghost() {
+        if first.index() >= self.edges.len() || !self.tail(first).is_ghost() {
             return Err(Flaw::Incident(VertexId::GHOST));
         }
         if cycle(first, ghost_degree) != ghost_degree {
@@ -114,7 +115,7 @@ impl Mesh {
 
     fn check_connected(&self) -> Result<(), Flaw> {
         let mut seen = vec![false; self.slot_count()];
-        let mut pending = vec![TriangleId::new(0)];
+        let mut pending = vec![self.ghost_edge.triangle()];
         let mut count = 0;
         while let Some(t) = pending.pop() {
             if !std::mem::replace(&mut seen[t.index()], true) {
@@ -122,6 +123,6 @@ impl Mesh {
                 pending.extend(self.adjacent(t));
             }
         }
-        if count == self.slot_count() { Ok(()) } else { Err(Flaw::Connected) }
+        if count == self.triangle_count() { Ok(()) } else { Err(Flaw::Connected) }
     }
 }

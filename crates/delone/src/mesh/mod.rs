@@ -23,12 +23,22 @@
 //! 2n - 2 triangles, ghosts included. Collinear vertices are a flat sphere of ghosts alone, two for each
 //! segment; one vertex, or none, has no triangle.
 
+//!
+//! # Places
+//!
+//! Inside, a vertex is known by its *place*, where its star and its coordinates are kept; outside, by its
+//! [`VertexId`]. `names` translates, and `slots` finds free triangles near others.
+
 pub mod check;
 mod iterate;
+mod names;
+mod slots;
 
 pub use iterate::{Hull, Star};
+pub(crate) use names::Names;
+pub(crate) use slots::Slots;
 
-use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 
 /// The dimension of a set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -46,58 +56,52 @@ pub enum Dimension {
 /// A directed edge: where it starts, and the same edge the other way round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct HalfEdge {
-    pub(crate) origin: VertexId,
+    pub(crate) origin: Place,
     pub(crate) twin: EdgeId,
 }
 
 impl HalfEdge {
     /// What the fourth record of a triangle holds, and the records of a triangle not built yet.
-    pub(crate) const UNUSED: Self = Self { origin: VertexId::GHOST, twin: EdgeId::NONE };
+    pub(crate) const UNUSED: Self = Self { origin: Place::GHOST, twin: EdgeId::NONE };
 }
 
 /// A triangulation's topology: 32 bytes a triangle (three edges, and one record to align them), 4 bytes a
 /// vertex.
 #[derive(Clone, Debug)]
 pub struct Mesh {
-    /// Four records a triangle, the fourth unused.
+    /// Four records a triangle, the fourth unused. In a free triangle all are unused.
     pub(crate) edges: Vec<HalfEdge>,
-    /// For each index an edge that leaves the vertex; [`EdgeId::NONE`] for an index that is no vertex.
+    /// For each place an edge that leaves its vertex; [`EdgeId::NONE`] where there is no vertex.
     pub(crate) incident: Vec<EdgeId>,
     /// An edge that leaves the ghost vertex; none below two vertices.
     pub(crate) ghost_edge: EdgeId,
     pub(crate) vertex_count: usize,
     /// The only vertex, when there is one.
-    pub(crate) lone: Option<VertexId>,
+    pub(crate) lone: Option<Place>,
+    /// Which triangles are free.
+    pub(crate) free: Slots,
+    /// None while vertices are at the places of their indices.
+    pub(crate) names: Option<Names>,
 }
 
+/// From outside, by vertex.
 impl Mesh {
-    /// No vertex, with room for indices below `indices`.
-    pub(crate) fn empty(indices: usize) -> Self {
-        Self {
-            edges: Vec::new(),
-            incident: vec![EdgeId::NONE; indices],
-            ghost_edge: EdgeId::NONE,
-            vertex_count: 0,
-            lone: None,
-        }
-    }
-
     /// The vertex that an edge leaves.
     #[inline]
     pub fn origin(&self, e: EdgeId) -> VertexId {
-        self.edges[e.index()].origin
+        self.name(self.tail(e))
     }
 
     /// The vertex at which an edge ends.
     #[inline]
     pub fn destination(&self, e: EdgeId) -> VertexId {
-        self.origin(e.next())
+        self.name(self.head(e))
     }
 
     /// The corner of the edge's triangle that is not on the edge.
     #[inline]
     pub fn apex(&self, e: EdgeId) -> VertexId {
-        self.origin(e.previous())
+        self.name(self.tip(e))
     }
 
     /// The same edge in the other direction, of the triangle on the other side.
@@ -115,9 +119,7 @@ impl Mesh {
     /// The three corners, counter-clockwise; one of them is the ghost vertex in a ghost triangle.
     #[inline]
     pub fn corners(&self, t: TriangleId) -> [VertexId; 3] {
-        let first = t.edge(0).index();
-        let record = &self.edges[first..first + 3];
-        [record[0].origin, record[1].origin, record[2].origin]
+        self.places(t).map(|p| self.name(p))
     }
 
     /// The triangles across edges 0, 1 and 2 of a triangle.
@@ -128,12 +130,12 @@ impl Mesh {
     /// Whether a corner of the triangle is the vertex at infinity.
     #[inline]
     pub fn is_ghost(&self, t: TriangleId) -> bool {
-        self.corners(t).contains(&VertexId::GHOST)
+        self.places(t).contains(&Place::GHOST)
     }
 
-    /// Whether this index is a vertex: the index of a point that is no duplicate.
+    /// Whether this is a vertex: neither the index of a duplicate nor one that was removed or never given.
     pub fn contains(&self, v: VertexId) -> bool {
-        self.lone == Some(v) || self.incident.get(v.index()).is_some_and(|&e| e != EdgeId::NONE)
+        self.place(v).is_some()
     }
 
     /// The number of vertices, the ghost not counted.
@@ -142,6 +144,11 @@ impl Mesh {
     }
 
     /// The number of triangles, ghosts included: 2n - 2 for n >= 1 vertices.
+    pub fn triangle_count(&self) -> usize {
+        self.slot_count() - self.free.free()
+    }
+
+    /// One more than the largest index of a triangle. Indices of removed triangles are used again.
     pub fn slot_count(&self) -> usize {
         self.edges.len() / 4
     }
@@ -162,6 +169,148 @@ impl Mesh {
                 }
             }
         }
+    }
+}
+
+/// From inside, by place.
+impl Mesh {
+    /// No vertex, with room for places below `places`.
+    pub(crate) fn empty(places: usize) -> Self {
+        Self {
+            edges: Vec::new(),
+            incident: vec![EdgeId::NONE; places],
+            ghost_edge: EdgeId::NONE,
+            vertex_count: 0,
+            lone: None,
+            free: Slots::default(),
+            names: None,
+        }
+    }
+
+    /// The vertex at a place.
+    #[inline]
+    pub(crate) fn name(&self, place: Place) -> VertexId {
+        match &self.names {
+            Some(names) if !place.is_ghost() => names.of(place),
+            _ => place.same(),
+        }
+    }
+
+    /// Where a vertex is, if it is one.
+    #[inline]
+    pub(crate) fn place(&self, v: VertexId) -> Option<Place> {
+        match &self.names {
+            Some(names) => names.place(v),
+            None => Some(v.same()).filter(|&p| self.is_vertex(p)),
+        }
+    }
+
+    /// Whether there is a vertex at a place.
+    pub(crate) fn is_vertex(&self, place: Place) -> bool {
+        self.lone == Some(place) || self.incident.get(place.index()).is_some_and(|&e| e != EdgeId::NONE)
+    }
+
+    /// The places in use, in increasing order.
+    pub(crate) fn inhabited(&self) -> impl Iterator<Item = Place> + Clone + '_ {
+        (0..self.incident.len()).map(Place::new).filter(|&p| self.is_vertex(p))
+    }
+
+    /// The names, made explicit at the first change.
+    pub(crate) fn names(&mut self) -> &mut Names {
+        if self.names.is_none() {
+            self.names = Some(Names::identical(self.incident.len(), |p| self.is_vertex(p)));
+        }
+        self.names.as_mut().expect("just made")
+    }
+
+    /// Where an edge starts: the place of [`Self::origin`].
+    #[inline]
+    pub(crate) fn tail(&self, e: EdgeId) -> Place {
+        self.edges[e.index()].origin
+    }
+
+    /// Where an edge ends: the place of [`Self::destination`].
+    #[inline]
+    pub(crate) fn head(&self, e: EdgeId) -> Place {
+        self.tail(e.next())
+    }
+
+    /// The corner across an edge: the place of [`Self::apex`].
+    #[inline]
+    pub(crate) fn tip(&self, e: EdgeId) -> Place {
+        self.tail(e.previous())
+    }
+
+    /// The places of the corners.
+    #[inline]
+    pub(crate) fn places(&self, t: TriangleId) -> [Place; 3] {
+        let first = t.edge(0).index();
+        let record = &self.edges[first..first + 3];
+        [record[0].origin, record[1].origin, record[2].origin]
+    }
+
+    /// Whether there is a triangle with this index, and it is in use.
+    pub(crate) fn is_triangle(&self, t: TriangleId) -> bool {
+        self.edges.get(t.edge(0).index()).is_some_and(|record| record.twin != EdgeId::NONE)
+    }
+
+    /// A triangle to be filled in, near another one in memory.
+    pub(crate) fn new_triangle(&mut self, near: TriangleId) -> TriangleId {
+        match self.free.take_near(near.index()) {
+            Some(slot) => TriangleId::new(slot),
+            None => {
+                self.edges.extend([HalfEdge::UNUSED; 4]);
+                TriangleId::new(self.slot_count() - 1)
+            }
+        }
+    }
+
+    /// Gives a triangle back.
+    pub(crate) fn free_triangle(&mut self, t: TriangleId) {
+        self.edges[t.edge(0).index()..][..3].fill(HalfEdge::UNUSED);
+        self.free.give(t.index());
+    }
+
+    /// Writes the corners of a triangle.
+    #[inline]
+    pub(crate) fn set_corners(&mut self, t: TriangleId, corners: [Place; 3]) {
+        let records = &mut self.edges[t.edge(0).index()..][..3];
+        for (record, corner) in records.iter_mut().zip(corners) {
+            record.origin = corner;
+        }
+    }
+
+    /// Remembers the edge as one that leaves its origin.
+    #[inline]
+    pub(crate) fn remember(&mut self, e: EdgeId) {
+        match self.tail(e) {
+            Place::GHOST => self.ghost_edge = e,
+            p => self.incident[p.index()] = e,
+        }
+    }
+
+    /// The same mesh with twice the room: every place p is 2p, every triangle t is 2t, and those between are
+    /// free.
+    pub(crate) fn spread(&mut self) {
+        let twice = |e: EdgeId| {
+            if e == EdgeId::NONE { e } else { EdgeId::new(2 * (e.index() - e.corner()) + e.corner()) }
+        };
+        let mut edges = Vec::with_capacity(2 * self.edges.len());
+        for records in self.edges.chunks_exact(4) {
+            for record in records {
+                let origin = match record.origin {
+                    Place::GHOST => Place::GHOST,
+                    p => Place::new(2 * p.index()),
+                };
+                edges.push(HalfEdge { origin, twin: twice(record.twin) });
+            }
+            edges.extend([HalfEdge::UNUSED; 4]);
+        }
+        self.edges = edges;
+        self.incident = self.incident.iter().flat_map(|&e| [twice(e), EdgeId::NONE]).collect();
+        self.ghost_edge = twice(self.ghost_edge);
+        self.lone = self.lone.map(|p| Place::new(2 * p.index()));
+        self.free = Slots::every_other(self.slot_count());
     }
 
     /// Makes two directed edges twins of each other.

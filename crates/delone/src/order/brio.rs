@@ -5,6 +5,7 @@
 //! Cost: O(n log n).
 
 use super::hilbert;
+use super::random::SplitMix;
 
 /// Each round holds seven times as many points as all before it.
 const GROWTH: u64 = 8;
@@ -35,18 +36,6 @@ pub(crate) fn order(points: &[[f64; 2]], seed: u64) -> Vec<u32> {
         hilbert::sort(points, round);
     }
     indices
-}
-
-/// Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
-struct SplitMix(u64);
-
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
 }
 
 #[cfg(test)]

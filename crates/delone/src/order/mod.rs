@@ -1,6 +1,7 @@
 //! Permutations of points: the orders in which algorithms visit them. Knows coordinates, no mesh.
 
 pub(crate) mod brio;
-mod hilbert;
+pub(crate) mod hilbert;
 pub(crate) mod morton;
 mod quantize;
+pub(crate) mod random;

@@ -9,8 +9,9 @@
 
 use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 
-use crate::ids::{EdgeId, TriangleId, VertexId};
-use crate::mesh::{HalfEdge, Mesh};
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::tally::Tally;
+use crate::mesh::Mesh;
 
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +19,7 @@ pub(super) struct Cavity {
     /// Triangles of the cavity.
     triangles: Vec<TriangleId>,
     /// Its border, counter-clockwise: where each edge starts, and its twin outside.
-    border: Vec<(VertexId, EdgeId)>,
+    border: Vec<(Place, EdgeId)>,
     /// Edges still to be crossed.
     pending: Vec<EdgeId>,
     /// For each triangle the round in which it was last put into a cavity.
@@ -26,11 +27,10 @@ pub(super) struct Cavity {
     round: u32,
 }
 
-/// Whether the circle of a triangle contains `q`. That of a ghost is the half-plane beyond its hull edge, with
+/// Whether the circle of a triangle, given by its corners, contains `q`. That of a ghost is the half-plane beyond its hull edge, with
 /// the inside of the edge.
-fn conflicts(mesh: &Mesh, points: &[[f64; 2]], t: TriangleId, q: [f64; 2]) -> bool {
-    let corners = mesh.corners(t);
-    let point = |v: VertexId| points[v.index()];
+pub(super) fn conflicts(points: &[[f64; 2]], corners: [Place; 3], q: [f64; 2]) -> bool {
+    let point = |v: Place| points[v.index()];
     match corners.iter().position(|v| v.is_ghost()) {
         None => {
             let [a, b, c] = corners.map(point);
@@ -49,44 +49,63 @@ fn conflicts(mesh: &Mesh, points: &[[f64; 2]], t: TriangleId, q: [f64; 2]) -> bo
 
 impl Cavity {
     /// Makes `v` a vertex: removes the triangles in conflict with its point, starting from `seed`, one of
-    /// them, and joins `v` to their border. Returns the number of conflict tests.
-    pub(super) fn insert(
+    /// them, and joins `v` to their border.
+    #[inline]
+    pub(super) fn insert<T: Tally>(
         &mut self,
         mesh: &mut Mesh,
         points: &[[f64; 2]],
-        v: VertexId,
+        v: Place,
         seed: TriangleId,
-    ) -> u64 {
-        let tests = self.find(mesh, points, points[v.index()], seed);
-        self.refill(mesh, v);
-        tests
+        tally: &mut T,
+    ) {
+        self.find(mesh, points, points[v.index()], seed, tally);
+        tally.destroyed(self.triangles.len());
+        tally.created(self.border.len());
+        self.refill(mesh, v, seed);
+    }
+
+    /// Forgets which triangles were in the last cavity: they have new numbers.
+    pub(super) fn forget(&mut self) {
+        self.marks.clear();
+        self.round = 0;
     }
 
     /// Collects the triangles in conflict, depth first in counter-clockwise order, so that the border comes in
     /// its cyclic order.
-    fn find(&mut self, mesh: &Mesh, points: &[[f64; 2]], q: [f64; 2], seed: TriangleId) -> u64 {
+    fn find<T: Tally>(
+        &mut self,
+        mesh: &Mesh,
+        points: &[[f64; 2]],
+        q: [f64; 2],
+        seed: TriangleId,
+        tally: &mut T,
+    ) {
+        if self.round == u32::MAX {
+            self.forget();
+        }
         self.round += 1;
-        self.marks.resize(mesh.slot_count(), 0);
+        if self.marks.len() < mesh.slot_count() {
+            self.marks.resize(mesh.slot_count(), 0);
+        }
         self.triangles.clear();
         self.border.clear();
         self.enter(seed);
         self.pending.extend([2, 1, 0].map(|k| seed.edge(k)));
-        let mut tests = 0;
         while let Some(e) = self.pending.pop() {
             let outside = mesh.twin(e);
             let t = outside.triangle();
             if self.marks[t.index()] == self.round {
                 continue;
             }
-            tests += 1;
-            if conflicts(mesh, points, t, q) {
+            tally.in_circle();
+            if conflicts(points, mesh.places(t), q) {
                 self.enter(t);
                 self.pending.extend([outside.previous(), outside.next()]);
             } else {
-                self.border.push((mesh.origin(e), outside));
+                self.border.push((mesh.tail(e), outside));
             }
         }
-        tests
     }
 
     fn enter(&mut self, t: TriangleId) {
@@ -95,30 +114,23 @@ impl Cavity {
     }
 
     /// Joins `v` to every edge of the border. There are two more of them than triangles removed.
-    fn refill(&mut self, mesh: &mut Mesh, v: VertexId) {
+    fn refill(&mut self, mesh: &mut Mesh, v: Place, near: TriangleId) {
         debug_assert_eq!(
             self.border.len(),
             self.triangles.len() + 2,
             "a cavity is a disk without inner vertex"
         );
         for _ in 0..2 {
-            self.triangles.push(TriangleId::new(mesh.slot_count()));
-            mesh.edges.extend([HalfEdge::UNUSED; 4]);
+            self.triangles.push(mesh.new_triangle(near));
         }
         let n = self.border.len();
         for i in 0..n {
             let (t, following) = (self.triangles[i], self.triangles[(i + 1) % n]);
             let ((a, outside), (b, _)) = (self.border[i], self.border[(i + 1) % n]);
-            for (k, corner) in [a, b, v].into_iter().enumerate() {
-                mesh.edges[t.edge(k).index()].origin = corner;
-            }
+            mesh.set_corners(t, [a, b, v]);
             mesh.link(t.edge(0), outside);
             mesh.link(t.edge(1), following.edge(2));
-            if a.is_ghost() {
-                mesh.ghost_edge = t.edge(0);
-            } else {
-                mesh.incident[a.index()] = t.edge(0);
-            }
+            mesh.remember(t.edge(0));
         }
         mesh.incident[v.index()] = self.triangles[0].edge(2);
         mesh.vertex_count += 1;

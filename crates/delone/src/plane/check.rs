@@ -8,7 +8,7 @@
 use delone_predicates::{in_circle, lexicographic, orient2d, strictly_between};
 
 use super::{Delaunay2, Duplicate};
-use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{self, Dimension, Mesh};
 
 /// What is wrong with a triangulation, one sentence each.
@@ -36,18 +36,40 @@ pub enum Flaw {
     /// An input point is neither a vertex nor the duplicate of one.
     #[error("point {0} is neither a vertex nor a duplicate")]
     Missing(usize),
+    /// A vertex is kept at a place that is not its own.
+    #[error("vertex {0:?} is not where its name says")]
+    Name(VertexId),
     /// A point is called the duplicate of a vertex that it does not equal, or that was given later.
     #[error("point {} is no duplicate of vertex {:?}", .0.point, .0.vertex)]
     Duplicate(Duplicate),
 }
 
 impl Delaunay2 {
-    /// Proves that this is the canonical Delaunay triangulation of all input points, or returns the first flaw
-    /// found. O(n), and independent of how it was built.
+    /// Proves that this is the canonical Delaunay triangulation of all its points, or returns the first flaw
+    /// found. O(n), and independent of how it was built and changed.
     pub fn check(&self) -> Result<(), Flaw> {
-        self.mesh.check()?;
-        check_points(&self.points, &self.mesh, &self.duplicates)?;
-        check_geometry(&self.points, &self.mesh)
+        self.base.mesh.check()?;
+        match &self.named {
+            None => check_points(&self.base.points, &self.base.mesh, &self.duplicates)?,
+            Some(named) => check_names(named, &self.base.points, &self.base.mesh)?,
+        }
+        check_geometry(&self.base.points, &self.base.mesh)
+    }
+}
+
+/// Names and places are each other's, with the same coordinates.
+fn check_names(named: &[[f64; 2]], points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+    let kept = |v: VertexId| {
+        mesh.place(v).is_some_and(|place| {
+            mesh.is_vertex(place) && mesh.name(place) == v && points[place.index()] == named[v.index()]
+        })
+    };
+    if let Some(v) = mesh.vertices().find(|&v| !kept(v)) {
+        return Err(Flaw::Name(v));
+    }
+    match mesh.inhabited().find(|&place| mesh.place(mesh.name(place)) != Some(place)) {
+        Some(place) => Err(Flaw::Name(mesh.name(place))),
+        None => Ok(()),
     }
 }
 
@@ -82,26 +104,26 @@ fn check_geometry(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
 
 /// All vertices, in lexicographic order and on one line.
 fn check_line(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
-    let chain: Vec<_> = mesh.hull().collect();
-    let p = |v: VertexId| points[v.index()];
+    let chain: Vec<_> = mesh.border().collect();
+    let p = |v: Place| points[v.index()];
     for w in chain.windows(3) {
         if !orient2d(p(w[0]), p(w[1]), p(w[2])).is_zero() || !strictly_between(p(w[0]), p(w[2]), p(w[1])) {
-            return Err(Flaw::Line(w[1]));
+            return Err(Flaw::Line(mesh.name(w[1])));
         }
     }
-    if chain.len() == mesh.vertex_count() { Ok(()) } else { Err(Flaw::Line(chain[0])) }
+    if chain.len() == mesh.vertex_count() { Ok(()) } else { Err(Flaw::Line(mesh.name(chain[0]))) }
 }
 
 /// Convex at every vertex, and once around: the hull has one lexicographic minimum.
 fn check_hull(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
-    let hull: Vec<_> = mesh.hull().collect();
+    let hull: Vec<_> = mesh.border().collect();
     let n = hull.len();
     let mut minima = 0;
     for i in 0..n {
         let [a, b, c] = [0, 1, 2].map(|k| points[hull[(i + k) % n].index()]);
         let turn = orient2d(a, b, c);
         if turn.is_negative() || (turn.is_zero() && !strictly_between(a, c, b)) {
-            return Err(Flaw::Hull(hull[(i + 1) % n]));
+            return Err(Flaw::Hull(mesh.name(hull[(i + 1) % n])));
         }
         minima += usize::from(lexicographic(b, a).is_lt() && lexicographic(b, c).is_lt());
     }
@@ -110,12 +132,12 @@ fn check_hull(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
 
 fn check_triangles(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
     for t in mesh.triangles() {
-        let [a, b, c] = mesh.corners(t).map(|v| points[v.index()]);
+        let [a, b, c] = mesh.places(t).map(|v| points[v.index()]);
         if !orient2d(a, b, c).is_positive() {
             return Err(Flaw::Orientation(t));
         }
         for e in [0, 1, 2].map(|k| t.edge(k)) {
-            let across = mesh.apex(mesh.twin(e));
+            let across = mesh.tip(mesh.twin(e));
             if !across.is_ghost() && in_circle(a, b, c, points[across.index()]).is_positive() {
                 return Err(Flaw::Delaunay(e));
             }

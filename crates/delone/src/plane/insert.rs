@@ -1,109 +1,116 @@
 //! Insertion of a point, whatever the dimension so far.
 //!
-//! Cost: the walk from the hint, and the cavity (see `cavity`).
+//! Cost: the walk, and the cavity (see `cavity`).
 
 use delone_predicates::orient2d;
 
-use super::cavity::Cavity;
-use super::ground::Plane;
+use super::layer::Layer;
 use super::line::{self, OnLine};
-use crate::ids::{TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::tally::Tally;
 use crate::locate::walk::walk;
-use crate::mesh::{Dimension, Mesh};
+use crate::locate::Start;
+use crate::mesh::Dimension;
 
-/// A triangulation under construction; `points` holds the coordinates of all that are or will be vertices.
-pub(super) struct Inserter<'a> {
-    pub(super) mesh: Mesh,
-    points: &'a [[f64; 2]],
-    cavity: Cavity,
-    /// Known once and for good: a set never loses a dimension while it grows.
-    spans_plane: bool,
-    /// Conflict tests made.
-    pub(super) tests: u64,
+/// Where a point falls, as insertion sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Spot {
+    /// There is no vertex.
+    Empty,
+    /// On this vertex.
+    Vertex(Place),
+    /// Beside the only vertex.
+    BesidePoint,
+    /// Inside the segment of this edge; all vertices are on its line.
+    Segment(EdgeId),
+    /// On the line of all vertices, beyond this end.
+    End(Place),
+    /// Off the line of all vertices, on the side of this triangle.
+    BesideLine(TriangleId),
+    /// In this finite triangle or on its border; or strictly beyond the hull edge of this ghost.
+    Triangle(TriangleId),
 }
 
-/// What became of an inserted point.
-pub(super) enum Inserted {
-    /// It is a vertex now.
-    Vertex,
-    /// It equals this vertex.
-    Duplicate(VertexId),
-}
-
-impl<'a> Inserter<'a> {
-    pub(super) fn new(points: &'a [[f64; 2]]) -> Self {
-        let mesh = Mesh::empty(points.len());
-        Self { mesh, points, cavity: Cavity::default(), spans_plane: false, tests: 0 }
-    }
-
-    /// Makes the point `v` a vertex. The walk starts at `hint`, a vertex, if there is one already.
-    pub(super) fn insert(&mut self, v: VertexId, hint: VertexId) -> Inserted {
-        let q = self.points[v.index()];
-        if self.spans_plane {
-            let start = self.mesh.incident[hint.index()].triangle();
-            return self.insert_in_plane(v, start);
+impl Layer {
+    /// Finds where a point falls, and how many steps the walk took. Exact.
+    #[inline]
+    pub(super) fn spot<T: Tally>(&self, start: Start, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
+        if !self.spanned {
+            return self.spot_below_plane(start, q);
         }
-        match self.mesh.dimension() {
-            Dimension::Empty => {
-                self.mesh.lone = Some(v);
-                self.mesh.vertex_count = 1;
-                Inserted::Vertex
-            }
-            Dimension::Point if q == self.points[hint.index()] => Inserted::Duplicate(hint),
-            Dimension::Point => {
-                line::begin(&mut self.mesh, v);
-                Inserted::Vertex
-            }
-            Dimension::Line => self.insert_beside_line(v, hint),
-            Dimension::Plane => unreachable!("spans_plane is set when the plane is reached"),
+        let goal = walk(self, start, q, tally);
+        let equal = |v: &Place| !v.is_ghost() && self.points[v.index()] == q;
+        match self.mesh.places(goal.triangle).into_iter().find(equal) {
+            Some(v) => (Spot::Vertex(v), goal.steps),
+            None => (Spot::Triangle(goal.triangle), goal.steps),
         }
     }
 
-    fn insert_in_plane(&mut self, v: VertexId, start: TriangleId) -> Inserted {
-        let q = self.points[v.index()];
-        let seed = walk(&Plane { mesh: &self.mesh, points: self.points }, start, q);
-        let equal = |w: &VertexId| !w.is_ghost() && self.points[w.index()] == q;
-        if let Some(w) = self.mesh.corners(seed).into_iter().find(equal) {
-            return Inserted::Duplicate(w);
+    fn spot_below_plane(&self, start: Start, q: [f64; 2]) -> (Spot, usize) {
+        let mesh = &self.mesh;
+        match mesh.lone {
+            Some(v) if self.points[v.index()] == q => return (Spot::Vertex(v), 1),
+            Some(_) => return (Spot::BesidePoint, 1),
+            None if mesh.dimension() == Dimension::Empty => return (Spot::Empty, 1),
+            None => {}
         }
-        self.fill(v, seed);
-        Inserted::Vertex
-    }
-
-    /// Inserts into a line, on it or off it. Off it, the ghosts on one side of the line are in conflict, and
-    /// joining the point to them makes the plane.
-    fn insert_beside_line(&mut self, v: VertexId, hint: VertexId) -> Inserted {
-        let q = self.points[v.index()];
-        let e = self.mesh.ghost_edge.next(); // along the line, the ghost on its left
-        let [a, b] = [self.mesh.origin(e), self.mesh.destination(e)].map(|w| self.points[w.index()]);
+        let e = mesh.ghost_edge.next(); // along the line, the ghost on its left
+        let [a, b] = [mesh.tail(e), mesh.head(e)].map(|w| self.points[w.index()]);
         let side = orient2d(a, b, q);
         if !side.is_zero() {
-            let seed = if side.is_positive() { e } else { self.mesh.twin(e) };
-            self.fill(v, seed.triangle());
-            self.spans_plane = true;
-            return Inserted::Vertex;
+            return (Spot::BesideLine(if side.is_positive() { e } else { mesh.twin(e) }.triangle()), 1);
         }
-        match line::locate(&self.mesh, self.points, hint, q) {
-            OnLine::Vertex(w) => return Inserted::Duplicate(w),
-            OnLine::Segment(e) => line::split(&mut self.mesh, e, v),
-            OnLine::End(end) => line::extend(&mut self.mesh, end, v),
-        }
-        Inserted::Vertex
+        let near = match start {
+            Start::Edge(e, _) if mesh.tail(e).is_ghost() => mesh.head(e),
+            Start::Edge(e, _) => mesh.tail(e),
+            Start::Vertex(v) => v,
+            Start::Anywhere => mesh.tail(e),
+        };
+        let (on_line, steps) = line::locate(mesh, &self.points, near, q);
+        let spot = match on_line {
+            OnLine::Vertex(w) => Spot::Vertex(w),
+            OnLine::Segment(e) => Spot::Segment(e),
+            OnLine::End(end) => Spot::End(end),
+        };
+        (spot, steps)
     }
 
-    fn fill(&mut self, v: VertexId, seed: TriangleId) {
-        self.tests += self.cavity.insert(&mut self.mesh, self.points, v, seed);
+    /// Makes a point a vertex where it falls. If there is one already, that is the error.
+    #[inline]
+    pub(super) fn insert<T: Tally>(
+        &mut self,
+        spot: Spot,
+        q: [f64; 2],
+        tally: &mut T,
+    ) -> Result<Place, Place> {
+        let near = match spot {
+            Spot::Vertex(v) => return Err(v),
+            Spot::Triangle(triangle) => self.mesh.tail(triangle.edge(0)),
+            _ => Place::new(0),
+        };
+        let near = if near.is_ghost() { 0 } else { near.index() };
+        let v = self.new_place(near, q);
+        self.insert_at(v, spot, tally);
+        Ok(v)
     }
 
-    /// Lets `new` stand where `old` stood: the same point under another index.
-    pub(super) fn rename(&mut self, old: VertexId, new: VertexId) {
-        let star: Vec<_> = self.mesh.star(old).collect();
-        for e in star {
-            self.mesh.edges[e.index()].origin = new;
-        }
-        self.mesh.incident.swap(old.index(), new.index());
-        if self.mesh.lone == Some(old) {
-            self.mesh.lone = Some(new);
+    /// Makes the point at a place a vertex. It falls where `spot` says, which is no vertex.
+    #[inline]
+    pub(super) fn insert_at<T: Tally>(&mut self, v: Place, spot: Spot, tally: &mut T) {
+        match spot {
+            Spot::Vertex(_) => debug_assert!(false, "there is a vertex already"),
+            Spot::Empty => {
+                self.mesh.lone = Some(v);
+                self.mesh.vertex_count = 1;
+            }
+            Spot::BesidePoint => line::begin(&mut self.mesh, v),
+            Spot::Segment(e) => line::split(&mut self.mesh, e, v),
+            Spot::End(end) => line::extend(&mut self.mesh, end, v),
+            // The ghosts on one side of the line are in conflict; joining the point to them makes the plane.
+            Spot::BesideLine(triangle) | Spot::Triangle(triangle) => {
+                self.cavity.insert(&mut self.mesh, &self.points, v, triangle, tally);
+                self.spanned = true;
+            }
         }
     }
 }

@@ -2,19 +2,35 @@
 
 pub mod build;
 mod cavity;
+mod change;
 pub mod check;
-mod ground;
+mod flips;
 mod insert;
+mod layer;
 mod line;
+mod locate;
+mod locator;
 mod position;
+mod remove;
 pub mod verify;
 
 pub use build::{Algorithm, Counters};
+pub use change::Inserted;
+pub use locate::Location;
 pub use position::Position2;
+
+use std::sync::OnceLock;
 
 use crate::error::Error;
 use crate::ids::{EdgeId, MAX_POINTS, TriangleId, VertexId};
+use crate::locate::Locate;
+use crate::locate::tally::Work;
 use crate::mesh::{Dimension, Mesh};
+use crate::order::random::SplitMix;
+use build::Built;
+use change::Upkeep;
+use layer::Layer;
+use locator::Locator;
 
 /// A point that equals an earlier one and is no vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,8 +45,9 @@ pub struct Duplicate {
 ///
 /// It is a function of the set of points alone: four cocircular points always get the same diagonal (see
 /// [`delone_predicates::in_circle`]), whatever the order of the points and the algorithm. A vertex is known by
-/// the index of its point in the input. Sets that span less than the plane (no point, one point, collinear
-/// points) are valid triangulations without triangles.
+/// the index of its point: first those given in bulk, then those inserted, in their order. Vertices can be inserted,
+/// removed and moved at any time, and what is left is the triangulation of what is left. Sets that span less than
+/// the plane (no point, one point, collinear points) are valid triangulations without triangles.
 ///
 /// The combinatorial questions (neighbours, stars, hull) are answered by [`Delaunay2::mesh`].
 ///
@@ -47,13 +64,40 @@ pub struct Duplicate {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Delaunay2 {
-    points: Vec<[f64; 2]>,
-    mesh: Mesh,
+    base: Layer,
+    /// The coordinates by id; until the first change these are those by place.
+    named: Option<Vec<[f64; 2]>>,
+    /// Points reported as equal to a vertex, sorted; some may be out of date.
     duplicates: Vec<Duplicate>,
     counters: Counters,
+    locate: Locate,
+    /// The structure of the strategy, once it was needed.
+    locator: OnceLock<Locator>,
+    upkeep: Upkeep,
+}
+
+impl Default for Delaunay2 {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Delaunay2 {
+    /// The triangulation of no points.
+    pub fn new() -> Self {
+        Self::assemble(build::incremental(Vec::new(), 0))
+    }
+
+    /// The same with a strategy of location.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] names a parameter that is out of range.
+    pub fn with_strategy(locate: Locate) -> Result<Self, Error> {
+        let mut triangulation = Self::new();
+        triangulation.set_strategy(locate)?;
+        Ok(triangulation)
+    }
+
     /// Triangulates points with the default algorithm.
     ///
     /// O(n log n) in the worst case; about 100 bytes a point above the input.
@@ -65,35 +109,69 @@ impl Delaunay2 {
         Self::with_algorithm(points, Algorithm::default())
     }
 
-    /// Triangulates points with an algorithm of choice. Errors as [`Self::from_points`].
+    /// Triangulates points with an algorithm of choice. Errors as [`Self::from_points`], and
+    /// [`Error::Parameter`] for a strategy whose parameters are out of range.
     pub fn with_algorithm<P: Position2>(points: &[P], algorithm: Algorithm) -> Result<Self, Error> {
         check_count(points.len())?;
         Self::from_vec(points.iter().map(Position2::xy).collect(), algorithm)
     }
 
-    /// The same for coordinates that can be kept, which saves a copy. Errors as [`Self::from_points`].
+    /// The same for coordinates that can be kept, which saves a copy. Errors as [`Self::with_algorithm`].
     pub fn from_vec(points: Vec<[f64; 2]>, algorithm: Algorithm) -> Result<Self, Error> {
         check_count(points.len())?;
-        if let Some(at) = points.as_flattened().iter().position(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { index: at / 2, axis: at % 2, value: points.as_flattened()[at] });
+        check_finite(&points)?;
+        Ok(Self::assemble(match algorithm {
+            Algorithm::DivideAndConquer => build::divide_and_conquer(points),
+            Algorithm::Incremental { seed } => build::incremental(points, seed),
+            Algorithm::ConflictLists { seed } => build::conflict_lists(points, seed),
+            Algorithm::Located { locate, seed } => return Self::located(&points, locate, seed),
+        }))
+    }
+
+    /// Inserts points one by one in random order.
+    fn located(points: &[[f64; 2]], locate: Locate, seed: u64) -> Result<Self, Error> {
+        let mut triangulation = Self::with_strategy(locate)?;
+        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        SplitMix(seed).shuffle(&mut order);
+        let mut work = Work::default();
+        triangulation.extend_in_order(points, &order, true, &mut work)?;
+        triangulation.counters = Counters::Incremental(work);
+        Ok(triangulation)
+    }
+
+    fn assemble(built: Built) -> Self {
+        let Built { points, mesh, duplicates, counters } = built;
+        let mut upkeep = Upkeep::default();
+        upkeep.renew(mesh.vertex_count());
+        let base = Layer::new(mesh, points);
+        Self {
+            base,
+            named: None,
+            duplicates,
+            counters,
+            locate: Locate::default(),
+            locator: OnceLock::new(),
+            upkeep,
         }
-        let (mesh, duplicates, counters) = build::build(&points, algorithm);
-        Ok(Self { points, mesh, duplicates, counters })
     }
 
     /// The topology: vertices, edges, triangles, stars, hull.
     pub fn mesh(&self) -> &Mesh {
-        &self.mesh
+        &self.base.mesh
     }
 
-    /// The coordinates of all input points, duplicates included.
+    /// The coordinates of all points ever given, by id: vertices, duplicates, and those since removed.
     pub fn points(&self) -> &[[f64; 2]] {
-        &self.points
+        self.named.as_deref().unwrap_or(&self.base.points)
     }
 
-    /// The points that equal an earlier one, by increasing index.
-    pub fn duplicates(&self) -> &[Duplicate] {
-        &self.duplicates
+    /// The points that equal an earlier one which is a vertex, by increasing index.
+    pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        let points = self.points();
+        let valid = |d: &&Duplicate| {
+            self.mesh().contains(d.vertex) && points[d.point] == points[d.vertex.index()]
+        };
+        self.duplicates.iter().filter(move |d| self.named.is_none() || valid(d)).copied()
     }
 
     /// What the construction did.
@@ -103,32 +181,32 @@ impl Delaunay2 {
 
     /// What the points span.
     pub fn dimension(&self) -> Dimension {
-        self.mesh.dimension()
+        self.mesh().dimension()
     }
 
     /// The number of vertices: points without duplicates.
     pub fn vertex_count(&self) -> usize {
-        self.mesh.vertex_count()
+        self.mesh().vertex_count()
     }
 
     /// The vertices, by increasing index.
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.mesh.vertices()
+        self.mesh().vertices()
     }
 
     /// The finite triangles as corners in counter-clockwise order.
     pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
-        self.mesh.triangles().map(|t| self.mesh.corners(t))
+        self.mesh().triangles().map(|t| self.mesh().corners(t))
     }
 
     /// The finite edges, each once.
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
-        self.mesh.undirected_edges().map(|e| [self.mesh.origin(e), self.mesh.destination(e)])
+        self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
     }
 
     /// The vertices of the hull, counter-clockwise; see [`Mesh::hull`].
     pub fn hull(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.mesh.hull()
+        self.mesh().hull()
     }
 
     /// The coordinates of a vertex.
@@ -137,30 +215,30 @@ impl Delaunay2 {
     /// For the ghost vertex and for a vertex of another, larger triangulation.
     #[inline]
     pub fn point(&self, v: VertexId) -> [f64; 2] {
-        self.points[v.index()]
+        self.points()[v.index()]
     }
 
     /// The coordinates of the ends of a finite edge.
     pub fn segment(&self, e: EdgeId) -> [[f64; 2]; 2] {
-        [self.mesh.origin(e), self.mesh.destination(e)].map(|v| self.point(v))
+        [self.mesh().origin(e), self.mesh().destination(e)].map(|v| self.point(v))
     }
 
     /// The area of a finite triangle, zero for a ghost; positive up to rounding. In coordinate units squared.
     pub fn area(&self, t: TriangleId) -> f64 {
-        if self.mesh.is_ghost(t) {
+        if self.mesh().is_ghost(t) {
             return 0.0;
         }
-        let [a, b, c] = self.mesh.corners(t).map(|v| self.point(v));
+        let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
         ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0
     }
 
     /// The centre of the circle through the corners of a finite triangle, rounded; `None` for a ghost, and
     /// where it is too far away for `f64`.
     pub fn circumcentre(&self, t: TriangleId) -> Option<[f64; 2]> {
-        if self.mesh.is_ghost(t) {
+        if self.mesh().is_ghost(t) {
             return None;
         }
-        let [a, b, c] = self.mesh.corners(t).map(|v| self.point(v));
+        let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
         let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
         let twice_area = 2.0 * (bx * cy - by * cx);
         let (b2, c2) = (bx * bx + by * by, cx * cx + cy * cy);
@@ -171,4 +249,22 @@ impl Delaunay2 {
 
 fn check_count(count: usize) -> Result<(), Error> {
     if count > MAX_POINTS { Err(Error::TooManyPoints { count }) } else { Ok(()) }
+}
+
+fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {
+    let flat = points.as_flattened();
+    match flat.iter().position(|x| !x.is_finite()) {
+        Some(at) => Err(Error::NotFinite { index: at / 2, axis: at % 2, value: flat[at] }),
+        None => Ok(()),
+    }
+}
+
+/// The coordinates of a point, if they are finite.
+#[inline]
+fn finite<P: Position2>(point: &P) -> Result<[f64; 2], Error> {
+    let q = point.xy();
+    match q.iter().position(|x| !x.is_finite()) {
+        Some(axis) => Err(Error::Coordinate { axis, value: q[axis] }),
+        None => Ok(q),
+    }
 }

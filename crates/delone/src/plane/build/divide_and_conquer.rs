@@ -24,7 +24,7 @@ use delone_predicates::{Filter, Grid, lexicographic};
 
 use super::leaf::Leaf;
 use super::merge::Part;
-use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
 use crate::plane::Duplicate;
@@ -52,26 +52,16 @@ pub(super) struct Builder<'a> {
     pub(super) counters: Counters,
 }
 
-/// Triangulates points, all finite and at most [`crate::MAX_POINTS`].
+/// Triangulates points, all finite and at most [`crate::MAX_POINTS`]. Vertices are at the places of their
+/// indices.
 pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counters) {
     let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points);
+    let (edges, counters) = build(&ordered, &cuts, &boxes);
     let n = ordered.len();
-    let none = TriangleId::new(0);
-    let mut builder = Builder {
-        points: &ordered,
-        edges: vec![HalfEdge::UNUSED; 8 * n.saturating_sub(1)],
-        leaving: vec![none; n],
-        counters: Counters::default(),
-    };
-    if n > 0 {
-        let grid = Grid::of(ordered.iter().copied().flatten());
-        Tree { cuts: &cuts, boxes: &boxes, next_box: 0, grid }.build(&mut builder);
-    }
-    let Builder { edges, counters, .. } = builder;
     drop((ordered, cuts));
     let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(points.len()) };
-    mesh.lone = if n == 1 { Some(VertexId::new(indices[0] as usize)) } else { None };
-    mesh.number_vertices(&indices);
+    mesh.lone = if n == 1 { Some(Place::new(indices[0] as usize)) } else { None };
+    mesh.number_vertices(|position| Place::new(indices[position.index()] as usize));
     let mut duplicates: Vec<_> = duplicates
         .into_iter()
         .map(|(point, vertex)| Duplicate { point: point as usize, vertex: VertexId::new(vertex as usize) })
@@ -80,17 +70,44 @@ pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counter
     (mesh, duplicates, counters)
 }
 
+/// The same for distinct points, with vertices at their positions in Morton order. Returns also the points in
+/// that order and their indices.
+pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> (Mesh, Vec<[f64; 2]>, Vec<u32>) {
+    let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points);
+    debug_assert!(duplicates.is_empty(), "the points are distinct");
+    let (edges, _) = build(&ordered, &cuts, &boxes);
+    let n = ordered.len();
+    let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(n) };
+    mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
+    mesh.number_vertices(|position| position);
+    (mesh, ordered, indices)
+}
+
+fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {
+    let n = ordered.len();
+    let mut builder = Builder {
+        points: ordered,
+        edges: vec![HalfEdge::UNUSED; 8 * n.saturating_sub(1)],
+        leaving: vec![TriangleId::new(0); n],
+        counters: Counters::default(),
+    };
+    if n > 0 {
+        let grid = Grid::of(ordered.iter().copied().flatten());
+        Tree { cuts, boxes, next_box: 0, grid }.build(&mut builder);
+    }
+    (builder.edges, builder.counters)
+}
+
 impl Mesh {
-    /// Replaces positions in an order by the input indices at those positions, and remembers an edge of each
-    /// vertex.
-    fn number_vertices(&mut self, indices: &[u32]) {
+    /// Puts each vertex from its position in an order to its place, and remembers an edge of each.
+    fn number_vertices(&mut self, place: impl Fn(Place) -> Place) {
         for (slot, records) in self.edges.chunks_exact_mut(4).enumerate() {
             for (k, record) in records[..3].iter_mut().enumerate() {
                 let e = EdgeId::new(4 * slot + k);
                 if record.origin.is_ghost() {
                     self.ghost_edge = e;
                 } else {
-                    record.origin = VertexId::new(indices[record.origin.index()] as usize);
+                    record.origin = place(record.origin);
                     self.incident[record.origin.index()] = e;
                 }
             }
@@ -162,12 +179,12 @@ impl Tree<'_> {
 impl Builder<'_> {
     /// The edge records of a triangle that is the ghost of hull edge u -> v.
     #[inline]
-    pub(super) fn set_ghost_corners(&mut self, ghost: TriangleId, u: VertexId, v: VertexId) {
+    pub(super) fn set_ghost_corners(&mut self, ghost: TriangleId, u: Place, v: Place) {
         let first = ghost.edge(0).index();
         let records = &mut self.edges[first..first + 3];
         records[0].origin = v;
         records[1].origin = u;
-        records[2].origin = VertexId::GHOST;
+        records[2].origin = Place::GHOST;
     }
 
     #[inline]
@@ -182,7 +199,7 @@ impl Builder<'_> {
     }
 
     #[inline]
-    pub(super) fn origin(&self, e: EdgeId) -> VertexId {
+    pub(super) fn tail(&self, e: EdgeId) -> Place {
         self.edges[e.index()].origin
     }
 
@@ -199,7 +216,7 @@ impl Builder<'_> {
     }
 
     #[inline]
-    pub(super) fn point(&self, v: VertexId) -> [f64; 2] {
+    pub(super) fn point(&self, v: Place) -> [f64; 2] {
         self.points[v.index()]
     }
 }
@@ -207,7 +224,7 @@ impl Builder<'_> {
 impl Part {
     /// One point.
     fn single(at: usize) -> Self {
-        let v = VertexId::new(at);
+        let v = Place::new(at);
         Self { start: at, end: at + 1, west: v, east: v, south: v, north: v }
     }
 
@@ -216,8 +233,8 @@ impl Part {
         let mut part = Self::single(start);
         part.end = end;
         for at in start + 1..end {
-            let v = VertexId::new(at);
-            let p = |v: VertexId| points[v.index()];
+            let v = Place::new(at);
+            let p = |v: Place| points[v.index()];
             part.west = if precedes(p(v), p(part.west)) { v } else { part.west };
             part.east = if precedes(p(part.east), p(v)) { v } else { part.east };
             part.south = if precedes(turned(p(v)), turned(p(part.south))) { v } else { part.south };
@@ -228,7 +245,7 @@ impl Part {
 
     /// The positions and extreme corners of two parts, `a` to the left of `b` if cut by x, else below.
     pub(super) fn union(points: &[[f64; 2]], a: &Self, b: &Self, by_x: bool) -> Self {
-        let p = |v: VertexId| points[v.index()];
+        let p = |v: Place| points[v.index()];
         let mut part = Self { end: b.end, ..*a };
         if by_x {
             part.east = b.east;

@@ -4,42 +4,71 @@
 //! Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Cost: O(n log n) expected for any
 //! input, by the randomness of the order; on evenly spread points O(n) after sorting.
 
-use crate::ids::VertexId;
+use crate::ids::Place;
+use crate::locate::tally::Tally;
+use crate::locate::{Start, Walk};
 use crate::mesh::Mesh;
 use crate::order::brio;
 use crate::plane::Duplicate;
-use crate::plane::insert::{Inserted, Inserter};
+use crate::plane::insert::Spot;
+use crate::plane::layer::Layer;
 
-/// Triangulates points, all finite and at most [`crate::MAX_POINTS`]. Also returns the number of conflict
-/// tests.
-pub(super) fn triangulate(points: &[[f64; 2]], seed: u64) -> (Mesh, Vec<Duplicate>, u64) {
-    let mut inserter = Inserter::new(points);
-    inserter.mesh.edges.reserve_exact(8 * points.len().saturating_sub(1));
+/// Triangulates points, all finite and at most [`crate::MAX_POINTS`], and gives them back.
+pub(super) fn triangulate<T: Tally>(
+    points: Vec<[f64; 2]>,
+    seed: u64,
+    tally: &mut T,
+) -> (Vec<[f64; 2]>, Mesh, Vec<Duplicate>) {
+    let order = brio::order(&points, seed);
+    let mut layer = Layer::new(Mesh::empty(points.len()), points);
+    layer.mesh.edges.reserve_exact(8 * layer.points.len().saturating_sub(1));
     let mut duplicates = Vec::new();
-    let mut hint = VertexId::GHOST; // not looked at by the first insertion
-    for index in brio::order(points, seed) {
-        let v = VertexId::new(index as usize);
-        match inserter.insert(v, hint) {
-            Inserted::Vertex => hint = v,
-            Inserted::Duplicate(w) => {
+    let mut start = Start::Anywhere;
+    for index in order {
+        let v = Place::new(index as usize);
+        let at = match layer.spot(start, layer.points[v.index()], tally).0 {
+            Spot::Vertex(w) => {
                 // The first of equal points given is their vertex.
                 let (first, later) = (v.min(w), v.max(w));
                 if later == w {
-                    inserter.rename(w, v);
+                    rename(&mut layer.mesh, w, v);
                 }
-                duplicates.push(Duplicate { point: later.index(), vertex: first });
-                hint = first;
+                duplicates.push(Duplicate { point: later.index(), vertex: first.same() });
+                first
             }
+            spot => {
+                layer.insert_at(v, spot, tally);
+                v
+            }
+        };
+        if layer.mesh.lone.is_none() {
+            start = Start::Edge(layer.mesh.incident[at.index()], Walk::Visibility);
         }
     }
+    settle(&mut duplicates);
+    (layer.points, layer.mesh, duplicates)
+}
+
+/// Lets `new` stand where `old` stood: the same point under another index.
+fn rename(mesh: &mut Mesh, old: Place, new: Place) {
+    let star: Vec<_> = mesh.spokes(old).collect();
+    for e in star {
+        mesh.edges[e.index()].origin = new;
+    }
+    mesh.incident.swap(old.index(), new.index());
+    if mesh.lone == Some(old) {
+        mesh.lone = Some(new);
+    }
+}
+
+/// Sorts duplicates and lets each refer to a vertex. One may have been renamed after a duplicate referred to it;
+/// it is a duplicate itself then, of a smaller index and so already settled.
+pub(in crate::plane) fn settle(duplicates: &mut [Duplicate]) {
     duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
-    // A vertex may have been renamed after a duplicate referred to it; it is a duplicate itself then, of a
-    // smaller index and so already settled.
     for i in 0..duplicates.len() {
         let vertex = duplicates[i].vertex;
         if let Ok(earlier) = duplicates[..i].binary_search_by_key(&vertex.index(), |d| d.point) {
             duplicates[i].vertex = duplicates[earlier].vertex;
         }
     }
-    (inserter.mesh, duplicates, inserter.tests)
 }

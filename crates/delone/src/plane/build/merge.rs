@@ -20,7 +20,7 @@
 use delone_predicates::{Filter, Member, Pencil};
 
 use super::divide_and_conquer::Builder;
-use crate::ids::{TriangleId, VertexId};
+use crate::ids::{TriangleId, Place};
 
 /// A triangulated run of positions, with the strict corners of its hull from which merges start.
 #[derive(Clone, Copy, Debug)]
@@ -28,13 +28,13 @@ pub(super) struct Part {
     pub(super) start: usize,
     pub(super) end: usize,
     /// Lexicographic minimum by (x, y).
-    pub(super) west: VertexId,
+    pub(super) west: Place,
     /// Lexicographic maximum by (x, y).
-    pub(super) east: VertexId,
+    pub(super) east: Place,
     /// Lexicographic minimum by (y, -x).
-    pub(super) south: VertexId,
+    pub(super) south: Place,
     /// Lexicographic maximum by (y, -x).
-    pub(super) north: VertexId,
+    pub(super) north: Place,
 }
 
 impl Part {
@@ -45,8 +45,8 @@ impl Part {
 
 /// A base of the bubble and the ghosts beside it.
 struct Base {
-    l: VertexId,
-    r: VertexId,
+    l: Place,
+    r: Place,
     /// The ghost of the hull edge that enters l; meaningless for a single point.
     entering_l: TriangleId,
     /// The ghost of the hull edge that leaves r; meaningless for a single point.
@@ -71,8 +71,8 @@ impl Builder<'_> {
     /// in turn as long as its next vertex is strictly below.
     fn lower_tangent(
         &self,
-        l: VertexId,
-        r: VertexId,
+        l: Place,
+        r: Place,
         l_single: bool,
         r_single: bool,
         filter: &Filter,
@@ -82,9 +82,9 @@ impl Builder<'_> {
         let mut base = Base { l, r, entering_l, leaving_r: self.leaving[r.index()] };
         loop {
             let pencil = Pencil::new(self.point(base.l), self.point(base.r));
-            let below = |v: VertexId| pencil.side(&pencil.member(self.point(v)), filter).is_negative();
+            let below = |v: Place| pencil.side(&pencil.member(self.point(v)), filter).is_negative();
             if !l_single {
-                let previous = self.origin(base.entering_l.edge(1));
+                let previous = self.tail(base.entering_l.edge(1));
                 if below(previous) {
                     base.l = previous;
                     base.entering_l = self.previous_ghost(base.entering_l);
@@ -92,7 +92,7 @@ impl Builder<'_> {
                 }
             }
             if !r_single {
-                let next = self.origin(base.leaving_r.edge(0));
+                let next = self.tail(base.leaving_r.edge(0));
                 if below(next) {
                     base.r = next;
                     base.leaving_r = self.next_ghost(base.leaving_r);
@@ -131,7 +131,7 @@ impl Builder<'_> {
     }
 
     /// Lets the bubble rise until no vertex is above the base.
-    fn rise(&mut self, l: VertexId, r: VertexId, bottom: TriangleId, mut top: TriangleId, filter: &Filter) {
+    fn rise(&mut self, l: Place, r: Place, bottom: TriangleId, mut top: TriangleId, filter: &Filter) {
         let (mut l, mut r) = (self.point(l), self.point(r));
         loop {
             let pencil = Pencil::new(l, r);
@@ -146,14 +146,14 @@ impl Builder<'_> {
             self.counters.connected += 1;
             if connect_right {
                 top = self.connect_right(top);
-                r = self.point(self.origin(top.edge(1)));
+                r = self.point(self.tail(top.edge(1)));
             } else {
                 top = self.connect_left(top);
-                l = self.point(self.origin(top.edge(0)));
+                l = self.point(self.tail(top.edge(0)));
             }
         }
         // Vertices passed on the way may be on the outer hull too; only the last two surely left by here.
-        let (l, r) = (self.origin(top.edge(0)), self.origin(top.edge(1)));
+        let (l, r) = (self.tail(top.edge(0)), self.tail(top.edge(1)));
         self.leaving[l.index()] = self.next_ghost(top);
         self.leaving[r.index()] = top;
     }
@@ -172,13 +172,13 @@ impl Builder<'_> {
         if ghost == bottom {
             return None; // a single point
         }
-        let far = self.origin(ghost.edge(usize::from(!LEFT)));
+        let far = self.tail(ghost.edge(usize::from(!LEFT)));
         let mut candidate = pencil.member(self.point(far));
         if !pencil.side(&candidate, filter).is_positive() {
             return None;
         }
         loop {
-            let apex = self.origin(self.twin(ghost.edge(0)).previous());
+            let apex = self.tail(self.twin(ghost.edge(0)).previous());
             if apex.is_ghost() {
                 return Some(candidate); // nothing behind this edge
             }
@@ -197,12 +197,12 @@ impl Builder<'_> {
 
     /// Removes the hull edge l -> l1: its ghost becomes that of l -> x, the triangle (l, l1, x) behind it the
     /// ghost of x -> l1.
-    fn remove_left(&mut self, ghost: TriangleId, x: VertexId) {
+    fn remove_left(&mut self, ghost: TriangleId, x: Place) {
         self.counters.removed += 1;
         let e = self.twin(ghost.edge(0)); // l -> l1
         let (l1_x, x_l) = (self.twin(e.next()), self.twin(e.previous()));
         let after = self.twin(ghost.edge(2));
-        let l1 = self.origin(ghost.edge(0));
+        let l1 = self.tail(ghost.edge(0));
         let freed = e.triangle();
         self.set_ghost_corners(freed, x, l1);
         self.edges[ghost.edge(0).index()].origin = x;
@@ -214,12 +214,12 @@ impl Builder<'_> {
 
     /// Removes the hull edge r1 -> r: its ghost becomes that of y -> r, the triangle (r1, r, y) behind it the
     /// ghost of r1 -> y.
-    fn remove_right(&mut self, ghost: TriangleId, y: VertexId) {
+    fn remove_right(&mut self, ghost: TriangleId, y: Place) {
         self.counters.removed += 1;
         let e = self.twin(ghost.edge(0)); // r1 -> r
         let (r_y, y_r1) = (self.twin(e.next()), self.twin(e.previous()));
         let before = self.twin(ghost.edge(1));
-        let r1 = self.origin(ghost.edge(1));
+        let r1 = self.tail(ghost.edge(1));
         let freed = e.triangle();
         self.set_ghost_corners(freed, r1, y);
         self.edges[ghost.edge(1).index()].origin = y;
@@ -237,7 +237,7 @@ impl Builder<'_> {
     fn connect_left(&mut self, top: TriangleId) -> TriangleId {
         let left = self.next_ghost(top);
         let (before, inside) = (self.twin(top.edge(1)), self.twin(left.edge(0)));
-        let (r, l1) = (self.origin(top.edge(1)), self.origin(left.edge(0)));
+        let (r, l1) = (self.tail(top.edge(1)), self.tail(left.edge(0)));
         self.edges[top.edge(2).index()].origin = l1;
         self.link(top.edge(1), left.edge(0));
         self.link(top.edge(2), inside);
@@ -250,7 +250,7 @@ impl Builder<'_> {
     fn connect_right(&mut self, top: TriangleId) -> TriangleId {
         let right = self.previous_ghost(top);
         let (after, inside) = (self.twin(top.edge(2)), self.twin(right.edge(0)));
-        let (l, r1) = (self.origin(top.edge(0)), self.origin(right.edge(1)));
+        let (l, r1) = (self.tail(top.edge(0)), self.tail(right.edge(1)));
         self.edges[top.edge(2).index()].origin = r1;
         self.link(top.edge(1), inside);
         self.link(top.edge(2), right.edge(0));

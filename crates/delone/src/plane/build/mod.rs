@@ -1,25 +1,43 @@
 //! Bulk construction in the plane. Every algorithm gives the same set of triangles.
 
+mod conflict_lists;
 mod divide_and_conquer;
-mod incremental;
+pub(super) mod incremental;
 mod leaf;
 mod merge;
 
 pub use divide_and_conquer::Counters as DivideAndConquerCounters;
+pub(super) use divide_and_conquer::in_order;
 
 use super::Duplicate;
+use crate::locate::Locate;
+use crate::locate::tally::Work;
 use crate::mesh::Mesh;
 
 /// How to build a triangulation. The result is the same set of triangles; only cost and numbering of the
 /// triangles differ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Algorithm {
     /// Divide and conquer in Morton order: the fastest, O(n log n) in the worst case, without randomness.
     #[default]
     DivideAndConquer,
-    /// Insertion one by one in a biased randomized order along a Hilbert curve: O(n log n) expected.
+    /// Insertion one by one in a biased randomized order along a Hilbert curve, each point located by a walk
+    /// from the one before it: O(n log n) expected.
     Incremental {
+        /// Decides the random order.
+        seed: u64,
+    },
+    /// Insertion one by one in random order, each point located by a strategy: the papers' algorithms.
+    Located {
+        /// The strategy, which stays with the triangulation.
+        locate: Locate,
+        /// Decides the random order.
+        seed: u64,
+    },
+    /// Insertion one by one in random order by splits and flips; each triangle keeps a list of the points in it
+    /// that are to come: O(n log n) expected.
+    ConflictLists {
         /// Decides the random order.
         seed: u64,
     },
@@ -31,23 +49,37 @@ pub enum Algorithm {
 pub enum Counters {
     /// Of [`Algorithm::DivideAndConquer`].
     DivideAndConquer(DivideAndConquerCounters),
-    /// Of [`Algorithm::Incremental`].
-    Incremental {
-        /// Conflict tests of triangles against new points.
-        conflict_tests: u64,
+    /// Of [`Algorithm::Incremental`] and [`Algorithm::Located`].
+    Incremental(Work),
+    /// Of [`Algorithm::ConflictLists`].
+    ConflictLists {
+        /// Splits, flips and conflict tests.
+        work: Work,
+        /// Points put from one list to another.
+        moved: u64,
     },
 }
 
-/// Builds the mesh of points that are finite and not too many.
-pub(super) fn build(points: &[[f64; 2]], algorithm: Algorithm) -> (Mesh, Vec<Duplicate>, Counters) {
-    match algorithm {
-        Algorithm::DivideAndConquer => {
-            let (mesh, duplicates, counters) = divide_and_conquer::triangulate(points);
-            (mesh, duplicates, Counters::DivideAndConquer(counters))
-        }
-        Algorithm::Incremental { seed } => {
-            let (mesh, duplicates, conflict_tests) = incremental::triangulate(points, seed);
-            (mesh, duplicates, Counters::Incremental { conflict_tests })
-        }
-    }
+/// What comes out of a construction, with the points given.
+pub(super) struct Built {
+    pub(super) points: Vec<[f64; 2]>,
+    pub(super) mesh: Mesh,
+    pub(super) duplicates: Vec<Duplicate>,
+    pub(super) counters: Counters,
+}
+
+pub(super) fn divide_and_conquer(points: Vec<[f64; 2]>) -> Built {
+    let (mesh, duplicates, counters) = divide_and_conquer::triangulate(&points);
+    Built { points, mesh, duplicates, counters: Counters::DivideAndConquer(counters) }
+}
+
+pub(super) fn incremental(points: Vec<[f64; 2]>, seed: u64) -> Built {
+    let mut work = Work::default();
+    let (points, mesh, duplicates) = incremental::triangulate(points, seed, &mut work);
+    Built { points, mesh, duplicates, counters: Counters::Incremental(work) }
+}
+
+pub(super) fn conflict_lists(points: Vec<[f64; 2]>, seed: u64) -> Built {
+    let (mesh, duplicates, work, moved) = conflict_lists::triangulate(&points, seed);
+    Built { points, mesh, duplicates, counters: Counters::ConflictLists { work, moved } }
 }

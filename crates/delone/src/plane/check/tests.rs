@@ -1,7 +1,7 @@
 //! The checker must fail: a valid triangulation is corrupted in every way that it claims to see.
 
 use super::Flaw;
-use crate::ids::{EdgeId, VertexId};
+use crate::ids::{EdgeId, Place, VertexId};
 use crate::mesh::check::Flaw as MeshFlaw;
 use crate::{Algorithm, Delaunay2, Duplicate};
 use delone_oracle::generate::Kind;
@@ -24,19 +24,19 @@ fn flaw(corrupt: impl FnOnce(&mut Delaunay2)) -> Flaw {
 /// An edge between two finite triangles whose four corners are in convex position.
 fn flippable(d: &Delaunay2) -> EdgeId {
     let convex = |&e: &EdgeId| {
-        let f = d.mesh.twin(e);
-        let corners = [d.mesh.origin(e), d.mesh.apex(f), d.mesh.destination(e), d.mesh.apex(e)];
+        let f = d.base.mesh.twin(e);
+        let corners = [d.base.mesh.origin(e), d.base.mesh.apex(f), d.base.mesh.destination(e), d.base.mesh.apex(e)];
         !corners.contains(&VertexId::GHOST) && {
-            let p = corners.map(|v| d.points[v.index()]);
+            let p = corners.map(|v| d.base.points[v.index()]);
             (0..4).all(|i| delone_predicates::orient2d(p[i], p[(i + 1) % 4], p[(i + 2) % 4]).is_positive())
         }
     };
-    d.mesh.undirected_edges().find(convex).expect("a convex quadrilateral")
+    d.base.mesh.undirected_edges().find(convex).expect("a convex quadrilateral")
 }
 
 /// Replaces the diagonal of a quadrilateral by the other one.
 fn flip(d: &mut Delaunay2, e: EdgeId) {
-    let mesh = &mut d.mesh;
+    let mesh = &mut d.base.mesh;
     let f = mesh.twin(e);
     let (a, b) = (mesh.apex(e), mesh.apex(f));
     let (across_e, across_f) = (mesh.twin(f.previous()), mesh.twin(e.previous()));
@@ -61,7 +61,7 @@ fn a_wrong_diagonal() {
         flaw(|d| {
             let e = flippable(d);
             flip(d, e);
-            assert_eq!(d.mesh.check(), Ok(()), "the surface itself stays closed");
+            assert_eq!(d.base.mesh.check(), Ok(()), "the surface itself stays closed");
         }),
         Flaw::Delaunay(_)
     ));
@@ -74,7 +74,7 @@ fn a_moved_point() {
         flaw(|d| {
             let hull: Vec<_> = d.hull().collect();
             let inner = d.vertices().find(|v| !hull.contains(v) && v.index() != 3).expect("an inner vertex");
-            d.points[inner.index()] = [0.5, -3.0];
+            d.base.points[inner.index()] = [0.5, -3.0];
         }),
         Flaw::Orientation(_) | Flaw::Delaunay(_)
     ));
@@ -85,10 +85,10 @@ fn a_dent_in_the_hull() {
     assert!(matches!(
         flaw(|d| {
             let hull: Vec<_> = d.hull().collect();
-            let [a, b] = [0, 2].map(|i| d.points[hull[i].index()]);
+            let [a, b] = [0, 2].map(|i| d.base.points[hull[i].index()]);
             let inside = [0.7 * a[0] + 0.3 * b[0] + 0.0, 0.7 * a[1] + 0.3 * b[1]];
             let centre = [0.5, 0.5];
-            d.points[hull[1].index()] = [0, 1].map(|k| inside[k] + 0.01 * (centre[k] - inside[k]));
+            d.base.points[hull[1].index()] = [0, 1].map(|k| inside[k] + 0.01 * (centre[k] - inside[k]));
         }),
         Flaw::Hull(_)
     ));
@@ -98,8 +98,8 @@ fn a_dent_in_the_hull() {
 fn one_sided_neighbours() {
     let broken = flaw(|d| {
         let e = EdgeId::new(0);
-        let other = d.mesh.twin(e.next());
-        d.mesh.edges[0].twin = other;
+        let other = d.base.mesh.twin(e.next());
+        d.base.mesh.edges[0].twin = other;
     });
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Twin(_))));
 }
@@ -108,24 +108,24 @@ fn one_sided_neighbours() {
 fn mutual_neighbours_with_other_ends() {
     let broken = flaw(|d| {
         let (e, f) = (EdgeId::new(0), EdgeId::new(1));
-        let (across_e, across_f) = (d.mesh.twin(e), d.mesh.twin(f));
-        d.mesh.link(e, across_f);
-        d.mesh.link(f, across_e);
+        let (across_e, across_f) = (d.base.mesh.twin(e), d.base.mesh.twin(f));
+        d.base.mesh.link(e, across_f);
+        d.base.mesh.link(f, across_e);
     });
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Ends(_))));
 }
 
 #[test]
 fn a_triangle_too_few() {
-    let broken = flaw(|d| d.mesh.edges.truncate(d.mesh.edges.len() - 4));
+    let broken = flaw(|d| d.base.mesh.edges.truncate(d.base.mesh.edges.len() - 4));
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Euler { .. })));
-    let none = flaw(|d| d.mesh.incident.fill(EdgeId::NONE));
+    let none = flaw(|d| d.base.mesh.incident.fill(EdgeId::NONE));
     assert!(none.to_string().starts_with("0 vertices need 0 triangles"), "{none}");
 }
 
 #[test]
 fn a_wrong_incident_edge() {
-    let broken = flaw(|d| d.mesh.incident.swap(0, 1));
+    let broken = flaw(|d| d.base.mesh.incident.swap(0, 1));
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Incident(_))));
 }
 
@@ -134,27 +134,27 @@ fn two_spheres() {
     let broken = flaw(|d| {
         // Two sets side by side, with twice the ghosts: the counts are repaired, the star of the ghost is not.
         let mut copy = d.clone();
-        let (edges, points) = (d.mesh.edges.len(), d.points.len());
-        for record in &mut copy.mesh.edges {
+        let (edges, points) = (d.base.mesh.edges.len(), d.base.points.len());
+        for record in &mut copy.base.mesh.edges {
             if record.twin != EdgeId::NONE {
                 record.twin = EdgeId::new(record.twin.index() + edges);
             }
             if !record.origin.is_ghost() {
-                record.origin = VertexId::new(record.origin.index() + points);
+                record.origin = Place::new(record.origin.index() + points);
             }
         }
-        d.mesh.edges.extend(copy.mesh.edges);
+        d.base.mesh.edges.extend(copy.base.mesh.edges);
         let shifted = |e: EdgeId| if e == EdgeId::NONE { e } else { EdgeId::new(e.index() + edges) };
-        d.mesh.incident.extend(copy.mesh.incident.into_iter().map(shifted));
-        d.points.extend(copy.points);
-        d.mesh.vertex_count *= 2;
+        d.base.mesh.incident.extend(copy.base.mesh.incident.into_iter().map(shifted));
+        d.base.points.extend(copy.points);
+        d.base.mesh.vertex_count *= 2;
     });
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Euler { .. })));
 }
 
 #[test]
 fn a_lost_point() {
-    assert!(matches!(flaw(|d| d.points.push([0.5, 0.5])), Flaw::Missing(41)));
+    assert!(matches!(flaw(|d| d.base.points.push([0.5, 0.5])), Flaw::Missing(41)));
     assert!(matches!(flaw(|d| d.duplicates.clear()), Flaw::Missing(40)));
 }
 
@@ -166,7 +166,7 @@ fn a_false_duplicate() {
 
 #[test]
 fn a_clockwise_surface() {
-    let mirrored = flaw(|d| d.points.iter_mut().for_each(|p| p[0] = -p[0]));
+    let mirrored = flaw(|d| d.base.points.iter_mut().for_each(|p| p[0] = -p[0]));
     assert!(matches!(mirrored, Flaw::Hull(_)));
 }
 
@@ -175,9 +175,9 @@ fn a_disordered_line() {
     let points: Vec<_> = (0..10).map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect();
     let mut line = Delaunay2::from_points(&points).expect("finite");
     assert_eq!(line.check(), Ok(()));
-    line.points.swap(3, 7);
+    line.base.points.swap(3, 7);
     assert!(matches!(line.check(), Err(Flaw::Line(_))));
-    line.points.swap(3, 7);
-    line.points[5] = [5.0, 10.5];
+    line.base.points.swap(3, 7);
+    line.base.points[5] = [5.0, 10.5];
     assert!(matches!(line.check(), Err(Flaw::Line(_))));
 }

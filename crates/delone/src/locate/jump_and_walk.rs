@@ -1,0 +1,130 @@
+//! Jump-and-walk: start at the nearest of a few vertices drawn at random.
+//!
+//! Source: Devroye, Mücke & Zhu, "A note on point location in Delaunay triangulations of random points",
+//! Algorithmica 1998; Mücke, Saias & Zhu, SoCG 1996. Sample: m = ceil(rho n^(1/(d+1))) vertices in d dimensions.
+//!
+//! Cost: O(m + sqrt(n / m)) expected on evenly spread points in the plane, so O(n^(1/3)); no memory, nothing to
+//! keep up to date, so insertion and removal cost nothing more. Choose it when memory is short, or for sets
+//! that change wholesale between a few queries.
+
+use std::cmp::Ordering;
+
+use super::tally::Tally;
+use super::{Ground, Start, Strategy, Walk};
+use crate::error::Error;
+use crate::ids::{EdgeId, Place};
+use crate::order::random::SplitMix;
+
+/// Parameters of jump-and-walk.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JumpAndWalk {
+    /// The factor rho of the sample size rho n^(1/(d+1)).
+    pub rho: f64,
+    /// A fixed sample size instead, not zero.
+    pub sample: Option<usize>,
+    /// Decides the samples, together with the query: the same query has the same sample.
+    pub seed: u64,
+}
+
+impl Default for JumpAndWalk {
+    fn default() -> Self {
+        Self { rho: 1.0, sample: None, seed: 0 }
+    }
+}
+
+impl JumpAndWalk {
+    pub(super) fn validate(&self) -> Result<(), Error> {
+        if self.sample == Some(0) {
+            return Err(Error::Parameter { name: "sample", value: 0.0, range: "at least 1" });
+        }
+        if !(self.rho > 0.0 && self.rho.is_finite()) {
+            return Err(Error::Parameter { name: "rho", value: self.rho, range: "positive and finite" });
+        }
+        Ok(())
+    }
+
+    /// The number of vertices to draw out of `n`.
+    pub(crate) fn sample_size(&self, n: usize, dimensions: usize) -> usize {
+        let size = (self.rho * (n as f64).powf(1.0 / (dimensions + 1) as f64)).ceil();
+        self.sample.unwrap_or(size as usize).clamp(1, n.max(1))
+    }
+
+    /// The nearest to `q` of vertices drawn at random, with replacement.
+    pub(super) fn jump<G: Ground, T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Option<Place> {
+        let mesh = ground.mesh();
+        let places = mesh.incident.len();
+        if places == 0 {
+            return None;
+        }
+        let mix = |seed: u64, axis| SplitMix(seed ^ G::coordinate(q, axis).to_bits()).next();
+        let mut random = SplitMix((0..G::DIMENSIONS).fold(self.seed, mix));
+        let mut best: Option<Place> = None;
+        let mut left = self.sample_size(mesh.vertex_count(), G::DIMENSIONS);
+        // Free places are skipped. Where nearly all are free, fewer draws have to do: any start is right.
+        for _ in 0..16 * left {
+            let v = Place::new(random.below(places));
+            if mesh.incident[v.index()] == EdgeId::NONE {
+                continue;
+            }
+            tally.compared();
+            if best.is_none_or(|b| ground.compare_distances(q, v, b) == Ordering::Less) {
+                best = Some(v);
+            }
+            left -= 1;
+            if left == 0 {
+                break;
+            }
+        }
+        best
+    }
+}
+
+impl<G: Ground> Strategy<G> for JumpAndWalk {
+    fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start {
+        self.jump(ground, q, tally).map_or(Start::Anywhere, Start::Vertex)
+    }
+
+    fn inserted(&mut self, _: &G, _: Place) {}
+
+    fn removing(&mut self, _: &G, _: Place) {}
+
+    fn rearranged(&mut self, _: &G, _: &[Place]) {}
+}
+
+/// A walk from the vertex inserted last.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FromLast {
+    pub(crate) walk: Walk,
+    last: Option<Place>,
+}
+
+impl FromLast {
+    pub(crate) fn new(walk: Walk) -> Self {
+        Self { walk, last: None }
+    }
+}
+
+impl<G: Ground> Strategy<G> for FromLast {
+    fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start {
+        let mesh = ground.mesh();
+        match self.last.map(|v| mesh.incident[v.index()]) {
+            Some(e) if e != EdgeId::NONE => Start::Edge(e, self.walk),
+            _ => Start::Anywhere,
+        }
+    }
+
+    fn inserted(&mut self, _: &G, v: Place) {
+        self.last = Some(v);
+    }
+
+    fn removing(&mut self, ground: &G, v: Place) {
+        if self.last == Some(v) {
+            let mesh = ground.mesh();
+            self.last = mesh.spokes(v).map(|e| mesh.head(e)).find(|w| !w.is_ghost());
+        }
+    }
+
+    fn rearranged(&mut self, _: &G, moved: &[Place]) {
+        self.last = self.last.and_then(|v| moved.get(v.index()).copied());
+    }
+}

@@ -1,0 +1,78 @@
+//! Which vertex is kept where.
+//!
+//! A vertex keeps its name, the [`VertexId`], for life; a name is never given twice. Its place moves with the
+//! memory and is used again. As long as a mesh was only built in bulk the two are equal, and there is no table.
+
+use crate::ids::{Place, VertexId};
+
+/// Both ways: 4 bytes a name ever given, 4 bytes a place.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Names {
+    /// For each place its vertex; [`VertexId::GHOST`] for a free one.
+    of: Vec<VertexId>,
+    /// For each name its place; [`Place::GHOST`] for a vertex that is gone, and for the name of a duplicate.
+    places: Vec<Place>,
+}
+
+impl Names {
+    /// As if every name had been its own place; `vertex` tells which are vertices.
+    pub(super) fn identical(count: usize, vertex: impl Fn(Place) -> bool) -> Self {
+        let place = |i| Some(Place::new(i)).filter(|&p| vertex(p));
+        Self {
+            of: (0..count).map(|i| place(i).map_or(VertexId::GHOST, Place::same)).collect(),
+            places: (0..count).map(|i| place(i).unwrap_or(Place::GHOST)).collect(),
+        }
+    }
+
+    /// The vertex at a place.
+    #[inline]
+    pub(crate) fn of(&self, place: Place) -> VertexId {
+        self.of[place.index()]
+    }
+
+    /// Where a vertex is, if it is one.
+    #[inline]
+    pub(crate) fn place(&self, v: VertexId) -> Option<Place> {
+        self.places.get(v.index()).copied().filter(|p| !p.is_ghost())
+    }
+
+    /// Sets names aside, each for a point that is no vertex yet.
+    pub(crate) fn reserve(&mut self, count: usize) {
+        self.places.resize(self.places.len() + count, Place::GHOST);
+    }
+
+    /// A vertex appears at a place.
+    pub(crate) fn bind(&mut self, v: VertexId, place: Place) {
+        if self.of.len() <= place.index() {
+            self.of.resize(place.index() + 1, VertexId::GHOST);
+        }
+        self.of[place.index()] = v;
+        self.places[v.index()] = place;
+    }
+
+    /// A vertex goes from its place.
+    pub(crate) fn release(&mut self, v: VertexId) {
+        if let Some(place) = self.place(v) {
+            self.of[place.index()] = VertexId::GHOST;
+            self.places[v.index()] = Place::GHOST;
+        }
+    }
+
+    /// Every vertex moves to the place that `moved` gives for its old one.
+    pub(crate) fn rearrange(&mut self, capacity: usize, moved: &[Place]) {
+        self.of.clear();
+        self.of.resize(capacity, VertexId::GHOST);
+        for (name, place) in self.places.iter_mut().enumerate() {
+            if !place.is_ghost() {
+                *place = moved[place.index()];
+                self.of[place.index()] = VertexId::new(name);
+            }
+        }
+    }
+
+    /// All vertices, by increasing name.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        let here = |(name, place): (usize, &Place)| (!place.is_ghost()).then(|| VertexId::new(name));
+        self.places.iter().enumerate().filter_map(here)
+    }
+}

@@ -1,0 +1,98 @@
+//! Free slots among used ones, found near where they are wanted: neighbours in the plane stay neighbours in
+//! memory.
+//!
+//! Cost: O(1); one bit a slot.
+
+/// How many words of 64 slots to look at on either side.
+const REACH: usize = 4;
+
+/// Which slots are free. Slots never mentioned are in use.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Slots {
+    /// One bit a slot, set if it is free.
+    words: Vec<u64>,
+    free: usize,
+    /// Where the search for any free slot goes on.
+    cursor: usize,
+}
+
+impl Slots {
+    /// Slots below `count` of which those with an odd index are free.
+    pub(crate) fn every_other(count: usize) -> Self {
+        let mut words = vec![0xaaaa_aaaa_aaaa_aaaa; count / 64];
+        if !count.is_multiple_of(64) {
+            words.push(0xaaaa_aaaa_aaaa_aaaa & ((1 << (count % 64)) - 1));
+        }
+        Self { words, free: count / 2, cursor: 0 }
+    }
+
+    /// The number of free slots.
+    pub(crate) fn free(&self) -> usize {
+        self.free
+    }
+
+    /// Takes a free slot near `at`; or, when one in eight is free, any. `None`: make a new one.
+    pub(crate) fn take_near(&mut self, at: usize) -> Option<usize> {
+        if self.free == 0 {
+            return None;
+        }
+        let (word, count) = (at / 64, self.words.len());
+        let near = (0..=REACH).flat_map(|d| [word.wrapping_sub(d), word + d]);
+        let found = near.into_iter().find(|&w| self.words.get(w).is_some_and(|&bits| bits != 0));
+        let found = match found {
+            Some(w) => w,
+            None if self.free * 8 >= count * 64 => {
+                let w = (self.cursor..count).chain(0..count).find(|&w| self.words[w] != 0)?;
+                self.cursor = w;
+                w
+            }
+            None => return None,
+        };
+        let bit = self.words[found].trailing_zeros();
+        self.words[found] &= self.words[found] - 1;
+        self.free -= 1;
+        Some(found * 64 + bit as usize)
+    }
+
+    /// Gives a used slot back.
+    pub(crate) fn give(&mut self, slot: usize) {
+        let word = slot / 64;
+        if self.words.len() <= word {
+            self.words.resize(word + 1, 0);
+        }
+        debug_assert!(self.words[word] >> (slot % 64) & 1 == 0, "slot {slot} is given back twice");
+        self.words[word] |= 1 << (slot % 64);
+        self.free += 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Slots;
+
+    #[test]
+    fn slots_are_given_out_once_and_near() {
+        let mut slots = Slots::every_other(1000);
+        assert_eq!(slots.free(), 500);
+        let mut taken: Vec<_> = std::iter::from_fn(|| slots.take_near(500)).collect();
+        assert_eq!(taken[0] / 64, 500 / 64);
+        assert!(taken.iter().all(|slot| slot % 2 == 1));
+        // Far ones are given out only while one in eight is free.
+        assert!(slots.free() > 0 && slots.free() * 8 < 1024);
+        let near = taken.len();
+        taken.extend(std::iter::from_fn(|| slots.take_near(900)));
+        assert!(taken.len() > near);
+        taken.sort_unstable();
+        taken.dedup();
+        assert_eq!(taken.len() + slots.free(), 500);
+    }
+
+    #[test]
+    fn what_was_given_back_is_taken_again() {
+        let mut slots = Slots::default();
+        assert_eq!(slots.take_near(7), None);
+        slots.give(130);
+        assert_eq!(slots.take_near(140), Some(130));
+        assert_eq!(slots.take_near(140), None);
+    }
+}

@@ -1,0 +1,306 @@
+//! Insertion, removal and motion of vertices, with their names.
+//!
+//! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again. What is
+//! inserted is laid out near its neighbours in memory; when the number of vertices has doubled, or hints have
+//! grown old, everything is built anew in bulk, laid out as in the plane. That is allowed because there is only one
+//! triangulation of a set, and it costs O(log n) amortized.
+
+use super::insert::Spot;
+use super::locator::Locator;
+use super::{Delaunay2, Duplicate, Position2, build, finite};
+use crate::error::Error;
+use crate::ids::{MAX_POINTS, Place, VertexId};
+use crate::locate::tally::Tally;
+use crate::locate::tree::Tree;
+use crate::locate::{Locate, Start, Strategy, Walk};
+use crate::mesh::Names;
+use crate::order::brio;
+
+/// What became of an inserted point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inserted {
+    /// It is a vertex now.
+    New(VertexId),
+    /// It equals this vertex, and nothing has changed.
+    Existing(VertexId),
+}
+
+impl Inserted {
+    /// The vertex with the point's coordinates.
+    pub fn vertex(self) -> VertexId {
+        match self {
+            Self::New(v) | Self::Existing(v) => v,
+        }
+    }
+}
+
+/// Room of this many places a vertex, beyond which memory is given back by building anew.
+const SLACK: usize = 8;
+/// No layout with room is made above this: its indices would not fit.
+const LARGEST_SPREAD: usize = MAX_POINTS / 4;
+
+impl Delaunay2 {
+    /// Inserts a point. Its id is the number of ids given before.
+    ///
+    /// Cost: location (see [`Locate`]) and O(1) expected changes for random points; O(log n) amortized for keeping
+    /// memory in spatial order.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities; [`Error::TooManyPoints`] after [`MAX_POINTS`] ids. Nothing has
+    /// changed then.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Inserted};
+    ///
+    /// let mut d = Delaunay2::new();
+    /// let a = d.insert([0.0, 0.0])?.vertex();
+    /// assert_eq!(d.insert([0.0, 0.0])?, Inserted::Existing(a));
+    /// let b = d.insert([1.0, 0.0])?.vertex();
+    /// d.insert([0.0, 1.0])?;
+    /// d.remove(a)?;
+    /// assert!(d.remove(a).is_err()); // gone, and its id never comes back
+    /// assert_eq!(d.hull().next().map(|v| v == b), Some(true));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn insert<P: Position2>(&mut self, point: P) -> Result<Inserted, Error> {
+        self.insert_counted(point, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::insert`].
+    pub fn insert_counted<P: Position2, T: Tally>(
+        &mut self,
+        point: P,
+        tally: &mut T,
+    ) -> Result<Inserted, Error> {
+        let q = finite(&point)?;
+        let (spot, steps) = self.spot(q, tally);
+        if let Spot::Vertex(place) = spot {
+            return Ok(Inserted::Existing(self.base.mesh.name(place)));
+        }
+        let v = self.new_names([q].into_iter())?;
+        self.place(v, spot, q, steps, tally);
+        Ok(Inserted::New(v))
+    }
+
+    /// Removes a vertex. Points that were reported as its duplicates go with it.
+    ///
+    /// Cost for degree d: O(d^2) tests up to degree 24, O(d log d) above; the average degree is six. Removing down to
+    /// a line or to nothing is fine.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::InsertOnly`] with [`Locate::History`].
+    pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
+        self.remove_counted(v, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::remove`].
+    pub fn remove_counted<T: Tally>(&mut self, v: VertexId, tally: &mut T) -> Result<(), Error> {
+        let place = self.removable(v)?;
+        self.names().release(v);
+        self.displace(place, tally);
+        if self.base.points.len() > SLACK * self.vertex_count() + 1024 {
+            self.rearrange();
+        }
+        Ok(())
+    }
+
+    /// Moves a vertex, which keeps its id.
+    ///
+    /// Cost: one insertion and one removal.
+    ///
+    /// # Errors
+    /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
+    /// Nothing has changed then.
+    pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
+        let q = finite(&point)?;
+        let old = self.removable(v)?;
+        let (spot, steps) = self.spot(q, &mut ());
+        match spot {
+            Spot::Vertex(place) if place == old => {}
+            Spot::Vertex(place) => return Err(Error::Occupied { vertex: self.base.mesh.name(place) }),
+            spot => {
+                self.names().release(v);
+                self.named.as_mut().expect("made with the names")[v.index()] = q;
+                let new = self.base.insert(spot, q, &mut ()).unwrap_or(old);
+                self.base.mesh.names().bind(v, new);
+                if let Some(locator) = self.locator.get_mut() {
+                    locator.inserted(&self.base, new);
+                }
+                self.displace(old, &mut ());
+                self.note_walk(steps);
+            }
+        }
+        Ok(())
+    }
+
+    /// Inserts many points, in a biased randomized order along a curve that the seed decides, each located from
+    /// the one before. Point i gets the id that the i-th of single insertions would, duplicates included: these
+    /// are reported by [`Self::duplicates`]. Returns the ids as a range of indices.
+    ///
+    /// Source: Guibas, Knuth & Sharir, Algorithmica 1992, §2.3: n points in random order added to a triangulation of
+    /// m change O(m log n + n) edges in expectation. Cost: O((m + n) log (m + n)) expected.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first bad coordinate, [`Error::TooManyPoints`] is as for [`Self::insert`]. Nothing
+    /// has changed then.
+    pub fn extend<P: Position2>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
+        let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
+        super::check_finite(&points)?;
+        let order = brio::order(&points, seed);
+        self.extend_in_order(&points, &order, false, &mut ())
+    }
+
+    /// Inserts points in a given order, located by the strategy or each from the one before.
+    pub(super) fn extend_in_order<T: Tally>(
+        &mut self,
+        points: &[[f64; 2]],
+        order: &[u32],
+        by_strategy: bool,
+        tally: &mut T,
+    ) -> Result<std::ops::Range<usize>, Error> {
+        let first = self.new_names(points.iter().copied())?.index();
+        let mut last: Option<VertexId> = None;
+        for &i in order {
+            let (q, v) = (points[i as usize], VertexId::new(first + i as usize));
+            let (spot, steps) = match last.and_then(|v| self.base.mesh.place(v)) {
+                Some(place) if !by_strategy && self.base.spanned => {
+                    self.base.spot(Start::Edge(self.base.mesh.incident[place.index()], Walk::Visibility), q, tally)
+                }
+                _ => self.spot(q, tally),
+            };
+            if let Spot::Vertex(place) = spot {
+                let there = self.base.mesh.name(place);
+                let (vertex, point) = (there.min(v), there.max(v));
+                if vertex != there {
+                    let names = self.names();
+                    names.release(there);
+                    names.bind(v, place);
+                }
+                self.duplicates.push(Duplicate { point: point.index(), vertex });
+                last = Some(vertex);
+            } else {
+                self.place(v, spot, q, steps, tally);
+                last = Some(v);
+            }
+        }
+        build::incremental::settle(&mut self.duplicates);
+        Ok(first..first + points.len())
+    }
+
+    /// The names, and the coordinates by name, made explicit at the first change.
+    fn names(&mut self) -> &mut Names {
+        if self.named.is_none() {
+            self.named = Some(self.base.points.clone());
+            // Places of duplicates are free from now on.
+            for duplicate in &self.duplicates {
+                self.base.free.give(duplicate.point);
+            }
+        }
+        self.base.mesh.names()
+    }
+
+    /// New names for points that are to be inserted; returns the first.
+    fn new_names(&mut self, points: impl ExactSizeIterator<Item = [f64; 2]>) -> Result<VertexId, Error> {
+        let given = self.points().len();
+        let count = given + points.len();
+        if count > MAX_POINTS {
+            return Err(Error::TooManyPoints { count });
+        }
+        self.names().reserve(points.len());
+        if let Some(named) = &mut self.named {
+            named.extend(points);
+        }
+        Ok(VertexId::new(given))
+    }
+
+    /// Makes a named point a vertex.
+    #[inline]
+    fn place<T: Tally>(&mut self, v: VertexId, spot: Spot, q: [f64; 2], steps: usize, tally: &mut T) {
+        let Ok(place) = self.base.insert(spot, q, tally) else {
+            debug_assert!(false, "the spot is no vertex");
+            return;
+        };
+        self.base.mesh.names().bind(v, place);
+        if let Some(locator) = self.locator.get_mut() {
+            locator.inserted(&self.base, place);
+        }
+        self.note_walk(steps);
+    }
+
+    /// The place of a vertex, if it can be removed.
+    fn removable(&self, v: VertexId) -> Result<Place, Error> {
+        let place = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
+        if self.locate == Locate::History { Err(Error::InsertOnly) } else { Ok(place) }
+    }
+
+    /// Removes what is at a place.
+    fn displace<T: Tally>(&mut self, place: Place, tally: &mut T) {
+        if let Some(locator) = self.locator.get_mut() {
+            locator.removing(&self.base, place);
+        }
+        self.base.remove(place, tally);
+    }
+
+    /// Keeps account of walks, and lays everything out anew when that has paid.
+    #[inline]
+    fn note_walk(&mut self, steps: usize) {
+        self.upkeep.walked(steps);
+        if self.upkeep.is_old(self.base.mesh.vertex_count()) {
+            self.rearrange();
+        }
+    }
+
+    #[cold]
+    fn rearrange(&mut self) {
+        let count = self.vertex_count();
+        self.upkeep.renew(count);
+        if count <= LARGEST_SPREAD {
+            self.names();
+            let moved = self.base.rebuild();
+            if let Some(locator) = self.locator.get_mut() {
+                locator.rearranged(&self.base, &moved);
+            }
+        } else if let Some(locator @ Locator::Tree(_)) = self.locator.get_mut() {
+            *locator = Locator::Tree(Tree::build(&self.base));
+        }
+    }
+}
+
+/// Keeps account of what has happened since memory was last laid out as in the plane.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Upkeep {
+    /// The number of vertices then.
+    then: usize,
+    /// Steps of walks beyond the usual number, and one for each insertion.
+    debt: usize,
+}
+
+impl Upkeep {
+    /// The steps of a walk that are nobody's fault.
+    const USUAL: usize = 12;
+    /// Below this number of vertices everything is near everything.
+    const SMALL: usize = 32;
+
+    pub(super) fn renew(&mut self, vertices: usize) {
+        *self = Self { then: vertices, debt: 0 };
+    }
+
+    #[inline]
+    fn walked(&mut self, steps: usize) {
+        self.debt += 1 + steps.saturating_sub(Self::USUAL);
+    }
+
+    /// Whether there are twice as many vertices, or walks have cost as much as a new layout would. Data that
+    /// come in cluster by cluster are served too.
+    #[inline]
+    fn is_old(&self, vertices: usize) -> bool {
+        let then = self.then.max(Self::SMALL);
+        vertices > 2 * then || (self.debt > 8 * then && vertices > Self::SMALL)
+    }
+}

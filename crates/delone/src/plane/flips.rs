@@ -1,0 +1,207 @@
+//! Incremental construction by splits and flips inside a triangle of three dummy points at infinity.
+//!
+//! Source: Guibas, Knuth & Sharir, Algorithmica 1992, §3; Sheehy's lecture notes on randomized incremental Delaunay
+//! triangulation. A new point splits the triangle that contains it into three, then edges across from it are
+//! flipped while the triangle beyond is in conflict with it.
+//!
+//! # Dummy points
+//!
+//! The dummies have no coordinates; the predicates take limits. Dummy 0 is infinitely far to the right and
+//! a trace below, dummy 1 infinitely far up and a trace to the right, dummy 2 infinitely far to the left and a
+//! trace below, and each is infinitely farther away than the one before. So
+//!
+//! - the side of a line through two points on which a dummy lies is decided by comparing coordinates;
+//! - a circle through two points and a dummy is the half-plane on the dummy's side, with the inside of the
+//!   segment between the points: the rule of ghost triangles;
+//! - a circle through one point and two dummies is the half-plane bounded by the line from the point to the
+//!   nearer dummy, on the side of the farther one.
+//!
+//! A point on an edge makes one flat triangle, which the first flip removes.
+//!
+//! Cost: O(1) expected flips an insertion in random order; where to insert is for others to say.
+
+use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
+
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::conflict_lists::Contains;
+use crate::locate::history::Observer;
+use crate::locate::tally::Tally;
+use crate::mesh::HalfEdge;
+
+/// The number of dummies; the place of point i is i + DUMMIES.
+pub(super) const DUMMIES: usize = 3;
+
+/// Triangles, present ones and, if the observer keeps them, past ones.
+#[derive(Clone, Debug)]
+pub(super) struct Flips {
+    /// Four records a triangle, as in a mesh. The twins of past triangles mean nothing.
+    pub(super) edges: Vec<HalfEdge>,
+    /// The points, after a stand-in for each dummy.
+    pub(super) points: Vec<[f64; 2]>,
+    /// Edges across from the new point that are to be tested.
+    pending: Vec<EdgeId>,
+}
+
+fn is_dummy(p: Place) -> bool {
+    p.index() < DUMMIES
+}
+
+impl Flips {
+    /// The triangle of the dummies.
+    pub(super) fn new() -> Self {
+        let corner = |i| HalfEdge { origin: Place::new(i), twin: EdgeId::NONE };
+        let edges = vec![corner(0), corner(1), corner(2), HalfEdge::UNUSED];
+        Self { edges, points: vec![[0.0; 2]; DUMMIES], pending: Vec::new() }
+    }
+
+    pub(super) fn corners(&self, t: TriangleId) -> [Place; 3] {
+        [0, 1, 2].map(|k| self.edges[t.edge(k).index()].origin)
+    }
+
+    fn point(&self, p: Place) -> [f64; 2] {
+        self.points[p.index()]
+    }
+
+    /// On which side of the line from a to b a point is, a and b corners of the triangulation, not both dummies.
+    fn side(&self, a: Place, b: Place, q: [f64; 2]) -> Sign {
+        match (is_dummy(a), is_dummy(b)) {
+            (false, false) => orient2d(self.point(a), self.point(b), q),
+            (true, false) => towards(self.point(b), q, a),
+            (false, true) => towards(q, self.point(a), b),
+            (true, true) => Sign::Positive, // the dummies are around everything, counter-clockwise
+        }
+    }
+
+    /// Whether a triangle contains a point, in its inside or on its border.
+    pub(super) fn holds(&self, t: TriangleId, q: [f64; 2]) -> bool {
+        let [a, b, c] = self.corners(t);
+        [[a, b], [b, c], [c, a]].iter().all(|&[u, v]| !self.side(u, v, q).is_negative())
+    }
+
+    /// Whether the circle of a triangle with a finite corner contains a point.
+    fn conflicts(&self, t: TriangleId, q: [f64; 2]) -> bool {
+        let corners = self.corners(t);
+        let from = |k: usize| [0, 1, 2].map(|i| corners[(k + i) % 3]);
+        let dummies = corners.iter().filter(|p| is_dummy(**p)).count();
+        match dummies {
+            0 => in_circle(self.point(corners[0]), self.point(corners[1]), self.point(corners[2]), q).is_positive(),
+            1 => {
+                let [_, u, v] = from(corners.iter().position(|p| is_dummy(*p)).unwrap_or(0));
+                let (u, v) = (self.point(u), self.point(v));
+                match orient2d(u, v, q) {
+                    Sign::Positive => true,
+                    Sign::Zero => strictly_between(u, v, q),
+                    Sign::Negative => false,
+                }
+            }
+            _ => {
+                let [u, d, e] = from(corners.iter().position(|p| !is_dummy(*p)).unwrap_or(0));
+                // The half-plane on the side of the farther dummy; u, d, e turn left.
+                let beside_nearer = self.side(u, d.min(e), q);
+                if d < e { beside_nearer.is_positive() } else { beside_nearer.is_negative() }
+            }
+        }
+    }
+
+    /// The present triangle beside another one, if that has a corner here already: the vertex of an equal point.
+    pub(super) fn equal(&self, t: TriangleId, q: [f64; 2]) -> Option<Place> {
+        self.corners(t).into_iter().find(|&p| !is_dummy(p) && self.point(p) == q)
+    }
+
+    /// Makes `p` a vertex. Its point is in or on the border of the present triangle `t`, and not a vertex.
+    pub(super) fn insert<O: Observer<Self>, T: Tally>(
+        &mut self,
+        p: Place,
+        t: TriangleId,
+        observer: &mut O,
+        tally: &mut T,
+    ) {
+        let corners = self.corners(t);
+        let outside = [0, 1, 2].map(|k| self.edges[t.edge(k).index()].twin);
+        let new = [if O::KEEPS { self.allocate() } else { t }, self.allocate(), self.allocate()];
+        for k in 0..3 {
+            self.write(new[k], [corners[k], corners[(k + 1) % 3], p]);
+            self.link(new[k].edge(0), outside[k]);
+            self.link(new[k].edge(1), new[(k + 1) % 3].edge(2));
+        }
+        tally.destroyed(1);
+        tally.created(3);
+        observer.split(self, t, new);
+        self.pending.extend(new.map(|t| t.edge(0)));
+        let q = self.point(p);
+        while let Some(e) = self.pending.pop() {
+            let f = self.edges[e.index()].twin;
+            if f == EdgeId::NONE {
+                continue; // an edge between dummies
+            }
+            tally.in_circle();
+            if self.conflicts(f.triangle(), q) {
+                self.flip(e, f, observer);
+                tally.destroyed(2);
+                tally.created(2);
+            }
+        }
+    }
+
+    /// Replaces the edge e = x -> y, across from the new point p, and its twin by p - z.
+    ///
+    /// ```text
+    ///        p                    p
+    ///      /   \                / | \
+    ///     x --> y     =>       x  |  y
+    ///      \   /                \ | /
+    ///        z                    z
+    /// ```
+    fn flip<O: Observer<Self>>(&mut self, e: EdgeId, f: EdgeId, observer: &mut O) {
+        let origin = |e: EdgeId| self.edges[e.index()].origin;
+        let twin = |e: EdgeId| self.edges[e.index()].twin;
+        let (x, y, p, z) = (origin(e), origin(f), origin(e.previous()), origin(f.previous()));
+        let (yp, px, xz, zy) = (twin(e.next()), twin(e.previous()), twin(f.next()), twin(f.previous()));
+        let old = [e.triangle(), f.triangle()];
+        let [left, right] = if O::KEEPS { [self.allocate(), self.allocate()] } else { old };
+        self.write(left, [x, z, p]);
+        self.write(right, [z, y, p]);
+        self.link(left.edge(0), xz);
+        self.link(right.edge(0), zy);
+        self.link(left.edge(1), right.edge(2));
+        self.link(left.edge(2), px);
+        self.link(right.edge(1), yp);
+        observer.flip(self, old, [left, right]);
+        self.pending.extend([left.edge(0), right.edge(0)]);
+    }
+
+    fn allocate(&mut self) -> TriangleId {
+        self.edges.extend([HalfEdge::UNUSED; 4]);
+        TriangleId::new(self.edges.len() / 4 - 1)
+    }
+
+    fn write(&mut self, t: TriangleId, corners: [Place; 3]) {
+        for (k, origin) in corners.into_iter().enumerate() {
+            self.edges[t.edge(k).index()].origin = origin;
+        }
+    }
+
+    fn link(&mut self, e: EdgeId, f: EdgeId) {
+        self.edges[e.index()].twin = f;
+        if f != EdgeId::NONE {
+            self.edges[f.index()].twin = e;
+        }
+    }
+}
+
+/// On which side of the line from a to b a dummy is.
+fn towards(a: [f64; 2], b: [f64; 2], dummy: Place) -> Sign {
+    let sign = |x: f64, y: f64| Sign::of(&x, &y);
+    let decided = |first: Sign, tie: Sign| if first.is_zero() { tie } else { first };
+    match dummy.index() {
+        0 => decided(sign(a[1], b[1]), sign(a[0], b[0])),
+        1 => decided(sign(b[0], a[0]), sign(a[1], b[1])),
+        _ => decided(sign(b[1], a[1]), sign(a[0], b[0])),
+    }
+}
+
+impl Contains for Flips {
+    fn contains(&self, t: TriangleId, point: u32) -> bool {
+        self.holds(t, self.points[DUMMIES + point as usize])
+    }
+}

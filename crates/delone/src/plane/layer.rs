@@ -1,0 +1,147 @@
+//! A triangulation of the plane that can change: topology, coordinates by place, and the buffers of its
+//! operations. It knows no names and chooses no strategy: `Delaunay2` is one with names, a level of the
+//! hierarchy is one without.
+//!
+//! Cost: [`Layer::rebuild`] O(n log n); the operations are in `insert` and `remove`.
+
+use std::cmp::Ordering;
+
+use delone_predicates::{Sign, angle, compare_distances, orient2d};
+
+use super::build;
+use super::cavity::Cavity;
+use super::remove::Hole;
+use crate::ids::{EdgeId, Place};
+use crate::locate::{Ground, Level, Start};
+use crate::mesh::{Dimension, Mesh, Slots};
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(super) struct Layer {
+    pub(super) mesh: Mesh,
+    /// For each place its coordinates.
+    pub(super) points: Vec<[f64; 2]>,
+    /// Free places.
+    pub(super) free: Slots,
+    pub(super) cavity: Cavity,
+    pub(super) hole: Hole,
+    /// Known without a look at the mesh: most operations ask.
+    pub(super) spanned: bool,
+}
+
+impl Default for Layer {
+    fn default() -> Self {
+        Self::new(Mesh::empty(0), Vec::new())
+    }
+}
+
+impl Layer {
+    /// A mesh built in bulk, its vertices at the places of their indices.
+    pub(super) fn new(mesh: Mesh, points: Vec<[f64; 2]>) -> Self {
+        let spanned = mesh.dimension() == Dimension::Plane;
+        Self { mesh, points, free: Slots::default(), cavity: Cavity::default(), hole: Hole::default(), spanned }
+    }
+
+    /// A place near another one in memory for a new point.
+    pub(super) fn new_place(&mut self, near: usize, q: [f64; 2]) -> Place {
+        if let Some(slot) = self.free.take_near(near) {
+            self.points[slot] = q;
+            return Place::new(slot);
+        }
+        self.points.push(q);
+        self.mesh.incident.push(EdgeId::NONE);
+        Place::new(self.points.len() - 1)
+    }
+
+    /// Gives a place back. Its point stays to be read until the place is used again.
+    pub(super) fn free_place(&mut self, v: Place) {
+        self.mesh.incident[v.index()] = EdgeId::NONE;
+        self.free.give(v.index());
+    }
+
+    /// Builds the same triangulation anew, laid out in memory as in the plane, with room between neighbours.
+    /// Returns for each old place the new one.
+    ///
+    /// That it is the same triangulation needs no care: there is only one.
+    pub(super) fn rebuild(&mut self) -> Vec<Place> {
+        let old: Vec<Place> = self.mesh.inhabited().collect();
+        let living: Vec<[f64; 2]> = old.iter().map(|p| self.points[p.index()]).collect();
+        let (mut mesh, ordered, indices) = build::in_order(&living);
+        let mut moved = vec![Place::GHOST; self.points.len()];
+        for (position, &index) in indices.iter().enumerate() {
+            moved[old[index as usize].index()] = Place::new(2 * position);
+        }
+        mesh.spread();
+        mesh.names = self.mesh.names.take();
+        if let Some(names) = &mut mesh.names {
+            names.rearrange(2 * ordered.len(), &moved);
+        }
+        self.points = ordered.iter().flat_map(|&p| [p, p]).collect();
+        self.free = Slots::every_other(self.points.len());
+        self.mesh = mesh;
+        self.cavity.forget();
+        moved
+    }
+}
+
+impl Ground for Layer {
+    type Point = [f64; 2];
+    const DIMENSIONS: usize = 2;
+
+    #[inline]
+    fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    #[inline]
+    fn is_spanned(&self) -> bool {
+        self.spanned
+    }
+
+    #[inline]
+    fn point(&self, v: Place) -> [f64; 2] {
+        self.points[v.index()]
+    }
+
+    #[inline]
+    fn coordinate(q: [f64; 2], axis: usize) -> f64 {
+        q[axis]
+    }
+
+    #[inline]
+    fn is_beyond(&self, e: EdgeId, q: [f64; 2]) -> bool {
+        let [a, b] = [self.mesh.tail(e), self.mesh.head(e)].map(|v| self.points[v.index()]);
+        orient2d(a, b, q).is_negative()
+    }
+
+    #[inline]
+    fn side(&self, from: [f64; 2], to: [f64; 2], v: Place) -> Ordering {
+        match orient2d(from, to, self.points[v.index()]) {
+            Sign::Negative => Ordering::Less,
+            Sign::Zero => Ordering::Equal,
+            Sign::Positive => Ordering::Greater,
+        }
+    }
+
+    #[inline]
+    fn compare_distances(&self, q: [f64; 2], a: Place, b: Place) -> Ordering {
+        compare_distances(q, self.points[a.index()], self.points[b.index()])
+    }
+
+    fn is_acute(&self, w: Place, q: [f64; 2], x: Place) -> bool {
+        angle(self.points[w.index()], q, self.points[x.index()]).is_positive()
+    }
+}
+
+impl Level for Layer {
+    fn add(&mut self, q: [f64; 2], start: Start) -> Place {
+        let (spot, _) = self.spot(start, q, &mut ());
+        match self.insert(spot, q, &mut ()) {
+            Ok(place) | Err(place) => place,
+        }
+    }
+
+    fn take(&mut self, v: Place) {
+        self.remove(v, &mut ());
+    }
+}

@@ -1,0 +1,128 @@
+//! Where does a point fall? The answer of [`Delaunay2::locate`].
+
+use delone_predicates::orient2d;
+
+use super::insert::Spot;
+use super::locator::Locator;
+use super::{Delaunay2, Position2, finite};
+use crate::error::Error;
+use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::locate::tally::Tally;
+use crate::locate::{Locate, Start, Strategy, Walk};
+use crate::mesh::Dimension;
+
+/// Where a point falls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location {
+    /// Strictly inside this triangle.
+    Triangle(TriangleId),
+    /// Strictly inside this edge, in one of its two directions.
+    Edge(EdgeId),
+    /// On this vertex.
+    Vertex(VertexId),
+    /// Strictly outside of the convex hull: beyond this hull edge, whose triangle is finite.
+    Outside(EdgeId),
+    /// On no vertex and no edge of a triangulation that has no triangle.
+    LowerDimensional(Dimension),
+}
+
+impl Delaunay2 {
+    /// Finds where a point falls. Exact.
+    ///
+    /// The first call on a triangulation built in bulk makes the structure of the strategy, O(n log n) at most;
+    /// the cost of the others is that of the strategy, see [`Locate`].
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Location};
+    ///
+    /// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])?;
+    /// assert!(matches!(d.locate([1.0, 1.0])?, Location::Triangle(_)));
+    /// assert!(matches!(d.locate([2.0, 2.0])?, Location::Edge(_)));
+    /// assert!(matches!(d.locate([3.0, 2.0])?, Location::Outside(_)));
+    /// assert!(matches!(d.locate([4.0, 0.0])?, Location::Vertex(v) if v.index() == 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn locate<P: Position2>(&self, q: P) -> Result<Location, Error> {
+        self.locate_counted(q, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::locate`].
+    pub fn locate_counted<P: Position2, T: Tally>(&self, q: P, tally: &mut T) -> Result<Location, Error> {
+        let q = finite(&q)?;
+        Ok(self.classify(self.spot(q, tally).0, q))
+    }
+
+    /// The same by a walk from a triangle that is near the point: O(1) expected from nearby.
+    ///
+    /// # Errors
+    /// As [`Self::locate`].
+    pub fn locate_from<P: Position2, T: Tally>(
+        &self,
+        start: TriangleId,
+        walk: Walk,
+        q: P,
+        tally: &mut T,
+    ) -> Result<Location, Error> {
+        let q = finite(&q)?;
+        let known = self.base.mesh.is_triangle(start);
+        let start = if known { Start::Edge(start.edge(0), walk) } else { Start::Anywhere };
+        Ok(self.classify(self.base.spot(start, q, tally).0, q))
+    }
+
+    /// The strategy of location.
+    pub fn strategy(&self) -> Locate {
+        self.locate
+    }
+
+    /// Chooses the strategy of location; the structure is made when it is needed.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] names a parameter that is out of range.
+    pub fn set_strategy(&mut self, locate: Locate) -> Result<(), Error> {
+        locate.validate()?;
+        self.locate = locate;
+        self.locator.take();
+        Ok(())
+    }
+
+    /// The structure of the strategy, made at the first need.
+    #[inline]
+    pub(super) fn locator(&self) -> &Locator {
+        self.locator.get_or_init(|| Locator::build(self.locate, &self.base))
+    }
+
+    /// Finds a point by the strategy; returns also the steps of the walk.
+    #[inline]
+    pub(super) fn spot<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
+        let start = self.locator().start(&self.base, q, tally);
+        self.base.spot(start, q, tally)
+    }
+
+    fn classify(&self, spot: Spot, q: [f64; 2]) -> Location {
+        let mesh = &self.base.mesh;
+        match spot {
+            Spot::Vertex(v) => Location::Vertex(mesh.name(v)),
+            Spot::Segment(e) => Location::Edge(e),
+            Spot::Triangle(triangle) => {
+                if let Some(k) = mesh.places(triangle).iter().position(|v| v.is_ghost()) {
+                    return Location::Outside(mesh.twin(triangle.edge(k).next()));
+                }
+                let through = |e: &EdgeId| {
+                    let [a, b] = [mesh.tail(*e), mesh.head(*e)].map(|v| self.base.points[v.index()]);
+                    orient2d(a, b, q).is_zero()
+                };
+                let edges = [0, 1, 2].map(|k| triangle.edge(k));
+                edges.into_iter().find(through).map_or(Location::Triangle(triangle), Location::Edge)
+            }
+            Spot::Empty | Spot::BesidePoint | Spot::End(_) | Spot::BesideLine(_) => {
+                Location::LowerDimensional(mesh.dimension())
+            }
+        }
+    }
+}

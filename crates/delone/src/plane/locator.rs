@@ -1,0 +1,126 @@
+//! The strategies of location at work in the plane.
+
+use super::flips::{DUMMIES, Flips};
+use super::layer::Layer;
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::hierarchy::Levels;
+use crate::locate::history::History;
+use crate::locate::jump_and_walk::{FromLast, JumpAndWalk};
+use crate::locate::tally::Tally;
+use crate::locate::tree::Tree;
+use crate::locate::{Ground, Locate, Start, Strategy, Walk};
+use crate::order::random::SplitMix;
+
+/// The structure behind a [`Locate`].
+#[derive(Clone, Debug)]
+pub(super) enum Locator {
+    Tree(Tree),
+    FromLast(FromLast),
+    JumpAndWalk(JumpAndWalk),
+    Hierarchy(Box<Levels<Layer>>),
+    Versions(Box<Versions>),
+}
+
+impl Locator {
+    /// The structure for the vertices that there are.
+    pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
+        match locate {
+            Locate::Tree => Self::Tree(Tree::build(layer)),
+            Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
+            Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
+            Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+            Locate::History => Self::Versions(Box::new(Versions::build(layer))),
+        }
+    }
+}
+
+macro_rules! each {
+    ($locator:expr, $strategy:ident => $do:expr) => {
+        match $locator {
+            Locator::Tree($strategy) => $do,
+            Locator::FromLast($strategy) => $do,
+            Locator::JumpAndWalk($strategy) => $do,
+            Locator::Hierarchy($strategy) => $do,
+            Locator::Versions($strategy) => $do,
+        }
+    };
+}
+
+impl Strategy<Layer> for Locator {
+    #[inline]
+    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
+        each!(self, strategy => strategy.start(layer, q, tally))
+    }
+
+    #[inline]
+    fn inserted(&mut self, layer: &Layer, v: Place) {
+        each!(self, strategy => strategy.inserted(layer, v));
+    }
+
+    fn removing(&mut self, layer: &Layer, v: Place) {
+        each!(self, strategy => strategy.removing(layer, v));
+    }
+
+    fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
+        each!(self, strategy => strategy.rearranged(layer, moved));
+    }
+}
+
+/// All versions of the triangulation, made by splits and flips, with the history that leads through them.
+#[derive(Clone, Debug)]
+pub(super) struct Versions {
+    flips: Flips,
+    history: History,
+    /// For each point of the versions the place of its vertex.
+    places: Vec<Place>,
+}
+
+impl Versions {
+    /// Inserts the vertices that there are in random order, as the analysis wants it.
+    fn build(layer: &Layer) -> Self {
+        let mut versions = Self { flips: Flips::new(), history: History::default(), places: Vec::new() };
+        let mut order: Vec<Place> = layer.mesh.inhabited().collect();
+        SplitMix(0).shuffle(&mut order);
+        for v in order {
+            versions.inserted(layer, v);
+        }
+        versions
+    }
+
+    fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
+        self.history.trace(|t| self.flips.holds(t, q), tally)
+    }
+
+    /// The number of triangles that ever were, those of the dummies included.
+    pub(super) fn triangles(&self) -> usize {
+        self.flips.edges.len() / 4
+    }
+}
+
+impl Strategy<Layer> for Versions {
+    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
+        let corners = self.flips.corners(self.trace(q, tally));
+        let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
+        match place.map(|v| layer.mesh.incident[v.index()]) {
+            Some(e) if e != EdgeId::NONE => Start::Edge(e, Walk::Visibility),
+            _ => Start::Anywhere,
+        }
+    }
+
+    fn inserted(&mut self, layer: &Layer, v: Place) {
+        let q = layer.point(v);
+        let t = self.trace(q, &mut ());
+        self.flips.points.push(q);
+        self.places.push(v);
+        let p = Place::new(self.flips.points.len() - 1);
+        self.flips.insert(p, t, &mut self.history, &mut ());
+    }
+
+    fn removing(&mut self, _: &Layer, _: Place) {
+        debug_assert!(false, "nothing is removed from a history");
+    }
+
+    fn rearranged(&mut self, _: &Layer, moved: &[Place]) {
+        self.places.iter_mut().for_each(|place| *place = moved[place.index()]);
+    }
+}
