@@ -38,7 +38,7 @@ fn flippable(d: &Delaunay2) -> EdgeId {
 fn flip(d: &mut Delaunay2, e: EdgeId) {
     let mesh = &mut d.base.mesh;
     let f = mesh.twin(e);
-    let (a, b) = (mesh.apex(e), mesh.apex(f));
+    let (a, b) = (mesh.tip(e), mesh.tip(f));
     let (across_e, across_f) = (mesh.twin(f.previous()), mesh.twin(e.previous()));
     // (u, v, a) and (v, u, b) become (b, v, a) and (a, u, b).
     mesh.edges[e.index()].origin = b;
@@ -146,7 +146,7 @@ fn two_spheres() {
         d.base.mesh.edges.extend(copy.base.mesh.edges);
         let shifted = |e: EdgeId| if e == EdgeId::NONE { e } else { EdgeId::new(e.index() + edges) };
         d.base.mesh.incident.extend(copy.base.mesh.incident.into_iter().map(shifted));
-        d.base.points.extend(copy.points);
+        d.base.points.extend(copy.base.points);
         d.base.mesh.vertex_count *= 2;
     });
     assert!(matches!(broken, Flaw::Mesh(MeshFlaw::Euler { .. })));
