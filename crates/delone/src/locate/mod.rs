@@ -78,6 +78,9 @@ pub(crate) trait Ground {
     /// A coordinate, for trees and hashes; no decision hangs on it.
     fn coordinate(q: Self::Point, axis: usize) -> f64;
 
+    /// Asks memory for what is likely to be read after this edge.
+    fn fetch(&self, e: EdgeId);
+
     /// Whether `q` is strictly on the right of a finite edge: beyond it, seen from the edge's triangle.
     fn is_beyond(&self, e: EdgeId, q: Self::Point) -> bool;
 

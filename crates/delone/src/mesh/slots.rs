@@ -32,26 +32,40 @@ impl Slots {
     }
 
     /// Takes a free slot near `at`; or, when one in eight is free, any. `None`: make a new one.
+    #[inline]
     pub(crate) fn take_near(&mut self, at: usize) -> Option<usize> {
         if self.free == 0 {
             return None;
         }
-        let (word, count) = (at / 64, self.words.len());
-        let near = (0..=REACH).flat_map(|d| [word.wrapping_sub(d), word + d]);
-        let found = near.into_iter().find(|&w| self.words.get(w).is_some_and(|&bits| bits != 0));
-        let found = match found {
-            Some(w) => w,
-            None if self.free * 8 >= count * 64 => {
-                let w = (self.cursor..count).chain(0..count).find(|&w| self.words[w] != 0)?;
-                self.cursor = w;
-                w
+        let (word, bit) = (at / 64, at % 64);
+        match self.words.get(word) {
+            Some(&bits) if bits != 0 => {
+                // The nearest set bit on either side.
+                let (above, below) = ((bits >> bit).trailing_zeros() as usize, (bits << (63 - bit)).leading_zeros() as usize);
+                Some(self.take(word, if above <= below { bit + above } else { bit - below }))
             }
-            None => return None,
-        };
-        let bit = self.words[found].trailing_zeros();
-        self.words[found] &= self.words[found] - 1;
+            _ => self.take_beside(word),
+        }
+    }
+
+    /// Takes a free slot from words near one that has none.
+    fn take_beside(&mut self, word: usize) -> Option<usize> {
+        let count = self.words.len();
+        let free = |w: &usize| self.words.get(*w).is_some_and(|&bits| bits != 0);
+        let near = (1..=REACH).flat_map(|d| [word.wrapping_sub(d), word + d]).find(free);
+        if near.is_none() && self.free * 8 >= count * 64 {
+            self.cursor = (self.cursor..count).chain(0..count).find(free)?;
+        } else {
+            near?;
+        }
+        let word = near.unwrap_or(self.cursor);
+        Some(self.take(word, self.words[word].trailing_zeros() as usize))
+    }
+
+    fn take(&mut self, word: usize, bit: usize) -> usize {
+        self.words[word] &= !(1 << bit);
         self.free -= 1;
-        Some(found * 64 + bit as usize)
+        word * 64 + bit
     }
 
     /// Gives a used slot back.

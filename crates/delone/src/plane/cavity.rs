@@ -20,31 +20,40 @@ pub(super) struct Cavity {
     triangles: Vec<TriangleId>,
     /// Its border, counter-clockwise: where each edge starts, and its twin outside.
     border: Vec<(Place, EdgeId)>,
-    /// Edges still to be crossed.
-    pending: Vec<EdgeId>,
-    /// For each triangle the round in which it was last put into a cavity.
-    marks: Vec<u32>,
-    round: u32,
+    pending: Vec<Crossing>,
 }
 
-/// Whether the circle of a triangle, given by its corners, contains `q`. That of a ghost is the half-plane beyond its hull edge, with
+/// A corner of a triangle with its point; that of the ghost means nothing.
+pub(super) type Corner = (Place, [f64; 2]);
+
+/// Whether the circle of a triangle contains `q`. That of a ghost is the half-plane beyond its hull edge, with
 /// the inside of the edge.
-pub(super) fn conflicts(points: &[[f64; 2]], corners: [Place; 3], q: [f64; 2]) -> bool {
-    let point = |v: Place| points[v.index()];
-    match corners.iter().position(|v| v.is_ghost()) {
-        None => {
-            let [a, b, c] = corners.map(point);
-            in_circle(a, b, c, q).is_positive()
-        }
-        Some(k) => {
-            let (v, u) = (point(corners[(k + 1) % 3]), point(corners[(k + 2) % 3]));
-            match orient2d(v, u, q) {
-                Sign::Positive => true,
-                Sign::Zero => strictly_between(u, v, q),
-                Sign::Negative => false,
-            }
-        }
+#[inline]
+pub(super) fn conflicts([a, b, c]: [Corner; 3], q: [f64; 2]) -> bool {
+    let (v, u) = match [a.0, b.0, c.0] {
+        [Place::GHOST, _, _] => (b.1, c.1),
+        [_, Place::GHOST, _] => (c.1, a.1),
+        [_, _, Place::GHOST] => (a.1, b.1),
+        _ => return in_circle(a.1, b.1, c.1, q).is_positive(),
+    };
+    match orient2d(v, u, q) {
+        Sign::Positive => true,
+        Sign::Zero => strictly_between(u, v, q),
+        Sign::Negative => false,
     }
+}
+
+/// The corner at a place.
+#[inline]
+pub(super) fn corner(points: &[[f64; 2]], place: Place) -> Corner {
+    (place, if place.is_ghost() { [0.0; 2] } else { points[place.index()] })
+}
+
+/// An edge of the cavity still to be crossed.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    /// The edge from outside.
+    outside: EdgeId,
 }
 
 impl Cavity {
@@ -65,51 +74,41 @@ impl Cavity {
         self.refill(mesh, v, seed);
     }
 
-    /// Forgets which triangles were in the last cavity: they have new numbers.
-    pub(super) fn forget(&mut self) {
-        self.marks.clear();
-        self.round = 0;
-    }
-
     /// Collects the triangles in conflict, depth first in counter-clockwise order, so that the border comes in
     /// its cyclic order.
     fn find<T: Tally>(
         &mut self,
-        mesh: &Mesh,
+        mesh: &mut Mesh,
         points: &[[f64; 2]],
         q: [f64; 2],
         seed: TriangleId,
         tally: &mut T,
     ) {
-        if self.round == u32::MAX {
-            self.forget();
-        }
-        self.round += 1;
-        if self.marks.len() < mesh.slot_count() {
-            self.marks.resize(mesh.slot_count(), 0);
-        }
         self.triangles.clear();
         self.border.clear();
-        self.enter(seed);
-        self.pending.extend([2, 1, 0].map(|k| seed.edge(k)));
-        while let Some(e) = self.pending.pop() {
-            let outside = mesh.twin(e);
+        self.enter(mesh, seed);
+        let crossings = [2, 1, 0].map(|k| Crossing::of(mesh, points, seed.edge(k)));
+        self.pending.extend(crossings);
+        while let Some(Crossing { outside }) = self.pending.pop() {
             let t = outside.triangle();
-            if self.marks[t.index()] == self.round {
+            if mesh.is_marked(t) {
                 continue;
             }
+            let tip = corner(points, mesh.tip(outside));
+            let (b, a) = (mesh.tail(outside), mesh.head(outside));
             tally.in_circle();
-            if conflicts(points, mesh.places(t), q) {
-                self.enter(t);
-                self.pending.extend([outside.previous(), outside.next()]);
+            if conflicts([corner(points, b), corner(points, a), tip], q) {
+                self.enter(mesh, t);
+                let crossings = [outside.previous(), outside.next()].map(|e| Crossing::of(mesh, points, e));
+                self.pending.extend(crossings);
             } else {
-                self.border.push((mesh.tail(e), outside));
+                self.border.push((a, outside));
             }
         }
     }
 
-    fn enter(&mut self, t: TriangleId) {
-        self.marks[t.index()] = self.round;
+    fn enter(&mut self, mesh: &mut Mesh, t: TriangleId) {
+        mesh.mark(t, true);
         self.triangles.push(t);
     }
 
@@ -131,8 +130,17 @@ impl Cavity {
             mesh.link(t.edge(0), outside);
             mesh.link(t.edge(1), following.edge(2));
             mesh.remember(t.edge(0));
+            mesh.mark(t, false);
         }
         mesh.incident[v.index()] = self.triangles[0].edge(2);
         mesh.vertex_count += 1;
+    }
+}
+
+impl Crossing {
+    #[inline]
+    fn of(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> Self {
+        let outside = mesh.twin(e);
+        Self { outside }
     }
 }

@@ -59,6 +59,24 @@ impl Layer {
         self.free.give(v.index());
     }
 
+    /// Asks memory for the neighbourhood of a place all at once, where the layout is that of `rebuild`: what
+    /// follows would ask for it piece by piece, and wait each time.
+    #[inline]
+    pub(super) fn fetch_around(&self, place: usize) {
+        const TRIANGLES: usize = 8;
+        const POINTS: usize = 5;
+        let first = (8 * place).wrapping_sub(8 * TRIANGLES);
+        let mut read = 0;
+        for k in 0..=2 * TRIANGLES {
+            read ^= self.mesh.edges.get(first.wrapping_add(8 * k)).map_or(0, |e| e.twin.index() as u64);
+        }
+        let first = place.wrapping_sub(4 * POINTS);
+        for k in 0..=2 * POINTS {
+            read ^= self.points.get(first.wrapping_add(4 * k)).map_or(0, |p| p[0].to_bits());
+        }
+        std::hint::black_box(read);
+    }
+
     /// Builds the same triangulation anew, laid out in memory as in the plane, with room between neighbours.
     /// Returns for each old place the new one.
     ///
@@ -79,7 +97,6 @@ impl Layer {
         self.points = ordered.iter().flat_map(|&p| [p, p]).collect();
         self.free = Slots::every_other(self.points.len());
         self.mesh = mesh;
-        self.cavity.forget();
         moved
     }
 }
@@ -106,6 +123,11 @@ impl Ground for Layer {
     #[inline]
     fn coordinate(q: [f64; 2], axis: usize) -> f64 {
         q[axis]
+    }
+
+    #[inline]
+    fn fetch(&self, e: EdgeId) {
+        self.fetch_around(e.triangle().index() / 2);
     }
 
     #[inline]

@@ -12,7 +12,7 @@
 use delone_predicates::orient2d;
 
 use super::build;
-use super::cavity::conflicts;
+use super::cavity::{Corner, conflicts, corner};
 use super::layer::Layer;
 use super::line;
 use crate::ids::{EdgeId, Place, TriangleId};
@@ -27,7 +27,10 @@ const SMALL: usize = 24;
 pub(super) struct Hole {
     /// Where each edge of the border starts, and its twin outside.
     border: Vec<(Place, EdgeId)>,
+    /// The corners at which they start.
+    corners: Vec<Corner>,
     triangles: Vec<TriangleId>,
+    spokes: Vec<EdgeId>,
     /// Parts of the hole still to be filled: first and last vertex of a run of the border, and the edge that
     /// closes it, seen from outside.
     pending: Vec<(usize, usize, EdgeId)>,
@@ -48,6 +51,7 @@ impl Layer {
     }
 
     fn remove_from_plane<T: Tally>(&mut self, v: Place, tally: &mut T) {
+        self.fetch_around(v.index());
         let mut hole = std::mem::take(&mut self.hole);
         hole.dig(&self.mesh, v);
         let degree = hole.border.len();
@@ -61,12 +65,13 @@ impl Layer {
             self.mesh.free = crate::mesh::Slots::default();
             self.mesh.ghost_edge = EdgeId::NONE;
             line::build(&mut self.mesh, chain);
-            self.cavity.forget();
-            self.spanned = false;
+                self.spanned = false;
         } else {
             tally.created(degree - 2);
             if degree <= SMALL {
-                hole.fill(&mut self.mesh, &self.points, tally);
+                hole.corners.clear();
+                hole.corners.extend(hole.border.iter().map(|&(v, _)| corner(&self.points, v)));
+                hole.fill(&mut self.mesh, tally);
             } else {
                 hole.fill_large(&mut self.mesh, &self.points);
             }
@@ -90,11 +95,28 @@ impl Layer {
 }
 
 impl Hole {
-    /// Collects the star of a vertex.
+    /// Collects the star of a vertex, in both directions at once: the next triangle on one side is fetched from
+    /// memory while that on the other is waited for.
     fn dig(&mut self, mesh: &Mesh, v: Place) {
+        self.spokes.clear();
         self.border.clear();
         self.triangles.clear();
-        for spoke in mesh.spokes(v) {
+        let mut left = mesh.incident[v.index()];
+        let mut right = mesh.twin(left).next();
+        self.spokes.push(left);
+        while left != right {
+            left = mesh.spin(left);
+            self.spokes.push(left);
+            if left == right {
+                break;
+            }
+            self.triangles.push(right.triangle());
+            self.border.push((mesh.tail(right.next()), mesh.twin(right.next())));
+            right = mesh.twin(right).next();
+        }
+        // So far clockwise, from the right of the first spoke on: turned, it goes before the rest.
+        self.border.reverse();
+        for &spoke in &self.spokes {
             let side = spoke.next();
             self.border.push((mesh.tail(side), mesh.twin(side)));
             self.triangles.push(spoke.triangle());
@@ -103,7 +125,7 @@ impl Hole {
 
     /// Fills the hole side by side. The apex of a side is the vertex whose circle with it contains no other: a
     /// linear search, because the circles through two points are ordered.
-    fn fill<T: Tally>(&mut self, mesh: &mut Mesh, points: &[[f64; 2]], tally: &mut T) {
+    fn fill<T: Tally>(&mut self, mesh: &mut Mesh, tally: &mut T) {
         let last = self.border.len() - 1;
         self.pending.push((0, last, self.border[last].1));
         while let Some((first, last, outside)) = self.pending.pop() {
@@ -111,7 +133,7 @@ impl Hole {
                 mesh.link(outside, self.border[first].1);
                 continue;
             }
-            let k = self.apex(points, first, last, tally);
+            let k = self.apex(first, last, tally);
             let t = self.triangles.pop().expect("a hole of degree d takes d - 2 triangles");
             let [a, b, c] = [last, first, k].map(|i| self.border[i].0);
             mesh.set_corners(t, [a, b, c]);
@@ -125,35 +147,35 @@ impl Hole {
     }
 
     /// The apex of the side from `last` to `first` among the vertices between them.
-    fn apex<T: Tally>(&self, points: &[[f64; 2]], first: usize, last: usize, tally: &mut T) -> usize {
+    fn apex<T: Tally>(&self, first: usize, last: usize, tally: &mut T) -> usize {
         if last == first + 2 {
             return first + 1;
         }
-        let (a, b) = (self.border[last].0, self.border[first].0);
-        let mut best: Option<(usize, Place)> = None;
+        let (a, b) = (self.corners[last], self.corners[first]);
+        let is_finite = !a.0.is_ghost() && !b.0.is_ghost();
+        let mut best = None;
         let mut ghost = first + 1;
         for k in first + 1..last {
-            let c = self.border[k].0;
-            if c.is_ghost() {
+            let c = self.corners[k];
+            if c.0.is_ghost() {
                 ghost = k; // where nothing finite is in front of the side
                 continue;
             }
-            let q = points[c.index()];
-            if !a.is_ghost() && !b.is_ghost() {
+            if is_finite {
                 tally.orientation();
-                if !orient2d(points[a.index()], points[b.index()], q).is_positive() {
+                if !orient2d(a.1, b.1, c.1).is_positive() {
                     continue;
                 }
             }
-            let better = best.is_none_or(|(_, apex)| {
+            let better = best.is_none_or(|apex: usize| {
                 tally.in_circle();
-                conflicts(points, [a, b, apex], q)
+                conflicts([a, b, self.corners[apex]], c.1)
             });
             if better {
-                best = Some((k, c));
+                best = Some(k);
             }
         }
-        best.map_or(ghost, |(k, _)| k)
+        best.unwrap_or(ghost)
     }
 
     /// Fills the hole with those triangles of its border's own triangulation that are inside.
