@@ -20,7 +20,7 @@ pub(super) struct Cavity {
     triangles: Vec<TriangleId>,
     /// Its border, counter-clockwise: where each edge starts, and its twin outside.
     border: Vec<(Place, EdgeId)>,
-    pending: Vec<Crossing>,
+    pending: Vec<EdgeId>,
 }
 
 /// A corner of a triangle with its point; that of the ghost means nothing.
@@ -47,13 +47,6 @@ pub(super) fn conflicts([a, b, c]: [Corner; 3], q: [f64; 2]) -> bool {
 #[inline]
 pub(super) fn corner(points: &[[f64; 2]], place: Place) -> Corner {
     (place, if place.is_ghost() { [0.0; 2] } else { points[place.index()] })
-}
-
-/// An edge of the cavity still to be crossed.
-#[derive(Clone, Copy, Debug)]
-struct Crossing {
-    /// The edge from outside.
-    outside: EdgeId,
 }
 
 impl Cavity {
@@ -87,22 +80,18 @@ impl Cavity {
         self.triangles.clear();
         self.border.clear();
         self.enter(mesh, seed);
-        let crossings = [2, 1, 0].map(|k| Crossing::of(mesh, points, seed.edge(k)));
-        self.pending.extend(crossings);
-        while let Some(Crossing { outside }) = self.pending.pop() {
+        self.pending.extend([2, 1, 0].map(|k| mesh.twin(seed.edge(k))));
+        while let Some(outside) = self.pending.pop() {
             let t = outside.triangle();
             if mesh.is_marked(t) {
                 continue;
             }
-            let tip = corner(points, mesh.tip(outside));
-            let (b, a) = (mesh.tail(outside), mesh.head(outside));
             tally.in_circle();
-            if conflicts([corner(points, b), corner(points, a), tip], q) {
+            if conflicts(mesh.places(t).map(|v| corner(points, v)), q) {
                 self.enter(mesh, t);
-                let crossings = [outside.previous(), outside.next()].map(|e| Crossing::of(mesh, points, e));
-                self.pending.extend(crossings);
+                self.pending.extend([outside.previous(), outside.next()].map(|e| mesh.twin(e)));
             } else {
-                self.border.push((a, outside));
+                self.border.push((mesh.head(outside), outside));
             }
         }
     }
@@ -134,13 +123,5 @@ impl Cavity {
         }
         mesh.incident[v.index()] = self.triangles[0].edge(2);
         mesh.vertex_count += 1;
-    }
-}
-
-impl Crossing {
-    #[inline]
-    fn of(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> Self {
-        let outside = mesh.twin(e);
-        Self { outside }
     }
 }

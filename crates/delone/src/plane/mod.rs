@@ -10,6 +10,7 @@ mod layer;
 mod line;
 mod locate;
 mod locator;
+mod nearest;
 mod position;
 mod remove;
 pub mod verify;

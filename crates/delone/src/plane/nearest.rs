@@ -1,0 +1,247 @@
+//! Vertices by distance and by region: nearest, k nearest, within a circle, within a rectangle.
+//!
+//! Why following edges is enough: of the neighbours of a vertex that is not nearest to q one is nearer, so a
+//! descent ends at the nearest; the k + 1 nearest vertices are the k nearest and a neighbour of one of them; and the
+//! vertices in a circle are connected by edges between them (all three because the edges contain those of the
+//! Delaunay graph). Vertices in a rectangle need not be; there the triangles that meet it are visited.
+//!
+//! Equal distances are ordered by the points, lexicographically, so every answer is a function of the set of
+//! points alone.
+//!
+//! Cost: location, and O(1) expected for the nearest, O(k log k) for k of them, and the size of the answer for
+//! regions (up to logarithmic factors, on evenly spread points).
+
+use std::cmp::Ordering;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use delone_predicates::{compare_distances, compare_with_radius, lexicographic, orient2d};
+
+use super::insert::Spot;
+use super::{Delaunay2, Position2, finite};
+use crate::error::Error;
+use crate::ids::{EdgeId, Place, VertexId};
+use crate::locate::tally::Tally;
+
+/// A vertex on the way to becoming one of the nearest. The greatest is the nearest, as a heap wants it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Candidate {
+    place: Place,
+    point: [f64; 2],
+    q: [f64; 2],
+}
+
+/// By distance, then lexicographically.
+fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
+    compare_distances(q, a, b).then_with(|| lexicographic(a, b))
+}
+
+impl Eq for Candidate {}
+
+impl Ord for Candidate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        nearer(self.q, other.point, self.point)
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Delaunay2 {
+    /// The vertex nearest to a point; of several at the same distance the lexicographically smallest. `None` if
+    /// there is no vertex.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])?;
+    /// assert_eq!(d.nearest([3.0, 1.0])?.map(|v| v.index()), Some(1));
+    /// assert_eq!(d.nearest([2.0, 2.0])?.map(|v| v.index()), Some(0)); // all three are as near
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
+        self.nearest_counted(q, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::nearest`].
+    pub fn nearest_counted<P: Position2, T: Tally>(
+        &self,
+        q: P,
+        tally: &mut T,
+    ) -> Result<Option<VertexId>, Error> {
+        let q = finite(&q)?;
+        Ok(self.nearest_place(q, tally).map(|v| self.base.mesh.name(v)))
+    }
+
+    /// The k vertices nearest to a point, nearest first, ties as in [`Self::nearest`]; all of them if there are
+    /// fewer.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    pub fn k_nearest<P: Position2>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
+        let q = finite(&q)?;
+        let candidate = |place: Place| Candidate { place, point: self.base.points[place.index()], q };
+        let mut found = Vec::new();
+        let mut waiting: BinaryHeap<Candidate> =
+            self.nearest_place(q, &mut ()).into_iter().map(candidate).collect();
+        let mut seen: BTreeSet<Place> = waiting.iter().map(|c| c.place).collect();
+        while found.len() < k {
+            let Some(Candidate { place, .. }) = waiting.pop() else { break };
+            found.push(self.base.mesh.name(place));
+            let fresh = self.beside(place).filter(|w| seen.insert(*w));
+            waiting.extend(fresh.map(candidate));
+        }
+        Ok(found)
+    }
+
+    /// The vertices at most `radius` away from a point, by increasing id. None for a negative radius.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
+    pub fn within<P: Position2>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
+        let q = finite(&q)?;
+        if !radius.is_finite() {
+            return Err(Error::Parameter { name: "radius", value: radius, range: "finite" });
+        }
+        let inside = |v: &Place| compare_with_radius(q, self.base.points[v.index()], radius).is_le();
+        let mut pending: Vec<Place> = self.nearest_place(q, &mut ()).into_iter().filter(inside).collect();
+        let mut seen: BTreeSet<Place> = pending.iter().copied().collect();
+        while let Some(v) = pending.pop() {
+            pending.extend(self.beside(v).filter(|w| inside(w) && seen.insert(*w)));
+        }
+        Ok(self.sorted_names(seen))
+    }
+
+    /// The vertices in a rectangle given by its lower left and upper right corners, its border included, by
+    /// increasing id. None if the corners are the other way round.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    pub fn in_rectangle<P: Position2>(&self, low: P, high: P) -> Result<Vec<VertexId>, Error> {
+        let rectangle = Rectangle { low: finite(&low)?, high: finite(&high)? };
+        if (0..2).any(|k| rectangle.low[k] > rectangle.high[k]) {
+            return Ok(Vec::new());
+        }
+        let inside = |v: &Place| !v.is_ghost() && rectangle.contains(self.base.points[v.index()]);
+        if !self.base.spanned {
+            return Ok(self.sorted_names(self.base.mesh.inhabited().filter(inside)));
+        }
+        let mesh = &self.base.mesh;
+        let Some(start) = self.entrance(&rectangle) else { return Ok(Vec::new()) };
+        let mut found = BTreeSet::new();
+        let mut seen = BTreeSet::from([start.triangle()]);
+        let mut pending = vec![start.triangle()];
+        while let Some(t) = pending.pop() {
+            found.extend(mesh.places(t).into_iter().filter(inside));
+            for e in [0, 1, 2].map(|k| t.edge(k)) {
+                let across = mesh.twin(e).triangle();
+                if self.meets(&rectangle, e) && seen.insert(across) {
+                    pending.push(across);
+                }
+            }
+        }
+        Ok(self.sorted_names(found))
+    }
+
+    /// The place of the nearest vertex: down along edges from the triangle that contains the point.
+    fn nearest_place<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Option<Place> {
+        let mesh = &self.base.mesh;
+        let point = |v: Place| self.base.points[v.index()];
+        let better = |a: Place, b: Place| if nearer(q, point(b), point(a)).is_lt() { b } else { a };
+        let mut best = match self.spot(q, tally).0 {
+            Spot::Empty => return None,
+            Spot::Vertex(v) => return Some(v),
+            Spot::BesidePoint => return mesh.lone,
+            Spot::End(v) => return Some(v),
+            Spot::Segment(e) => better(mesh.tail(e), mesh.head(e)),
+            Spot::Triangle(t) | Spot::BesideLine(t) => {
+                mesh.places(t).into_iter().filter(|v| !v.is_ghost()).reduce(better)?
+            }
+        };
+        loop {
+            let mut next = best;
+            for w in self.beside(best) {
+                tally.compared();
+                next = better(next, w);
+            }
+            if next == best {
+                return Some(best);
+            }
+            best = next;
+        }
+    }
+
+    /// The neighbours of a vertex.
+    fn beside(&self, v: Place) -> impl Iterator<Item = Place> + '_ {
+        let mesh = &self.base.mesh;
+        mesh.spokes(v).map(|e| mesh.head(e)).filter(|w| !w.is_ghost())
+    }
+
+    fn sorted_names(&self, places: impl IntoIterator<Item = Place>) -> Vec<VertexId> {
+        let mut names: Vec<_> = places.into_iter().map(|v| self.base.mesh.name(v)).collect();
+        names.sort_unstable();
+        names
+    }
+
+    /// An edge of a finite triangle that meets a rectangle. The hull is convex, so if the middle of the
+    /// rectangle is outside of it and no hull edge meets the rectangle, nothing does.
+    fn entrance(&self, rectangle: &Rectangle) -> Option<EdgeId> {
+        let mesh = &self.base.mesh;
+        let middle = [0, 1].map(|k| rectangle.low[k] / 2.0 + rectangle.high[k] / 2.0);
+        match self.spot(middle, &mut ()).0 {
+            Spot::Triangle(t) if !mesh.is_ghost(t) => Some(t.edge(0)),
+            Spot::Vertex(v) => mesh.spokes(v).find(|e| !mesh.is_ghost(e.triangle())),
+            _ => {
+                let mut ghost = mesh.ghost_edge;
+                loop {
+                    let hull_edge = mesh.twin(ghost.next());
+                    if self.meets(rectangle, hull_edge) {
+                        return Some(hull_edge);
+                    }
+                    ghost = mesh.spin(ghost);
+                    if ghost == mesh.ghost_edge {
+                        return None;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether a finite edge and a rectangle have a point in common: no axis and no side of the edge separates
+    /// them.
+    fn meets(&self, rectangle: &Rectangle, e: EdgeId) -> bool {
+        let mesh = &self.base.mesh;
+        let (tail, head) = (mesh.tail(e), mesh.head(e));
+        if tail.is_ghost() || head.is_ghost() {
+            return false;
+        }
+        let (a, b) = (self.base.points[tail.index()], self.base.points[head.index()]);
+        let Rectangle { low, high } = *rectangle;
+        let apart = |k: usize| a[k].max(b[k]) < low[k] || a[k].min(b[k]) > high[k];
+        if apart(0) || apart(1) {
+            return false;
+        }
+        let sides = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| orient2d(a, b, corner));
+        sides.iter().any(|side| !side.is_positive()) && sides.iter().any(|side| !side.is_negative())
+    }
+}
+
+/// A closed rectangle along the axes.
+struct Rectangle {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Rectangle {
+    fn contains(&self, p: [f64; 2]) -> bool {
+        (0..2).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k])
+    }
+}
