@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use delone::{Hierarchy, JumpAndWalk, Locate, Walk};
 use delone_io::Format;
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
@@ -21,6 +22,12 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Triangulate points.
     Triangulate(TriangulateArgs),
+    /// Find the triangle that contains each of many points.
+    Locate(LocateArgs),
+    /// Find the vertices nearest to each of many points.
+    Nearest(NearestArgs),
+    /// Insert, remove, move and ask, as a text file says, one operation a line.
+    Replay(ReplayArgs),
     /// Judge triangles from any program: Delaunay? canonical?
     Check(CheckArgs),
     /// Make a named set of points; the same seed gives the same bytes on every machine.
@@ -31,6 +38,8 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Shrink points on which algorithms disagree, and print them as a test.
     Reduce(ReduceArgs),
+    /// Repeat the experiments of the papers, with the papers' figures beside.
+    Experiment(ExperimentArgs),
 }
 
 /// How points are read.
@@ -79,7 +88,7 @@ pub(crate) struct TriangulateArgs {
     /// Algorithm; the triangles are the same.
     #[arg(long, value_name = "NAME", default_value = "divide-conquer")]
     pub(crate) algorithm: AlgorithmName,
-    /// Point location of the incremental algorithm.
+    /// Point location of the incremental algorithm [default: spatial].
     #[arg(long, value_name = "NAME")]
     pub(crate) locate: Option<LocateName>,
     /// Threads at most; the result does not depend on it. The present algorithms use one.
@@ -98,15 +107,172 @@ pub(crate) struct TriangulateArgs {
 pub(crate) enum AlgorithmName {
     /// Divide and conquer in Morton order: the fastest.
     DivideConquer,
-    /// One by one in a biased randomized order.
+    /// One by one in random order; --locate says how points are located.
     Incremental,
 }
 
 /// Point location strategies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LocateName {
-    /// Walk from the previous point in spatial order.
+    /// A k-d tree of hints: the fastest for any set and any change.
+    Tree,
+    /// Walk from the vertex inserted last.
+    Walk,
+    /// Walk from the nearest of n^(1/3) random vertices.
+    JumpAndWalk,
+    /// Descend through triangulations of random samples (the Delaunay hierarchy).
+    Hierarchy,
+    /// Trace all triangles that ever were; no removal.
+    History,
+    /// Triangles keep lists of the points to come; bulk only.
+    Conflict,
+    /// Walk from the previous point in spatial order; bulk only.
     Spatial,
+}
+
+impl LocateName {
+    /// The strategy of a triangulation that changes, if this is one.
+    pub(crate) fn strategy(self, seed: u64) -> Option<Locate> {
+        Some(match self {
+            Self::Tree => Locate::Tree,
+            Self::Walk => Locate::Walk(Walk::Visibility),
+            Self::JumpAndWalk => Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
+            Self::Hierarchy => Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() }),
+            Self::History => Locate::History,
+            Self::Conflict | Self::Spatial => return None,
+        })
+    }
+}
+
+/// How queries are read and answers are written.
+#[derive(Debug, Args)]
+pub(crate) struct QueryArgs {
+    /// File of points to ask for, in any format that points have.
+    #[arg(long, value_name = "Q", required = true)]
+    pub(crate) queries: PathBuf,
+    /// Output file (npy: int64, or csv), or - for standard output.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: PathBuf,
+    /// Format of the output, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Point location; the answers are the same.
+    #[arg(long, value_name = "NAME", default_value = "tree")]
+    pub(crate) locate: LocateName,
+    /// Seed of randomized strategies.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+}
+
+/// Locate points.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone locate points.npy --queries queries.npy -o triangles.npy
+  delone locate points.csv --queries queries.csv -o - --to csv --locate hierarchy
+
+Row i holds the vertices, counter-clockwise, of the triangle that contains query i; of one such triangle if the
+query is on an edge or a vertex; -1 -1 -1 if it is outside of the convex hull.")]
+pub(crate) struct LocateArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) query: QueryArgs,
+}
+
+/// Find nearest vertices.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone nearest points.npy --queries queries.npy -o nearest.npy
+  delone nearest points.csv --queries queries.csv -k 5 -o - --to csv
+
+Row i holds the k vertices nearest to query i, nearest first, -1 where there are fewer. Of vertices at the same
+distance the lexicographically smaller comes first.")]
+pub(crate) struct NearestArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) query: QueryArgs,
+    /// How many vertices for each query.
+    #[arg(short, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) k: u32,
+}
+
+/// Replay operations.
+#[derive(Debug, Args)]
+#[command(after_help = "Operations, one a line; # starts a comment:
+  + X Y      insert; answers '+ ID', or '= ID' if that vertex has the same coordinates
+  - ID       remove
+  > ID X Y   move
+  ? X Y      locate; answers '? triangle A B C', '? edge A B', '? vertex A', '? outside A B' (a hull edge that
+             the point is beyond) or '? nowhere' (there is no triangle, and the point is on no edge)
+  @ X Y      nearest vertex; answers '@ ID' or '@ none'
+Ids count up from 0 and are never used again.
+
+Examples:
+  delone replay bug.txt -o triangles.npy --check
+  printf '+ 0 0\\n+ 1 0\\n+ 0 1\\n? .2 .2\\n' | delone replay - -o picture.svg")]
+pub(crate) struct ReplayArgs {
+    /// File of operations, or - for standard input.
+    #[arg(value_name = "OPS")]
+    pub(crate) operations: PathBuf,
+    /// Output file for the triangles at the end, in any format that meshes have; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Point location; the answers are the same.
+    #[arg(long, value_name = "NAME", default_value = "tree")]
+    pub(crate) locate: LocateName,
+    /// Seed of randomized strategies.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Prove the triangulation with exact arithmetic after every operation up to 1,000 vertices, after every
+    /// thousandth beyond, and at the end.
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// Repeat experiments.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone experiment hierarchy --largest 50000
+  delone experiment jump-and-walk -o results
+  delone experiment history -o results
+
+A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
+seconds on this machine and differ from run to run; counts depend on the seed alone.")]
+pub(crate) struct ExperimentArgs {
+    /// Which experiment.
+    #[arg(value_name = "NAME")]
+    pub(crate) name: ExperimentName,
+    /// Folder for tables and plots.
+    #[arg(long, short, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// The largest set.
+    #[arg(long, value_name = "N", default_value_t = 500_000)]
+    pub(crate) largest: usize,
+    /// Seed of points and orders.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// Experiments by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExperimentName {
+    /// Build five kinds of sets with the Delaunay hierarchy and its simpler modes (Devillers 1998, §5.5.2).
+    Hierarchy,
+    /// Triangles visited by jump-and-walk, and its cost against the sample size (Devroye, Mücke & Zhu 1998).
+    JumpAndWalk,
+    /// What ever appears in randomized incremental construction, and what locating costs (Guibas, Knuth & Sharir
+    /// 1992, §2 and §3).
+    History,
 }
 
 /// Judge triangles.

@@ -103,6 +103,26 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
     delone_io::read_points(source, format, &options).map_err(|error| Failure::file(&args.input, &error))
 }
 
+/// Reads points that are asked for.
+pub(crate) fn queries(path: &Path, quiet: bool) -> Result<Vec<[f64; 2]>, Failure> {
+    let format = format(path, None, "the extension")?;
+    let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
+    let (source, _phase) = open(path, quiet)?;
+    let cloud = delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))?;
+    Ok(cloud.xy)
+}
+
+/// Reads a text.
+pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
+    let (mut source, _phase) = open(path, quiet)?;
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes).map_err(|error| Failure::file(path, &error.into()))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        Failure::new(format!("{}: byte {at} is not text", path.display()), "give a text file")
+    })
+}
+
 /// Reads triangles.
 pub(crate) fn triangles(path: &Path, quiet: bool) -> Result<Vec<[u64; 3]>, Failure> {
     if is_standard(path) {

@@ -3,12 +3,16 @@
 mod args;
 mod check;
 mod draw;
+mod experiment;
 mod files;
 mod generate;
 mod info;
+mod locate;
 mod message;
+mod nearest;
 mod progress;
 mod reduce;
+mod replay;
 mod stats;
 mod triangulate;
 
@@ -31,6 +35,10 @@ fn main() -> ExitCode {
         Command::Draw(args) => draw::run(&args, quiet),
         Command::Info(args) => info::run(&args, quiet),
         Command::Reduce(args) => reduce::run(&args, quiet),
+        Command::Locate(args) => locate::run(&args, quiet),
+        Command::Nearest(args) => nearest::run(&args, quiet),
+        Command::Replay(args) => replay::run(&args, quiet),
+        Command::Experiment(args) => experiment::run(&args, quiet),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

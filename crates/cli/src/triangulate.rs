@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use clap::ValueEnum;
 use delone::{Algorithm, Delaunay2, Dimension};
 use delone_io::{Cloud, Surface};
 
-use crate::args::{AlgorithmName, TriangulateArgs};
+use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
@@ -34,7 +35,7 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("read");
     let algorithm = match args.algorithm {
         AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
-        AlgorithmName::Incremental => Algorithm::Incremental { seed: args.seed },
+        AlgorithmName::Incremental => incremental(args.locate.unwrap_or(LocateName::Spatial), args.seed),
     };
     let triangulation = build(xy, algorithm, &args.input.input, quiet)?;
     stats.phase("build");
@@ -42,6 +43,10 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         "algorithm",
         if algorithm == Algorithm::DivideAndConquer { "divide-conquer" } else { "incremental" },
     );
+    if args.algorithm == AlgorithmName::Incremental {
+        let locate = args.locate.unwrap_or(LocateName::Spatial).to_possible_value();
+        stats.set("locate", locate.map(|value| value.get_name().to_owned()));
+    }
     stats.set("threads", 1);
     remark(&triangulation, quiet);
     if args.check {
@@ -63,6 +68,15 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     }
     stats.phase("write");
     stats.write(stats_path)
+}
+
+/// The incremental algorithm with a way to locate points.
+fn incremental(locate: LocateName, seed: u64) -> Algorithm {
+    match (locate.strategy(seed), locate) {
+        (Some(locate), _) => Algorithm::Located { locate, seed },
+        (None, LocateName::Conflict) => Algorithm::ConflictLists { seed },
+        (None, _) => Algorithm::Incremental { seed },
+    }
 }
 
 /// Triangulates, with progress.

@@ -43,4 +43,4 @@ pub use ids::{EdgeId, MAX_POINTS, TriangleId, VertexId};
 pub use locate::tally::{Tally, Work};
 pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::{Dimension, Mesh};
-pub use plane::{Algorithm, Counters, Delaunay2, Duplicate, Inserted, Location, Position2};
+pub use plane::{Algorithm, Counters, Delaunay2, Duplicate, Footprint, Inserted, Location, Position2};

@@ -125,3 +125,19 @@ pub fn write_points(out: &mut dyn std::io::Write, format: Format, points: &[[f64
     }
     Ok(())
 }
+
+/// Writes rows of indices, -1 where there is none: npy (int64) or text.
+pub fn write_indices(
+    out: &mut dyn std::io::Write,
+    format: Format,
+    columns: usize,
+    values: &[i64],
+) -> Result<(), Error> {
+    use formats::{npy, text};
+    match format {
+        Format::Npy => npy::write_indices(out, columns, values)?,
+        Format::Text => text::write_indices(out, columns, values)?,
+        _ => return Err(Error::NotPoints(format)),
+    }
+    Ok(())
+}

@@ -129,6 +129,15 @@ impl<L: Level> Levels<L> {
         self.samples.iter().map(|sample| sample.ground.mesh().vertex_count()).collect()
     }
 
+    /// What all levels take, given what one triangulation does.
+    pub(crate) fn bytes(&self, ground: impl Fn(&L) -> usize) -> usize {
+        let links = |sample: &Sample<L>| {
+            // A tree's nodes are about two thirds full.
+            size_of_val(&*sample.down) + sample.up.len() * size_of::<(Place, Place)>() * 3 / 2
+        };
+        self.samples.iter().map(|sample| ground(&sample.ground) + links(sample)).sum()
+    }
+
     /// The number of levels from `level` on (0 is the lowest sample) that a descent to `below` goes through.
     fn used_above(&self, level: usize, below: &Mesh) -> usize {
         let mut below = below;

@@ -31,6 +31,11 @@ pub(crate) struct History {
 }
 
 impl History {
+    /// What it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.successors)
+    }
+
     fn follow(&mut self, old: TriangleId, new: [Option<TriangleId>; 3]) {
         let last = new.iter().flatten().map(|t| t.index()).max().unwrap_or(0).max(old.index());
         if self.successors.len() <= last {

@@ -81,6 +81,11 @@ impl Tree {
         self.split(ground, high, 2 * node + 1, axis);
     }
 
+    /// What it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.splits) + size_of_val(&*self.lines)
+    }
+
     /// The line and the leaf in it that a point belongs to.
     #[inline]
     fn leaf<G: Ground>(&self, q: G::Point) -> (usize, usize) {

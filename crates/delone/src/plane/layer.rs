@@ -42,6 +42,11 @@ impl Layer {
         Self { mesh, points, free: Slots::default(), cavity: Cavity::default(), hole: Hole::default(), spanned }
     }
 
+    /// What it takes, buffers not counted.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.mesh.edges) + size_of_val(&*self.mesh.incident) + size_of_val(&*self.points)
+    }
+
     /// A place near another one in memory for a new point.
     pub(super) fn new_place(&mut self, near: usize, q: [f64; 2]) -> Place {
         if let Some(slot) = self.free.take_near(near) {

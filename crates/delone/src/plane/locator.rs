@@ -1,5 +1,6 @@
 //! The strategies of location at work in the plane.
 
+use super::Delaunay2;
 use super::flips::{DUMMIES, Flips};
 use super::layer::Layer;
 use crate::ids::{EdgeId, Place, TriangleId};
@@ -91,9 +92,41 @@ impl Versions {
         self.history.trace(|t| self.flips.holds(t, q), tally)
     }
 
-    /// The number of triangles that ever were, those of the dummies included.
-    pub(super) fn triangles(&self) -> usize {
-        self.flips.edges.len() / 4
+}
+
+/// What a strategy of location keeps.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Footprint {
+    /// Bytes of the triangulation itself: topology, coordinates, names.
+    pub base: usize,
+    /// Bytes of the strategy's own structure.
+    pub strategy: usize,
+    /// Vertices of each level of a hierarchy above the triangulation, the largest first.
+    pub levels: Vec<usize>,
+    /// Triangles of a history, past and present, those at the dummies included.
+    pub versions: usize,
+}
+
+impl Delaunay2 {
+    /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
+    pub fn footprint(&self) -> Footprint {
+        let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
+        match self.locator() {
+            Locator::Tree(tree) => footprint.strategy = tree.bytes(),
+            Locator::FromLast(_) | Locator::JumpAndWalk(_) => {}
+            Locator::Hierarchy(levels) => {
+                footprint.levels = levels.sizes();
+                footprint.strategy = levels.bytes(Layer::bytes);
+            }
+            Locator::Versions(versions) => {
+                footprint.versions = versions.flips.edges.len() / 4;
+                footprint.strategy = 32 * footprint.versions
+                    + 24 * versions.flips.points.len()
+                    + versions.history.bytes();
+            }
+        }
+        footprint
     }
 }
 

@@ -18,6 +18,7 @@ pub mod verify;
 pub use build::{Algorithm, Counters};
 pub use change::Inserted;
 pub use locate::Location;
+pub use locator::Footprint;
 pub use position::Position2;
 
 use std::sync::OnceLock;

@@ -108,3 +108,11 @@ pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Resu
     writer.extend(points.as_flattened().iter().copied())?;
     writer.finish()
 }
+
+/// Writes rows of integers: int64 of shape (rows, columns).
+pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64]) -> io::Result<()> {
+    let shape = [(values.len() / columns) as u64, columns as u64];
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
+    writer.extend(values.iter().copied())?;
+    writer.finish()
+}

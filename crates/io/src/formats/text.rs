@@ -117,6 +117,20 @@ pub(crate) fn write(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> 
     Ok(())
 }
 
+/// Writes rows of integers.
+pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64]) -> io::Result<()> {
+    for row in values.chunks_exact(columns) {
+        for (k, value) in row.iter().enumerate() {
+            if k > 0 {
+                write!(out, ",")?;
+            }
+            write!(out, "{value}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::read;

@@ -1,0 +1,1 @@
+pub(crate) fn run(_: &crate::args::ExperimentArgs, _: bool) -> Result<(), crate::message::Failure> { Ok(()) }
