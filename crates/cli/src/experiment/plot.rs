@@ -1,0 +1,72 @@
+//! Plots on doubly logarithmic axes.
+
+use plotters::prelude::*;
+
+/// Curves through measured values.
+pub(super) struct Plot {
+    /// The name of its file.
+    pub(super) name: String,
+    title: String,
+    axes: [String; 2],
+    curves: Vec<(String, Vec<(f64, f64)>)>,
+}
+
+impl Plot {
+    pub(super) fn new(name: &str, title: &str, axes: [&str; 2]) -> Self {
+        Self { name: name.to_owned(), title: title.to_owned(), axes: axes.map(str::to_owned), curves: Vec::new() }
+    }
+
+    /// Adds a curve; values that have no logarithm are left out.
+    pub(super) fn curve(&mut self, name: &str, points: impl IntoIterator<Item = (f64, f64)>) {
+        let points = points.into_iter().filter(|&(x, y)| x > 0.0 && y > 0.0 && y.is_finite()).collect();
+        self.curves.push((name.to_owned(), points));
+    }
+
+    /// The picture.
+    pub(super) fn svg(&self) -> Result<String, String> {
+        let mut svg = String::new();
+        self.draw(&mut svg).map_err(|error| format!("cannot draw {}: {error}", self.name))?;
+        Ok(svg)
+    }
+
+    fn draw(&self, svg: &mut String) -> Result<(), Box<dyn std::error::Error>> {
+        let all = || self.curves.iter().flat_map(|(_, points)| points);
+        let range = |of: fn(&(f64, f64)) -> f64| {
+            let low = all().map(of).fold(f64::INFINITY, f64::min);
+            let high = all().map(of).fold(0.0, f64::max);
+            if low < high { low / 1.2..high * 1.2 } else { 0.5..2.0 }
+        };
+        let area = SVGBackend::with_string(svg, (900, 620)).into_drawing_area();
+        area.fill(&WHITE)?;
+        let mut chart = ChartBuilder::on(&area)
+            .caption(&self.title, ("sans-serif", 20))
+            .margin(12)
+            .x_label_area_size(46)
+            .y_label_area_size(70)
+            .build_cartesian_2d(range(|p| p.0).log_scale(), range(|p| p.1).log_scale())?;
+        chart
+            .configure_mesh()
+            .x_desc(&self.axes[0])
+            .y_desc(&self.axes[1])
+            .light_line_style(WHITE)
+            .label_style(("sans-serif", 14))
+            .draw()?;
+        for (i, (name, points)) in self.curves.iter().enumerate() {
+            let colour = Palette99::pick(i).to_rgba();
+            chart
+                .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)).point_size(3))?
+                .label(name)
+                .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
+        }
+        chart
+            .configure_series_labels()
+            .position(SeriesLabelPosition::UpperLeft)
+            .background_style(WHITE.mix(0.85))
+            .border_style(BLACK.mix(0.3))
+            .label_font(("sans-serif", 14))
+            .draw()?;
+        drop(chart);
+        area.present()?;
+        Ok(())
+    }
+}

@@ -1,0 +1,154 @@
+//! The papers' figures, as counts: seeds are fixed and no clock is asked.
+
+use delone::{
+    Algorithm, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work,
+};
+use delone_oracle::generate::{Kind, Random};
+
+fn uniform(n: usize) -> Vec<[f64; 2]> {
+    Kind::Uniform.points(n, 12)
+}
+
+fn located(n: usize, locate: Locate) -> Delaunay2 {
+    let mut d = Delaunay2::from_points(&uniform(n)).expect("finite");
+    d.set_strategy(locate).expect("in range");
+    d
+}
+
+/// Mean work of random queries away from the border.
+fn mean(d: &Delaunay2, of: impl Fn(&Work) -> u64) -> f64 {
+    let mut random = Random::new(77);
+    let mut work = Work::default();
+    let queries = 4_000;
+    for _ in 0..queries {
+        let q = [random.between(0.1, 0.9), random.between(0.1, 0.9)];
+        d.locate_counted(q, &mut work).expect("finite");
+    }
+    of(&work) as f64 / f64::from(queries)
+}
+
+#[track_caller]
+fn near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value / expected - 1.0).abs() <= tolerance, "{value} is not {expected} up to {tolerance}");
+}
+
+/// Devroye, Mücke & Zhu 1998: a walk of length l crosses 2.16 l sqrt(n) edges and starts at the nearest of m; their
+/// own implementation visited about 36 and 50 triangles, ours fewer.
+#[test]
+fn jump_and_walk_with_32_samples() {
+    for (n, paper) in [(3_200, 36.0), (32_000, 50.0)] {
+        let d = located(n, Locate::JumpAndWalk(JumpAndWalk { sample: Some(32), ..JumpAndWalk::default() }));
+        let visited = mean(&d, |work| work.visited);
+        // Three more than crossings: the triangles turned through at the start, and the last.
+        near(visited, 2.16 * (n as f64).sqrt() / (2.0 * 33f64.sqrt()) + 3.0, 0.1);
+        assert!(visited < paper);
+        assert!((mean(&d, |work| work.compared) - 32.0).abs() < 1e-9);
+    }
+}
+
+/// The same: the sum of sample and walk is O(n^(1/3)) for a sample of n^(1/3), and near its minimum there.
+#[test]
+fn jump_and_walk_grows_with_the_cube_root() {
+    let cost = |n: usize, sample| {
+        let d = located(n, Locate::JumpAndWalk(JumpAndWalk { sample, ..JumpAndWalk::default() }));
+        mean(&d, |work| work.visited + work.compared)
+    };
+    for n in [1_000, 8_000, 64_000] {
+        near(cost(n, None) / (n as f64).cbrt(), 2.2, 0.1);
+    }
+    // m + 2.16 sqrt(n) / (2 sqrt(m + 1)) is 117, 83 and 335 for these.
+    let costs = [5, 40, 320].map(|m| cost(64_000, Some(m)));
+    assert!(costs[1] < 0.75 * costs[0] && costs[1] < 0.3 * costs[2], "{costs:?}");
+}
+
+/// Devillers 1998, §4: levels shrink by the ratio, a level costs about 2 sqrt(4 ratio / pi) triangles and the turn at
+/// its start at most, and the memory is ratio / (ratio - 1) of the triangulation's.
+#[test]
+fn the_hierarchy_is_shallow_and_small() {
+    for ratio in [8.0, 30.0, 60.0_f64] {
+        let n = 100_000;
+        let d = located(n, Locate::Hierarchy(Hierarchy { ratio, ..Hierarchy::default() }));
+        let footprint = d.footprint();
+        let depth = (n as f64).ln() / ratio.ln();
+        let levels = footprint.levels.len() as f64;
+        assert!((levels - depth).abs() <= 1.5, "{levels} levels, log n is {depth}");
+        for (i, &size) in footprint.levels.iter().enumerate() {
+            let expected = n as f64 / ratio.powi(i as i32 + 1);
+            if expected > 500.0 {
+                near(size as f64, expected, 0.15);
+            }
+        }
+        let total: usize = n + footprint.levels.iter().sum::<usize>();
+        assert!(total as f64 <= n as f64 * (ratio / (ratio - 1.0) + 0.05));
+        let bytes = (footprint.base + footprint.strategy) as f64 / footprint.base as f64;
+        assert!(bytes <= ratio / (ratio - 1.0) + 0.05, "{bytes} at ratio {ratio}");
+        let per_level = mean(&d, |work| work.visited) / (levels + 1.0);
+        let bound = 4.0 + 2.0 * (4.0 * ratio / std::f64::consts::PI).sqrt();
+        assert!(per_level > 2.0 && per_level < bound, "{per_level} triangles a level, bound {bound}");
+    }
+}
+
+/// The same: from 10,000 points on the hierarchy beats sampling alone, and both beat a plain walk.
+#[test]
+fn the_four_modes_rank_as_in_the_paper() {
+    for kind in [Kind::Uniform, Kind::Ellipse2] {
+        let visited = |options| {
+            let points = kind.points(20_000, 3);
+            let algorithm = Algorithm::Located { locate: Locate::Hierarchy(options), seed: 1 };
+            match Delaunay2::with_algorithm(&points, algorithm).expect("finite").counters() {
+                Counters::Incremental(work) => (work.visited + work.compared) as f64 / 20_000.0,
+                other => panic!("{other:?}"),
+            }
+        };
+        let [walk, sample, levels, both] =
+            [Hierarchy::only_walk(), Hierarchy::only_sample(), Hierarchy::only_levels(), Hierarchy::default()]
+                .map(visited);
+        // By their times at 5,000 points the factors are 1.6 and more, and 1.1 and more.
+        assert!(walk > 1.6 * sample && sample > 1.1 * levels, "{kind:?}: {walk} {sample} {levels}");
+        near(both, levels, 0.35);
+    }
+}
+
+/// Guibas, Knuth & Sharir 1992: a new point of a random order creates about six triangles (at most 22 by their bound),
+/// with intermediate ones nine, and tracing costs O(log n).
+#[test]
+fn what_a_random_order_creates() {
+    let mut traced = Vec::new();
+    for n in [1_000, 10_000, 100_000] {
+        let algorithm = Algorithm::Located { locate: Locate::History, seed: 4 };
+        let d = Delaunay2::with_algorithm(&uniform(n), algorithm).expect("finite");
+        let Counters::Incremental(work) = d.counters() else { panic!("incremental") };
+        near(work.created as f64 / n as f64, 6.0, 0.05);
+        near(d.footprint().versions as f64 / n as f64, 9.0, 0.06);
+        traced.push(work.visited as f64 / n as f64 / (n as f64).ln());
+    }
+    for per_log in traced {
+        near(per_log, 3.5, 0.25);
+    }
+}
+
+/// Conflict lists: fewer than 12 (H_n - 1) moves a point, and O(log n) of them.
+#[test]
+fn conflict_lists_move_a_point_log_n_times() {
+    for n in [1_000_u32, 10_000, 100_000] {
+        let algorithm = Algorithm::ConflictLists { seed: 2 };
+        let d = Delaunay2::with_algorithm(&uniform(n as usize), algorithm).expect("finite");
+        let Counters::ConflictLists { moved, work } = d.counters() else { panic!("conflict lists") };
+        let per_point = moved as f64 / f64::from(n);
+        let harmonic: f64 = (1..=n).map(|i| 1.0 / f64::from(i)).sum();
+        assert!(per_point < 12.0 * (harmonic - 1.0));
+        near(per_point / f64::from(n).ln(), 3.0, 0.25);
+        // Each split makes two more triangles, each flip none.
+        assert_eq!(work.created - work.destroyed, 2 * u64::from(n));
+    }
+}
+
+/// A hint is a few triangles away, whatever the number of points.
+#[test]
+fn the_hint_tree_starts_next_door() {
+    let tree = located(100_000, Locate::Tree);
+    let visited = mean(&tree, |work| work.visited);
+    assert!(visited < 4.5, "{visited} triangles from the hint");
+    let jump = located(100_000, Locate::JumpAndWalk(JumpAndWalk::default()));
+    assert!(visited < mean(&jump, |work| work.visited) / 8.0);
+}
