@@ -45,3 +45,38 @@ extern "C" std::size_t cgal_indexed_time(const double *xy, std::size_t n, std::u
         for (int k = 0; k < 3; ++k) *out++ = f->vertex(k)->info();
     return (out - triangles) / 3;
 }
+
+#include <CGAL/Triangulation_hierarchy_2.h>
+#include <CGAL/Triangulation_hierarchy_vertex_base_2.h>
+
+using Level_vertex = CGAL::Triangulation_hierarchy_vertex_base_2<CGAL::Triangulation_vertex_base_2<Kernel>>;
+using Level = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Level_vertex>>;
+using Hierarchy = CGAL::Triangulation_hierarchy_2<Level>;
+
+// Insertion one by one, m queries for location and as many for the nearest vertex, removal of the first half of the
+// points. `inside` has room for m flags, `nearest` for 2m coordinates, `seconds` for four times.
+extern "C" void cgal_changes(const double *xy, std::size_t n, const double *queries, std::size_t m,
+                             std::uint8_t *inside, double *nearest, double *seconds) {
+    Hierarchy triangulation;
+    std::vector<Hierarchy::Vertex_handle> handles;
+    handles.reserve(n);
+    auto start = Clock::now();
+    for (std::size_t i = 0; i < n; ++i)
+        handles.push_back(triangulation.insert(Kernel::Point_2(xy[2 * i], xy[2 * i + 1])));
+    seconds[0] = since(start);
+    start = Clock::now();
+    for (std::size_t i = 0; i < m; ++i)
+        inside[i] = !triangulation.is_infinite(
+            triangulation.locate(Kernel::Point_2(queries[2 * i], queries[2 * i + 1])));
+    seconds[1] = since(start);
+    start = Clock::now();
+    for (std::size_t i = 0; i < m; ++i) {
+        const auto v = triangulation.nearest_vertex(Kernel::Point_2(queries[2 * i], queries[2 * i + 1]));
+        nearest[2 * i] = v->point().x();
+        nearest[2 * i + 1] = v->point().y();
+    }
+    seconds[2] = since(start);
+    start = Clock::now();
+    for (std::size_t i = 0; i < n / 2; ++i) triangulation.remove(handles[i]);
+    seconds[3] = since(start);
+}

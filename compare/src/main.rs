@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --manifest-path compare/Cargo.toml -- --help`
 
+mod changes;
 mod engines;
 mod memory;
 
@@ -33,6 +34,9 @@ struct Args {
     /// Engines; all when empty.
     #[arg(long, value_delimiter = ',')]
     engines: Vec<String>,
+    /// Time insertion one by one, location, nearest vertex and removal instead of building.
+    #[arg(long)]
+    changes: bool,
     /// Measure peak memory too (one more process for each engine and set).
     #[arg(long)]
     memory: bool,
@@ -65,6 +69,9 @@ fn main() {
         .iter()
         .filter(|e| args.engines.is_empty() || args.engines.iter().any(|name| name == e.name))
         .collect();
+    if args.changes {
+        std::process::exit(i32::from(!changed(&args)));
+    }
     println!("ns/point, minimum of {} interleaved runs, one thread; output included", args.runs);
     let mut all_right = true;
     panic::set_hook(Box::new(|_| {})); // peers may panic: that is a result, not a report
@@ -90,6 +97,18 @@ fn main() {
         println!("\nDelone is wrong somewhere: see above");
         std::process::exit(1);
     }
+}
+
+/// The other comparison.
+fn changed(args: &Args) -> bool {
+    println!("minimum of {} interleaved runs, one thread", args.runs);
+    let mut all_right = true;
+    for kind in args.kinds.iter().filter_map(|name| Kind::named(name)) {
+        for &size in &args.size {
+            all_right &= changes::run(kind, size, args.runs);
+        }
+    }
+    all_right
 }
 
 /// One run, judged if it is the first.
