@@ -108,7 +108,8 @@ pub(crate) fn queries(path: &Path, quiet: bool) -> Result<Vec<[f64; 2]>, Failure
     let format = format(path, None, "the extension")?;
     let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
     let (source, _phase) = open(path, quiet)?;
-    let cloud = delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))?;
+    let cloud =
+        delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))?;
     Ok(cloud.xy)
 }
 

@@ -1,6 +1,6 @@
 //! `delone locate`: for each query the triangle that contains it. Also what it has in common with `nearest`.
 
-use delone::{Algorithm, Delaunay2, Location, Locate, TriangleId, Work};
+use delone::{Algorithm, Delaunay2, Locate, Location, TriangleId, Work};
 use delone_io::Format;
 
 use crate::args::{InputArgs, LocateArgs, QueryArgs};

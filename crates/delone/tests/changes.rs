@@ -1,6 +1,8 @@
 //! Insertions, removals and moves in any order: what is left is the triangulation of what is left.
 
-use delone::{Algorithm, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk};
+use delone::{
+    Algorithm, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk,
+};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};
 use proptest::prelude::*;
@@ -94,7 +96,8 @@ fn small_sets_are_checked_after_every_change() {
         for (i, locate) in strategies().into_iter().enumerate() {
             let mut random = Random::new(100 + i as u64);
             let source = kind.points(24, 7 + i as u64);
-            let mut twin = Twin { d: Delaunay2::with_strategy(locate).expect("in range"), living: Vec::new() };
+            let mut twin =
+                Twin { d: Delaunay2::with_strategy(locate).expect("in range"), living: Vec::new() };
             for step in 0..150 {
                 // Up to the plane and down to nothing, several times.
                 let grows = if step / 25 % 2 == 0 { 7 } else { 2 };
@@ -188,17 +191,17 @@ fn a_vertex_of_large_degree_is_removed() {
 fn errors_change_nothing() {
     let mut d = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]).expect("finite");
     assert!(matches!(d.insert([0.0, f64::NAN]), Err(Error::Coordinate { axis: 1, .. })));
-    assert!(matches!(d.move_to(VertexId::new(0), [f64::INFINITY, 0.0]), Err(Error::Coordinate { axis: 0, .. })));
+    assert!(matches!(
+        d.move_to(VertexId::new(0), [f64::INFINITY, 0.0]),
+        Err(Error::Coordinate { axis: 0, .. })
+    ));
     assert!(matches!(d.locate([f64::NAN, 0.0]), Err(Error::Coordinate { axis: 0, .. })));
     let duplicate = VertexId::new(3);
     for id in [duplicate, VertexId::new(4), VertexId::new(100), VertexId::GHOST] {
         assert_eq!(d.remove(id), Err(Error::NoSuchVertex { vertex: id }));
         assert_eq!(d.move_to(id, [5.0, 5.0]), Err(Error::NoSuchVertex { vertex: id }));
     }
-    assert_eq!(
-        d.move_to(VertexId::new(0), [0.0, 1.0]),
-        Err(Error::Occupied { vertex: VertexId::new(2) })
-    );
+    assert_eq!(d.move_to(VertexId::new(0), [0.0, 1.0]), Err(Error::Occupied { vertex: VertexId::new(2) }));
     let bad = d.extend(&[[2.0, 2.0], [f64::NAN, 0.0]], 0);
     assert!(matches!(bad, Err(Error::NotFinite { index: 1, axis: 0, .. })));
     assert_eq!((d.vertex_count(), d.points().len(), d.duplicates().count()), (3, 4, 1));

@@ -88,7 +88,12 @@ fn thousands_of_small_sets_against_the_oracle() {
     for &kind in Kind::ALL {
         for seed in 0..1500 {
             let points = kind.points(1 + seed as usize % 9, seed);
-            assert_eq!(agreed(&points, kind.name(), algorithms()), brute::delaunay(&points), "{} {seed}", kind.name());
+            assert_eq!(
+                agreed(&points, kind.name(), algorithms()),
+                brute::delaunay(&points),
+                "{} {seed}",
+                kind.name()
+            );
         }
     }
 }
@@ -99,7 +104,12 @@ fn medium_sets_against_the_oracle() {
         for seed in 0..2 {
             let points = kind
                 .points(if [Kind::HugeSpan, Kind::Octaves].contains(&kind) { 16 } else { 32 }, 1000 + seed);
-            assert_eq!(agreed(&points, kind.name(), algorithms()), brute::delaunay(&points), "{} {seed}", kind.name());
+            assert_eq!(
+                agreed(&points, kind.name(), algorithms()),
+                brute::delaunay(&points),
+                "{} {seed}",
+                kind.name()
+            );
         }
     }
 }

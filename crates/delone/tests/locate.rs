@@ -39,9 +39,7 @@ fn queries(points: &[[f64; 2]], random: &mut Random) -> Vec<[f64; 2]> {
 fn is_right(d: &Delaunay2, q: [f64; 2], location: Location) -> bool {
     let mesh = d.mesh();
     let point = |v: VertexId| d.point(v);
-    let between = |a: [f64; 2], b: [f64; 2]| {
-        exact::orient2d(a, b, q) == 0 && exact::angle(q, a, b) < 0
-    };
+    let between = |a: [f64; 2], b: [f64; 2]| exact::orient2d(a, b, q) == 0 && exact::angle(q, a, b) < 0;
     match location {
         Location::Vertex(v) => point(v) == q,
         Location::Edge(e) => {
@@ -176,7 +174,9 @@ fn distances_and_regions_against_sorting() {
 fn many_vertices_at_the_same_distance() {
     // Around the centre of a circle of lattice points (radius 65) the smallest is at the left.
     let mut points = Vec::new();
-    for [x, y] in [[65, 0], [63, 16], [60, 25], [56, 33], [52, 39], [39, 52], [33, 56], [25, 60], [16, 63], [0, 65]] {
+    for [x, y] in
+        [[65, 0], [63, 16], [60, 25], [56, 33], [52, 39], [39, 52], [33, 56], [25, 60], [16, 63], [0, 65]]
+    {
         for [x, y] in [[x, y], [-x, y], [x, -y], [-x, -y]] {
             points.push([f64::from(x), f64::from(y)]);
         }

@@ -1,8 +1,6 @@
 //! The papers' figures, as counts: seeds are fixed and no clock is asked.
 
-use delone::{
-    Algorithm, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work,
-};
+use delone::{Algorithm, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work};
 use delone_oracle::generate::{Kind, Random};
 
 fn uniform(n: usize) -> Vec<[f64; 2]> {
@@ -100,9 +98,13 @@ fn the_four_modes_rank_as_in_the_paper() {
                 other => panic!("{other:?}"),
             }
         };
-        let [walk, sample, levels, both] =
-            [Hierarchy::only_walk(), Hierarchy::only_sample(), Hierarchy::only_levels(), Hierarchy::default()]
-                .map(visited);
+        let [walk, sample, levels, both] = [
+            Hierarchy::only_walk(),
+            Hierarchy::only_sample(),
+            Hierarchy::only_levels(),
+            Hierarchy::default(),
+        ]
+        .map(visited);
         // By their times at 5,000 points the factors are 1.6 and more, and 1.1 and more.
         assert!(walk > 1.6 * sample && sample > 1.1 * levels, "{kind:?}: {walk} {sample} {levels}");
         near(both, levels, 0.35);

@@ -12,9 +12,21 @@ const SIZES: [usize; 3] = [5_000, 50_000, 500_000];
 /// The paper's seconds (Sun Ultra 1, 200 MHz) for walk, MSZ, hierarchy, hierarchy + MSZ; NaN is "long".
 const PAPER: [(Kind, &str, [[f64; 4]; 3]); 5] = [
     (Kind::Uniform, "random", [[0.3, 0.17, 0.15, 0.14], [12.0, 3.8, 2.7, 2.3], [460.0, 72.0, 36.0, 31.0]]),
-    (Kind::Ellipse2, "ellipse2", [[0.53, 0.34, 0.21, 0.20], [49.0, 21.0, 3.9, 3.5], [930.0, 760.0, 57.0, 49.0]]),
-    (Kind::Ellipse, "ellipse", [[2.2, 0.46, 0.31, 0.21], [187.0, 21.0, 3.9, 3.7], [f64::NAN, 270.0, 54.0, 55.0]]),
-    (Kind::Parabola, "parabola", [[2.5, 0.31, 0.21, 0.16], [87.0, 5.9, 3.2, 3.0], [f64::NAN, 74.0, 69.0, 45.0]]),
+    (
+        Kind::Ellipse2,
+        "ellipse2",
+        [[0.53, 0.34, 0.21, 0.20], [49.0, 21.0, 3.9, 3.5], [930.0, 760.0, 57.0, 49.0]],
+    ),
+    (
+        Kind::Ellipse,
+        "ellipse",
+        [[2.2, 0.46, 0.31, 0.21], [187.0, 21.0, 3.9, 3.7], [f64::NAN, 270.0, 54.0, 55.0]],
+    ),
+    (
+        Kind::Parabola,
+        "parabola",
+        [[2.5, 0.31, 0.21, 0.16], [87.0, 5.9, 3.2, 3.0], [f64::NAN, 74.0, 69.0, 45.0]],
+    ),
     (Kind::Circle, "circle", [[0.15, 0.13, 0.13, 0.14], [2.4, 2.6, 2.4, 2.4], [39.0, 44.0, 36.0, 36.0]]),
 ];
 
@@ -59,7 +71,8 @@ pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
         for (size, paper) in SIZES.into_iter().zip(paper).filter(|(size, _)| *size <= largest) {
             let mut points = kind.points(size, seed);
             Random::new(seed).shuffle(&mut points);
-            let mut cells = [vec![name.to_owned(), size.to_string()], vec![name.to_owned(), size.to_string()]];
+            let mut cells =
+                [vec![name.to_owned(), size.to_string()], vec![name.to_owned(), size.to_string()]];
             for (i, (_, algorithm)) in ways.iter().enumerate() {
                 let before: &Vec<(f64, f64)> = &curves[i];
                 // From one size to the next the time of a bad mode grows at most with the square.

@@ -167,7 +167,8 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
         let order: Vec<usize> = (0..n).collect(); // the generator's order is random
         let (mut triangles, mut edges) = (0_u64, 0_u64);
         follow(&points, &order, |_| triangles += 1, || edges += 1)?;
-        let history = Delaunay2::with_algorithm(&points, Algorithm::Located { locate: Locate::History, seed })?;
+        let history =
+            Delaunay2::with_algorithm(&points, Algorithm::Located { locate: Locate::History, seed })?;
         let traced = match history.counters() {
             Counters::Incremental(work) => work.visited,
             _ => 0,

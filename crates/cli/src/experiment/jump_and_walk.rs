@@ -12,7 +12,8 @@ const QUERIES: usize = 20_000;
 /// Mean work of random queries, and the nanoseconds of one.
 fn measure(d: &Delaunay2, queries: &[[f64; 2]]) -> Result<([f64; 2], f64), Error> {
     let mut work = Work::default();
-    let (outcome, seconds) = timed(|| queries.iter().try_for_each(|&q| d.locate_counted(q, &mut work).map(drop)));
+    let (outcome, seconds) =
+        timed(|| queries.iter().try_for_each(|&q| d.locate_counted(q, &mut work).map(drop)));
     outcome?;
     let mean = |total: u64| total as f64 / queries.len() as f64;
     Ok(([mean(work.visited), mean(work.compared)], seconds * 1e9 / queries.len() as f64))

@@ -54,9 +54,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
             write(folder, &table.name, "csv", &table.csv())?;
         }
         for plot in &findings.plots {
-            let svg = plot
-                .svg()
-                .map_err(|error| Failure::new(error, "please report this: it is a bug"))?;
+            let svg = plot.svg().map_err(|error| Failure::new(error, "please report this: it is a bug"))?;
             write(folder, &plot.name, "svg", &svg)?;
         }
     }

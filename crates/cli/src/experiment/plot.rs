@@ -13,7 +13,12 @@ pub(super) struct Plot {
 
 impl Plot {
     pub(super) fn new(name: &str, title: &str, axes: [&str; 2]) -> Self {
-        Self { name: name.to_owned(), title: title.to_owned(), axes: axes.map(str::to_owned), curves: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            axes: axes.map(str::to_owned),
+            curves: Vec::new(),
+        }
     }
 
     /// Adds a curve; values that have no logarithm are left out.

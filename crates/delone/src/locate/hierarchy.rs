@@ -80,7 +80,11 @@ impl Hierarchy {
 
     pub(super) fn validate(&self) -> Result<(), Error> {
         if !(self.ratio > 1.0 && self.ratio.is_finite()) {
-            return Err(Error::Parameter { name: "ratio", value: self.ratio, range: "larger than 1 and finite" });
+            return Err(Error::Parameter {
+                name: "ratio",
+                value: self.ratio,
+                range: "larger than 1 and finite",
+            });
         }
         if self.levels == Some(0) {
             return Err(Error::Parameter { name: "levels", value: 0.0, range: "at least 1" });
@@ -116,8 +120,7 @@ pub(crate) struct Levels<L> {
 impl<L: Level> Levels<L> {
     /// Levels over all vertices that there are.
     pub(crate) fn build<G: Ground<Point = L::Point>>(options: Hierarchy, ground: &G) -> Self {
-        let mut levels =
-            Self { options, samples: Vec::new(), random: SplitMix(options.seed), last: None };
+        let mut levels = Self { options, samples: Vec::new(), random: SplitMix(options.seed), last: None };
         for v in ground.mesh().inhabited() {
             levels.lift(ground, v);
         }

@@ -54,7 +54,8 @@ impl History {
         let mut at = TriangleId::new(0);
         loop {
             tally.visited();
-            let [Some(first), Some(second), third] = self.successors.get(at.index()).copied().unwrap_or_default()
+            let [Some(first), Some(second), third] =
+                self.successors.get(at.index()).copied().unwrap_or_default()
             else {
                 return at;
             };

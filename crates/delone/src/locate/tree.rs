@@ -1,12 +1,14 @@
 //! A k-d tree of hints: the fastest start of a walk.
 //!
 //! Source: Bentley, "Multidimensional binary search trees used for associative searching", CACM 1975, split at
-//! medians. The tree has no pointers and holds no points: a leaf stands for about four vertices and remembers an edge
-//! near them. A hint may grow old; it may not be wrong, because the walk decides.
+//! medians. The tree holds no points: it is built over a quarter of the vertices, evenly taken from the order in
+//! which they are kept, and a leaf remembers an edge at its vertex. A hint may grow old; it may not be wrong,
+//! because the walk decides.
 //!
-//! Eight leaves share a cache line with the splits between them, and the splits above are a hundredth of the
-//! vertices' own memory, so a query in a large set costs one cache miss before the walk. The splits inside a line
-//! are rounded, which a hint can bear.
+//! What a query waits for is memory. Three levels of the tree share a cache line, the lowest three share it with
+//! their eight hints, and all lines above the lowest are a hundredth of the vertices' own memory: a query in a
+//! large set misses the cache once before the walk. The splits of the lowest lines are rounded, which a hint can
+//! bear.
 //!
 //! Cost: a query O(log n) comparisons, then a walk of O(1) expected triangles; four bytes a vertex. Building O(n log
 //! n); the owner builds anew whenever the number of vertices has doubled or walks have become long, which is O(log
@@ -16,121 +18,178 @@ use super::tally::Tally;
 use super::{Ground, Start, Strategy, Walk};
 use crate::ids::{EdgeId, Place};
 
-/// Vertices a leaf.
-const LEAF: usize = 4;
-/// Leaves a line.
-const LEAVES: usize = 8;
+/// Vertices a leaf, of which one is looked at.
+const LEAF: usize = 2;
+/// Levels of the tree in a line.
+const DEPTH: u32 = 3;
+/// Leaves below a line.
+const LEAVES: usize = 1 << DEPTH;
 
-/// A subtree of eight leaves.
+/// A subtree of inner nodes.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, align(64))]
+struct Upper {
+    /// For each node, from the root at 1, the coordinate that splits it, at one less.
+    splits: [f64; LEAVES - 1],
+}
+
+/// A lowest subtree.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Line {
-    /// For each inner node, from the root at 1, the coordinate that splits it, at one less.
+struct Lowest {
+    /// As above.
     splits: [f32; LEAVES - 1],
-    /// For each leaf an edge near its vertices.
+    /// For each leaf an edge at its vertex.
     hints: [EdgeId; LEAVES],
 }
 
-/// The tree over the vertices there were when it was built.
+/// The tree over the vertices there were when it was built. Axes alternate from level to level.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tree {
-    /// For each inner node above the lines, from the root at 1, the coordinate that splits it. Axes alternate.
-    splits: Vec<f64>,
-    lines: Vec<Line>,
+    /// The lines above the lowest, level by level from the root.
+    upper: Vec<Upper>,
+    /// How many levels of lines these are.
+    height: u32,
+    /// How many levels of the tree are in the line of the root: what is left when the others have three.
+    root: u32,
+    lowest: Vec<Lowest>,
+}
+
+/// A node on the way down.
+#[derive(Clone, Copy)]
+struct Node {
+    /// The level of lines, 0 at the root.
+    level: u32,
+    /// The line in that level.
+    line: usize,
+    /// The node in the line, from the root at 1.
+    inner: usize,
+    axis: usize,
 }
 
 impl Tree {
-    /// Builds the tree over all vertices.
+    /// Builds the tree.
     pub(crate) fn build<G: Ground>(ground: &G) -> Self {
         let mesh = ground.mesh();
-        let mut places: Vec<u32> = mesh.inhabited().map(|p| p.index() as u32).collect();
-        if places.len() < LEAF * LEAVES {
+        let mut places: Vec<u32> = mesh.inhabited().step_by(LEAF).map(|p| p.index() as u32).collect();
+        if places.len() < LEAVES {
             return Self::default();
         }
-        let count = (places.len() / (LEAF * LEAVES)).next_power_of_two();
-        let line = Line { splits: [0.0; LEAVES - 1], hints: [EdgeId::NONE; LEAVES] };
-        let mut tree = Self { splits: vec![0.0; count], lines: vec![line; count] };
-        tree.split(ground, &mut places, 1, 0);
+        let levels = (places.len() / LEAVES).ilog2();
+        let height = levels.div_ceil(DEPTH);
+        let lowest = Lowest { splits: [0.0; LEAVES - 1], hints: [EdgeId::NONE; LEAVES] };
+        let mut tree = Self {
+            upper: Vec::new(),
+            height,
+            root: levels - DEPTH * height.saturating_sub(1),
+            lowest: vec![lowest; 1 << levels],
+        };
+        tree.upper = vec![Upper::default(); tree.above(height)];
+        tree.split(ground, &mut places, Node { level: 0, line: 0, inner: 1, axis: 0 });
         tree
     }
 
-    fn split<G: Ground>(&mut self, ground: &G, places: &mut [u32], node: usize, axis: usize) {
-        let (lines, middle) = (self.lines.len(), places.len() / 2);
-        if node >= lines * LEAVES {
-            if let Some(&place) = places.get(middle) {
-                let leaf = node - lines * LEAVES;
-                self.lines[leaf / LEAVES].hints[leaf % LEAVES] = ground.mesh().incident[place as usize];
-            }
+    /// The number of lines on the levels above one.
+    fn above(&self, level: u32) -> usize {
+        match level {
+            0 => 0,
+            _ => 1 + ((1 << (DEPTH * (level - 1))) - 1) / (LEAVES - 1) * (1 << self.root),
+        }
+    }
+
+    /// The node below another one.
+    fn child(&self, node: Node, high: bool, dimensions: usize) -> Node {
+        let axis = if node.axis + 1 == dimensions { 0 } else { node.axis + 1 };
+        let inner = 2 * node.inner + usize::from(high);
+        let width = if node.level == 0 && self.height > 0 { 1 << self.root } else { LEAVES };
+        if inner < width {
+            Node { inner, axis, ..node }
+        } else {
+            Node { level: node.level + 1, line: node.line * width + inner - width, inner: 1, axis }
+        }
+    }
+
+    fn split<G: Ground>(&mut self, ground: &G, places: &mut [u32], node: Node) {
+        let middle = places.len() / 2;
+        let Some(&at_middle) = places.get(middle) else { return };
+        if node.level > self.height {
+            // Below the lowest lines: the line is the number of the leaf.
+            self.lowest[node.line / LEAVES].hints[node.line % LEAVES] =
+                ground.mesh().incident[at_middle as usize];
             return;
         }
-        let coordinate = |p: u32| G::coordinate(ground.point(Place::new(p as usize)), axis);
-        if middle > 0 {
-            places.select_nth_unstable_by(middle, |&i, &j| coordinate(i).total_cmp(&coordinate(j)));
-            let value = coordinate(places[middle]);
-            if node < lines {
-                self.splits[node] = value;
-            } else {
-                let depth = (node / lines).ilog2();
-                let (line, inner) = ((node >> depth) - lines, node & ((1 << depth) - 1) | 1 << depth);
-                self.lines[line].splits[inner - 1] = value as f32;
-            }
+        let coordinate = |p: u32| G::coordinate(ground.point(Place::new(p as usize)), node.axis);
+        places.select_nth_unstable_by(middle, |&i, &j| coordinate(i).total_cmp(&coordinate(j)));
+        let value = coordinate(places[middle]);
+        if node.level == self.height {
+            self.lowest[node.line].splits[node.inner - 1] = value as f32;
+        } else {
+            let line = self.above(node.level) + node.line;
+            self.upper[line].splits[node.inner - 1] = value;
         }
         let (low, high) = places.split_at_mut(middle);
-        let axis = (axis + 1) % G::DIMENSIONS;
-        self.split(ground, low, 2 * node, axis);
-        self.split(ground, high, 2 * node + 1, axis);
+        self.split(ground, low, self.child(node, false, G::DIMENSIONS));
+        self.split(ground, high, self.child(node, true, G::DIMENSIONS));
     }
 
     /// What it takes.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&*self.splits) + size_of_val(&*self.lines)
+        size_of_val(&*self.upper) + size_of_val(&*self.lowest)
     }
 
-    /// The line and the leaf in it that a point belongs to.
+    /// The lowest line and the leaf in it that a point belongs to.
     #[inline]
     fn leaf<G: Ground>(&self, q: G::Point) -> (usize, usize) {
-        let lines = self.lines.len();
-        let (mut node, mut axis) = (1, 0);
         let turn = |axis: usize| if axis + 1 == G::DIMENSIONS { 0 } else { axis + 1 };
-        while node < lines {
-            node = 2 * node + usize::from(G::coordinate(q, axis) >= self.splits[node]);
-            axis = turn(axis);
+        let (mut line, mut first, mut axis) = (0, 0, 0);
+        let (mut depth, mut width) = (self.root, 1);
+        for _ in 0..self.height {
+            let splits = &self.upper[first + line].splits;
+            let mut inner = 1;
+            for _ in 0..depth {
+                inner = 2 * inner + usize::from(G::coordinate(q, axis) >= splits[inner - 1]);
+                axis = turn(axis);
+            }
+            line = (line << depth) + inner - (1 << depth);
+            first += width;
+            width <<= depth;
+            depth = DEPTH;
         }
-        let line = &self.lines[node - lines];
+        let splits = &self.lowest[line].splits;
         let mut inner = 1;
-        while inner < LEAVES {
-            inner = 2 * inner + usize::from(G::coordinate(q, axis) as f32 >= line.splits[inner - 1]);
+        for _ in 0..DEPTH {
+            inner = 2 * inner + usize::from(G::coordinate(q, axis) as f32 >= splits[inner - 1]);
             axis = turn(axis);
         }
-        (node - lines, inner - LEAVES)
+        (line, inner - LEAVES)
     }
 }
 
 impl<G: Ground> Strategy<G> for Tree {
     #[inline]
     fn start<T: Tally>(&self, ground: &G, q: G::Point, _: &mut T) -> Start {
-        if self.lines.is_empty() {
+        if self.lowest.is_empty() {
             return Start::Anywhere;
         }
         let mesh = ground.mesh();
         let alive = |hint: &EdgeId| *hint != EdgeId::NONE && mesh.is_triangle(hint.triangle());
         let (line, leaf) = self.leaf::<G>(q);
-        let hint = self.lines[line].hints[leaf];
+        let hint = self.lowest[line].hints[leaf];
         ground.fetch(hint);
         if alive(&hint) {
             return Start::Edge(hint, Walk::Visibility);
         }
         // After removals a hint may point at nothing; one near it will do.
         let lines = [line, line ^ 1, line ^ 2, line ^ 3];
-        let mut near = lines.into_iter().filter_map(|line| self.lines.get(line)).flat_map(|line| line.hints);
+        let mut near = lines.into_iter().filter_map(|line| self.lowest.get(line)).flat_map(|line| line.hints);
         near.find(alive).map_or(Start::Anywhere, |hint| Start::Edge(hint, Walk::Visibility))
     }
 
     #[inline]
     fn inserted(&mut self, ground: &G, v: Place) {
-        if !self.lines.is_empty() {
+        if !self.lowest.is_empty() {
             let (line, leaf) = self.leaf::<G>(ground.point(v));
-            self.lines[line].hints[leaf] = ground.mesh().incident[v.index()];
+            self.lowest[line].hints[leaf] = ground.mesh().incident[v.index()];
         }
     }
 

@@ -41,7 +41,8 @@ impl Slots {
         match self.words.get(word) {
             Some(&bits) if bits != 0 => {
                 // The nearest set bit on either side.
-                let (above, below) = ((bits >> bit).trailing_zeros() as usize, (bits << (63 - bit)).leading_zeros() as usize);
+                let (above, below) =
+                    ((bits >> bit).trailing_zeros() as usize, (bits << (63 - bit)).leading_zeros() as usize);
                 Some(self.take(word, if above <= below { bit + above } else { bit - below }))
             }
             _ => self.take_beside(word),

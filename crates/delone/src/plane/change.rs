@@ -169,9 +169,11 @@ impl Delaunay2 {
         for &i in order {
             let (q, v) = (points[i as usize], VertexId::new(first + i as usize));
             let (spot, steps) = match last.and_then(|v| self.base.mesh.place(v)) {
-                Some(place) if !by_strategy && self.base.spanned => {
-                    self.base.spot(Start::Edge(self.base.mesh.incident[place.index()], Walk::Visibility), q, tally)
-                }
+                Some(place) if !by_strategy && self.base.spanned => self.base.spot(
+                    Start::Edge(self.base.mesh.incident[place.index()], Walk::Visibility),
+                    q,
+                    tally,
+                ),
                 _ => self.spot(q, tally),
             };
             if let Spot::Vertex(place) = spot {

@@ -84,7 +84,8 @@ impl Flips {
         let from = |k: usize| [0, 1, 2].map(|i| corners[(k + i) % 3]);
         let dummies = corners.iter().filter(|p| is_dummy(**p)).count();
         match dummies {
-            0 => in_circle(self.point(corners[0]), self.point(corners[1]), self.point(corners[2]), q).is_positive(),
+            0 => in_circle(self.point(corners[0]), self.point(corners[1]), self.point(corners[2]), q)
+                .is_positive(),
             1 => {
                 let [_, u, v] = from(corners.iter().position(|p| is_dummy(*p)).unwrap_or(0));
                 let (u, v) = (self.point(u), self.point(v));

@@ -7,9 +7,9 @@ use delone_predicates::orient2d;
 use super::layer::Layer;
 use super::line::{self, OnLine};
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::Start;
 use crate::locate::tally::Tally;
 use crate::locate::walk::walk;
-use crate::locate::Start;
 use crate::mesh::Dimension;
 
 /// Where a point falls, as insertion sees it.

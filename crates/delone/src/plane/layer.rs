@@ -39,7 +39,14 @@ impl Layer {
     /// A mesh built in bulk, its vertices at the places of their indices.
     pub(super) fn new(mesh: Mesh, points: Vec<[f64; 2]>) -> Self {
         let spanned = mesh.dimension() == Dimension::Plane;
-        Self { mesh, points, free: Slots::default(), cavity: Cavity::default(), hole: Hole::default(), spanned }
+        Self {
+            mesh,
+            points,
+            free: Slots::default(),
+            cavity: Cavity::default(),
+            hole: Hole::default(),
+            spanned,
+        }
     }
 
     /// What it takes, buffers not counted.
@@ -67,9 +74,7 @@ impl Layer {
     /// Asks memory for the neighbourhood of a place all at once, where the layout is that of `rebuild`: what
     /// follows would ask for it piece by piece, and wait each time.
     #[inline]
-    pub(super) fn fetch_around(&self, place: usize) {
-        const TRIANGLES: usize = 8;
-        const POINTS: usize = 5;
+    pub(super) fn fetch_around<const TRIANGLES: usize, const POINTS: usize>(&self, place: usize) {
         let first = (8 * place).wrapping_sub(8 * TRIANGLES);
         let mut read = 0;
         for k in 0..=2 * TRIANGLES {
@@ -78,6 +83,10 @@ impl Layer {
         let first = place.wrapping_sub(4 * POINTS);
         for k in 0..=2 * POINTS {
             read ^= self.points.get(first.wrapping_add(4 * k)).map_or(0, |p| p[0].to_bits());
+        }
+        for k in 0..3 {
+            let at = place.wrapping_sub(16).wrapping_add(16 * k);
+            read ^= self.mesh.incident.get(at).map_or(0, |e| e.index() as u64);
         }
         std::hint::black_box(read);
     }
@@ -132,7 +141,7 @@ impl Ground for Layer {
 
     #[inline]
     fn fetch(&self, e: EdgeId) {
-        self.fetch_around(e.triangle().index() / 2);
+        self.fetch_around::<6, 3>(e.triangle().index() / 2);
     }
 
     #[inline]

@@ -91,7 +91,6 @@ impl Versions {
     fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
         self.history.trace(|t| self.flips.holds(t, q), tally)
     }
-
 }
 
 /// What a strategy of location keeps.
@@ -121,9 +120,8 @@ impl Delaunay2 {
             }
             Locator::Versions(versions) => {
                 footprint.versions = versions.flips.edges.len() / 4;
-                footprint.strategy = 32 * footprint.versions
-                    + 24 * versions.flips.points.len()
-                    + versions.history.bytes();
+                footprint.strategy =
+                    32 * footprint.versions + 24 * versions.flips.points.len() + versions.history.bytes();
             }
         }
         footprint

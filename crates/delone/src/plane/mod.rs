@@ -170,9 +170,8 @@ impl Delaunay2 {
     /// The points that equal an earlier one which is a vertex, by increasing index.
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         let points = self.points();
-        let valid = |d: &&Duplicate| {
-            self.mesh().contains(d.vertex) && points[d.point] == points[d.vertex.index()]
-        };
+        let valid =
+            |d: &&Duplicate| self.mesh().contains(d.vertex) && points[d.point] == points[d.vertex.index()];
         self.duplicates.iter().filter(move |d| self.named.is_none() || valid(d)).copied()
     }
 

@@ -51,7 +51,7 @@ impl Layer {
     }
 
     fn remove_from_plane<T: Tally>(&mut self, v: Place, tally: &mut T) {
-        self.fetch_around(v.index());
+        self.fetch_around::<4, 2>(v.index());
         let mut hole = std::mem::take(&mut self.hole);
         hole.dig(&self.mesh, v);
         let degree = hole.border.len();
@@ -65,7 +65,7 @@ impl Layer {
             self.mesh.free = crate::mesh::Slots::default();
             self.mesh.ghost_edge = EdgeId::NONE;
             line::build(&mut self.mesh, chain);
-                self.spanned = false;
+            self.spanned = false;
         } else {
             tally.created(degree - 2);
             if degree <= SMALL {
@@ -126,11 +126,12 @@ impl Hole {
     /// Fills the hole side by side. The apex of a side is the vertex whose circle with it contains no other: a
     /// linear search, because the circles through two points are ordered.
     fn fill<T: Tally>(&mut self, mesh: &mut Mesh, tally: &mut T) {
-        let last = self.border.len() - 1;
-        self.pending.push((0, last, self.border[last].1));
+        let end = self.border.len() - 1;
+        self.pending.push((0, end, self.border[end].1));
         while let Some((first, last, outside)) = self.pending.pop() {
             if last == first + 1 {
                 mesh.link(outside, self.border[first].1);
+                mesh.remember(outside);
                 continue;
             }
             let k = self.apex(first, last, tally);
@@ -138,9 +139,9 @@ impl Hole {
             let [a, b, c] = [last, first, k].map(|i| self.border[i].0);
             mesh.set_corners(t, [a, b, c]);
             mesh.link(t.edge(0), outside);
-            mesh.remember(t.edge(0));
-            mesh.remember(t.edge(1));
-            mesh.remember(t.edge(2));
+            if last == end && first == 0 {
+                mesh.remember(t.edge(0));
+            }
             self.pending.push((first, k, t.edge(1)));
             self.pending.push((k, last, t.edge(2)));
         }

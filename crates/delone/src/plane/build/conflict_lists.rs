@@ -51,7 +51,8 @@ pub(super) fn triangulate(points: &[[f64; 2]], seed: u64) -> (Mesh, Vec<Duplicat
     let mut mesh = Mesh::empty(points.len());
     mesh.vertex_count = vertices.len();
     if !close(&flips, &mut mesh, place) {
-        let mut chain: Vec<Place> = vertices.iter().map(|&i| Place::new(index[i as usize] as usize)).collect();
+        let mut chain: Vec<Place> =
+            vertices.iter().map(|&i| Place::new(index[i as usize] as usize)).collect();
         chain.sort_unstable_by(|a, b| lexicographic(points[a.index()], points[b.index()]));
         line::build(&mut mesh, chain);
     }

@@ -8,7 +8,7 @@ use delone_predicates::{Filter, Member, Pencil, Sign};
 
 use super::divide_and_conquer::Builder;
 use super::merge::Part;
-use crate::ids::{TriangleId, Place};
+use crate::ids::{Place, TriangleId};
 use crate::mesh::HalfEdge;
 
 /// What became of a few points.
@@ -197,11 +197,7 @@ impl Builder<'_> {
 /// The vertex that plays a corner of a template.
 #[inline]
 fn vertex(start: usize, corners: &[u8], corner: u8) -> Place {
-    if corner == G {
-        Place::GHOST
-    } else {
-        Place::new(start + usize::from(corners[usize::from(corner)]))
-    }
+    if corner == G { Place::GHOST } else { Place::new(start + usize::from(corners[usize::from(corner)])) }
 }
 
 #[cfg(test)]

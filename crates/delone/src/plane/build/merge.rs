@@ -20,7 +20,7 @@
 use delone_predicates::{Filter, Member, Pencil};
 
 use super::divide_and_conquer::Builder;
-use crate::ids::{TriangleId, Place};
+use crate::ids::{Place, TriangleId};
 
 /// A triangulated run of positions, with the strict corners of its hull from which merges start.
 #[derive(Clone, Copy, Debug)]
@@ -69,14 +69,7 @@ impl Builder<'_> {
 
     /// The common tangent below both parts, closest to the gap: from the facing corners downwards, each side
     /// in turn as long as its next vertex is strictly below.
-    fn lower_tangent(
-        &self,
-        l: Place,
-        r: Place,
-        l_single: bool,
-        r_single: bool,
-        filter: &Filter,
-    ) -> Base {
+    fn lower_tangent(&self, l: Place, r: Place, l_single: bool, r_single: bool, filter: &Filter) -> Base {
         let entering_l =
             if l_single { TriangleId::new(0) } else { self.previous_ghost(self.leaving[l.index()]) };
         let mut base = Base { l, r, entering_l, leaving_r: self.leaving[r.index()] };

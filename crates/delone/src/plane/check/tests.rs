@@ -25,7 +25,8 @@ fn flaw(corrupt: impl FnOnce(&mut Delaunay2)) -> Flaw {
 fn flippable(d: &Delaunay2) -> EdgeId {
     let convex = |&e: &EdgeId| {
         let f = d.base.mesh.twin(e);
-        let corners = [d.base.mesh.origin(e), d.base.mesh.apex(f), d.base.mesh.destination(e), d.base.mesh.apex(e)];
+        let corners =
+            [d.base.mesh.origin(e), d.base.mesh.apex(f), d.base.mesh.destination(e), d.base.mesh.apex(e)];
         !corners.contains(&VertexId::GHOST) && {
             let p = corners.map(|v| d.base.points[v.index()]);
             (0..4).all(|i| delone_predicates::orient2d(p[i], p[(i + 1) % 4], p[(i + 2) % 4]).is_positive())
