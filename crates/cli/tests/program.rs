@@ -379,3 +379,130 @@ fn help_shows_examples() {
     }
     assert!(place.succeed("--version").starts_with("delone "));
 }
+
+/// The rows of a csv of integers.
+fn rows(text: &str) -> Vec<Vec<i64>> {
+    text.lines().map(|line| line.split(',').map(|x| x.parse().expect("an integer")).collect()).collect()
+}
+
+#[test]
+fn strategies_of_location_give_the_same_answers() {
+    let place = Place::new();
+    place.file("points.csv", "0,0\n4,0\n0,4\n4,4\n2,2\n");
+    place.file("queries.csv", "1,0.5\n2,2\n1,1\n9,9\n2,0\n");
+    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history"] {
+        let found = rows(
+            &place
+                .succeed(&format!("locate points.csv --queries queries.csv -o - --to csv --locate {locate}")),
+        );
+        assert_eq!(found[0], [0, 1, 4], "{locate}");
+        assert!(found[1].contains(&4) && found[2].contains(&0) && found[2].contains(&4), "{locate}");
+        assert_eq!(found[3], [-1; 3], "{locate}");
+        assert_eq!(found[4], [0, 1, 4], "{locate}");
+        let nearest = place.succeed(&format!(
+            "nearest points.csv --queries queries.csv -k 2 -o - --to csv --locate {locate}"
+        ));
+        assert_eq!(nearest, "0,4\n4,0\n0,4\n3,4\n0,4\n", "{locate}");
+    }
+    place.succeed("nearest points.csv --queries queries.csv -k 7 -o n.npy --stats s.json");
+    let bytes = std::fs::read(place.path("n.npy")).expect("written");
+    assert!(text(&bytes).contains("'descr': '<i8'") && text(&bytes).contains("(5, 7)"));
+    let stats = std::fs::read_to_string(place.path("s.json")).expect("written");
+    assert!(stats.contains("\"queries\": 5") && stats.contains("\"visited\""));
+}
+
+#[test]
+fn every_way_to_build_writes_the_same_triangles() {
+    let place = Place::new();
+    place.succeed("generate duplicates -n 500 --seed 3 -o p.npy");
+    place.succeed("triangulate p.npy -o expected.npy");
+    let sorted = |name: &str| {
+        let bytes = std::fs::read(place.path(name)).expect("written");
+        let start = bytes.iter().position(|&b| b == b'\n').expect("a header") + 1;
+        let numbers: Vec<i64> =
+            bytes[start..].as_chunks().0.iter().map(|chunk| i64::from_le_bytes(*chunk)).collect();
+        let mut triangles: Vec<[i64; 3]> = numbers.as_chunks().0.to_vec();
+        for t in &mut triangles {
+            let least = (0..3).min_by_key(|&k| t[k]).expect("three corners");
+            t.rotate_left(least);
+        }
+        triangles.sort_unstable();
+        triangles
+    };
+    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history", "conflict", "spatial"] {
+        place.succeed(&format!(
+            "triangulate p.npy -o other.npy --algorithm incremental --locate {locate} --check"
+        ));
+        assert_eq!(sorted("other.npy"), sorted("expected.npy"), "{locate}");
+    }
+}
+
+#[test]
+fn operations_are_replayed() {
+    let place = Place::new();
+    let operations =
+        "# a square\n+ 0 0\n+ 4 0\n+ 0 4\n+ 4 4\n? 1 1\n+ 4 0\n> 3 5 5\n@ 9 9\n? 9 0\n? 2 0\n- 0\n? 0 0\n";
+    place.file("ops.txt", operations);
+    for locate in ["tree", "walk", "jump-and-walk", "hierarchy"] {
+        let answers = place.succeed(&format!("replay ops.txt -o t.npy -o t.svg --check --locate {locate}"));
+        let lines: Vec<_> = answers.lines().collect();
+        assert_eq!(lines[..4], ["+ 0", "+ 1", "+ 2", "+ 3"], "{locate}");
+        assert!(lines[4].starts_with("? triangle 0 1"), "{locate}: {}", lines[4]);
+        assert_eq!(lines[5..], ["= 1", "@ 3", "? outside 1 3", "? edge 0 1", "? outside 2 1"], "{locate}");
+    }
+    assert_eq!(place.succeed("replay ops.txt -o - --to ele --quiet").matches("\n1").count(), 1);
+    place.file("bad.txt", "+ 0 0\n- 0\n- 0\n");
+    place.fail("replay bad.txt -o t2.npy", 1, "line 3: 0 is no vertex");
+    place.file("bad.txt", "+ 0 0\n+ 1\n");
+    place.fail("replay bad.txt -o t2.npy", 1, "line 2: + takes another number of values than 1");
+    place.file("bad.txt", "+ 0 inf\n");
+    place.fail("replay bad.txt -o t2.npy", 1, "line 1: the y coordinate inf is not finite");
+    place.file("bad.txt", "insert 0 0\n");
+    place.fail("replay bad.txt -o t2.npy", 1, "line 1: \"insert\" is no operation");
+    place.file("bad.txt", "+ 0 0\n- 0\n");
+    place.fail("replay bad.txt -o t2.npy --locate history", 1, "cannot lose vertices");
+    place.fail("replay bad.txt -o t2.npy --locate spatial", 2, "building in bulk");
+    place.file("bad.txt", [0xff, 0xfe, 0x00]);
+    place.fail("replay bad.txt -o t2.npy", 1, "is not text");
+    place.fail("replay nothing.txt -o t2.npy", 1, "nothing.txt");
+}
+
+#[test]
+fn wrong_queries_are_named() {
+    let place = Place::new();
+    place.file("points.csv", "0,0\n4,0\n0,4\n");
+    place.file("bad.csv", "1,1\nnan,2\n");
+    place.fail("locate points.csv --queries bad.csv -o t.npy", 1, "query 1: the x coordinate NaN");
+    place.fail("nearest points.csv --queries bad.csv -o t.npy -k 3", 1, "query 1: the x coordinate NaN");
+    place.fail("locate points.csv --queries none.csv -o t.npy", 1, "none.csv");
+    place.fail("locate points.csv --queries points.csv -o t.png", 2, "npy or csv");
+    place.fail("locate points.csv --queries points.csv -o points.csv", 2, "overwrite");
+    place.fail("nearest points.csv --queries points.csv -o t.npy -k 0", 2, "0");
+    place.fail("nearest points.csv --queries points.csv -o t.npy --locate conflict", 2, "building in bulk");
+    place.file("empty.csv", "");
+    assert_eq!(
+        place.succeed("locate empty.csv --queries points.csv -o - --to csv -q"),
+        "-1,-1,-1\n".repeat(3)
+    );
+    assert_eq!(place.succeed("nearest empty.csv --queries points.csv -o - --to csv -q"), "-1\n".repeat(3));
+    assert_eq!(place.succeed("locate points.csv --queries empty.csv -o - --to csv -q"), "");
+}
+
+#[test]
+fn experiments_leave_tables_and_plots() {
+    let place = Place::new();
+    let table = place.succeed("experiment jump-and-walk --largest 3000 -o out --stats s.json");
+    assert!(table.contains("about 36"));
+    let table = place.succeed("experiment history --largest 300 -o out");
+    assert!(table.contains("6/((k+1)(k+2)(k+3))"));
+    let table = place.succeed("experiment hierarchy --largest 5000 -o out");
+    assert!(table.contains("parabola  5000"));
+    for name in ["jump-and-walk-sample", "history-growth", "hierarchy-random"] {
+        let svg = std::fs::read_to_string(place.path(&format!("out/{name}.svg"))).expect("a plot");
+        assert!(svg.starts_with("<svg") && svg.matches("<polyline").count() > 1, "{name}");
+    }
+    let csv = std::fs::read_to_string(place.path("out/hierarchy-seconds.csv")).expect("a table");
+    assert_eq!(csv.lines().count(), 6);
+    place.fail("experiment nothing", 2, "nothing");
+    place.fail("experiment history --largest 3", 2, "--largest");
+}

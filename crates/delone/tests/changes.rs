@@ -252,8 +252,9 @@ fn down_through_the_dimensions_and_up_again() {
             assert_eq!(d.check(), Ok(()));
             seen.push(d.dimension());
         }
-        use Dimension::{Empty, Line, Plane, Point};
-        assert_eq!(seen, [Plane, Line, Line, Point, Empty]);
+        let [empty, point, line, plane] =
+            [Dimension::Empty, Dimension::Point, Dimension::Line, Dimension::Plane];
+        assert_eq!(seen, [plane, line, line, point, empty]);
     }
 }
 

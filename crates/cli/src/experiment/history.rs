@@ -65,7 +65,7 @@ fn scopes(seed: u64, findings: &mut Findings) -> Result<(), Error> {
     }
     let mut count = vec![0_usize; SMALL - 2];
     scope_of.values().for_each(|&k| count[k] += 1);
-    let mut appeared = vec![0_u64; SMALL - 2];
+    let mut appeared = [0_u64; SMALL - 2];
     let mut edges = 0_u64;
     let mut random = Random::new(seed);
     let mut order: Vec<usize> = (0..SMALL).collect();

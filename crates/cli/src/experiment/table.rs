@@ -46,7 +46,7 @@ impl fmt::Display for Table {
 /// A number with three significant digits.
 pub(super) fn short(value: f64) -> String {
     match value.abs() {
-        x if x == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         x if x >= 100.0 => format!("{value:.0}"),
         x if x >= 10.0 => format!("{value:.1}"),
         x if x >= 1.0 => format!("{value:.2}"),

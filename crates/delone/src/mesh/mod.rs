@@ -256,13 +256,11 @@ impl Mesh {
 
     /// A triangle to be filled in, near another one in memory.
     pub(crate) fn new_triangle(&mut self, near: TriangleId) -> TriangleId {
-        match self.free.take_near(near.index()) {
-            Some(slot) => TriangleId::new(slot),
-            None => {
-                self.edges.extend([HalfEdge::UNUSED; 4]);
-                TriangleId::new(self.slot_count() - 1)
-            }
+        if let Some(slot) = self.free.take_near(near.index()) {
+            return TriangleId::new(slot);
         }
+        self.edges.extend([HalfEdge::UNUSED; 4]);
+        TriangleId::new(self.slot_count() - 1)
     }
 
     /// Gives a triangle back.

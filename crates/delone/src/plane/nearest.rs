@@ -158,9 +158,8 @@ impl Delaunay2 {
         let better = |a: Place, b: Place| if nearer(q, point(b), point(a)).is_lt() { b } else { a };
         let mut best = match self.spot(q, tally).0 {
             Spot::Empty => return None,
-            Spot::Vertex(v) => return Some(v),
+            Spot::Vertex(v) | Spot::End(v) => return Some(v),
             Spot::BesidePoint => return mesh.lone,
-            Spot::End(v) => return Some(v),
             Spot::Segment(e) => better(mesh.tail(e), mesh.head(e)),
             Spot::Triangle(t) | Spot::BesideLine(t) => {
                 mesh.places(t).into_iter().filter(|v| !v.is_ghost()).reduce(better)?

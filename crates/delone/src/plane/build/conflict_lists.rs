@@ -64,12 +64,12 @@ fn close(flips: &Flips, mesh: &mut Mesh, place: impl Fn(Place) -> Place) -> bool
     let count = flips.edges.len() / 4;
     let corners = |t: usize| flips.corners(TriangleId::new(t)).map(&place);
     let mut image = vec![None; count];
-    for t in 0..count {
+    for (t, image) in image.iter_mut().enumerate() {
         let corners = corners(t);
         if !corners.contains(&Place::GHOST) {
             let new = mesh.new_triangle(TriangleId::new(0));
             mesh.set_corners(new, corners);
-            image[t] = Some(new);
+            *image = Some(new);
         }
     }
     // For each vertex of the hull the ghost of the hull edge that leaves it.
