@@ -31,7 +31,7 @@ const PAPER: [(Kind, &str, [[f64; 4]; 3]); 5] = [
 ];
 
 /// A mode that is expected to take longer is not run, and called long as in the paper.
-const PATIENCE: f64 = 30.0;
+const PATIENCE: f64 = 60.0;
 
 fn ways() -> [(&'static str, Algorithm); 8] {
     let located = |locate| Algorithm::Located { locate, seed: 1 };

@@ -57,7 +57,7 @@ pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
     );
     let mut d = set(n, None)?;
     let (mut walks, mut totals) = (Vec::new(), Vec::new());
-    for power in 0..=24 {
+    for power in (0..=24).filter(|power| *power != 1) {
         let m = 2f64.powf(f64::from(power) / 2.0).round() as usize;
         if m > n {
             break;

@@ -2,6 +2,18 @@
 
 use plotters::prelude::*;
 
+/// Told apart by everyone, also in grey (Okabe and Ito's palette).
+const COLOURS: [RGBColor; 8] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(90, 90, 90),
+    RGBColor(0, 0, 0),
+];
+
 /// Curves through measured values.
 pub(super) struct Plot {
     /// The name of its file.
@@ -53,11 +65,13 @@ impl Plot {
             .configure_mesh()
             .x_desc(&self.axes[0])
             .y_desc(&self.axes[1])
+            .x_label_formatter(&label)
+            .y_label_formatter(&label)
             .light_line_style(WHITE)
             .label_style(("sans-serif", 14))
             .draw()?;
         for (i, (name, points)) in self.curves.iter().enumerate() {
-            let colour = Palette99::pick(i).to_rgba();
+            let colour = COLOURS[i % COLOURS.len()];
             chart
                 .draw_series(LineSeries::new(points.iter().copied(), colour.stroke_width(2)).point_size(3))?
                 .label(name)
@@ -74,4 +88,9 @@ impl Plot {
         area.present()?;
         Ok(())
     }
+}
+
+/// A number on an axis, without a trailing zero.
+fn label(value: &f64) -> String {
+    format!("{value}")
 }
