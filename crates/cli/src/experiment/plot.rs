@@ -65,8 +65,8 @@ impl Plot {
             .configure_mesh()
             .x_desc(&self.axes[0])
             .y_desc(&self.axes[1])
-            .x_label_formatter(&label)
-            .y_label_formatter(&label)
+            .x_label_formatter(&|x| format!("{x}"))
+            .y_label_formatter(&|y| format!("{y}"))
             .light_line_style(WHITE)
             .label_style(("sans-serif", 14))
             .draw()?;
@@ -88,9 +88,4 @@ impl Plot {
         area.present()?;
         Ok(())
     }
-}
-
-/// A number on an axis, without a trailing zero.
-fn label(value: &f64) -> String {
-    format!("{value}")
 }
