@@ -10,7 +10,7 @@
 use std::cmp::Ordering;
 
 use super::tally::Tally;
-use super::{Ground, Start, Strategy, Walk};
+use super::{Ground, Start, Strategy};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
 use crate::order::random::SplitMix;
@@ -89,42 +89,4 @@ impl<G: Ground> Strategy<G> for JumpAndWalk {
     fn removing(&mut self, _: &G, _: Place) {}
 
     fn rearranged(&mut self, _: &G, _: &[Place]) {}
-}
-
-/// A walk from the vertex inserted last.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct FromLast {
-    pub(crate) walk: Walk,
-    last: Option<Place>,
-}
-
-impl FromLast {
-    pub(crate) fn new(walk: Walk) -> Self {
-        Self { walk, last: None }
-    }
-}
-
-impl<G: Ground> Strategy<G> for FromLast {
-    fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start {
-        let mesh = ground.mesh();
-        match self.last.map(|v| mesh.incident[v.index()]) {
-            Some(e) if e != EdgeId::NONE => Start::Edge(e, self.walk),
-            _ => Start::Anywhere,
-        }
-    }
-
-    fn inserted(&mut self, _: &G, v: Place) {
-        self.last = Some(v);
-    }
-
-    fn removing(&mut self, ground: &G, v: Place) {
-        if self.last == Some(v) {
-            let mesh = ground.mesh();
-            self.last = mesh.spokes(v).map(|e| mesh.head(e)).find(|w| !w.is_ghost());
-        }
-    }
-
-    fn rearranged(&mut self, _: &G, moved: &[Place]) {
-        self.last = self.last.and_then(|v| moved.get(v.index()).copied());
-    }
 }

@@ -9,12 +9,13 @@
 //! - The *straight* walk visits the triangles on the segment from a vertex to the goal.
 //!
 //! Cost: O(sqrt n) triangles on evenly spread points, O(n) at worst; from a near start, O(1). One or two
-//! orientation tests a triangle.
+//! orientation tests a triangle. Choose a walk alone when every query is near the one before, or near the vertex
+//! inserted last; it takes no memory.
 
 use std::cmp::Ordering;
 
 use super::tally::Tally;
-use super::{Ground, Start};
+use super::{Ground, Start, Strategy};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::Mesh;
 use crate::order::random::SplitMix;
@@ -163,5 +164,43 @@ fn straight<G: Ground, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut 
         tally.orientation();
         let is_left = ground.side(from, q, tip) == Ordering::Greater;
         side = if is_left { entered.next() } else { entered.previous() };
+    }
+}
+
+/// The strategy without a structure: a walk from the vertex inserted last.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FromLast {
+    pub(crate) walk: Walk,
+    last: Option<Place>,
+}
+
+impl FromLast {
+    pub(crate) fn new(walk: Walk) -> Self {
+        Self { walk, last: None }
+    }
+}
+
+impl<G: Ground> Strategy<G> for FromLast {
+    fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start {
+        let mesh = ground.mesh();
+        match self.last.map(|v| mesh.incident[v.index()]) {
+            Some(e) if e != EdgeId::NONE => Start::Edge(e, self.walk),
+            _ => Start::Anywhere,
+        }
+    }
+
+    fn inserted(&mut self, _: &G, v: Place) {
+        self.last = Some(v);
+    }
+
+    fn removing(&mut self, ground: &G, v: Place) {
+        if self.last == Some(v) {
+            let mesh = ground.mesh();
+            self.last = mesh.spokes(v).map(|e| mesh.head(e)).find(|w| !w.is_ghost());
+        }
+    }
+
+    fn rearranged(&mut self, _: &G, moved: &[Place]) {
+        self.last = self.last.and_then(|v| moved.get(v.index()).copied());
     }
 }

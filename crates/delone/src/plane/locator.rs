@@ -6,10 +6,10 @@ use super::layer::Layer;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::hierarchy::Levels;
 use crate::locate::history::History;
-use crate::locate::jump_and_walk::{FromLast, JumpAndWalk};
 use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
-use crate::locate::{Ground, Locate, Start, Strategy, Walk};
+use crate::locate::walk::FromLast;
+use crate::locate::{Ground, JumpAndWalk, Locate, Start, Strategy, Walk};
 use crate::order::random::SplitMix;
 
 /// The structure behind a [`Locate`].
