@@ -23,30 +23,24 @@ pub(super) struct Cavity {
     pending: Vec<EdgeId>,
 }
 
-/// A corner of a triangle with its point; that of the ghost means nothing.
-pub(super) type Corner = (Place, [f64; 2]);
-
 /// Whether the circle of a triangle contains `q`. That of a ghost is the half-plane beyond its hull edge, with
-/// the inside of the edge.
+/// the inside of the edge. `point` gives the point of each corner that is not the ghost.
 #[inline]
-pub(super) fn conflicts([a, b, c]: [Corner; 3], q: [f64; 2]) -> bool {
-    let (v, u) = match [a.0, b.0, c.0] {
-        [Place::GHOST, _, _] => (b.1, c.1),
-        [_, Place::GHOST, _] => (c.1, a.1),
-        [_, _, Place::GHOST] => (a.1, b.1),
-        _ => return in_circle(a.1, b.1, c.1, q).is_positive(),
-    };
-    match orient2d(v, u, q) {
+pub(super) fn conflicts(corners: [Place; 3], point: impl Fn(usize) -> [f64; 2], q: [f64; 2]) -> bool {
+    let beyond = |v: [f64; 2], u: [f64; 2]| match orient2d(v, u, q) {
         Sign::Positive => true,
         Sign::Zero => strictly_between(u, v, q),
         Sign::Negative => false,
+    };
+    if corners[0].is_ghost() {
+        beyond(point(1), point(2))
+    } else if corners[1].is_ghost() {
+        beyond(point(2), point(0))
+    } else if corners[2].is_ghost() {
+        beyond(point(0), point(1))
+    } else {
+        in_circle(point(0), point(1), point(2), q).is_positive()
     }
-}
-
-/// The corner at a place.
-#[inline]
-pub(super) fn corner(points: &[[f64; 2]], place: Place) -> Corner {
-    (place, if place.is_ghost() { [0.0; 2] } else { points[place.index()] })
 }
 
 impl Cavity {
@@ -87,7 +81,8 @@ impl Cavity {
                 continue;
             }
             tally.in_circle();
-            if conflicts(mesh.places(t).map(|v| corner(points, v)), q) {
+            let corners = mesh.places(t);
+            if conflicts(corners, |k| points[corners[k].index()], q) {
                 self.enter(mesh, t);
                 self.pending.extend([outside.previous(), outside.next()].map(|e| mesh.twin(e)));
             } else {

@@ -12,7 +12,7 @@
 use delone_predicates::orient2d;
 
 use super::build;
-use super::cavity::{Corner, conflicts, corner};
+use super::cavity::conflicts;
 use super::layer::Layer;
 use super::line;
 use crate::ids::{EdgeId, Place, TriangleId};
@@ -27,8 +27,8 @@ const SMALL: usize = 24;
 pub(super) struct Hole {
     /// Where each edge of the border starts, and its twin outside.
     border: Vec<(Place, EdgeId)>,
-    /// The corners at which they start.
-    corners: Vec<Corner>,
+    /// The points where they start; that of the ghost means nothing.
+    points: Vec<[f64; 2]>,
     triangles: Vec<TriangleId>,
     spokes: Vec<EdgeId>,
     /// Parts of the hole still to be filled: first and last vertex of a run of the border, and the edge that
@@ -69,8 +69,9 @@ impl Layer {
         } else {
             tally.created(degree - 2);
             if degree <= SMALL {
-                hole.corners.clear();
-                hole.corners.extend(hole.border.iter().map(|&(v, _)| corner(&self.points, v)));
+                let point = |&(v, _): &(Place, EdgeId)| self.points.get(v.index()).copied().unwrap_or_default();
+                hole.points.clear();
+                hole.points.extend(hole.border.iter().map(point));
                 hole.fill(&mut self.mesh, tally);
             } else {
                 hole.fill_large(&mut self.mesh, &self.points);
@@ -152,25 +153,26 @@ impl Hole {
         if last == first + 2 {
             return first + 1;
         }
-        let (a, b) = (self.corners[last], self.corners[first]);
-        let is_finite = !a.0.is_ghost() && !b.0.is_ghost();
+        let (a, b) = (self.border[last].0, self.border[first].0);
+        let is_finite = !a.is_ghost() && !b.is_ghost();
         let mut best = None;
         let mut ghost = first + 1;
         for k in first + 1..last {
-            let c = self.corners[k];
-            if c.0.is_ghost() {
+            if self.border[k].0.is_ghost() {
                 ghost = k; // where nothing finite is in front of the side
                 continue;
             }
+            let q = self.points[k];
             if is_finite {
                 tally.orientation();
-                if !orient2d(a.1, b.1, c.1).is_positive() {
+                if !orient2d(self.points[last], self.points[first], q).is_positive() {
                     continue;
                 }
             }
             let better = best.is_none_or(|apex: usize| {
                 tally.in_circle();
-                conflicts([a, b, self.corners[apex]], c.1)
+                let at = [last, first, apex];
+                conflicts([a, b, self.border[apex].0], |i| self.points[at[i]], q)
             });
             if better {
                 best = Some(k);
