@@ -36,6 +36,10 @@ impl Inserted {
 
 /// Room of this many places a vertex, beyond which memory is given back by building anew.
 const SLACK: usize = 8;
+/// Up to this number of vertices everything stays in the cache, wherever it is.
+const IN_CACHE: usize = 32_768;
+/// A new layout is made when there are this many times the vertices of the last one.
+const GROWTH: usize = 2;
 /// No layout with room is made above this: its indices would not fit.
 const LARGEST_SPREAD: usize = MAX_POINTS / 4;
 
@@ -258,11 +262,15 @@ impl Delaunay2 {
         }
     }
 
+    /// New hints; and a new layout, if there are many more vertices than at the last one, or much room.
     #[cold]
     fn rearrange(&mut self) {
         let count = self.vertex_count();
+        let sparse = self.base.points.len() > SLACK * count;
+        let grown = count > IN_CACHE && count > GROWTH * self.upkeep.laid_out;
         self.upkeep.renew(count);
-        if count <= LARGEST_SPREAD {
+        if (sparse || grown) && count <= LARGEST_SPREAD {
+            self.upkeep.laid_out = count;
             self.names();
             let moved = self.base.rebuild();
             if let Some(locator) = self.locator.get_mut() {
@@ -274,13 +282,15 @@ impl Delaunay2 {
     }
 }
 
-/// Keeps account of what has happened since memory was last laid out as in the plane.
+/// Keeps account of what has happened since hints were last made.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Upkeep {
     /// The number of vertices then.
     then: usize,
     /// Steps of walks beyond the usual number, and one for each insertion.
     debt: usize,
+    /// The number of vertices when memory was last laid out as in the plane.
+    laid_out: usize,
 }
 
 impl Upkeep {
@@ -290,7 +300,7 @@ impl Upkeep {
     const SMALL: usize = 32;
 
     pub(super) fn renew(&mut self, vertices: usize) {
-        *self = Self { then: vertices, debt: 0 };
+        *self = Self { then: vertices, debt: 0, ..*self };
     }
 
     #[inline]
