@@ -305,19 +305,15 @@ impl Mesh {
         let twice = |e: EdgeId| {
             if e == EdgeId::NONE { e } else { EdgeId::new(2 * (e.index() - e.corner()) + e.corner()) }
         };
-        let mut edges = Vec::with_capacity(2 * self.edges.len());
-        for records in self.edges.chunks_exact(4) {
-            for record in records {
-                let origin = match record.origin {
-                    Place::GHOST => Place::GHOST,
-                    p => Place::new(2 * p.index()),
-                };
-                edges.push(HalfEdge { origin, twin: twice(record.twin) });
+        for record in &mut self.edges {
+            if !record.origin.is_ghost() {
+                record.origin = Place::new(2 * record.origin.index());
             }
-            edges.extend([HalfEdge::UNUSED; 4]);
+            record.twin = twice(record.twin);
         }
-        self.edges = edges;
-        self.incident = self.incident.iter().flat_map(|&e| [twice(e), EdgeId::NONE]).collect();
+        self.incident.iter_mut().for_each(|e| *e = twice(*e));
+        spread(&mut self.edges, 4, HalfEdge::UNUSED);
+        spread(&mut self.incident, 1, EdgeId::NONE);
         self.ghost_edge = twice(self.ghost_edge);
         self.lone = self.lone.map(|p| Place::new(2 * p.index()));
         self.free = Slots::every_other(self.slot_count());
@@ -328,5 +324,18 @@ impl Mesh {
     pub(crate) fn link(&mut self, e: EdgeId, f: EdgeId) {
         self.edges[e.index()].twin = f;
         self.edges[f.index()].twin = e;
+    }
+}
+
+/// Moves items apart in place, `width` at a time, with a filler of the same width after each.
+pub(crate) fn spread<T: Copy>(items: &mut Vec<T>, width: usize, filler: T) {
+    let count = items.len() / width;
+    items.resize(2 * items.len(), filler);
+    for i in (1..count).rev() {
+        items.copy_within(i * width..(i + 1) * width, 2 * i * width);
+        items[(2 * i + 1) * width..][..width].fill(filler);
+    }
+    if count > 0 {
+        items[width..2 * width].fill(filler);
     }
 }

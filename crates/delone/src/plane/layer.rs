@@ -13,7 +13,7 @@ use super::cavity::Cavity;
 use super::remove::Hole;
 use crate::ids::{EdgeId, Place};
 use crate::locate::{Ground, Level, Start};
-use crate::mesh::{Dimension, Mesh, Slots};
+use crate::mesh::{Dimension, Mesh, Slots, spread};
 
 /// See the module.
 #[derive(Clone, Debug)]
@@ -99,6 +99,7 @@ impl Layer {
         let old: Vec<Place> = self.mesh.inhabited().collect();
         let living: Vec<[f64; 2]> = old.iter().map(|p| self.points[p.index()]).collect();
         let (mut mesh, ordered, indices) = build::in_order(&living);
+        drop(living);
         let mut moved = vec![Place::GHOST; self.points.len()];
         for (position, &index) in indices.iter().enumerate() {
             moved[old[index as usize].index()] = Place::new(2 * position);
@@ -108,7 +109,8 @@ impl Layer {
         if let Some(names) = &mut mesh.names {
             names.rearrange(2 * ordered.len(), &moved);
         }
-        self.points = ordered.iter().flat_map(|&p| [p, p]).collect();
+        self.points = ordered;
+        spread(&mut self.points, 1, [0.0; 2]);
         self.free = Slots::every_other(self.points.len());
         self.mesh = mesh;
         moved
