@@ -98,7 +98,8 @@ impl Layer {
     pub(super) fn rebuild(&mut self) -> Vec<Place> {
         let old: Vec<Place> = self.mesh.inhabited().collect();
         let living: Vec<[f64; 2]> = old.iter().map(|p| self.points[p.index()]).collect();
-        let (mut mesh, ordered, indices) = build::in_order(&living);
+        let buffer = std::mem::take(&mut self.mesh.edges);
+        let (mut mesh, ordered, indices) = build::in_order(&living, buffer);
         drop(living);
         let mut moved = vec![Place::GHOST; self.points.len()];
         for (position, &index) in indices.iter().enumerate() {
