@@ -288,7 +288,7 @@ impl<L: Level, G: Ground<Point = L::Point>> Strategy<G> for Levels<L> {
         }
     }
 
-    fn inserted(&mut self, ground: &G, v: Place) {
+    fn inserted(&mut self, ground: &G, v: Place, _: Start) {
         self.lift(ground, v);
     }
 

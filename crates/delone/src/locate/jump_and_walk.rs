@@ -84,7 +84,7 @@ impl<G: Ground> Strategy<G> for JumpAndWalk {
         self.jump(ground, q, tally).map_or(Start::Anywhere, Start::Vertex)
     }
 
-    fn inserted(&mut self, _: &G, _: Place) {}
+    fn inserted(&mut self, _: &G, _: Place, _: Start) {}
 
     fn removing(&mut self, _: &G, _: Place) {}
 

@@ -108,6 +108,8 @@ pub(crate) trait Level: Ground + Default {
 pub(crate) enum Start {
     /// At the triangle of this edge, by the walk given.
     Edge(EdgeId, Walk),
+    /// At the triangle of this edge, which a tree has for the goal under this number.
+    Hint(EdgeId, u32),
     /// At this vertex, along the straight line to the goal.
     Vertex(Place),
     /// Anywhere.
@@ -119,8 +121,8 @@ pub(crate) trait Strategy<G: Ground> {
     /// Where to start the walk to `q`.
     fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start;
 
-    /// A vertex has appeared.
-    fn inserted(&mut self, ground: &G, v: Place);
+    /// A vertex has appeared, found from this start.
+    fn inserted(&mut self, ground: &G, v: Place, start: Start);
 
     /// A vertex is about to go.
     fn removing(&mut self, ground: &G, v: Place);

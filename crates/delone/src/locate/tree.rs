@@ -15,7 +15,7 @@
 //! n) amortized over insertions. Removal costs nothing: hints that point at nothing are passed over.
 
 use super::tally::Tally;
-use super::{Ground, Start, Strategy, Walk};
+use super::{Ground, Start, Strategy};
 use crate::ids::{EdgeId, Place};
 
 /// Vertices a leaf, of which one is looked at.
@@ -174,23 +174,28 @@ impl<G: Ground> Strategy<G> for Tree {
         let mesh = ground.mesh();
         let alive = |hint: &EdgeId| *hint != EdgeId::NONE && mesh.is_triangle(hint.triangle());
         let (line, leaf) = self.leaf::<G>(q);
+        let number = (line * LEAVES + leaf) as u32;
         let hint = self.lowest[line].hints[leaf];
         ground.fetch(hint);
         if alive(&hint) {
-            return Start::Edge(hint, Walk::Visibility);
+            return Start::Hint(hint, number);
         }
         // After removals a hint may point at nothing; one near it will do.
         let lines = [line, line ^ 1, line ^ 2, line ^ 3];
         let mut near = lines.into_iter().filter_map(|line| self.lowest.get(line)).flat_map(|line| line.hints);
-        near.find(alive).map_or(Start::Anywhere, |hint| Start::Edge(hint, Walk::Visibility))
+        near.find(alive).map_or(Start::Anywhere, |hint| Start::Hint(hint, number))
     }
 
     #[inline]
-    fn inserted(&mut self, ground: &G, v: Place) {
-        if !self.lowest.is_empty() {
-            let (line, leaf) = self.leaf::<G>(ground.point(v));
-            self.lowest[line].hints[leaf] = ground.mesh().incident[v.index()];
+    fn inserted(&mut self, ground: &G, v: Place, start: Start) {
+        if self.lowest.is_empty() {
+            return;
         }
+        let (line, leaf) = match start {
+            Start::Hint(_, number) => (number as usize / LEAVES, number as usize % LEAVES),
+            _ => self.leaf::<G>(ground.point(v)),
+        };
+        self.lowest[line].hints[leaf] = ground.mesh().incident[v.index()];
     }
 
     fn removing(&mut self, _: &G, _: Place) {}

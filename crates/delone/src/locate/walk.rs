@@ -51,7 +51,7 @@ pub(crate) struct Goal {
 pub(crate) fn walk<G: Ground, T: Tally>(ground: &G, start: Start, q: G::Point, tally: &mut T) -> Goal {
     let mesh = ground.mesh();
     match start {
-        Start::Edge(e, Walk::Visibility) => visibility(ground, e, q, |_| false, tally),
+        Start::Edge(e, Walk::Visibility) | Start::Hint(e, _) => visibility(ground, e, q, |_| false, tally),
         Start::Edge(e, Walk::Stochastic { seed }) => {
             let mut random = SplitMix(seed);
             visibility(ground, e, q, move |_| random.next() & 1 == 1, tally)
@@ -189,7 +189,7 @@ impl<G: Ground> Strategy<G> for FromLast {
         }
     }
 
-    fn inserted(&mut self, _: &G, v: Place) {
+    fn inserted(&mut self, _: &G, v: Place, _: Start) {
         self.last = Some(v);
     }
 

@@ -6,6 +6,7 @@
 //! triangulation of a set, and it costs O(log n) amortized.
 
 use super::insert::Spot;
+use super::locate::Found;
 use super::locator::Locator;
 use super::{Delaunay2, Duplicate, Position2, build, finite};
 use crate::error::Error;
@@ -80,12 +81,12 @@ impl Delaunay2 {
         tally: &mut T,
     ) -> Result<Inserted, Error> {
         let q = finite(&point)?;
-        let (spot, steps) = self.spot(q, tally);
-        if let Spot::Vertex(place) = spot {
+        let found = self.spot(q, tally);
+        if let Spot::Vertex(place) = found.spot {
             return Ok(Inserted::Existing(self.base.mesh.name(place)));
         }
         let v = self.new_names([q].into_iter())?;
-        self.place(v, spot, q, steps, tally);
+        self.place(v, found, q, tally);
         Ok(Inserted::New(v))
     }
 
@@ -124,7 +125,7 @@ impl Delaunay2 {
     pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
         let q = finite(&point)?;
         let old = self.removable(v)?;
-        let (spot, steps) = self.spot(q, &mut ());
+        let Found { spot, steps, start } = self.spot(q, &mut ());
         match spot {
             Spot::Vertex(place) if place == old => {}
             Spot::Vertex(place) => return Err(Error::Occupied { vertex: self.base.mesh.name(place) }),
@@ -134,7 +135,7 @@ impl Delaunay2 {
                 let new = self.base.insert(spot, q, &mut ()).unwrap_or(old);
                 self.base.mesh.names().bind(v, new);
                 if let Some(locator) = self.locator.get_mut() {
-                    locator.inserted(&self.base, new);
+                    locator.inserted(&self.base, new, start);
                 }
                 self.displace(old, &mut ());
                 self.note_walk(steps);
@@ -172,15 +173,15 @@ impl Delaunay2 {
         let mut last: Option<VertexId> = None;
         for &i in order {
             let (q, v) = (points[i as usize], VertexId::new(first + i as usize));
-            let (spot, steps) = match last.and_then(|v| self.base.mesh.place(v)) {
-                Some(place) if !by_strategy && self.base.spanned => self.base.spot(
-                    Start::Edge(self.base.mesh.incident[place.index()], Walk::Visibility),
-                    q,
-                    tally,
-                ),
+            let found = match last.and_then(|v| self.base.mesh.place(v)) {
+                Some(place) if !by_strategy && self.base.spanned => {
+                    let start = Start::Edge(self.base.mesh.incident[place.index()], Walk::Visibility);
+                    let (spot, steps) = self.base.spot(start, q, tally);
+                    Found { spot, steps, start }
+                }
                 _ => self.spot(q, tally),
             };
-            if let Spot::Vertex(place) = spot {
+            if let Spot::Vertex(place) = found.spot {
                 let there = self.base.mesh.name(place);
                 let (vertex, point) = (there.min(v), there.max(v));
                 if vertex != there {
@@ -191,7 +192,7 @@ impl Delaunay2 {
                 self.duplicates.push(Duplicate { point: point.index(), vertex });
                 last = Some(vertex);
             } else {
-                self.place(v, spot, q, steps, tally);
+                self.place(v, found, q, tally);
                 last = Some(v);
             }
         }
@@ -227,16 +228,16 @@ impl Delaunay2 {
 
     /// Makes a named point a vertex.
     #[inline]
-    fn place<T: Tally>(&mut self, v: VertexId, spot: Spot, q: [f64; 2], steps: usize, tally: &mut T) {
-        let Ok(place) = self.base.insert(spot, q, tally) else {
+    fn place<T: Tally>(&mut self, v: VertexId, found: Found, q: [f64; 2], tally: &mut T) {
+        let Ok(place) = self.base.insert(found.spot, q, tally) else {
             debug_assert!(false, "the spot is no vertex");
             return;
         };
         self.base.mesh.names().bind(v, place);
         if let Some(locator) = self.locator.get_mut() {
-            locator.inserted(&self.base, place);
+            locator.inserted(&self.base, place, found.start);
         }
-        self.note_walk(steps);
+        self.note_walk(found.steps);
     }
 
     /// The place of a vertex, if it can be removed.

@@ -26,6 +26,16 @@ pub enum Location {
     LowerDimensional(Dimension),
 }
 
+/// A point that was looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    pub(super) spot: Spot,
+    /// The length of the walk.
+    pub(super) steps: usize,
+    /// Where it started.
+    pub(super) start: Start,
+}
+
 impl Delaunay2 {
     /// Finds where a point falls. Exact.
     ///
@@ -55,7 +65,7 @@ impl Delaunay2 {
     /// As [`Self::locate`].
     pub fn locate_counted<P: Position2, T: Tally>(&self, q: P, tally: &mut T) -> Result<Location, Error> {
         let q = finite(&q)?;
-        Ok(self.classify(self.spot(q, tally).0, q))
+        Ok(self.classify(self.spot(q, tally).spot, q))
     }
 
     /// The same by a walk from a triangle that is near the point: O(1) expected from nearby.
@@ -97,11 +107,12 @@ impl Delaunay2 {
         self.locator.get_or_init(|| Locator::build(self.locate, &self.base))
     }
 
-    /// Finds a point by the strategy; returns also the steps of the walk.
+    /// Finds a point by the strategy.
     #[inline]
-    pub(super) fn spot<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
+    pub(super) fn spot<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Found {
         let start = self.locator().start(&self.base, q, tally);
-        self.base.spot(start, q, tally)
+        let (spot, steps) = self.base.spot(start, q, tally);
+        Found { spot, steps, start }
     }
 
     fn classify(&self, spot: Spot, q: [f64; 2]) -> Location {

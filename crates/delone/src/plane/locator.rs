@@ -54,8 +54,8 @@ impl Strategy<Layer> for Locator {
     }
 
     #[inline]
-    fn inserted(&mut self, layer: &Layer, v: Place) {
-        each!(self, strategy => strategy.inserted(layer, v));
+    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
+        each!(self, strategy => strategy.inserted(layer, v, start));
     }
 
     fn removing(&mut self, layer: &Layer, v: Place) {
@@ -83,7 +83,7 @@ impl Versions {
         let mut order: Vec<Place> = layer.mesh.inhabited().collect();
         SplitMix(0).shuffle(&mut order);
         for v in order {
-            versions.inserted(layer, v);
+            versions.inserted(layer, v, Start::Anywhere);
         }
         versions
     }
@@ -138,7 +138,7 @@ impl Strategy<Layer> for Versions {
         }
     }
 
-    fn inserted(&mut self, layer: &Layer, v: Place) {
+    fn inserted(&mut self, layer: &Layer, v: Place, _: Start) {
         let q = layer.point(v);
         let t = self.trace(q, &mut ());
         self.flips.points.push(q);

@@ -156,7 +156,7 @@ impl Delaunay2 {
         let mesh = &self.base.mesh;
         let point = |v: Place| self.base.points[v.index()];
         let better = |a: Place, b: Place| if nearer(q, point(b), point(a)).is_lt() { b } else { a };
-        let mut best = match self.spot(q, tally).0 {
+        let mut best = match self.spot(q, tally).spot {
             Spot::Empty => return None,
             Spot::Vertex(v) | Spot::End(v) => return Some(v),
             Spot::BesidePoint => return mesh.lone,
@@ -195,7 +195,7 @@ impl Delaunay2 {
     fn entrance(&self, rectangle: &Rectangle) -> Option<EdgeId> {
         let mesh = &self.base.mesh;
         let middle = [0, 1].map(|k| rectangle.low[k] / 2.0 + rectangle.high[k] / 2.0);
-        match self.spot(middle, &mut ()).0 {
+        match self.spot(middle, &mut ()).spot {
             Spot::Triangle(t) if !mesh.is_ghost(t) => Some(t.edge(0)),
             Spot::Vertex(v) => mesh.spokes(v).find(|e| !mesh.is_ghost(e.triangle())),
             _ => {

@@ -69,7 +69,8 @@ impl Layer {
         } else {
             tally.created(degree - 2);
             if degree <= SMALL {
-                let point = |&(v, _): &(Place, EdgeId)| self.points.get(v.index()).copied().unwrap_or_default();
+                let point =
+                    |&(v, _): &(Place, EdgeId)| self.points.get(v.index()).copied().unwrap_or_default();
                 hole.points.clear();
                 hole.points.extend(hole.border.iter().map(point));
                 hole.fill(&mut self.mesh, tally);
