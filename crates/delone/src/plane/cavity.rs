@@ -20,7 +20,7 @@ pub(super) struct Cavity {
     triangles: Vec<TriangleId>,
     /// Its border, counter-clockwise: where each edge starts, and its twin outside.
     border: Vec<(Place, EdgeId)>,
-    pending: Vec<EdgeId>,
+    pending: Vec<(EdgeId, Place)>,
 }
 
 /// Whether the circle of a triangle contains `q`. That of a ghost is the half-plane beyond its hull edge, with
@@ -74,19 +74,19 @@ impl Cavity {
         self.triangles.clear();
         self.border.clear();
         self.enter(mesh, seed);
-        self.pending.extend([2, 1, 0].map(|k| mesh.twin(seed.edge(k))));
-        while let Some(outside) = self.pending.pop() {
+        self.pending.extend([2, 1, 0].map(|k| look(mesh, points, seed.edge(k))));
+        while let Some((outside, tip)) = self.pending.pop() {
             let t = outside.triangle();
             if mesh.is_marked(t) {
                 continue;
             }
             tally.in_circle();
-            let corners = mesh.places(t);
+            let corners = [mesh.tail(outside), mesh.head(outside), tip];
             if conflicts(corners, |k| points[corners[k].index()], q) {
                 self.enter(mesh, t);
-                self.pending.extend([outside.previous(), outside.next()].map(|e| mesh.twin(e)));
+                self.pending.extend([outside.previous(), outside.next()].map(|e| look(mesh, points, e)));
             } else {
-                self.border.push((mesh.head(outside), outside));
+                self.border.push((corners[1], outside));
             }
         }
     }
@@ -119,4 +119,14 @@ impl Cavity {
         mesh.incident[v.index()] = self.triangles[0].edge(2);
         mesh.vertex_count += 1;
     }
+}
+
+/// The other side of an edge and the corner across it. Both are asked of memory as soon as the edge is known, and the
+/// corner's point too; when its turn comes, they are there.
+#[inline]
+fn look(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> (EdgeId, Place) {
+    let outside = mesh.twin(e);
+    let tip = mesh.tip(outside);
+    std::hint::black_box(points.get(tip.index()).map(|p| p[0]));
+    (outside, tip)
 }
