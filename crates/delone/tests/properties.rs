@@ -1,6 +1,6 @@
 //! Properties over hostile small sets, with shrinking: whatever fails, fails small.
 
-use delone::{Algorithm, Delaunay2};
+use delone::{Algorithm, Delaunay2, Hierarchy, Locate};
 use delone_oracle::brute;
 use proptest::prelude::*;
 
@@ -30,7 +30,14 @@ proptest! {
     #[test]
     fn every_algorithm_is_the_oracle(points in points(), seed in 0_u64..100) {
         let expected = brute::delaunay(&points);
-        for algorithm in [Algorithm::DivideAndConquer, Algorithm::Incremental { seed }] {
+        let all = [
+            Algorithm::DivideAndConquer,
+            Algorithm::Incremental { seed },
+            Algorithm::ConflictLists { seed },
+            Algorithm::Located { locate: Locate::Hierarchy(Hierarchy { ratio: 2.0, seed, ..Hierarchy::default() }), seed },
+            Algorithm::Located { locate: Locate::History, seed },
+        ];
+        for algorithm in all {
             let d = Delaunay2::with_algorithm(&points, algorithm).unwrap();
             prop_assert_eq!(d.check(), Ok(()));
             prop_assert_eq!(triangles(&d), expected.clone());

@@ -3,11 +3,17 @@
 use std::path::Path;
 
 use delone::plane::verify::verify;
-use delone::{Algorithm, Delaunay2};
+use delone::{Algorithm, Delaunay2, Locate};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};
 
-const ALGORITHMS: [Algorithm; 2] = [Algorithm::DivideAndConquer, Algorithm::Incremental { seed: 3 }];
+const ALGORITHMS: [Algorithm; 5] = [
+    Algorithm::DivideAndConquer,
+    Algorithm::Incremental { seed: 3 },
+    Algorithm::ConflictLists { seed: 3 },
+    Algorithm::Located { locate: Locate::Tree, seed: 3 },
+    Algorithm::Located { locate: Locate::History, seed: 3 },
+];
 
 fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
     brute::normalized(d.triangles().map(|corners| corners.map(|v| d.point(v))))
