@@ -77,9 +77,15 @@ impl Plot {
                 .label(name)
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
         }
+        // Where the curves are not: falling ones leave the upper right free, rising ones the upper left.
+        let falls = |points: &Vec<(f64, f64)>| points.first().map(|p| p.1) > points.last().map(|p| p.1);
+        let legend = match self.curves.first() {
+            Some((_, points)) if falls(points) => SeriesLabelPosition::UpperRight,
+            _ => SeriesLabelPosition::UpperLeft,
+        };
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
+            .position(legend)
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK.mix(0.3))
             .label_font(("sans-serif", 14))
