@@ -32,6 +32,7 @@
 struct Readme;
 
 mod error;
+mod fetch;
 mod ids;
 mod locate;
 pub mod mesh;

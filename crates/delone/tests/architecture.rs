@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// The rooms, bottom to top, in floors. A room may use those on lower floors, and its own inside; rooms on the
 /// same floor do not know each other.
 const FLOORS: &[&[&str]] =
-    &[&["ids"], &["error"], &["order"], &["mesh"], &["locate"], &["plane", "space"], &["moving"]];
+    &[&["ids", "fetch"], &["error"], &["order"], &["mesh"], &["locate"], &["plane", "space"], &["moving"]];
 
 /// Names that say nothing about what is inside.
 const EMPTY_NAMES: [&str; 7] = ["util", "utils", "common", "helpers", "core", "misc", "shared"];

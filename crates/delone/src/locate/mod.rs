@@ -78,8 +78,12 @@ pub(crate) trait Ground {
     /// A coordinate, for trees and hashes; no decision hangs on it.
     fn coordinate(q: Self::Point, axis: usize) -> f64;
 
-    /// Asks memory for what is likely to be read after this edge.
+    /// Asks memory for the triangle of an edge, and for its corners where they are likely to be.
     fn fetch(&self, e: EdgeId);
+
+    /// Asks memory for the neighbourhood of an edge all at once; a walk would ask piece by piece, and wait each
+    /// time.
+    fn fetch_around(&self, e: EdgeId);
 
     /// Whether `q` is strictly on the right of a finite edge: beyond it, seen from the edge's triangle.
     fn is_beyond(&self, e: EdgeId, q: Self::Point) -> bool;

@@ -71,11 +71,12 @@ impl Tree {
     /// Builds the tree.
     pub(crate) fn build<G: Ground>(ground: &G) -> Self {
         let mesh = ground.mesh();
-        let mut places: Vec<u32> = mesh.inhabited().step_by(LEAF).map(|p| p.index() as u32).collect();
-        if places.len() < LEAVES {
+        let sample = mesh.inhabited().step_by(LEAF);
+        let mut sample: Vec<_> = sample.map(|p| (ground.point(p), mesh.incident[p.index()])).collect();
+        if sample.len() < LEAVES {
             return Self::default();
         }
-        let levels = (places.len() / LEAVES).ilog2();
+        let levels = (sample.len() / LEAVES).ilog2();
         let height = levels.div_ceil(DEPTH);
         let lowest = Lowest { splits: [0.0; LEAVES - 1], hints: [EdgeId::NONE; LEAVES] };
         let mut tree = Self {
@@ -85,7 +86,7 @@ impl Tree {
             lowest: vec![lowest; 1 << levels],
         };
         tree.upper = vec![Upper::default(); tree.above(height)];
-        tree.split(ground, &mut places, Node { level: 0, line: 0, inner: 1, axis: 0 });
+        tree.split::<G>(&mut sample, Node { level: 0, line: 0, inner: 1, axis: 0 });
         tree
     }
 
@@ -109,27 +110,28 @@ impl Tree {
         }
     }
 
-    fn split<G: Ground>(&mut self, ground: &G, places: &mut [u32], node: Node) {
-        let middle = places.len() / 2;
-        let Some(&at_middle) = places.get(middle) else { return };
+    /// Splits points, with their hints, at the medians below a node.
+    fn split<G: Ground>(&mut self, sample: &mut [(G::Point, EdgeId)], node: Node) {
+        let middle = sample.len() / 2;
         if node.level > self.height {
             // Below the lowest lines: the line is the number of the leaf.
-            self.lowest[node.line / LEAVES].hints[node.line % LEAVES] =
-                ground.mesh().incident[at_middle as usize];
+            if let Some(&(_, hint)) = sample.get(middle) {
+                self.lowest[node.line / LEAVES].hints[node.line % LEAVES] = hint;
+            }
             return;
         }
-        let coordinate = |p: u32| G::coordinate(ground.point(Place::new(p as usize)), node.axis);
-        places.select_nth_unstable_by(middle, |&i, &j| coordinate(i).total_cmp(&coordinate(j)));
-        let value = coordinate(places[middle]);
+        let coordinate = |item: &(G::Point, EdgeId)| G::coordinate(item.0, node.axis);
+        sample.select_nth_unstable_by(middle, |a, b| coordinate(a).total_cmp(&coordinate(b)));
+        let value = coordinate(&sample[middle]);
         if node.level == self.height {
             self.lowest[node.line].splits[node.inner - 1] = value as f32;
         } else {
             let line = self.above(node.level) + node.line;
             self.upper[line].splits[node.inner - 1] = value;
         }
-        let (low, high) = places.split_at_mut(middle);
-        self.split(ground, low, self.child(node, false, G::DIMENSIONS));
-        self.split(ground, high, self.child(node, true, G::DIMENSIONS));
+        let (low, high) = sample.split_at_mut(middle);
+        self.split::<G>(low, self.child(node, false, G::DIMENSIONS));
+        self.split::<G>(high, self.child(node, true, G::DIMENSIONS));
     }
 
     /// What it takes.
@@ -176,7 +178,7 @@ impl<G: Ground> Strategy<G> for Tree {
         let (line, leaf) = self.leaf::<G>(q);
         let number = (line * LEAVES + leaf) as u32;
         let hint = self.lowest[line].hints[leaf];
-        ground.fetch(hint);
+        ground.fetch_around(hint);
         if alive(&hint) {
             return Start::Hint(hint, number);
         }

@@ -102,6 +102,8 @@ fn visibility<G: Ground, T: Tally>(
         if turned(from.triangle()) {
             (first, second) = (second, first);
         }
+        ground.fetch(mesh.twin(first));
+        ground.fetch(mesh.twin(second));
         tally.orientation();
         let crossed = if ground.is_beyond(first, q) {
             first

@@ -305,18 +305,15 @@ impl Mesh {
         let twice = |e: EdgeId| {
             if e == EdgeId::NONE { e } else { EdgeId::new(2 * (e.index() - e.corner()) + e.corner()) }
         };
-        for record in &mut self.edges {
-            if !record.origin.is_ghost() {
-                record.origin = Place::new(2 * record.origin.index());
-            }
-            record.twin = twice(record.twin);
-        }
-        self.incident.iter_mut().for_each(|e| *e = twice(*e));
-        spread(&mut self.edges, 4, HalfEdge::UNUSED);
-        spread(&mut self.incident, 1, EdgeId::NONE);
+        let record = |HalfEdge { origin, twin }| HalfEdge {
+            origin: if origin.is_ghost() { origin } else { Place::new(2 * origin.index()) },
+            twin: twice(twin),
+        };
+        self.free.spread(self.slot_count());
+        spread::<4, _>(&mut self.edges, HalfEdge::UNUSED, record);
+        spread::<1, _>(&mut self.incident, EdgeId::NONE, twice);
         self.ghost_edge = twice(self.ghost_edge);
         self.lone = self.lone.map(|p| Place::new(2 * p.index()));
-        self.free = Slots::every_other(self.slot_count());
     }
 
     /// Makes two directed edges twins of each other.
@@ -327,15 +324,14 @@ impl Mesh {
     }
 }
 
-/// Moves items apart in place, `width` at a time, with a filler of the same width after each.
-pub(crate) fn spread<T: Copy>(items: &mut Vec<T>, width: usize, filler: T) {
-    let count = items.len() / width;
+/// Moves items apart in place, `WIDTH` at a time and each changed, with as many fillers after them.
+pub(crate) fn spread<const WIDTH: usize, T: Copy>(items: &mut Vec<T>, filler: T, change: impl Fn(T) -> T) {
+    let count = items.len() / WIDTH;
     items.resize(2 * items.len(), filler);
-    for i in (1..count).rev() {
-        items.copy_within(i * width..(i + 1) * width, 2 * i * width);
-        items[(2 * i + 1) * width..][..width].fill(filler);
-    }
-    if count > 0 {
-        items[width..2 * width].fill(filler);
+    for i in (0..count).rev() {
+        let group: [T; WIDTH] = std::array::from_fn(|k| change(items[i * WIDTH + k]));
+        let to = &mut items[2 * i * WIDTH..][..2 * WIDTH];
+        to[..WIDTH].copy_from_slice(&group);
+        to[WIDTH..].fill(filler);
     }
 }

@@ -60,14 +60,14 @@ impl Names {
 
     /// Every vertex moves to the place that `moved` gives for its old one.
     pub(crate) fn rearrange(&mut self, capacity: usize, moved: &[Place]) {
-        self.of.clear();
-        self.of.resize(capacity, VertexId::GHOST);
-        for (name, place) in self.places.iter_mut().enumerate() {
-            if !place.is_ghost() {
-                *place = moved[place.index()];
-                self.of[place.index()] = VertexId::new(name);
+        let mut of = vec![VertexId::GHOST; capacity];
+        for (old, &name) in self.of.iter().enumerate() {
+            if !name.is_ghost() {
+                of[moved[old].index()] = name;
+                self.places[name.index()] = moved[old];
             }
         }
+        self.of = of;
     }
 
     /// All vertices, by increasing name.

@@ -9,6 +9,7 @@
 
 use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 
+use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::tally::Tally;
 use crate::mesh::Mesh;
@@ -127,6 +128,6 @@ impl Cavity {
 fn look(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> (EdgeId, Place) {
     let outside = mesh.twin(e);
     let tip = mesh.tip(outside);
-    std::hint::black_box(points.get(tip.index()).map(|p| p[0]));
+    fetch(points, tip.index());
     (outside, tip)
 }

@@ -11,6 +11,7 @@ use delone_predicates::{Sign, angle, compare_distances, orient2d};
 use super::build;
 use super::cavity::Cavity;
 use super::remove::Hole;
+use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place};
 use crate::locate::{Ground, Level, Start};
 use crate::mesh::{Dimension, Mesh, Slots, spread};
@@ -71,24 +72,21 @@ impl Layer {
         self.free.give(v.index());
     }
 
-    /// Asks memory for the neighbourhood of a place all at once, where the layout is that of `rebuild`: what
-    /// follows would ask for it piece by piece, and wait each time.
+    /// Asks memory for what is kept around a place, where the layout is that of `rebuild`: this many cache lines
+    /// of triangles and of points on either side.
     #[inline]
-    pub(super) fn fetch_around<const TRIANGLES: usize, const POINTS: usize>(&self, place: usize) {
+    pub(super) fn fetch_window<const TRIANGLES: usize, const POINTS: usize>(&self, place: usize) {
         let first = (8 * place).wrapping_sub(8 * TRIANGLES);
-        let mut read = 0;
         for k in 0..=2 * TRIANGLES {
-            read ^= self.mesh.edges.get(first.wrapping_add(8 * k)).map_or(0, |e| e.twin.index() as u64);
+            fetch(&self.mesh.edges, first.wrapping_add(8 * k));
         }
         let first = place.wrapping_sub(4 * POINTS);
         for k in 0..=2 * POINTS {
-            read ^= self.points.get(first.wrapping_add(4 * k)).map_or(0, |p| p[0].to_bits());
+            fetch(&self.points, first.wrapping_add(4 * k));
         }
         for k in 0..3 {
-            let at = place.wrapping_sub(16).wrapping_add(16 * k);
-            read ^= self.mesh.incident.get(at).map_or(0, |e| e.index() as u64);
+            fetch(&self.mesh.incident, place.wrapping_sub(16).wrapping_add(16 * k));
         }
-        std::hint::black_box(read);
     }
 
     /// Builds the same triangulation anew, laid out in memory as in the plane, with room between neighbours.
@@ -111,8 +109,9 @@ impl Layer {
             names.rearrange(2 * ordered.len(), &moved);
         }
         self.points = ordered;
-        spread(&mut self.points, 1, [0.0; 2]);
-        self.free = Slots::every_other(self.points.len());
+        self.free = Slots::default();
+        self.free.spread(self.points.len());
+        spread::<1, _>(&mut self.points, [0.0; 2], |p| p);
         self.mesh = mesh;
         moved
     }
@@ -144,7 +143,13 @@ impl Ground for Layer {
 
     #[inline]
     fn fetch(&self, e: EdgeId) {
-        self.fetch_around::<6, 3>(e.triangle().index() / 2);
+        fetch(&self.mesh.edges, e.index());
+        fetch(&self.points, e.triangle().index() / 2);
+    }
+
+    #[inline]
+    fn fetch_around(&self, e: EdgeId) {
+        self.fetch_window::<6, 3>(e.triangle().index() / 2);
     }
 
     #[inline]

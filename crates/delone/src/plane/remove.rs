@@ -51,7 +51,7 @@ impl Layer {
     }
 
     fn remove_from_plane<T: Tally>(&mut self, v: Place, tally: &mut T) {
-        self.fetch_around::<4, 2>(v.index());
+        self.fetch_window::<4, 2>(v.index());
         let mut hole = std::mem::take(&mut self.hole);
         hole.dig(&self.mesh, v);
         let degree = hole.border.len();
