@@ -27,10 +27,11 @@
 //! # Places
 //!
 //! Inside, a vertex is known by its *place*, where its star and its coordinates are kept; outside, by its
-//! [`VertexId`]. `names` translates, and `slots` finds free triangles near others.
+//! [`VertexId`]. `names` translates, `slots` finds free triangles near others, `layout` brings order into memory.
 
 pub mod check;
 mod iterate;
+mod layout;
 mod names;
 mod slots;
 
@@ -299,39 +300,10 @@ impl Mesh {
         }
     }
 
-    /// The same mesh with twice the room: every place p is 2p, every triangle t is 2t, and those between are
-    /// free.
-    pub(crate) fn spread(&mut self) {
-        let twice = |e: EdgeId| {
-            if e == EdgeId::NONE { e } else { EdgeId::new(2 * (e.index() - e.corner()) + e.corner()) }
-        };
-        let record = |HalfEdge { origin, twin }| HalfEdge {
-            origin: if origin.is_ghost() { origin } else { Place::new(2 * origin.index()) },
-            twin: twice(twin),
-        };
-        self.free.spread(self.slot_count());
-        spread::<4, _>(&mut self.edges, HalfEdge::UNUSED, record);
-        spread::<1, _>(&mut self.incident, EdgeId::NONE, twice);
-        self.ghost_edge = twice(self.ghost_edge);
-        self.lone = self.lone.map(|p| Place::new(2 * p.index()));
-    }
-
     /// Makes two directed edges twins of each other.
     #[inline]
     pub(crate) fn link(&mut self, e: EdgeId, f: EdgeId) {
         self.edges[e.index()].twin = f;
         self.edges[f.index()].twin = e;
-    }
-}
-
-/// Moves items apart in place, `WIDTH` at a time and each changed, with as many fillers after them.
-pub(crate) fn spread<const WIDTH: usize, T: Copy>(items: &mut Vec<T>, filler: T, change: impl Fn(T) -> T) {
-    let count = items.len() / WIDTH;
-    items.resize(2 * items.len(), filler);
-    for i in (0..count).rev() {
-        let group: [T; WIDTH] = std::array::from_fn(|k| change(items[i * WIDTH + k]));
-        let to = &mut items[2 * i * WIDTH..][..2 * WIDTH];
-        to[..WIDTH].copy_from_slice(&group);
-        to[WIDTH..].fill(filler);
     }
 }

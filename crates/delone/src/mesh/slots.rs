@@ -17,19 +17,15 @@ pub(crate) struct Slots {
 }
 
 impl Slots {
-    /// Slot i of `count` becomes slot 2i, and those between are free.
-    pub(crate) fn spread(&mut self, count: usize) {
-        self.words.resize(count.div_ceil(64), 0);
-        self.words =
-            self.words.iter().flat_map(|&w| [odd_bits(w as u32), odd_bits((w >> 32) as u32)]).collect();
-        self.words.truncate((2 * count).div_ceil(64));
-        if !(2 * count).is_multiple_of(64)
-            && let Some(last) = self.words.last_mut()
-        {
-            *last &= (1 << (2 * count % 64)) - 1;
-        }
-        self.free += count;
-        self.cursor = 0;
+    /// Slots below `count`, of which some are free.
+    pub(crate) fn where_free(count: usize, is_free: impl Fn(usize) -> bool) -> Self {
+        let word = |first: usize| {
+            let bits = (first..count.min(first + 64)).map(|slot| u64::from(is_free(slot)) << (slot % 64));
+            bits.fold(0, |word, bit| word | bit)
+        };
+        let words: Vec<u64> = (0..count).step_by(64).map(word).collect();
+        let free = words.iter().map(|word| word.count_ones() as usize).sum();
+        Self { words, free, cursor: 0 }
     }
 
     /// The number of free slots.
@@ -87,25 +83,13 @@ impl Slots {
     }
 }
 
-/// A word whose even bits are those of half a word, and whose odd bits are set.
-fn odd_bits(half: u32) -> u64 {
-    let mut w = u64::from(half);
-    w = (w | w << 16) & 0x0000_ffff_0000_ffff;
-    w = (w | w << 8) & 0x00ff_00ff_00ff_00ff;
-    w = (w | w << 4) & 0x0f0f_0f0f_0f0f_0f0f;
-    w = (w | w << 2) & 0x3333_3333_3333_3333;
-    w = (w | w << 1) & 0x5555_5555_5555_5555;
-    w | 0xaaaa_aaaa_aaaa_aaaa
-}
-
 #[cfg(test)]
 mod tests {
     use super::Slots;
 
     #[test]
     fn slots_are_given_out_once_and_near() {
-        let mut slots = Slots::default();
-        slots.spread(500);
+        let mut slots = Slots::where_free(1000, |slot| slot % 2 == 1);
         assert_eq!(slots.free(), 500);
         let mut taken: Vec<_> = std::iter::from_fn(|| slots.take_near(500)).collect();
         assert_eq!(taken[0] / 64, 500 / 64);

@@ -2,8 +2,7 @@
 //!
 //! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again. What is
 //! inserted is laid out near its neighbours in memory; when the number of vertices has doubled, or hints have
-//! grown old, everything is built anew in bulk, laid out as in the plane. That is allowed because there is only one
-//! triangulation of a set, and it costs O(log n) amortized.
+//! grown old, everything is laid out in memory as in the plane again, which costs O(log n) amortized.
 
 use super::insert::Spot;
 use super::locate::Found;
@@ -35,7 +34,7 @@ impl Inserted {
     }
 }
 
-/// Room of this many places a vertex, beyond which memory is given back by building anew.
+/// Room of this many places a vertex, beyond which memory is given back.
 const SLACK: usize = 8;
 /// Up to this number of vertices everything stays in the cache, wherever it is.
 const IN_CACHE: usize = 32_768;
@@ -273,7 +272,7 @@ impl Delaunay2 {
         if (sparse || grown) && count <= LARGEST_SPREAD {
             self.upkeep.laid_out = count;
             self.names();
-            let moved = self.base.rebuild();
+            let moved = self.base.lay_out();
             if let Some(locator) = self.locator.get_mut() {
                 locator.rearranged(&self.base, &moved);
             }
@@ -315,5 +314,41 @@ impl Upkeep {
     fn is_old(&self, vertices: usize) -> bool {
         let then = self.then.max(Self::SMALL);
         vertices > 2 * then || (self.debt > 8 * then && vertices > Self::SMALL)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+
+    use crate::Delaunay2;
+
+    #[test]
+    fn a_layout_changes_nothing_that_can_be_seen() {
+        for kind in Kind::ALL {
+            for n in [0, 1, 2, 3, 4, 10, 100, 1000] {
+                let points = kind.points(n, 1);
+                let mut d = Delaunay2::from_points(&points).expect("finite");
+                let mut kept: Vec<_> = d.mesh().vertices().collect();
+                kept.retain(|v| v.index() % 3 > 0 || d.remove(*v).is_err());
+                let before: Vec<_> =
+                    kept.iter().map(|&v| d.mesh().neighbors(v).collect::<Vec<_>>()).collect();
+                d.names();
+                let moved = d.base.lay_out();
+                if let Some(locator) = d.locator.get_mut() {
+                    crate::locate::Strategy::rearranged(locator, &d.base, &moved);
+                }
+                d.check().expect("canonical");
+                for (&v, before) in kept.iter().zip(before) {
+                    let mut now: Vec<_> = d.mesh().neighbors(v).collect();
+                    let first = now.iter().position(|w| Some(w) == before.first()).unwrap_or(0);
+                    now.rotate_left(first);
+                    assert_eq!(now, before, "{kind:?} {n} {v:?}");
+                }
+                let [x, y] = points.first().copied().unwrap_or([0.5, 0.5]);
+                d.insert([x + 0.125, y]).expect("finite");
+                d.check().expect("canonical after an insertion");
+            }
+        }
     }
 }

@@ -2,19 +2,19 @@
 //! operations. It knows no names and chooses no strategy: `Delaunay2` is one with names, a level of the
 //! hierarchy is one without.
 //!
-//! Cost: [`Layer::rebuild`] O(n log n); the operations are in `insert` and `remove`.
+//! Cost: [`Layer::lay_out`] a sort and O(n); the operations are in `insert` and `remove`.
 
 use std::cmp::Ordering;
 
 use delone_predicates::{Sign, angle, compare_distances, orient2d};
 
-use super::build;
 use super::cavity::Cavity;
 use super::remove::Hole;
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place};
 use crate::locate::{Ground, Level, Start};
-use crate::mesh::{Dimension, Mesh, Slots, spread};
+use crate::mesh::{Dimension, Mesh, Slots};
+use crate::order::morton::{self, Sorted};
 
 /// See the module.
 #[derive(Clone, Debug)]
@@ -72,7 +72,7 @@ impl Layer {
         self.free.give(v.index());
     }
 
-    /// Asks memory for what is kept around a place, where the layout is that of `rebuild`: this many cache lines
+    /// Asks memory for what is kept around a place, where the layout is that of `lay_out`: this many cache lines
     /// of triangles and of points on either side.
     #[inline]
     pub(super) fn fetch_window<const TRIANGLES: usize, const POINTS: usize>(&self, place: usize) {
@@ -89,30 +89,16 @@ impl Layer {
         }
     }
 
-    /// Builds the same triangulation anew, laid out in memory as in the plane, with room between neighbours.
-    /// Returns for each old place the new one.
-    ///
-    /// That it is the same triangulation needs no care: there is only one.
-    pub(super) fn rebuild(&mut self) -> Vec<Place> {
-        let old: Vec<Place> = self.mesh.inhabited().collect();
-        let living: Vec<[f64; 2]> = old.iter().map(|p| self.points[p.index()]).collect();
-        let buffer = std::mem::take(&mut self.mesh.edges);
-        let (mut mesh, ordered, indices) = build::in_order(&living, buffer);
-        drop(living);
-        let mut moved = vec![Place::GHOST; self.points.len()];
-        for (position, &index) in indices.iter().enumerate() {
-            moved[old[index as usize].index()] = Place::new(2 * position);
-        }
-        mesh.spread();
-        mesh.names = self.mesh.names.take();
-        if let Some(names) = &mut mesh.names {
-            names.rearrange(2 * ordered.len(), &moved);
-        }
-        self.points = ordered;
-        self.free = Slots::default();
-        self.free.spread(self.points.len());
-        spread::<1, _>(&mut self.points, [0.0; 2], |p| p);
-        self.mesh = mesh;
+    /// Lays everything out in memory as in the plane, with room between neighbours. Returns for each old place
+    /// the new one.
+    pub(super) fn lay_out(&mut self) -> Vec<Place> {
+        let places: Vec<Place> = self.mesh.inhabited().collect();
+        let points: Vec<[f64; 2]> = places.iter().map(|p| self.points[p.index()]).collect();
+        let Sorted { points, indices, .. } = morton::sort(&points);
+        let order: Vec<Place> = indices.iter().map(|&i| places[i as usize]).collect();
+        let (moved, free) = self.mesh.lay_out(&order);
+        self.points = points.iter().flat_map(|&p| [p, p]).collect();
+        self.free = free;
         moved
     }
 }

@@ -56,7 +56,7 @@ pub(super) struct Builder<'a> {
 /// indices.
 pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counters) {
     let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points);
-    let (edges, counters) = build(&ordered, &cuts, &boxes, Vec::new());
+    let (edges, counters) = build(&ordered, &cuts, &boxes);
     let n = ordered.len();
     drop((ordered, cuts));
     let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(points.len()) };
@@ -70,15 +70,11 @@ pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counter
     (mesh, duplicates, counters)
 }
 
-/// The same for distinct points, with vertices at their positions in Morton order, in a buffer that may be used
-/// again. Returns also the points in that order and their indices.
-pub(in crate::plane) fn in_order(
-    points: &[[f64; 2]],
-    buffer: Vec<HalfEdge>,
-) -> (Mesh, Vec<[f64; 2]>, Vec<u32>) {
+/// The same for distinct points, with vertices at their positions in Morton order. Returns also the points in that order and their indices.
+pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> (Mesh, Vec<[f64; 2]>, Vec<u32>) {
     let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points);
     debug_assert!(duplicates.is_empty(), "the points are distinct");
-    let (edges, _) = build(&ordered, &cuts, &boxes, buffer);
+    let (edges, _) = build(&ordered, &cuts, &boxes);
     let n = ordered.len();
     let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(n) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
@@ -86,18 +82,11 @@ pub(in crate::plane) fn in_order(
     (mesh, ordered, indices)
 }
 
-fn build(
-    ordered: &[[f64; 2]],
-    cuts: &[Cut],
-    boxes: &[KeyBox],
-    mut buffer: Vec<HalfEdge>,
-) -> (Vec<HalfEdge>, Counters) {
+fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {
     let n = ordered.len();
-    buffer.clear();
-    buffer.resize(8 * n.saturating_sub(1), HalfEdge::UNUSED);
     let mut builder = Builder {
         points: ordered,
-        edges: buffer,
+        edges: vec![HalfEdge::UNUSED; 8 * n.saturating_sub(1)],
         leaving: vec![TriangleId::new(0); n],
         counters: Counters::default(),
     };
