@@ -22,6 +22,7 @@
 //! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
 //! ```
 
+mod circumcentre;
 pub mod counters;
 mod distance;
 mod exact;
@@ -35,6 +36,7 @@ mod sign;
 #[cfg(test)]
 mod stages;
 
+pub use circumcentre::circumcentre;
 pub use distance::{angle, compare_distances, compare_with_radius};
 pub use filter::{Filter, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};

@@ -23,6 +23,8 @@ pub use position::Position2;
 
 use std::sync::OnceLock;
 
+use delone_predicates::circumcentre;
+
 use crate::error::Error;
 use crate::ids::{EdgeId, MAX_POINTS, TriangleId, VertexId};
 use crate::locate::Locate;
@@ -233,18 +235,14 @@ impl Delaunay2 {
         ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0
     }
 
-    /// The centre of the circle through the corners of a finite triangle, rounded; `None` for a ghost, and
-    /// where it is too far away for `f64`.
+    /// The centre of the circle through the corners of a finite triangle, rounded (see
+    /// [`delone_predicates::circumcentre`]); `None` for a ghost, and where it is too far away for `f64`.
     pub fn circumcentre(&self, t: TriangleId) -> Option<[f64; 2]> {
         if self.mesh().is_ghost(t) {
             return None;
         }
         let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
-        let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
-        let twice_area = 2.0 * (bx * cy - by * cx);
-        let (b2, c2) = (bx * bx + by * by, cx * cx + cy * cy);
-        let centre = [a[0] + (cy * b2 - by * c2) / twice_area, a[1] + (bx * c2 - cx * b2) / twice_area];
-        centre.iter().all(|x| x.is_finite()).then_some(centre)
+        circumcentre(a, b, c)
     }
 }
 

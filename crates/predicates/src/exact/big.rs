@@ -11,13 +11,18 @@ type Vector = [BigInt; 2];
 
 /// The points as big integers on their common scale.
 fn align<const N: usize>(coordinates: &[f64; N]) -> Vec<Vector> {
+    aligned(coordinates).0
+}
+
+/// The same, and the binary exponent of the scale.
+fn aligned<const N: usize>(coordinates: &[f64; N]) -> (Vec<Vector>, i32) {
     let parts = coordinates.map(decode);
     let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
     let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
         0 => BigInt::ZERO,
         _ => BigInt::from(mantissa) << (exponent - scale).unsigned_abs(),
     };
-    parts.chunks_exact(2).map(|xy| [integer(xy[0]), integer(xy[1])]).collect()
+    (parts.chunks_exact(2).map(|xy| [integer(xy[0]), integer(xy[1])]).collect(), scale)
 }
 
 fn difference(q: &Vector, p: &Vector) -> Vector {
@@ -70,4 +75,39 @@ pub(super) fn compare_with_radius(coordinates: &[f64; 6]) -> Ordering {
 pub(super) fn angle(coordinates: &[f64; 6]) -> Sign {
     let p = align(coordinates);
     sign(&dot(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])))
+}
+
+/// The point at the same distance from three points that are not collinear, correctly rounded; a coordinate that no
+/// `f64` can hold is infinite.
+pub(super) fn circumcentre(coordinates: &[f64; 6]) -> [f64; 2] {
+    let (p, scale) = aligned(coordinates);
+    let (b, c) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
+    let (bb, cc) = (dot(&b, &b), dot(&c, &c));
+    let denominator: BigInt = cross(&b, &c) * 2;
+    let x = &p[0][0] * &denominator + (&c[1] * &bb - &b[1] * &cc);
+    let y = &p[0][1] * &denominator + (&b[0] * &cc - &c[0] * &bb);
+    [x, y].map(|numerator| quotient(&numerator, &denominator, scale))
+}
+
+/// `numerator / denominator * 2^scale`, rounded once unless it is subnormal.
+fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> f64 {
+    /// Bits of the quotient that are computed; the last one stands for all that follow.
+    const BITS: i64 = 80;
+    let (n, d) = (numerator.magnitude(), denominator.magnitude());
+    let shift = BITS - (n.bits() as i64 - d.bits() as i64);
+    let (n, d) = if shift >= 0 { (n << shift, d.clone()) } else { (n.clone(), d << -shift) };
+    let whole = &n / &d;
+    let sticky = u128::from(&whole * &d != n);
+    let value = (u128::try_from(whole).expect("81 bits at most") | sticky) as f64;
+    let negative = (numerator.sign() == BigSign::Minus) != (denominator.sign() == BigSign::Minus);
+    let value = if negative { -value } else { value };
+    // In steps, because the power of two itself may be out of range.
+    let mut exponent = i64::from(scale) - shift;
+    let mut value = value;
+    while exponent != 0 && value != 0.0 && value.is_finite() {
+        let step = exponent.clamp(-1000, 1000);
+        value *= 2f64.powi(step as i32);
+        exponent -= step;
+    }
+    value
 }

@@ -59,6 +59,10 @@ pub(crate) fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     integers::angle(&coordinates).unwrap_or_else(|| big::angle(&coordinates))
 }
 
+pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Point2 {
+    big::circumcentre(&[a[0], a[1], b[0], b[1], c[0], c[1]])
+}
+
 fn coord(p: Point2) -> robust::Coord<f64> {
     robust::Coord { x: p[0], y: p[1] }
 }

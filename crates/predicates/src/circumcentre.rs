@@ -1,0 +1,101 @@
+//! The centre of a circle through three points: filter, exact. A construction, so it is rounded; nothing is decided
+//! by it.
+
+use crate::{Point2, exact, lexicographic};
+
+/// The share of a sum that may cancel before the exact way is taken: 2^-8 leaves more than 40 correct bits.
+const CANCELLED: f64 = 1.0 / 256.0;
+
+/// The centre of the circle through three points that are not collinear. In coordinate units; the same bits for
+/// every order of the points.
+///
+/// Triangles that are not flat are computed in floating point, with an error below 2^-40 of the radius. For
+/// flat ones, whose centre hangs on the last bits of the corners, and for coordinates whose products leave the range
+/// of `f64`, the exact centre is rounded once. `None` if it is too far away for an `f64`, and for collinear points.
+///
+/// O(1).
+///
+/// ```
+/// use delone_predicates::circumcentre;
+/// assert_eq!(circumcentre([0.0, 0.0], [2.0, 0.0], [0.0, 2.0]), Some([1.0, 1.0]));
+/// assert_eq!(circumcentre([0.0, 0.0], [1.0, 1.0], [2.0, 2.0]), None);
+/// // Almost on a line: floating point alone would lose the centre.
+/// assert_eq!(circumcentre([-1.0, 0.0], [1.0, 0.0], [0.0, 1e-20]), Some([0.0, -5e19]));
+/// ```
+#[inline]
+pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
+    let (a, b) = ordered(a, b);
+    let (b, c) = ordered(b, c);
+    let (a, b) = ordered(a, b);
+    let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+    let (left, right) = (bx * cy, by * cx);
+    let (area, size) = (left - right, left.abs() + right.abs());
+    let (bb, cc) = (bx * bx + by * by, cx * cx + cy * cy);
+    let (x, y) = (cy * bb - by * cc, bx * cc - cx * bb);
+    let terms = (cy.abs() + cx.abs()) * bb + (by.abs() + bx.abs()) * cc;
+    // The products of four factors must be normal numbers, or nothing is known about their errors.
+    let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc);
+    if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
+        return Some([a[0] + x / (2.0 * area), a[1] + y / (2.0 * area)]);
+    }
+    rounded_once(a, b, c)
+}
+
+#[inline]
+fn ordered(a: Point2, b: Point2) -> (Point2, Point2) {
+    if lexicographic(a, b).is_le() { (a, b) } else { (b, a) }
+}
+
+#[cold]
+#[inline(never)]
+fn rounded_once(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
+    if crate::orient2d(a, b, c).is_zero() {
+        return None;
+    }
+    Some(exact::circumcentre(a, b, c)).filter(|centre| centre.iter().all(|x| x.is_finite()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{circumcentre, rounded_once};
+    use delone_oracle::generate::Kind;
+
+    #[test]
+    fn the_fast_way_is_near_the_exact_one() {
+        let mut fast = 0;
+        for &kind in Kind::ALL {
+            for p in kind.points(3000, 1).chunks_exact(3) {
+                let (Some(near), Some(exact)) =
+                    (circumcentre(p[0], p[1], p[2]), rounded_once(p[0], p[1], p[2]))
+                else {
+                    continue;
+                };
+                let radius = (exact[0] - p[0][0]).hypot(exact[1] - p[0][1]);
+                let error = (near[0] - exact[0]).hypot(near[1] - exact[1]);
+                let rounding = exact[0].abs().max(exact[1].abs()) * f64::EPSILON;
+                assert!(error <= radius * 2f64.powi(-40) + rounding, "{kind:?} {p:?}: {near:?}, {exact:?}");
+                fast += usize::from(error > 0.0);
+            }
+        }
+        assert!(fast > 100, "only {fast} centres came from floating point");
+    }
+
+    #[test]
+    fn the_order_of_the_points_does_not_matter() {
+        for &kind in Kind::ALL {
+            for p in kind.points(300, 2).chunks_exact(3) {
+                let centre = circumcentre(p[0], p[1], p[2]);
+                for [i, j, k] in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+                    assert_eq!(circumcentre(p[i], p[j], p[k]), centre);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn centres_beyond_the_range_are_none() {
+        assert_eq!(circumcentre([-1e200, 0.0], [1e200, 0.0], [0.0, 1e-20]), None);
+        assert_eq!(circumcentre([-1e-200, 0.0], [1e-200, 0.0], [0.0, 1e-200]), Some([0.0, 0.0]));
+        assert_eq!(circumcentre([1e300, 0.0], [0.0, 1e300], [0.0, 0.0]), Some([5e299, 5e299]));
+    }
+}
