@@ -45,6 +45,16 @@ pub enum Error {
     /// Location by history forgets nothing, so nothing can be removed or moved.
     #[error("a triangulation that is located by history cannot lose vertices")]
     InsertOnly,
+    /// A region has no proper border.
+    #[error("ring {ring} of the region, at corner {corner}: {problem}")]
+    Region {
+        /// The ring, from 0.
+        ring: usize,
+        /// The corner of the ring, from 0.
+        corner: usize,
+        /// What is wrong there.
+        problem: RegionProblem,
+    },
     /// A parameter is out of range.
     #[error("{name} is {value}; it must be {range}")]
     Parameter {
@@ -55,4 +65,22 @@ pub enum Error {
         /// What it must be.
         range: &'static str,
     },
+}
+
+/// What can be wrong with the border of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegionProblem {
+    /// A coordinate is NaN or infinite.
+    #[error("a coordinate is not finite")]
+    NotFinite,
+    /// There is no area inside.
+    #[error("there is no area inside")]
+    Empty,
+    /// A ring comes to the same corner twice.
+    #[error("the ring comes here a second time")]
+    VisitedTwice,
+    /// A side crosses, touches or overlaps another one.
+    #[error("the side from here crosses or touches another one")]
+    Crossing,
 }

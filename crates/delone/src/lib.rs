@@ -39,9 +39,12 @@ pub mod mesh;
 mod order;
 pub mod plane;
 
-pub use error::Error;
+pub use error::{Error, RegionProblem};
 pub use ids::{EdgeId, MAX_POINTS, TriangleId, VertexId};
 pub use locate::tally::{Tally, Work};
 pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::{Dimension, Mesh};
-pub use plane::{Algorithm, Counters, Delaunay2, Duplicate, Footprint, Inserted, Location, Position2};
+pub use plane::{
+    Algorithm, Cells, Counters, Delaunay2, Duplicate, Footprint, Inserted, Location, Position2, Region,
+    Relaxation, Voronoi2, VoronoiEdge,
+};

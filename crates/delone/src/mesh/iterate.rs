@@ -23,7 +23,7 @@ impl Mesh {
     }
 
     /// All edges, in both directions, those of ghost triangles included.
-    pub(super) fn directed_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+    pub(crate) fn directed_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
         let triangles = (0..self.slot_count()).map(TriangleId::new).filter(|&t| self.is_triangle(t));
         triangles.flat_map(|t| [0, 1, 2].map(|k| t.edge(k)))
     }
@@ -38,6 +38,11 @@ impl Mesh {
     pub(crate) fn spokes(&self, place: Place) -> Star<'_> {
         let first = self.incident[place.index()];
         Star { mesh: self, first, next: first }
+    }
+
+    /// The edges with the same origin as one, counter-clockwise from there.
+    pub fn star_from(&self, e: EdgeId) -> Star<'_> {
+        Star { mesh: self, first: e, next: e }
     }
 
     /// The vertices joined to `v` by an edge, counter-clockwise.

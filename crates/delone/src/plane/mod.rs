@@ -14,12 +14,14 @@ mod nearest;
 mod position;
 mod remove;
 pub mod verify;
+mod voronoi;
 
 pub use build::{Algorithm, Counters};
 pub use change::Inserted;
 pub use locate::Location;
 pub use locator::Footprint;
 pub use position::Position2;
+pub use voronoi::{Cells, Region, Relaxation, Voronoi2, VoronoiEdge};
 
 use std::sync::OnceLock;
 

@@ -1,0 +1,188 @@
+//! All cells of a diagram, clipped to a region.
+//!
+//! Most cells lie inside of the region, and their corners are circumcentres, each computed once. The others are cut
+//! out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
+//! corners far away; then, if the region is no box, from the part of it that is near.
+//!
+//! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
+
+use super::Voronoi2;
+use super::clip::{HalfPlane, Ring, clip};
+use super::region::{Region, twice_area};
+use crate::ids::{Place, VertexId};
+use crate::locate::Ground;
+
+/// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Outer rings are
+/// counter-clockwise, holes clockwise.
+#[derive(Clone, Debug, Default)]
+pub struct Cells {
+    /// For each site the first of its rings, and how many there are.
+    sites: Vec<(u32, u32)>,
+    /// Where each ring starts; and the end of the last.
+    starts: Vec<usize>,
+    corners: Vec<[f64; 2]>,
+}
+
+impl Voronoi2<'_> {
+    /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region.
+    pub fn clip(self, region: &Region) -> Cells {
+        self.clip_with(region, |_| {})
+    }
+
+    /// The same, and tells now and then how many cells are done.
+    pub fn clip_with(self, region: &Region, mut progress: impl FnMut(usize)) -> Cells {
+        let triangulation = self.triangulation;
+        let (layer, mesh) = (&triangulation.base, triangulation.mesh());
+        let mut cells = Cells {
+            sites: vec![(0, 0); triangulation.points().len()],
+            starts: Vec::with_capacity(mesh.vertex_count() + 1),
+            corners: Vec::with_capacity(6 * mesh.vertex_count()),
+        };
+        cells.starts.push(0);
+        let far = [f64::INFINITY; 2];
+        let centre = |t| self.vertex(t).unwrap_or(far);
+        let centres: Vec<[f64; 2]> = (0..mesh.slot_count())
+            .map(crate::ids::TriangleId::new)
+            .map(|t| if mesh.is_triangle(t) { centre(t) } else { far })
+            .collect();
+        let mut done = 0;
+        let mut add = |cells: &mut Cells, place: Place| {
+            let first = cells.starts.len() - 1;
+            if !cells.push_inner(self, region, place, &centres) {
+                for ring in self.cut_out(region, place) {
+                    cells.push(ring.iter().map(|corner| corner.at));
+                }
+            }
+            let count = cells.starts.len() - 1 - first;
+            cells.sites[mesh.name(place).index()] = (first as u32, count as u32);
+            done += 1;
+            if done % 65_536 == 0 {
+                progress(done);
+            }
+        };
+        if mesh.lone.is_some() || !layer.is_spanned() {
+            mesh.inhabited().for_each(|place| add(&mut cells, place));
+            return cells;
+        }
+        // In the order of triangles, which lie in memory as in the plane: each vertex with the triangle of its
+        // incident edge.
+        for e in mesh.directed_edges() {
+            let place = mesh.tail(e);
+            if !place.is_ghost() && mesh.incident[place.index()] == e {
+                add(&mut cells, place);
+            }
+        }
+        cells
+    }
+
+    /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
+    pub fn cell(self, site: VertexId, region: &Region) -> Vec<Vec<[f64; 2]>> {
+        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
+        let rings = self.cut_out(region, place);
+        rings.iter().map(|ring| ring.iter().map(|corner| corner.at).collect()).collect()
+    }
+
+    /// A cell cut out of the region by its bisectors.
+    fn cut_out(self, region: &Region, place: Place) -> Vec<Ring> {
+        let (layer, mesh) = (&self.triangulation.base, self.triangulation.mesh());
+        let site = layer.point(place);
+        let cut = |mut rings: Vec<Ring>| {
+            for w in mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()) {
+                if rings.is_empty() {
+                    break;
+                }
+                rings = clip(&rings, HalfPlane::Nearer { site, other: layer.point(w) });
+            }
+            rings
+        };
+        let framed = cut(vec![region.frame()]);
+        let Some([low, high]) = bounds(framed.iter().flatten().map(|corner| corner.at)) else {
+            return Vec::new();
+        };
+        match region.around(low, high) {
+            Some(part) if part.full => framed,
+            Some(part) => cut(part.rings.clone()),
+            None => Vec::new(),
+        }
+    }
+}
+
+impl Cells {
+    /// Adds a cell whose corners are all inside of the region. Says whether it is one.
+    #[inline]
+    fn push_inner(&mut self, voronoi: Voronoi2, region: &Region, place: Place, centres: &[[f64; 2]]) -> bool {
+        let mesh = voronoi.triangulation.mesh();
+        let start = self.corners.len();
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for e in mesh.spokes(place) {
+            let corner = centres[e.triangle().index()];
+            for axis in 0..2 {
+                low[axis] = low[axis].min(corner[axis]);
+                high[axis] = high[axis].max(corner[axis]);
+            }
+            if self.corners.len() == start || self.corners[self.corners.len() - 1] != corner {
+                self.corners.push(corner);
+            }
+        }
+        let inside = self.corners.len() > start && region.around(low, high).is_some_and(|part| part.full);
+        if !inside {
+            self.corners.truncate(start);
+            return false;
+        }
+        if self.corners.len() > start + 1 && self.corners[start] == self.corners[self.corners.len() - 1] {
+            self.corners.pop();
+        }
+        self.starts.push(self.corners.len());
+        true
+    }
+
+    fn push(&mut self, ring: impl Iterator<Item = [f64; 2]>) {
+        self.corners.extend(ring);
+        self.starts.push(self.corners.len());
+    }
+
+    /// The rings of a cell: none for an id that is no vertex, and for a cell outside of the region.
+    pub fn rings(&self, site: VertexId) -> impl Iterator<Item = &[[f64; 2]]> {
+        let (first, count) = self.sites.get(site.index()).copied().unwrap_or_default();
+        (first as usize..(first + count) as usize).map(|i| &self.corners[self.starts[i]..self.starts[i + 1]])
+    }
+
+    /// The area of a cell, in coordinate units squared.
+    pub fn area(&self, site: VertexId) -> f64 {
+        self.rings(site).map(|ring| twice_area(ring) / 2.0).sum()
+    }
+
+    /// The length of the border of a cell, holes included, in coordinate units.
+    pub fn perimeter(&self, site: VertexId) -> f64 {
+        let length = |ring: &[[f64; 2]]| -> f64 {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(p, q)| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
+        };
+        self.rings(site).map(length).sum()
+    }
+
+    /// The centre of mass of a cell. `None` if it is empty.
+    pub fn centroid(&self, site: VertexId) -> Option<[f64; 2]> {
+        let &[x, y] = self.rings(site).next()?.first()?;
+        let (mut area, mut sum) = (0.0, [0.0, 0.0]);
+        for ring in self.rings(site) {
+            let next = ring.iter().cycle().skip(1);
+            for (p, q) in ring.iter().zip(next) {
+                let (p, q) = ([p[0] - x, p[1] - y], [q[0] - x, q[1] - y]);
+                let cross = p[0] * q[1] - p[1] * q[0];
+                area += cross;
+                sum = [sum[0] + cross * (p[0] + q[0]), sum[1] + cross * (p[1] + q[1])];
+            }
+        }
+        let centroid = [x + sum[0] / (3.0 * area), y + sum[1] / (3.0 * area)];
+        (area > 0.0 && centroid.iter().all(|x| x.is_finite())).then_some(centroid)
+    }
+}
+
+/// The corners of the smallest rectangle around points.
+fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Option<[[f64; 2]; 2]> {
+    points.fold(None, |bounds, p| {
+        let [low, high] = bounds.unwrap_or([p, p]);
+        Some([[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]])
+    })
+}

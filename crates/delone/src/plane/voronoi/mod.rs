@@ -1,0 +1,154 @@
+//! Voronoi diagrams, as a view of the triangulation.
+//!
+//! The cell of a site is what is at least as near to it as to every other vertex. Cells are dual to vertices, Voronoi
+//! edges to Delaunay edges, Voronoi vertices (circumcentres) to triangles, so the diagram takes no memory and is always that of the
+//! triangulation as it is: after insertions, removals and motions too.
+//!
+//! Combinatorics are exact. Coordinates are rounded: see [`delone_predicates::circumcentre`].
+//!
+//! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.
+
+mod cells;
+mod clip;
+mod region;
+mod relax;
+
+pub use cells::Cells;
+pub use region::Region;
+pub use relax::Relaxation;
+
+use delone_predicates::in_circle_with_ties;
+
+use super::Delaunay2;
+use crate::ids::{EdgeId, TriangleId, VertexId};
+
+/// The Voronoi diagram of the vertices of a triangulation.
+///
+/// ```
+/// use delone::{Delaunay2, Region, VoronoiEdge};
+///
+/// let d = Delaunay2::from_points(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0], [0.0, -2.0]])?;
+/// let voronoi = d.voronoi();
+/// let centre = d.vertices().next().unwrap();
+/// assert!(voronoi.is_bounded(centre));
+/// assert_eq!(voronoi.corners(centre).count(), 4);
+/// let rays = voronoi.edges().filter(|e| matches!(e, VoronoiEdge::Ray { .. })).count();
+/// assert_eq!(rays, 4);
+///
+/// let cells = voronoi.clip(&Region::rectangle([-2.0, -2.0], [2.0, 2.0])?);
+/// assert_eq!(cells.area(centre), 4.0);
+/// assert_eq!(d.vertices().map(|v| cells.area(v)).sum::<f64>(), 16.0);
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Voronoi2<'a> {
+    triangulation: &'a Delaunay2,
+}
+
+/// An edge of the diagram: the points as near to two sites as to any other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum VoronoiEdge {
+    /// From the centre of the triangle on the left of the Delaunay edge to the one on its right.
+    Segment([[f64; 2]; 2]),
+    /// Unbounded on one side.
+    Ray {
+        /// Where it starts.
+        from: [f64; 2],
+        /// Where it goes; of any length.
+        direction: [f64; 2],
+    },
+    /// Unbounded on both sides: all sites are on one line, or both ends are too far away for `f64`.
+    Line {
+        /// A point on it.
+        through: [f64; 2],
+        /// Where it goes; of any length.
+        direction: [f64; 2],
+    },
+}
+
+impl Delaunay2 {
+    /// The Voronoi diagram of the vertices.
+    pub fn voronoi(&self) -> Voronoi2<'_> {
+        Voronoi2 { triangulation: self }
+    }
+}
+
+impl<'a> Voronoi2<'a> {
+    /// The triangulation that it is a view of.
+    pub fn triangulation(self) -> &'a Delaunay2 {
+        self.triangulation
+    }
+
+    /// The Voronoi vertex of a triangle: the centre of its circle. `None` for a ghost, and if it is too far away for
+    /// `f64`.
+    pub fn vertex(self, t: TriangleId) -> Option<[f64; 2]> {
+        self.triangulation.circumcentre(t)
+    }
+
+    /// The Voronoi vertices, one for each finite triangle, in the order of [`crate::Mesh::triangles`]; those of
+    /// triangles on one circle coincide up to rounding.
+    pub fn vertices(self) -> impl Iterator<Item = Option<[f64; 2]>> + 'a {
+        self.triangulation.mesh().triangles().map(move |t| self.vertex(t))
+    }
+
+    /// The Voronoi edge between the sites of a finite Delaunay edge.
+    pub fn edge(self, e: EdgeId) -> VoronoiEdge {
+        let mesh = self.triangulation.mesh();
+        let [a, b] = self.triangulation.segment(e);
+        // To the right of the Delaunay edge, halved for the range of f64.
+        let right = [b[1] / 2.0 - a[1] / 2.0, a[0] / 2.0 - b[0] / 2.0];
+        let left = right.map(|x| 0.0 - x);
+        match (self.vertex(e.triangle()), self.vertex(mesh.twin(e).triangle())) {
+            (Some(from), Some(to)) => VoronoiEdge::Segment([from, to]),
+            (Some(from), None) => VoronoiEdge::Ray { from, direction: right },
+            (None, Some(from)) => VoronoiEdge::Ray { from, direction: left },
+            (None, None) => {
+                let through = [0, 1].map(|axis| a[axis] / 2.0 + b[axis] / 2.0);
+                VoronoiEdge::Line { through, direction: right }
+            }
+        }
+    }
+
+    /// The Voronoi edges, one for each finite Delaunay edge, in the order of [`crate::Mesh::undirected_edges`].
+    pub fn edges(self) -> impl Iterator<Item = VoronoiEdge> + 'a {
+        self.triangulation.mesh().undirected_edges().map(move |e| self.edge(e))
+    }
+
+    /// Whether the Voronoi edge of a finite Delaunay edge is more than a point: it is a point where four sites are on
+    /// one circle. Exact.
+    pub fn has_length(self, e: EdgeId) -> bool {
+        let mesh = self.triangulation.mesh();
+        let twin = mesh.twin(e);
+        let corners = [mesh.origin(e), mesh.destination(e), mesh.apex(e), mesh.apex(twin)];
+        if corners.iter().any(|v| v.is_ghost()) {
+            return true;
+        }
+        let [a, b, c, d] = corners.map(|v| self.triangulation.point(v));
+        !in_circle_with_ties(a, b, c, d).is_zero()
+    }
+
+    /// Whether the cell of a vertex is bounded: it is for vertices that are not on the hull.
+    pub fn is_bounded(self, site: VertexId) -> bool {
+        let mesh = self.triangulation.mesh();
+        let mut star = mesh.star(site).peekable();
+        star.peek().is_some() && star.all(|e| !mesh.destination(e).is_ghost())
+    }
+
+    /// The corners of a cell, counter-clockwise; those of an unbounded cell from ray to ray, and without those too
+    /// far away for `f64`. Corners that coincide because sites are on one circle appear once.
+    pub fn corners(self, site: VertexId) -> impl Iterator<Item = [f64; 2]> + 'a {
+        let mesh = self.triangulation.mesh();
+        // From the hull edge on, if there is one: the ghost is on its right.
+        let first = mesh.star(site).find(|&e| mesh.is_ghost(mesh.twin(e).triangle()));
+        let star = first.map_or_else(|| mesh.star(site), |e| mesh.star_from(e));
+        let finite = star.filter(|&e| !mesh.destination(e).is_ghost());
+        finite.filter(move |&e| self.has_length(e)).filter_map(move |e| self.vertex(e.triangle()))
+    }
+
+    /// The sites whose cells share more than a point with a cell, counter-clockwise.
+    pub fn neighbors(self, site: VertexId) -> impl Iterator<Item = VertexId> + 'a {
+        let mesh = self.triangulation.mesh();
+        let finite = mesh.star(site).filter(|&e| !mesh.destination(e).is_ghost());
+        finite.filter(move |&e| self.has_length(e)).map(|e| mesh.destination(e))
+    }
+}

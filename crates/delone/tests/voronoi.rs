@@ -1,0 +1,206 @@
+//! Voronoi cells against their definition: what is nearest to a site; and clipped cells tile.
+
+use delone::{Delaunay2, Error, Region, RegionProblem, Relaxation, VertexId, VoronoiEdge};
+use delone_oracle::generate::Kind;
+
+/// A rectangle that holds most of the points, one that cuts through, and polygons, all scaled to the points.
+fn regions(d: &Delaunay2) -> Vec<(&'static str, Region)> {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for p in d.points() {
+        for axis in 0..2 {
+            low[axis] = low[axis].min(p[axis]);
+            high[axis] = high[axis].max(p[axis]);
+        }
+    }
+    let size = (high[0] - low[0]).max(high[1] - low[1]).max(1e-3);
+    let at = |x: f64, y: f64| [low[0] + x * size, low[1] + y * size];
+    let star: Vec<[f64; 2]> = (0..400)
+        .map(|i| {
+            let (angle, radius) =
+                (f64::from(i) * std::f64::consts::TAU / 400.0, if i % 2 == 0 { 0.7 } else { 0.3 });
+            at(0.5 + radius * angle.cos(), 0.5 + radius * angle.sin())
+        })
+        .collect();
+    let ring = |low: f64, high: f64| vec![at(low, low), at(high, low), at(high, high), at(low, high)];
+    let mut regions = vec![
+        ("around", Region::rectangle(at(-0.5, -0.25), at(1.5, 1.75)).expect("a rectangle")),
+        ("through", Region::rectangle(at(0.31, 0.17), at(0.72, 1.4)).expect("a rectangle")),
+        ("away", Region::rectangle(at(7.0, 8.0), at(9.0, 9.0)).expect("a rectangle")),
+        ("star", Region::polygon(&[star]).expect("simple")),
+        ("frame", Region::polygon(&[ring(0.0, 1.0), ring(0.2, 0.8), ring(0.4, 0.6)]).expect("simple")),
+    ];
+    if let Ok(hull) = Region::hull(d) {
+        regions.push(("hull", hull));
+    }
+    regions
+}
+
+#[test]
+fn clipped_cells_tile_the_region() {
+    for &kind in Kind::ALL {
+        // Sets that span the whole range of f64 have no areas in that range.
+        if matches!(kind, Kind::HugeSpan) {
+            continue;
+        }
+        for n in [1, 2, 3, 7, 50, 600] {
+            let d = Delaunay2::from_points(&kind.points(n, 3)).expect("finite");
+            for (name, region) in regions(&d) {
+                let cells = d.voronoi().clip(&region);
+                let sum: f64 = d.vertices().map(|v| cells.area(v)).sum();
+                // The hull of points near a line has an area of nothing but rounding.
+                let [low, high] = region.bounds();
+                let size = region.area().max(1e-4 * (high[0] - low[0]).max(high[1] - low[1]).powi(2));
+                let error = (sum - region.area()).abs() / size;
+                assert!(error <= 1e-12, "{kind:?} {n} {name}: {sum} of {}, {error:e}", region.area());
+                assert!(d.vertices().all(|v| cells.area(v) >= -1e-13 * size), "{kind:?} {n} {name}");
+            }
+        }
+    }
+}
+
+/// The cell as an intersection with all bisectors, by the plainest code.
+fn brute_area(points: &[[f64; 2]], site: usize, [low, high]: [[f64; 2]; 2]) -> f64 {
+    let mut ring = vec![low, [high[0], low[1]], high, [low[0], high[1]]];
+    for other in points.iter().filter(|&&p| p != points[site]) {
+        let value = |p: [f64; 2]| {
+            let square = |q: [f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
+            square(*other) - square(points[site])
+        };
+        let mut cut = Vec::new();
+        for (i, &p) in ring.iter().enumerate() {
+            let q = ring[(i + 1) % ring.len()];
+            let (at_p, at_q) = (value(p), value(q));
+            if at_p >= 0.0 {
+                cut.push(p);
+            }
+            if (at_p >= 0.0) != (at_q >= 0.0) {
+                let t = at_p / (at_p - at_q);
+                cut.push([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])]);
+            }
+        }
+        ring = cut;
+    }
+    area(&ring)
+}
+
+#[test]
+fn cells_are_what_is_nearest() {
+    for kind in [Kind::Uniform, Kind::Grid, Kind::Circle, Kind::Line, Kind::Clusters, Kind::Duplicates] {
+        for n in [1, 2, 5, 60] {
+            let points = kind.points(n, 5);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            for (name, region) in regions(&d).into_iter().take(3) {
+                let cells = d.voronoi().clip(&region);
+                for v in d.vertices() {
+                    let expected = brute_area(&points, v.index(), region.bounds());
+                    let error = (cells.area(v) - expected).abs() / region.area();
+                    assert!(error < 1e-9, "{kind:?} {n} {name} {v:?}: {} not {expected}", cells.area(v));
+                    let alone: f64 = d.voronoi().cell(v, &region).iter().map(|ring| area(ring)).sum();
+                    assert!((alone - cells.area(v)).abs() <= 1e-12 * region.area());
+                }
+            }
+        }
+    }
+}
+
+fn area(ring: &[[f64; 2]]) -> f64 {
+    let Some(&[x, y]) = ring.first() else { return 0.0 };
+    let next = ring.iter().cycle().skip(1);
+    ring.iter().zip(next).map(|(p, q)| (p[0] - x) * (q[1] - y) - (p[1] - y) * (q[0] - x)).sum::<f64>() / 2.0
+}
+
+#[test]
+fn cells_of_a_grid_merge_their_corners() {
+    let points: Vec<[f64; 2]> = (0..100).map(|i| [f64::from(i % 10), f64::from(i / 10)]).collect();
+    let d = Delaunay2::from_points(&points).expect("finite");
+    let voronoi = d.voronoi();
+    for v in d.vertices() {
+        let on_border = |i: usize| usize::from(i % 9 == 0);
+        let borders = on_border(v.index() % 10) + on_border(v.index() / 10);
+        assert_eq!(voronoi.is_bounded(v), borders == 0);
+        assert_eq!(voronoi.neighbors(v).count(), 4 - borders);
+        let corners = [4, 2, 1][borders];
+        assert_eq!(voronoi.corners(v).count(), corners);
+    }
+}
+
+#[test]
+fn low_dimensions_have_cells() {
+    let unit = Region::rectangle([-1.0, -1.0], [3.0, 1.0]).expect("a rectangle");
+    let none = Delaunay2::new();
+    assert_eq!(none.voronoi().edges().count(), 0);
+    let one = Delaunay2::from_points(&[[0.0, 0.0]]).expect("finite");
+    assert_eq!(one.voronoi().clip(&unit).area(VertexId::new(0)), 8.0);
+    let line = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]).expect("finite");
+    assert!(line.voronoi().edges().all(|e| matches!(e, VoronoiEdge::Line { .. })));
+    let cells = line.voronoi().clip(&unit);
+    assert_eq!([0, 1, 2].map(|i| cells.area(VertexId::new(i))), [3.0, 2.0, 3.0]);
+    assert!(Region::hull(&line).is_err());
+}
+
+#[test]
+fn the_view_follows_changes() {
+    let mut d = Delaunay2::from_points(&Kind::Uniform.points(500, 1)).expect("finite");
+    let region = Region::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a rectangle");
+    for i in 0..200 {
+        d.remove(VertexId::new(2 * i)).expect("a vertex");
+        d.move_to(VertexId::new(2 * i + 1), [i as f64 / 200.0, 0.25]).expect("free");
+    }
+    for p in Kind::Uniform.points(300, 2) {
+        d.insert(p).expect("finite");
+    }
+    let left: Vec<VertexId> = d.vertices().collect();
+    let points: Vec<[f64; 2]> = left.iter().map(|&v| d.point(v)).collect();
+    let anew = Delaunay2::from_points(&points).expect("finite");
+    let (cells, expected) = (d.voronoi().clip(&region), anew.voronoi().clip(&region));
+    for (v, w) in left.iter().zip(anew.vertices()) {
+        assert!((cells.area(*v) - expected.area(w)).abs() < 1e-15);
+    }
+    assert_eq!(cells.rings(VertexId::new(0)).count(), 0);
+}
+
+#[test]
+fn bad_regions_are_named() {
+    let problem = |rings: &[Vec<[f64; 2]>]| match Region::polygon(rings) {
+        Err(Error::Region { ring, corner, problem }) => Some((ring, corner, problem)),
+        _ => None,
+    };
+    let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    assert_eq!(problem(&[]), Some((0, 0, RegionProblem::Empty)));
+    assert_eq!(problem(&[square[..2].to_vec()]), Some((0, 0, RegionProblem::Empty)));
+    assert!(matches!(
+        problem(&[vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]]),
+        Some((.., RegionProblem::Crossing))
+    ));
+    let not_a_number = vec![[0.0, 0.0], [f64::NAN, 0.0], [2.0, 1.0]];
+    assert_eq!(problem(&[square.clone(), not_a_number]), Some((1, 1, RegionProblem::NotFinite)));
+    let eight = vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0], [0.0, 2.0]];
+    assert_eq!(problem(&[eight]), Some((0, 4, RegionProblem::VisitedTwice)));
+    let across = vec![[0.5, 0.5], [2.0, 0.5], [2.0, 0.75]];
+    assert!(matches!(problem(&[square.clone(), across]), Some((.., RegionProblem::Crossing))));
+    assert_eq!(problem(&[square.clone(), square.clone()]).map(|p| p.2), Some(RegionProblem::Crossing));
+    // Closed explicitly, and the other way round.
+    let mut closed = square.clone();
+    closed.push(square[0]);
+    closed.reverse();
+    assert_eq!(Region::polygon(&[closed]).map(|region| region.area()), Ok(1.0));
+}
+
+#[test]
+fn relaxation_evens_out() {
+    let d = Delaunay2::from_points(&Kind::Uniform.points(400, 1)).expect("finite");
+    let region = Region::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a rectangle");
+    let spread = |d: &Delaunay2| {
+        let cells = d.voronoi().clip(&region);
+        let areas: Vec<f64> = d.vertices().map(|v| cells.area(v)).collect();
+        areas.iter().fold(0.0, |max: f64, a| max.max(*a)) / areas.iter().fold(1.0, |min: f64, a| min.min(*a))
+    };
+    let mut moves = Vec::new();
+    let relaxed = Relaxation { steps: 30, tolerance: 0.0 }
+        .run(&d, &region, |_, moved| moves.push(moved))
+        .expect("fine");
+    let relaxed = Delaunay2::from_points(&relaxed).expect("finite");
+    assert!(spread(&relaxed) < 3.0 && spread(&d) > 10.0, "{} {}", spread(&relaxed), spread(&d));
+    assert!(moves.len() == 30 && moves[29] < moves[0] / 4.0);
+    assert!(Relaxation { steps: 1, tolerance: -1.0 }.run(&d, &region, |_, _| {}).is_err());
+}
