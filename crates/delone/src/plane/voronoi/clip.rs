@@ -12,6 +12,9 @@
 
 use delone_predicates::circumcentre;
 
+/// A corner that is off its edge by more than this share of its coordinates is not just rounded.
+const ROUNDED: f64 = 1.0 / (1 << 30) as f64;
+
 /// What an edge lies on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Line {
@@ -92,13 +95,21 @@ impl HalfPlane {
                 (a * (1.0 - t) + b * t).clamp(a.min(b), a.max(b))
             })
         };
-        match (self, from.line) {
-            (_, Line::Side([p, q])) => between(p, q),
-            (Self::Nearer { site, other }, Line::Bisector(third)) => {
-                circumcentre(site, other, third).unwrap_or_else(|| between(from.at, to.at))
-            }
-            _ => between(from.at, to.at),
-        }
+        let meeting = match (self, from.line) {
+            (_, Line::Side([p, q])) => Some(between(p, q)),
+            (Self::Nearer { site, other }, Line::Bisector(third)) => circumcentre(site, other, third),
+            _ => None,
+        };
+        // Lines that are the same up to rounding may meet anywhere; where does not matter then, but it must be
+        // on the edge.
+        let on_edge = |p: &[f64; 2]| {
+            [0, 1].into_iter().all(|axis| {
+                let (a, b) = (from.at[axis], to.at[axis]);
+                let slack = a.abs().max(b.abs()) * ROUNDED;
+                (a.min(b) - slack..=a.max(b) + slack).contains(&p[axis])
+            })
+        };
+        meeting.filter(on_edge).unwrap_or_else(|| between(from.at, to.at))
     }
 }
 
