@@ -26,6 +26,8 @@ pub(crate) enum Command {
     Locate(LocateArgs),
     /// Find the vertices nearest to each of many points.
     Nearest(NearestArgs),
+    /// Voronoi cells, clipped, as polygons or as a picture.
+    Voronoi(VoronoiArgs),
     /// Insert, remove, move and ask, as a text file says, one operation a line.
     Replay(ReplayArgs),
     /// Judge triangles from any program: Delaunay? canonical?
@@ -195,6 +197,45 @@ pub(crate) struct NearestArgs {
     /// How many vertices for each query.
     #[arg(short, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) k: u32,
+}
+
+/// Voronoi cells.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone voronoi shops.csv -o cells.geojson -o cells.png
+  delone voronoi shops.csv --clip border.geojson -o cells.geojson
+  delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
+
+GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`; a cell
+outside of the clip region has no geometry. Of equal points the first is the site.")]
+pub(crate) struct VoronoiArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Output file (geojson svg png), or - for standard output; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// What to clip to: `box`, `hull` (the convex hull of the sites), or a file with polygons (geojson) or with the
+    /// corners of one polygon (any format of points).
+    #[arg(long, value_name = "REGION", default_value = "box")]
+    pub(crate) clip: PathBuf,
+    /// The box to clip to [default: the bounding box of the sites].
+    #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_negative_numbers = true)]
+    pub(crate) bounds: Vec<f64>,
+    /// Move sites to the centroids of their cells, at most so many times (Lloyd relaxation).
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) relax: usize,
+    /// Stop relaxing when no site moves further than this, in coordinate units.
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0)]
+    pub(crate) tolerance: f64,
+    /// Write the sites, as relaxed, to a file of points.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sites: Option<PathBuf>,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
 }
 
 /// Replay operations.

@@ -113,6 +113,13 @@ pub(crate) fn queries(path: &Path, quiet: bool) -> Result<Vec<[f64; 2]>, Failure
     Ok(cloud.xy)
 }
 
+/// Reads the rings of polygons.
+pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
+    let format = format(path, None, "the extension")?;
+    let (source, _phase) = open(path, quiet)?;
+    delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))
+}
+
 /// Reads a text.
 pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
     let (mut source, _phase) = open(path, quiet)?;

@@ -15,6 +15,7 @@ mod reduce;
 mod replay;
 mod stats;
 mod triangulate;
+mod voronoi;
 
 use std::process::ExitCode;
 
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Command::Reduce(args) => reduce::run(&args, quiet),
         Command::Locate(args) => locate::run(&args, quiet),
         Command::Nearest(args) => nearest::run(&args, quiet),
+        Command::Voronoi(args) => voronoi::run(&args, quiet),
         Command::Replay(args) => replay::run(&args, quiet),
         Command::Experiment(args) => experiment::run(&args, quiet),
     };

@@ -35,6 +35,9 @@ pub enum Error {
     /// The format holds points only.
     #[error("{0} files hold points, not triangles")]
     NotAMesh(Format),
+    /// The format holds no Voronoi cells.
+    #[error("Voronoi cells are not written to {0} files")]
+    NotCells(Format),
 }
 
 impl Error {
@@ -54,6 +57,7 @@ impl Error {
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => "points: csv xyz txt npy bin node las laz ply obj geojson",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj",
+            Self::NotCells(_) => "cells: geojson svg png",
             Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",
         }
     }

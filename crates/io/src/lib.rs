@@ -5,6 +5,7 @@
 //! ([`Output`]), so no reader ever sees half a file.
 
 mod cloud;
+mod diagram;
 mod error;
 mod format;
 mod formats;
@@ -12,6 +13,7 @@ mod output;
 pub mod picture;
 
 pub use cloud::Cloud;
+pub use diagram::Diagram;
 pub use error::Error;
 pub use format::Format;
 pub use output::Output;
@@ -106,6 +108,32 @@ pub fn write_surface(out: &mut dyn std::io::Write, format: Format, surface: &Sur
         Format::GeoJson => geojson::write(out, surface)?,
         Format::Svg | Format::Png => picture::write(out, format, surface, &picture::Options::default())?,
         Format::Text | Format::Raw | Format::Las => return Err(Error::NotAMesh(format)),
+    }
+    Ok(())
+}
+
+/// Reads the rings of polygons: those of GeoJSON polygons, or all points of another format as one ring.
+pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    match format {
+        Format::GeoJson => formats::geojson::read_rings(source),
+        _ => {
+            Ok(vec![read_points(source, format, &ReadOptions { dimension: 2, ..ReadOptions::default() })?.xy])
+        }
+    }
+}
+
+/// Writes Voronoi cells: as GeoJSON, one feature for each site with its input index and the area of its cell, or as a
+/// picture whose longer side has `size` pixels.
+pub fn write_diagram(
+    out: &mut dyn std::io::Write,
+    format: Format,
+    diagram: &Diagram,
+    size: u32,
+) -> Result<(), Error> {
+    match format {
+        Format::GeoJson => formats::geojson::write_cells(out, diagram)?,
+        Format::Svg | Format::Png => picture::write_cells(out, format, diagram, size)?,
+        _ => return Err(Error::NotCells(format)),
     }
     Ok(())
 }

@@ -4,12 +4,15 @@
 //! do not touch, and otherwise the triangles alone, coloured by height with shading (a relief) or, without
 //! heights, by how dense the points are.
 
+mod cells;
 mod colour;
 mod png;
 mod raster;
 mod relief;
 mod svg;
 mod view;
+
+pub(crate) use cells::write as write_cells;
 
 use std::io::Write;
 
@@ -70,16 +73,18 @@ impl Layers {
 
 /// Draws a triangulation.
 pub fn write(out: &mut dyn Write, format: Format, surface: &Surface, options: &Options) -> Result<(), Error> {
-    if !(16..=20_000).contains(&options.size) {
-        return Err(Error::content(format!(
-            "a picture of {} pixels: from 16 to 20000 are possible",
-            options.size
-        )));
-    }
+    check_size(options.size)?;
     let view = View::of(surface, options.size);
     let layers = Layers::choose(surface, &view, options);
     match format {
         Format::Svg => Ok(svg::write(out, surface, &view, layers)?),
         _ => png::write(out, surface, &view, layers),
     }
+}
+
+fn check_size(size: u32) -> Result<(), Error> {
+    if (16..=20_000).contains(&size) {
+        return Ok(());
+    }
+    Err(Error::content(format!("a picture of {size} pixels: from 16 to 20000 are possible")))
 }

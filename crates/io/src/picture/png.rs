@@ -9,7 +9,7 @@ use tiny_skia::{
 };
 
 use super::Layers;
-use super::colour::{EDGE, HULL, INK, PAPER, POINT, Rgb};
+use super::colour::{EDGE, HULL, INK, PAPER, POINT, Ramp, Rgb};
 use super::raster::Raster;
 use super::relief::Paint;
 use super::view::View;
@@ -37,9 +37,7 @@ pub(super) fn write(
         canvas.points(surface, view, layers.point_radius());
     }
     canvas.strip(view, &paint, layers.fill);
-    let png = canvas.0.encode_png().map_err(|error| Error::content(format!("PNG: {error}")))?;
-    out.write_all(&png)?;
-    Ok(())
+    canvas.encode(out)
 }
 
 fn fill(raster: &mut Raster, surface: &Surface, view: &View, paint: &Paint) {
@@ -54,7 +52,7 @@ fn fill(raster: &mut Raster, surface: &Surface, view: &View, paint: &Paint) {
 }
 
 /// The picture in tiny-skia's hands.
-struct Canvas(Pixmap);
+pub(super) struct Canvas(Pixmap);
 
 fn brush([r, g, b]: Rgb, alpha: u8) -> Brush<'static> {
     let mut brush = Brush { anti_alias: true, ..Brush::default() };
@@ -63,7 +61,7 @@ fn brush([r, g, b]: Rgb, alpha: u8) -> Brush<'static> {
 }
 
 impl Canvas {
-    fn from(raster: &Raster) -> Result<Self, Error> {
+    pub(super) fn from(raster: &Raster) -> Result<Self, Error> {
         let mut pixmap = Pixmap::new(raster.width as u32, raster.height as u32)
             .ok_or_else(|| Error::content("the picture is too large"))?;
         for (to, &[r, g, b]) in pixmap.pixels_mut().iter_mut().zip(&raster.pixels) {
@@ -75,7 +73,13 @@ impl Canvas {
     }
 
     /// Strokes a set of lines at once.
-    fn lines(&mut self, lines: impl Iterator<Item = [[f64; 2]; 2]>, colour: Rgb, alpha: u8, width: f64) {
+    pub(super) fn lines(
+        &mut self,
+        lines: impl Iterator<Item = [[f64; 2]; 2]>,
+        colour: Rgb,
+        alpha: u8,
+        width: f64,
+    ) {
         let stroke = Stroke {
             width: width as f32,
             line_cap: LineCap::Round,
@@ -117,14 +121,18 @@ impl Canvas {
 
     fn points(&mut self, surface: &Surface, view: &View, radius: f64) {
         let d = surface.triangulation;
-        for v in d.vertices() {
-            let [x, y] = view.place(d.point(v));
+        self.dots(d.vertices().map(|v| view.place(d.point(v))), radius, POINT);
+    }
+
+    /// A dot at each position.
+    pub(super) fn dots(&mut self, positions: impl Iterator<Item = [f64; 2]>, radius: f64, colour: Rgb) {
+        for [x, y] in positions {
             let mut path = PathBuilder::new();
             path.push_circle(x as f32, y as f32, radius as f32);
             if let Some(path) = path.finish() {
                 self.0.fill_path(
                     &path,
-                    &brush(POINT, 255),
+                    &brush(colour, 255),
                     tiny_skia::FillRule::Winding,
                     Transform::identity(),
                     None,
@@ -133,24 +141,60 @@ impl Canvas {
         }
     }
 
+    /// Writes the picture.
+    pub(super) fn encode(&self, out: &mut dyn Write) -> Result<(), Error> {
+        let png = self.0.encode_png().map_err(|error| Error::content(format!("PNG: {error}")))?;
+        out.write_all(&png)?;
+        Ok(())
+    }
+
+    /// Fills closed rings; where one is inside of another there is a hole.
+    pub(super) fn fill(&mut self, rings: &[Vec<[f64; 2]>], colour: Rgb) {
+        let mut path = PathBuilder::new();
+        for ring in rings {
+            for (i, &[x, y]) in ring.iter().enumerate() {
+                if i == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
+            }
+            path.close();
+        }
+        if let Some(path) = path.finish() {
+            // Without smoothing, so that nothing shines through between neighbours.
+            let mut brush = brush(colour, 255);
+            brush.anti_alias = false;
+            let rule = tiny_skia::FillRule::EvenOdd;
+            self.0.fill_path(&path, &brush, rule, Transform::identity(), None);
+        }
+    }
+
     /// Legend and scale below the drawing.
     fn strip(&mut self, view: &View, paint: &Paint, filled: bool) {
-        let Some(top) = view.strip() else { return };
-        let (baseline, margin) = (top + 14.0, 24.0);
-        let width = f64::from(view.width);
         if filled {
-            let bar = (width / 4.0).min(360.0);
-            for i in 0..bar as u32 {
-                let colour = paint.ramp().at(f64::from(i) / bar);
-                self.rectangle([margin + f64::from(i), baseline], [1.0, 12.0], colour);
-            }
             let (low, high) = match paint {
                 Paint::Relief(relief) => (Short(relief.low).to_string(), Short(relief.high).to_string()),
                 Paint::Density { .. } => ("sparse".to_owned(), "dense".to_owned()),
             };
-            self.text([margin, baseline + 16.0], &low);
-            self.text([margin + bar - text_width(&high), baseline + 16.0], &high);
+            self.legend(view, paint.ramp(), &low, &high);
         }
+        self.scale(view);
+    }
+
+    /// What the colours mean.
+    pub(super) fn legend(&mut self, view: &View, ramp: &Ramp, low: &str, high: &str) {
+        let Some(top) = view.strip() else { return };
+        let (baseline, margin) = (top + 14.0, 24.0);
+        let bar = (f64::from(view.width) / 4.0).min(360.0);
+        for i in 0..bar as u32 {
+            let colour = ramp.at(f64::from(i) / bar);
+            self.rectangle([margin + f64::from(i), baseline], [1.0, 12.0], colour);
+        }
+        self.text([margin, baseline + 16.0], low);
+        self.text([margin + bar - text_width(high), baseline + 16.0], high);
+    }
+
+    /// How long things are.
+    pub(super) fn scale(&mut self, view: &View) {
+        let Some(top) = view.strip() else { return };
+        let (baseline, margin, width) = (top + 14.0, 24.0, f64::from(view.width));
         if let Some((length, pixels)) = view.scale_bar() {
             let left = width - margin - pixels;
             self.rectangle([left, baseline + 4.0], [pixels, 3.0], INK);

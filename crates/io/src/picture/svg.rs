@@ -64,8 +64,14 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
         }
         writeln!(out, "</g>")?;
     }
+    scale(out, view)?;
+    writeln!(out, "</svg>")
+}
+
+/// How long things are, below the drawing.
+pub(super) fn scale(out: &mut dyn Write, view: &View) -> io::Result<()> {
     if let (Some(top), Some((length, pixels))) = (view.strip(), view.scale_bar()) {
-        let right = f64::from(width) - 24.0;
+        let right = f64::from(view.width) - 24.0;
         let (left, y) = (right - pixels, top + 14.0);
         writeln!(
             out,
@@ -78,7 +84,7 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
             y + 28.0
         )?;
     }
-    writeln!(out, "</svg>")
+    Ok(())
 }
 
 fn place(view: &View, p: [f64; 2]) -> String {
@@ -86,6 +92,6 @@ fn place(view: &View, p: [f64; 2]) -> String {
     format!("{x:.2} {y:.2}")
 }
 
-fn hex([r, g, b]: Rgb) -> String {
+pub(super) fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

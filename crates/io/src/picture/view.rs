@@ -23,8 +23,13 @@ pub(super) struct View {
 impl View {
     /// Shows all points, the longer side `size` pixels long and the shorter at least a third of it.
     pub(super) fn of(surface: &Surface, size: u32) -> Self {
+        Self::around(surface.triangulation.vertices().map(|v| surface.triangulation.point(v)), size)
+    }
+
+    /// The same for any points.
+    pub(super) fn around(points: impl Iterator<Item = [f64; 2]>, size: u32) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in surface.triangulation.vertices().map(|v| surface.triangulation.point(v)) {
+        for p in points {
             for k in 0..2 {
                 low[k] = low[k].min(p[k]);
                 high[k] = high[k].max(p[k]);

@@ -1,0 +1,104 @@
+//! `delone voronoi`: clipped cells as polygons and pictures.
+
+use std::path::Path;
+
+use delone::{Algorithm, Delaunay2, Region, Relaxation};
+use delone_io::{Diagram, Format};
+
+use crate::args::VoronoiArgs;
+use crate::message::Failure;
+use crate::progress::Phase;
+use crate::stats::Stats;
+use crate::{files, triangulate};
+
+pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
+    let polygon = !["box", "hull"].map(Path::new).contains(&args.clip.as_path());
+    let mut inputs = vec![args.input.input.as_path()];
+    if polygon {
+        inputs.push(&args.clip);
+    }
+    let all: Vec<_> = args.output.iter().chain(&args.sites).cloned().collect();
+    files::keep_apart(&inputs, all.iter().map(AsRef::as_ref).chain(args.input.stats.as_deref()))?;
+    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
+    let cells = |format: &Format| matches!(format, Format::GeoJson | Format::Svg | Format::Png);
+    if let Some((path, format)) = outputs.iter().find(|(_, format)| !cells(format)) {
+        return Err(Failure::file(path, &delone_io::Error::NotCells(*format)));
+    }
+    let sites_format =
+        args.sites.as_deref().map(|path| files::format(path, None, "the extension")).transpose()?;
+    if !args.bounds.is_empty() && args.clip != Path::new("box") {
+        return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
+    }
+    let mut stats = Stats::start();
+    let xy = files::points(&args.input, 2, quiet)?.xy;
+    let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
+    stats.phase("read");
+    let mut triangulation = triangulate::build(xy, Algorithm::default(), &args.input.input, quiet)?;
+    triangulate::remark(&triangulation, quiet);
+    stats.phase("build");
+    let region = if polygon {
+        Region::polygon(&rings).map_err(|error| {
+            let help = "clip to a polygon whose rings neither cross nor touch themselves or each other";
+            Failure::new(format!("{}: {error}", args.clip.display()), help)
+        })?
+    } else {
+        region(args, &triangulation)?
+    };
+    if args.relax > 0 {
+        let _phase = Phase::start(quiet, "relaxing");
+        let relaxation = Relaxation { steps: args.relax, tolerance: args.tolerance };
+        let mut last = (0, 0.0);
+        let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
+        let points =
+            relaxation.run(&triangulation, &region, |step, moved| last = (step, moved)).map_err(failed)?;
+        triangulation = triangulate::build(points, Algorithm::default(), &args.input.input, quiet)?;
+        stats.set("relaxed", last.0);
+        stats.set("moved", last.1);
+        stats.phase("relax");
+    }
+    let cells = {
+        let _phase = Phase::start(quiet, "clipping");
+        triangulation.voronoi().clip(&region)
+    };
+    stats.phase("clip");
+    stats.triangulation(&triangulation);
+    stats.set("cells", triangulation.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
+    stats.set("area", region.area());
+    let _phase = Phase::start(quiet, "writing");
+    let diagram = Diagram { triangulation: &triangulation, cells: &cells };
+    for (path, format) in &outputs {
+        files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
+    }
+    if let (Some(path), Some(format)) = (&args.sites, sites_format) {
+        files::write(path, |out| delone_io::write_points(out, format, triangulation.points()))?;
+    }
+    stats.phase("write");
+    stats.write(args.input.stats.as_deref())
+}
+
+/// The box or the hull to clip to.
+fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region, Failure> {
+    if args.clip == Path::new("hull") {
+        return Region::hull(triangulation)
+            .map_err(|_| Failure::new("the sites span no area, so their hull has none", "clip to a --box"));
+    }
+    let (low, high) = match args.bounds[..] {
+        [] => {
+            let points = triangulation.points();
+            let least = |axis: usize| points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+            let most = |axis: usize| points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+            ([least(0), least(1)], [most(0), most(1)])
+        }
+        [x0, y0, x1, y1] => ([x0, y0], [x1, y1]),
+        _ => {
+            return Err(Failure::usage("--box needs four numbers", "give it as --box x0,y0,x1,y1"));
+        }
+    };
+    Region::rectangle(low, high).map_err(|error| {
+        if args.bounds.is_empty() {
+            Failure::new("the bounding box of the sites has no area", "give one with --box x0,y0,x1,y1")
+        } else {
+            Failure::usage(format!("--box: {error}"), "give it as --box x0,y0,x1,y1 with x0 < x1 and y0 < y1")
+        }
+    })
+}

@@ -1,0 +1,139 @@
+//! Pictures of Voronoi cells, coloured by size.
+
+use std::io::Write;
+
+use delone::VertexId;
+
+use super::colour::{DENSITY, EDGE, PAPER, POINT, Rgb};
+use super::png::Canvas;
+use super::raster::Raster;
+use super::svg::hex;
+use super::view::View;
+use crate::{Diagram, Error, Format};
+
+/// What to draw, and how.
+struct Style {
+    view: View,
+    /// Logarithms of the areas between which colours change.
+    low: f64,
+    high: f64,
+    /// Typical distance of neighbours in pixels.
+    spacing: f64,
+}
+
+/// Draws clipped cells: filled by their area, outlined while there is room, with their sites.
+pub(crate) fn write(out: &mut dyn Write, format: Format, diagram: &Diagram, size: u32) -> Result<(), Error> {
+    super::check_size(size)?;
+    let style = Style::of(diagram, size);
+    match format {
+        Format::Svg => Ok(svg(out, diagram, &style)?),
+        _ => png(out, diagram, &style),
+    }
+}
+
+impl Style {
+    fn of(diagram: &Diagram, size: u32) -> Self {
+        let view = View::around(diagram.corners(), size);
+        let mut areas: Vec<f64> = sites(diagram).map(|v| diagram.cells.area(v).ln()).collect();
+        areas.sort_by(f64::total_cmp);
+        // A few outliers must not take all of the colours.
+        let at = |share: f64| areas.get((areas.len() as f64 * share) as usize).copied().unwrap_or_default();
+        let pixels = f64::from(view.width) * f64::from(view.height);
+        let spacing = (pixels / areas.len().max(1) as f64).sqrt();
+        Self { view, low: at(0.02), high: at(0.98), spacing }
+    }
+
+    fn colour(&self, area: f64) -> Rgb {
+        let range = self.high - self.low;
+        let t = if range > 1e-9 { (area.ln() - self.low) / range } else { 0.5 };
+        // Small cells are dense.
+        DENSITY.at(1.0 - t)
+    }
+
+    fn outlines(&self) -> bool {
+        self.spacing > 5.0
+    }
+
+    fn line_width(&self) -> f64 {
+        (self.spacing / 40.0).clamp(0.4, 1.6)
+    }
+
+    fn dot_radius(&self) -> Option<f64> {
+        (self.spacing > 12.0).then(|| (self.spacing / 12.0).clamp(1.0, 3.5))
+    }
+}
+
+/// The sites whose cells are not empty.
+fn sites<'a>(diagram: &'a Diagram) -> impl Iterator<Item = VertexId> + 'a {
+    diagram.triangulation.vertices().filter(|&v| diagram.cells.rings(v).next().is_some())
+}
+
+/// Dark sites on light cells, light ones on dark cells.
+fn dot_colour(cell: Rgb) -> Rgb {
+    if cell.iter().map(|&part| u32::from(part)).sum::<u32>() > 330 { POINT } else { PAPER }
+}
+
+fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Error> {
+    let view = &style.view;
+    let mut canvas = Canvas::from(&Raster::new(view.width, view.height, PAPER))?;
+    let place = |ring: &[[f64; 2]]| ring.iter().map(|&p| view.place(p)).collect::<Vec<_>>();
+    for v in sites(diagram) {
+        let rings: Vec<_> = diagram.cells.rings(v).map(place).collect();
+        canvas.fill(&rings, style.colour(diagram.cells.area(v)));
+    }
+    if style.outlines() {
+        let sides = sites(diagram).flat_map(|v| diagram.cells.rings(v)).flat_map(|ring| {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(&p, &q)| [view.place(p), view.place(q)])
+        });
+        canvas.lines(sides, EDGE, 255, style.line_width());
+    }
+    if let Some(radius) = style.dot_radius() {
+        for colour in [POINT, PAPER] {
+            let wanted = |v: &VertexId| dot_colour(style.colour(diagram.cells.area(*v))) == colour;
+            let positions = sites(diagram).filter(wanted).map(|v| view.place(diagram.triangulation.point(v)));
+            canvas.dots(positions, radius, colour);
+        }
+    }
+    canvas.legend(view, &DENSITY, "large cells", "small");
+    canvas.scale(view);
+    canvas.encode(out)
+}
+
+fn svg(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> std::io::Result<()> {
+    let view = &style.view;
+    let (width, height) = (view.width, view.height);
+    writeln!(
+        out,
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">"#
+    )?;
+    writeln!(out, r#"<rect width="100%" height="100%" fill="white"/>"#)?;
+    let outline = if style.outlines() { hex(EDGE) } else { "none".to_owned() };
+    writeln!(
+        out,
+        r#"<g stroke="{outline}" stroke-width="{:.2}" stroke-linejoin="round" fill-rule="evenodd">"#,
+        style.line_width()
+    )?;
+    for v in sites(diagram) {
+        let area = diagram.cells.area(v);
+        write!(out, r#"<path fill="{}" d=""#, hex(style.colour(area)))?;
+        for ring in diagram.cells.rings(v) {
+            for (i, &p) in ring.iter().enumerate() {
+                let [x, y] = view.place(p);
+                write!(out, "{}{x:.2} {y:.2}", if i == 0 { 'M' } else { 'L' })?;
+            }
+            write!(out, "Z")?;
+        }
+        writeln!(out, r#""><title>{}</title></path>"#, v.index())?;
+    }
+    writeln!(out, "</g>")?;
+    if let Some(radius) = style.dot_radius() {
+        for v in sites(diagram) {
+            let [x, y] = view.place(diagram.triangulation.point(v));
+            let colour = hex(dot_colour(style.colour(diagram.cells.area(v))));
+            writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{colour}"/>"#)?;
+        }
+    }
+    super::svg::scale(out, view)?;
+    writeln!(out, "</svg>")
+}
