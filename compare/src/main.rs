@@ -5,6 +5,7 @@
 mod changes;
 mod engines;
 mod memory;
+mod voronoi;
 
 use std::panic::{self, AssertUnwindSafe};
 use std::time::Duration;
@@ -37,6 +38,9 @@ struct Args {
     /// Time insertion one by one, location, nearest vertex and removal instead of building.
     #[arg(long)]
     changes: bool,
+    /// Time Voronoi cells clipped to the bounding box instead of building.
+    #[arg(long)]
+    voronoi: bool,
     /// Measure peak memory too (one more process for each engine and set).
     #[arg(long)]
     memory: bool,
@@ -70,7 +74,11 @@ fn main() {
         .filter(|e| args.engines.is_empty() || args.engines.iter().any(|name| name == e.name))
         .collect();
     if args.changes {
-        std::process::exit(i32::from(!changed(&args)));
+        std::process::exit(i32::from(!each_set(&args, changes::run)));
+    }
+    if args.voronoi {
+        panic::set_hook(Box::new(|_| {}));
+        std::process::exit(i32::from(!each_set(&args, voronoi::run)));
     }
     println!("ns/point, minimum of {} interleaved runs, one thread; output included", args.runs);
     let mut all_right = true;
@@ -99,13 +107,13 @@ fn main() {
     }
 }
 
-/// The other comparison.
-fn changed(args: &Args) -> bool {
+/// Another comparison on each set.
+fn each_set(args: &Args, run: fn(Kind, usize, usize) -> bool) -> bool {
     println!("minimum of {} interleaved runs, one thread", args.runs);
     let mut all_right = true;
     for kind in args.kinds.iter().filter_map(|name| Kind::named(name)) {
         for &size in &args.size {
-            all_right &= changes::run(kind, size, args.runs);
+            all_right &= run(kind, size, args.runs);
         }
     }
     all_right

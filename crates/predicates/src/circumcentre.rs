@@ -1,7 +1,7 @@
 //! The centre of a circle through three points: filter, exact. A construction, so it is rounded; nothing is decided
 //! by it.
 
-use crate::{Point2, exact, lexicographic};
+use crate::{Point2, exact};
 
 /// The share of a sum that may cancel before the exact way is taken: 2^-8 leaves more than 40 correct bits.
 const CANCELLED: f64 = 1.0 / 256.0;
@@ -24,9 +24,12 @@ const CANCELLED: f64 = 1.0 / 256.0;
 /// ```
 #[inline]
 pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
-    let (a, b) = ordered(a, b);
-    let (b, c) = ordered(b, c);
-    let (a, b) = ordered(a, b);
+    // From the smallest point: of the other two either may be first, which changes two signs that cancel. Without
+    // branches, because nothing predicts them.
+    let points = [a, b, c];
+    let least = usize::from(is_less(b, a));
+    let least = if is_less(c, points[least]) { 2 } else { least };
+    let [a, b, c] = [least, [1, 2, 0][least], [2, 0, 1][least]].map(|i| points[i]);
     let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
     let (left, right) = (bx * cy, by * cx);
     let (area, size) = (left - right, left.abs() + right.abs());
@@ -42,8 +45,9 @@ pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 }
 
 #[inline]
-fn ordered(a: Point2, b: Point2) -> (Point2, Point2) {
-    if lexicographic(a, b).is_le() { (a, b) } else { (b, a) }
+#[expect(clippy::needless_bitwise_bool, reason = "a branch would be mispredicted every other time")]
+fn is_less(a: Point2, b: Point2) -> bool {
+    (a[0] < b[0]) | ((a[0] == b[0]) & (a[1] < b[1]))
 }
 
 #[cold]

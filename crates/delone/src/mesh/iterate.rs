@@ -23,7 +23,7 @@ impl Mesh {
     }
 
     /// All edges, in both directions, those of ghost triangles included.
-    pub(crate) fn directed_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+    pub(super) fn directed_edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
         let triangles = (0..self.slot_count()).map(TriangleId::new).filter(|&t| self.is_triangle(t));
         triangles.flat_map(|t| [0, 1, 2].map(|k| t.edge(k)))
     }

@@ -9,8 +9,15 @@
 use super::Voronoi2;
 use super::clip::{HalfPlane, Ring, clip};
 use super::region::{Region, twice_area};
-use crate::ids::{Place, VertexId};
+use delone_predicates::circumcentre;
+
+use crate::fetch::fetch;
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::Ground;
+use crate::mesh::{HalfEdge, Star};
+
+/// How many triangles ahead memory is asked.
+const AHEAD: usize = 16;
 
 /// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Outer rings are
 /// counter-clockwise, holes clockwise.
@@ -39,16 +46,11 @@ impl Voronoi2<'_> {
             corners: Vec::with_capacity(6 * mesh.vertex_count()),
         };
         cells.starts.push(0);
-        let far = [f64::INFINITY; 2];
-        let centre = |t| self.vertex(t).unwrap_or(far);
-        let centres: Vec<[f64; 2]> = (0..mesh.slot_count())
-            .map(crate::ids::TriangleId::new)
-            .map(|t| if mesh.is_triangle(t) { centre(t) } else { far })
-            .collect();
+        let centres = self.centres();
         let mut done = 0;
-        let mut add = |cells: &mut Cells, place: Place| {
+        let mut add = |cells: &mut Cells, place: Place, e: EdgeId| {
             let first = cells.starts.len() - 1;
-            if !cells.push_inner(self, region, place, &centres) {
+            if !cells.push_inner(mesh.star_from(e), region, &centres) {
                 for ring in self.cut_out(region, place) {
                     cells.push(ring.iter().map(|corner| corner.at));
                 }
@@ -61,18 +63,43 @@ impl Voronoi2<'_> {
             }
         };
         if mesh.lone.is_some() || !layer.is_spanned() {
-            mesh.inhabited().for_each(|place| add(&mut cells, place));
+            mesh.inhabited().for_each(|place| add(&mut cells, place, EdgeId::NONE));
             return cells;
         }
-        // In the order of triangles, which lie in memory as in the plane: each vertex with the triangle of its
-        // incident edge.
-        for e in mesh.directed_edges() {
-            let place = mesh.tail(e);
-            if !place.is_ghost() && mesh.incident[place.index()] == e {
-                add(&mut cells, place);
+        // In the order of triangles, which lie in memory as in the plane: each vertex with the first of its edges.
+        let mut seen = vec![0_u64; layer.points.len().div_ceil(64)];
+        for t in (0..mesh.slot_count()).map(TriangleId::new) {
+            // Stars reach across to triangles that lie elsewhere.
+            for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
+                fetch(&mesh.edges, record.twin.index());
+                fetch(&centres, record.twin.triangle().index());
+            }
+            for e in [0, 1, 2].map(|k| t.edge(k)) {
+                let place = mesh.tail(e);
+                let (word, bit) = (place.index() / 64, 1 << (place.index() % 64));
+                if seen.get(word).is_some_and(|&word| word & bit == 0) {
+                    seen[word] |= bit;
+                    add(&mut cells, place, e);
+                }
             }
         }
         cells
+    }
+
+    /// The circumcentres of all triangles, by index; infinite where there is none.
+    fn centres(self) -> Vec<[f64; 2]> {
+        let layer = &self.triangulation.base;
+        let triangles = layer.mesh.edges.chunks_exact(4);
+        let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
+        let centre = |(corners, ahead): (&[HalfEdge], Option<&[HalfEdge]>)| {
+            // Corners lie wherever they lay in the input.
+            for corner in ahead.into_iter().flatten() {
+                fetch(&layer.points, corner.origin.index());
+            }
+            let [a, b, c] = [0, 1, 2].map(|k| layer.points.get(corners[k].origin.index()).copied());
+            a.zip(b).zip(c).and_then(|((a, b), c)| circumcentre(a, b, c)).unwrap_or([f64::INFINITY; 2])
+        };
+        triangles.zip(ahead).map(centre).collect()
     }
 
     /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
@@ -110,11 +137,10 @@ impl Voronoi2<'_> {
 impl Cells {
     /// Adds a cell whose corners are all inside of the region. Says whether it is one.
     #[inline]
-    fn push_inner(&mut self, voronoi: Voronoi2, region: &Region, place: Place, centres: &[[f64; 2]]) -> bool {
-        let mesh = voronoi.triangulation.mesh();
+    fn push_inner(&mut self, star: Star, region: &Region, centres: &[[f64; 2]]) -> bool {
         let start = self.corners.len();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for e in mesh.spokes(place) {
+        for e in star {
             let corner = centres[e.triangle().index()];
             for axis in 0..2 {
                 low[axis] = low[axis].min(corner[axis]);
