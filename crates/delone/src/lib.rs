@@ -46,5 +46,5 @@ pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::{Dimension, Mesh};
 pub use plane::{
     Algorithm, Cells, Counters, Delaunay2, Duplicate, Footprint, Inserted, Location, Position2, Region,
-    Relaxation, Voronoi2, VoronoiEdge,
+    Relaxation, Ring, Voronoi2, VoronoiEdge,
 };

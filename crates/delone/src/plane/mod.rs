@@ -21,7 +21,7 @@ pub use change::Inserted;
 pub use locate::Location;
 pub use locator::Footprint;
 pub use position::Position2;
-pub use voronoi::{Cells, Region, Relaxation, Voronoi2, VoronoiEdge};
+pub use voronoi::{Cells, Region, Relaxation, Ring, Voronoi2, VoronoiEdge};
 
 use std::sync::OnceLock;
 

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use delone::Ring;
 use geojson::{GeoJson, Geometry, GeometryValue};
 
 use crate::{Cloud, Diagram, Error, Source, Surface};
@@ -85,10 +86,10 @@ pub(crate) fn write_cells(out: &mut dyn Write, diagram: &Diagram) -> io::Result<
     writeln!(out, "\n]}}")
 }
 
-fn write_polygon(out: &mut dyn Write, rings: &[&[[f64; 2]]]) -> io::Result<()> {
+fn write_polygon(out: &mut dyn Write, rings: &[Ring]) -> io::Result<()> {
     for (k, ring) in rings.iter().enumerate() {
         write!(out, "{}", if k == 0 { "[[" } else { ",[" })?;
-        for (i, [x, y]) in ring.iter().chain(ring.first()).enumerate() {
+        for (i, [x, y]) in ring.points().chain(ring.points().take(1)).enumerate() {
             write!(out, "{}[{x:?},{y:?}]", if i == 0 { "" } else { "," })?;
         }
         write!(out, "]")?;

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use delone::VertexId;
+use delone::{Ring, VertexId};
 
 use super::colour::{DENSITY, EDGE, PAPER, POINT, Rgb};
 use super::png::Canvas;
@@ -76,16 +76,14 @@ fn dot_colour(cell: Rgb) -> Rgb {
 fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Error> {
     let view = &style.view;
     let mut canvas = Canvas::from(&Raster::new(view.width, view.height, PAPER))?;
-    let place = |ring: &[[f64; 2]]| ring.iter().map(|&p| view.place(p)).collect::<Vec<_>>();
+    let place = |ring: Ring| ring.points().map(|p| view.place(p)).collect::<Vec<_>>();
     for v in sites(diagram) {
         let rings: Vec<_> = diagram.cells.rings(v).map(place).collect();
         canvas.fill(&rings, style.colour(diagram.cells.area(v)));
     }
     if style.outlines() {
-        let sides = sites(diagram).flat_map(|v| diagram.cells.rings(v)).flat_map(|ring| {
-            let next = ring.iter().cycle().skip(1);
-            ring.iter().zip(next).map(|(&p, &q)| [view.place(p), view.place(q)])
-        });
+        let sides = sites(diagram).flat_map(|v| diagram.cells.rings(v)).flat_map(Ring::sides);
+        let sides = sides.map(|side| side.map(|p| view.place(p)));
         canvas.lines(sides, EDGE, 255, style.line_width());
     }
     if let Some(radius) = style.dot_radius() {
@@ -118,7 +116,7 @@ fn svg(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> std::io::Result
         let area = diagram.cells.area(v);
         write!(out, r#"<path fill="{}" d=""#, hex(style.colour(area)))?;
         for ring in diagram.cells.rings(v) {
-            for (i, &p) in ring.iter().enumerate() {
+            for (i, p) in ring.points().enumerate() {
                 let [x, y] = view.place(p);
                 write!(out, "{}{x:.2} {y:.2}", if i == 0 { 'M' } else { 'L' })?;
             }

@@ -7,7 +7,7 @@
 //! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
 
 use super::Voronoi2;
-use super::clip::{HalfPlane, Ring, clip};
+use super::clip::{self, HalfPlane, clip};
 use super::region::{Region, twice_area};
 use delone_predicates::circumcentre;
 
@@ -19,15 +19,25 @@ use crate::mesh::{HalfEdge, Star};
 /// How many triangles ahead memory is asked.
 const AHEAD: usize = 16;
 
-/// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Outer rings are
-/// counter-clockwise, holes clockwise.
+/// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Neighbouring cells
+/// share the vertices between them.
 #[derive(Clone, Debug, Default)]
 pub struct Cells {
     /// For each site the first of its rings, and how many there are.
     sites: Vec<(u32, u32)>,
-    /// Where each ring starts; and the end of the last.
-    starts: Vec<usize>,
-    corners: Vec<[f64; 2]>,
+    /// Where each ring starts among the corners; and the end of the last.
+    starts: Vec<u32>,
+    /// Indices of vertices, ring by ring.
+    corners: Vec<u32>,
+    /// First the circumcentres by triangle, then what clipping has made.
+    vertices: Vec<[f64; 2]>,
+}
+
+/// A closed line of the border of a cell, the cell on its left: an outer ring is counter-clockwise, a hole clockwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Ring<'a> {
+    corners: &'a [u32],
+    vertices: &'a [[f64; 2]],
 }
 
 impl Voronoi2<'_> {
@@ -44,13 +54,13 @@ impl Voronoi2<'_> {
             sites: vec![(0, 0); triangulation.points().len()],
             starts: Vec::with_capacity(mesh.vertex_count() + 1),
             corners: Vec::with_capacity(6 * mesh.vertex_count()),
+            vertices: self.centres(),
         };
         cells.starts.push(0);
-        let centres = self.centres();
         let mut done = 0;
         let mut add = |cells: &mut Cells, place: Place, e: EdgeId| {
             let first = cells.starts.len() - 1;
-            if !cells.push_inner(mesh.star_from(e), region, &centres) {
+            if !cells.push_inner(mesh.star_from(e), region) {
                 for ring in self.cut_out(region, place) {
                     cells.push(ring.iter().map(|corner| corner.at));
                 }
@@ -72,7 +82,7 @@ impl Voronoi2<'_> {
             // Stars reach across to triangles that lie elsewhere.
             for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
                 fetch(&mesh.edges, record.twin.index());
-                fetch(&centres, record.twin.triangle().index());
+                fetch(&cells.vertices, record.twin.triangle().index());
             }
             for e in [0, 1, 2].map(|k| t.edge(k)) {
                 let place = mesh.tail(e);
@@ -110,10 +120,10 @@ impl Voronoi2<'_> {
     }
 
     /// A cell cut out of the region by its bisectors.
-    fn cut_out(self, region: &Region, place: Place) -> Vec<Ring> {
+    fn cut_out(self, region: &Region, place: Place) -> Vec<clip::Ring> {
         let (layer, mesh) = (&self.triangulation.base, self.triangulation.mesh());
         let site = layer.point(place);
-        let cut = |mut rings: Vec<Ring>| {
+        let cut = |mut rings: Vec<clip::Ring>| {
             for w in mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()) {
                 if rings.is_empty() {
                     break;
@@ -137,71 +147,100 @@ impl Voronoi2<'_> {
 impl Cells {
     /// Adds a cell whose corners are all inside of the region. Says whether it is one.
     #[inline]
-    fn push_inner(&mut self, star: Star, region: &Region, centres: &[[f64; 2]]) -> bool {
+    fn push_inner(&mut self, star: Star, region: &Region) -> bool {
         let start = self.corners.len();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for e in star {
-            let corner = centres[e.triangle().index()];
+        let mut last = [f64::NAN; 2];
+        for t in star.map(EdgeId::triangle) {
+            let corner = self.vertices[t.index()];
             for axis in 0..2 {
                 low[axis] = low[axis].min(corner[axis]);
                 high[axis] = high[axis].max(corner[axis]);
             }
-            if self.corners.len() == start || self.corners[self.corners.len() - 1] != corner {
-                self.corners.push(corner);
+            if corner != last {
+                self.corners.push(t.index() as u32);
             }
+            last = corner;
         }
         let inside = self.corners.len() > start && region.around(low, high).is_some_and(|part| part.full);
         if !inside {
             self.corners.truncate(start);
             return false;
         }
-        if self.corners.len() > start + 1 && self.corners[start] == self.corners[self.corners.len() - 1] {
+        let first = self.vertices[self.corners[start] as usize];
+        if self.corners.len() > start + 1 && first == last {
             self.corners.pop();
         }
-        self.starts.push(self.corners.len());
+        self.starts.push(self.corners.len() as u32);
         true
     }
 
     fn push(&mut self, ring: impl Iterator<Item = [f64; 2]>) {
-        self.corners.extend(ring);
-        self.starts.push(self.corners.len());
+        for corner in ring {
+            self.corners.push(self.vertices.len() as u32);
+            self.vertices.push(corner);
+        }
+        self.starts.push(self.corners.len() as u32);
     }
 
     /// The rings of a cell: none for an id that is no vertex, and for a cell outside of the region.
-    pub fn rings(&self, site: VertexId) -> impl Iterator<Item = &[[f64; 2]]> {
+    pub fn rings(&self, site: VertexId) -> impl Iterator<Item = Ring<'_>> {
         let (first, count) = self.sites.get(site.index()).copied().unwrap_or_default();
-        (first as usize..(first + count) as usize).map(|i| &self.corners[self.starts[i]..self.starts[i + 1]])
+        let ends = &self.starts[first as usize..][..count as usize + usize::from(count > 0)];
+        let corners = ends.windows(2).map(|ends| &self.corners[ends[0] as usize..ends[1] as usize]);
+        corners.map(|corners| Ring { corners, vertices: &self.vertices })
+    }
+
+    /// The vertices of all cells. Those that no ring uses may be infinite.
+    pub fn vertices(&self) -> &[[f64; 2]] {
+        &self.vertices
     }
 
     /// The area of a cell, in coordinate units squared.
     pub fn area(&self, site: VertexId) -> f64 {
-        self.rings(site).map(|ring| twice_area(ring) / 2.0).sum()
+        self.rings(site).map(Ring::area).sum()
     }
 
     /// The length of the border of a cell, holes included, in coordinate units.
     pub fn perimeter(&self, site: VertexId) -> f64 {
-        let length = |ring: &[[f64; 2]]| -> f64 {
-            let next = ring.iter().cycle().skip(1);
-            ring.iter().zip(next).map(|(p, q)| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
-        };
-        self.rings(site).map(length).sum()
+        self.rings(site).flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
     }
 
     /// The centre of mass of a cell. `None` if it is empty.
     pub fn centroid(&self, site: VertexId) -> Option<[f64; 2]> {
-        let &[x, y] = self.rings(site).next()?.first()?;
+        let [x, y] = self.rings(site).next()?.points().next()?;
         let (mut area, mut sum) = (0.0, [0.0, 0.0]);
-        for ring in self.rings(site) {
-            let next = ring.iter().cycle().skip(1);
-            for (p, q) in ring.iter().zip(next) {
-                let (p, q) = ([p[0] - x, p[1] - y], [q[0] - x, q[1] - y]);
-                let cross = p[0] * q[1] - p[1] * q[0];
-                area += cross;
-                sum = [sum[0] + cross * (p[0] + q[0]), sum[1] + cross * (p[1] + q[1])];
-            }
+        for [p, q] in self.rings(site).flat_map(Ring::sides) {
+            let (p, q) = ([p[0] - x, p[1] - y], [q[0] - x, q[1] - y]);
+            let cross = p[0] * q[1] - p[1] * q[0];
+            area += cross;
+            sum = [sum[0] + cross * (p[0] + q[0]), sum[1] + cross * (p[1] + q[1])];
         }
         let centroid = [x + sum[0] / (3.0 * area), y + sum[1] / (3.0 * area)];
         (area > 0.0 && centroid.iter().all(|x| x.is_finite())).then_some(centroid)
+    }
+}
+
+impl<'a> Ring<'a> {
+    /// Its corners, in order.
+    pub fn points(self) -> impl ExactSizeIterator<Item = [f64; 2]> + Clone + 'a {
+        self.corners.iter().map(move |&i| self.vertices[i as usize])
+    }
+
+    /// Its corners as indices into [`Cells::vertices`].
+    pub fn indices(self) -> &'a [u32] {
+        self.corners
+    }
+
+    /// Its sides, from corner to corner, the last one back to the first.
+    pub fn sides(self) -> impl Iterator<Item = [[f64; 2]; 2]> + 'a {
+        let next = self.points().cycle().skip(1);
+        self.points().zip(next).map(|(p, q)| [p, q])
+    }
+
+    /// The area inside, in coordinate units squared; negative for a hole.
+    pub fn area(self) -> f64 {
+        twice_area(self.points()) / 2.0
     }
 }
 

@@ -13,7 +13,7 @@ mod clip;
 mod region;
 mod relax;
 
-pub use cells::Cells;
+pub use cells::{Cells, Ring};
 pub use region::Region;
 pub use relax::Relaxation;
 

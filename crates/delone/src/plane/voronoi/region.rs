@@ -91,7 +91,7 @@ impl Region {
         validate_sides(&rings)?;
         let depths: Vec<usize> = (0..rings.len()).map(|i| depth(&rings, i)).collect();
         for (ring, depth) in rings.iter_mut().zip(depths) {
-            if (twice_area(ring) > 0.0) != (depth % 2 == 0) {
+            if (twice_area(ring.iter().copied()) > 0.0) != (depth % 2 == 0) {
                 ring.reverse();
             }
         }
@@ -127,7 +127,7 @@ impl Region {
 
     /// The area, in coordinate units squared.
     pub fn area(&self) -> f64 {
-        self.rings.iter().map(|ring| twice_area(ring) / 2.0).sum()
+        self.rings.iter().map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
     }
 
     /// The rings: outer ones counter-clockwise, holes clockwise.
@@ -205,10 +205,16 @@ fn sides(corners: &[[f64; 2]]) -> Ring {
 
 /// Twice the area inside of a ring, positive if it is counter-clockwise. Taken from the first corner, so that far
 /// from the origin nothing is lost.
-pub(super) fn twice_area(ring: &[[f64; 2]]) -> f64 {
-    let Some(&[x, y]) = ring.first() else { return 0.0 };
-    let cross = |pair: &[[f64; 2]]| (pair[0][0] - x) * (pair[1][1] - y) - (pair[0][1] - y) * (pair[1][0] - x);
-    ring.windows(2).map(cross).sum()
+pub(super) fn twice_area(mut ring: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let Some([x, y]) = ring.next() else { return 0.0 };
+    let mut last = [0.0, 0.0];
+    let mut sum = 0.0;
+    for p in ring {
+        let p = [p[0] - x, p[1] - y];
+        sum += last[0] * p[1] - last[1] * p[0];
+        last = p;
+    }
+    sum
 }
 
 fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
