@@ -26,6 +26,10 @@ pub(crate) enum Command {
     Locate(LocateArgs),
     /// Find the vertices nearest to each of many points.
     Nearest(NearestArgs),
+    /// The corners of the convex hull.
+    Hull(HullArgs),
+    /// Find the vertex furthest from each of many points.
+    Furthest(FurthestArgs),
     /// Voronoi cells, clipped, as polygons or as a picture.
     Voronoi(VoronoiArgs),
     /// Insert, remove, move and ask, as a text file says, one operation a line.
@@ -197,6 +201,50 @@ pub(crate) struct NearestArgs {
     /// How many vertices for each query.
     #[arg(short, value_name = "K", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) k: u32,
+}
+
+/// Convex hull.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone hull points.csv -o corners.npy
+  delone hull points.csv -o - --to csv
+
+The corners of the hull as indices of points, counter-clockwise from the lexicographically smallest; no corner is on
+the line of its neighbours, and of equal points the first is taken.")]
+pub(crate) struct HullArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Output file (npy: int64, or csv), or - for standard output.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: PathBuf,
+    /// Format of the output, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Dimension: 2 takes x and y.
+    #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
+    pub(crate) dim: u8,
+}
+
+/// Find furthest vertices.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone furthest points.npy --queries queries.npy -o furthest.npy
+  delone furthest points.csv --queries queries.csv -o - --to csv --stats circle.json
+
+Of vertices at the same distance the lexicographically smallest is taken; -1 where there is none. The statistics hold
+the smallest circle around all points.")]
+pub(crate) struct FurthestArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// File of points to ask for, in any format that points have.
+    #[arg(long, value_name = "Q", required = true)]
+    pub(crate) queries: PathBuf,
+    /// Output file (npy: int64, or csv), or - for standard output.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: PathBuf,
+    /// Format of the output, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
 }
 
 /// Voronoi cells.

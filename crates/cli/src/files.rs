@@ -70,6 +70,15 @@ pub(crate) fn outputs(
     paths.iter().map(by_extension).collect()
 }
 
+/// The format of a file of indices.
+pub(crate) fn index_format(path: &Path, said: Option<Format>) -> Result<Format, Failure> {
+    let format = format(path, said, "--to")?;
+    match format {
+        Format::Npy | Format::Text => Ok(format),
+        _ => Err(Failure::usage("answers are written as npy or csv", "choose one of them with --to")),
+    }
+}
+
 /// Opens a file, or takes all of standard input into memory.
 fn open(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
     let failed = |error: std::io::Error| Failure::file(path, &error.into());

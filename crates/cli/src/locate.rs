@@ -1,7 +1,6 @@
 //! `delone locate`: for each query the triangle that contains it. Also what it has in common with `nearest`.
 
 use delone::{Algorithm, Delaunay2, Locate, Location, TriangleId, Work};
-use delone_io::Format;
 
 use crate::args::{InputArgs, LocateArgs, QueryArgs};
 use crate::files;
@@ -29,14 +28,11 @@ pub(crate) fn answer(
     mut ask: impl FnMut(&Delaunay2, [f64; 2], &mut Vec<i64>) -> Result<Work, delone::Error>,
 ) -> Result<(), Failure> {
     let strategy = strategy(query)?;
-    let format = files::format(&query.output, query.to, "--to")?;
+    let format = files::index_format(&query.output, query.to)?;
     files::keep_apart(
         &[&input.input, &query.queries],
         std::iter::once(query.output.as_path()).chain(input.stats.as_deref()),
     )?;
-    if ![Format::Npy, Format::Text].contains(&format) {
-        return Err(Failure::usage("answers are written as npy or csv", "choose one of them with --to"));
-    }
     let mut stats = Stats::start();
     let cloud = files::points(input, 2, quiet)?;
     let queries = files::queries(&query.queries, quiet)?;

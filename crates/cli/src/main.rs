@@ -5,7 +5,9 @@ mod check;
 mod draw;
 mod experiment;
 mod files;
+mod furthest;
 mod generate;
+mod hull;
 mod info;
 mod locate;
 mod message;
@@ -38,6 +40,8 @@ fn main() -> ExitCode {
         Command::Reduce(args) => reduce::run(&args, quiet),
         Command::Locate(args) => locate::run(&args, quiet),
         Command::Nearest(args) => nearest::run(&args, quiet),
+        Command::Hull(args) => hull::run(&args, quiet),
+        Command::Furthest(args) => furthest::run(&args, quiet),
         Command::Voronoi(args) => voronoi::run(&args, quiet),
         Command::Replay(args) => replay::run(&args, quiet),
         Command::Experiment(args) => experiment::run(&args, quiet),

@@ -36,7 +36,11 @@ impl Failure {
         };
         let usage = matches!(
             error,
-            Error::UnknownExtension(_) | Error::NotPoints(_) | Error::NotTriangles(_) | Error::NotAMesh(_)
+            Error::UnknownExtension(_)
+                | Error::NotPoints(_)
+                | Error::NotTriangles(_)
+                | Error::NotAMesh(_)
+                | Error::NotCells(_)
         );
         Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
     }

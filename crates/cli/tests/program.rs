@@ -1,71 +1,10 @@
 //! The program as a user meets it: outputs, exit statuses, messages, and no half-written files.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
-use tempfile::TempDir;
+mod place;
 
-/// A folder of its own for each test.
-struct Place(TempDir);
-
-impl Place {
-    fn new() -> Self {
-        Self(tempfile::tempdir().expect("a temporary folder"))
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
-        std::fs::write(self.path(name), content).expect("written");
-        self.path(name)
-    }
-
-    /// Runs the program in this folder.
-    fn run(&self, line: &str) -> Output {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_delone"));
-        command.current_dir(self.0.path()).args(line.split_whitespace()).stdin(Stdio::null());
-        command.output().expect("the program starts")
-    }
-
-    /// Runs a line that must succeed; returns standard output.
-    fn succeed(&self, line: &str) -> String {
-        let output = self.run(line);
-        assert!(output.status.success(), "{line}: {}", text(&output.stderr));
-        text(&output.stdout)
-    }
-
-    /// Runs a line that must fail with a status, a message of two lines, and no new file.
-    fn fail(&self, line: &str, status: i32, message: &str) {
-        let before = self.names();
-        let output = self.run(line);
-        let stderr = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(status), "{line}: {stderr}");
-        let lines: Vec<_> = stderr.lines().filter(|line| !line.starts_with("note: ")).collect();
-        assert_eq!(lines.len(), 2, "{line}: {stderr}");
-        assert!(lines[0].starts_with("error: ") && lines[0].contains(message), "{line}: {stderr}");
-        assert!(lines[1].starts_with("help: "), "{line}: {stderr}");
-        assert_eq!(self.names(), before, "{line} left something behind");
-    }
-
-    fn names(&self) -> Vec<PathBuf> {
-        let mut names: Vec<_> = std::fs::read_dir(self.0.path())
-            .expect("readable")
-            .map(|entry| entry.expect("readable").path())
-            .collect();
-        names.sort();
-        names
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-fn data(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
-}
+use place::{Place, data, rows, text};
 
 #[test]
 fn real_ground_points_become_a_mesh_and_a_picture() {
@@ -357,6 +296,9 @@ fn every_command_writes_stats() {
         "draw p.npy -o m.svg",
         "info p.npy",
         "reduce p.npy",
+        "voronoi p.npy -o v.svg",
+        "hull p.npy -o h.npy",
+        "furthest p.npy --queries p.npy -o f.npy",
     ] {
         place.succeed(&format!("{line} --stats s.json"));
         let bytes = std::fs::read(place.path("s.json")).expect("stats");
@@ -374,15 +316,12 @@ fn every_command_writes_stats() {
 #[test]
 fn help_shows_examples() {
     let place = Place::new();
-    for command in ["triangulate", "check", "generate", "draw", "info", "reduce"] {
+    for command in
+        ["triangulate", "check", "generate", "draw", "info", "reduce", "voronoi", "hull", "furthest"]
+    {
         assert!(place.succeed(&format!("{command} --help")).contains("Example"), "{command}");
     }
     assert!(place.succeed("--version").starts_with("delone "));
-}
-
-/// The rows of a csv of integers.
-fn rows(text: &str) -> Vec<Vec<i64>> {
-    text.lines().map(|line| line.split(',').map(|x| x.parse().expect("an integer")).collect()).collect()
 }
 
 #[test]

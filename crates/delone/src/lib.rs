@@ -45,6 +45,6 @@ pub use locate::tally::{Tally, Work};
 pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::{Dimension, Mesh};
 pub use plane::{
-    Algorithm, Cells, Counters, Delaunay2, Duplicate, Footprint, Inserted, Location, Position2, Region,
-    Relaxation, Ring, Voronoi2, VoronoiEdge,
+    Algorithm, Cells, Counters, Delaunay2, Duplicate, EnclosingCircle, Footprint, Furthest2, Inserted,
+    Location, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
 };

@@ -154,6 +154,17 @@ pub fn write_points(out: &mut dyn std::io::Write, format: Format, points: &[[f64
     Ok(())
 }
 
+/// Writes indices, -1 where there is none: npy (int64, one dimension) or text (a line each).
+pub fn write_index_list(out: &mut dyn std::io::Write, format: Format, values: &[i64]) -> Result<(), Error> {
+    use formats::{npy, text};
+    match format {
+        Format::Npy => npy::write_index_list(out, values)?,
+        Format::Text => text::write_indices(out, 1, values)?,
+        _ => return Err(Error::NotPoints(format)),
+    }
+    Ok(())
+}
+
 /// Writes rows of indices, -1 where there is none: npy (int64) or text.
 pub fn write_indices(
     out: &mut dyn std::io::Write,

@@ -24,10 +24,15 @@ pub(super) struct Cavity {
     pending: Vec<(EdgeId, Place)>,
 }
 
-/// Whether the circle of a triangle contains `q`. That of a ghost is the half-plane beyond its hull edge, with
-/// the inside of the edge. `point` gives the point of each corner that is not the ghost.
+/// Whether the circle of a triangle contains `q`; or, for furthest sites, does not. That of a ghost is the
+/// half-plane beyond its hull edge, with the inside of the edge. `point` gives the point of each corner that is not
+/// the ghost.
 #[inline]
-pub(super) fn conflicts(corners: [Place; 3], point: impl Fn(usize) -> [f64; 2], q: [f64; 2]) -> bool {
+pub(super) fn conflicts<const FURTHEST: bool>(
+    corners: [Place; 3],
+    point: impl Fn(usize) -> [f64; 2],
+    q: [f64; 2],
+) -> bool {
     let beyond = |v: [f64; 2], u: [f64; 2]| match orient2d(v, u, q) {
         Sign::Positive => true,
         Sign::Zero => strictly_between(u, v, q),
@@ -40,7 +45,7 @@ pub(super) fn conflicts(corners: [Place; 3], point: impl Fn(usize) -> [f64; 2], 
     } else if corners[2].is_ghost() {
         beyond(point(0), point(1))
     } else {
-        in_circle(point(0), point(1), point(2), q).is_positive()
+        in_circle(point(0), point(1), point(2), q).is_positive() != FURTHEST
     }
 }
 
@@ -56,15 +61,27 @@ impl Cavity {
         seed: TriangleId,
         tally: &mut T,
     ) {
-        self.find(mesh, points, points[v.index()], seed, tally);
+        self.find::<_, false>(mesh, points, points[v.index()], seed, tally);
         tally.destroyed(self.triangles.len());
         tally.created(self.border.len());
         self.refill(mesh, v, seed);
     }
 
+    /// The same among furthest-site triangles, whose circles contain all points. The point is beyond the hull.
+    pub(super) fn insert_furthest(
+        &mut self,
+        mesh: &mut Mesh,
+        points: &[[f64; 2]],
+        v: Place,
+        seed: TriangleId,
+    ) {
+        self.find::<_, true>(mesh, points, points[v.index()], seed, &mut ());
+        self.refill(mesh, v, seed);
+    }
+
     /// Collects the triangles in conflict, depth first in counter-clockwise order, so that the border comes in
     /// its cyclic order.
-    fn find<T: Tally>(
+    fn find<T: Tally, const FURTHEST: bool>(
         &mut self,
         mesh: &mut Mesh,
         points: &[[f64; 2]],
@@ -83,7 +100,7 @@ impl Cavity {
             }
             tally.in_circle();
             let corners = [mesh.tail(outside), mesh.head(outside), tip];
-            if conflicts(corners, |k| points[corners[k].index()], q) {
+            if conflicts::<FURTHEST>(corners, |k| points[corners[k].index()], q) {
                 self.enter(mesh, t);
                 self.pending.extend([outside.previous(), outside.next()].map(|e| look(mesh, points, e)));
             } else {

@@ -5,6 +5,8 @@ mod cavity;
 mod change;
 pub mod check;
 mod flips;
+mod furthest;
+mod hull;
 mod insert;
 mod layer;
 mod line;
@@ -18,6 +20,8 @@ mod voronoi;
 
 pub use build::{Algorithm, Counters};
 pub use change::Inserted;
+pub use furthest::{EnclosingCircle, Furthest2};
+pub use hull::convex_hull;
 pub use locate::Location;
 pub use locator::Footprint;
 pub use position::Position2;

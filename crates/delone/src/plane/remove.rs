@@ -173,7 +173,7 @@ impl Hole {
             let better = best.is_none_or(|apex: usize| {
                 tally.in_circle();
                 let at = [last, first, apex];
-                conflicts([a, b, self.border[apex].0], |i| self.points[at[i]], q)
+                conflicts::<false>([a, b, self.border[apex].0], |i| self.points[at[i]], q)
             });
             if better {
                 best = Some(k);

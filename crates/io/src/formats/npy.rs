@@ -116,3 +116,10 @@ pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64])
     writer.extend(values.iter().copied())?;
     writer.finish()
 }
+
+pub(crate) fn write_index_list(out: &mut dyn Write, values: &[i64]) -> io::Result<()> {
+    let shape = [values.len() as u64];
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
+    writer.extend(values.iter().copied())?;
+    writer.finish()
+}

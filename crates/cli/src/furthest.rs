@@ -1,0 +1,50 @@
+//! `delone furthest`: for each query the vertex furthest from it.
+
+use delone::Algorithm;
+use serde_json::json;
+
+use crate::args::FurthestArgs;
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+use crate::stats::Stats;
+use crate::triangulate::{build, remark};
+
+pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
+    let stats_path = args.input.stats.as_deref();
+    let outputs = std::iter::once(args.output.as_path()).chain(stats_path);
+    files::keep_apart(&[&args.input.input, &args.queries], outputs)?;
+    let format = files::index_format(&args.output, args.to)?;
+    let mut stats = Stats::start();
+    let cloud = files::points(&args.input, 2, quiet)?;
+    let queries = files::queries(&args.queries, quiet)?;
+    stats.phase("read");
+    let triangulation = build(cloud.xy, Algorithm::default(), &args.input.input, quiet)?;
+    remark(&triangulation, quiet);
+    let furthest = triangulation.furthest();
+    stats.phase("build");
+    let mut answers = Vec::with_capacity(queries.len());
+    {
+        let _phase = Phase::start(quiet, "asking");
+        for (index, &q) in queries.iter().enumerate() {
+            let found = furthest.furthest(q).map_err(|error| {
+                Failure::new(
+                    format!("{}: query {index}: {error}", args.queries.display()),
+                    "remove that query or repair its coordinates: every finite number is accepted",
+                )
+            })?;
+            answers.push(found.map_or(-1, |v| v.index() as i64));
+        }
+    }
+    stats.phase("query");
+    stats.triangulation(&triangulation);
+    stats.set("queries", queries.len());
+    let circle = furthest.enclosing_circle().map(|circle| {
+        let support: Vec<usize> = circle.support.iter().map(|v| v.index()).collect();
+        json!({ "centre": circle.centre, "radius": circle.radius, "support": support })
+    });
+    stats.set("enclosing_circle", circle);
+    files::write(&args.output, |out| delone_io::write_index_list(out, format, &answers))?;
+    stats.phase("write");
+    stats.write(stats_path)
+}

@@ -1,0 +1,134 @@
+//! The commands `voronoi`, `hull` and `furthest`.
+
+mod place;
+
+use place::{Place, data, rows};
+use serde_json::Value;
+
+/// The features of a file of cells: site, area, geometry.
+fn cells(place: &Place, name: &str) -> Vec<(u64, f64, Value)> {
+    let bytes = std::fs::read(place.path(name)).expect("cells");
+    let json: Value = serde_json::from_slice(&bytes).expect("JSON");
+    let features = json["features"].as_array().expect("features");
+    let of = |feature: &Value| {
+        let properties = &feature["properties"];
+        let site = properties["site"].as_u64().expect("a site");
+        (site, properties["area"].as_f64().expect("an area"), feature["geometry"].clone())
+    };
+    features.iter().map(of).collect()
+}
+
+#[test]
+fn cells_are_written_in_the_order_of_sites() {
+    let place = Place::new();
+    place.file("sites.csv", "1,1\n3,1\n1,1\n1,3\n9,9\n");
+    place.succeed("voronoi sites.csv -o c.geojson -o c.png -o c.svg --box 0,0,4,4 -q");
+    let found = cells(&place, "c.geojson");
+    let areas: Vec<_> = found.iter().map(|(site, area, _)| (*site, *area)).collect();
+    assert_eq!(areas, [(0, 4.0), (1, 6.0), (3, 6.0), (4, 0.0)]);
+    assert_eq!(found[0].2["type"], "Polygon");
+    let ring = found[0].2["coordinates"][0].as_array().expect("a ring");
+    assert_eq!((ring.len(), &ring[0]), (5, &ring[4]));
+    assert!(found[3].2.is_null());
+    assert!(std::fs::read(place.path("c.png")).expect("a picture").starts_with(b"\x89PNG"));
+    // The bounding box of the sites, and their hull.
+    place.succeed("voronoi sites.csv -o b.geojson -q");
+    assert_eq!(cells(&place, "b.geojson").iter().map(|c| c.1).sum::<f64>(), 64.0);
+    place.succeed("voronoi sites.csv -o h.geojson --clip hull -q");
+    let sum: f64 = cells(&place, "h.geojson").iter().map(|c| c.1).sum();
+    assert!((sum - 16.0).abs() < 1e-12, "{sum}");
+}
+
+#[test]
+fn cells_are_clipped_to_polygons() {
+    let place = Place::new();
+    place.file("sites.csv", "0,0\n10,0\n");
+    // A comb: the left cell falls into two pieces.
+    place.file("comb.csv", "0,0\n8,0\n8,3\n2,3\n2,1\n1,1\n1,3\n0,3\n");
+    place.file(
+        "ring.geojson",
+        r#"{"type":"Polygon","coordinates":
+        [[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[1,2],[2,2],[2,1],[1,1]]]}"#,
+    );
+    place.succeed("voronoi sites.csv --clip comb.csv -o comb.geojson");
+    assert_eq!(cells(&place, "comb.geojson").iter().map(|c| c.1).collect::<Vec<_>>(), [13.0, 9.0]);
+    place.succeed("voronoi sites.csv --clip ring.geojson -o ring.geojson2 --to geojson");
+    let found = cells(&place, "ring.geojson2");
+    assert_eq!((found[0].1, found[1].1), (15.0, 0.0));
+    assert_eq!(found[0].2["coordinates"].as_array().map(Vec::len), Some(2), "an outer ring and a hole");
+    place.file("teeth.csv", "0,-1\n0,-3\n");
+    place.file("crown.csv", "-3,-3\n3,-3\n3,0\n2,-2.5\n-2,-2.5\n-3,0\n");
+    place.succeed("voronoi teeth.csv --clip crown.csv -o crown.geojson");
+    let found = cells(&place, "crown.geojson");
+    assert_eq!(found[0].2["type"], "MultiPolygon");
+    for bad in ["0,0\n1,1\n1,0\n0,1\n", "0,0\n1,1\n", "", "0,0\n1,0\n2,0\n", "0,0\n1,nan\n2,0\n"] {
+        place.file("bad.csv", bad);
+        place.fail("voronoi sites.csv --clip bad.csv -o x.geojson", 1, "ring 0");
+    }
+    place.file("bad.geojson", "{\"type\":\"Polygon\",");
+    place.fail("voronoi sites.csv --clip bad.geojson -o x.geojson", 1, "GeoJSON");
+}
+
+#[test]
+fn relaxed_sites_are_even() {
+    let place = Place::new();
+    place.succeed("generate uniform -n 100 --seed 1 -o p.csv");
+    place.succeed("voronoi p.csv --box 0,0,1,1 --relax 50 -o c.geojson --sites r.csv --stats s.json");
+    let stats: Value =
+        serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
+    assert_eq!(stats["relaxed"], 50);
+    let areas: Vec<f64> = cells(&place, "c.geojson").iter().map(|c| c.1).collect();
+    assert!(areas.iter().all(|area| (0.005..0.015).contains(area)), "{areas:?}");
+    assert_eq!(std::fs::read_to_string(place.path("r.csv")).expect("sites").lines().count(), 101);
+}
+
+#[test]
+fn voronoi_says_what_is_wrong() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n4,0\n0,4\n");
+    place.fail("voronoi p.csv -o x.npy", 2, "Voronoi cells are not written to npy");
+    place.fail("voronoi p.csv -o x.svg --box 0,0,1", 2, "four numbers");
+    place.fail("voronoi p.csv -o x.svg --box 1,0,0,1", 2, "no area");
+    place.fail("voronoi p.csv -o x.svg --clip hull --box 0,0,1,1", 2, "--box is for --clip box");
+    place.fail("voronoi p.csv -o x.svg --clip nowhere.geojson", 1, "nowhere.geojson");
+    place.fail("voronoi p.csv -o p.csv --to geojson", 2, "overwrite");
+    place.fail("voronoi p.csv -o x.svg --sites p.csv", 2, "overwrite");
+    place.fail("voronoi p.csv -o x.svg --relax 2 --tolerance -1", 2, "");
+    place.file("line.csv", "0,0\n1,0\n");
+    place.fail("voronoi line.csv -o x.svg", 1, "no area");
+    place.fail("voronoi line.csv -o x.svg --clip hull", 1, "no area");
+    place.succeed("voronoi line.csv -o x.svg --box 0,-1,1,1 -q");
+}
+
+#[test]
+fn hulls_and_furthest_points() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n4,0\n2,0\n4,4\n1,1\n0,4\n0,0\n");
+    assert_eq!(rows(&place.succeed("hull p.csv -o - --to csv")), [[0], [1], [3], [5]]);
+    place.file("q.csv", "0,0\n4,4\n2,2\n9,0\n");
+    assert_eq!(rows(&place.succeed("furthest p.csv --queries q.csv -o - --to csv -q")), [[3], [0], [0], [5]]);
+    place.succeed("furthest p.csv --queries q.csv -o f.npy --stats s.json -q");
+    let stats: Value =
+        serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
+    assert_eq!(stats["enclosing_circle"]["centre"], serde_json::json!([2.0, 2.0]));
+    let npy = std::fs::read(place.path("f.npy")).expect("answers");
+    assert!(String::from_utf8_lossy(&npy).contains("'shape': (4, )"), "one dimension");
+    place.file("none.csv", "");
+    assert_eq!(place.succeed("hull none.csv -o - --to csv"), "");
+    assert_eq!(place.succeed("furthest none.csv --queries q.csv -o - --to csv -q"), "-1\n".repeat(4));
+    place.file("bad.csv", "0,0\nnan,1\n");
+    place.fail("hull bad.csv -o h.npy", 1, "point 1");
+    place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");
+    place.fail("hull p.csv -o h.png", 2, "npy or csv");
+    place.fail("hull p.csv --dim 3 -o h.npy", 2, "not available");
+}
+
+#[test]
+fn cells_of_real_data() {
+    let place = Place::new();
+    let tile = data("autzen_trim.laz");
+    place.succeed(&format!("voronoi {} --class 2 -o cells.png --size 400 -q --stats s.json", tile.display()));
+    let stats: Value =
+        serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
+    assert_eq!(stats["cells"], stats["vertices"]);
+}

@@ -1,0 +1,277 @@
+//! Furthest sites: their triangulation and Voronoi diagram, queries, the smallest enclosing circle.
+//!
+//! The furthest-site triangulation joins the corners of the convex hull so that the circle of each triangle contains
+//! all sites: the upper hull of the lifted points, where the Delaunay triangulation is the lower one. Ties
+//! are broken by the same perturbation, so it is canonical too.
+//!
+//! Source: Chew, "Building Voronoi diagrams for convex polygons in linear expected time", TR PCS-TR90-147, 1990:
+//! corners are taken away in random order and put back, each beyond the edge that it left. Queries climb from
+//! neighbour to neighbour through random samples of the corners, from coarse to fine, as in the Delaunay hierarchy:
+//! a vertex of a convex polytope that no neighbour excels is the best.
+//!
+//! Cost: O(h) expected after the hull of h corners is known; a query O(log h) expected.
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+
+use delone_predicates::{angle, circumcentre, compare_distances, lexicographic};
+
+use super::insert::Spot;
+use super::layer::Layer;
+use super::{Delaunay2, Position2, VoronoiEdge, finite, hull};
+use crate::error::Error;
+use crate::ids::{EdgeId, Place, VertexId};
+use crate::locate::Start;
+use crate::mesh::Mesh;
+use crate::order::random::SplitMix;
+
+/// Corners of a level for each one of the next coarser.
+const RATIO: usize = 8;
+/// The coarsest level has fewer than this many times the ratio.
+const SMALLEST: usize = 4;
+
+/// The furthest-site diagram of a set of points.
+///
+/// ```
+/// use delone::Delaunay2;
+///
+/// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 1.0]])?;
+/// let furthest = d.furthest();
+/// assert_eq!(furthest.furthest([4.0, 3.0])?.map(|v| v.index()), Some(0));
+/// let circle = furthest.enclosing_circle().unwrap();
+/// assert_eq!((circle.centre, circle.radius), ([2.0, 1.5], 2.5));
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Furthest2 {
+    /// The corners of the hull, counter-clockwise.
+    corners: Vec<VertexId>,
+    /// From fine to coarse.
+    levels: Vec<Level>,
+}
+
+/// The triangulation of a sample of the corners.
+#[derive(Clone, Debug)]
+struct Level {
+    points: Vec<[f64; 2]>,
+    /// Over the indices of the points; fewer than three have no triangles.
+    mesh: Mesh,
+    /// For each point its index in the next finer level.
+    finer: Vec<u32>,
+}
+
+/// The smallest circle that no point is outside of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnclosingCircle {
+    /// Its centre, rounded.
+    pub centre: [f64; 2],
+    /// Its radius, rounded, in coordinate units.
+    pub radius: f64,
+    /// The points that determine it: the only one, two at the ends of a diameter, or three around it.
+    pub support: Vec<VertexId>,
+}
+
+impl Delaunay2 {
+    /// The furthest-site diagram of the vertices as they are now.
+    ///
+    /// O(h log h) for h vertices on the hull.
+    pub fn furthest(&self) -> Furthest2 {
+        let hull: Vec<VertexId> = self.hull().collect();
+        let points: Vec<[f64; 2]> = hull.iter().map(|&v| self.point(v)).collect();
+        let corners: Vec<VertexId> = hull::corners(&points).into_iter().map(|i| hull[i]).collect();
+        let points: Vec<[f64; 2]> = corners.iter().map(|&v| self.point(v)).collect();
+        let mut levels = vec![Level::new(points, Vec::new())];
+        let mut random = SplitMix(0);
+        while let Some(finer) = levels.last().filter(|level| level.points.len() >= SMALLEST * RATIO) {
+            let count = finer.points.len() as u32;
+            let sample: Vec<u32> = (0..count).filter(|_| random.below(RATIO) == 0).collect();
+            if sample.is_empty() {
+                break;
+            }
+            levels.push(Level::new(sample.iter().map(|&i| finer.points[i as usize]).collect(), sample));
+        }
+        Furthest2 { corners, levels }
+    }
+}
+
+impl Level {
+    /// Triangulates the corners of a convex polygon, counter-clockwise and none on the line of its neighbours.
+    fn new(points: Vec<[f64; 2]>, finer: Vec<u32>) -> Self {
+        let n = points.len();
+        if n < 3 {
+            return Self { points, mesh: Mesh::empty(n), finer };
+        }
+        let mut order: Vec<usize> = (0..n).collect();
+        SplitMix(n as u64).shuffle(&mut order);
+        // The neighbours of each corner when it is taken away.
+        let mut previous: Vec<usize> = (0..n).map(|i| (i + n - 1) % n).collect();
+        let mut next: Vec<usize> = (0..n).map(|i| (i + 1) % n).collect();
+        for &i in order[3..].iter().rev() {
+            next[previous[i]] = next[i];
+            previous[next[i]] = previous[i];
+        }
+        let mut layer = Layer::new(Mesh::empty(n), points);
+        for &i in &order[..3] {
+            let (spot, _) = layer.spot(Start::Anywhere, layer.points[i], &mut ());
+            debug_assert!(!matches!(spot, Spot::Vertex(_)), "corners are distinct");
+            layer.insert_at(Place::new(i), spot, &mut ());
+        }
+        let Layer { mut mesh, points, mut cavity, .. } = layer;
+        for &i in &order[3..] {
+            let (a, b) = (Place::new(previous[i]), Place::new(next[i]));
+            let hull_edge = |e: &EdgeId| mesh.head(*e) == b && mesh.tip(mesh.twin(*e)).is_ghost();
+            if let Some(e) = mesh.spokes(a).find(hull_edge) {
+                let beyond = mesh.twin(e).triangle();
+                cavity.insert_furthest(&mut mesh, &points, Place::new(i), beyond);
+            }
+        }
+        Self { points, mesh, finer }
+    }
+
+    /// Climbs from a corner to one that no neighbour is further away than.
+    fn climb(&self, start: usize, q: [f64; 2]) -> usize {
+        let mut at = start;
+        loop {
+            let better =
+                |w: &usize| compare_distances(q, self.points[*w], self.points[at]) == Ordering::Greater;
+            match self.neighbors(at).find(better) {
+                Some(w) => at = w,
+                None => return at,
+            }
+        }
+    }
+
+    fn neighbors(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
+        let joined = self.mesh.spokes(Place::new(at)).map(|e| self.mesh.head(e));
+        let joined = joined.filter(|w| !w.is_ghost()).map(Place::index);
+        // Of two corners the other one.
+        let other = (self.points.len() == 2).then_some(1 - at.min(1));
+        joined.chain(other)
+    }
+}
+
+impl Furthest2 {
+    /// The corners of the convex hull, counter-clockwise: the sites that are furthest from somewhere.
+    pub fn corners(&self) -> &[VertexId] {
+        &self.corners
+    }
+
+    /// The triangles, counter-clockwise: no site is outside of the circle of any.
+    pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
+        let mesh = &self.levels[0].mesh;
+        mesh.triangles().map(|t| mesh.places(t).map(|p| self.corners[p.index()]))
+    }
+
+    /// The edges of the furthest-site Voronoi diagram, with the two sites that are furthest from each.
+    pub fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], VoronoiEdge)> + '_ {
+        let Level { mesh, points, .. } = &self.levels[0];
+        let centre = |e: EdgeId| {
+            let corners = mesh.places(e.triangle());
+            let [a, b, c] = corners.map(|p| points.get(p.index()).copied().unwrap_or_default());
+            if corners.iter().any(|p| p.is_ghost()) { None } else { circumcentre(a, b, c) }
+        };
+        let dual = move |e: EdgeId| {
+            let ends = [mesh.tail(e), mesh.head(e)].map(Place::index);
+            let edge = bisector(ends.map(|i| points[i]), centre(e), centre(mesh.twin(e)));
+            (ends.map(|i| self.corners[i]), edge)
+        };
+        let two = match (&self.corners[..], &points[..]) {
+            (&[v, w], &[p, q]) => Some(([v, w], bisector([p, q], None, None))),
+            _ => None,
+        };
+        mesh.undirected_edges().map(dual).chain(two)
+    }
+
+    /// The vertex furthest from a point; of several at the same distance the lexicographically smallest. `None` if
+    /// there is none. Exact.
+    ///
+    /// O(log h) expected.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    pub fn furthest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
+        let q = finite(&q)?;
+        if self.corners.is_empty() {
+            return Ok(None);
+        }
+        let mut at = 0;
+        for level in self.levels.iter().rev() {
+            at = level.climb(at, q);
+            at = level.finer.get(at).map_or(at, |&i| i as usize);
+        }
+        // Corners at the same distance are on one circle around the query, and joined.
+        let level = &self.levels[0];
+        let as_far = |w: &usize| compare_distances(q, level.points[*w], level.points[at]).is_eq();
+        let (mut ties, mut pending) = (BTreeSet::from([at]), vec![at]);
+        while let Some(v) = pending.pop() {
+            pending.extend(level.neighbors(v).filter(as_far).filter(|&w| ties.insert(w)));
+        }
+        let least = ties.into_iter().min_by(|&i, &j| lexicographic(level.points[i], level.points[j]));
+        Ok(least.map(|i| self.corners[i]))
+    }
+
+    /// The smallest circle that contains all points. `None` if there is none. Which points determine it is decided
+    /// exactly.
+    ///
+    /// O(h).
+    pub fn enclosing_circle(&self) -> Option<EnclosingCircle> {
+        let Level { mesh, points, .. } = &self.levels[0];
+        let diameter = |i: usize, j: usize| {
+            let (p, q) = (points[i], points[j]);
+            let half = [0, 1].map(|axis| q[axis] / 2.0 - p[axis] / 2.0);
+            let centre = [0, 1].map(|axis| p[axis] / 2.0 + q[axis] / 2.0);
+            let support = vec![self.corners[i], self.corners[j]];
+            EnclosingCircle { centre, radius: half[0].hypot(half[1]), support }
+        };
+        match points.len() {
+            0 => return None,
+            1 => {
+                return Some(EnclosingCircle {
+                    centre: points[0],
+                    radius: 0.0,
+                    support: self.corners.clone(),
+                });
+            }
+            2 => return Some(diameter(0, 1)),
+            _ => {}
+        }
+        // The centre is as far from two sites as possible on their Voronoi edge, or at a Voronoi vertex.
+        let sees_right_angle = |e: EdgeId| {
+            let [a, b, tip] = [mesh.tail(e), mesh.head(e), mesh.tip(e)];
+            tip.is_ghost() || {
+                let [a, b, tip] = [a, b, tip].map(|p| points[p.index()]);
+                !angle(tip, a, b).is_positive()
+            }
+        };
+        if let Some(e) =
+            mesh.undirected_edges().find(|&e| sees_right_angle(e) && sees_right_angle(mesh.twin(e)))
+        {
+            // A hull edge has nothing beyond it, so its triangle alone must see it so.
+            return Some(diameter(mesh.tail(e).index(), mesh.head(e).index()));
+        }
+        let is_acute = |t: &crate::ids::TriangleId| {
+            let [a, b, c] = mesh.places(*t).map(|p| points[p.index()]);
+            [(a, b, c), (b, c, a), (c, a, b)].into_iter().all(|(o, p, q)| angle(o, p, q).is_positive())
+        };
+        let t = mesh.triangles().find(is_acute)?;
+        let places = mesh.places(t).map(Place::index);
+        let [a, b, c] = places.map(|i| points[i]);
+        let centre = circumcentre(a, b, c)?;
+        let radius = (a[0] - centre[0]).hypot(a[1] - centre[1]);
+        Some(EnclosingCircle { centre, radius, support: places.map(|i| self.corners[i]).to_vec() })
+    }
+}
+
+/// The furthest-site Voronoi edge between two sites: rays go away from the hull edge, across the hull.
+fn bisector([a, b]: [[f64; 2]; 2], left: Option<[f64; 2]>, right: Option<[f64; 2]>) -> VoronoiEdge {
+    let to_left = [a[1] / 2.0 - b[1] / 2.0, b[0] / 2.0 - a[0] / 2.0];
+    match (left, right) {
+        (Some(from), Some(to)) => VoronoiEdge::Segment([from, to]),
+        (Some(from), None) => VoronoiEdge::Ray { from, direction: to_left },
+        (None, Some(from)) => VoronoiEdge::Ray { from, direction: to_left.map(|x| 0.0 - x) },
+        (None, None) => {
+            let through = [0, 1].map(|axis| a[axis] / 2.0 + b[axis] / 2.0);
+            VoronoiEdge::Line { through, direction: to_left }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! Furthest sites against their definitions, by brute force over exact arithmetic.
+
+use delone::{Delaunay2, VertexId};
+use delone_oracle::exact;
+use delone_oracle::generate::Kind;
+
+/// The furthest point, the lexicographically smallest of several.
+fn brute(points: &[[f64; 2]], q: [f64; 2]) -> Option<usize> {
+    let further = |&i: &usize, &j: &usize| {
+        let far = exact::compare_distances(q, points[i], points[j]).cmp(&0);
+        let tie = points[j][0].total_cmp(&points[i][0]).then(points[j][1].total_cmp(&points[i][1]));
+        far.then(tie).then(j.cmp(&i))
+    };
+    (0..points.len()).max_by(further)
+}
+
+#[test]
+fn the_furthest_vertex_is_the_furthest() {
+    for &kind in Kind::ALL {
+        for n in [0, 1, 2, 3, 10, 60, 400] {
+            let points: Vec<[f64; 2]> = kind.points(n, 7).iter().map(|p| p.map(|x| x + 0.0)).collect();
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let furthest = d.furthest();
+            let queries =
+                points.iter().copied().take(20).chain(Kind::Uniform.points(20, 9)).chain([[0.0, 0.0]]);
+            for q in queries {
+                let found = furthest.furthest(q).expect("finite").map(VertexId::index);
+                assert_eq!(found, brute(&points, q), "{kind:?} {n} {q:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn circles_contain_all_points() {
+    for &kind in Kind::ALL {
+        for n in [3, 10, 60] {
+            let points = kind.points(n, 11);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let furthest = d.furthest();
+            let corners = furthest.corners().len();
+            assert_eq!(furthest.triangles().count(), corners.saturating_sub(2), "{kind:?} {n}");
+            for triangle in furthest.triangles() {
+                let [a, b, c] = triangle.map(|v| d.point(v));
+                assert!(exact::orient2d(a, b, c) > 0, "{kind:?} {n}");
+                for &p in &points {
+                    assert!(exact::in_circle(a, b, c, p) >= 0, "{kind:?} {n} {triangle:?} {p:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn one_set_has_one_furthest_triangulation() {
+    for kind in [Kind::Grid, Kind::Circle, Kind::Uniform, Kind::Duplicates] {
+        let points = kind.points(200, 1);
+        let triangles = |points: &[[f64; 2]]| {
+            let d = Delaunay2::from_points(points).expect("finite");
+            let mut all: Vec<Vec<[u64; 2]>> = d
+                .furthest()
+                .triangles()
+                .map(|t| {
+                    let mut corners: Vec<_> = t.iter().map(|v| d.point(*v).map(f64::to_bits)).collect();
+                    corners.sort_unstable();
+                    corners
+                })
+                .collect();
+            all.sort();
+            all
+        };
+        let reversed: Vec<_> = points.iter().rev().copied().collect();
+        assert_eq!(triangles(&points), triangles(&reversed), "{kind:?}");
+    }
+    // All corners on one circle: the ties are broken, and all the same way.
+    let ring: Vec<[f64; 2]> =
+        [[5., 0.], [4., 3.], [3., 4.], [0., 5.], [-3., 4.], [-4., 3.], [-5., 0.], [0., -5.]].to_vec();
+    let d = Delaunay2::from_points(&ring).expect("finite");
+    let furthest = d.furthest();
+    assert_eq!(furthest.triangles().count(), 6);
+    assert_eq!(furthest.furthest([0.0, 0.0]).expect("finite").map(VertexId::index), Some(6));
+    let circle = furthest.enclosing_circle().expect("there are points");
+    assert_eq!((circle.centre, circle.radius), ([0.0, 0.0], 5.0));
+}
+
+#[test]
+fn the_enclosing_circle_is_the_smallest() {
+    for &kind in Kind::ALL {
+        for n in [1, 2, 3, 4, 12, 40] {
+            let points = kind.points(n, 13);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let Some(circle) = d.furthest().enclosing_circle() else {
+                panic!("{kind:?} {n}: there are points");
+            };
+            let support: Vec<[f64; 2]> = circle.support.iter().map(|&v| d.point(v)).collect();
+            // It contains all points, and those that determine it are not in a smaller one. Exact.
+            match support[..] {
+                [p] => assert!(points.iter().all(|&q| q == p), "{kind:?} {n}"),
+                [p, q] => assert!(
+                    points.iter().all(|&r| r == p || r == q || exact::angle(r, p, q) <= 0),
+                    "{kind:?} {n}"
+                ),
+                [a, b, c] => {
+                    assert!(points.iter().all(|&p| exact::in_circle(a, b, c, p) >= 0), "{kind:?} {n}");
+                    for (o, p, q) in [(a, b, c), (b, c, a), (c, a, b)] {
+                        assert!(exact::angle(o, p, q) > 0, "{kind:?} {n}");
+                    }
+                }
+                _ => panic!("{} points", support.len()),
+            }
+        }
+    }
+    assert_eq!(Delaunay2::new().furthest().enclosing_circle(), None);
+}
+
+#[test]
+fn the_hull_is_the_same_either_way() {
+    for &kind in Kind::ALL {
+        for n in [0, 1, 2, 3, 10, 100, 500] {
+            let points = kind.points(n, 5);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let hull = delone::convex_hull(&points).expect("finite");
+            let corners: Vec<usize> = d.furthest().corners().iter().map(|v| v.index()).collect();
+            assert_eq!(hull, corners, "{kind:?} {n}");
+            // Every point is inside, and every corner is one.
+            for (i, &a) in hull.iter().enumerate().filter(|_| hull.len() > 2) {
+                let (b, c) = (hull[(i + 1) % hull.len()], hull[(i + 2) % hull.len()]);
+                assert!(exact::orient2d(points[a], points[b], points[c]) > 0, "{kind:?} {n}");
+                assert!(
+                    points.iter().all(|&p| exact::orient2d(points[a], points[b], p) >= 0),
+                    "{kind:?} {n}"
+                );
+            }
+            let strict = |v: &VertexId| hull.contains(&v.index());
+            assert_eq!(d.hull().filter(strict).count(), hull.len(), "{kind:?} {n}");
+        }
+    }
+    assert!(delone::convex_hull(&[[0.0, f64::NAN]]).is_err());
+}
