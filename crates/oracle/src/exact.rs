@@ -104,6 +104,28 @@ pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> i8 {
     sign(&(squared - p[2][0].pow(2)))
 }
 
+/// The circumcentre of o, a, b relative to o, times a positive number, for o, a, b counter-clockwise.
+fn centre(o: &[BigInt], a: &[BigInt], b: &[BigInt]) -> [BigInt; 2] {
+    // It is where c.u = |u|^2 / 2 and c.v = |v|^2 / 2, by Cramer's rule.
+    let u = [&a[0] - &o[0], &a[1] - &o[1]];
+    let v = [&b[0] - &o[0], &b[1] - &o[1]];
+    let (uu, vv) = (u[0].pow(2) + u[1].pow(2), v[0].pow(2) + v[1].pow(2));
+    [&uu * &v[1] - &u[1] * &vv, &u[0] * &vv - &uu * &v[0]]
+}
+
+/// On which side of the line from o through the circumcentre of o, a, b a point is.
+pub fn centre_side(o: Point2, a: Point2, b: Point2, q: Point2) -> i8 {
+    let p = integers(&[o, a, b, q]);
+    let [x, y] = centre(&p[0], &p[1], &p[2]);
+    sign(&(x * (&p[3][1] - &p[0][1]) - y * (&p[3][0] - &p[0][0])))
+}
+
+/// The signs of the circumcentre of o, a, b relative to o.
+pub fn centre_direction(o: Point2, a: Point2, b: Point2) -> [i8; 2] {
+    let p = integers(&[o, a, b]);
+    centre(&p[0], &p[1], &p[2]).map(|x| sign(&x))
+}
+
 /// The sign of the scalar product (a - o) . (b - o).
 pub fn angle(o: Point2, a: Point2, b: Point2) -> i8 {
     let p = integers(&[o, a, b]);

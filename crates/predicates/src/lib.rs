@@ -22,6 +22,7 @@
 //! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
 //! ```
 
+mod centre;
 mod circumcentre;
 pub mod counters;
 mod distance;
@@ -36,6 +37,7 @@ mod sign;
 #[cfg(test)]
 mod stages;
 
+pub use centre::{centre_direction, centre_side};
 pub use circumcentre::circumcentre;
 pub use distance::{angle, compare_distances, compare_with_radius};
 pub use filter::{Filter, Grid};

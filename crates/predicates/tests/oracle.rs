@@ -3,8 +3,8 @@
 use delone_oracle::exact;
 use delone_oracle::generate::Random;
 use delone_predicates::{
-    Filter, Grid, Pencil, Point2, Sign, angle, compare_distances, compare_with_radius, in_circle,
-    in_circle_with_ties, lexicographic, orient2d,
+    Filter, Grid, Pencil, Point2, Sign, angle, centre_direction, centre_side, compare_distances,
+    compare_with_radius, in_circle, in_circle_with_ties, lexicographic, orient2d,
 };
 
 /// A family of hostile tuples of four points.
@@ -223,4 +223,18 @@ fn distances_and_angles_are_exact() {
         assert_eq!(angle(q, a, b), sign(exact::angle(q, a, b)), "{name}: {q:?} {a:?} {b:?}");
     });
     assert!(equal > 1000, "only {equal} ties were met");
+}
+
+#[test]
+fn sides_of_circumcentres_are_exact() {
+    let mut zero = 0;
+    tuples(10, 60_000, |name, [o, a, b, p]| {
+        let (a, b) = if exact::orient2d(o, a, b) < 0 { (b, a) } else { (a, b) };
+        let expected = exact::centre_side(o, a, b, p);
+        assert_eq!(centre_side(o, a, b, p), sign(expected), "{name}: {o:?} {a:?} {b:?} {p:?}");
+        let expected_direction = exact::centre_direction(o, a, b).map(sign);
+        assert_eq!(centre_direction(o, a, b), expected_direction, "{name}: {o:?} {a:?} {b:?}");
+        zero += usize::from(expected == 0);
+    });
+    assert!(zero > 1000, "only {zero} ties were met");
 }

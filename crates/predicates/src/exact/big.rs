@@ -77,6 +77,19 @@ pub(super) fn angle(coordinates: &[f64; 6]) -> Sign {
     sign(&dot(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])))
 }
 
+pub(super) fn centre_side(coordinates: &[f64; 8]) -> Sign {
+    let p = align(coordinates);
+    let [u, v, w] = [1, 2, 3].map(|i| difference(&p[i], &p[0]));
+    sign(&(dot(&u, &u) * dot(&v, &w) - dot(&v, &v) * dot(&u, &w)))
+}
+
+pub(super) fn centre_direction(coordinates: &[f64; 6]) -> [Sign; 2] {
+    let p = align(coordinates);
+    let (u, v) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
+    let (uu, vv) = (dot(&u, &u), dot(&v, &v));
+    [sign(&(&uu * &v[1] - &vv * &u[1])), sign(&(&vv * &u[0] - &uu * &v[0]))]
+}
+
 /// The point at the same distance from three points that are not collinear, correctly rounded; a coordinate that no
 /// `f64` can hold is infinite.
 pub(super) fn circumcentre(coordinates: &[f64; 6]) -> [f64; 2] {

@@ -69,6 +69,23 @@ pub(super) fn angle(coordinates: &[f64; 6]) -> Option<Sign> {
     Some(Sign::of(&dot, &0))
 }
 
+/// Points o, a, b, p: |a - o|^2 (b - o).(p - o) against |b - o|^2 (a - o).(p - o).
+pub(super) fn centre_side(coordinates: &[f64; 8]) -> Option<Sign> {
+    let [ox, oy, ax, ay, bx, by, px, py] = align(coordinates)?;
+    let (o, [u, v, w]) = ([ox, oy], [[ax, ay], [bx, by], [px, py]]);
+    let dot = |p: [i64; 2], q: [i64; 2]| dot_cross(p, q, o).0;
+    Some(compare_products(dot(u, u), dot(v, w), dot(v, v), dot(u, w)))
+}
+
+/// Points o, a, b: the same for the directions of the axes.
+pub(super) fn centre_direction(coordinates: &[f64; 6]) -> Option<[Sign; 2]> {
+    let [ox, oy, ax, ay, bx, by] = align(coordinates)?;
+    let (uu, _) = dot_cross([ax, ay], [ax, ay], [ox, oy]);
+    let (vv, _) = dot_cross([bx, by], [bx, by], [ox, oy]);
+    let along = |u: i64, v: i64| compare_products(uu, i128::from(v), vv, i128::from(u));
+    Some([along(ay - oy, by - oy), along(ox - ax, ox - bx)])
+}
+
 /// The sign of a b - c d.
 fn compare_products(a: i128, b: i128, c: i128, d: i128) -> Sign {
     let sign = |x: i128, y: i128| Sign::of(&x, &0) * Sign::of(&y, &0);

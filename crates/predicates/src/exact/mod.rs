@@ -59,6 +59,16 @@ pub(crate) fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     integers::angle(&coordinates).unwrap_or_else(|| big::angle(&coordinates))
 }
 
+pub(crate) fn centre_side(o: Point2, a: Point2, b: Point2, p: Point2) -> Sign {
+    let coordinates = [o[0], o[1], a[0], a[1], b[0], b[1], p[0], p[1]];
+    integers::centre_side(&coordinates).unwrap_or_else(|| big::centre_side(&coordinates))
+}
+
+pub(crate) fn centre_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
+    let coordinates = [o[0], o[1], a[0], a[1], b[0], b[1]];
+    integers::centre_direction(&coordinates).unwrap_or_else(|| big::centre_direction(&coordinates))
+}
+
 pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Point2 {
     big::circumcentre(&[a[0], a[1], b[0], b[1], c[0], c[1]])
 }
