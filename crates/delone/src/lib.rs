@@ -46,5 +46,5 @@ pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::{Dimension, Mesh};
 pub use plane::{
     Algorithm, Cells, Counters, Delaunay2, Duplicate, EnclosingCircle, Footprint, Furthest2, Inserted,
-    Location, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
+    Location, NearestSites, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
 };

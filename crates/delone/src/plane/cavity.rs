@@ -67,6 +67,13 @@ impl Cavity {
         self.refill(mesh, v, seed);
     }
 
+    /// What the last insertion did: its new triangles, the first of which were those of the cavity but for the last
+    /// two; and for each new triangle the border edge of the cavity that it stands on: where it starts, and its
+    /// twin outside.
+    pub(super) fn last(&self) -> (&[TriangleId], &[(Place, EdgeId)]) {
+        (&self.triangles, &self.border)
+    }
+
     /// The same among furthest-site triangles, whose circles contain all points. The point is beyond the hull.
     pub(super) fn insert_furthest(
         &mut self,

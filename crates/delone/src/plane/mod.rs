@@ -14,6 +14,7 @@ mod locate;
 mod locator;
 mod nearest;
 mod position;
+mod radial;
 mod remove;
 pub mod verify;
 mod voronoi;
@@ -25,6 +26,7 @@ pub use hull::convex_hull;
 pub use locate::Location;
 pub use locator::Footprint;
 pub use position::Position2;
+pub use radial::NearestSites;
 pub use voronoi::{Cells, Region, Relaxation, Ring, Voronoi2, VoronoiEdge};
 
 use std::sync::OnceLock;
