@@ -331,6 +331,7 @@ pub(crate) struct ReplayArgs {
   delone experiment hierarchy --largest 50000
   delone experiment jump-and-walk -o results
   delone experiment history -o results
+  delone experiment radial --largest 1000000
 
 A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
 seconds on this machine and differ from run to run; counts depend on the seed alone.")]
@@ -362,6 +363,9 @@ pub(crate) enum ExperimentName {
     /// What ever appears in randomized incremental construction, and what locating costs (Guibas, Knuth & Sharir
     /// 1992, §2 and §3).
     History,
+    /// Nearest sites by the history of radial triangles: its size, the work of a query, and its time beside other
+    /// ways (the same, §5).
+    Radial,
 }
 
 /// Judge triangles.

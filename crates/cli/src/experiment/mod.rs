@@ -4,6 +4,7 @@ mod hierarchy;
 mod history;
 mod jump_and_walk;
 mod plot;
+mod radial;
 mod table;
 
 use std::path::Path;
@@ -42,6 +43,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         match args.name {
             ExperimentName::Hierarchy => hierarchy::run(args.largest, args.seed),
             ExperimentName::JumpAndWalk => jump_and_walk::run(args.largest, args.seed),
+            ExperimentName::Radial => radial::run(args.largest, args.seed),
             ExperimentName::History => history::run(args.largest, args.seed),
         }
     }

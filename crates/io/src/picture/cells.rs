@@ -40,14 +40,15 @@ impl Style {
         let at = |share: f64| areas.get((areas.len() as f64 * share) as usize).copied().unwrap_or_default();
         let pixels = f64::from(view.width) * f64::from(view.height);
         let spacing = (pixels / areas.len().max(1) as f64).sqrt();
-        Self { view, low: at(0.02), high: at(0.98), spacing }
+        let (low, high) = (at(0.02), at(0.98));
+        // Even cells are to look even: all colours are a factor of four.
+        let widen = (4f64.ln() - (high - low)).max(0.0) / 2.0;
+        Self { view, low: low - widen, high: high + widen, spacing }
     }
 
     fn colour(&self, area: f64) -> Rgb {
-        let range = self.high - self.low;
-        let t = if range > 1e-9 { (area.ln() - self.low) / range } else { 0.5 };
         // Small cells are dense.
-        DENSITY.at(1.0 - t)
+        DENSITY.at(1.0 - (area.ln() - self.low) / (self.high - self.low))
     }
 
     fn outlines(&self) -> bool {

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Makes the pictures of the gallery anew. Needs the program: cargo build --release
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+delone=${DELONE:-target/release/delone}
+here=docs/gallery
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+$delone generate uniform -n 400 --seed 3 -o "$work/sites.csv"
+$delone voronoi "$work/sites.csv" --box 0,0,1,1 -o $here/cells.png --size 640
+$delone voronoi "$work/sites.csv" --box 0,0,1,1 --relax 60 -o $here/relaxed.png --size 640
+
+# A ring of 80 corners with a square hole, as GeoJSON.
+ring=$(awk 'BEGIN { for (i = 0; i <= 80; i++) { t = 6.283185307179586 * (i % 80) / 80
+    printf "%s[%.6f,%.6f]", i ? "," : "", 0.5 + (i % 2 ? 0.36 : 0.48) * cos(t), 0.5 + (i % 2 ? 0.36 : 0.48) * sin(t) } }')
+cat > "$work/star.geojson" <<JSON
+{"type":"Polygon","coordinates":[[$ring],[[0.4,0.4],[0.4,0.6],[0.6,0.6],[0.6,0.4],[0.4,0.4]]]}
+JSON
+$delone generate uniform -n 1500 --seed 5 -o "$work/many.csv"
+$delone voronoi "$work/many.csv" --clip "$work/star.geojson" -o $here/star.png --size 640
+
+$delone generate clusters -n 3000 --seed 1 -o "$work/clusters.csv"
+$delone voronoi "$work/clusters.csv" -o $here/clusters.png --size 640
+
+$delone voronoi data/autzen_trim.laz --class 2 -o $here/ground.png --size 960
+$delone draw data/autzen_trim.laz --class 2 -o $here/terrain.png --size 960
