@@ -7,8 +7,11 @@ use num_bigint::BigInt;
 /// A point of the plane.
 pub type Point2 = [f64; 2];
 
+/// A point of space.
+pub type Point3 = [f64; 3];
+
 /// Coordinates as integers: every `f64` of the tuple divided by one common power of two.
-fn integers(points: &[Point2]) -> Vec<[BigInt; 2]> {
+fn integers<const D: usize>(points: &[[f64; D]]) -> Vec<[BigInt; D]> {
     let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff).max(1) as i64;
     let scale = points.iter().flatten().filter(|x| **x != 0.0).map(|x| exponent(*x)).min().unwrap_or(0);
     let integer = |x: f64| {
@@ -18,7 +21,7 @@ fn integers(points: &[Point2]) -> Vec<[BigInt; 2]> {
         let magnitude = BigInt::from(digits) << (exponent(x) - scale).max(0);
         if x < 0.0 { -magnitude } else { magnitude }
     };
-    points.iter().map(|p| [integer(p[0]), integer(p[1])]).collect()
+    points.iter().map(|p| p.map(integer)).collect()
 }
 
 /// The determinant of a square matrix by expansion along its first column.
@@ -54,6 +57,13 @@ fn sign(value: &BigInt) -> i8 {
 pub fn orient2d(a: Point2, b: Point2, c: Point2) -> i8 {
     let rows: Vec<_> = integers(&[a, b, c]).into_iter().map(|[x, y]| vec![x, y, BigInt::from(1)]).collect();
     sign(&determinant(&rows))
+}
+
+/// The sign of the determinant of b - a, c - a, d - a: 1 when a, b, c are seen counter-clockwise from d.
+pub fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> i8 {
+    let rows: Vec<_> =
+        integers(&[a, b, c, d]).into_iter().map(|[x, y, z]| vec![x, y, z, BigInt::from(1)]).collect();
+    -sign(&determinant(&rows))
 }
 
 fn lifted(points: &[Point2; 4]) -> Vec<Vec<BigInt>> {

@@ -31,6 +31,7 @@ mod filter;
 mod in_circle;
 mod lexicographic;
 mod orient;
+mod orient3d;
 mod pencil;
 mod perturb;
 mod sign;
@@ -44,8 +45,12 @@ pub use filter::{Filter, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use lexicographic::{lexicographic, strictly_between};
 pub use orient::orient2d;
+pub use orient3d::orient3d;
 pub use pencil::{Member, Pencil};
 pub use sign::Sign;
 
 /// A point of the plane: x, then y. Both finite.
 pub type Point2 = [f64; 2];
+
+/// A point of space: x, y, z. All finite.
+pub type Point3 = [f64; 3];

@@ -4,7 +4,7 @@ use delone_oracle::exact;
 use delone_oracle::generate::Random;
 use delone_predicates::{
     Filter, Grid, Pencil, Point2, Sign, angle, centre_direction, centre_side, compare_distances,
-    compare_with_radius, in_circle, in_circle_with_ties, lexicographic, orient2d,
+    compare_with_radius, in_circle, in_circle_with_ties, lexicographic, orient2d, orient3d,
 };
 
 /// A family of hostile tuples of four points.
@@ -237,4 +237,35 @@ fn sides_of_circumcentres_are_exact() {
         zero += usize::from(expected == 0);
     });
     assert!(zero > 1000, "only {zero} ties were met");
+}
+
+#[test]
+fn orient3d_is_exact() {
+    let mut zero = 0;
+    // Heights that are nearly, or exactly, on one plane over each family of the plane.
+    tuples(11, 40_000, |name, points| {
+        let slope = points[3][0];
+        for (i, heights) in [
+            points.map(|[x, y]| x + y),
+            points.map(|[x, y]| y - 2.0 * x),
+            points.map(|[x, _]| x * slope),
+            [points[0][0], points[1][1], points[2][0], points[3][1]],
+            [0.0, 0.0, 0.0, points[0][1]],
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            if heights.iter().any(|z| !z.is_finite()) {
+                continue;
+            }
+            let at = |k: usize| [points[k][0], points[k][1], heights[k]];
+            let [a, b, c, d] = [0, 1, 2, 3].map(at);
+            let expected = exact::orient3d(a, b, c, d);
+            assert_eq!(orient3d(a, b, c, d), sign(expected), "{name} {i}: {a:?} {b:?} {c:?} {d:?}");
+            assert_eq!(orient3d(b, a, c, d), -sign(expected), "{name} {i}: swapped");
+            assert_eq!(orient3d(b, c, d, a), -sign(expected), "{name} {i}: turned");
+            zero += usize::from(expected == 0);
+        }
+    });
+    assert!(zero > 10_000, "only {zero} coplanar tuples were met");
 }

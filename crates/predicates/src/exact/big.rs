@@ -16,13 +16,19 @@ fn align<const N: usize>(coordinates: &[f64; N]) -> Vec<Vector> {
 
 /// The same, and the binary exponent of the scale.
 fn aligned<const N: usize>(coordinates: &[f64; N]) -> (Vec<Vector>, i32) {
-    let parts = coordinates.map(decode);
+    let (flat, scale) = integers(coordinates);
+    (flat.chunks_exact(2).map(|xy| [xy[0].clone(), xy[1].clone()]).collect(), scale)
+}
+
+/// Numbers as integers on their common scale, and its binary exponent.
+fn integers<const N: usize>(numbers: &[f64; N]) -> (Vec<BigInt>, i32) {
+    let parts = numbers.map(decode);
     let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
     let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
         0 => BigInt::ZERO,
         _ => BigInt::from(mantissa) << (exponent - scale).unsigned_abs(),
     };
-    (parts.chunks_exact(2).map(|xy| [integer(xy[0]), integer(xy[1])]).collect(), scale)
+    (parts.map(integer).to_vec(), scale)
 }
 
 fn difference(q: &Vector, p: &Vector) -> Vector {
@@ -88,6 +94,14 @@ pub(super) fn centre_direction(coordinates: &[f64; 6]) -> [Sign; 2] {
     let (u, v) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
     [sign(&(&uu * &v[1] - &vv * &u[1])), sign(&(&vv * &u[0] - &uu * &v[0]))]
+}
+
+pub(super) fn orient3d(coordinates: &[f64; 12]) -> Sign {
+    let (p, _) = integers(coordinates);
+    let from_first = |i: usize| [0, 1, 2].map(|k| &p[3 * i + k] - &p[k]);
+    let [u, v, w] = [1, 2, 3].map(from_first);
+    let minor = |i: usize, j: usize| &v[i] * &w[j] - &v[j] * &w[i];
+    sign(&(&u[0] * minor(1, 2) - &u[1] * minor(0, 2) + &u[2] * minor(0, 1)))
 }
 
 /// The point at the same distance from three points that are not collinear, correctly rounded; a coordinate that no

@@ -13,7 +13,7 @@ mod integers;
 use std::cmp::Ordering;
 
 use crate::counters::{Predicate, Stage, count};
-use crate::{Point2, Sign};
+use crate::{Point2, Point3, Sign};
 
 pub(crate) fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
     let coordinates = [a[0], a[1], b[0], b[1], c[0], c[1]];
@@ -71,6 +71,19 @@ pub(crate) fn centre_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
 
 pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Point2 {
     big::circumcentre(&[a[0], a[1], b[0], b[1], c[0], c[1]])
+}
+
+#[cold]
+#[inline(never)]
+pub(crate) fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
+    let mut coordinates = [0.0; 12];
+    coordinates.copy_from_slice([a, b, c, d].as_flattened());
+    if expansions_hold(&coordinates) {
+        let coord = |[x, y, z]: Point3| robust::Coord3D { x, y, z };
+        // Theirs is positive where d is below the plane.
+        return -Sign::of(&robust::orient3d(coord(a), coord(b), coord(c), coord(d)), &0.0);
+    }
+    big::orient3d(&coordinates)
 }
 
 fn coord(p: Point2) -> robust::Coord<f64> {

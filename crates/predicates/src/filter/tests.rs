@@ -1,6 +1,6 @@
 //! Every constant of the filters, derived again by running the formulas on bounds instead of numbers.
 
-use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, U};
+use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, ORIENT3D_BOUND, U};
 
 /// A computed quantity: a bound on its magnitude and a bound on its error.
 #[derive(Clone, Copy)]
@@ -97,4 +97,16 @@ fn a_filter_without_room_decides_nothing() {
     let tiny = Filter::for_box(1e-200, 1e-200, None);
     assert_eq!(tiny.circle(0.0), None);
     assert_eq!(tiny.orient(f64::MIN_POSITIVE / 2.0), None);
+}
+
+#[test]
+fn the_orientation_bound_in_space_covers_its_formula() {
+    // In units of the largest difference; the permanent of differences of at most 1 is at most 6.
+    let d = Bounded::difference(1.0);
+    let term = d.times(d.times(d).plus(d.times(d)));
+    // The rounding of the last sum does not change its sign.
+    let error = term.plus(term).error + term.error;
+    // The computed permanent may be smaller than the true one by its own relative error.
+    assert!(error <= ORIENT3D_BOUND * 6.0 * (1.0 - 8.0 * U), "{:e}", error / U / 6.0);
+    assert!(error >= ORIENT3D_BOUND * 6.0 * 0.9, "the bound is far too large");
 }

@@ -1,0 +1,20 @@
+//! Orientation of four points in space: filter, exact.
+
+use crate::filter::orient3d_filter;
+use crate::{Point3, Sign, exact};
+
+/// On which side of the plane through `a`, `b`, `c` the point `d` is: positive where `a`, `b`, `c` are seen
+/// counter-clockwise. The sign of the determinant of b - a, c - a, d - a; zero if the four are coplanar.
+///
+/// Exact for every finite input. O(1).
+///
+/// ```
+/// use delone_predicates::{Sign, orient3d};
+/// let (a, b, c) = ([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+/// assert_eq!(orient3d(a, b, c, [0.0, 0.0, 1e-300]), Sign::Positive);
+/// assert_eq!(orient3d(a, b, c, [5.0, 7.0, 0.0]), Sign::Zero);
+/// ```
+#[inline]
+pub fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
+    orient3d_filter(a, b, c, d).unwrap_or_else(|| exact::orient3d(a, b, c, d))
+}
