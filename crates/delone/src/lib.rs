@@ -33,6 +33,7 @@ struct Readme;
 
 mod error;
 mod fetch;
+pub mod hull;
 mod ids;
 mod locate;
 pub mod mesh;

@@ -18,8 +18,9 @@ use delone_predicates::{angle, circumcentre, compare_distances, lexicographic};
 
 use super::insert::Spot;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, VoronoiEdge, finite, hull};
+use super::{Delaunay2, Position2, VoronoiEdge, finite};
 use crate::error::Error;
+use crate::hull::planar;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::locate::Start;
 use crate::mesh::Mesh;
@@ -78,7 +79,7 @@ impl Delaunay2 {
     pub fn furthest(&self) -> Furthest2 {
         let hull: Vec<VertexId> = self.hull().collect();
         let points: Vec<[f64; 2]> = hull.iter().map(|&v| self.point(v)).collect();
-        let corners: Vec<VertexId> = hull::corners(&points).into_iter().map(|i| hull[i]).collect();
+        let corners: Vec<VertexId> = planar::corners(&points).into_iter().map(|i| hull[i]).collect();
         let points: Vec<[f64; 2]> = corners.iter().map(|&v| self.point(v)).collect();
         let mut levels = vec![Level::new(points, Vec::new())];
         let mut random = SplitMix(0);

@@ -1,0 +1,4 @@
+//! Convex hulls without a triangulation.
+
+pub(crate) mod planar;
+pub mod spatial;

@@ -1,0 +1,157 @@
+//! Convex hulls in space against their definition, and the lifting map.
+
+use delone::Delaunay2;
+use delone::hull::spatial::{Hull3, Span};
+use delone_oracle::exact;
+use delone_oracle::generate::{Kind, Random};
+
+type Points = Vec<[f64; 3]>;
+
+/// Named sets, hostile ones among them.
+fn sets() -> Vec<(String, Points)> {
+    let mut random = Random::new(5);
+    let mut sets: Vec<(String, Points)> = Vec::new();
+    let mut add = |name: &str, points: Points| sets.push((format!("{name} {}", points.len()), points));
+    for n in [4, 5, 8, 30, 200] {
+        add("cube", (0..n).map(|_| [random.unit(), random.unit(), random.unit()]).collect());
+        let sphere = |r: &mut Random| {
+            let p = [0, 1, 2].map(|_| r.between(-1.0, 1.0));
+            let size = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            p.map(|x| x / size)
+        };
+        add("sphere", (0..n).map(|_| sphere(&mut random)).collect());
+        let small = |r: &mut Random| [0, 1, 2].map(|_| (r.unit() * 4.0).floor());
+        add("lattice", (0..n).map(|_| small(&mut random)).collect());
+        add(
+            "twice",
+            (0..n).map(|i| [f64::from(i / 2 % 5), f64::from(i / 2 % 7), f64::from(i / 2 % 3)]).collect(),
+        );
+        add(
+            "flat",
+            (0..n)
+                .map(|_| {
+                    let [x, y, _] = small(&mut random);
+                    [x, y, x + y]
+                })
+                .collect(),
+        );
+        add("line", (0..n).map(|i| [f64::from(i), 2.0 * f64::from(i), 1.0]).collect());
+        add(
+            "layers",
+            (0..n)
+                .map(|_| {
+                    let [x, y, z] = small(&mut random);
+                    [x, y, (z / 2.0).floor()]
+                })
+                .collect(),
+        );
+        add("nearly flat", (0..n).map(|_| [random.unit(), random.unit(), 1e-300 * random.unit()]).collect());
+        add("huge", (0..n).map(|_| [0, 1, 2].map(|_| random.between(-1.0, 1.0) * 1e300)).collect());
+    }
+    let grid = |k: i32| (0..k * k * k).map(|i| [i % k, i / k % k, i / k / k].map(f64::from)).collect();
+    add("grid", grid(5));
+    for n in 0..4 {
+        add("few", (0..n).map(|i| [f64::from(i), f64::from(i * i), 0.0]).collect());
+        add("equal", vec![[1.0, 2.0, 3.0]; n as usize]);
+    }
+    sets
+}
+
+#[test]
+fn hulls_are_convex_closed_and_hold_everything() {
+    for (name, points) in sets() {
+        let hull = Hull3::of(&points).expect("finite");
+        let facets: Vec<[usize; 3]> = hull.facets().collect();
+        if hull.span() < Span::Space {
+            assert!(facets.is_empty(), "{name}");
+            continue;
+        }
+        for &[a, b, c] in &facets {
+            for &p in &points {
+                assert!(exact::orient3d(points[a], points[b], points[c], p) <= 0, "{name}: {p:?} is outside");
+            }
+        }
+        // Every edge is met once in each direction.
+        let mut edges: Vec<(usize, usize)> =
+            facets.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        edges.sort_unstable();
+        assert!(edges.windows(2).all(|w| w[0] != w[1]), "{name}");
+        assert!(edges.iter().all(|&(a, b)| edges.binary_search(&(b, a)).is_ok()), "{name}");
+        // Euler's relation, of triangles and of faces.
+        let corners = hull.corners().len();
+        assert_eq!(corners + facets.len(), edges.len() / 2 + 2, "{name}");
+        let sides: usize = hull.faces().iter().map(Vec::len).sum();
+        assert_eq!(corners + hull.faces().len(), sides / 2 + 2, "{name}");
+        // Corners are extreme: each is strictly outside of the hull of the others.
+        for &v in hull.corners().iter().take(12) {
+            let others: Points = points.iter().copied().filter(|&p| p != points[v]).collect();
+            let without = Hull3::of(&others).expect("finite");
+            let outside = without.span() < Span::Space
+                || without.facets().any(|f| {
+                    let [a, b, c] = f.map(|i| others[i]);
+                    exact::orient3d(a, b, c, points[v]) > 0
+                });
+            assert!(outside, "{name}: {v} is no corner");
+        }
+    }
+}
+
+#[test]
+fn one_set_has_one_hull() {
+    for (name, points) in sets() {
+        let shape = |points: &[[f64; 3]]| {
+            let hull = Hull3::of(points).expect("finite");
+            let of = |face: &Vec<usize>| face.iter().map(|&i| points[i].map(|x| x + 0.0)).collect::<Vec<_>>();
+            let mut faces: Vec<_> = hull.faces().iter().map(of).collect();
+            faces.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+            (hull.span(), hull.corners().len(), faces)
+        };
+        let mut shuffled = points.clone();
+        Random::new(3).shuffle(&mut shuffled);
+        let (one, other) = (shape(&points), shape(&shuffled));
+        // A flat face has two sides.
+        if one.0 == Span::Space {
+            assert_eq!(one, other, "{name}");
+        } else {
+            assert_eq!((one.0, one.1), (other.0, other.1), "{name}");
+        }
+    }
+}
+
+#[test]
+fn spans_are_told() {
+    let span = |points: &[[f64; 3]]| Hull3::of(points).expect("finite").span();
+    assert_eq!(span(&[]), Span::Empty);
+    assert_eq!(span(&[[1.0; 3], [1.0; 3]]), Span::Point);
+    assert_eq!(span(&[[0.0; 3], [1.0; 3], [3.0; 3]]), Span::Line);
+    let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.5, 0.0, 0.5]];
+    let hull = Hull3::of(&square).expect("finite");
+    assert_eq!((hull.span(), hull.corners().len(), hull.faces().len()), (Span::Plane, 4, 1));
+    assert!(Hull3::of(&[[0.0, f64::NAN, 0.0]]).is_err());
+}
+
+#[test]
+fn the_lower_hull_of_the_lifted_points_is_the_delaunay_triangulation() {
+    for kind in [Kind::Uniform, Kind::Grid, Kind::Clusters] {
+        // Small integers, so that squares are exact.
+        let scale =
+            |p: [f64; 2], low: [f64; 2], size: f64| [0, 1].map(|k| ((p[k] - low[k]) / size * 1000.0).round());
+        let raw = kind.points(400, 2);
+        let low = [0, 1].map(|k| raw.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+        let size = [0, 1].map(|k| raw.iter().map(|p| p[k] - low[k]).fold(0.0, f64::max));
+        let points: Vec<[f64; 2]> = raw.iter().map(|&p| scale(p, low, size[0].max(size[1]))).collect();
+        let lifted: Points = points.iter().map(|&[x, y]| [x, y, x * x + y * y]).collect();
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let hull = Hull3::of(&lifted).expect("finite");
+        assert_eq!(hull.lower(&lifted).count(), d.triangles().count(), "{kind:?}");
+        // Sites on one circle are one face; every triangle is in one.
+        let mut of_corner = vec![Vec::new(); points.len()];
+        for (f, face) in hull.faces().iter().enumerate() {
+            face.iter().for_each(|&v| of_corner[v].push(f));
+        }
+        for triangle in d.triangles() {
+            let [a, b, c] = triangle.map(|v| &of_corner[v.index()]);
+            assert!(a.iter().any(|f| b.contains(f) && c.contains(f)), "{kind:?} {triangle:?}");
+        }
+    }
+}
