@@ -26,7 +26,7 @@ pub(crate) enum Command {
     Locate(LocateArgs),
     /// Find the vertices nearest to each of many points.
     Nearest(NearestArgs),
-    /// The corners of the convex hull.
+    /// The corners of the convex hull in the plane, or its facets in space.
     Hull(HullArgs),
     /// Find the vertex furthest from each of many points.
     Furthest(FurthestArgs),
@@ -208,9 +208,11 @@ pub(crate) struct NearestArgs {
 #[command(after_help = "Examples:
   delone hull points.csv -o corners.npy
   delone hull points.csv -o - --to csv
+  delone hull model.ply --dim 3 -o facets.npy
 
-The corners of the hull as indices of points, counter-clockwise from the lexicographically smallest; no corner is on
-the line of its neighbours, and of equal points the first is taken.")]
+In the plane: the corners as indices of points, counter-clockwise from the lexicographically smallest. In space: a
+facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is on the line of its
+neighbours or inside of a face, and of equal points the first is taken.")]
 pub(crate) struct HullArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,

@@ -120,7 +120,15 @@ fn hulls_and_furthest_points() {
     place.fail("hull bad.csv -o h.npy", 1, "point 1");
     place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");
     place.fail("hull p.csv -o h.png", 2, "npy or csv");
-    place.fail("hull p.csv --dim 3 -o h.npy", 2, "not available");
+    place.fail("hull p.csv --dim 3 -o h.npy", 1, "no third coordinate");
+    let cube: String = (0..9).map(|i| format!("{} {} {}\n", i & 1, i >> 1 & 1, i >> 2 & 1)).collect();
+    place.file("cube.xyz", cube);
+    assert_eq!(rows(&place.succeed("hull cube.xyz --dim 3 -o - --to csv --stats s.json")).len(), 12);
+    let stats: Value =
+        serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
+    assert_eq!((&stats["hull"], &stats["faces"]), (&8.into(), &6.into()));
+    place.file("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+    assert_eq!(place.succeed("hull flat.xyz --dim 3 -o - --to csv -q"), "");
 }
 
 #[test]

@@ -53,10 +53,7 @@ fn is_less(a: Point2, b: Point2) -> bool {
 #[cold]
 #[inline(never)]
 fn rounded_once(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
-    if crate::orient2d(a, b, c).is_zero() {
-        return None;
-    }
-    Some(exact::circumcentre(a, b, c)).filter(|centre| centre.iter().all(|x| x.is_finite()))
+    exact::circumcentre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite()))
 }
 
 #[cfg(test)]

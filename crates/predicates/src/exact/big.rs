@@ -104,16 +104,19 @@ pub(super) fn orient3d(coordinates: &[f64; 12]) -> Sign {
     sign(&(&u[0] * minor(1, 2) - &u[1] * minor(0, 2) + &u[2] * minor(0, 1)))
 }
 
-/// The point at the same distance from three points that are not collinear, correctly rounded; a coordinate that no
-/// `f64` can hold is infinite.
-pub(super) fn circumcentre(coordinates: &[f64; 6]) -> [f64; 2] {
+/// The point at the same distance from three points, correctly rounded; a coordinate that no `f64` can hold is
+/// infinite. None for collinear points.
+pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {
     let (p, scale) = aligned(coordinates);
     let (b, c) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
     let (bb, cc) = (dot(&b, &b), dot(&c, &c));
     let denominator: BigInt = cross(&b, &c) * 2;
+    if denominator == BigInt::ZERO {
+        return None;
+    }
     let x = &p[0][0] * &denominator + (&c[1] * &bb - &b[1] * &cc);
     let y = &p[0][1] * &denominator + (&b[0] * &cc - &c[0] * &bb);
-    [x, y].map(|numerator| quotient(&numerator, &denominator, scale))
+    Some([x, y].map(|numerator| quotient(&numerator, &denominator, scale)))
 }
 
 /// `numerator / denominator * 2^scale`, rounded once unless it is subnormal.

@@ -69,7 +69,7 @@ pub(crate) fn centre_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
     integers::centre_direction(&coordinates).unwrap_or_else(|| big::centre_direction(&coordinates))
 }
 
-pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Point2 {
+pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     big::circumcentre(&[a[0], a[1], b[0], b[1], c[0], c[1]])
 }
 
