@@ -34,6 +34,7 @@ mod orient;
 mod orient3d;
 mod pencil;
 mod perturb;
+mod plane;
 mod sign;
 #[cfg(test)]
 mod stages;
@@ -47,6 +48,7 @@ pub use lexicographic::{lexicographic, strictly_between};
 pub use orient::orient2d;
 pub use orient3d::orient3d;
 pub use pencil::{Member, Pencil};
+pub use plane::Plane;
 pub use sign::Sign;
 
 /// A point of the plane: x, then y. Both finite.

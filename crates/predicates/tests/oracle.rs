@@ -3,7 +3,7 @@
 use delone_oracle::exact;
 use delone_oracle::generate::Random;
 use delone_predicates::{
-    Filter, Grid, Pencil, Point2, Sign, angle, centre_direction, centre_side, compare_distances,
+    Filter, Grid, Pencil, Plane, Point2, Sign, angle, centre_direction, centre_side, compare_distances,
     compare_with_radius, in_circle, in_circle_with_ties, lexicographic, orient2d, orient3d,
 };
 
@@ -241,7 +241,7 @@ fn sides_of_circumcentres_are_exact() {
 
 #[test]
 fn orient3d_is_exact() {
-    let mut zero = 0;
+    let (mut zero, mut told) = (0, 0);
     // Heights that are nearly, or exactly, on one plane over each family of the plane.
     tuples(11, 40_000, |name, points| {
         let slope = points[3][0];
@@ -265,7 +265,17 @@ fn orient3d_is_exact() {
             assert_eq!(orient3d(b, a, c, d), -sign(expected), "{name} {i}: swapped");
             assert_eq!(orient3d(b, c, d, a), -sign(expected), "{name} {i}: turned");
             zero += usize::from(expected == 0);
+            let extent = [0, 1, 2].map(|k| {
+                let of = [a, b, c, d].map(|p| p[k]);
+                of.iter().fold(f64::MIN, |m, x| m.max(*x)) - of.iter().fold(f64::MAX, |m, x| m.min(*x))
+            });
+            let plane = Plane::new(a, b, c, extent);
+            if let Some(side) = plane.side(d) {
+                assert_eq!(side, sign(expected), "{name} {i}: plane");
+                told += 1;
+            }
         }
     });
+    assert!(told > 100_000, "planes told only {told} sides");
     assert!(zero > 10_000, "only {zero} coplanar tuples were met");
 }
