@@ -4,6 +4,7 @@
 
 mod changes;
 mod engines;
+mod hull;
 mod memory;
 mod voronoi;
 
@@ -41,6 +42,9 @@ struct Args {
     /// Time Voronoi cells clipped to the bounding box instead of building.
     #[arg(long)]
     voronoi: bool,
+    /// Time convex hulls in space instead of building.
+    #[arg(long)]
+    hull: bool,
     /// Measure peak memory too (one more process for each engine and set).
     #[arg(long)]
     memory: bool,
@@ -75,6 +79,11 @@ fn main() {
         .collect();
     if args.changes {
         std::process::exit(i32::from(!each_set(&args, changes::run)));
+    }
+    if args.hull {
+        panic::set_hook(Box::new(|_| {}));
+        args.size.iter().for_each(|&size| hull::run(size, args.runs));
+        return;
     }
     if args.voronoi {
         panic::set_hook(Box::new(|_| {}));
