@@ -31,7 +31,7 @@ struct Candidate {
 }
 
 /// By distance, then lexicographically.
-fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
+pub(super) fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
     compare_distances(q, a, b).then_with(|| lexicographic(a, b))
 }
 

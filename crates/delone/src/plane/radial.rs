@@ -14,13 +14,10 @@
 //! expected for a query, whatever the sites. Choose it for its bound; `Delaunay2::nearest` is faster on data of
 //! this world, and can change.
 
-use std::cmp::Ordering;
-
-use delone_predicates::{
-    Sign, angle, centre_direction, centre_side, compare_distances, lexicographic, orient2d,
-};
+use delone_predicates::{Sign, angle, centre_direction, centre_side, lexicographic, orient2d};
 
 use super::layer::Layer;
+use super::nearest::nearer;
 use super::{Position2, check_finite, finite};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
@@ -333,11 +330,6 @@ impl NearestSites {
     pub fn size(&self) -> usize {
         self.triangles
     }
-}
-
-/// By distance, then lexicographically.
-fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
-    compare_distances(q, a, b).then_with(|| lexicographic(a, b))
 }
 
 /// The signs of the direction square to a hull edge from `a` to `b`, away from the hull.

@@ -101,12 +101,7 @@ fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Erro
 
 fn svg(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> std::io::Result<()> {
     let view = &style.view;
-    let (width, height) = (view.width, view.height);
-    writeln!(
-        out,
-        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">"#
-    )?;
-    writeln!(out, r#"<rect width="100%" height="100%" fill="white"/>"#)?;
+    super::svg::open(out, view)?;
     let outline = if style.outlines() { hex(EDGE) } else { "none".to_owned() };
     writeln!(
         out,

@@ -10,12 +10,7 @@ use crate::Surface;
 
 pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers: Layers) -> io::Result<()> {
     let d = surface.triangulation;
-    let (width, height) = (view.width, view.height);
-    writeln!(
-        out,
-        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">"#
-    )?;
-    writeln!(out, r#"<rect width="100%" height="100%" fill="white"/>"#)?;
+    open(out, view)?;
     if layers.fill {
         let paint = Paint::of(surface);
         writeln!(out, r#"<g stroke-width="0.6" stroke-linejoin="round">"#)?;
@@ -66,6 +61,16 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
     }
     scale(out, view)?;
     writeln!(out, "</svg>")
+}
+
+/// The start of a picture: white paper.
+pub(super) fn open(out: &mut dyn Write, view: &View) -> io::Result<()> {
+    let (width, height) = (view.width, view.height);
+    writeln!(
+        out,
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">"#
+    )?;
+    writeln!(out, r#"<rect width="100%" height="100%" fill="white"/>"#)
 }
 
 /// How long things are, below the drawing.
