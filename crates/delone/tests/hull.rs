@@ -1,7 +1,7 @@
 //! Convex hulls in space against their definition, and the lifting map.
 
-use delone::Delaunay2;
-use delone::hull::spatial::{Hull3, Span};
+use delone::hull::spatial::{Hull3, HullHistory, Span};
+use delone::{Delaunay2, Work};
 use delone_oracle::exact;
 use delone_oracle::generate::{Kind, Random};
 
@@ -153,5 +153,62 @@ fn the_lower_hull_of_the_lifted_points_is_the_delaunay_triangulation() {
             let [a, b, c] = triangle.map(|v| &of_corner[v.index()]);
             assert!(a.iter().any(|f| b.contains(f) && c.contains(f)), "{kind:?} {triangle:?}");
         }
+    }
+}
+
+#[test]
+fn history_makes_the_same_hull_and_knows_what_is_inside() {
+    for (name, points) in sets() {
+        let hull = Hull3::of(&points).expect("finite");
+        for seed in 0..3 {
+            let history = HullHistory::build(&points, seed).expect("finite");
+            assert_eq!(history.hull(), &hull, "{name}");
+            let inside = |q: [f64; 3]| history.contains(q).expect("finite");
+            assert!(points.iter().all(|&p| inside(p)), "{name}");
+            // Between neighbours in the list, and beyond them: some on faces, some outside.
+            for pair in points.windows(2).take(60) {
+                for share in [0.25, 0.5, 1.25, -3.0] {
+                    let q = [0, 1, 2].map(|k| pair[0][k] * (1.0 - share) + pair[1][k] * share);
+                    assert_eq!(inside(q), is_inside(&points, &hull, q), "{name}: {q:?}");
+                }
+            }
+        }
+    }
+    let history = HullHistory::build(&[[0.0; 3]], 1).expect("finite");
+    assert!(history.contains([0.0, f64::NAN, 0.0]).is_err());
+}
+
+/// By definition: not outside of any facet; for flat sets, if the hull does not grow by it.
+fn is_inside(points: &[[f64; 3]], hull: &Hull3, q: [f64; 3]) -> bool {
+    if hull.span() == Span::Space {
+        let beyond = |[a, b, c]: [usize; 3]| exact::orient3d(points[a], points[b], points[c], q) > 0;
+        return !hull.facets().any(beyond);
+    }
+    let with: Points = points.iter().copied().chain([q]).collect();
+    let grown = Hull3::of(&with).expect("finite");
+    grown.span() == hull.span() && grown.corners().iter().all(|&i| i < points.len())
+}
+
+#[test]
+fn history_is_linear_and_descents_are_logarithmic() {
+    // Theorem 4.1 and the cost of location, for points that are all extreme: fewer than six facets a point.
+    let mut random = Random::new(8);
+    for n in [1_000, 10_000] {
+        let points: Points = (0..n)
+            .map(|_| {
+                let p = [0, 1, 2].map(|_| random.between(-1.0, 1.0));
+                let size = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+                p.map(|x| x / size)
+            })
+            .collect();
+        let mut work = Work::default();
+        let history = HullHistory::build_counted(&points, 4, &mut work).expect("finite");
+        assert_eq!(history.size() as u64, work.created);
+        assert!((5.5..6.0).contains(&(work.created as f64 / f64::from(n))), "{n}: {}", work.created);
+        assert_eq!(work.created - work.destroyed, 2 * u64::try_from(n).expect("small") - 4);
+        let asked = work.orientations as f64 / f64::from(n) / f64::from(n).ln();
+        // A point sees four facets of any hull before it, each with chance 3 / r one of the step r: 12 ln n in all,
+        // which are asked about besides those that hang beside them and are not seen.
+        assert!((4.0..24.0).contains(&asked), "{n}: {asked} ln n");
     }
 }

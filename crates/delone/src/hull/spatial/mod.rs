@@ -1,0 +1,119 @@
+//! The convex hull in space: what the points span, its flat faces, their corners.
+//!
+//! Two algorithms make the same hull, and judge each other: quickhull (`quickhull.rs`), which [`Hull3::of`] uses, and
+//! randomized incremental construction located by history (`history.rs`), which answers queries later. Both cap a
+//! shell of triangles (`shell.rs`) by exact decisions; `faces.rs` joins coplanar triangles in the end, so that the
+//! result is a function of the set.
+
+mod faces;
+mod history;
+mod quickhull;
+mod shell;
+mod start;
+
+pub use history::HullHistory;
+
+use crate::error::Error;
+use start::{Start, turn};
+
+/// What points in space span.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Span {
+    /// No point.
+    Empty,
+    /// One point.
+    Point,
+    /// A line.
+    Line,
+    /// A plane.
+    Plane,
+    /// Space.
+    Space,
+}
+
+/// The convex hull of points in space.
+///
+/// ```
+/// use delone::hull::spatial::{Hull3, Span};
+///
+/// let cube: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+/// let hull = Hull3::of(&cube)?;
+/// assert_eq!(hull.span(), Span::Space);
+/// assert_eq!(hull.corners().len(), 8);
+/// assert_eq!((hull.faces().len(), hull.facets().count()), (6, 12));
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hull3 {
+    span: Span,
+    corners: Vec<usize>,
+    faces: Vec<Vec<usize>>,
+}
+
+impl Hull3 {
+    /// The hull. Of equal points the first stands for all. O(n log n) in practice.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate, [`Error::TooManyPoints`] is for more than
+    /// [`crate::MAX_POINTS`].
+    pub fn of(points: &[[f64; 3]]) -> Result<Self, Error> {
+        check(points)?;
+        Ok(match Start::of(points) {
+            Start::Lower(span, corners) => Self { span, corners, faces: Vec::new() },
+            Start::Flat(corners) => Self { span: Span::Plane, faces: vec![corners.clone()], corners },
+            Start::Tetrahedron(_) => Self::solid(quickhull::faces(points)),
+        })
+    }
+
+    /// The hull with given faces.
+    fn solid(faces: Vec<Vec<usize>>) -> Self {
+        let mut corners: Vec<usize> = faces.iter().flatten().copied().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        Self { span: Span::Space, corners, faces }
+    }
+
+    /// What the points span: a hull of less than space has no facets.
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// The extreme points: by increasing index; of a flat set in order around it, of one on a line from end to end.
+    pub fn corners(&self) -> &[usize] {
+        &self.corners
+    }
+
+    /// The flat faces as polygons, counter-clockwise seen from outside, each from its lexicographically smallest
+    /// corner; sorted. The one face of a flat set may be seen from either side.
+    pub fn faces(&self) -> &[Vec<usize>] {
+        &self.faces
+    }
+
+    /// The faces cut into triangles, counter-clockwise seen from outside. None for less than space.
+    pub fn facets(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+        let solid = self.faces.iter().filter(|_| self.span == Span::Space);
+        solid.flat_map(|face| face[1..].windows(2).map(|side| [face[0], side[0], side[1]]))
+    }
+
+    /// The facets that are seen from far below: the lower hull. `points` are those of the hull.
+    pub fn lower<'a>(&'a self, points: &'a [[f64; 3]]) -> impl Iterator<Item = [usize; 3]> + 'a {
+        self.facets().filter(|&facet| turn(points, facet, 2).is_lt())
+    }
+
+    /// The facets that are seen from far above: the upper hull. `points` are those of the hull.
+    pub fn upper<'a>(&'a self, points: &'a [[f64; 3]]) -> impl Iterator<Item = [usize; 3]> + 'a {
+        self.facets().filter(|&facet| turn(points, facet, 2).is_gt())
+    }
+}
+
+/// Whether all points are finite, and not too many.
+fn check(points: &[[f64; 3]]) -> Result<(), Error> {
+    if points.len() > crate::MAX_POINTS {
+        return Err(Error::TooManyPoints { count: points.len() });
+    }
+    let flat = points.as_flattened();
+    match flat.iter().position(|x| !x.is_finite()) {
+        Some(at) => Err(Error::NotFinite { index: at / 3, axis: at % 3, value: flat[at] }),
+        None => Ok(()),
+    }
+}
