@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use delone::{Hierarchy, JumpAndWalk, Locate, Walk};
 use delone_io::Format;
+use delone_io::picture::Camera;
+
+use crate::message::Failure;
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]
@@ -208,23 +211,74 @@ pub(crate) struct NearestArgs {
 #[command(after_help = "Examples:
   delone hull points.csv -o corners.npy
   delone hull points.csv -o - --to csv
-  delone hull model.ply --dim 3 -o facets.npy
+  delone hull model.ply --dim 3 -o facets.npy -o hull.stl -o hull.png
+  delone hull tile.laz --dim 3 --view 200,30 -o hull.svg
 
-In the plane: the corners as indices of points, counter-clockwise from the lexicographically smallest. In space: a
-facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is on the line of its
-neighbours or inside of a face, and of equal points the first is taken.")]
+npy and csv hold indices of input points. In the plane: the corners, counter-clockwise from the lexicographically
+smallest. In space: a facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is
+on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh files hold the corners
+of the hull alone; pictures show flat faces whole.")]
 pub(crate) struct HullArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy: int64, or csv), or - for standard output.
+    /// Output file (npy csv; in space also ply obj stl vtu svg png), or - for standard output; may be repeated.
     #[arg(long, short, value_name = "OUT", required = true)]
-    pub(crate) output: PathBuf,
-    /// Format of the output, if its extension does not tell.
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
     /// Dimension: 2 takes x and y.
     #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
     pub(crate) dim: u8,
+    /// Algorithm in space; the hull is the same.
+    #[arg(long, value_name = "NAME", default_value = "quickhull")]
+    pub(crate) algorithm: HullAlgorithm,
+    /// Seed of the random order of `history`.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+}
+
+/// Algorithms for hulls in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HullAlgorithm {
+    /// The furthest points first (Barber, Dobkin & Huhdanpaa 1996).
+    Quickhull,
+    /// Random order, located by history (Guibas, Knuth & Sharir 1992, §4.1).
+    History,
+}
+
+/// Where a picture in space is seen from.
+#[derive(Debug, Args)]
+pub(crate) struct CameraArgs {
+    /// Where pictures are seen from, in degrees: around from the x axis, and up.
+    #[arg(
+        long,
+        value_name = "AROUND,UP",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_negative_numbers = true,
+        default_value = "-60,25"
+    )]
+    view: Vec<f64>,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    size: u32,
+}
+
+impl CameraArgs {
+    pub(crate) fn camera(&self) -> Result<Camera, Failure> {
+        match self.view[..] {
+            [azimuth, elevation] if azimuth.is_finite() && (-90.0..=90.0).contains(&elevation) => {
+                Ok(Camera { size: self.size, azimuth, elevation })
+            }
+            _ => Err(Failure::usage(
+                "--view takes two angles, the second from -90 to 90",
+                "as in --view 200,30: from the direction 200 degrees around, 30 degrees up",
+            )),
+        }
+    }
 }
 
 /// Find furthest vertices.

@@ -1,52 +1,116 @@
 //! `delone hull`: the corners of the convex hull in the plane, the facets of that in space.
 
-use delone::hull::spatial::{Hull3, Span};
+use std::path::PathBuf;
 
-use crate::args::HullArgs;
+use delone::Work;
+use delone::hull::spatial::{Hull3, HullHistory, Span};
+use delone_io::{Format, Solid};
+
+use crate::args::{HullAlgorithm, HullArgs};
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
-use crate::stats::Stats;
+use crate::stats::{Stats, work_done};
 
 pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
-    files::keep_apart(&[&args.input.input], std::iter::once(args.output.as_path()).chain(stats_path))?;
-    let format = files::index_format(&args.output, args.to)?;
+    let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
     let mut stats = Stats::start();
-    let cloud = files::points(&args.input, usize::from(args.dim), quiet)?;
-    stats.phase("read");
-    stats.set("points", cloud.xy.len());
-    let failed = |error: delone::Error| Failure::points(&args.input.input, &error);
-    let phase = Phase::start(quiet, "building");
     if args.dim == 2 {
-        let hull = delone::convex_hull(&cloud.xy).map_err(failed)?;
-        drop(phase);
-        stats.phase("build");
-        stats.set("hull", hull.len());
-        let corners: Vec<i64> = hull.into_iter().map(|i| i as i64).collect();
-        files::write(&args.output, |out| delone_io::write_index_list(out, format, &corners))?;
+        plane(args, &outputs, &mut stats, quiet)
     } else {
-        let Some(z) = &cloud.z else {
-            return Err(Failure::new(
-                format!("{}: the points have no third coordinate", args.input.input.display()),
-                "leave --dim 3 out, or name three columns with --columns",
-            ));
-        };
-        let points: Vec<[f64; 3]> = cloud.xy.iter().zip(z).map(|(&[x, y], &z)| [x, y, z]).collect();
-        let hull = Hull3::of(&points).map_err(failed)?;
-        drop(phase);
-        stats.phase("build");
-        if hull.span() < Span::Space {
-            let span = format!("{:?}", hull.span()).to_lowercase();
-            note(quiet, format_args!("the points span only this: {span}, so there are no facets"));
-        }
-        stats.set("dimension", format!("{:?}", hull.span()).to_lowercase());
-        stats.set("hull", hull.corners().len());
-        stats.set("faces", hull.faces().len());
-        stats.set("simplices", hull.facets().count());
-        let facets: Vec<i64> = hull.facets().flatten().map(|i| i as i64).collect();
-        files::write(&args.output, |out| delone_io::write_indices(out, format, 3, &facets))?;
-    }
+        space(args, &outputs, &mut stats, quiet)
+    }?;
     stats.phase("write");
     stats.write(stats_path)
+}
+
+fn is_list(format: Format) -> bool {
+    matches!(format, Format::Npy | Format::Text)
+}
+
+fn plane(
+    args: &HullArgs,
+    outputs: &[(PathBuf, Format)],
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
+    if let Some((path, _)) = outputs.iter().find(|(_, format)| !is_list(*format)) {
+        return Err(Failure::usage(
+            format!("{}: a hull in the plane is a list of corners, written as npy or csv", path.display()),
+            "choose one of these, or give --dim 3; delone draw makes pictures with the hull",
+        ));
+    }
+    let cloud = files::points(&args.input, 2, quiet)?;
+    stats.phase("read");
+    stats.set("points", cloud.xy.len());
+    let phase = Phase::start(quiet, "building");
+    let hull = delone::convex_hull(&cloud.xy).map_err(|error| Failure::points(&args.input.input, &error))?;
+    drop(phase);
+    stats.phase("build");
+    stats.set("hull", hull.len());
+    let corners: Vec<i64> = hull.into_iter().map(|i| i as i64).collect();
+    for (path, format) in outputs {
+        files::write(path, |out| delone_io::write_index_list(out, *format, &corners))?;
+    }
+    Ok(())
+}
+
+fn space(
+    args: &HullArgs,
+    outputs: &[(PathBuf, Format)],
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
+    use Format::{Obj, Ply, Png, Stl, Svg, Vtu};
+    let holds = |format: Format| is_list(format) || matches!(format, Ply | Obj | Stl | Vtu | Svg | Png);
+    if let Some((path, format)) = outputs.iter().find(|(_, format)| !holds(*format)) {
+        return Err(Failure::usage(
+            format!("{}: no hull in space is written as {format}", path.display()),
+            "choose among npy csv ply obj stl vtu svg png",
+        ));
+    }
+    let camera = args.camera.camera()?;
+    let cloud = files::points(&args.input, 3, quiet)?;
+    stats.phase("read");
+    stats.set("points", cloud.xy.len());
+    let Some(z) = &cloud.z else {
+        return Err(Failure::new(
+            format!("{}: the points have no third coordinate", args.input.input.display()),
+            "leave --dim 3 out, or name three columns with --columns",
+        ));
+    };
+    let points: Vec<[f64; 3]> = cloud.xy.iter().zip(z).map(|(&[x, y], &z)| [x, y, z]).collect();
+    let phase = Phase::start(quiet, "building");
+    let hull = match args.algorithm {
+        HullAlgorithm::Quickhull => Hull3::of(&points),
+        HullAlgorithm::History => {
+            let mut work = Work::default();
+            let history = HullHistory::build_counted(&points, args.seed, &mut work);
+            stats.set("counters", work_done(&work));
+            history.map(|history| history.hull().clone())
+        }
+    }
+    .map_err(|error| Failure::points(&args.input.input, &error))?;
+    drop(phase);
+    stats.phase("build");
+    let span = format!("{:?}", hull.span()).to_lowercase();
+    if hull.span() < Span::Space {
+        note(quiet, format_args!("the points span only this: {span}, so there are no facets"));
+    }
+    stats.set("dimension", span);
+    stats.set("hull", hull.corners().len());
+    stats.set("faces", hull.faces().len());
+    stats.set("simplices", hull.facets().count());
+    let _phase = Phase::start(quiet, "writing");
+    let solid = Solid::of_hull(&hull, &points);
+    for (path, format) in outputs {
+        if is_list(*format) {
+            let facets: Vec<i64> = hull.facets().flatten().map(|i| i as i64).collect();
+            files::write(path, |out| delone_io::write_indices(out, *format, 3, &facets))?;
+        } else {
+            files::write(path, |out| delone_io::write_solid(out, *format, &solid, &camera))?;
+        }
+    }
+    Ok(())
 }

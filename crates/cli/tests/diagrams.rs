@@ -120,6 +120,8 @@ fn hulls_and_furthest_points() {
     place.fail("hull bad.csv -o h.npy", 1, "point 1");
     place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");
     place.fail("hull p.csv -o h.png", 2, "npy or csv");
+    place.fail("hull p.csv --dim 3 -o h.laz", 2, "ply obj stl vtu svg png");
+    place.fail("hull p.csv --dim 3 -o h.svg --view 10,100", 2, "--view 200,30");
     place.fail("hull p.csv --dim 3 -o h.npy", 1, "no third coordinate");
     let cube: String = (0..9).map(|i| format!("{} {} {}\n", i & 1, i >> 1 & 1, i >> 2 & 1)).collect();
     place.file("cube.xyz", cube);
@@ -127,6 +129,17 @@ fn hulls_and_furthest_points() {
     let stats: Value =
         serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
     assert_eq!((&stats["hull"], &stats["faces"]), (&8.into(), &6.into()));
+    let made =
+        "hull cube.xyz --dim 3 --algorithm history --seed 3 -o h.npy -o h.stl -o h.obj -o h.svg -o h.png";
+    place.succeed(&format!("{made} --view 30,30 --size 300 --stats t.json"));
+    place.succeed("hull cube.xyz --dim 3 -o q.npy");
+    let read = |name: &str| std::fs::read(place.path(name)).expect("written");
+    assert_eq!(read("h.npy"), read("q.npy"));
+    assert_eq!(read("h.stl").len(), 84 + 12 * 50);
+    // Three faces of a cube are seen at once.
+    assert_eq!(String::from_utf8_lossy(&read("h.svg")).matches("<path fill=\"#").count(), 3);
+    let obj = String::from_utf8(read("h.obj")).expect("text");
+    assert_eq!((obj.matches("v ").count(), obj.matches("f ").count()), (8, 12));
     place.file("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n");
     assert_eq!(place.succeed("hull flat.xyz --dim 3 -o - --to csv -q"), "");
 }

@@ -38,6 +38,9 @@ pub enum Error {
     /// The format holds no Voronoi cells.
     #[error("Voronoi cells are not written to {0} files")]
     NotCells(Format),
+    /// The format holds no closed surfaces.
+    #[error("surfaces in space are not written to {0} files")]
+    NotASolid(Format),
 }
 
 impl Error {
@@ -58,6 +61,7 @@ impl Error {
             Self::NotPoints(_) => "points: csv xyz txt npy bin node las laz ply obj geojson",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj",
             Self::NotCells(_) => "cells: geojson svg png",
+            Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
             Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",
         }
     }

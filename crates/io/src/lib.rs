@@ -11,12 +11,14 @@ mod format;
 mod formats;
 mod output;
 pub mod picture;
+mod solid;
 
 pub use cloud::Cloud;
 pub use diagram::Diagram;
 pub use error::Error;
 pub use format::Format;
 pub use output::Output;
+pub use solid::{Solid, write_solid};
 
 use std::io::{BufRead, Seek};
 
@@ -77,17 +79,29 @@ pub struct Surface<'a> {
     pub heights: Option<&'a [f64]>,
 }
 
-impl Surface<'_> {
-    /// The coordinates of all input points, zero where there is no height.
-    fn positions(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+/// What formats of triangles in space ask for.
+trait Shape {
+    /// The coordinates of the points, zero where there is no height.
+    fn positions(&self) -> impl Iterator<Item = [f64; 3]>;
+    /// The triangles as indices of points.
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]>;
+    /// A value for each point.
+    fn heights(&self) -> Option<&[f64]>;
+}
+
+impl Shape for Surface<'_> {
+    fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
         let heights = self.heights.unwrap_or_default();
         let z = |i: usize| heights.get(i).copied().unwrap_or_default();
         self.triangulation.points().iter().enumerate().map(move |(i, &[x, y])| [x, y, z(i)])
     }
 
-    /// The triangles as indices of points.
-    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> {
         self.triangulation.triangles().map(|corners| corners.map(delone::VertexId::index))
+    }
+
+    fn heights(&self) -> Option<&[f64]> {
+        self.heights
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use delone::Ring;
 use geojson::{GeoJson, Geometry, GeometryValue};
 
-use crate::{Cloud, Diagram, Error, Source, Surface};
+use crate::{Cloud, Diagram, Error, Shape, Source, Surface};
 
 /// Reads the positions of all Point and MultiPoint geometries, in their order.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use npyz::{DType, NpyFile, Order, WriterBuilder};
 
-use crate::{Cloud, Error, Source, Surface};
+use crate::{Cloud, Error, Shape, Source, Surface};
 
 fn open(source: Box<dyn Source>) -> Result<NpyFile<Box<dyn Source>>, Error> {
     NpyFile::new(source).map_err(|error| match error.kind() {

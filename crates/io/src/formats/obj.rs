@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::lines::{Line, Lines};
-use crate::{Cloud, Error, Source, Surface};
+use crate::{Cloud, Error, Shape, Source};
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let mut lines = Lines::new(source);
@@ -48,11 +48,11 @@ fn corner(line: &Line, word: &str, vertices: i64) -> Result<u64, Error> {
     u64::try_from(index).map_err(|_| line.error(format!("there is no vertex {word}")))
 }
 
-pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    for [x, y, z] in surface.positions() {
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    for [x, y, z] in shape.positions() {
         writeln!(out, "v {x:?} {y:?} {z:?}")?;
     }
-    for [a, b, c] in surface.triangles() {
+    for [a, b, c] in shape.triangles() {
         writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1)?;
     }
     Ok(())

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, Write};
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, ElementDef, Property, PropertyAccess, PropertyAccessResult};
 
-use crate::{Cloud, Error, Source, Surface};
+use crate::{Cloud, Error, Shape, Source};
 
 struct Vertex([f64; 3]);
 
@@ -121,13 +121,13 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
     Ok(triangles)
 }
 
-pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    let (points, faces) = (surface.triangulation.points().len(), surface.triangles().count());
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    let (points, faces) = (shape.positions().count(), shape.triangles().count());
     header(out, points, Some(faces))?;
-    for position in surface.positions() {
+    for position in shape.positions() {
         write_position(out, position)?;
     }
-    for triangle in surface.triangles() {
+    for triangle in shape.triangles() {
         out.write_all(&[3])?;
         for corner in triangle {
             out.write_all(&(corner as u32).to_le_bytes())?;

@@ -2,15 +2,15 @@
 
 use std::io::{self, Write};
 
-use crate::Surface;
+use crate::Shape;
 
-pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let mut title = [b' '; 80];
     title[..6].copy_from_slice(b"delone");
     out.write_all(&title)?;
-    out.write_all(&(surface.triangles().count() as u32).to_le_bytes())?;
-    let positions: Vec<_> = surface.positions().collect();
-    for triangle in surface.triangles() {
+    out.write_all(&(shape.triangles().count() as u32).to_le_bytes())?;
+    let positions: Vec<_> = shape.positions().collect();
+    for triangle in shape.triangles() {
         let corners @ [a, b, c] = triangle.map(|i| positions[i]);
         let (u, v) = (difference(b, a), difference(c, a));
         let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];

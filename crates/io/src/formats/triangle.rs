@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use delone::{Delaunay2, TriangleId};
 
 use super::lines::Lines;
-use crate::{Cloud, Error, Source, Surface};
+use crate::{Cloud, Error, Shape, Source, Surface};
 
 /// Points: `count dimension attributes markers`, then `index x y ...` each. A dimension of 3 (as TetGen has it)
 /// or else the first attribute gives the height.

@@ -2,15 +2,15 @@
 
 use std::io::{self, Write};
 
-use crate::Surface;
+use crate::Shape;
 
 /// VTK's number for a triangle.
 const TRIANGLE: u8 = 5;
 
-pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    let (points, cells) = (surface.triangulation.points().len(), surface.triangles().count());
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    let (points, cells) = (shape.positions().count(), shape.triangles().count());
     let sizes =
-        [24 * points, 8 * points * usize::from(surface.heights.is_some()), 24 * cells, 8 * cells, cells];
+        [24 * points, 8 * points * usize::from(shape.heights().is_some()), 24 * cells, 8 * cells, cells];
     // Each array is preceded by its length in eight bytes.
     let offsets: Vec<usize> =
         sizes.iter().scan(0, |offset, size| Some(std::mem::replace(offset, *offset + size + 8))).collect();
@@ -22,7 +22,7 @@ pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
 <Points><DataArray type="Float64" NumberOfComponents="3" format="appended" offset="{}"/></Points>"#,
         offsets[0]
     )?;
-    if surface.heights.is_some() {
+    if shape.heights().is_some() {
         let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
         writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
     }
@@ -37,15 +37,15 @@ pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
     write!(out, "<AppendedData encoding=\"raw\">\n_")?;
     let length = |out: &mut dyn Write, k: usize| out.write_all(&(sizes[k] as u64).to_le_bytes());
     length(out, 0)?;
-    for x in surface.positions().flatten() {
+    for x in shape.positions().flatten() {
         out.write_all(&x.to_le_bytes())?;
     }
     length(out, 1)?;
-    for z in surface.heights.unwrap_or_default() {
+    for z in shape.heights().unwrap_or_default() {
         out.write_all(&z.to_le_bytes())?;
     }
     length(out, 2)?;
-    for index in surface.triangles().flatten() {
+    for index in shape.triangles().flatten() {
         out.write_all(&(index as i64).to_le_bytes())?;
     }
     length(out, 3)?;

@@ -9,10 +9,13 @@ mod colour;
 mod png;
 mod raster;
 mod relief;
+mod solid;
 mod svg;
 mod view;
 
 pub(crate) use cells::write as write_cells;
+pub use solid::Camera;
+pub(crate) use solid::write as write_solid;
 
 use std::io::Write;
 

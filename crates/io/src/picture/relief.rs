@@ -1,7 +1,7 @@
 //! What colour a triangle has: shaded height, or density.
 
 use super::colour::{DENSITY, HEIGHT, Ramp, Rgb, shade};
-use crate::Surface;
+use crate::{Shape, Surface};
 
 /// The direction of the light: from the north-west, 45 degrees up.
 const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];

@@ -1,0 +1,169 @@
+//! Pictures of closed surfaces: seen from far away, lit from above, the far faces painted first.
+
+use std::io::Write;
+
+use super::colour::{PAPER, Rgb, shade};
+use super::png::Canvas;
+use super::raster::Raster;
+use super::svg::hex;
+use super::view::View;
+use crate::{Error, Format, Solid};
+
+/// The colour of a face in full light.
+const FACE: Rgb = [126, 178, 214];
+/// Light from everywhere, and from the lamp.
+const AMBIENT: f64 = 0.35;
+const LAMP: f64 = 0.75;
+
+/// Where a solid is seen from, by parallel rays.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// The longer side of the picture in pixels.
+    pub size: u32,
+    /// Degrees counter-clockwise from the x axis.
+    pub azimuth: f64,
+    /// Degrees above the plane of x and y.
+    pub elevation: f64,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { size: 1600, azimuth: -60.0, elevation: 25.0 }
+    }
+}
+
+/// The axes of a picture: to the right, upwards, and to the viewer.
+struct Axes([[f64; 3]; 3]);
+
+impl Axes {
+    fn of(camera: &Camera) -> Self {
+        let (sin_a, cos_a) = camera.azimuth.to_radians().sin_cos();
+        let (sin_e, cos_e) = camera.elevation.to_radians().sin_cos();
+        Self([
+            [-sin_a, cos_a, 0.0],
+            [-sin_e * cos_a, -sin_e * sin_a, cos_e],
+            [cos_e * cos_a, cos_e * sin_a, sin_e],
+        ])
+    }
+
+    fn turn(&self, p: [f64; 3]) -> [f64; 3] {
+        self.0.map(|axis| (0..3).map(|k| axis[k] * p[k]).sum())
+    }
+}
+
+/// A face that is turned to the viewer.
+struct Visible {
+    /// Its mean depth, towards the viewer.
+    depth: f64,
+    corners: Vec<[f64; 2]>,
+    colour: Rgb,
+}
+
+/// Draws a closed surface.
+pub(crate) fn write(
+    out: &mut dyn Write,
+    format: Format,
+    solid: &Solid,
+    camera: &Camera,
+) -> Result<(), Error> {
+    super::check_size(camera.size)?;
+    let axes = Axes::of(camera);
+    let largest = solid.points.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    // Sums of coordinates must not overflow.
+    let half = if largest > f64::MAX / 8.0 { 0.125 } else { 1.0 };
+    let turned: Vec<[f64; 3]> = solid.points.iter().map(|p| axes.turn(p.map(|x| x * half))).collect();
+    let view = View::around(turned.iter().map(|&[x, y, _]| [x, y]), camera.size);
+    let mut faces: Vec<Visible> =
+        solid.faces.iter().filter_map(|face| Visible::of(face, &turned, &view)).collect();
+    faces.sort_by(|f, g| f.depth.total_cmp(&g.depth));
+    let room = f64::from(view.width) * f64::from(view.height);
+    let spacing = (room / faces.len().max(1) as f64).sqrt();
+    let outline = (spacing > 5.0).then(|| (spacing / 40.0).clamp(0.4, 1.4));
+    match format {
+        Format::Svg => Ok(svg(out, &faces, &view, outline, half == 1.0)?),
+        _ => png(out, &faces, &view, outline, half == 1.0),
+    }
+}
+
+impl Visible {
+    fn of(face: &[usize], turned: &[[f64; 3]], view: &View) -> Option<Self> {
+        let corners: Vec<[f64; 2]> = face.iter().map(|&i| view.place([turned[i][0], turned[i][1]])).collect();
+        let depth = |i: usize| turned[i][2];
+        // Depths in pixels, as positions are; pixels count downwards.
+        let pixels = |i: usize| view.place([depth(i), 0.0])[0];
+        let mut normal = [0.0; 3];
+        let at = |k: usize| [corners[k][0], -corners[k][1], pixels(face[k])];
+        for k in 2..face.len() {
+            let [o, p, q] = [at(0), at(k - 1), at(k)];
+            let (u, v) = ([0, 1, 2].map(|i| p[i] - o[i]), [0, 1, 2].map(|i| q[i] - o[i]));
+            for i in 0..3 {
+                normal[i] += u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+            }
+        }
+        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // From the upper left, behind the viewer.
+        let lamp = [-0.42, 0.56, 0.714];
+        let lit = (0..3).map(|k| lamp[k] * normal[k]).sum::<f64>() / length;
+        let mean = face.iter().map(|&i| depth(i) / face.len() as f64).sum();
+        let colour = shade(FACE, AMBIENT + LAMP * lit.max(0.0));
+        (normal[2] > 0.0).then_some(Self { depth: mean, corners, colour })
+    }
+
+    fn outline(&self) -> Rgb {
+        shade(self.colour, 0.65)
+    }
+}
+
+fn png(
+    out: &mut dyn Write,
+    faces: &[Visible],
+    view: &View,
+    outline: Option<f64>,
+    to_scale: bool,
+) -> Result<(), Error> {
+    let mut raster = Raster::new(view.width, view.height, PAPER);
+    if outline.is_none() {
+        for face in faces {
+            raster.dot(face.corners[0], face.colour);
+            for side in face.corners[1..].windows(2) {
+                raster.triangle([face.corners[0], side[0], side[1]], [[0.0; 2]; 3], |_| face.colour);
+            }
+        }
+    }
+    let mut canvas = Canvas::from(&raster)?;
+    if let Some(width) = outline {
+        for face in faces {
+            canvas.fill(std::slice::from_ref(&face.corners), face.colour);
+            let next = face.corners.iter().cycle().skip(1);
+            canvas.lines(face.corners.iter().zip(next).map(|(&a, &b)| [a, b]), face.outline(), 255, width);
+        }
+    }
+    if to_scale {
+        canvas.scale(view);
+    }
+    canvas.encode(out)
+}
+
+fn svg(
+    out: &mut dyn Write,
+    faces: &[Visible],
+    view: &View,
+    outline: Option<f64>,
+    to_scale: bool,
+) -> std::io::Result<()> {
+    super::svg::open(out, view)?;
+    writeln!(out, r#"<g stroke-width="{:.2}" stroke-linejoin="round">"#, outline.unwrap_or(0.6))?;
+    for face in faces {
+        let stroke = hex(if outline.is_some() { face.outline() } else { face.colour });
+        write!(out, r#"<path fill="{}" stroke="{stroke}" d=""#, hex(face.colour))?;
+        for (k, [x, y]) in face.corners.iter().enumerate() {
+            write!(out, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' })?;
+        }
+        writeln!(out, r#"Z"/>"#)?;
+    }
+    writeln!(out, "</g>")?;
+    if to_scale {
+        super::svg::scale(out, view)?;
+    }
+    writeln!(out, "</svg>")
+}
