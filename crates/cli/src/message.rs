@@ -41,6 +41,7 @@ impl Failure {
                 | Error::NotTriangles(_)
                 | Error::NotAMesh(_)
                 | Error::NotCells(_)
+                | Error::NotASolid(_)
         );
         Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
     }

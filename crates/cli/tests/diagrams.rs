@@ -120,8 +120,8 @@ fn hulls_and_furthest_points() {
     place.fail("hull bad.csv -o h.npy", 1, "point 1");
     place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");
     place.fail("hull p.csv -o h.png", 2, "npy or csv");
-    place.fail("hull p.csv --dim 3 -o h.laz", 2, "ply obj stl vtu svg png");
-    place.fail("hull p.csv --dim 3 -o h.svg --view 10,100", 2, "--view 200,30");
+    place.fail("hull p.csv --dim 3 -o h.laz", 2, "no hull in space");
+    place.fail("hull p.csv --dim 3 -o h.svg --view 10,100", 2, "two angles");
     place.fail("hull p.csv --dim 3 -o h.npy", 1, "no third coordinate");
     let cube: String = (0..9).map(|i| format!("{} {} {}\n", i & 1, i >> 1 & 1, i >> 2 & 1)).collect();
     place.file("cube.xyz", cube);

@@ -119,6 +119,35 @@ fn one_set_has_one_hull() {
 }
 
 #[test]
+fn large_hulls_are_the_same_by_both_algorithms() {
+    let mut random = Random::new(11);
+    let n = 20_000;
+    for round in 0..6 {
+        let mut point = |i: usize| {
+            let p = [0, 1, 2].map(|_| random.between(-1.0, 1.0));
+            let size = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            match round {
+                0 => p,
+                1 => p.map(|x| x / size),
+                // Many points on few faces, and on their edges.
+                2 => p.map(|x| (x * 1.5).clamp(-1.0, 1.0)),
+                3 => p.map(|x| (x * 12.0).round()),
+                // A cylinder whose ends are nearly flat: rounding decides what is above what.
+                4 => [p[0] / size, p[1] / size, if i % 2 == 0 { 1.0 } else { -1.0 } + 1e-16 * p[2]],
+                _ => [p[0], p[1], p[0] * 0.3 + p[1] * 0.7],
+            }
+        };
+        let points: Points = (0..n).map(&mut point).collect();
+        let hull = Hull3::of(&points).expect("finite");
+        let history = HullHistory::build(&points, round).expect("finite");
+        assert_eq!(history.hull(), &hull, "round {round}");
+        assert_eq!(hull.span(), Span::Space);
+        let edges = hull.faces().iter().map(Vec::len).sum::<usize>() / 2;
+        assert_eq!(hull.corners().len() + hull.faces().len(), edges + 2, "round {round}");
+    }
+}
+
+#[test]
 fn spans_are_told() {
     let span = |points: &[[f64; 3]]| Hull3::of(points).expect("finite").span();
     assert_eq!(span(&[]), Span::Empty);
