@@ -133,7 +133,7 @@ fn large_hulls_are_the_same_by_both_algorithms() {
                 2 => p.map(|x| (x * 1.5).clamp(-1.0, 1.0)),
                 3 => p.map(|x| (x * 12.0).round()),
                 // A cylinder whose ends are nearly flat: rounding decides what is above what.
-                4 => [p[0] / size, p[1] / size, if i % 2 == 0 { 1.0 } else { -1.0 } + 1e-16 * p[2]],
+                4 => [p[0] / size, p[1] / size, if i.is_multiple_of(2) { 1.0 } else { -1.0 } + 1e-16 * p[2]],
                 _ => [p[0], p[1], p[0] * 0.3 + p[1] * 0.7],
             }
         };
