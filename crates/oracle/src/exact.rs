@@ -100,6 +100,39 @@ pub fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> i8 {
     0
 }
 
+fn lifted3(points: &[Point3; 5]) -> Vec<Vec<BigInt>> {
+    let lift = |[x, y, z]: [BigInt; 3]| {
+        let w = &x * &x + &y * &y + &z * &z;
+        vec![x, y, z, w, BigInt::from(1)]
+    };
+    integers(points).into_iter().map(lift).collect()
+}
+
+/// 1 when e is inside the sphere through a, b, c, d, which are seen counter-clockwise from d. Zero on ties.
+pub fn in_sphere_unperturbed(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> i8 {
+    -sign(&determinant(&lifted3(&[a, b, c, d, e])))
+}
+
+/// The same with infinitesimal heights, as [`in_circle`] has them.
+pub fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> i8 {
+    let points = [a, b, c, d, e];
+    let rows = lifted3(&points);
+    let constant = sign(&determinant(&rows));
+    if constant != 0 {
+        return -constant;
+    }
+    let mut largest_first = [0, 1, 2, 3, 4];
+    largest_first.sort_by(|&i, &j| points[j].partial_cmp(&points[i]).expect("finite"));
+    for i in largest_first {
+        let cofactor = sign(&determinant(&minor(&rows, i, 3)));
+        if cofactor != 0 {
+            // The sign of the place in column 3, and that of the whole.
+            return if i % 2 == 0 { cofactor } else { -cofactor };
+        }
+    }
+    0
+}
+
 /// The sign of |a - q|^2 - |b - q|^2.
 pub fn compare_distances(q: Point2, a: Point2, b: Point2) -> i8 {
     let p = integers(&[q, a, b]);

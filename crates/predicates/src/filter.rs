@@ -8,7 +8,12 @@
 //! underflow, and a ceiling on the operands that makes the floor valid. Overflow gives an infinite or NaN
 //! comparison, which no bound passes: the exact stage decides.
 
-use crate::{Point2, Point3, Sign};
+mod space;
+
+pub use space::Filter3;
+pub(crate) use space::{in_sphere_filter, orient3d_filter};
+
+use crate::{Point2, Sign};
 
 const U: f64 = f64::EPSILON / 2.0;
 
@@ -16,14 +21,6 @@ const U: f64 = f64::EPSILON / 2.0;
 const ORIENT_BOUND: f64 = (3.0 + 16.0 * U) * U;
 /// Three-term lifted in-circle determinant: 10u times its permanent.
 const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * U) * U;
-
-/// Orientation in space: 7u times its permanent.
-const ORIENT3D_BOUND: f64 = (7.0 + 56.0 * U) * U;
-/// The largest sum of differences in z for which [`ORIENT3D_FLOOR`] is valid: 2^500.
-const ORIENT3D_CEILING: f64 = f64::from_bits((1023 + 500) << 52);
-/// All errors by underflow in an orientation in space whose differences in z stay below 2^500: each of fewer than 16
-/// roundings is off by at most 2^-1075 and is multiplied by at most 2^501.
-const ORIENT3D_FLOOR: f64 = f64::from_bits((1023 - 569) << 52);
 
 /// All errors by underflow in an orientation: two products, each off by at most 2^-1075.
 const ORIENT_FLOOR: f64 = f64::MIN_POSITIVE;
@@ -56,26 +53,6 @@ pub(crate) fn in_circle_filter(a: Point2, b: Point2, c: Point2, d: Point2) -> Op
     let permanent = la * (bc.abs() + cb.abs()) + lb * (ca.abs() + ac.abs()) + lc * (ab.abs() + ba.abs());
     if la + lb + lc < CIRCLE_CEILING {
         outside_of(det, IN_CIRCLE_BOUND * permanent + CIRCLE_FLOOR)
-    } else {
-        None
-    }
-}
-
-/// Orientation of four points in space if floating point can tell.
-#[inline]
-pub(crate) fn orient3d_filter(a: Point3, b: Point3, c: Point3, d: Point3) -> Option<Sign> {
-    let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] =
-        [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1], p[2] - d[2]]);
-    let (bc, cb) = (bx * cy, cx * by);
-    let (ca, ac) = (cx * ay, ax * cy);
-    let (ab, ba) = (ax * by, bx * ay);
-    let det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
-    let permanent = az.abs() * (bc.abs() + cb.abs())
-        + bz.abs() * (ca.abs() + ac.abs())
-        + cz.abs() * (ab.abs() + ba.abs());
-    if az.abs() + bz.abs() + cz.abs() < ORIENT3D_CEILING {
-        // Positive where d is below a, b, c.
-        outside_of(-det, ORIENT3D_BOUND * permanent + ORIENT3D_FLOOR)
     } else {
         None
     }

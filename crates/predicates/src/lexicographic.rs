@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::Point2;
+use crate::{Point2, Point3};
 
 /// Compares by x, then by y. `-0.0` equals `0.0`; points that compare equal are one vertex.
 ///
@@ -21,6 +21,13 @@ pub fn lexicographic(a: Point2, b: Point2) -> Ordering {
     } else {
         Ordering::Greater
     }
+}
+
+/// The same in space: compares by x, then by y, then by z.
+#[inline]
+pub fn lexicographic3(a: Point3, b: Point3) -> Ordering {
+    let different = (0..3).find(|&k| a[k] != b[k]);
+    different.map_or(Ordering::Equal, |k| if a[k] < b[k] { Ordering::Less } else { Ordering::Greater })
 }
 
 /// Whether `q`, known to be collinear with `a` and `b`, lies strictly between them: the in-circle test one

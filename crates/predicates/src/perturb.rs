@@ -6,9 +6,10 @@
 //! 2011). When the determinant is zero its sign becomes that of the first non-zero coefficient, taken in the
 //! order e1, e2, ...; the coefficient of a point is, up to sign, the orientation of the other three.
 //!
-//! Four distinct cocircular points have no collinear triple, so the first coefficient always decides.
+//! Four distinct cocircular points have no collinear triple, so the first coefficient always decides. In space four of
+//! five cospherical points may be coplanar: then the next one is asked.
 
-use crate::{Point2, Sign, lexicographic, orient2d};
+use crate::{Point2, Point3, Sign, lexicographic, lexicographic3, orient2d, orient3d};
 
 /// The sign of the perturbed in-circle determinant of four points whose determinant is zero.
 pub(crate) fn in_circle_perturbed(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
@@ -23,4 +24,19 @@ pub(crate) fn in_circle_perturbed(a: Point2, b: Point2, c: Point2, d: Point2) ->
     } else {
         orient2d(a, b, d)
     }
+}
+
+/// The sign of the perturbed in-sphere determinant of five points whose determinant is zero.
+pub(crate) fn in_sphere_perturbed(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
+    let points = [a, b, c, d, e];
+    let mut order = [0, 1, 2, 3, 4];
+    order.sort_unstable_by(|&i, &j| lexicographic3(points[j], points[i]));
+    let coefficient = |i: usize| match i {
+        4 => -orient3d(a, b, c, d), // e is raised: out of the sphere of the others
+        0 => orient3d(e, b, c, d),  // a is raised: e is inside exactly if it can take a's place
+        1 => orient3d(a, e, c, d),
+        2 => orient3d(a, b, e, d),
+        _ => orient3d(a, b, c, e),
+    };
+    order.into_iter().map(coefficient).find(|sign| !sign.is_zero()).unwrap_or(Sign::Zero)
 }

@@ -3,8 +3,9 @@
 use delone_oracle::exact;
 use delone_oracle::generate::Random;
 use delone_predicates::{
-    Filter, Grid, Pencil, Plane, Point2, Sign, angle, centre_direction, centre_side, compare_distances,
-    compare_with_radius, in_circle, in_circle_with_ties, lexicographic, orient2d, orient3d,
+    Filter, Filter3, Grid, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction, centre_side,
+    compare_distances, compare_with_radius, in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties,
+    lexicographic, lexicographic3, orient2d, orient3d,
 };
 
 /// A family of hostile tuples of four points.
@@ -278,4 +279,82 @@ fn orient3d_is_exact() {
     });
     assert!(told > 100_000, "planes told only {told} sides");
     assert!(zero > 10_000, "only {zero} coplanar tuples were met");
+}
+
+/// Families of five points in space, made of those in the plane.
+fn tuples_in_space(seed: u64, n: usize, mut judge: impl FnMut(&str, [Point3; 5])) {
+    tuples(seed, n, |name, points| {
+        let [p, q, r, s] = points;
+        let five = |z: [f64; 5], last: Point2| {
+            let at = |i: usize| if i < 4 { points[i] } else { last };
+            [0, 1, 2, 3, 4].map(|i| [at(i)[0], at(i)[1], z[i]])
+        };
+        // On a sphere with the plane's circles as parallels, on a prism, on planes, and anyhow.
+        let up = s[1] - s[0];
+        let families = [
+            ("prism", five([p[0], p[0], p[0], p[0] + up, p[0] + up], p)),
+            ("pyramid", five([0.0, 0.0, 0.0, 0.0, up], r)),
+            ("slanted", five([p[0] + p[1], q[0] + q[1], r[0] + r[1], s[0] + s[1], s[0]], q)),
+            ("anyhow", five([p[1], s[0], q[1], r[0], r[1]], [s[1], p[0]])),
+            (
+                "lattice",
+                [
+                    [p[0], p[0], p[0]],
+                    [p[0], q[0], p[0]],
+                    [q[0], p[0], p[0]],
+                    [q[0], q[0], q[0]],
+                    [p[0], p[0], q[0]],
+                ],
+            ),
+        ];
+        for (kind, five) in families {
+            let finite = five.as_flattened().iter().all(|x| x.is_finite());
+            if finite && (0..5).all(|i| (0..i).all(|j| five[i] != five[j])) {
+                judge(&format!("{name}, {kind}"), five);
+            }
+        }
+    });
+}
+
+#[test]
+fn in_sphere_is_exact() {
+    let (mut ties, mut total) = (0, 0);
+    tuples_in_space(12, 5_000, |name, five| {
+        let [a, b, c, d, e] = five;
+        let expected = exact::in_sphere_unperturbed(a, b, c, d, e);
+        assert_eq!(in_sphere_with_ties(a, b, c, d, e), sign(expected), "{name}: {five:?}");
+        let perturbed = exact::in_sphere(a, b, c, d, e);
+        assert_eq!(in_sphere(a, b, c, d, e), sign(perturbed), "{name}: {five:?}, perturbed");
+        total += 1;
+        ties += usize::from(expected == 0 && perturbed != 0);
+        // The static filter of any box around them.
+        let extent = [0, 1, 2].map(|k| {
+            let of = five.map(|p| p[k]);
+            of.iter().fold(f64::MIN, |m, x| m.max(*x)) - of.iter().fold(f64::MAX, |m, x| m.min(*x))
+        });
+        let grid = Grid::of(five.as_flattened().iter().copied());
+        for (extent, grid) in [(extent, None), (extent, grid), (extent.map(|side| side * 1e6), None)] {
+            let filter = Filter3::for_box(extent, grid);
+            assert_eq!(filter.in_sphere(a, b, c, d, e), sign(perturbed), "{name}: {five:?}, in a box");
+            assert_eq!(filter.orient3d(a, b, c, d), orient3d(a, b, c, d), "{name}: {five:?}, in a box");
+        }
+        for swapped in [in_sphere(b, a, c, d, e), in_sphere(a, c, b, d, e), in_sphere(a, b, d, c, e)] {
+            assert_eq!(swapped, -sign(perturbed), "{name}: {five:?}, swapped");
+        }
+        let turned = [in_sphere(e, b, c, d, a), in_sphere(a, b, c, e, d)];
+        assert!(turned.iter().all(|&s| s == -sign(perturbed)), "{name}: {five:?}, turned");
+    });
+    assert!(total > 150_000, "only {total} tuples");
+    assert!(ties > 5_000, "only {ties} ties");
+}
+
+#[test]
+fn lexicographic_order_in_space_is_total() {
+    tuples_in_space(13, 2_000, |name, five| {
+        for p in five {
+            for q in five {
+                assert_eq!(lexicographic3(p, q), p.partial_cmp(&q).expect("finite"), "{name}");
+            }
+        }
+    });
 }

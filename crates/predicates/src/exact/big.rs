@@ -104,6 +104,20 @@ pub(super) fn orient3d(coordinates: &[f64; 12]) -> Sign {
     sign(&(&u[0] * minor(1, 2) - &u[1] * minor(0, 2) + &u[2] * minor(0, 1)))
 }
 
+pub(super) fn in_sphere(coordinates: &[f64; 15]) -> Sign {
+    let (p, _) = integers(coordinates);
+    let from_last = |i: usize| [0, 1, 2].map(|k| &p[3 * i + k] - &p[12 + k]);
+    let [a, b, c, d] = [0, 1, 2, 3].map(from_last);
+    let minor = |u: &[BigInt; 3], v: &[BigInt; 3]| &u[0] * &v[1] - &v[0] * &u[1];
+    let three = |u: &[BigInt; 3], v: &[BigInt; 3], w: &[BigInt; 3]| {
+        &u[2] * minor(v, w) - &v[2] * minor(u, w) + &w[2] * minor(u, v)
+    };
+    let lift = |u: &[BigInt; 3]| u.iter().map(|x| x * x).sum::<BigInt>();
+    // Positive where e is inside, and d above a, b, c.
+    let positive = lift(&c) * three(&a, &b, &d) + lift(&a) * three(&b, &c, &d);
+    sign(&(positive - lift(&d) * three(&a, &b, &c) - lift(&b) * three(&a, &c, &d)))
+}
+
 /// The point at the same distance from three points, correctly rounded; a coordinate that no `f64` can hold is
 /// infinite. None for collinear points.
 pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {

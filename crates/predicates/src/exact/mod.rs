@@ -9,6 +9,7 @@
 
 mod big;
 mod integers;
+mod space;
 
 use std::cmp::Ordering;
 
@@ -78,6 +79,9 @@ pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 pub(crate) fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     let mut coordinates = [0.0; 12];
     coordinates.copy_from_slice([a, b, c, d].as_flattened());
+    if let Some(sign) = space::orient3d(&coordinates) {
+        return sign;
+    }
     if expansions_hold(&coordinates) {
         let coord = |[x, y, z]: Point3| robust::Coord3D { x, y, z };
         // Theirs is positive where d is below the plane.
@@ -86,16 +90,31 @@ pub(crate) fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     big::orient3d(&coordinates)
 }
 
+pub(crate) fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
+    let mut coordinates = [0.0; 15];
+    coordinates.copy_from_slice([a, b, c, d, e].as_flattened());
+    if let Some(sign) = space::in_sphere(&coordinates) {
+        return sign;
+    }
+    if expansions_hold(&coordinates) {
+        let coord = |[x, y, z]: Point3| robust::Coord3D { x, y, z };
+        // Theirs is for four points of which the last is below the others.
+        let sign = robust::insphere(coord(a), coord(b), coord(c), coord(d), coord(e));
+        return -Sign::of(&sign, &0.0);
+    }
+    big::in_sphere(&coordinates)
+}
+
 fn coord(p: Point2) -> robust::Coord<f64> {
     robust::Coord { x: p[0], y: p[1] }
 }
 
-/// Whether expansion arithmetic of degree four can neither overflow nor underflow: every coordinate is zero
-/// or has a magnitude between 2^-142 and 2^200 (Shewchuk 1997, §2.1: the product of four tails must stay
-/// normal).
+/// Whether expansion arithmetic of degree five can neither overflow nor underflow: every coordinate is zero
+/// or has a magnitude between 2^-142 and 2^180 (Shewchuk 1997, §2.1). All are multiples of 2^-194 then, and
+/// products of five of 2^-970.
 fn expansions_hold(coordinates: &[f64]) -> bool {
     const LOW: f64 = f64::from_bits((1023 - 142) << 52);
-    const HIGH: f64 = f64::from_bits((1023 + 200) << 52);
+    const HIGH: f64 = f64::from_bits((1023 + 180) << 52);
     coordinates.iter().all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
 }
 

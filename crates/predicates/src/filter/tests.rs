@@ -1,6 +1,7 @@
 //! Every constant of the filters, derived again by running the formulas on bounds instead of numbers.
 
-use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, ORIENT3D_BOUND, U};
+use super::space::{Filter3, IN_SPHERE_BOUND, ORIENT3D_BOUND};
+use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, U};
 
 /// A computed quantity: a bound on its magnitude and a bound on its error.
 #[derive(Clone, Copy)]
@@ -109,4 +110,26 @@ fn the_orientation_bound_in_space_covers_its_formula() {
     // The computed permanent may be smaller than the true one by its own relative error.
     assert!(error <= ORIENT3D_BOUND * 6.0 * (1.0 - 8.0 * U), "{:e}", error / U / 6.0);
     assert!(error >= ORIENT3D_BOUND * 6.0 * 0.9, "the bound is far too large");
+}
+
+#[test]
+fn the_in_sphere_bound_covers_its_formula() {
+    // As above: minors of two and of three columns, squared lengths, four products.
+    let d = Bounded::difference(1.0);
+    let minor = d.times(d).plus(d.times(d));
+    let three = d.times(minor).plus(d.times(minor)).plus(d.times(minor));
+    let lift = d.times(d).plus(d.times(d)).plus(d.times(d));
+    let term = lift.times(three);
+    let error = 2.0 * term.plus(term).error;
+    assert!(error <= IN_SPHERE_BOUND * 72.0 * (1.0 - 16.0 * U), "{} u", error / U / 72.0);
+    assert!(error >= IN_SPHERE_BOUND * 72.0 * 0.7, "the bound is far too large: {} u", error / U / 72.0);
+}
+
+#[test]
+fn small_boxes_of_a_grid_in_space_are_exact() {
+    let grid = Grid::of([1.0, 2.0]);
+    let exact = |x: f64| Filter3::for_box([x, x, x], grid) == Filter3::for_box([1.0; 3], grid);
+    assert!(exact(500.0));
+    assert!(!exact(1000.0));
+    assert!(!exact(f64::INFINITY));
 }
