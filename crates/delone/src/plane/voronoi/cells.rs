@@ -79,10 +79,18 @@ impl Voronoi2<'_> {
         // In the order of triangles, which lie in memory as in the plane: each vertex with the first of its edges.
         let mut seen = vec![0_u64; layer.points.len().div_ceil(64)];
         for t in (0..mesh.slot_count()).map(TriangleId::new) {
-            // Stars reach across to triangles that lie elsewhere.
-            for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
+            // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
+            for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
                 fetch(&mesh.edges, record.twin.index());
+            }
+            for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
                 fetch(&cells.vertices, record.twin.triangle().index());
+                for beyond in [record.twin.next(), record.twin.previous()] {
+                    if let Some(record) = mesh.edges.get(beyond.index()) {
+                        fetch(&mesh.edges, record.twin.index());
+                        fetch(&cells.vertices, record.twin.triangle().index());
+                    }
+                }
             }
             for e in [0, 1, 2].map(|k| t.edge(k)) {
                 let place = mesh.tail(e);
