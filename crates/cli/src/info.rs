@@ -26,6 +26,7 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
         Dimension::Point => "a point",
         Dimension::Line => "a line: all points are collinear",
         Dimension::Plane => "the plane",
+        Dimension::Space => "space",
     };
     line("they span", span.to_owned());
     for (axis, values) in [("x", 0), ("y", 1)] {

@@ -104,6 +104,6 @@ pub(crate) fn remark(d: &Delaunay2, quiet: bool) {
         Dimension::Empty => note(quiet, "there are no points, so there are no triangles"),
         Dimension::Point => note(quiet, "there is only one distinct point, so there are no triangles"),
         Dimension::Line => note(quiet, "all points are on one line, so there are no triangles"),
-        Dimension::Plane => {}
+        Dimension::Plane | Dimension::Space => {}
     }
 }

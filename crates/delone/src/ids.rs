@@ -49,6 +49,29 @@ impl fmt::Debug for VertexId {
     }
 }
 
+/// A point that equals an earlier one and is no vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Duplicate {
+    /// The index of the point.
+    pub point: usize,
+    /// The vertex that stands for it: the first point given with these coordinates.
+    pub vertex: VertexId,
+}
+
+impl Duplicate {
+    /// Sorts duplicates and lets each refer to a vertex. One may have been renamed after a duplicate referred to it;
+    /// it is a duplicate itself then, of a smaller index and so already settled.
+    pub(crate) fn settle(duplicates: &mut [Self]) {
+        duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
+        for i in 0..duplicates.len() {
+            let vertex = duplicates[i].vertex;
+            if let Ok(earlier) = duplicates[..i].binary_search_by_key(&vertex.index(), |d| d.point) {
+                duplicates[i].vertex = duplicates[earlier].vertex;
+            }
+        }
+    }
+}
+
 /// Where a vertex is kept: the index of its coordinates and of its star inside a mesh. It equals the vertex's
 /// index until a triangulation is changed; then it follows the memory, and the [`VertexId`] stays.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -171,6 +194,67 @@ impl EdgeId {
 impl fmt::Debug for EdgeId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if *self == Self::NONE { f.write_str("none") } else { write!(f, "t{}.{}", self.0 >> 2, self.0 & 3) }
+    }
+}
+
+/// A tetrahedron, finite or ghost.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TetrahedronId(u32);
+
+impl TetrahedronId {
+    /// No tetrahedron.
+    pub(crate) const NONE: Self = Self(u32::MAX);
+
+    #[inline]
+    pub(crate) fn new(index: usize) -> Self {
+        debug_assert!(index < 1 << 30, "tetrahedron index {index} is out of range");
+        Self(index as u32)
+    }
+
+    /// The index among all tetrahedra, finite and ghost.
+    #[inline]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The facet across from corner `k` (0 to 3).
+    #[inline]
+    pub fn facet(self, k: usize) -> FacetId {
+        debug_assert!(k < 4, "a tetrahedron has no corner {k}");
+        FacetId(4 * self.0 + k as u32)
+    }
+}
+
+impl fmt::Debug for TetrahedronId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "c{}", self.0)
+    }
+}
+
+/// A facet of a tetrahedron, seen from inside of it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FacetId(u32);
+
+impl FacetId {
+    /// No facet: what is across a facet not linked yet.
+    pub(crate) const NONE: Self = Self(u32::MAX);
+
+    /// The tetrahedron.
+    #[inline]
+    pub fn tetrahedron(self) -> TetrahedronId {
+        TetrahedronId(self.0 >> 2)
+    }
+
+    /// The corner of the tetrahedron that is not on the facet: 0 to 3.
+    #[inline]
+    pub fn corner(self) -> usize {
+        (self.0 & 3) as usize
+    }
+}
+
+impl fmt::Debug for FacetId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if *self == Self::NONE { f.write_str("none") } else { write!(f, "c{}.{}", self.0 >> 2, self.0 & 3) }
     }
 }
 

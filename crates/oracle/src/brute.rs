@@ -1,6 +1,6 @@
 //! The canonical Delaunay triangulation by trying everything: all triples against all points, O(n^4).
 
-use crate::exact::{Point2, in_circle, orient2d};
+use crate::exact::{Point2, Point3, in_circle, in_sphere, orient2d, orient3d};
 
 /// All counter-clockwise triangles of up to 64 distinct points, each with the points inside its circle.
 /// Built once, it answers for every subset.
@@ -72,6 +72,52 @@ pub fn normalized(triangles: impl IntoIterator<Item = [Point2; 3]>) -> Vec<[Poin
     let mut sorted: Vec<_> = triangles.into_iter().map(rotate).collect();
     sorted.sort_by(|s, t| s.partial_cmp(t).expect("finite"));
     sorted
+}
+
+/// The canonical triangulation of points in space (duplicates allowed): all quadruples against all points, O(n^5).
+/// Tetrahedra as sorted quadruples of coordinates, sorted.
+pub fn delaunay3(points: &[Point3]) -> Vec<[Point3; 4]> {
+    let mut distinct: Vec<Point3> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
+    distinct.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    distinct.dedup();
+    let (n, p) = (distinct.len(), &distinct);
+    let mut tetrahedra = Vec::new();
+    for i in 0..n {
+        for j in i + 1..n {
+            for k in j + 1..n {
+                for l in k + 1..n {
+                    let side = orient3d(p[i], p[j], p[k], p[l]);
+                    let inside = |q: usize| in_sphere(p[i], p[j], p[k], p[l], p[q]) * side > 0;
+                    if side != 0 && !(0..n).any(|q| ![i, j, k, l].contains(&q) && inside(q)) {
+                        tetrahedra.push([p[i], p[j], p[k], p[l]]);
+                    }
+                }
+            }
+        }
+    }
+    tetrahedra
+}
+
+/// The canonical triangulation of coplanar points in space: those triangles that a point off the plane sees in their
+/// own circles, by the same definition one dimension down. Triangles as sorted triples of coordinates, sorted.
+pub fn delaunay_of_plane(points: &[Point3], apex: Point3) -> Vec<[Point3; 3]> {
+    let mut distinct: Vec<Point3> = points.iter().map(|p| p.map(|x| x + 0.0)).collect();
+    distinct.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    distinct.dedup();
+    let (n, p) = (distinct.len(), &distinct);
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        for j in i + 1..n {
+            for k in j + 1..n {
+                let side = orient3d(p[i], p[j], p[k], apex);
+                let inside = |q: usize| in_sphere(p[i], p[j], p[k], apex, p[q]) * side > 0;
+                if side != 0 && !(0..n).any(|q| ![i, j, k].contains(&q) && inside(q)) {
+                    triangles.push([p[i], p[j], p[k]]);
+                }
+            }
+        }
+    }
+    triangles
 }
 
 #[cfg(test)]

@@ -68,14 +68,19 @@ impl Random {
 }
 
 macro_rules! kinds {
-    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal, $make:expr;)+) => {
-        /// A named family of point sets.
+    ($(#[doc = $title:literal])+ $kind:ident of $point:ty: $($(#[doc = $doc:literal])+ $variant:ident = $name:literal, $make:expr;)+) => {
+        $(#[doc = $title])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum Kind { $($(#[doc = $doc])+ $variant,)+ }
+        pub enum $kind { $($(#[doc = $doc])+ $variant,)+ }
 
-        impl Kind {
+        impl $kind {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$variant,)+];
+
+            /// The family of that name.
+            pub fn named(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|kind| kind.name() == name)
+            }
 
             /// The name by which programs and reports know it.
             pub fn name(self) -> &'static str {
@@ -88,16 +93,22 @@ macro_rules! kinds {
             }
 
             /// The first `n` points of this family for a seed.
-            pub fn points(self, n: usize, seed: u64) -> Vec<Point2> {
+            pub fn points(self, n: usize, seed: u64) -> Vec<$point> {
                 let mut random = Random::new(seed);
-                let make: fn(usize, &mut Random) -> Vec<Point2> = match self { $(Self::$variant => $make,)+ };
+                let make: fn(usize, &mut Random) -> Vec<$point> = match self { $(Self::$variant => $make,)+ };
                 make(n, &mut random)
             }
         }
     };
 }
 
+mod space;
+
+pub use space::Kind3;
+
 kinds! {
+    /// A named family of point sets in the plane.
+    Kind of Point2:
     /// Uniform in the unit square.
     Uniform = "uniform", |n, r| repeat(n, || [r.unit(), r.unit()]);
     /// Log-normal coordinates: dense near the origin, with far tails.
@@ -155,13 +166,6 @@ kinds! {
     Utm = "utm", |n, r| repeat(n, || {
         [500_000.0 + (r.unit() * 1e6).floor() / 1e3, 5_400_000.0 + (r.unit() * 1e6).floor() / 1e3]
     });
-}
-
-impl Kind {
-    /// The family of that name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|kind| kind.name() == name)
-    }
 }
 
 /// Half the range of the 24-bit integers of the paper of the Delaunay hierarchy: [-2^24, 2^24].

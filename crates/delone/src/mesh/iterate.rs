@@ -70,7 +70,7 @@ impl Mesh {
                         self.twin(outward)
                     })
             }
-            Dimension::Plane => self.ghost_edge,
+            Dimension::Plane | Dimension::Space => self.ghost_edge,
         };
         let line = self.dimension() == Dimension::Line;
         Border { mesh: self, first: next, next, line, lone: self.lone }

@@ -34,6 +34,7 @@ mod iterate;
 mod layout;
 mod names;
 mod slots;
+pub mod tetrahedra;
 
 pub use iterate::{Hull, Star};
 pub(crate) use names::Names;
@@ -52,6 +53,8 @@ pub enum Dimension {
     Line,
     /// The plane: there is a triangle.
     Plane,
+    /// Space: there is a tetrahedron.
+    Space,
 }
 
 /// A directed edge: where it starts, and the same edge the other way round.

@@ -24,6 +24,25 @@ impl Names {
         }
     }
 
+    /// Vertex `order[k]` at place k.
+    pub(crate) fn along(order: &[u32]) -> Self {
+        let mut places = vec![Place::GHOST; order.len()];
+        for (place, &i) in order.iter().enumerate() {
+            places[i as usize] = Place::new(place);
+        }
+        Self { of: order.iter().map(|&i| VertexId::new(i as usize)).collect(), places }
+    }
+
+    /// Lets there be another place, without a vertex.
+    pub(crate) fn add_place(&mut self) {
+        self.of.push(VertexId::GHOST);
+    }
+
+    /// The number of names ever given.
+    pub(crate) fn given(&self) -> usize {
+        self.places.len()
+    }
+
     /// The vertex at a place.
     #[inline]
     pub(crate) fn of(&self, place: Place) -> VertexId {

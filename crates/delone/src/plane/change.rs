@@ -7,9 +7,9 @@
 use super::insert::Spot;
 use super::locate::Found;
 use super::locator::Locator;
-use super::{Delaunay2, Duplicate, Position2, build, finite};
+use super::{Delaunay2, Position2, finite};
 use crate::error::Error;
-use crate::ids::{MAX_POINTS, Place, VertexId};
+use crate::ids::{Duplicate, MAX_POINTS, Place, VertexId};
 use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
 use crate::locate::{Locate, Start, Strategy, Walk};
@@ -195,7 +195,7 @@ impl Delaunay2 {
                 last = Some(v);
             }
         }
-        build::incremental::settle(&mut self.duplicates);
+        Duplicate::settle(&mut self.duplicates);
         Ok(first..first + points.len())
     }
 

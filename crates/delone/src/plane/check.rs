@@ -7,8 +7,8 @@
 
 use delone_predicates::{in_circle, lexicographic, orient2d, strictly_between};
 
-use super::{Delaunay2, Duplicate};
-use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use super::Delaunay2;
+use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{self, Dimension, Mesh};
 
 /// What is wrong with a triangulation, one sentence each.
@@ -95,7 +95,7 @@ fn check_geometry(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
     match mesh.dimension() {
         Dimension::Empty | Dimension::Point => Ok(()),
         Dimension::Line => check_line(points, mesh),
-        Dimension::Plane => {
+        Dimension::Plane | Dimension::Space => {
             check_hull(points, mesh)?;
             check_triangles(points, mesh)
         }

@@ -34,7 +34,7 @@ use std::sync::OnceLock;
 use delone_predicates::circumcentre;
 
 use crate::error::Error;
-use crate::ids::{EdgeId, MAX_POINTS, TriangleId, VertexId};
+use crate::ids::{Duplicate, EdgeId, MAX_POINTS, TriangleId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::{Dimension, Mesh};
@@ -43,15 +43,6 @@ use build::Built;
 use change::Upkeep;
 use layer::Layer;
 use locator::Locator;
-
-/// A point that equals an earlier one and is no vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Duplicate {
-    /// The index of the point.
-    pub point: usize,
-    /// The vertex that stands for it: the first point given with these coordinates.
-    pub vertex: VertexId,
-}
 
 /// The Delaunay triangulation of a set of points in the plane.
 ///

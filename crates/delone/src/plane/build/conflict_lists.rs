@@ -4,13 +4,12 @@
 
 use delone_predicates::lexicographic;
 
-use super::incremental::settle;
-use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::locate::conflict_lists::ConflictLists;
 use crate::locate::tally::Work;
 use crate::mesh::Mesh;
 use crate::order::random::SplitMix;
-use crate::plane::Duplicate;
+
 use crate::plane::flips::{DUMMIES, Flips};
 use crate::plane::line;
 
@@ -41,7 +40,7 @@ pub(super) fn triangulate(points: &[[f64; 2]], seed: u64) -> (Mesh, Vec<Duplicat
             vertices.push(i);
         }
     }
-    settle(&mut duplicates);
+    Duplicate::settle(&mut duplicates);
     let moved = lists.moved;
     drop(lists);
     let place = |p: Place| match p.index() {

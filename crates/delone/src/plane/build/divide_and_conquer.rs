@@ -24,10 +24,9 @@ use delone_predicates::{Filter, Grid, lexicographic};
 
 use super::leaf::Leaf;
 use super::merge::Part;
-use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
-use crate::plane::Duplicate;
 
 /// What was done, for those who measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

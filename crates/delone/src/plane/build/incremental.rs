@@ -4,12 +4,12 @@
 //! Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Cost: O(n log n) expected for any
 //! input, by the randomness of the order; on evenly spread points O(n) after sorting.
 
-use crate::ids::Place;
+use crate::ids::{Duplicate, Place};
 use crate::locate::tally::Tally;
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh;
 use crate::order::brio;
-use crate::plane::Duplicate;
+
 use crate::plane::insert::Spot;
 use crate::plane::layer::Layer;
 
@@ -45,7 +45,7 @@ pub(super) fn triangulate<T: Tally>(
             start = Start::Edge(layer.mesh.incident[at.index()], Walk::Visibility);
         }
     }
-    settle(&mut duplicates);
+    Duplicate::settle(&mut duplicates);
     (layer.points, layer.mesh, duplicates)
 }
 
@@ -58,17 +58,5 @@ fn rename(mesh: &mut Mesh, old: Place, new: Place) {
     mesh.incident.swap(old.index(), new.index());
     if mesh.lone == Some(old) {
         mesh.lone = Some(new);
-    }
-}
-
-/// Sorts duplicates and lets each refer to a vertex. One may have been renamed after a duplicate referred to it;
-/// it is a duplicate itself then, of a smaller index and so already settled.
-pub(in crate::plane) fn settle(duplicates: &mut [Duplicate]) {
-    duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
-    for i in 0..duplicates.len() {
-        let vertex = duplicates[i].vertex;
-        if let Ok(earlier) = duplicates[..i].binary_search_by_key(&vertex.index(), |d| d.point) {
-            duplicates[i].vertex = duplicates[earlier].vertex;
-        }
     }
 }

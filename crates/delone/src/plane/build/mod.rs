@@ -9,7 +9,7 @@ mod merge;
 pub use divide_and_conquer::Counters as DivideAndConquerCounters;
 pub(super) use divide_and_conquer::in_order;
 
-use super::Duplicate;
+use crate::ids::Duplicate;
 use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::Mesh;

@@ -1,0 +1,255 @@
+//! Topology of triangulated space, closed by a ghost vertex; no coordinates.
+//!
+//! A tetrahedron has four corners and four facets; facet k is across from corner k, and knows the facet that it is
+//! glued to. Corners are in positive order: the first three are seen counter-clockwise from the fourth. Every facet of
+//! the hull has a *ghost* tetrahedron beyond it, whose fourth corner is the vertex at infinity, so the whole is a
+//! three-dimensional sphere without border cases.
+//!
+//! Inside, a vertex is known by its place, as in the plane. Points that span less than space are triangulated with
+//! *scaffold* vertices off their span, which have a place but no name.
+//!
+//! Memory: 32 bytes a tetrahedron, one byte beside it for marks, 4 bytes a place.
+
+use super::Names;
+use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
+
+/// The corners of facet k, so that they are seen counter-clockwise from corner k.
+pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
+
+/// Four corners, and what is across the facets opposite to them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C, align(32))]
+pub(crate) struct Tetrahedron {
+    pub(crate) corners: [Place; 4],
+    pub(crate) across: [FacetId; 4],
+}
+
+impl Tetrahedron {
+    /// A slot that is not in use.
+    pub(crate) const FREE: Self = Self { corners: [Place::GHOST; 4], across: [FacetId::NONE; 4] };
+}
+
+/// A triangulation's topology.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh3 {
+    pub(crate) cells: Vec<Tetrahedron>,
+    /// For each place a tetrahedron at its vertex; none where there is no vertex.
+    pub(crate) incident: Vec<TetrahedronId>,
+    /// Slots that are not in use.
+    pub(crate) free: Vec<TetrahedronId>,
+    /// For each slot a mark, zero between operations.
+    pub(crate) marks: Vec<u8>,
+    /// Which vertex is where.
+    pub(crate) names: Names,
+    /// The number of vertices, scaffold not counted.
+    pub(crate) vertex_count: usize,
+}
+
+/// What is wrong with a mesh of tetrahedra, one sentence each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Flaw3 {
+    /// A facet is not glued to one that is glued to it, with the same corners.
+    #[error("facet {0:?} is not glued to its like")]
+    Glue(FacetId),
+    /// The ghost is not the last corner, or a corner is there twice.
+    #[error("the corners of tetrahedron {0:?} are not in order")]
+    Corners(TetrahedronId),
+    /// A vertex does not know a tetrahedron of its own.
+    #[error("vertex {0:?} is not a corner of its tetrahedron")]
+    Incident(VertexId),
+    /// The tetrahedra around a vertex are not a ball, or those of the whole no sphere.
+    #[error("vertices, edges, facets and tetrahedra do not add up: {0}")]
+    Euler(i64),
+    /// The tetrahedra around a vertex are more than one ball.
+    #[error("the tetrahedra at vertex {0:?} hang together only there")]
+    Star(VertexId),
+}
+
+/// From outside, by vertex.
+impl Mesh3 {
+    /// The four corners in positive order; the ghost vertex, in a ghost tetrahedron, is the last.
+    pub fn corners(&self, t: TetrahedronId) -> [VertexId; 4] {
+        self.cells[t.index()].corners.map(|p| self.name(p))
+    }
+
+    /// The corners of a facet, counter-clockwise seen from inside of its tetrahedron.
+    pub fn facet_corners(&self, f: FacetId) -> [VertexId; 3] {
+        self.facet_places(f).map(|p| self.name(p))
+    }
+
+    /// The facet glued to one, seen from the other side.
+    #[inline]
+    pub fn twin(&self, f: FacetId) -> FacetId {
+        self.cells[f.tetrahedron().index()].across[f.corner()]
+    }
+
+    /// The tetrahedra across facets 0 to 3.
+    pub fn adjacent(&self, t: TetrahedronId) -> [TetrahedronId; 4] {
+        self.cells[t.index()].across.map(FacetId::tetrahedron)
+    }
+
+    /// Whether a corner of the tetrahedron is the vertex at infinity.
+    #[inline]
+    pub fn is_ghost(&self, t: TetrahedronId) -> bool {
+        self.cells[t.index()].corners[3].is_ghost()
+    }
+
+    /// Whether this is a vertex.
+    pub fn contains(&self, v: VertexId) -> bool {
+        self.place(v).is_some()
+    }
+
+    /// The number of vertices, the ghost not counted.
+    pub fn vertex_count(&self) -> usize {
+        self.vertex_count
+    }
+
+    /// The vertices, by increasing index.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        self.names.vertices()
+    }
+
+    /// One more than the largest index of a tetrahedron. Indices of removed ones are used again.
+    pub fn slot_count(&self) -> usize {
+        self.cells.len()
+    }
+}
+
+/// From inside, by place.
+impl Mesh3 {
+    /// The vertex at a place; the ghost for a scaffold.
+    #[inline]
+    pub(crate) fn name(&self, place: Place) -> VertexId {
+        if place.is_ghost() { VertexId::GHOST } else { self.names.of(place) }
+    }
+
+    /// Where a vertex is, if it is one.
+    #[inline]
+    pub(crate) fn place(&self, v: VertexId) -> Option<Place> {
+        self.names.place(v)
+    }
+
+    /// The corners of a facet, counter-clockwise seen from inside of its tetrahedron.
+    #[inline]
+    pub(crate) fn facet_places(&self, f: FacetId) -> [Place; 3] {
+        let corners = &self.cells[f.tetrahedron().index()].corners;
+        FACETS[f.corner()].map(|k| corners[k])
+    }
+
+    /// Whether there is a tetrahedron with this index, and it is in use.
+    pub(crate) fn is_cell(&self, t: TetrahedronId) -> bool {
+        self.cells.get(t.index()).is_some_and(|cell| !cell.corners[0].is_ghost())
+    }
+
+    /// The tetrahedra in use, ghosts included.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = TetrahedronId> + Clone + '_ {
+        (0..self.cells.len()).map(TetrahedronId::new).filter(|&t| self.is_cell(t))
+    }
+
+    /// The places in use, scaffold included.
+    pub(crate) fn inhabited(&self) -> impl Iterator<Item = Place> + Clone + '_ {
+        let used = |&p: &Place| self.incident[p.index()] != TetrahedronId::NONE;
+        (0..self.incident.len()).map(Place::new).filter(used)
+    }
+
+    /// A tetrahedron to be filled in.
+    pub(crate) fn new_cell(&mut self) -> TetrahedronId {
+        self.free.pop().unwrap_or_else(|| {
+            self.cells.push(Tetrahedron::FREE);
+            self.marks.push(0);
+            TetrahedronId::new(self.cells.len() - 1)
+        })
+    }
+
+    /// Gives a tetrahedron back.
+    pub(crate) fn free_cell(&mut self, t: TetrahedronId) {
+        self.cells[t.index()] = Tetrahedron::FREE;
+        self.free.push(t);
+    }
+
+    /// Glues two facets to each other.
+    #[inline]
+    pub(crate) fn link(&mut self, f: FacetId, g: FacetId) {
+        self.cells[f.tetrahedron().index()].across[f.corner()] = g;
+        self.cells[g.tetrahedron().index()].across[g.corner()] = f;
+    }
+
+    /// The tetrahedra at a place, ghosts included, into a buffer. O(d log d) for d of them.
+    pub(crate) fn star(&self, place: Place, star: &mut Vec<TetrahedronId>) {
+        star.clear();
+        let first = self.incident[place.index()];
+        if first == TetrahedronId::NONE {
+            return;
+        }
+        let mut met = std::collections::BTreeSet::from([first]);
+        star.push(first);
+        let mut k = 0;
+        while let Some(&t) = star.get(k) {
+            k += 1;
+            let cell = &self.cells[t.index()];
+            for i in (0..4).filter(|&i| cell.corners[i] != place) {
+                let next = cell.across[i].tetrahedron();
+                if met.insert(next) {
+                    star.push(next);
+                }
+            }
+        }
+    }
+
+    /// Whether this is a closed manifold, or the first flaw found. O(n log n).
+    pub(crate) fn check(&self) -> Result<(), Flaw3> {
+        let (mut cells, mut of_vertex) = (0, vec![0_usize; self.incident.len() + 1]);
+        for t in self.cells() {
+            cells += 1;
+            let corners = self.cells[t.index()].corners;
+            let twice = (0..4).any(|i| (0..i).any(|j| corners[i] == corners[j]));
+            if twice || corners[..3].iter().any(|p| p.is_ghost()) {
+                return Err(Flaw3::Corners(t));
+            }
+            for p in corners {
+                of_vertex[p.index().min(self.incident.len())] += 1;
+            }
+            for f in [0, 1, 2, 3].map(|k| t.facet(k)) {
+                let g = self.twin(f);
+                if g == FacetId::NONE || !self.is_cell(g.tetrahedron()) || self.twin(g) != f || g == f {
+                    return Err(Flaw3::Glue(f));
+                }
+                let ([a, b, c], back) = (self.facet_places(f), self.facet_places(g));
+                if ![[a, c, b], [c, b, a], [b, a, c]].contains(&back) {
+                    return Err(Flaw3::Glue(f));
+                }
+            }
+        }
+        let mut star = Vec::new();
+        let (mut vertices, mut edge_ends) = (0, 0_i64);
+        for p in self.inhabited() {
+            vertices += 1;
+            let t = self.incident[p.index()];
+            if !self.is_cell(t) || !self.cells[t.index()].corners.contains(&p) {
+                return Err(Flaw3::Incident(self.name(p)));
+            }
+            self.star(p, &mut star);
+            if star.len() != of_vertex[p.index()] {
+                return Err(Flaw3::Star(self.name(p)));
+            }
+            // The link of a vertex is a sphere of triangles: f = 2v - 4.
+            let mut link: Vec<Place> = star.iter().flat_map(|t| self.cells[t.index()].corners).collect();
+            link.sort_unstable();
+            link.dedup();
+            let degree = link.len() as i64 - 1;
+            if star.len() as i64 != 2 * degree - 4 {
+                return Err(Flaw3::Euler(star.len() as i64 - 2 * degree + 4));
+            }
+            edge_ends += degree;
+        }
+        if cells == 0 {
+            return Ok(());
+        }
+        // The ghost's edges are met from their finite ends alone; its link is a sphere too.
+        let ghost_degree = (of_vertex[self.incident.len()] as i64 + 4) / 2;
+        let edges = (edge_ends + ghost_degree) / 2;
+        let euler = (vertices + 1) - edges + 2 * cells - cells;
+        if euler == 0 { Ok(()) } else { Err(Flaw3::Euler(euler)) }
+    }
+}

@@ -1,0 +1,170 @@
+//! Hilbert order in space, and the rounds of a biased randomized insertion order along it.
+//!
+//! Sources: Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 2004, for the keys; Amenta, Choi &
+//! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Where many points share a key of 21 bits an
+//! axis, they get keys in their own bounding box, recursively.
+//!
+//! Cost: O(n log n).
+
+use super::random::SplitMix;
+
+/// Bits an axis.
+const BITS: u32 = 21;
+/// Runs of equal keys up to this length keep the order of the input.
+const SHORT_RUN: usize = 32;
+/// Each round holds seven times as many points as all before it.
+const GROWTH: u64 = 8;
+/// The first round is not made smaller than this.
+const SMALLEST: usize = 64;
+
+/// The indices of points along the curve; equal points by increasing index.
+pub(crate) fn hilbert(count: usize, point: &impl Fn(u32) -> [f64; 3]) -> Vec<u32> {
+    let mut keyed: Vec<(u64, u32)> = (0..count as u32).map(|i| (0, i)).collect();
+    sort(&mut keyed, point);
+    keyed.into_iter().map(|(_, i)| i).collect()
+}
+
+fn sort(keyed: &mut [(u64, u32)], point: &impl Fn(u32) -> [f64; 3]) {
+    let mut pending = vec![keyed];
+    while let Some(part) = pending.pop() {
+        let Some(cells) = Cells::around(part.iter().map(|&(_, i)| point(i))) else { continue };
+        part.iter_mut().for_each(|(key, i)| *key = cells.key(point(*i)));
+        part.sort_unstable();
+        for run in part.chunk_by_mut(|a, b| a.0 == b.0).filter(|run| run.len() > SHORT_RUN) {
+            pending.push(run);
+        }
+    }
+}
+
+/// The cells of a box.
+struct Cells {
+    low: [f64; 3],
+    /// 1/2 where the extent overflows.
+    half: f64,
+    scale: f64,
+    /// Again, because one factor could overflow for a tiny box.
+    lift: f64,
+}
+
+impl Cells {
+    /// None around points that are all equal.
+    fn around(points: impl Iterator<Item = [f64; 3]>) -> Option<Self> {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for p in points {
+            for k in 0..3 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        let side = |half: f64| (0..3).map(|k| high[k] * half - low[k] * half).fold(0.0, f64::max);
+        let half = if side(1.0).is_finite() { 1.0 } else { 0.5 };
+        let side = side(half);
+        if side == 0.0 || !side.is_finite() {
+            return None;
+        }
+        let lift = if side < 1e-290 { 2f64.powi(200) } else { 1.0 };
+        let scale = f64::from(1 << BITS) / (side * lift);
+        Some(Self { low: low.map(|x| x * half), half, scale, lift })
+    }
+
+    fn key(&self, p: [f64; 3]) -> u64 {
+        let cell = |k: usize| {
+            let along = (p[k] * self.half - self.low[k]) * self.lift * self.scale;
+            (along as u32).min((1 << BITS) - 1)
+        };
+        curve([cell(0), cell(1), cell(2)])
+    }
+}
+
+/// The position of a cell along the curve.
+fn curve(mut x: [u32; 3]) -> u64 {
+    let mut q = 1 << (BITS - 1);
+    while q > 1 {
+        let p = q - 1;
+        for i in 0..3 {
+            if x[i] & q != 0 {
+                x[0] ^= p;
+            } else {
+                let t = (x[0] ^ x[i]) & p;
+                x[0] ^= t;
+                x[i] ^= t;
+            }
+        }
+        q >>= 1;
+    }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    let mut t = 0;
+    let mut q = 1 << (BITS - 1);
+    while q > 1 {
+        if x[2] & q != 0 {
+            t ^= q - 1;
+        }
+        q >>= 1;
+    }
+    let spread = |x: u32| {
+        let x = u64::from(x);
+        let x = (x | x << 32) & 0x001f_0000_0000_ffff;
+        let x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+        let x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+        let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+        (x | x << 2) & 0x1249_2492_4924_9249
+    };
+    spread(x[0] ^ t) << 2 | spread(x[1] ^ t) << 1 | spread(x[2] ^ t)
+}
+
+/// The numbers below `count`, dealt into rounds at random: increasing in each, the smallest round first.
+pub(crate) fn rounds(count: usize, seed: u64) -> Vec<u32> {
+    let mut random = SplitMix(seed);
+    let mut order = Vec::with_capacity(count);
+    let mut rest: Vec<u32> = (0..count as u32).collect();
+    while rest.len() > SMALLEST {
+        let round = order.len();
+        rest.retain(|&i| {
+            let earlier = random.next().is_multiple_of(GROWTH);
+            if !earlier {
+                order.push(i);
+            }
+            earlier
+        });
+        // Built from the last round to the first, and turned round in the end.
+        order[round..].reverse();
+    }
+    order.extend(rest.iter().rev());
+    order.reverse();
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{curve, hilbert, rounds};
+
+    #[test]
+    fn the_curve_steps_from_cell_to_cell() {
+        let side = 8_u32;
+        let mut cells: Vec<[u32; 3]> =
+            (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side]).collect();
+        cells.sort_by_key(|&c| curve(c));
+        for w in cells.windows(2) {
+            let step: u32 = (0..3).map(|k| w[0][k].abs_diff(w[1][k])).sum();
+            assert_eq!(step, 1, "{w:?}");
+        }
+    }
+
+    #[test]
+    fn orders_are_permutations() {
+        let skewed = |i: u32| if i % 7 == 0 { [1e300, 0.0, 0.0] } else { [f64::from(i) * 1e-200, 1.0, 0.0] };
+        let mut order = hilbert(5000, &skewed);
+        // All but one in seven share their first key.
+        let steps = order.windows(2).filter(|w| w[1] > w[0] && w[1] - w[0] <= 2).count();
+        assert!(steps > 4900, "{steps}");
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..5000));
+        let mut order = rounds(5000, 3);
+        assert_ne!(order, rounds(5000, 4));
+        assert!(order[4000..].is_sorted());
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..5000));
+        assert_eq!(rounds(0, 1), []);
+    }
+}

@@ -1,0 +1,201 @@
+//! Delaunay triangulations of space.
+
+mod build;
+mod cavity;
+pub mod check;
+mod layer;
+mod position;
+
+pub use position::Position3;
+
+use crate::error::Error;
+use crate::ids::{Duplicate, MAX_POINTS, Place, TetrahedronId, VertexId};
+use crate::locate::tally::Work;
+use crate::mesh::Dimension;
+use crate::mesh::tetrahedra::Mesh3;
+use layer::Layer;
+
+/// The Delaunay triangulation of a set of points in space.
+///
+/// It is a function of the set of points alone: ties of cospherical points are always broken in the same way (see
+/// [`delone_predicates::in_sphere`]), whatever the order of the points. A vertex is known by the index of its point.
+/// Sets that span less than space are valid triangulations without tetrahedra; coplanar points have triangles.
+///
+/// ```
+/// use delone::Delaunay3;
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+/// let triangulation = Delaunay3::from_points(&points)?;
+/// assert_eq!(triangulation.tetrahedra().count(), 2);
+/// assert_eq!(triangulation.hull().count(), 6);
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Delaunay3 {
+    base: Layer,
+    /// Points reported as equal to a vertex, sorted.
+    duplicates: Vec<Duplicate>,
+    work: Work,
+}
+
+impl Delaunay3 {
+    /// The triangulation of no points.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Triangulates points.
+    ///
+    /// O(n log n) expected where the result has O(n) tetrahedra, as for evenly spread points; in the worst case it has
+    /// O(n^2). About 290 bytes a point above the input for evenly spread points.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
+    /// [`MAX_POINTS`].
+    pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
+        Self::from_points_seeded(points, 0)
+    }
+
+    /// The same in an insertion order that the seed decides. The result does not depend on it.
+    ///
+    /// # Errors
+    /// As [`Self::from_points`].
+    pub fn from_points_seeded<P: Position3>(points: &[P], seed: u64) -> Result<Self, Error> {
+        check_points(points)?;
+        let (base, duplicates) = build::triangulate(points, seed, &mut ());
+        Ok(Self { base, duplicates, work: Work::default() })
+    }
+
+    /// The same, and counts what it does; see [`Self::work`].
+    ///
+    /// # Errors
+    /// As [`Self::from_points`].
+    pub fn from_points_counted<P: Position3>(points: &[P], seed: u64) -> Result<Self, Error> {
+        check_points(points)?;
+        let mut work = Work::default();
+        let (base, duplicates) = build::triangulate(points, seed, &mut work);
+        Ok(Self { base, duplicates, work })
+    }
+
+    /// What a counted construction did.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// The topology: tetrahedra, facets, neighbours.
+    pub fn mesh(&self) -> &Mesh3 {
+        &self.base.mesh
+    }
+
+    /// What the points span.
+    pub fn dimension(&self) -> Dimension {
+        self.base.dimension()
+    }
+
+    /// The number of vertices: points without duplicates.
+    pub fn vertex_count(&self) -> usize {
+        self.base.mesh.vertex_count()
+    }
+
+    /// The vertices, by increasing index.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.base.mesh.vertices()
+    }
+
+    /// The points that equal an earlier one which is a vertex, by increasing index.
+    pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        self.duplicates.iter().copied()
+    }
+
+    /// The coordinates of a vertex.
+    ///
+    /// # Panics
+    /// For an id that is no vertex.
+    #[inline]
+    pub fn point(&self, v: VertexId) -> [f64; 3] {
+        let place = self.base.mesh.place(v).expect("a vertex");
+        self.base.points[place.index()]
+    }
+
+    /// The finite tetrahedra, by id. None below space.
+    pub fn cells(&self) -> impl Iterator<Item = TetrahedronId> + '_ {
+        let mesh = &self.base.mesh;
+        let spanned = self.base.scaffold.is_empty();
+        mesh.cells().filter(move |&t| spanned && !mesh.is_ghost(t))
+    }
+
+    /// The finite tetrahedra as corners in positive order: the first three are seen counter-clockwise from the fourth.
+    pub fn tetrahedra(&self) -> impl Iterator<Item = [VertexId; 4]> + '_ {
+        self.cells().map(|t| self.base.mesh.corners(t))
+    }
+
+    /// The facets of the hull, counter-clockwise seen from outside; flat faces are cut into triangles, as the
+    /// triangulation has them. Coplanar points have each triangle once, seen from either side; less than a plane has
+    /// none.
+    pub fn hull(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
+        let mesh = &self.base.mesh;
+        let dimension = self.dimension();
+        let finite = move |t: TetrahedronId| {
+            let [a, b, c, last] = mesh.cells[t.index()].corners;
+            match dimension {
+                Dimension::Space => last.is_ghost().then(|| [a, b, c].map(|p| mesh.name(p))),
+                Dimension::Plane => self.triangle_below(t),
+                _ => None,
+            }
+        };
+        mesh.cells().filter_map(finite)
+    }
+
+    /// The triangle of coplanar points that a tetrahedron with the apex stands on.
+    fn triangle_below(&self, t: TetrahedronId) -> Option<[VertexId; 3]> {
+        let mesh = &self.base.mesh;
+        if mesh.is_ghost(t) {
+            return None;
+        }
+        let apex = mesh.cells[t.index()].corners.iter().position(|&p| self.base.is_scaffold(p))?;
+        Some(mesh.facet_corners(t.facet(apex)))
+    }
+
+    /// The edges, each once, of whatever the points span.
+    pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        let mut star = Vec::new();
+        self.base.mesh.inhabited().flat_map(move |p| {
+            let mut joined = self.neighbors_of(p, &mut star);
+            joined.retain(|&q| q > p);
+            let [v] = [self.base.mesh.name(p)];
+            joined.into_iter().map(move |q| [v, self.base.mesh.name(q)])
+        })
+    }
+
+    /// The vertices joined to a vertex by an edge; none for an id that is no vertex.
+    pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        let joined = self.base.mesh.place(v).map(|p| self.neighbors_of(p, &mut Vec::new()));
+        joined.unwrap_or_default().into_iter().map(|p| self.base.mesh.name(p))
+    }
+
+    fn neighbors_of(&self, p: Place, star: &mut Vec<TetrahedronId>) -> Vec<Place> {
+        if self.base.is_scaffold(p) {
+            return Vec::new();
+        }
+        self.base.mesh.star(p, star);
+        let corners = star.iter().flat_map(|t| self.base.mesh.cells[t.index()].corners);
+        let wanted = |q: &Place| *q != p && !q.is_ghost() && !self.base.is_scaffold(*q);
+        let mut joined: Vec<Place> = corners.filter(wanted).collect();
+        joined.sort_unstable();
+        joined.dedup();
+        joined
+    }
+}
+
+fn check_points<P: Position3>(points: &[P]) -> Result<(), Error> {
+    if points.len() > MAX_POINTS {
+        return Err(Error::TooManyPoints { count: points.len() });
+    }
+    for (index, p) in points.iter().enumerate() {
+        let p = p.xyz();
+        if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
+            return Err(Error::NotFinite { index, axis, value: p[axis] });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,118 @@
+//! Triangulations of space against their definition, and each other.
+
+use delone::{Delaunay3, Dimension};
+use delone_oracle::brute;
+use delone_oracle::generate::{Kind3, Random};
+
+type Points = Vec<[f64; 3]>;
+
+/// Tetrahedra by coordinates, in a form that can be compared.
+fn tetrahedra(d: &Delaunay3) -> Vec<[[f64; 3]; 4]> {
+    let sorted = |mut corners: [[f64; 3]; 4]| {
+        corners.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+        corners
+    };
+    let mut all: Vec<_> = d.tetrahedra().map(|t| sorted(t.map(|v| d.point(v).map(|x| x + 0.0)))).collect();
+    all.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    all
+}
+
+/// The triangles of coplanar points, likewise.
+fn triangles(d: &Delaunay3) -> Vec<[[f64; 3]; 3]> {
+    let sorted = |mut corners: [[f64; 3]; 3]| {
+        corners.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+        corners
+    };
+    let mut all: Vec<_> = d.hull().map(|t| sorted(t.map(|v| d.point(v).map(|x| x + 0.0)))).collect();
+    all.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    all
+}
+
+#[test]
+fn small_sets_against_the_oracle() {
+    for &kind in Kind3::ALL {
+        for seed in 0..120 {
+            let points = kind.points(1 + seed as usize % 10, seed);
+            let d = Delaunay3::from_points(&points).expect("finite");
+            assert_eq!(d.check(), Ok(()), "{} {seed}", kind.name());
+            assert_eq!(tetrahedra(&d), brute::delaunay3(&points), "{} {seed}", kind.name());
+            if d.dimension() == Dimension::Plane {
+                let apex = [0, 1, 2].map(|k| {
+                    let mut p = points[0];
+                    p[k] = if p[k] == 1.0 { 0.5 } else { 1.0 };
+                    p
+                });
+                let off = |p: &[f64; 3]| !brute::delaunay3(&[points.clone(), vec![*p]].concat()).is_empty();
+                let apex = apex.into_iter().find(off).expect("one axis leaves the plane");
+                assert_eq!(triangles(&d), brute::delaunay_of_plane(&points, apex), "{} {seed}", kind.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn large_sets_agree_across_orders() {
+    for &kind in Kind3::ALL {
+        let n = match kind {
+            Kind3::HugeSpan3 => 300,
+            Kind3::Linked | Kind3::Far => 600,
+            _ => 4_000,
+        };
+        let mut points = kind.points(n, 2);
+        let d = Delaunay3::from_points(&points).expect("finite");
+        assert_eq!(d.check(), Ok(()), "{}", kind.name());
+        let expected = (tetrahedra(&d), d.dimension(), d.edges().count());
+        Random::new(4).shuffle(&mut points);
+        for seed in [1, 2] {
+            let d = Delaunay3::from_points_seeded(&points, seed).expect("finite");
+            assert_eq!(d.check(), Ok(()), "{}", kind.name());
+            assert!((tetrahedra(&d), d.dimension(), d.edges().count()) == expected, "{}", kind.name());
+        }
+    }
+}
+
+#[test]
+fn grids_tile_their_box() {
+    for [x, y, z] in [[2, 2, 2], [3, 3, 2], [3, 3, 3], [10, 10, 10], [5, 1, 7], [30, 2, 3], [16, 16, 16]] {
+        let mut points: Points =
+            (0..x * y * z).map(|i| [i % x, i / x % y, i / x / y].map(|c| f64::from(c as u32))).collect();
+        Random::new(1).shuffle(&mut points);
+        let d = Delaunay3::from_points(&points).expect("finite");
+        assert_eq!(d.check(), Ok(()));
+        let six_volumes: f64 = d
+            .tetrahedra()
+            .map(|t| {
+                let [a, b, c, p] = t.map(|v| d.point(v));
+                let [u, v, w] = [b, c, p].map(|q| [0, 1, 2].map(|k| q[k] - a[k]));
+                let cross =
+                    [0, 1, 2].map(|k| v[(k + 1) % 3] * w[(k + 2) % 3] - v[(k + 2) % 3] * w[(k + 1) % 3]);
+                u.iter().zip(cross).map(|(x, y)| x * y).sum::<f64>()
+            })
+            .inspect(|volume| assert!(*volume > 0.0))
+            .sum();
+        let boxes: usize = [x, y, z].map(|side| side - 1).into_iter().product();
+        assert_eq!(six_volumes, 6.0 * boxes as f64, "{x} {y} {z}");
+    }
+}
+
+#[test]
+fn less_than_space() {
+    let d = Delaunay3::from_points::<[f64; 3]>(&[]).expect("finite");
+    assert_eq!((d.dimension(), d.vertex_count()), (Dimension::Empty, 0));
+    let d = Delaunay3::from_points(&[[1.0, 2.0, 3.0]; 4]).expect("finite");
+    assert_eq!((d.dimension(), d.vertex_count(), d.duplicates().count()), (Dimension::Point, 1, 3));
+    assert_eq!((d.edges().count(), d.hull().count(), d.check()), (0, 0, Ok(())));
+    let line: Points = (0..50).map(|i| [f64::from(i), f64::from(2 * i), 0.5]).collect();
+    let d = Delaunay3::from_points(&line).expect("finite");
+    assert_eq!((d.dimension(), d.edges().count(), d.check()), (Dimension::Line, 49, Ok(())));
+    let plane = Kind3::SlantedGrid.points(100, 1);
+    let d = Delaunay3::from_points(&plane).expect("finite");
+    assert_eq!((d.dimension(), d.hull().count(), d.check()), (Dimension::Plane, 162, Ok(())));
+    assert_eq!(d.edges().count(), 261);
+    assert!(Delaunay3::from_points(&[[0.0, f64::NAN, 0.0]]).is_err());
+    // The first of equal points is the vertex.
+    let twice = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3], [-0.0; 3], [1.0, 0.0, 0.0]];
+    let d = Delaunay3::from_points(&twice).expect("finite");
+    let pairs: Vec<_> = d.duplicates().map(|d| (d.point, d.vertex.index())).collect();
+    assert_eq!(pairs, [(2, 0), (3, 0), (4, 1)]);
+}
