@@ -6,6 +6,7 @@ mod changes;
 mod engines;
 mod hull;
 mod memory;
+mod space;
 mod voronoi;
 
 use std::panic::{self, AssertUnwindSafe};
@@ -45,6 +46,9 @@ struct Args {
     /// Time convex hulls in space instead of building.
     #[arg(long)]
     hull: bool,
+    /// Time triangulations of space of these sets (cube, sphere, ...; or a PLY file) instead.
+    #[arg(long, value_delimiter = ',')]
+    space: Vec<String>,
     /// Measure peak memory too (one more process for each engine and set).
     #[arg(long)]
     memory: bool,
@@ -84,6 +88,11 @@ fn main() {
         panic::set_hook(Box::new(|_| {}));
         args.size.iter().for_each(|&size| hull::run(size, args.runs));
         return;
+    }
+    if !args.space.is_empty() {
+        let each = |name: &String| args.size.iter().all(|&size| space::run(name, size, args.runs));
+        let right = args.space.iter().fold(true, |right, name| each(name) && right);
+        std::process::exit(i32::from(!right));
     }
     if args.voronoi {
         panic::set_hook(Box::new(|_| {}));

@@ -19,7 +19,6 @@ use crate::{Point3, Sign, exact};
 /// assert_eq!(in_sphere(a, b, c, d, [0.5, 0.5, 0.5]), Sign::Positive);
 /// assert_eq!(in_sphere(a, b, c, d, [1.0, 1.0, 1.0]), Sign::Negative); // cospherical, and the largest
 /// ```
-#[inline]
 pub fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
     in_sphere_filter(a, b, c, d, e).unwrap_or_else(|| in_sphere_exact(a, b, c, d, e))
 }
@@ -27,6 +26,13 @@ pub fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign 
 /// The same test without the perturbation: zero for cospherical points.
 pub fn in_sphere_with_ties(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
     in_sphere_filter(a, b, c, d, e).unwrap_or_else(|| exact::in_sphere(a, b, c, d, e))
+}
+
+/// The same, out of line, for points of which a static filter could not tell.
+#[cold]
+#[inline(never)]
+pub(crate) fn in_sphere_near(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
+    in_sphere(a, b, c, d, e)
 }
 
 #[cold]

@@ -18,3 +18,10 @@ use crate::{Point3, Sign, exact};
 pub fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     orient3d_filter(a, b, c, d).unwrap_or_else(|| exact::orient3d(a, b, c, d))
 }
+
+/// The same, out of line, for points of which a static filter could not tell.
+#[cold]
+#[inline(never)]
+pub(crate) fn orient3d_near(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
+    orient3d(a, b, c, d)
+}

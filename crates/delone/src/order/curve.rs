@@ -1,15 +1,15 @@
 //! Hilbert order in space, and the rounds of a biased randomized insertion order along it.
 //!
 //! Sources: Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 2004, for the keys; Amenta, Choi &
-//! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Where many points share a key of 21 bits an
-//! axis, they get keys in their own bounding box, recursively.
+//! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Keys have a few bits more than it takes to tell evenly spread
+//! points apart; where many points share a key, they get keys in their own bounding box, recursively.
 //!
 //! Cost: O(n log n).
 
 use super::random::SplitMix;
 
-/// Bits an axis.
-const BITS: u32 = 21;
+/// The most bits an axis.
+const MOST_BITS: u32 = 21;
 /// Runs of equal keys up to this length keep the order of the input.
 const SHORT_RUN: usize = 32;
 /// Each round holds seven times as many points as all before it.
@@ -27,7 +27,8 @@ pub(crate) fn hilbert(count: usize, point: &impl Fn(u32) -> [f64; 3]) -> Vec<u32
 fn sort(keyed: &mut [(u64, u32)], point: &impl Fn(u32) -> [f64; 3]) {
     let mut pending = vec![keyed];
     while let Some(part) = pending.pop() {
-        let Some(cells) = Cells::around(part.iter().map(|&(_, i)| point(i))) else { continue };
+        let bits = (part.len().ilog2() / 3 + 3).min(MOST_BITS);
+        let Some(cells) = Cells::around(part.iter().map(|&(_, i)| point(i)), bits) else { continue };
         part.iter_mut().for_each(|(key, i)| *key = cells.key(point(*i)));
         part.sort_unstable();
         for run in part.chunk_by_mut(|a, b| a.0 == b.0).filter(|run| run.len() > SHORT_RUN) {
@@ -44,11 +45,12 @@ struct Cells {
     scale: f64,
     /// Again, because one factor could overflow for a tiny box.
     lift: f64,
+    bits: u32,
 }
 
 impl Cells {
     /// None around points that are all equal.
-    fn around(points: impl Iterator<Item = [f64; 3]>) -> Option<Self> {
+    fn around(points: impl Iterator<Item = [f64; 3]>, bits: u32) -> Option<Self> {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for p in points {
             for k in 0..3 {
@@ -63,22 +65,22 @@ impl Cells {
             return None;
         }
         let lift = if side < 1e-290 { 2f64.powi(200) } else { 1.0 };
-        let scale = f64::from(1 << BITS) / (side * lift);
-        Some(Self { low: low.map(|x| x * half), half, scale, lift })
+        let scale = f64::from(1 << bits) / (side * lift);
+        Some(Self { low: low.map(|x| x * half), half, scale, lift, bits })
     }
 
     fn key(&self, p: [f64; 3]) -> u64 {
         let cell = |k: usize| {
             let along = (p[k] * self.half - self.low[k]) * self.lift * self.scale;
-            (along as u32).min((1 << BITS) - 1)
+            (along as u32).min((1 << self.bits) - 1)
         };
-        curve([cell(0), cell(1), cell(2)])
+        curve([cell(0), cell(1), cell(2)], self.bits)
     }
 }
 
 /// The position of a cell along the curve.
-fn curve(mut x: [u32; 3]) -> u64 {
-    let mut q = 1 << (BITS - 1);
+fn curve(mut x: [u32; 3], bits: u32) -> u64 {
+    let mut q = 1 << (bits - 1);
     while q > 1 {
         let p = q - 1;
         for i in 0..3 {
@@ -95,7 +97,7 @@ fn curve(mut x: [u32; 3]) -> u64 {
     x[1] ^= x[0];
     x[2] ^= x[1];
     let mut t = 0;
-    let mut q = 1 << (BITS - 1);
+    let mut q = 1 << (bits - 1);
     while q > 1 {
         if x[2] & q != 0 {
             t ^= q - 1;
@@ -144,7 +146,7 @@ mod tests {
         let side = 8_u32;
         let mut cells: Vec<[u32; 3]> =
             (0..side.pow(3)).map(|i| [i % side, i / side % side, i / side / side]).collect();
-        cells.sort_by_key(|&c| curve(c));
+        cells.sort_by_key(|&c| curve(c, 3));
         for w in cells.windows(2) {
             let step: u32 = (0..3).map(|k| w[0][k].abs_diff(w[1][k])).sum();
             assert_eq!(step, 1, "{w:?}");

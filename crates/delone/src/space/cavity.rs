@@ -14,7 +14,7 @@ use super::layer::Layer;
 use crate::fetch::fetch;
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::locate::tally::Tally;
-use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
 
 /// Marks of tetrahedra while a cavity is dug.
 const INSIDE: u8 = 1;
@@ -27,8 +27,10 @@ pub(super) struct Cavity {
     pub(super) cells: Vec<TetrahedronId>,
     /// The facets around them, seen from outside.
     border: Vec<FacetId>,
-    /// The border's vertices by their number; the ghost has the first.
-    vertices: Vec<Place>,
+    /// The border's vertices by their number, each with a new tetrahedron; the ghost has the first.
+    vertices: Vec<(Place, TetrahedronId)>,
+    /// For each facet of the border the numbers of its corners.
+    numbers: Vec<(u32, u32, u32)>,
     /// By the numbers of its ends, the facet above each directed edge of the border.
     table: Vec<FacetId>,
     /// The logarithm of the table's side.
@@ -48,7 +50,7 @@ impl Cavity {
         self.find(layer, layer.points[v.index()], seed, tally);
         tally.destroyed(self.cells.len());
         tally.created(self.border.len());
-        self.refill(layer, v);
+        self.refill(&mut layer.mesh, v);
     }
 
     /// Collects the tetrahedra in conflict and their border.
@@ -85,63 +87,54 @@ impl Cavity {
     }
 
     /// Joins `v` to every facet of the border.
-    fn refill(&mut self, layer: &mut Layer, v: Place) {
-        let mesh = &mut layer.mesh;
-        self.vertices.clear();
-        self.vertices.push(Place::GHOST);
-        while self.cells.len() < self.border.len() {
+    fn refill(&mut self, mesh: &mut Mesh3, v: Place) {
+        let count = self.border.len();
+        while self.cells.len() < count {
             self.cells.push(mesh.new_cell());
         }
         // A ball of many tetrahedra may have few facets.
-        for t in self.cells.drain(self.border.len()..) {
+        for t in self.cells.drain(count..) {
             mesh.marks[t.index()] = 0;
             mesh.free_cell(t);
         }
         // A sphere of F triangles has F / 2 + 2 corners; the ghost has a number even if it is none of them.
-        self.widen(self.border.len() / 2 + 3);
+        self.widen(count / 2 + 3);
+        self.vertices.clear();
+        self.vertices.push((Place::GHOST, TetrahedronId::NONE));
+        self.numbers.clear();
         for (&g, &t) in self.border.iter().zip(&self.cells) {
-            let outside = &mesh.cells[g.tetrahedron().index()];
-            let mut base = FACETS[g.corner()].map(|k| outside.corners[k]);
+            let outside = &mut mesh.cells[g.tetrahedron().index()];
+            outside.across[g.corner()] = t.facet(0);
+            let [i, j, k] = FACETS[g.corner()];
+            let (mut a, mut b, mut c) = (outside.corners[i], outside.corners[j], outside.corners[k]);
             // The ghost is always the last corner.
-            while base[0].is_ghost() || base[1].is_ghost() {
-                base.rotate_left(1);
+            if a.is_ghost() {
+                (a, b, c) = (b, c, a);
+            } else if b.is_ghost() {
+                (a, b, c) = (c, a, b);
             }
-            mesh.marks[t.index()] = 0;
             mesh.marks[g.tetrahedron().index()] = 0;
-            mesh.cells[t.index()] = Tetrahedron { corners: [v, base[0], base[1], base[2]], across: [g; 4] };
-            mesh.cells[g.tetrahedron().index()].across[g.corner()] = t.facet(0);
-            let numbers = base.map(|p| {
-                if p.is_ghost() {
-                    return 0;
-                }
-                let slot = &mut mesh.incident[p.index()];
-                if self.vertices.get(slot.index()) != Some(&p) {
-                    *slot = TetrahedronId::new(self.vertices.len());
-                    self.vertices.push(p);
-                }
-                slot.index()
-            });
-            for k in 0..3 {
-                let (i, j) = (numbers[(k + 1) % 3], numbers[(k + 2) % 3]);
-                self.table[i << self.width | j] = t.facet(k + 1);
-            }
+            mesh.marks[t.index()] = 0;
+            mesh.cells[t.index()] = Tetrahedron { corners: [v, a, b, c], across: [g; 4] };
+            let i = number(&mut self.vertices, &mut mesh.incident, a, t);
+            let j = number(&mut self.vertices, &mut mesh.incident, b, t);
+            let k = if c.is_ghost() { 0 } else { number(&mut self.vertices, &mut mesh.incident, c, t) };
+            self.table[j << self.width | k] = t.facet(1);
+            self.table[k << self.width | i] = t.facet(2);
+            self.table[i << self.width | j] = t.facet(3);
+            self.numbers.push((i as u32, j as u32, k as u32));
         }
-        for &t in &self.cells {
-            let corners = mesh.cells[t.index()].corners;
-            let numbers = [1, 2, 3].map(|k| {
-                let p: Place = corners[k];
-                if p.is_ghost() { 0 } else { mesh.incident[p.index()].index() }
-            });
-            for k in 0..3 {
-                let (i, j) = (numbers[(k + 1) % 3], numbers[(k + 2) % 3]);
-                mesh.cells[t.index()].across[k + 1] = self.table[j << self.width | i];
-            }
+        for (&t, &(i, j, k)) in self.cells.iter().zip(&self.numbers) {
+            let (i, j, k) = (i as usize, j as usize, k as usize);
+            let across = &mut mesh.cells[t.index()].across;
+            across[1] = self.table[k << self.width | j];
+            across[2] = self.table[i << self.width | k];
+            across[3] = self.table[j << self.width | i];
         }
-        for &t in &self.cells {
-            for p in mesh.cells[t.index()].corners.into_iter().filter(|p| !p.is_ghost()) {
-                mesh.incident[p.index()] = t;
-            }
+        for &(p, t) in &self.vertices[1..] {
+            mesh.incident[p.index()] = t;
         }
+        mesh.incident[v.index()] = self.cells[0];
     }
 
     /// Makes room for so many vertices in the table.
@@ -152,4 +145,20 @@ impl Cavity {
             self.table = vec![FacetId::NONE; 1 << (2 * width)];
         }
     }
+}
+
+/// The number of a vertex of the border, of which `t` is a new tetrahedron.
+#[inline]
+fn number(
+    vertices: &mut Vec<(Place, TetrahedronId)>,
+    incident: &mut [TetrahedronId],
+    p: Place,
+    t: TetrahedronId,
+) -> usize {
+    let slot = &mut incident[p.index()];
+    if vertices.get(slot.index()).is_none_or(|vertex| vertex.0 != p) {
+        *slot = TetrahedronId::new(vertices.len());
+        vertices.push((p, t));
+    }
+    slot.index()
 }

@@ -9,7 +9,6 @@
 use delone_predicates::{Filter3, Grid, orient2d, orient3d};
 
 use super::cavity::Cavity;
-use crate::fetch::fetch;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::Dimension;
@@ -206,19 +205,25 @@ impl Layer {
     /// the inside of the facet's circle.
     #[inline]
     pub(super) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
+        let [a, b, c, d] = self.mesh.cells[t.index()].corners;
+        if d.is_ghost() {
+            return self.is_beyond_hull(t, q);
+        }
+        let at = |p: Place| self.points[p.index()];
+        self.filter.in_sphere(at(a), at(b), at(c), at(d), q).is_positive()
+    }
+
+    /// The same for a ghost.
+    fn is_beyond_hull(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
         let cell = &self.mesh.cells[t.index()];
         let [a, b, c] = [0, 1, 2].map(|k| self.points[cell.corners[k].index()]);
-        if cell.corners[3].is_ghost() {
-            let side = self.filter.orient3d(a, b, c, q);
-            if !side.is_zero() {
-                return side.is_positive();
-            }
-            // In the plane of the facet the sphere of the tetrahedron inside cuts out its circle.
-            let inner = &self.mesh.cells[cell.across[3].tetrahedron().index()];
-            let [a, b, c, d] = inner.corners.map(|p| self.points[p.index()]);
-            return self.filter.in_sphere(a, b, c, d, q).is_positive();
+        let side = self.filter.orient3d(a, b, c, q);
+        if !side.is_zero() {
+            return side.is_positive();
         }
-        let d = self.points[cell.corners[3].index()];
+        // In the plane of the facet the sphere of the tetrahedron inside cuts out its circle.
+        let inner = &self.mesh.cells[cell.across[3].tetrahedron().index()];
+        let [a, b, c, d] = inner.corners.map(|p| self.points[p.index()]);
         self.filter.in_sphere(a, b, c, d, q).is_positive()
     }
 
@@ -237,12 +242,16 @@ impl Layer {
             if cell.corners[3].is_ghost() {
                 return t;
             }
-            let points = cell.corners.map(|p| self.points[p.index()]);
-            cell.across.iter().for_each(|f| fetch(&self.mesh.cells, f.tetrahedron().index()));
-            for k in (0..4).filter(|&k| k != entered) {
+            let [a, b, c, d] = cell.corners;
+            let at = |p: Place| self.points[p.index()];
+            let points = [at(a), at(b), at(c), at(d)];
+            for k in 0..4 {
+                if k == entered {
+                    continue;
+                }
                 tally.orientation();
-                let [a, b, c] = FACETS[k].map(|i| points[i]);
-                if self.filter.orient3d(a, b, c, q).is_negative() {
+                let [i, j, l] = FACETS[k];
+                if self.filter.orient3d(points[i], points[j], points[l], q).is_negative() {
                     let across = cell.across[k];
                     (t, entered) = (across.tetrahedron(), across.corner());
                     continue 'walk;

@@ -109,25 +109,43 @@ impl Filter3 {
     /// Like [`crate::orient3d`], for points in the box.
     #[inline]
     pub fn orient3d(&self, a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
-        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] =
-            [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1], p[2] - d[2]]);
+        let (ax, ay, az) = (a[0] - d[0], a[1] - d[1], a[2] - d[2]);
+        let (bx, by, bz) = (b[0] - d[0], b[1] - d[1], b[2] - d[2]);
+        let (cx, cy, cz) = (c[0] - d[0], c[1] - d[1], c[2] - d[2]);
         let det = az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
-        self.decide(-det, self.orient).unwrap_or_else(|| crate::orient3d(a, b, c, d))
+        if det < -self.orient {
+            Sign::Positive
+        } else if det > self.orient {
+            Sign::Negative
+        } else if self.exact {
+            Sign::Zero
+        } else {
+            crate::orient3d::orient3d_near(a, b, c, d)
+        }
     }
 
     /// Like [`crate::in_sphere`], for points in the box.
     #[inline]
     pub fn in_sphere(&self, a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
-        let [p, q, r, s] = [a, b, c, d].map(|p| [p[0] - e[0], p[1] - e[1], p[2] - e[2]]);
-        let minor = |u: Point3, v: Point3| u[0] * v[1] - v[0] * u[1];
-        let [pq, qr, rs, sp, pr, qs] =
-            [minor(p, q), minor(q, r), minor(r, s), minor(s, p), minor(p, r), minor(q, s)];
-        let lift = |[x, y, z]: Point3| x * x + y * y + z * z;
-        let pqr = p[2] * qr - q[2] * pr + r[2] * pq;
-        let qrs = q[2] * rs - r[2] * qs + s[2] * qr;
-        let rsp = r[2] * sp + s[2] * pr + p[2] * rs;
-        let spq = s[2] * pq + p[2] * qs + q[2] * sp;
-        let det = (lift(s) * pqr - lift(r) * spq) + (lift(q) * rsp - lift(p) * qrs);
+        let (ax, ay, az) = (a[0] - e[0], a[1] - e[1], a[2] - e[2]);
+        let (bx, by, bz) = (b[0] - e[0], b[1] - e[1], b[2] - e[2]);
+        let (cx, cy, cz) = (c[0] - e[0], c[1] - e[1], c[2] - e[2]);
+        let (dx, dy, dz) = (d[0] - e[0], d[1] - e[1], d[2] - e[2]);
+        let ab = ax * by - bx * ay;
+        let bc = bx * cy - cx * by;
+        let cd = cx * dy - dx * cy;
+        let da = dx * ay - ax * dy;
+        let ac = ax * cy - cx * ay;
+        let bd = bx * dy - dx * by;
+        let la = ax * ax + ay * ay + az * az;
+        let lb = bx * bx + by * by + bz * bz;
+        let lc = cx * cx + cy * cy + cz * cz;
+        let ld = dx * dx + dy * dy + dz * dz;
+        let abc = az * bc - bz * ac + cz * ab;
+        let bcd = bz * cd - cz * bd + dz * bc;
+        let cda = cz * da + dz * ac + az * cd;
+        let dab = dz * ab + az * bd + bz * da;
+        let det = (ld * abc - lc * dab) + (lb * cda - la * bcd);
         if det < -self.sphere {
             Sign::Positive
         } else if det > self.sphere {
@@ -135,12 +153,7 @@ impl Filter3 {
         } else if self.exact {
             crate::in_sphere::in_sphere_tie(a, b, c, d, e)
         } else {
-            crate::in_sphere(a, b, c, d, e)
+            crate::in_sphere::in_sphere_near(a, b, c, d, e)
         }
-    }
-
-    #[inline]
-    fn decide(&self, value: f64, bound: f64) -> Option<Sign> {
-        outside_of(value, bound).or(if self.exact { Some(Sign::Zero) } else { None })
     }
 }
