@@ -9,7 +9,7 @@ use super::decode;
 use crate::Sign;
 
 /// The coordinates as integers on their common scale, if they fit 61 bits.
-pub(super) fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
+fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
     let parts = coordinates.map(decode);
     let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
     let mut aligned = [0; N];

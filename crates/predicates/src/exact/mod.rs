@@ -1,15 +1,18 @@
 //! Stage two: the sign of the real-number expression, whatever it takes.
 //!
-//! Three ways, the cheapest that holds: [`integers`] when the coordinates fit 61 bits on a common scale
+//! In the plane three ways, the cheapest that holds: [`integers`] when the coordinates fit 61 bits on a common scale
 //! (nearly all real data: grids, centimetres, coordinates of similar size), expansions of the `robust` crate
 //! when no product can leave the exponent range, [`big`] integers for the rest.
 //!
-//! All three evaluate the base-and-apex form (see `pencil`): with l = a, r = b, the orientation of a, b, c is
+//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones.
+//!
+//! In the plane all three evaluate the base-and-apex form (see `pencil`): with l = a, r = b, the orientation of a, b, c is
 //! `(c - a) x (c - b)`, and the in-circle determinant of a, b, c, d is `dot_c cross_d - dot_d cross_c`.
 
 mod big;
 mod integers;
 mod space;
+mod wide;
 
 use std::cmp::Ordering;
 
@@ -79,42 +82,27 @@ pub(crate) fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 pub(crate) fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     let mut coordinates = [0.0; 12];
     coordinates.copy_from_slice([a, b, c, d].as_flattened());
-    if let Some(sign) = space::orient3d(&coordinates) {
-        return sign;
-    }
-    if expansions_hold(&coordinates) {
-        let coord = |[x, y, z]: Point3| robust::Coord3D { x, y, z };
-        // Theirs is positive where d is below the plane.
-        return -Sign::of(&robust::orient3d(coord(a), coord(b), coord(c), coord(d)), &0.0);
-    }
-    big::orient3d(&coordinates)
+    let integers = || space::orient3d(&coordinates).or_else(|| wide::orient3d(&coordinates));
+    integers().unwrap_or_else(|| big::orient3d(&coordinates))
 }
 
 pub(crate) fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
     let mut coordinates = [0.0; 15];
     coordinates.copy_from_slice([a, b, c, d, e].as_flattened());
-    if let Some(sign) = space::in_sphere(&coordinates) {
-        return sign;
-    }
-    if expansions_hold(&coordinates) {
-        let coord = |[x, y, z]: Point3| robust::Coord3D { x, y, z };
-        // Theirs is for four points of which the last is below the others.
-        let sign = robust::insphere(coord(a), coord(b), coord(c), coord(d), coord(e));
-        return -Sign::of(&sign, &0.0);
-    }
-    big::in_sphere(&coordinates)
+    let integers = || space::in_sphere(&coordinates).or_else(|| wide::in_sphere(&coordinates));
+    integers().unwrap_or_else(|| big::in_sphere(&coordinates))
 }
 
 fn coord(p: Point2) -> robust::Coord<f64> {
     robust::Coord { x: p[0], y: p[1] }
 }
 
-/// Whether expansion arithmetic of degree five can neither overflow nor underflow: every coordinate is zero
-/// or has a magnitude between 2^-142 and 2^180 (Shewchuk 1997, §2.1). All are multiples of 2^-194 then, and
-/// products of five of 2^-970.
+/// Whether expansion arithmetic of degree four can neither overflow nor underflow: every coordinate is zero
+/// or has a magnitude between 2^-142 and 2^200 (Shewchuk 1997, §2.1: the product of four tails must stay
+/// normal).
 fn expansions_hold(coordinates: &[f64]) -> bool {
     const LOW: f64 = f64::from_bits((1023 - 142) << 52);
-    const HIGH: f64 = f64::from_bits((1023 + 180) << 52);
+    const HIGH: f64 = f64::from_bits((1023 + 200) << 52);
     coordinates.iter().all(|x| *x == 0.0 || (LOW..=HIGH).contains(&x.abs()))
 }
 

@@ -1,125 +1,206 @@
-//! Exact signs in space in machine integers, for coordinates that fit 61 bits on a common scale.
+//! Exact signs in space in machine integers, for coordinates that fit 60 bits on a common scale.
 //!
-//! Differences fit 62 bits and a sign, minors of two columns 125, minors of three 189, squared lengths 126, and
-//! the in-sphere determinant 318: numbers of three and of five words are made of products of single ones.
+//! Differences fit 61 bits and a sign, minors of two columns 123, minors of three 186, squared lengths 124, and
+//! the in-sphere determinant 312. A minor of three columns is kept as two sums, `high` 2^64 + `low`, whose parts need
+//! no carries; the determinant as five words, each gathered in 128 bits, with one carry at the end.
 
-use super::integers::align;
 use crate::Sign;
 
-/// A number of N words, two's complement, the lowest first.
-type Words<const N: usize> = [u64; N];
+/// The logarithm of the largest coordinate.
+const BITS: i32 = 60;
 
-fn add<const N: usize>(x: Words<N>, y: Words<N>) -> Words<N> {
-    let mut sum = [0; N];
-    let mut carry = false;
-    for i in 0..N {
-        let (part, first) = x[i].overflowing_add(y[i]);
-        let (part, second) = part.overflowing_add(u64::from(carry));
-        sum[i] = part;
-        carry = first | second;
+/// The coordinates as integers on a common scale, if they fit.
+#[inline]
+fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
+    let mut largest = 0.0_f64;
+    for x in coordinates {
+        largest = largest.max(x.abs());
     }
-    sum
+    let exponent = (largest.to_bits() >> 52) as i32 - 1023;
+    if !(-900..=900).contains(&exponent) {
+        return None;
+    }
+    let scale = f64::from_bits(((1023 + BITS - 1 - exponent) as u64) << 52);
+    let mut aligned = [0; N];
+    let mut exact = true;
+    for (out, x) in aligned.iter_mut().zip(coordinates) {
+        // Exact, being a product with a power of two; unless it is subnormal, and then it is no integer.
+        let scaled = x * scale;
+        *out = scaled as i64;
+        exact &= *out as f64 == scaled && (*out != 0 || *x == 0.0);
+    }
+    exact.then_some(aligned)
 }
 
-fn negative<const N: usize>(x: Words<N>) -> Words<N> {
-    let mut one = [0; N];
-    one[0] = 1;
-    add(x.map(|word| !word), one)
+/// A vector, with its squared length.
+#[derive(Clone, Copy)]
+struct Vector {
+    x: i64,
+    y: i64,
+    z: i64,
 }
 
-/// `x` times `y`, where the product fits N words and `y` is not negative.
-fn times<const M: usize, const N: usize>(x: Words<M>, y: [u64; 2]) -> Words<N> {
-    let is_negative = x[M - 1] >> 63 == 1;
-    let magnitude = if is_negative { negative(x) } else { x };
-    let mut product = [0; N];
-    for (j, factor) in y.into_iter().enumerate() {
+impl Vector {
+    #[inline]
+    fn between(p: &[i64], from: &[i64], to: usize) -> Self {
+        Self { x: p[3 * to] - from[0], y: p[3 * to + 1] - from[1], z: p[3 * to + 2] - from[2] }
+    }
+
+    #[inline]
+    fn square(self) -> u128 {
+        let square = |x: i64| u128::from(x.unsigned_abs()) * u128::from(x.unsigned_abs());
+        square(self.x) + square(self.y) + square(self.z)
+    }
+}
+
+/// The minor of two columns.
+#[inline]
+fn minor(u: Vector, v: Vector) -> i128 {
+    i128::from(u.x) * i128::from(v.y) - i128::from(v.x) * i128::from(u.y)
+}
+
+/// A sum of multiples of minors: `high` 2^64 + `low`.
+#[derive(Clone, Copy)]
+struct Three {
+    high: i128,
+    low: i128,
+}
+
+impl Three {
+    #[inline]
+    fn sum(terms: [(i64, i128); 3]) -> Self {
+        let mut sum = Self { high: 0, low: 0 };
+        for (factor, minor) in terms {
+            sum.high += i128::from(factor) * (minor >> 64);
+            sum.low += i128::from(factor) * i128::from(minor as u64);
+        }
+        sum
+    }
+
+    /// With the low part between 0 and 2^64.
+    #[inline]
+    fn carried(self) -> (i128, u64) {
+        (self.high + (self.low >> 64), self.low as u64)
+    }
+}
+
+/// A determinant being summed up: words of 64 bits, the lowest first, not yet carried.
+struct Sum([i128; 5]);
+
+impl Sum {
+    /// Adds the product of a squared length and a minor, with a sign.
+    #[inline]
+    fn add(&mut self, lift: u128, minor: Three, negative: bool) {
+        let minor = if negative { Three { high: -minor.high, low: -minor.low } } else { minor };
+        let (high, low) = minor.carried();
+        let words = [i128::from(low), i128::from(high as u64), high >> 64];
+        for (j, factor) in [lift as u64, (lift >> 64) as u64].into_iter().enumerate() {
+            for (i, word) in words.into_iter().enumerate() {
+                // The top word is below 2^62 in magnitude, so the product is right as a signed one too.
+                let product = if i < 2 {
+                    (word as u128 * u128::from(factor)).cast_signed()
+                } else {
+                    word * i128::from(factor)
+                };
+                let carry = if i < 2 { (product.cast_unsigned() >> 64).cast_signed() } else { product >> 64 };
+                self.0[i + j] += i128::from(product as u64);
+                self.0[i + j + 1] += carry;
+            }
+        }
+    }
+
+    #[inline]
+    fn sign(&self) -> Sign {
         let mut carry = 0;
-        for (i, word) in magnitude.into_iter().enumerate().filter(|(i, _)| i + j < N) {
-            let part = u128::from(word) * u128::from(factor) + u128::from(product[i + j]) + u128::from(carry);
-            product[i + j] = part as u64;
-            carry = (part >> 64) as u64;
+        let mut rest = 0;
+        for word in self.0 {
+            let sum = word + carry;
+            rest |= sum as u64;
+            carry = sum >> 64;
         }
-        if M + j < N {
-            product[M + j] = carry;
+        if carry < 0 {
+            Sign::Negative
+        } else if carry > 0 || rest != 0 {
+            Sign::Positive
+        } else {
+            Sign::Zero
         }
     }
-    if is_negative { negative(product) } else { product }
-}
-
-fn sign<const N: usize>(x: Words<N>) -> Sign {
-    if x[N - 1] >> 63 == 1 {
-        Sign::Negative
-    } else if x == [0; N] {
-        Sign::Zero
-    } else {
-        Sign::Positive
-    }
-}
-
-/// `x` times the minor, in three words.
-fn scaled(x: i64, minor: i128) -> Words<3> {
-    let product = times::<2, 3>([minor as u64, (minor >> 64) as u64], [x.unsigned_abs(), 0]);
-    if x < 0 { negative(product) } else { product }
-}
-
-/// The minors of two columns of two vectors.
-fn minor(u: [i64; 3], v: [i64; 3]) -> i128 {
-    i128::from(u[0]) * i128::from(v[1]) - i128::from(v[0]) * i128::from(u[1])
-}
-
-fn square([x, y, z]: [i64; 3]) -> [u64; 2] {
-    let sum = [x, y, z].into_iter().map(|x| u128::from(x.unsigned_abs()).pow(2)).sum::<u128>();
-    [sum as u64, (sum >> 64) as u64]
 }
 
 /// Points a, b, c, d.
 pub(super) fn orient3d(coordinates: &[f64; 12]) -> Option<Sign> {
     let p = align(coordinates)?;
-    let from_last = |i: usize| [0, 1, 2].map(|k| p[3 * i + k] - p[9 + k]);
-    let [a, b, c] = [0, 1, 2].map(from_last);
-    let det = add(add(scaled(a[2], minor(b, c)), scaled(b[2], minor(c, a))), scaled(c[2], minor(a, b)));
+    let from = &p[9..];
+    let (a, b, c) =
+        (Vector::between(&p, from, 0), Vector::between(&p, from, 1), Vector::between(&p, from, 2));
+    let (high, low) = Three::sum([(a.z, minor(b, c)), (b.z, minor(c, a)), (c.z, minor(a, b))]).carried();
     // Seen from d.
-    Some(-sign(det))
+    Some(if high < 0 {
+        Sign::Positive
+    } else if high > 0 || low > 0 {
+        Sign::Negative
+    } else {
+        Sign::Zero
+    })
 }
 
 /// Points a, b, c, d, e.
 pub(super) fn in_sphere(coordinates: &[f64; 15]) -> Option<Sign> {
     let p = align(coordinates)?;
-    let from_last = |i: usize| [0, 1, 2].map(|k| p[3 * i + k] - p[12 + k]);
-    let [a, b, c, d] = [0, 1, 2, 3].map(from_last);
-    let [ab, bc, cd, da, ac, bd] = [(a, b), (b, c), (c, d), (d, a), (a, c), (b, d)].map(|(u, v)| minor(u, v));
-    let sum = |x, y, z| add(add(x, y), z);
-    let abc = sum(scaled(a[2], bc), scaled(b[2], -ac), scaled(c[2], ab));
-    let bcd = sum(scaled(b[2], cd), scaled(c[2], -bd), scaled(d[2], bc));
-    let cda = sum(scaled(c[2], da), scaled(d[2], ac), scaled(a[2], cd));
-    let dab = sum(scaled(d[2], ab), scaled(a[2], bd), scaled(b[2], da));
-    let lifted = |v: [i64; 3], minor: Words<3>| times::<3, 5>(minor, square(v));
-    let positive = add(lifted(c, dab), lifted(a, bcd));
-    let other = add(lifted(d, abc), lifted(b, cda));
-    Some(sign(add(positive, negative(other))))
+    let from = &p[12..];
+    let (a, b) = (Vector::between(&p, from, 0), Vector::between(&p, from, 1));
+    let (c, d) = (Vector::between(&p, from, 2), Vector::between(&p, from, 3));
+    let (ab, bc, cd) = (minor(a, b), minor(b, c), minor(c, d));
+    let (da, ac, bd) = (minor(d, a), minor(a, c), minor(b, d));
+    let mut sum = Sum([0; 5]);
+    sum.add(d.square(), Three::sum([(a.z, bc), (b.z, -ac), (c.z, ab)]), true);
+    sum.add(a.square(), Three::sum([(b.z, cd), (c.z, -bd), (d.z, bc)]), false);
+    sum.add(b.square(), Three::sum([(c.z, da), (d.z, ac), (a.z, cd)]), true);
+    sum.add(c.square(), Three::sum([(d.z, ab), (a.z, bd), (b.z, da)]), false);
+    Some(sum.sign())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{add, negative, scaled, sign, times};
+    use super::{Sum, Three, align};
     use crate::Sign;
 
     #[test]
     fn products_of_the_largest_factors() {
-        let largest = (1_i128 << 125) - 1;
-        assert_eq!(scaled(-(1 << 62), largest), negative(scaled(1 << 62, largest)));
-        assert_eq!(scaled(1 << 62, -largest), negative(scaled(1 << 62, largest)));
-        let x = [5, 0, 0];
-        assert_eq!(times::<3, 5>(x, [7, 0]), [35, 0, 0, 0, 0]);
-        assert_eq!(times::<3, 5>(negative(x), [7, 1]), negative([35, 5, 0, 0, 0]));
-        let all = [u64::MAX, u64::MAX, u64::MAX >> 3];
-        let product: [u64; 5] = times(all, [u64::MAX, u64::MAX >> 2]);
-        assert_eq!(sign(product), Sign::Positive);
-        assert_eq!(add(product, negative(product)), [0; 5]);
-        // (2^189 - 1)(2^126 - 1) = 2^315 - 2^189 - 2^126 + 1
-        let mut expected = [1, 0, 0, 0, 1 << 59];
-        expected = add(expected, negative([0, 0, 1 << 61, 0, 0]));
-        expected = add(expected, negative([0, 1 << 62, 0, 0, 0]));
-        assert_eq!(product, expected);
+        let (z, minor) = ((1 << 61) - 1, (1_i128 << 123) - 1);
+        let largest = Three::sum([(z, minor); 3]);
+        let (high, low) = largest.carried();
+        // 3 (2^61 - 1)(2^123 - 1), whose low word is 3 (1 - 2^61).
+        assert_eq!(low, 3_u64.wrapping_mul((1_u64 << 61).wrapping_neg().wrapping_add(1)));
+        assert_eq!(high >> 119, 5);
+        let lift = (1_u128 << 124) - 1;
+        let all = |negative: bool| {
+            let mut sum = Sum([0; 5]);
+            (0..4).for_each(|_| sum.add(lift, largest, negative));
+            sum
+        };
+        assert_eq!(all(false).sign(), Sign::Positive);
+        assert_eq!(all(true).sign(), Sign::Negative);
+        let mut sum = all(false);
+        (0..4).for_each(|_| sum.add(lift, largest, true));
+        assert_eq!(sum.sign(), Sign::Zero);
+        sum = all(false);
+        (0..3).for_each(|_| sum.add(lift, largest, true));
+        sum.add(lift - 1, largest, true);
+        assert_eq!(sum.sign(), Sign::Positive);
+        sum.add(2, largest, true);
+        assert_eq!(sum.sign(), Sign::Negative);
+    }
+
+    #[test]
+    fn aligning_refuses_more_than_60_bits() {
+        assert_eq!(align(&[1.0, 2f64.powi(59)]), Some([1, 1 << 59]));
+        assert_eq!(align(&[1.0, 2f64.powi(60)]), None);
+        assert_eq!(align(&[0.0, 1e200]).map(|x| x[0]), Some(0));
+        assert_eq!(align(&[1.0, 1e-300]), None);
+        assert_eq!(align(&[f64::from_bits(1), 1.0]), None);
+        assert_eq!(align(&[0.0, -0.0]), None);
+        assert_eq!(align(&[f64::MAX, 1.0]), None);
     }
 }
