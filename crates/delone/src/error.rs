@@ -45,6 +45,9 @@ pub enum Error {
     /// Location by history forgets nothing, so nothing can be removed or moved.
     #[error("a triangulation that is located by history cannot lose vertices")]
     InsertOnly,
+    /// There is no location by history in space.
+    #[error("location by history is for the plane")]
+    OnlyInThePlane,
     /// A region has no proper border.
     #[error("ring {ring} of the region, at corner {corner}: {problem}")]
     Region {

@@ -72,6 +72,24 @@ impl Duplicate {
     }
 }
 
+/// What became of an inserted point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inserted {
+    /// It is a vertex now.
+    New(VertexId),
+    /// It equals this vertex, and nothing has changed.
+    Existing(VertexId),
+}
+
+impl Inserted {
+    /// The vertex with the point's coordinates.
+    pub fn vertex(self) -> VertexId {
+        match self {
+            Self::New(v) | Self::Existing(v) => v,
+        }
+    }
+}
+
 /// Where a vertex is kept: the index of its coordinates and of its star inside a mesh. It equals the vertex's
 /// index until a triangulation is changed; then it follows the memory, and the [`VertexId`] stays.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -42,13 +42,13 @@ pub mod plane;
 pub mod space;
 
 pub use error::{Error, RegionProblem};
-pub use ids::{Duplicate, EdgeId, FacetId, MAX_POINTS, TetrahedronId, TriangleId, VertexId};
+pub use ids::{Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, TetrahedronId, TriangleId, VertexId};
 pub use locate::tally::{Tally, Work};
 pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::tetrahedra::Mesh3;
 pub use mesh::{Dimension, Mesh};
 pub use plane::{
-    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Inserted, Location,
-    NearestSites, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
+    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Location, NearestSites,
+    Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
 };
-pub use space::{Delaunay3, Position3};
+pub use space::{Delaunay3, Location3, Position3};

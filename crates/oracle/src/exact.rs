@@ -174,3 +174,17 @@ pub fn angle(o: Point2, a: Point2, b: Point2) -> i8 {
     let p = integers(&[o, a, b]);
     sign(&(0..2).map(|k| (&p[1][k] - &p[0][k]) * (&p[2][k] - &p[0][k])).sum())
 }
+
+/// The sign of |a - q|^2 - |b - q|^2 in space.
+pub fn compare_distances3(q: Point3, a: Point3, b: Point3) -> i8 {
+    let p = integers(&[q, a, b]);
+    let squared = |i: usize| (0..3).map(|k| (&p[i][k] - &p[0][k]).pow(2)).sum::<BigInt>();
+    sign(&(squared(1) - squared(2)))
+}
+
+/// The sign of |a - q|^2 - radius^2 in space.
+pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> i8 {
+    let p = integers(&[q, a, [radius; 3]]);
+    let squared = (0..3).map(|k| (&p[1][k] - &p[0][k]).pow(2)).sum::<BigInt>();
+    sign(&(squared - p[2][0].pow(2)))
+}

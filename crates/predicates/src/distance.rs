@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::{Point2, Sign, exact};
+use crate::{Point2, Point3, Sign, exact};
 
 /// Relative error of a squared distance or a scalar product of two rounded differences, doubled for safety:
 /// two roundings of differences, one of a product, one of a sum.
@@ -59,6 +59,32 @@ pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering {
     exact::compare_with_radius(q, a, radius)
 }
 
+/// [`compare_distances`] in space.
+#[inline]
+pub fn compare_distances3(q: Point3, a: Point3, b: Point3) -> Ordering {
+    let (to_a, to_b) = (squared3(q, a), squared3(q, b));
+    let (difference, sum) = (to_a - to_b, to_a + to_b);
+    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
+        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
+    }
+    exact::compare_distances3(q, a, b)
+}
+
+/// [`compare_with_radius`] in space.
+#[inline]
+pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> Ordering {
+    if radius < 0.0 {
+        return Ordering::Greater;
+    }
+    let (distance, limit) = (squared3(q, a), radius * radius);
+    let (difference, sum) = (distance - limit, distance + limit);
+    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
+        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
+    }
+    // The radius is the distance of (radius, 0, 0) from the origin.
+    exact::compare_with_radius3(q, a, radius)
+}
+
 /// The sign of the scalar product (a - o) . (b - o): positive if the angle at `o` is acute, zero if it is right.
 ///
 /// Exact for every finite input. O(1).
@@ -83,4 +109,10 @@ pub fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
 fn squared(q: Point2, a: Point2) -> f64 {
     let (x, y) = (a[0] - q[0], a[1] - q[1]);
     x * x + y * y
+}
+
+#[inline]
+fn squared3(q: Point3, a: Point3) -> f64 {
+    let (x, y, z) = (a[0] - q[0], a[1] - q[1], a[2] - q[2]);
+    x * x + y * y + z * z
 }

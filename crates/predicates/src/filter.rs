@@ -98,6 +98,12 @@ impl Grid {
         }
         (lowest <= 200 || largest == 0.0).then(|| Self { step: power_of_two(lowest.min(200)) })
     }
+
+    /// Whether a coordinate is on the lattice too.
+    pub fn holds(&self, x: f64) -> bool {
+        let steps = x / self.step;
+        steps.abs() <= 9_007_199_254_740_992.0 && steps.fract() == 0.0
+    }
 }
 
 fn power_of_two(exponent: i32) -> f64 {

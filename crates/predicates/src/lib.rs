@@ -42,7 +42,7 @@ mod stages;
 
 pub use centre::{centre_direction, centre_side};
 pub use circumcentre::circumcentre;
-pub use distance::{angle, compare_distances, compare_with_radius};
+pub use distance::{angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3};
 pub use filter::{Filter, Filter3, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};

@@ -4,8 +4,8 @@ use delone_oracle::exact;
 use delone_oracle::generate::Random;
 use delone_predicates::{
     Filter, Filter3, Grid, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction, centre_side,
-    compare_distances, compare_with_radius, in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties,
-    lexicographic, lexicographic3, orient2d, orient3d,
+    compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
+    in_circle_with_ties, in_sphere, in_sphere_with_ties, lexicographic, lexicographic3, orient2d, orient3d,
 };
 
 /// A family of hostile tuples of four points.
@@ -357,4 +357,25 @@ fn lexicographic_order_in_space_is_total() {
             }
         }
     });
+}
+
+#[test]
+fn distances_in_space_are_exact() {
+    let mut equal = 0;
+    tuples_in_space(14, 5_000, |name, [q, a, b, d, _]| {
+        let expected = exact::compare_distances3(q, a, b);
+        assert_eq!(compare_distances3(q, a, b) as i8, expected, "{name}: {q:?} {a:?} {b:?}");
+        equal += usize::from(expected == 0);
+        for radius in [d[0], (0..3).map(|k| (a[k] - q[k]).powi(2)).sum::<f64>().sqrt()] {
+            if radius >= 0.0 && radius.is_finite() {
+                let expected = exact::compare_with_radius3(q, a, radius);
+                assert_eq!(
+                    compare_with_radius3(q, a, radius) as i8,
+                    expected,
+                    "{name}: {q:?} {a:?} {radius:?}"
+                );
+            }
+        }
+    });
+    assert!(equal > 1000, "only {equal} ties were met");
 }

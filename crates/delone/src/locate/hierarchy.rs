@@ -17,15 +17,12 @@
 //! random one of the points; O(n ratio / (ratio - 1)) memory. Insertion and removal work on all levels of a
 //! vertex, O(1) of them expected. Choose it where points come in adversarial order or many are removed.
 
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::tally::Tally;
-use super::walk::walk;
 use super::{Ground, JumpAndWalk, Level, Start, Strategy};
 use crate::error::Error;
-use crate::ids::{EdgeId, Place, TriangleId};
-use crate::mesh::Mesh;
+use crate::ids::Place;
 use crate::order::random::SplitMix;
 
 /// Parameters of the hierarchy: those of §5.4 of the paper, with its defaults.
@@ -119,9 +116,9 @@ pub(crate) struct Levels<L> {
 
 impl<L: Level> Levels<L> {
     /// Levels over all vertices that there are.
-    pub(crate) fn build<G: Ground<Point = L::Point>>(options: Hierarchy, ground: &G) -> Self {
+    pub(crate) fn build<G: Ground<Point = L::Point, Hint = L::Hint>>(options: Hierarchy, ground: &G) -> Self {
         let mut levels = Self { options, samples: Vec::new(), random: SplitMix(options.seed), last: None };
-        for v in ground.mesh().inhabited() {
+        for v in ground.inhabited() {
             levels.lift(ground, v);
         }
         levels
@@ -129,7 +126,7 @@ impl<L: Level> Levels<L> {
 
     /// The number of vertices of each level above the triangulation.
     pub(crate) fn sizes(&self) -> Vec<usize> {
-        self.samples.iter().map(|sample| sample.ground.mesh().vertex_count()).collect()
+        self.samples.iter().map(|sample| sample.ground.vertex_count()).collect()
     }
 
     /// What all levels take, given what one triangulation does.
@@ -141,15 +138,15 @@ impl<L: Level> Levels<L> {
         self.samples.iter().map(|sample| ground(&sample.ground) + links(sample)).sum()
     }
 
-    /// The number of levels from `level` on (0 is the lowest sample) that a descent to `below` goes through.
-    fn used_above(&self, level: usize, below: &Mesh) -> usize {
+    /// The number of levels from `level` on (0 is the lowest sample) that a descent to `below` vertices goes through.
+    fn used_above(&self, level: usize, below: usize) -> usize {
         let mut below = below;
         let mut count = 0;
         for sample in &self.samples[level..] {
-            if below.vertex_count() < self.options.smallest_level || !sample.ground.is_spanned() {
+            if below < self.options.smallest_level || !sample.ground.is_spanned() {
                 break;
             }
-            below = sample.ground.mesh();
+            below = sample.ground.vertex_count();
             count += 1;
         }
         count
@@ -163,7 +160,7 @@ impl<L: Level> Levels<L> {
         let mut level = from;
         loop {
             let sample = &self.samples[level - 1];
-            let v = self.nearest(&sample.ground, start, q, tally);
+            let v = sample.ground.near(start, q, self.options.exact_nearest, tally);
             let below = sample.down[v.index()];
             if level == stop {
                 return below;
@@ -174,29 +171,21 @@ impl<L: Level> Levels<L> {
     }
 
     /// Where to start in the highest level.
-    fn enter<G: Ground<Point = L::Point>, T: Tally>(&self, ground: &G, q: L::Point, tally: &mut T) -> Start {
+    fn enter<G: Ground<Point = L::Point, Hint = L::Hint>, T: Tally>(
+        &self,
+        ground: &G,
+        q: L::Point,
+        tally: &mut T,
+    ) -> Start<L::Hint> {
         let sampled = self.options.smallest_sampled;
-        if sampled.is_some_and(|least| ground.mesh().vertex_count() >= least) {
+        if sampled.is_some_and(|least| ground.vertex_count() >= least) {
             return self.options.sampling().jump(ground, q, tally).map_or(Start::Anywhere, Start::Vertex);
         }
-        let first = ground.mesh().ghost_edge;
-        if first == EdgeId::NONE { Start::Anywhere } else { Start::Vertex(ground.mesh().head(first)) }
-    }
-
-    /// The three phases at one level.
-    fn nearest<T: Tally>(&self, ground: &L, start: Start, q: L::Point, tally: &mut T) -> Place {
-        let triangle = walk(ground, start, q, tally).triangle;
-        let corners = ground.mesh().places(triangle).into_iter().filter(|v| !v.is_ghost());
-        let nearer = |a: Place, b: Place| {
-            if ground.compare_distances(q, b, a) == Ordering::Less { b } else { a }
-        };
-        let best = corners.reduce(nearer).expect("a triangle has a finite corner");
-        (0..3).for_each(|_| tally.compared());
-        if self.options.exact_nearest { search(ground, triangle, best, q, tally) } else { best }
+        ground.any_vertex().map_or(Start::Anywhere, Start::Vertex)
     }
 
     /// Gives the vertex its levels: one more with probability 1 / ratio each.
-    fn lift<G: Ground<Point = L::Point>>(&mut self, ground: &G, v: Place) {
+    fn lift<G: Ground<Point = L::Point, Hint = L::Hint>>(&mut self, ground: &G, v: Place) {
         let q = ground.point(v);
         let mut below = v;
         let highest = self.options.levels.map_or(usize::MAX, |levels| levels - 1);
@@ -220,75 +209,28 @@ impl<L: Level> Levels<L> {
     }
 
     /// Where to start looking for `q` in a sample.
-    fn start_at(&self, level: usize, q: L::Point) -> Start {
+    fn start_at(&self, level: usize, q: L::Point) -> Start<L::Hint> {
         let here = &self.samples[level].ground;
-        match self.used_above(level + 1, here.mesh()) {
+        match self.used_above(level + 1, here.vertex_count()) {
             0 => self.enter(here, q, &mut ()),
             used => Start::Vertex(self.descend(level + 1 + used, level + 2, q, &mut ())),
         }
     }
 }
 
-/// Phase 3, exactly: outwards from the triangle that contains `q`, across the edges at the nearest vertex known
-/// and across those whose nearer end sees the query and the other end at an acute angle.
-fn search<G: Ground, T: Tally>(
-    ground: &G,
-    triangle: TriangleId,
-    corner: Place,
-    q: G::Point,
-    tally: &mut T,
-) -> Place {
-    let mesh = ground.mesh();
-    let mut best = corner;
-    let mut pending: Vec<EdgeId> = [0, 1, 2]
-        .map(|k| triangle.edge(k))
-        .into_iter()
-        .filter(|&e| mesh.tail(e) == corner || mesh.head(e) == corner)
-        .collect();
-    while let Some(e) = pending.pop() {
-        let entered = mesh.twin(e);
-        let tip = mesh.tip(entered);
-        if tip.is_ghost() || mesh.tail(e).is_ghost() || mesh.head(e).is_ghost() {
-            continue;
-        }
-        tally.visited();
-        tally.compared();
-        if ground.compare_distances(q, tip, best) == Ordering::Less {
-            best = tip;
-        }
-        let corners = mesh.places(entered.triangle());
-        let nearest = corners
-            .into_iter()
-            .reduce(|a, b| if ground.compare_distances(q, b, a) == Ordering::Less { b } else { a })
-            .unwrap_or(tip);
-        for side in [entered.next(), entered.previous()] {
-            let (a, b) = (mesh.tail(side), mesh.head(side));
-            let other = match nearest {
-                w if w == a => b,
-                w if w == b => a,
-                _ => continue,
-            };
-            if ground.is_acute(nearest, q, other) {
-                pending.push(side);
-            }
-        }
-    }
-    best
-}
-
-impl<L: Level, G: Ground<Point = L::Point>> Strategy<G> for Levels<L> {
-    fn start<T: Tally>(&self, ground: &G, q: L::Point, tally: &mut T) -> Start {
-        match self.used_above(0, ground.mesh()) {
+impl<L: Level, G: Ground<Point = L::Point, Hint = L::Hint>> Strategy<G> for Levels<L> {
+    fn start<T: Tally>(&self, ground: &G, q: L::Point, tally: &mut T) -> Start<L::Hint> {
+        match self.used_above(0, ground.vertex_count()) {
             0 if self.options.smallest_sampled.is_some() => self.enter(ground, q, tally),
             0 => self
                 .last
-                .filter(|&v| ground.mesh().is_vertex(v))
+                .filter(|&v| ground.hint(v) != G::NOWHERE)
                 .map_or_else(|| self.enter(ground, q, tally), Start::Vertex),
             used => Start::Vertex(self.descend(used, 1, q, tally)),
         }
     }
 
-    fn inserted(&mut self, ground: &G, v: Place, _: Start) {
+    fn inserted(&mut self, ground: &G, v: Place, _: Start<L::Hint>) {
         self.lift(ground, v);
     }
 
@@ -300,10 +242,9 @@ impl<L: Level, G: Ground<Point = L::Point>> Strategy<G> for Levels<L> {
             sample.down[place.index()] = Place::GHOST;
             below = place;
         }
-        while self.samples.pop_if(|sample| sample.ground.mesh().vertex_count() == 0).is_some() {}
+        while self.samples.pop_if(|sample| sample.ground.vertex_count() == 0).is_some() {}
         if self.last == Some(v) {
-            let mesh = ground.mesh();
-            self.last = mesh.spokes(v).map(|e| mesh.head(e)).find(|w| !w.is_ghost());
+            self.last = ground.neighbor(v);
         }
     }
 

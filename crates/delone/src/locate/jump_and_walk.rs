@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 use super::tally::Tally;
 use super::{Ground, Start, Strategy};
 use crate::error::Error;
-use crate::ids::{EdgeId, Place};
+use crate::ids::Place;
 use crate::order::random::SplitMix;
 
 /// Parameters of jump-and-walk.
@@ -51,19 +51,18 @@ impl JumpAndWalk {
 
     /// The nearest to `q` of vertices drawn at random, with replacement.
     pub(super) fn jump<G: Ground, T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Option<Place> {
-        let mesh = ground.mesh();
-        let places = mesh.incident.len();
+        let places = ground.place_count();
         if places == 0 {
             return None;
         }
         let mix = |seed: u64, axis| SplitMix(seed ^ G::coordinate(q, axis).to_bits()).next();
         let mut random = SplitMix((0..G::DIMENSIONS).fold(self.seed, mix));
         let mut best: Option<Place> = None;
-        let mut left = self.sample_size(mesh.vertex_count(), G::DIMENSIONS);
+        let mut left = self.sample_size(ground.vertex_count(), G::DIMENSIONS);
         // Free places are skipped. Where nearly all are free, fewer draws have to do: any start is right.
         for _ in 0..16 * left {
             let v = Place::new(random.below(places));
-            if mesh.incident[v.index()] == EdgeId::NONE {
+            if ground.hint(v) == G::NOWHERE {
                 continue;
             }
             tally.compared();
@@ -80,11 +79,11 @@ impl JumpAndWalk {
 }
 
 impl<G: Ground> Strategy<G> for JumpAndWalk {
-    fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start {
+    fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint> {
         self.jump(ground, q, tally).map_or(Start::Anywhere, Start::Vertex)
     }
 
-    fn inserted(&mut self, _: &G, _: Place, _: Start) {}
+    fn inserted(&mut self, _: &G, _: Place, _: Start<G::Hint>) {}
 
     fn removing(&mut self, _: &G, _: Place) {}
 

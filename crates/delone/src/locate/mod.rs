@@ -16,6 +16,7 @@ pub(crate) mod conflict_lists;
 pub(crate) mod hierarchy;
 pub(crate) mod history;
 pub(crate) mod jump_and_walk;
+pub(crate) mod search;
 pub(crate) mod tally;
 pub(crate) mod tree;
 pub(crate) mod walk;
@@ -59,18 +60,39 @@ impl Locate {
     }
 }
 
-/// A triangulation as location sees it.
+/// A triangulation as strategies of location see it, of the plane or of space.
 pub(crate) trait Ground {
     /// A point that is looked for.
     type Point: Copy + PartialEq;
+    /// Where a walk can start: an edge in the plane, a tetrahedron in space.
+    type Hint: Copy + PartialEq;
     /// The number of coordinates.
     const DIMENSIONS: usize;
+    /// No hint.
+    const NOWHERE: Self::Hint;
 
-    /// The topology.
-    fn mesh(&self) -> &Mesh;
-
-    /// Whether there are triangles.
+    /// Whether there are triangles, or tetrahedra.
     fn is_spanned(&self) -> bool;
+
+    fn vertex_count(&self) -> usize;
+
+    /// One more than the largest place.
+    fn place_count(&self) -> usize;
+
+    /// The places in use.
+    fn inhabited(&self) -> impl Iterator<Item = Place>;
+
+    /// A hint at the vertex of a place, or [`Self::NOWHERE`].
+    fn hint(&self, v: Place) -> Self::Hint;
+
+    /// Whether a walk can start at a hint.
+    fn is_alive(&self, hint: Self::Hint) -> bool;
+
+    /// Some vertex.
+    fn any_vertex(&self) -> Option<Place>;
+
+    /// Some vertex that is joined to another one.
+    fn neighbor(&self, v: Place) -> Option<Place>;
 
     /// The point of a vertex.
     fn point(&self, v: Place) -> Self::Point;
@@ -78,21 +100,31 @@ pub(crate) trait Ground {
     /// A coordinate, for trees and hashes; no decision hangs on it.
     fn coordinate(q: Self::Point, axis: usize) -> f64;
 
+    /// Asks memory for the neighbourhood of a hint all at once; a walk would ask piece by piece, and wait each
+    /// time.
+    fn fetch_around(&self, hint: Self::Hint);
+
+    /// Compares the distances of two vertices from `q`.
+    fn compare_distances(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
+
+    /// The vertex nearest to `q`; or only the nearest corner of where a walk ends.
+    fn near<T: Tally>(&self, start: Start<Self::Hint>, q: Self::Point, exactly: bool, tally: &mut T)
+    -> Place;
+}
+
+/// A triangulation of the plane as walks see it.
+pub(crate) trait Surface: Ground<Hint = EdgeId> {
+    /// The topology.
+    fn mesh(&self) -> &Mesh;
+
     /// Asks memory for the triangle of an edge, and for its corners where they are likely to be.
     fn fetch(&self, e: EdgeId);
-
-    /// Asks memory for the neighbourhood of an edge all at once; a walk would ask piece by piece, and wait each
-    /// time.
-    fn fetch_around(&self, e: EdgeId);
 
     /// Whether `q` is strictly on the right of a finite edge: beyond it, seen from the edge's triangle.
     fn is_beyond(&self, e: EdgeId, q: Self::Point) -> bool;
 
     /// On which side of the line from `from` to `to` a vertex is: `Greater` on the left.
     fn side(&self, from: Self::Point, to: Self::Point, v: Place) -> Ordering;
-
-    /// Compares the distances of two vertices from `q`.
-    fn compare_distances(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
 
     /// Whether the angle at `w` between `q` and `x` is acute.
     fn is_acute(&self, w: Place, q: Self::Point, x: Place) -> bool;
@@ -101,7 +133,7 @@ pub(crate) trait Ground {
 /// A triangulation that changes: what a level of the hierarchy must be able to do.
 pub(crate) trait Level: Ground + Default {
     /// Makes a point a vertex, and returns its place; `start` is near it. The point is not a vertex yet.
-    fn add(&mut self, q: Self::Point, start: Start) -> Place;
+    fn add(&mut self, q: Self::Point, start: Start<Self::Hint>) -> Place;
 
     /// Removes the vertex at a place.
     fn take(&mut self, v: Place);
@@ -109,11 +141,11 @@ pub(crate) trait Level: Ground + Default {
 
 /// Where a walk starts, and which walk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Start {
-    /// At the triangle of this edge, by the walk given.
-    Edge(EdgeId, Walk),
-    /// At the triangle of this edge, which a tree has for the goal under this number.
-    Hint(EdgeId, u32),
+pub(crate) enum Start<H = EdgeId> {
+    /// Here, by the walk given.
+    At(H, Walk),
+    /// Here; a tree has this hint for the goal under this number.
+    Hint(H, u32),
     /// At this vertex, along the straight line to the goal.
     Vertex(Place),
     /// Anywhere.
@@ -123,10 +155,10 @@ pub(crate) enum Start {
 /// A strategy of location. It is told of every change.
 pub(crate) trait Strategy<G: Ground> {
     /// Where to start the walk to `q`.
-    fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start;
+    fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint>;
 
     /// A vertex has appeared, found from this start.
-    fn inserted(&mut self, ground: &G, v: Place, start: Start);
+    fn inserted(&mut self, ground: &G, v: Place, start: Start<G::Hint>);
 
     /// A vertex is about to go.
     fn removing(&mut self, ground: &G, v: Place);

@@ -16,7 +16,7 @@
 
 use super::tally::Tally;
 use super::{Ground, Start, Strategy};
-use crate::ids::{EdgeId, Place};
+use crate::ids::Place;
 
 /// Vertices a leaf, of which one is looked at.
 const LEAF: usize = 2;
@@ -36,23 +36,23 @@ struct Upper {
 /// A lowest subtree.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
-struct Lowest {
+struct Lowest<H> {
     /// As above.
     splits: [f32; LEAVES - 1],
-    /// For each leaf an edge at its vertex.
-    hints: [EdgeId; LEAVES],
+    /// For each leaf a hint at its vertex.
+    hints: [H; LEAVES],
 }
 
 /// The tree over the vertices there were when it was built. Axes alternate from level to level.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Tree {
+#[derive(Clone, Debug)]
+pub(crate) struct Tree<H> {
     /// The lines above the lowest, level by level from the root.
     upper: Vec<Upper>,
     /// How many levels of lines these are.
     height: u32,
     /// How many levels of the tree are in the line of the root: what is left when the others have three.
     root: u32,
-    lowest: Vec<Lowest>,
+    lowest: Vec<Lowest<H>>,
 }
 
 /// A node on the way down.
@@ -67,18 +67,17 @@ struct Node {
     axis: usize,
 }
 
-impl Tree {
+impl<H: Copy> Tree<H> {
     /// Builds the tree.
-    pub(crate) fn build<G: Ground>(ground: &G) -> Self {
-        let mesh = ground.mesh();
-        let sample = mesh.inhabited().step_by(LEAF);
-        let mut sample: Vec<_> = sample.map(|p| (ground.point(p), mesh.incident[p.index()])).collect();
+    pub(crate) fn build<G: Ground<Hint = H>>(ground: &G) -> Self {
+        let sample = ground.inhabited().step_by(LEAF);
+        let mut sample: Vec<_> = sample.map(|p| (ground.point(p), ground.hint(p))).collect();
         if sample.len() < LEAVES {
-            return Self::default();
+            return Self { upper: Vec::new(), height: 0, root: 0, lowest: Vec::new() };
         }
         let levels = (sample.len() / LEAVES).ilog2();
         let height = levels.div_ceil(DEPTH);
-        let lowest = Lowest { splits: [0.0; LEAVES - 1], hints: [EdgeId::NONE; LEAVES] };
+        let lowest = Lowest { splits: [0.0; LEAVES - 1], hints: [G::NOWHERE; LEAVES] };
         let mut tree = Self {
             upper: Vec::new(),
             height,
@@ -111,7 +110,7 @@ impl Tree {
     }
 
     /// Splits points, with their hints, at the medians below a node.
-    fn split<G: Ground>(&mut self, sample: &mut [(G::Point, EdgeId)], node: Node) {
+    fn split<G: Ground<Hint = H>>(&mut self, sample: &mut [(G::Point, H)], node: Node) {
         let middle = sample.len() / 2;
         if node.level > self.height {
             // Below the lowest lines: the line is the number of the leaf.
@@ -120,7 +119,7 @@ impl Tree {
             }
             return;
         }
-        let coordinate = |item: &(G::Point, EdgeId)| G::coordinate(item.0, node.axis);
+        let coordinate = |item: &(G::Point, H)| G::coordinate(item.0, node.axis);
         sample.select_nth_unstable_by(middle, |a, b| coordinate(a).total_cmp(&coordinate(b)));
         let value = coordinate(&sample[middle]);
         if node.level == self.height {
@@ -141,7 +140,7 @@ impl Tree {
 
     /// The lowest line and the leaf in it that a point belongs to.
     #[inline]
-    fn leaf<G: Ground>(&self, q: G::Point) -> (usize, usize) {
+    fn leaf<G: Ground<Hint = H>>(&self, q: G::Point) -> (usize, usize) {
         let turn = |axis: usize| if axis + 1 == G::DIMENSIONS { 0 } else { axis + 1 };
         let (mut line, mut first, mut axis) = (0, 0, 0);
         let (mut depth, mut width) = (self.root, 1);
@@ -167,14 +166,13 @@ impl Tree {
     }
 }
 
-impl<G: Ground> Strategy<G> for Tree {
+impl<G: Ground> Strategy<G> for Tree<G::Hint> {
     #[inline]
-    fn start<T: Tally>(&self, ground: &G, q: G::Point, _: &mut T) -> Start {
+    fn start<T: Tally>(&self, ground: &G, q: G::Point, _: &mut T) -> Start<G::Hint> {
         if self.lowest.is_empty() {
             return Start::Anywhere;
         }
-        let mesh = ground.mesh();
-        let alive = |hint: &EdgeId| *hint != EdgeId::NONE && mesh.is_triangle(hint.triangle());
+        let alive = |hint: &G::Hint| *hint != G::NOWHERE && ground.is_alive(*hint);
         let (line, leaf) = self.leaf::<G>(q);
         let number = (line * LEAVES + leaf) as u32;
         let hint = self.lowest[line].hints[leaf];
@@ -189,7 +187,7 @@ impl<G: Ground> Strategy<G> for Tree {
     }
 
     #[inline]
-    fn inserted(&mut self, ground: &G, v: Place, start: Start) {
+    fn inserted(&mut self, ground: &G, v: Place, start: Start<G::Hint>) {
         if self.lowest.is_empty() {
             return;
         }
@@ -197,7 +195,7 @@ impl<G: Ground> Strategy<G> for Tree {
             Start::Hint(_, number) => (number as usize / LEAVES, number as usize % LEAVES),
             _ => self.leaf::<G>(ground.point(v)),
         };
-        self.lowest[line].hints[leaf] = ground.mesh().incident[v.index()];
+        self.lowest[line].hints[leaf] = ground.hint(v);
     }
 
     fn removing(&mut self, _: &G, _: Place) {}

@@ -15,7 +15,7 @@
 use std::cmp::Ordering;
 
 use super::tally::Tally;
-use super::{Ground, Start, Strategy};
+use super::{Ground, Start, Strategy, Surface};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::Mesh;
 use crate::order::random::SplitMix;
@@ -48,15 +48,15 @@ pub(crate) struct Goal {
 
 /// Walks to `q`. The triangulation must span the plane.
 #[inline]
-pub(crate) fn walk<G: Ground, T: Tally>(ground: &G, start: Start, q: G::Point, tally: &mut T) -> Goal {
+pub(crate) fn walk<G: Surface, T: Tally>(ground: &G, start: Start, q: G::Point, tally: &mut T) -> Goal {
     let mesh = ground.mesh();
     match start {
-        Start::Edge(e, Walk::Visibility) | Start::Hint(e, _) => visibility(ground, e, q, |_| false, tally),
-        Start::Edge(e, Walk::Stochastic { seed }) => {
+        Start::At(e, Walk::Visibility) | Start::Hint(e, _) => visibility(ground, e, q, |_| false, tally),
+        Start::At(e, Walk::Stochastic { seed }) => {
             let mut random = SplitMix(seed);
             visibility(ground, e, q, move |_| random.next() & 1 == 1, tally)
         }
-        Start::Edge(e, Walk::Straight) => match mesh.tail(finite_side(mesh, e)) {
+        Start::At(e, Walk::Straight) => match mesh.tail(finite_side(mesh, e)) {
             Place::GHOST => visibility(ground, e, q, |_| false, tally),
             v => straight(ground, v, q, tally),
         },
@@ -76,7 +76,7 @@ fn finite_side(mesh: &Mesh, e: EdgeId) -> EdgeId {
 
 /// `turned` says for each triangle whether its edges are asked clockwise.
 #[inline]
-fn visibility<G: Ground, T: Tally>(
+fn visibility<G: Surface, T: Tally>(
     ground: &G,
     start: EdgeId,
     q: G::Point,
@@ -124,7 +124,7 @@ fn visibility<G: Ground, T: Tally>(
 }
 
 /// From a vertex along the segment to `q`. A vertex on the line counts as being on its right.
-fn straight<G: Ground, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut T) -> Goal {
+fn straight<G: Surface, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut T) -> Goal {
     let mesh = ground.mesh();
     let from = ground.point(v);
     let mut steps = 0;
@@ -183,22 +183,20 @@ impl FromLast {
 }
 
 impl<G: Ground> Strategy<G> for FromLast {
-    fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start {
-        let mesh = ground.mesh();
-        match self.last.map(|v| mesh.incident[v.index()]) {
-            Some(e) if e != EdgeId::NONE => Start::Edge(e, self.walk),
+    fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start<G::Hint> {
+        match self.last.map(|v| ground.hint(v)) {
+            Some(hint) if hint != G::NOWHERE => Start::At(hint, self.walk),
             _ => Start::Anywhere,
         }
     }
 
-    fn inserted(&mut self, _: &G, v: Place, _: Start) {
+    fn inserted(&mut self, _: &G, v: Place, _: Start<G::Hint>) {
         self.last = Some(v);
     }
 
     fn removing(&mut self, ground: &G, v: Place) {
         if self.last == Some(v) {
-            let mesh = ground.mesh();
-            self.last = mesh.spokes(v).map(|e| mesh.head(e)).find(|w| !w.is_ghost());
+            self.last = ground.neighbor(v);
         }
     }
 

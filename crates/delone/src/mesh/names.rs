@@ -38,6 +38,11 @@ impl Names {
         self.of.push(VertexId::GHOST);
     }
 
+    /// The number of names ever given.
+    pub(crate) fn given(&self) -> usize {
+        self.places.len()
+    }
+
     /// The vertex at a place.
     #[inline]
     pub(crate) fn of(&self, place: Place) -> VertexId {

@@ -10,6 +10,8 @@
 //!
 //! Memory: 32 bytes a tetrahedron, one byte beside it for marks, 4 bytes a place.
 
+use std::collections::BTreeSet;
+
 use super::Names;
 use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
 
@@ -177,19 +179,33 @@ impl Mesh3 {
 
     /// The tetrahedra at a place, ghosts included, into a buffer. O(d log d) for d of them.
     pub(crate) fn star(&self, place: Place, star: &mut Vec<TetrahedronId>) {
+        /// Up to so many, looking through the list is the fastest way to know whether one is in it.
+        const FEW: usize = 48;
         star.clear();
         let first = self.incident[place.index()];
         if first == TetrahedronId::NONE {
             return;
         }
-        let mut met = std::collections::BTreeSet::from([first]);
         star.push(first);
+        let mut met = BTreeSet::new();
         let mut k = 0;
         while let Some(&t) = star.get(k) {
             k += 1;
             let cell = &self.cells[t.index()];
-            for i in (0..4).filter(|&i| cell.corners[i] != place) {
-                let next = cell.across[i].tetrahedron();
+            for (corner, across) in cell.corners.into_iter().zip(cell.across) {
+                let next = across.tetrahedron();
+                if corner == place {
+                    continue;
+                }
+                if star.len() < FEW {
+                    if !star.contains(&next) {
+                        star.push(next);
+                    }
+                    continue;
+                }
+                if met.is_empty() {
+                    met.extend(star.iter().copied());
+                }
                 if met.insert(next) {
                     star.push(next);
                 }

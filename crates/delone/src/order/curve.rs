@@ -27,7 +27,7 @@ pub(crate) fn hilbert(count: usize, point: &impl Fn(u32) -> [f64; 3]) -> Vec<u32
 fn sort(keyed: &mut [(u64, u32)], point: &impl Fn(u32) -> [f64; 3]) {
     let mut pending = vec![keyed];
     while let Some(part) = pending.pop() {
-        let bits = (part.len().ilog2() / 3 + 3).min(MOST_BITS);
+        let bits = (part.len().max(1).ilog2() / 3 + 3).min(MOST_BITS);
         let Some(cells) = Cells::around(part.iter().map(|&(_, i)| point(i)), bits) else { continue };
         part.iter_mut().for_each(|(key, i)| *key = cells.key(point(*i)));
         part.sort_unstable();

@@ -9,30 +9,12 @@ use super::locate::Found;
 use super::locator::Locator;
 use super::{Delaunay2, Position2, finite};
 use crate::error::Error;
-use crate::ids::{Duplicate, MAX_POINTS, Place, VertexId};
+use crate::ids::{Duplicate, Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
 use crate::locate::{Locate, Start, Strategy, Walk};
 use crate::mesh::Names;
 use crate::order::brio;
-
-/// What became of an inserted point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Inserted {
-    /// It is a vertex now.
-    New(VertexId),
-    /// It equals this vertex, and nothing has changed.
-    Existing(VertexId),
-}
-
-impl Inserted {
-    /// The vertex with the point's coordinates.
-    pub fn vertex(self) -> VertexId {
-        match self {
-            Self::New(v) | Self::Existing(v) => v,
-        }
-    }
-}
 
 /// Room of this many places a vertex, beyond which memory is given back.
 const SLACK: usize = 8;
@@ -174,7 +156,7 @@ impl Delaunay2 {
             let (q, v) = (points[i as usize], VertexId::new(first + i as usize));
             let found = match last.and_then(|v| self.base.mesh.place(v)) {
                 Some(place) if !by_strategy && self.base.spanned => {
-                    let start = Start::Edge(self.base.mesh.incident[place.index()], Walk::Visibility);
+                    let start = Start::At(self.base.mesh.incident[place.index()], Walk::Visibility);
                     let (spot, steps) = self.base.spot(start, q, tally);
                     Found { spot, steps, start }
                 }

@@ -61,8 +61,8 @@ impl Layer {
             return (Spot::BesideLine(if side.is_positive() { e } else { mesh.twin(e) }.triangle()), 1);
         }
         let near = match start {
-            Start::Edge(e, _) | Start::Hint(e, _) if mesh.tail(e).is_ghost() => mesh.head(e),
-            Start::Edge(e, _) | Start::Hint(e, _) => mesh.tail(e),
+            Start::At(e, _) | Start::Hint(e, _) if mesh.tail(e).is_ghost() => mesh.head(e),
+            Start::At(e, _) | Start::Hint(e, _) => mesh.tail(e),
             Start::Vertex(v) => v,
             Start::Anywhere => mesh.tail(e),
         };

@@ -12,7 +12,8 @@ use super::cavity::Cavity;
 use super::remove::Hole;
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place};
-use crate::locate::{Ground, Level, Start};
+use crate::locate::tally::Tally;
+use crate::locate::{Ground, Level, Start, Surface, search};
 use crate::mesh::{Dimension, Mesh, Slots};
 use crate::order::morton::{self, Sorted};
 
@@ -105,16 +106,44 @@ impl Layer {
 
 impl Ground for Layer {
     type Point = [f64; 2];
+    type Hint = EdgeId;
     const DIMENSIONS: usize = 2;
-
-    #[inline]
-    fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
+    const NOWHERE: EdgeId = EdgeId::NONE;
 
     #[inline]
     fn is_spanned(&self) -> bool {
         self.spanned
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.mesh.vertex_count
+    }
+
+    fn place_count(&self) -> usize {
+        self.mesh.incident.len()
+    }
+
+    fn inhabited(&self) -> impl Iterator<Item = Place> {
+        self.mesh.inhabited()
+    }
+
+    #[inline]
+    fn hint(&self, v: Place) -> EdgeId {
+        self.mesh.incident[v.index()]
+    }
+
+    #[inline]
+    fn is_alive(&self, hint: EdgeId) -> bool {
+        self.mesh.is_triangle(hint.triangle())
+    }
+
+    fn any_vertex(&self) -> Option<Place> {
+        let first = self.mesh.ghost_edge;
+        (first != EdgeId::NONE).then(|| self.mesh.head(first))
+    }
+
+    fn neighbor(&self, v: Place) -> Option<Place> {
+        self.mesh.spokes(v).map(|e| self.mesh.head(e)).find(|w| !w.is_ghost())
     }
 
     #[inline]
@@ -128,14 +157,30 @@ impl Ground for Layer {
     }
 
     #[inline]
-    fn fetch(&self, e: EdgeId) {
-        fetch(&self.mesh.edges, e.index());
-        fetch(&self.points, e.triangle().index() / 2);
+    fn fetch_around(&self, e: EdgeId) {
+        self.fetch_window::<6, 3>(e.triangle().index() / 2);
     }
 
     #[inline]
-    fn fetch_around(&self, e: EdgeId) {
-        self.fetch_window::<6, 3>(e.triangle().index() / 2);
+    fn compare_distances(&self, q: [f64; 2], a: Place, b: Place) -> Ordering {
+        compare_distances(q, self.points[a.index()], self.points[b.index()])
+    }
+
+    fn near<T: Tally>(&self, start: Start, q: [f64; 2], exactly: bool, tally: &mut T) -> Place {
+        search::near(self, start, q, exactly, tally)
+    }
+}
+
+impl Surface for Layer {
+    #[inline]
+    fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    #[inline]
+    fn fetch(&self, e: EdgeId) {
+        fetch(&self.mesh.edges, e.index());
+        fetch(&self.points, e.triangle().index() / 2);
     }
 
     #[inline]
@@ -151,11 +196,6 @@ impl Ground for Layer {
             Sign::Zero => Ordering::Equal,
             Sign::Positive => Ordering::Greater,
         }
-    }
-
-    #[inline]
-    fn compare_distances(&self, q: [f64; 2], a: Place, b: Place) -> Ordering {
-        compare_distances(q, self.points[a.index()], self.points[b.index()])
     }
 
     fn is_acute(&self, w: Place, q: [f64; 2], x: Place) -> bool {

@@ -81,7 +81,7 @@ impl Delaunay2 {
     ) -> Result<Location, Error> {
         let q = finite(&q)?;
         let known = self.base.mesh.is_triangle(start);
-        let start = if known { Start::Edge(start.edge(0), walk) } else { Start::Anywhere };
+        let start = if known { Start::At(start.edge(0), walk) } else { Start::Anywhere };
         Ok(self.classify(self.base.spot(start, q, tally).0, q))
     }
 

@@ -15,7 +15,7 @@ use crate::order::random::SplitMix;
 /// The structure behind a [`Locate`].
 #[derive(Clone, Debug)]
 pub(super) enum Locator {
-    Tree(Tree),
+    Tree(Tree<EdgeId>),
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
@@ -133,7 +133,7 @@ impl Strategy<Layer> for Versions {
         let corners = self.flips.corners(self.trace(q, tally));
         let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
         match place.map(|v| layer.mesh.incident[v.index()]) {
-            Some(e) if e != EdgeId::NONE => Start::Edge(e, Walk::Visibility),
+            Some(e) if e != EdgeId::NONE => Start::At(e, Walk::Visibility),
             _ => Start::Anywhere,
         }
     }

@@ -20,7 +20,6 @@ pub mod verify;
 mod voronoi;
 
 pub use build::{Algorithm, Counters};
-pub use change::Inserted;
 pub use furthest::{EnclosingCircle, Furthest2};
 pub use hull::convex_hull;
 pub use locate::Location;

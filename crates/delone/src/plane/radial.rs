@@ -126,7 +126,7 @@ impl NearestSites {
         for &i in &order[3..] {
             let (site, q) = (Place::new(i), self.layer.points[i]);
             let nearest = self.trace(q, &mut ());
-            let start = Start::Edge(self.layer.mesh.incident[nearest.index()], Walk::Visibility);
+            let start = Start::At(self.layer.mesh.incident[nearest.index()], Walk::Visibility);
             let (spot, _) = self.layer.spot(start, q, &mut ());
             self.layer.insert_at(site, spot, &mut ());
 

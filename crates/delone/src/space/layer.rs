@@ -6,13 +6,20 @@
 //! and one apex, a point of the plane is in the sphere of a triangle and the apex exactly if it is in the circle of the
 //! triangle, ties included, because the height of the apex has no part in it.
 
-use delone_predicates::{Filter3, Grid, orient2d, orient3d};
+use std::cmp::Ordering;
 
+use delone_predicates::{Filter3, Grid, compare_distances3, orient2d, orient3d};
+
+use super::build;
 use super::cavity::Cavity;
+use super::remove::Hole;
+use crate::fetch::fetch;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
+use crate::locate::{Ground, Level, Start};
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
+use crate::order::curve;
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
@@ -20,12 +27,16 @@ pub(super) struct Layer {
     pub(super) mesh: Mesh3,
     /// For each place its coordinates.
     pub(super) points: Vec<[f64; 3]>,
+    /// Places without a point.
+    free: Vec<Place>,
     /// The box around all points, and a lattice that they are on.
     limits: Limits,
+    grid: Option<Grid>,
     pub(super) filter: Filter3,
     /// The places of scaffold points.
     pub(super) scaffold: Vec<Place>,
     pub(super) cavity: Cavity,
+    pub(super) hole: Hole,
 }
 
 /// The box around points, axis by axis.
@@ -55,6 +66,10 @@ impl Limits {
         grown
     }
 
+    fn contains(&self, p: [f64; 3]) -> bool {
+        (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k])
+    }
+
     fn extent(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| (self.high[k] - self.low[k]).max(0.0))
     }
@@ -76,18 +91,96 @@ impl Layer {
         let grid = Grid::of(points.as_flattened().iter().copied());
         let mesh = Mesh3 { incident: vec![TetrahedronId::NONE; points.len()], ..Mesh3::default() };
         let filter = Filter3::for_box(limits.extent(), grid);
-        Self { mesh, points, limits, filter, ..Self::default() }
+        Self { mesh, points, limits, grid, filter, ..Self::default() }
     }
 
-    /// Keeps a point at a new place. It is no vertex yet.
+    /// Starts anew with other points, as [`Self::new`], in the memory that there is.
+    pub(super) fn restart(&mut self, points: impl Iterator<Item = [f64; 3]>) {
+        self.points.clear();
+        self.points.extend(points);
+        self.free.clear();
+        self.limits = Limits::default();
+        self.points.iter().for_each(|&p| _ = self.limits.include(p));
+        self.grid = Grid::of(self.points.as_flattened().iter().copied());
+        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+        self.mesh.incident.clear();
+        self.mesh.incident.resize(self.points.len(), TetrahedronId::NONE);
+        self.clear_mesh();
+    }
+
+    fn clear_mesh(&mut self) {
+        self.scaffold.clear();
+        self.mesh.cells.clear();
+        self.mesh.marks.clear();
+        self.mesh.free.clear();
+        self.mesh.vertex_count = 0;
+    }
+
+    /// Keeps a point at a place. It is no vertex yet.
     pub(super) fn keep(&mut self, q: [f64; 3]) -> Place {
-        if self.limits.include(q) {
-            self.filter = Filter3::for_box(self.limits.extent(), None);
+        let fits = self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x)));
+        if !fits || self.points.is_empty() {
+            self.grid = Grid::of(q).filter(|_| self.points.is_empty());
+        }
+        if self.limits.include(q) || !fits {
+            self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+        }
+        if let Some(place) = self.free.pop() {
+            self.points[place.index()] = q;
+            return place;
         }
         self.points.push(q);
         self.mesh.incident.push(TetrahedronId::NONE);
         self.mesh.names.add_place();
         Place::new(self.points.len() - 1)
+    }
+
+    /// Gives a place back.
+    pub(super) fn free_place(&mut self, v: Place) {
+        self.mesh.incident[v.index()] = TetrahedronId::NONE;
+        self.free.push(v);
+    }
+
+    /// Triangulates all vertices, and the point at one more place, anew: they span more or less than before.
+    pub(super) fn rebuild(&mut self, more: Option<Place>) {
+        let scaffold = std::mem::take(&mut self.scaffold);
+        scaffold.into_iter().for_each(|p| self.free_place(p));
+        let vertices: Vec<Place> = self.mesh.inhabited().chain(more).collect();
+        vertices.iter().for_each(|p| self.mesh.incident[p.index()] = TetrahedronId::NONE);
+        self.clear_mesh();
+        let at = |i: u32| self.points[vertices[i as usize].index()];
+        let along = curve::hilbert(vertices.len(), &at);
+        let rounds = curve::rounds(vertices.len(), 0);
+        let order: Vec<u32> =
+            rounds.into_iter().map(|i| vertices[along[i as usize] as usize].index() as u32).collect();
+        build::build(self, &order, &mut Vec::new(), &mut ());
+    }
+
+    /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or the place of the vertex
+    /// that it equals.
+    pub(super) fn add_point<T: Tally>(
+        &mut self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        tally: &mut T,
+    ) -> Result<Place, Place> {
+        if !self.is_in_span(q) {
+            let v = self.keep(q);
+            self.rebuild(Some(v));
+            return Ok(v);
+        }
+        let t = self.walk(from, q, tally);
+        if let Some(w) = self.vertex_at(t, q) {
+            return Err(w);
+        }
+        let v = self.keep(q);
+        self.insert(v, t, tally);
+        Ok(v)
+    }
+
+    /// Some tetrahedron; there must be a vertex.
+    pub(super) fn any_cell(&self) -> TetrahedronId {
+        self.mesh.cells().next().unwrap_or(TetrahedronId::NONE)
     }
 
     /// What the vertices span.
@@ -191,8 +284,12 @@ impl Layer {
         if self.scaffold.is_empty() {
             return self.mesh.vertex_count > 0;
         }
-        let cell = self.mesh.cells().find(|&t| !self.mesh.is_ghost(t)).map(|t| self.mesh.cells[t.index()]);
-        let corners = cell.into_iter().flat_map(|cell| cell.corners).filter(|p| !self.is_scaffold(*p));
+        // Every finite tetrahedron has all of the scaffold, and as many vertices as it takes for the span.
+        let mut t = self.mesh.incident[self.scaffold[0].index()];
+        if self.mesh.is_ghost(t) {
+            t = self.mesh.twin(t.facet(3)).tetrahedron();
+        }
+        let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !self.is_scaffold(*p));
         match corners.map(|p| self.points[p.index()]).collect::<Vec<_>>()[..] {
             [a] => a == q,
             [a, b] => are_collinear(a, b, q),
@@ -227,6 +324,17 @@ impl Layer {
         self.filter.in_sphere(a, b, c, d, q).is_positive()
     }
 
+    /// The filter for the vertices and one more point.
+    #[inline]
+    fn filter_with(&self, q: [f64; 3]) -> Filter3 {
+        if self.limits.contains(q) && self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x))) {
+            return self.filter;
+        }
+        let mut limits = self.limits;
+        limits.include(q);
+        Filter3::for_box(limits.extent(), None)
+    }
+
     /// Walks to `q` from a tetrahedron: to a finite one that contains it in its inside or on its border, or else to the
     /// ghost of a hull facet that it is strictly beyond. Visibility walk, which ends in every Delaunay triangulation.
     #[inline]
@@ -236,6 +344,7 @@ impl Layer {
             t = self.mesh.twin(t.facet(3)).tetrahedron();
         }
         let mut entered = 4;
+        let filter = self.filter_with(q);
         'walk: loop {
             tally.visited();
             let cell = &self.mesh.cells[t.index()];
@@ -251,7 +360,7 @@ impl Layer {
                 }
                 tally.orientation();
                 let [i, j, l] = FACETS[k];
-                if self.filter.orient3d(points[i], points[j], points[l], q).is_negative() {
+                if filter.orient3d(points[i], points[j], points[l], q).is_negative() {
                     let across = cell.across[k];
                     (t, entered) = (across.tetrahedron(), across.corner());
                     continue 'walk;
@@ -275,5 +384,127 @@ impl Layer {
         cavity.insert(self, v, seed, tally);
         self.cavity = cavity;
         self.mesh.vertex_count += 1;
+    }
+}
+
+impl Layer {
+    /// The tetrahedron where a walk starts.
+    #[inline]
+    pub(super) fn start_cell(&self, start: Start<TetrahedronId>) -> TetrahedronId {
+        match start {
+            Start::At(t, _) | Start::Hint(t, _) => t,
+            Start::Vertex(v) => self.mesh.incident[v.index()],
+            Start::Anywhere => self.any_cell(),
+        }
+    }
+
+    /// The vertices joined to one, scaffold not counted, into a buffer. `star` is another.
+    pub(super) fn neighbors(&self, v: Place, star: &mut Vec<TetrahedronId>, joined: &mut Vec<Place>) {
+        self.mesh.star(v, star);
+        let corners = star.iter().flat_map(|t| self.mesh.cells[t.index()].corners);
+        joined.clear();
+        joined.extend(corners.filter(|&p| p != v && !p.is_ghost() && !self.is_scaffold(p)));
+        joined.sort_unstable();
+        joined.dedup();
+    }
+}
+
+impl Ground for Layer {
+    type Point = [f64; 3];
+    type Hint = TetrahedronId;
+    const DIMENSIONS: usize = 3;
+    const NOWHERE: TetrahedronId = TetrahedronId::NONE;
+
+    fn is_spanned(&self) -> bool {
+        self.dimension() == Dimension::Space
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.mesh.vertex_count
+    }
+
+    fn place_count(&self) -> usize {
+        self.mesh.incident.len()
+    }
+
+    fn inhabited(&self) -> impl Iterator<Item = Place> {
+        self.mesh.inhabited().filter(|p| !self.is_scaffold(*p))
+    }
+
+    #[inline]
+    fn hint(&self, v: Place) -> TetrahedronId {
+        self.mesh.incident[v.index()]
+    }
+
+    #[inline]
+    fn is_alive(&self, hint: TetrahedronId) -> bool {
+        self.mesh.is_cell(hint)
+    }
+
+    fn any_vertex(&self) -> Option<Place> {
+        self.inhabited().next()
+    }
+
+    fn neighbor(&self, v: Place) -> Option<Place> {
+        let corners = self.mesh.cells.get(self.mesh.incident[v.index()].index())?.corners;
+        corners.into_iter().find(|&p| p != v && !p.is_ghost() && !self.is_scaffold(p))
+    }
+
+    #[inline]
+    fn point(&self, v: Place) -> [f64; 3] {
+        self.points[v.index()]
+    }
+
+    #[inline]
+    fn coordinate(q: [f64; 3], axis: usize) -> f64 {
+        q[axis]
+    }
+
+    #[inline]
+    fn fetch_around(&self, hint: TetrahedronId) {
+        fetch(&self.mesh.cells, hint.index());
+    }
+
+    #[inline]
+    fn compare_distances(&self, q: [f64; 3], a: Place, b: Place) -> Ordering {
+        compare_distances3(q, self.points[a.index()], self.points[b.index()])
+    }
+
+    fn near<T: Tally>(
+        &self,
+        start: Start<TetrahedronId>,
+        q: [f64; 3],
+        exactly: bool,
+        tally: &mut T,
+    ) -> Place {
+        let t = self.walk(self.start_cell(start), q, tally);
+        let nearer = |a: Place, b: Place| if self.compare_distances(q, b, a).is_lt() { b } else { a };
+        let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !p.is_ghost());
+        let mut best = corners.reduce(nearer).expect("a tetrahedron has a finite corner");
+        (0..4).for_each(|_| tally.compared());
+        // Of the neighbours of a vertex that is not nearest one is nearer.
+        let (mut star, mut joined) = (Vec::new(), Vec::new());
+        while exactly {
+            self.neighbors(best, &mut star, &mut joined);
+            joined.iter().for_each(|_| tally.compared());
+            match joined.iter().copied().reduce(nearer) {
+                Some(next) if self.compare_distances(q, next, best).is_lt() => best = next,
+                _ => break,
+            }
+        }
+        best
+    }
+}
+
+impl Level for Layer {
+    fn add(&mut self, q: [f64; 3], start: Start<TetrahedronId>) -> Place {
+        let from = self.start_cell(start);
+        match self.add_point(from, q, &mut ()) {
+            Ok(place) | Err(place) => place,
+        }
+    }
+
+    fn take(&mut self, v: Place) {
+        self.remove(v, &mut ());
     }
 }

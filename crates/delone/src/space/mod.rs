@@ -2,18 +2,29 @@
 
 mod build;
 mod cavity;
+mod change;
 pub mod check;
 mod layer;
+mod locate;
+mod locator;
+mod nearest;
 mod position;
+mod remove;
 
+pub use locate::Location3;
 pub use position::Position3;
+
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
 
 use crate::error::Error;
 use crate::ids::{Duplicate, MAX_POINTS, Place, TetrahedronId, VertexId};
+use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::Mesh3;
 use layer::Layer;
+use locator::Locator;
 
 /// The Delaunay triangulation of a set of points in space.
 ///
@@ -33,9 +44,16 @@ use layer::Layer;
 #[derive(Clone, Debug, Default)]
 pub struct Delaunay3 {
     base: Layer,
-    /// Points reported as equal to a vertex, sorted.
+    /// Points reported as equal to a vertex, sorted; some may be out of date.
     duplicates: Vec<Duplicate>,
+    /// Vertices that were moved away from their duplicates.
+    moved: BTreeSet<VertexId>,
     work: Work,
+    locate: Locate,
+    /// The structure of the strategy, once it was needed.
+    locator: OnceLock<Locator>,
+    /// The number of vertices when hints were made.
+    hinted: usize,
 }
 
 impl Delaunay3 {
@@ -63,7 +81,7 @@ impl Delaunay3 {
     pub fn from_points_seeded<P: Position3>(points: &[P], seed: u64) -> Result<Self, Error> {
         check_points(points)?;
         let (base, duplicates) = build::triangulate(points, seed, &mut ());
-        Ok(Self { base, duplicates, work: Work::default() })
+        Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, ..Self::default() })
     }
 
     /// The same, and counts what it does; see [`Self::work`].
@@ -74,7 +92,7 @@ impl Delaunay3 {
         check_points(points)?;
         let mut work = Work::default();
         let (base, duplicates) = build::triangulate(points, seed, &mut work);
-        Ok(Self { base, duplicates, work })
+        Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() })
     }
 
     /// What a counted construction did.
@@ -104,7 +122,8 @@ impl Delaunay3 {
 
     /// The points that equal an earlier one which is a vertex, by increasing index.
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
-        self.duplicates.iter().copied()
+        let valid = |d: &&Duplicate| self.base.mesh.contains(d.vertex) && !self.moved.contains(&d.vertex);
+        self.duplicates.iter().filter(valid).copied()
     }
 
     /// The coordinates of a vertex.
@@ -174,15 +193,10 @@ impl Delaunay3 {
     }
 
     fn neighbors_of(&self, p: Place, star: &mut Vec<TetrahedronId>) -> Vec<Place> {
-        if self.base.is_scaffold(p) {
-            return Vec::new();
+        let mut joined = Vec::new();
+        if !self.base.is_scaffold(p) {
+            self.base.neighbors(p, star, &mut joined);
         }
-        self.base.mesh.star(p, star);
-        let corners = star.iter().flat_map(|t| self.base.mesh.cells[t.index()].corners);
-        let wanted = |q: &Place| *q != p && !q.is_ghost() && !self.base.is_scaffold(*q);
-        let mut joined: Vec<Place> = corners.filter(wanted).collect();
-        joined.sort_unstable();
-        joined.dedup();
         joined
     }
 }
@@ -198,4 +212,14 @@ fn check_points<P: Position3>(points: &[P]) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// The coordinates of a point, if they are finite.
+#[inline]
+fn finite<P: Position3>(point: &P) -> Result<[f64; 3], Error> {
+    let q = point.xyz();
+    match q.iter().position(|x| !x.is_finite()) {
+        Some(axis) => Err(Error::Coordinate { axis, value: q[axis] }),
+        None => Ok(q),
+    }
 }

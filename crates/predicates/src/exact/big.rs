@@ -96,6 +96,20 @@ pub(super) fn centre_direction(coordinates: &[f64; 6]) -> [Sign; 2] {
     [sign(&(&uu * &v[1] - &vv * &u[1])), sign(&(&vv * &u[0] - &uu * &v[0]))]
 }
 
+fn squared3(p: &[BigInt], i: usize, j: usize) -> BigInt {
+    (0..3).map(|k| &p[3 * i + k] - &p[3 * j + k]).map(|x| &x * &x).sum()
+}
+
+pub(super) fn compare_distances3(coordinates: &[f64; 9]) -> Ordering {
+    let (p, _) = integers(coordinates);
+    squared3(&p, 0, 1).cmp(&squared3(&p, 0, 2))
+}
+
+pub(super) fn compare_with_radius3(coordinates: &[f64; 9]) -> Ordering {
+    let (p, _) = integers(coordinates);
+    squared3(&p, 0, 1).cmp(&(&p[6] * &p[6]))
+}
+
 pub(super) fn orient3d(coordinates: &[f64; 12]) -> Sign {
     let (p, _) = integers(coordinates);
     let from_first = |i: usize| [0, 1, 2].map(|k| &p[3 * i + k] - &p[k]);

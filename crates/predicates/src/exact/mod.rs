@@ -58,6 +58,20 @@ pub(crate) fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering
     integers::compare_with_radius(&coordinates).unwrap_or_else(|| big::compare_with_radius(&coordinates))
 }
 
+#[cold]
+pub(crate) fn compare_distances3(q: Point3, a: Point3, b: Point3) -> Ordering {
+    let mut coordinates = [0.0; 9];
+    coordinates.copy_from_slice([q, a, b].as_flattened());
+    space::compare_distances(&coordinates).unwrap_or_else(|| big::compare_distances3(&coordinates))
+}
+
+#[cold]
+pub(crate) fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> Ordering {
+    let mut coordinates = [0.0; 9];
+    coordinates.copy_from_slice([q, a, [radius, 0.0, 0.0]].as_flattened());
+    space::compare_with_radius(&coordinates).unwrap_or_else(|| big::compare_with_radius3(&coordinates))
+}
+
 pub(crate) fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     let coordinates = [a[0], a[1], b[0], b[1], o[0], o[1]];
     integers::angle(&coordinates).unwrap_or_else(|| big::angle(&coordinates))

@@ -4,6 +4,8 @@
 //! the in-sphere determinant 312. A minor of three columns is kept as two sums, `high` 2^64 + `low`, whose parts need
 //! no carries; the determinant as five words, each gathered in 128 bits, with one carry at the end.
 
+use std::cmp::Ordering;
+
 use crate::Sign;
 
 /// The logarithm of the largest coordinate.
@@ -159,6 +161,20 @@ pub(super) fn in_sphere(coordinates: &[f64; 15]) -> Option<Sign> {
     sum.add(b.square(), Three::sum([(c.z, da), (d.z, ac), (a.z, cd)]), true);
     sum.add(c.square(), Three::sum([(d.z, ab), (a.z, bd), (b.z, da)]), false);
     Some(sum.sign())
+}
+
+/// Points q, a, b: the distance of a from q against that of b.
+pub(super) fn compare_distances(coordinates: &[f64; 9]) -> Option<Ordering> {
+    let p = align(coordinates)?;
+    let from = &p[..3];
+    Some(Vector::between(&p, from, 1).square().cmp(&Vector::between(&p, from, 2).square()))
+}
+
+/// Points q, a, (radius, 0, 0): the distance of a from q against the radius.
+pub(super) fn compare_with_radius(coordinates: &[f64; 9]) -> Option<Ordering> {
+    let p = align(coordinates)?;
+    let from = &p[..3];
+    Some(Vector::between(&p, from, 1).square().cmp(&Vector { x: p[6], y: p[7], z: p[8] }.square()))
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ pub(super) fn triangulate<T: Tally>(
             }
         };
         if layer.mesh.lone.is_none() {
-            start = Start::Edge(layer.mesh.incident[at.index()], Walk::Visibility);
+            start = Start::At(layer.mesh.incident[at.index()], Walk::Visibility);
         }
     }
     Duplicate::settle(&mut duplicates);

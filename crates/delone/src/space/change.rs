@@ -1,0 +1,159 @@
+//! Insertion, removal and motion of vertices, with their names.
+//!
+//! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again. When vertices span
+//! more or less than before, all are triangulated anew.
+
+use super::locator::Locator;
+use super::{Delaunay3, Position3, finite};
+use crate::error::Error;
+use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
+use crate::locate::tally::Tally;
+use crate::locate::{Locate, Start, Strategy};
+
+/// Below this number of vertices everything is near everything.
+const SMALL: usize = 32;
+
+impl Delaunay3 {
+    /// Inserts a point. Its id is the number of ids given before.
+    ///
+    /// Cost: location (see [`Locate`]) and O(1) expected changes for evenly spread points, 28 new tetrahedra; O(n log n)
+    /// where it leaves the line or plane of all others.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities; [`Error::TooManyPoints`] after [`MAX_POINTS`] ids. Nothing has
+    /// changed then.
+    ///
+    /// ```
+    /// use delone::{Delaunay3, Inserted};
+    ///
+    /// let mut d = Delaunay3::new();
+    /// let a = d.insert([0.0, 0.0, 0.0])?.vertex();
+    /// assert_eq!(d.insert([0.0, 0.0, 0.0])?, Inserted::Existing(a));
+    /// for p in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+    ///     d.insert(p)?;
+    /// }
+    /// assert_eq!(d.tetrahedra().count(), 1);
+    /// d.remove(a)?;
+    /// assert_eq!((d.tetrahedra().count(), d.hull().count()), (0, 1)); // a triangle
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn insert<P: Position3>(&mut self, point: P) -> Result<Inserted, Error> {
+        self.insert_counted(point, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::insert`].
+    pub fn insert_counted<P: Position3, T: Tally>(
+        &mut self,
+        point: P,
+        tally: &mut T,
+    ) -> Result<Inserted, Error> {
+        let q = finite(&point)?;
+        let name = self.base.mesh.names.given();
+        if name >= MAX_POINTS {
+            return Err(Error::TooManyPoints { count: name + 1 });
+        }
+        match self.place(q, tally) {
+            Err(there) => Ok(Inserted::Existing(self.base.mesh.name(there))),
+            Ok(place) => {
+                let v = VertexId::new(name);
+                self.base.mesh.names.reserve(1);
+                self.base.mesh.names.bind(v, place);
+                Ok(Inserted::New(v))
+            }
+        }
+    }
+
+    /// Removes a vertex. Points that were reported as its duplicates go with it.
+    ///
+    /// Cost for a star of d tetrahedra, 27 on average: O(d log d) expected; O(n log n) where the others span less.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`] if it is no vertex (any more).
+    pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
+        self.remove_counted(v, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::remove`].
+    pub fn remove_counted<T: Tally>(&mut self, v: VertexId, tally: &mut T) -> Result<(), Error> {
+        let place = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
+        self.base.mesh.names.release(v);
+        self.displace(place, tally);
+        Ok(())
+    }
+
+    /// Moves a vertex, which keeps its id.
+    ///
+    /// Cost: one insertion and one removal.
+    ///
+    /// # Errors
+    /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
+    /// Nothing has changed then.
+    pub fn move_to<P: Position3>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
+        let q = finite(&point)?;
+        let old = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
+        match self.place(q, &mut ()) {
+            Err(there) if there == old => Ok(()),
+            Err(there) => Err(Error::Occupied { vertex: self.base.mesh.name(there) }),
+            Ok(new) => {
+                self.base.mesh.names.release(v);
+                self.base.mesh.names.bind(v, new);
+                self.displace(old, &mut ());
+                if !self.duplicates.is_empty() {
+                    self.moved.insert(v);
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Makes a point a vertex without a name; or says which vertex it equals.
+    fn place<T: Tally>(&mut self, q: [f64; 3], tally: &mut T) -> Result<Place, Place> {
+        let in_span = self.base.is_in_span(q);
+        let start = if in_span { self.locator().start(&self.base, q, tally) } else { Start::Anywhere };
+        let from = self.base.start_cell(start);
+        let place = self.base.add_point(from, q, tally)?;
+        if in_span {
+            if let Some(locator) = self.locator.get_mut() {
+                locator.inserted(&self.base, place, start);
+            }
+        } else {
+            // Everything was made anew.
+            self.locator.take();
+        }
+        self.renew_hints();
+        Ok(place)
+    }
+
+    /// Removes what is at a place.
+    fn displace<T: Tally>(&mut self, place: Place, tally: &mut T) {
+        let before = self.dimension();
+        if let Some(locator) = self.locator.get_mut() {
+            locator.removing(&self.base, place);
+        }
+        self.base.remove(place, tally);
+        if self.dimension() != before {
+            self.locator.take();
+        }
+    }
+
+    /// New hints, if there are twice as many vertices as when they were made.
+    fn renew_hints(&mut self) {
+        let count = self.vertex_count();
+        if self.locate == Locate::Tree && count > 2 * self.hinted.max(SMALL) {
+            self.locator.take();
+            self.hinted = count;
+        }
+    }
+
+    /// The structure of the strategy, made at the first need.
+    #[inline]
+    pub(super) fn locator(&self) -> &Locator {
+        self.locator.get_or_init(|| Locator::build(self.locate, &self.base))
+    }
+}

@@ -1,0 +1,112 @@
+//! Where does a point fall? The answer of [`Delaunay3::locate`].
+
+use delone_predicates::orient3d;
+
+use super::locator::Locator;
+use super::{Delaunay3, Position3, finite};
+use crate::error::Error;
+use crate::ids::{FacetId, TetrahedronId, VertexId};
+use crate::locate::tally::Tally;
+use crate::locate::{Locate, Strategy};
+use crate::mesh::Dimension;
+use crate::mesh::tetrahedra::FACETS;
+
+/// Where a point of space falls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Location3 {
+    /// Strictly inside this tetrahedron.
+    Tetrahedron(TetrahedronId),
+    /// Strictly inside this facet, on one of its two sides; of coplanar points, inside this triangle.
+    Facet(FacetId),
+    /// Strictly inside the edge between these vertices.
+    Edge([VertexId; 2]),
+    /// On this vertex.
+    Vertex(VertexId),
+    /// Strictly outside of the convex hull: beyond this facet of it, seen from inside.
+    Outside(FacetId),
+    /// Outside of the hull of points that do not span space.
+    LowerDimensional(Dimension),
+}
+
+impl Delaunay3 {
+    /// Finds where a point falls. Exact.
+    ///
+    /// The first call on a triangulation built in bulk makes the structure of the strategy, O(n log n) at most;
+    /// the cost of the others is that of the strategy, see [`Locate`].
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::{Delaunay3, Location3};
+    ///
+    /// let d = Delaunay3::from_points(&[[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])?;
+    /// assert!(matches!(d.locate([1.0, 1.0, 1.0])?, Location3::Tetrahedron(_)));
+    /// assert!(matches!(d.locate([1.0, 1.0, 0.0])?, Location3::Facet(_)));
+    /// assert!(matches!(d.locate([1.0, 0.0, 0.0])?, Location3::Edge(_)));
+    /// assert!(matches!(d.locate([2.0, 2.0, 2.0])?, Location3::Outside(_)));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn locate<P: Position3>(&self, q: P) -> Result<Location3, Error> {
+        self.locate_counted(q, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::locate`].
+    pub fn locate_counted<P: Position3, T: Tally>(&self, q: P, tally: &mut T) -> Result<Location3, Error> {
+        let q = finite(&q)?;
+        if !self.base.is_in_span(q) {
+            return Ok(Location3::LowerDimensional(self.dimension()));
+        }
+        let start = self.locator().start(&self.base, q, tally);
+        let t = self.base.walk(self.base.start_cell(start), q, tally);
+        Ok(self.classify(t, q))
+    }
+
+    /// The strategy of location.
+    pub fn strategy(&self) -> Locate {
+        self.locate
+    }
+
+    /// Chooses the strategy of location; the structure is made when it is needed.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] names a parameter that is out of range; [`Error::OnlyInThePlane`] for [`Locate::History`].
+    pub fn set_strategy(&mut self, locate: Locate) -> Result<(), Error> {
+        Locator::validate(locate)?;
+        self.locate = locate;
+        self.locator.take();
+        Ok(())
+    }
+
+    fn classify(&self, t: TetrahedronId, q: [f64; 3]) -> Location3 {
+        let (layer, mesh) = (&self.base, &self.base.mesh);
+        let dimension = self.dimension();
+        if mesh.is_ghost(t) {
+            return match dimension {
+                Dimension::Space => Location3::Outside(mesh.twin(t.facet(3))),
+                _ => Location3::LowerDimensional(dimension),
+            };
+        }
+        if let Some(v) = layer.vertex_at(t, q) {
+            return Location3::Vertex(mesh.name(v));
+        }
+        let corners = mesh.cells[t.index()].corners;
+        let points = corners.map(|p| layer.points[p.index()]);
+        let is_on = |k: &usize| {
+            let [a, b, c] = FACETS[*k].map(|i| points[i]);
+            orient3d(a, b, c, q).is_zero()
+        };
+        let on: Vec<usize> = (0..4).filter(is_on).collect();
+        match on[..] {
+            [] => Location3::Tetrahedron(t),
+            [k] => Location3::Facet(t.facet(k)),
+            _ => {
+                let mut ends = (0..4).filter(|k| !on.contains(k)).map(|k| mesh.name(corners[k]));
+                Location3::Edge([(); 2].map(|()| ends.next().unwrap_or(VertexId::GHOST)))
+            }
+        }
+    }
+}

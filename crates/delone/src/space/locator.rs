@@ -1,0 +1,67 @@
+//! The strategies of location at work in space.
+
+use super::layer::Layer;
+use crate::error::Error;
+use crate::ids::{Place, TetrahedronId};
+use crate::locate::hierarchy::Levels;
+use crate::locate::tally::Tally;
+use crate::locate::tree::Tree;
+use crate::locate::walk::FromLast;
+use crate::locate::{JumpAndWalk, Locate, Start, Strategy};
+
+/// The structure behind a [`Locate`].
+#[derive(Clone, Debug)]
+pub(super) enum Locator {
+    Tree(Tree<TetrahedronId>),
+    FromLast(FromLast),
+    JumpAndWalk(JumpAndWalk),
+    Hierarchy(Box<Levels<Layer>>),
+}
+
+impl Locator {
+    /// Whether there is such a structure in space.
+    pub(super) fn validate(locate: Locate) -> Result<(), Error> {
+        if locate == Locate::History { Err(Error::OnlyInThePlane) } else { locate.validate() }
+    }
+
+    /// The structure for the vertices that there are.
+    pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
+        match locate {
+            Locate::Tree | Locate::History => Self::Tree(Tree::build(layer)),
+            Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
+            Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
+            Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+        }
+    }
+}
+
+macro_rules! each {
+    ($locator:expr, $strategy:ident => $do:expr) => {
+        match $locator {
+            Locator::Tree($strategy) => $do,
+            Locator::FromLast($strategy) => $do,
+            Locator::JumpAndWalk($strategy) => $do,
+            Locator::Hierarchy($strategy) => $do,
+        }
+    };
+}
+
+impl Strategy<Layer> for Locator {
+    #[inline]
+    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 3], tally: &mut T) -> Start<TetrahedronId> {
+        each!(self, strategy => strategy.start(layer, q, tally))
+    }
+
+    #[inline]
+    fn inserted(&mut self, layer: &Layer, v: Place, start: Start<TetrahedronId>) {
+        each!(self, strategy => strategy.inserted(layer, v, start));
+    }
+
+    fn removing(&mut self, layer: &Layer, v: Place) {
+        each!(self, strategy => strategy.removing(layer, v));
+    }
+
+    fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
+        each!(self, strategy => strategy.rearranged(layer, moved));
+    }
+}
