@@ -262,10 +262,10 @@ impl Mesh3 {
         if cells == 0 {
             return Ok(());
         }
-        // The ghost's edges are met from their finite ends alone; its link is a sphere too.
-        let ghost_degree = (of_vertex[self.incident.len()] as i64 + 4) / 2;
-        let edges = (edge_ends + ghost_degree) / 2;
-        let euler = (vertices + 1) - edges + 2 * cells - cells;
+        // V - E + F - T = 0 with F = 2 T, four times over; the edges are met from their finite ends alone, and the
+        // ghost has half as many as its tetrahedra, and two.
+        let at_ghost = of_vertex[self.incident.len()] as i64;
+        let euler = 4 * (vertices + 1) - (2 * edge_ends + at_ghost + 4) + 4 * cells;
         if euler == 0 { Ok(()) } else { Err(Flaw3::Euler(euler)) }
     }
 }

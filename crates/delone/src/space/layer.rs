@@ -1,25 +1,13 @@
 //! A triangulation of space that can change: topology, coordinates by place, static filter, and the buffers of its
 //! operations. It knows no strategy of location.
-//!
-//! Points that span less than space have the same mesh: *scaffold* points off their span make up for what is missing,
-//! three for a point, two for a line, one for a plane. What is in the span does not depend on them: with coplanar points
-//! and one apex, a point of the plane is in the sphere of a triangle and the apex exactly if it is in the circle of the
-//! triangle, ties included, because the height of the apex has no part in it.
 
-use std::cmp::Ordering;
+use delone_predicates::{Filter3, Grid};
 
-use delone_predicates::{Filter3, Grid, compare_distances3, orient2d, orient3d};
-
-use super::build;
 use super::cavity::Cavity;
 use super::remove::Hole;
-use crate::fetch::fetch;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
-use crate::locate::{Ground, Level, Start};
-use crate::mesh::Dimension;
-use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
-use crate::order::curve;
+use crate::mesh::tetrahedra::{FACETS, Mesh3};
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
@@ -54,15 +42,9 @@ impl Default for Limits {
 
 impl Limits {
     fn include(&mut self, p: [f64; 3]) -> bool {
-        let mut grown = false;
-        for k in 0..3 {
-            if p[k] < self.low[k] {
-                (self.low[k], grown) = (p[k], true);
-            }
-            if p[k] > self.high[k] {
-                (self.high[k], grown) = (p[k], true);
-            }
-        }
+        let grown = !self.contains(p);
+        self.low = [0, 1, 2].map(|k| self.low[k].min(p[k]));
+        self.high = [0, 1, 2].map(|k| self.high[k].max(p[k]));
         grown
     }
 
@@ -73,14 +55,6 @@ impl Limits {
     fn extent(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| (self.high[k] - self.low[k]).max(0.0))
     }
-}
-
-/// Whether three points are on one line.
-pub(super) fn are_collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
-    (0..3).all(|k| {
-        let [a, b, c] = [a, b, c].map(|p| [p[(k + 1) % 3], p[(k + 2) % 3]]);
-        orient2d(a, b, c).is_zero()
-    })
 }
 
 impl Layer {
@@ -108,7 +82,7 @@ impl Layer {
         self.clear_mesh();
     }
 
-    fn clear_mesh(&mut self) {
+    pub(super) fn clear_mesh(&mut self) {
         self.scaffold.clear();
         self.mesh.cells.clear();
         self.mesh.marks.clear();
@@ -141,21 +115,6 @@ impl Layer {
         self.free.push(v);
     }
 
-    /// Triangulates all vertices, and the point at one more place, anew: they span more or less than before.
-    pub(super) fn rebuild(&mut self, more: Option<Place>) {
-        let scaffold = std::mem::take(&mut self.scaffold);
-        scaffold.into_iter().for_each(|p| self.free_place(p));
-        let vertices: Vec<Place> = self.mesh.inhabited().chain(more).collect();
-        vertices.iter().for_each(|p| self.mesh.incident[p.index()] = TetrahedronId::NONE);
-        self.clear_mesh();
-        let at = |i: u32| self.points[vertices[i as usize].index()];
-        let along = curve::hilbert(vertices.len(), &at);
-        let rounds = curve::rounds(vertices.len(), 0);
-        let order: Vec<u32> =
-            rounds.into_iter().map(|i| vertices[along[i as usize] as usize].index() as u32).collect();
-        build::build(self, &order, &mut Vec::new(), &mut ());
-    }
-
     /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or the place of the vertex
     /// that it equals.
     pub(super) fn add_point<T: Tally>(
@@ -183,121 +142,6 @@ impl Layer {
         self.mesh.cells().next().unwrap_or(TetrahedronId::NONE)
     }
 
-    /// What the vertices span.
-    pub(super) fn dimension(&self) -> Dimension {
-        match (self.mesh.vertex_count, self.scaffold.len()) {
-            (0, _) => Dimension::Empty,
-            (_, 3) => Dimension::Point,
-            (_, 2) => Dimension::Line,
-            (_, 1) => Dimension::Plane,
-            _ => Dimension::Space,
-        }
-    }
-
-    pub(super) fn is_scaffold(&self, p: Place) -> bool {
-        self.scaffold.contains(&p)
-    }
-
-    /// Begins with the first of some places whose points span as much as all of them do; returns those that are
-    /// vertices now. The mesh must be empty.
-    pub(super) fn begin(&mut self, order: &[u32]) -> Vec<Place> {
-        let at = |i: u32| self.points[i as usize];
-        let Some(&a) = order.first() else { return Vec::new() };
-        let (mut corners, p) = (vec![a], at(a));
-        if let Some(&b) = order.iter().find(|&&b| at(b) != p) {
-            corners.push(b);
-            if let Some(&c) = order.iter().find(|&&c| !are_collinear(p, at(b), at(c))) {
-                corners.push(c);
-                corners.extend(order.iter().find(|&&d| !orient3d(p, at(b), at(c), at(d)).is_zero()));
-            }
-        }
-        let vertices: Vec<Place> = corners.iter().map(|&i| Place::new(i as usize)).collect();
-        let scaffold: Vec<[f64; 3]> = self.off_span(&vertices);
-        self.scaffold = scaffold.into_iter().map(|p| self.keep(p)).collect();
-        let mut four: Vec<Place> = vertices.iter().chain(&self.scaffold).copied().collect();
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.points[four[k].index()]);
-        if orient3d(a, b, c, d).is_negative() {
-            four.swap(0, 1);
-        }
-        self.mesh.vertex_count = vertices.len();
-        self.first_cells([four[0], four[1], four[2], four[3]]);
-        vertices
-    }
-
-    /// Points that make four with one to three others, which span one dimension less than they are.
-    fn off_span(&self, vertices: &[Place]) -> Vec<[f64; 3]> {
-        let at = |k: usize| self.points[vertices[k].index()];
-        let a = at(0);
-        // Away from the first point along one axis, by about the size of the whole.
-        let moved = |axis: usize| {
-            let (x, size) = (a[axis], self.limits.extent().into_iter().fold(0.0, f64::max));
-            let far = [x + size, x - size, 0.0, 1.0].into_iter().find(|y| y.is_finite() && *y != x);
-            let mut p = a;
-            p[axis] = far.unwrap_or(2.0);
-            p
-        };
-        match vertices.len() {
-            1 => [0, 1, 2].map(moved).to_vec(),
-            2 => {
-                let along = (0..3).find(|&k| at(1)[k] != a[k]).unwrap_or(0);
-                [(along + 1) % 3, (along + 2) % 3].map(moved).to_vec()
-            }
-            3 => {
-                let seen = |k: usize| {
-                    let [a, b, c] = [a, at(1), at(2)].map(|p| [p[(k + 1) % 3], p[(k + 2) % 3]]);
-                    !orient2d(a, b, c).is_zero()
-                };
-                vec![moved((0..3).find(|&k| seen(k)).unwrap_or(2))]
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    /// A tetrahedron of four places in positive order, and the ghosts around it.
-    fn first_cells(&mut self, corners: [Place; 4]) {
-        let mesh = &mut self.mesh;
-        let first = mesh.new_cell();
-        mesh.cells[first.index()] = Tetrahedron { corners, ..Tetrahedron::FREE };
-        let ghosts = [0, 1, 2, 3].map(|k| {
-            let t = mesh.new_cell();
-            // Seen from the other side.
-            let [a, b, c] = FACETS[k].map(|i| corners[i]);
-            mesh.cells[t.index()].corners = [a, c, b, Place::GHOST];
-            mesh.link(first.facet(k), t.facet(3));
-            mesh.incident[corners[k].index()] = first;
-            t
-        });
-        for (i, &t) in ghosts.iter().enumerate() {
-            for (j, &u) in ghosts.iter().enumerate().filter(|&(j, _)| j != i) {
-                // They share all but the corners i and j of the first.
-                let corner = |t: TetrahedronId, p: Place| {
-                    mesh.cells[t.index()].corners.iter().position(|&q| q == p).unwrap_or(3)
-                };
-                let (f, g) = (t.facet(corner(t, corners[j])), u.facet(corner(u, corners[i])));
-                mesh.link(f, g);
-            }
-        }
-    }
-
-    /// Whether a point is in what the vertices span.
-    pub(super) fn is_in_span(&self, q: [f64; 3]) -> bool {
-        if self.scaffold.is_empty() {
-            return self.mesh.vertex_count > 0;
-        }
-        // Every finite tetrahedron has all of the scaffold, and as many vertices as it takes for the span.
-        let mut t = self.mesh.incident[self.scaffold[0].index()];
-        if self.mesh.is_ghost(t) {
-            t = self.mesh.twin(t.facet(3)).tetrahedron();
-        }
-        let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !self.is_scaffold(*p));
-        match corners.map(|p| self.points[p.index()]).collect::<Vec<_>>()[..] {
-            [a] => a == q,
-            [a, b] => are_collinear(a, b, q),
-            [a, b, c] => orient3d(a, b, c, q).is_zero(),
-            _ => false,
-        }
-    }
-
     /// Whether the sphere of a tetrahedron contains `q`. That of a ghost is the half-space beyond its hull facet, with
     /// the inside of the facet's circle.
     #[inline]
@@ -322,6 +166,11 @@ impl Layer {
         let inner = &self.mesh.cells[cell.across[3].tetrahedron().index()];
         let [a, b, c, d] = inner.corners.map(|p| self.points[p.index()]);
         self.filter.in_sphere(a, b, c, d, q).is_positive()
+    }
+
+    /// The longest side of the box around all points.
+    pub(super) fn size(&self) -> f64 {
+        self.limits.extent().into_iter().fold(0.0, f64::max)
     }
 
     /// The filter for the vertices and one more point.
@@ -354,12 +203,11 @@ impl Layer {
             let [a, b, c, d] = cell.corners;
             let at = |p: Place| self.points[p.index()];
             let points = [at(a), at(b), at(c), at(d)];
-            for k in 0..4 {
+            for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
                 if k == entered {
                     continue;
                 }
                 tally.orientation();
-                let [i, j, l] = FACETS[k];
                 if filter.orient3d(points[i], points[j], points[l], q).is_negative() {
                     let across = cell.across[k];
                     (t, entered) = (across.tetrahedron(), across.corner());
@@ -384,127 +232,5 @@ impl Layer {
         cavity.insert(self, v, seed, tally);
         self.cavity = cavity;
         self.mesh.vertex_count += 1;
-    }
-}
-
-impl Layer {
-    /// The tetrahedron where a walk starts.
-    #[inline]
-    pub(super) fn start_cell(&self, start: Start<TetrahedronId>) -> TetrahedronId {
-        match start {
-            Start::At(t, _) | Start::Hint(t, _) => t,
-            Start::Vertex(v) => self.mesh.incident[v.index()],
-            Start::Anywhere => self.any_cell(),
-        }
-    }
-
-    /// The vertices joined to one, scaffold not counted, into a buffer. `star` is another.
-    pub(super) fn neighbors(&self, v: Place, star: &mut Vec<TetrahedronId>, joined: &mut Vec<Place>) {
-        self.mesh.star(v, star);
-        let corners = star.iter().flat_map(|t| self.mesh.cells[t.index()].corners);
-        joined.clear();
-        joined.extend(corners.filter(|&p| p != v && !p.is_ghost() && !self.is_scaffold(p)));
-        joined.sort_unstable();
-        joined.dedup();
-    }
-}
-
-impl Ground for Layer {
-    type Point = [f64; 3];
-    type Hint = TetrahedronId;
-    const DIMENSIONS: usize = 3;
-    const NOWHERE: TetrahedronId = TetrahedronId::NONE;
-
-    fn is_spanned(&self) -> bool {
-        self.dimension() == Dimension::Space
-    }
-
-    fn vertex_count(&self) -> usize {
-        self.mesh.vertex_count
-    }
-
-    fn place_count(&self) -> usize {
-        self.mesh.incident.len()
-    }
-
-    fn inhabited(&self) -> impl Iterator<Item = Place> {
-        self.mesh.inhabited().filter(|p| !self.is_scaffold(*p))
-    }
-
-    #[inline]
-    fn hint(&self, v: Place) -> TetrahedronId {
-        self.mesh.incident[v.index()]
-    }
-
-    #[inline]
-    fn is_alive(&self, hint: TetrahedronId) -> bool {
-        self.mesh.is_cell(hint)
-    }
-
-    fn any_vertex(&self) -> Option<Place> {
-        self.inhabited().next()
-    }
-
-    fn neighbor(&self, v: Place) -> Option<Place> {
-        let corners = self.mesh.cells.get(self.mesh.incident[v.index()].index())?.corners;
-        corners.into_iter().find(|&p| p != v && !p.is_ghost() && !self.is_scaffold(p))
-    }
-
-    #[inline]
-    fn point(&self, v: Place) -> [f64; 3] {
-        self.points[v.index()]
-    }
-
-    #[inline]
-    fn coordinate(q: [f64; 3], axis: usize) -> f64 {
-        q[axis]
-    }
-
-    #[inline]
-    fn fetch_around(&self, hint: TetrahedronId) {
-        fetch(&self.mesh.cells, hint.index());
-    }
-
-    #[inline]
-    fn compare_distances(&self, q: [f64; 3], a: Place, b: Place) -> Ordering {
-        compare_distances3(q, self.points[a.index()], self.points[b.index()])
-    }
-
-    fn near<T: Tally>(
-        &self,
-        start: Start<TetrahedronId>,
-        q: [f64; 3],
-        exactly: bool,
-        tally: &mut T,
-    ) -> Place {
-        let t = self.walk(self.start_cell(start), q, tally);
-        let nearer = |a: Place, b: Place| if self.compare_distances(q, b, a).is_lt() { b } else { a };
-        let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !p.is_ghost());
-        let mut best = corners.reduce(nearer).expect("a tetrahedron has a finite corner");
-        (0..4).for_each(|_| tally.compared());
-        // Of the neighbours of a vertex that is not nearest one is nearer.
-        let (mut star, mut joined) = (Vec::new(), Vec::new());
-        while exactly {
-            self.neighbors(best, &mut star, &mut joined);
-            joined.iter().for_each(|_| tally.compared());
-            match joined.iter().copied().reduce(nearer) {
-                Some(next) if self.compare_distances(q, next, best).is_lt() => best = next,
-                _ => break,
-            }
-        }
-        best
-    }
-}
-
-impl Level for Layer {
-    fn add(&mut self, q: [f64; 3], start: Start<TetrahedronId>) -> Place {
-        let from = self.start_cell(start);
-        match self.add_point(from, q, &mut ()) {
-            Ok(place) | Err(place) => place,
-        }
-    }
-
-    fn take(&mut self, v: Place) {
-        self.remove(v, &mut ());
     }
 }

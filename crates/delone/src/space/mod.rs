@@ -4,12 +4,14 @@ mod build;
 mod cavity;
 mod change;
 pub mod check;
+mod ground;
 mod layer;
 mod locate;
 mod locator;
 mod nearest;
 mod position;
 mod remove;
+mod scaffold;
 
 pub use locate::Location3;
 pub use position::Position3;

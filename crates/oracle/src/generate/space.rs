@@ -102,7 +102,7 @@ fn any_magnitude(random: &mut Random) -> f64 {
 }
 
 fn grid(n: usize, random: &mut Random) -> Vec<Point3> {
-    let side = (1..).find(|side: &usize| side.pow(3) >= n).unwrap_or(1);
+    let side = (1..=n).find(|side| side.pow(3) >= n).unwrap_or(1);
     let mut points: Vec<Point3> =
         (0..n).map(|i| [i % side, i / side % side, i / side / side].map(|x| x as f64)).collect();
     random.shuffle(&mut points);

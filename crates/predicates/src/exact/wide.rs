@@ -12,18 +12,18 @@ struct Wide<const N: usize>([u64; N]);
 
 impl<const N: usize> Wide<N> {
     fn plus(self, other: Self) -> Self {
-        let (mut sum, mut carry) = ([0; N], 0);
-        for i in 0..N {
-            let part = u128::from(self.0[i]) + u128::from(other.0[i]) + carry;
-            (sum[i], carry) = (part as u64, part >> 64);
+        let (mut sum, mut carry) = (self.0, 0);
+        for (word, more) in sum.iter_mut().zip(other.0) {
+            let part = u128::from(*word) + u128::from(more) + carry;
+            (*word, carry) = (part as u64, part >> 64);
         }
         Self(sum)
     }
 
     fn negative(self) -> Self {
-        let (mut result, mut carry) = ([0; N], true);
-        for i in 0..N {
-            (result[i], carry) = (!self.0[i]).overflowing_add(u64::from(carry));
+        let (mut result, mut carry) = (self.0, true);
+        for word in &mut result {
+            (*word, carry) = (!*word).overflowing_add(u64::from(carry));
         }
         Self(result)
     }

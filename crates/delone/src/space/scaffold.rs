@@ -1,0 +1,155 @@
+//! Points that span less than space, in the mesh of those that do.
+//!
+//! *Scaffold* points off their span make up for what is missing: three for a point, two for a line, one for a plane.
+//! What is in the span does not depend on them: with coplanar points and one apex, a point of the plane is in the
+//! sphere of a triangle and the apex exactly if it is in the circle of the triangle, ties included, because the height of
+//! the apex has no part in it. When the span changes, everything is triangulated anew.
+
+use delone_predicates::{orient2d, orient3d};
+
+use super::build;
+use super::layer::Layer;
+use crate::ids::{Place, TetrahedronId};
+use crate::mesh::Dimension;
+use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+use crate::order::curve;
+
+/// Whether three points are on one line.
+pub(super) fn are_collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
+    (0..3).all(|k| {
+        let [a, b, c] = [a, b, c].map(|p| [p[(k + 1) % 3], p[(k + 2) % 3]]);
+        orient2d(a, b, c).is_zero()
+    })
+}
+
+impl Layer {
+    /// What the vertices span.
+    pub(super) fn dimension(&self) -> Dimension {
+        match (self.mesh.vertex_count, self.scaffold.len()) {
+            (0, _) => Dimension::Empty,
+            (_, 3) => Dimension::Point,
+            (_, 2) => Dimension::Line,
+            (_, 1) => Dimension::Plane,
+            _ => Dimension::Space,
+        }
+    }
+
+    pub(super) fn is_scaffold(&self, p: Place) -> bool {
+        self.scaffold.contains(&p)
+    }
+
+    /// Begins with the first of some places whose points span as much as all of them do; returns those that are
+    /// vertices now. The mesh must be empty.
+    pub(super) fn begin(&mut self, order: &[u32]) -> Vec<Place> {
+        let at = |i: u32| self.points[i as usize];
+        let Some(&a) = order.first() else { return Vec::new() };
+        let (mut corners, p) = (vec![a], at(a));
+        if let Some(&b) = order.iter().find(|&&b| at(b) != p) {
+            corners.push(b);
+            if let Some(&c) = order.iter().find(|&&c| !are_collinear(p, at(b), at(c))) {
+                corners.push(c);
+                corners.extend(order.iter().find(|&&d| !orient3d(p, at(b), at(c), at(d)).is_zero()));
+            }
+        }
+        let vertices: Vec<Place> = corners.iter().map(|&i| Place::new(i as usize)).collect();
+        let scaffold: Vec<[f64; 3]> = self.off_span(&vertices);
+        self.scaffold = scaffold.into_iter().map(|p| self.keep(p)).collect();
+        let mut four: Vec<Place> = vertices.iter().chain(&self.scaffold).copied().collect();
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.points[four[k].index()]);
+        if orient3d(a, b, c, d).is_negative() {
+            four.swap(0, 1);
+        }
+        self.mesh.vertex_count = vertices.len();
+        self.first_cells([four[0], four[1], four[2], four[3]]);
+        vertices
+    }
+
+    /// Points that make four with one to three others, which span one dimension less than they are.
+    fn off_span(&self, vertices: &[Place]) -> Vec<[f64; 3]> {
+        let at = |k: usize| self.points[vertices[k].index()];
+        let a = at(0);
+        // Away from the first point along one axis, by about the size of the whole.
+        let moved = |axis: usize| {
+            let (x, size) = (a[axis], self.size());
+            let far = [x + size, x - size, 0.0, 1.0].into_iter().find(|y| y.is_finite() && *y != x);
+            let mut p = a;
+            p[axis] = far.unwrap_or(2.0);
+            p
+        };
+        match vertices.len() {
+            1 => [0, 1, 2].map(moved).to_vec(),
+            2 => {
+                let along = (0..3).find(|&k| at(1)[k] != a[k]).unwrap_or(0);
+                [(along + 1) % 3, (along + 2) % 3].map(moved).to_vec()
+            }
+            3 => {
+                let seen = |k: usize| {
+                    let [a, b, c] = [a, at(1), at(2)].map(|p| [p[(k + 1) % 3], p[(k + 2) % 3]]);
+                    !orient2d(a, b, c).is_zero()
+                };
+                vec![moved((0..3).find(|&k| seen(k)).unwrap_or(2))]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// A tetrahedron of four places in positive order, and the ghosts around it.
+    fn first_cells(&mut self, corners: [Place; 4]) {
+        let mesh = &mut self.mesh;
+        let first = mesh.new_cell();
+        mesh.cells[first.index()] = Tetrahedron { corners, ..Tetrahedron::FREE };
+        let ghosts = [0, 1, 2, 3].map(|k| {
+            let t = mesh.new_cell();
+            // Seen from the other side.
+            let [a, b, c] = FACETS[k].map(|i| corners[i]);
+            mesh.cells[t.index()].corners = [a, c, b, Place::GHOST];
+            mesh.link(first.facet(k), t.facet(3));
+            mesh.incident[corners[k].index()] = first;
+            t
+        });
+        for (i, &t) in ghosts.iter().enumerate() {
+            for (j, &u) in ghosts.iter().enumerate().filter(|&(j, _)| j != i) {
+                // They share all but the corners i and j of the first.
+                let corner = |t: TetrahedronId, p: Place| {
+                    mesh.cells[t.index()].corners.iter().position(|&q| q == p).unwrap_or(3)
+                };
+                let (f, g) = (t.facet(corner(t, corners[j])), u.facet(corner(u, corners[i])));
+                mesh.link(f, g);
+            }
+        }
+    }
+
+    /// Whether a point is in what the vertices span.
+    pub(super) fn is_in_span(&self, q: [f64; 3]) -> bool {
+        if self.scaffold.is_empty() {
+            return self.mesh.vertex_count > 0;
+        }
+        // Every finite tetrahedron has all of the scaffold, and as many vertices as it takes for the span.
+        let mut t = self.mesh.incident[self.scaffold[0].index()];
+        if self.mesh.is_ghost(t) {
+            t = self.mesh.twin(t.facet(3)).tetrahedron();
+        }
+        let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !self.is_scaffold(*p));
+        match corners.map(|p| self.points[p.index()]).collect::<Vec<_>>()[..] {
+            [a] => a == q,
+            [a, b] => are_collinear(a, b, q),
+            [a, b, c] => orient3d(a, b, c, q).is_zero(),
+            _ => false,
+        }
+    }
+
+    /// Triangulates all vertices, and the point at one more place, anew: they span more or less than before.
+    pub(super) fn rebuild(&mut self, more: Option<Place>) {
+        let scaffold = std::mem::take(&mut self.scaffold);
+        scaffold.into_iter().for_each(|p| self.free_place(p));
+        let vertices: Vec<Place> = self.mesh.inhabited().chain(more).collect();
+        vertices.iter().for_each(|p| self.mesh.incident[p.index()] = TetrahedronId::NONE);
+        self.clear_mesh();
+        let at = |i: u32| self.points[vertices[i as usize].index()];
+        let along = curve::hilbert(vertices.len(), &at);
+        let rounds = curve::rounds(vertices.len(), 0);
+        let order: Vec<u32> =
+            rounds.into_iter().map(|i| vertices[along[i as usize] as usize].index() as u32).collect();
+        build::build(self, &order, &mut Vec::new(), &mut ());
+    }
+}
