@@ -10,8 +10,9 @@ use delone_oracle::generate::Kind3;
 
 type Points = [[f64; 3]];
 
-/// Seconds to build, and the number of tetrahedra where points are in general position.
-type Run = Option<(f64, usize)>;
+/// Seconds to build, the number of tetrahedra where points are in general position, and seconds to remove each of the
+/// first tenth of the points.
+type Run = Option<(f64, usize, Option<f64>)>;
 
 const ENGINES: &[(&str, fn(&Points) -> Run)] = &[
     ("delone", delone),
@@ -35,23 +36,27 @@ pub fn run(name: &str, size: usize, runs: usize) -> bool {
         },
     };
     let n = points.len();
-    let mut best = vec![(f64::INFINITY, 0); ENGINES.len()];
+    let mut best = vec![(f64::INFINITY, 0, f64::INFINITY); ENGINES.len()];
     for _ in 0..runs {
         for ((_, engine), best) in ENGINES.iter().zip(&mut best) {
-            if let Some((seconds, cells)) = engine(&points) {
-                *best = (best.0.min(seconds), cells);
+            if let Some((seconds, cells, removal)) = engine(&points) {
+                *best = (best.0.min(seconds), cells, best.2.min(removal.unwrap_or(f64::INFINITY)));
             }
         }
     }
-    println!("\n{name} {n}, ns per point");
-    for ((engine, _), (seconds, cells)) in ENGINES.iter().zip(&best) {
+    println!("\n{name} {n}, ns per point: to build, and to remove a random tenth one by one");
+    for ((engine, _), (seconds, cells, removal)) in ENGINES.iter().zip(&best) {
         if seconds.is_finite() {
             let ns = seconds * 1e9 / n as f64;
-            println!("  {engine:14} {ns:>8.0} {:>6.2} x {cells:>10} tetrahedra", seconds / best[0].0);
+            print!("  {engine:14} {ns:>8.0} {:>6.2} x {cells:>10} tetrahedra", seconds / best[0].0);
+            if removal.is_finite() {
+                print!(" {:>10.0} {:>6.2} x", removal * 1e9, removal / best[0].2);
+            }
+            println!();
         }
     }
     let general = matches!(name, "cube" | "ball" | "balls" | "clusters3");
-    !general || best.iter().all(|&(seconds, cells)| !seconds.is_finite() || cells == 0 || cells == best[0].1)
+    !general || best.iter().all(|&(seconds, cells, _)| !seconds.is_finite() || cells == 0 || cells == best[0].1)
 }
 
 /// The vertices of a model in PLY, ascii or binary, as far as three doubles or floats begin each.
@@ -64,9 +69,16 @@ fn scan(path: &str) -> Option<Vec<[f64; 3]>> {
 
 fn delone(points: &Points) -> Run {
     let start = Instant::now();
-    let d = Delaunay3::from_points(points).ok()?;
+    let mut d = Delaunay3::from_points(points).ok()?;
     let seconds = start.elapsed().as_secs_f64();
-    Some((seconds, d.tetrahedra().count()))
+    let cells = d.tetrahedra().count();
+    let start = Instant::now();
+    let mut removed = 0_u32;
+    for v in d.vertices().take(points.len() / 10).collect::<Vec<_>>() {
+        d.remove(v).ok()?;
+        removed += 1;
+    }
+    Some((seconds, cells, Some(start.elapsed().as_secs_f64() / f64::from(removed.max(1)))))
 }
 
 #[cfg(cgal)]
@@ -78,15 +90,15 @@ unsafe extern "C" {
 #[cfg(cgal)]
 fn cgal_plain(points: &Points) -> Run {
     // SAFETY: the shim reads n points.
-    Some((unsafe { cgal_space_plain(points.as_ptr().cast(), points.len()) }, 0))
+    Some((unsafe { cgal_space_plain(points.as_ptr().cast(), points.len()) }, 0, None))
 }
 
 #[cfg(cgal)]
 fn cgal(points: &Points) -> Run {
     let mut seconds = [0.0; 2];
     // SAFETY: the shim reads n points and writes two times.
-    let cells = unsafe { cgal_space(points.as_ptr().cast(), points.len(), 0, seconds.as_mut_ptr()) };
-    Some((seconds[0], cells))
+    let cells = unsafe { cgal_space(points.as_ptr().cast(), points.len(), points.len() / 10, seconds.as_mut_ptr()) };
+    Some((seconds[0], cells, Some(seconds[1] / (points.len() / 10) as f64)))
 }
 
 /// Without reading and writing: what Qhull says itself.
@@ -102,5 +114,5 @@ fn qhull(points: &Points) -> Run {
     let output = child.wait_with_output().ok()?;
     let said = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
     let after = |label: &str| said.split(label).nth(1)?.split_whitespace().next().map(str::to_owned);
-    Some((after("compute hull (after input):")?.parse().ok()?, 0))
+    Some((after("compute hull (after input):")?.parse().ok()?, 0, None))
 }
