@@ -51,4 +51,4 @@ pub use plane::{
     Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Location, NearestSites,
     Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
 };
-pub use space::{Delaunay3, Location3, Position3};
+pub use space::{Algorithm3, Delaunay3, Location3, Position3};

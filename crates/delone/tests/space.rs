@@ -1,6 +1,6 @@
 //! Triangulations of space against their definition, and each other.
 
-use delone::{Delaunay3, Dimension};
+use delone::{Algorithm3, Delaunay3, Dimension, Hierarchy, Locate};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind3, Random};
 
@@ -63,8 +63,13 @@ fn large_sets_agree_across_orders() {
         assert_eq!(d.check(), Ok(()), "{}", kind.name());
         let expected = (tetrahedra(&d), d.dimension(), d.edges().count());
         Random::new(4).shuffle(&mut points);
-        for seed in [1, 2] {
-            let d = Delaunay3::from_points_seeded(&points, seed).expect("finite");
+        let hierarchy = Locate::Hierarchy(Hierarchy::default());
+        for algorithm in [
+            Algorithm3::Spatial { seed: 1 },
+            Algorithm3::Located { locate: Locate::Tree, seed: 2 },
+            Algorithm3::Located { locate: hierarchy, seed: 3 },
+        ] {
+            let d = Delaunay3::with_algorithm(&points, algorithm).expect("finite");
             assert_eq!(d.check(), Ok(()), "{}", kind.name());
             assert!((tetrahedra(&d), d.dimension(), d.edges().count()) == expected, "{}", kind.name());
         }
@@ -115,4 +120,7 @@ fn less_than_space() {
     let d = Delaunay3::from_points(&twice).expect("finite");
     let pairs: Vec<_> = d.duplicates().map(|d| (d.point, d.vertex.index())).collect();
     assert_eq!(pairs, [(2, 0), (3, 0), (4, 1)]);
+    let located = Algorithm3::Located { locate: Locate::Tree, seed: 1 };
+    let d = Delaunay3::with_algorithm(&twice, located).expect("finite");
+    assert!(d.duplicates().map(|d| (d.point, d.vertex.index())).eq(pairs));
 }

@@ -6,9 +6,10 @@
 use super::locator::Locator;
 use super::{Delaunay3, Position3, finite};
 use crate::error::Error;
-use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
+use crate::ids::{Duplicate, Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::tally::Tally;
 use crate::locate::{Locate, Start, Strategy};
+use crate::order::random::SplitMix;
 
 /// Below this number of vertices everything is near everything.
 const SMALL: usize = 32;
@@ -110,6 +111,29 @@ impl Delaunay3 {
                 Ok(())
             }
         }
+    }
+
+    /// Inserts points in random order; point i gets the name i. There is no vertex yet.
+    pub(super) fn extend_shuffled<P: Position3, T: Tally>(&mut self, points: &[P], seed: u64, tally: &mut T) {
+        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        SplitMix(seed).shuffle(&mut order);
+        self.base.mesh.names.reserve(points.len());
+        for i in order {
+            let v = VertexId::new(i as usize);
+            match self.place(points[v.index()].xyz(), tally) {
+                Ok(place) => self.base.mesh.names.bind(v, place),
+                Err(place) => {
+                    let names = &mut self.base.mesh.names;
+                    let there = names.of(place);
+                    if v < there {
+                        names.release(there);
+                        names.bind(v, place);
+                    }
+                    self.duplicates.push(Duplicate { point: v.max(there).index(), vertex: v.min(there) });
+                }
+            }
+        }
+        Duplicate::settle(&mut self.duplicates);
     }
 
     /// Makes a point a vertex without a name; or says which vertex it equals.

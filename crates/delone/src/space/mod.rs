@@ -28,6 +28,24 @@ use crate::mesh::tetrahedra::Mesh3;
 use layer::Layer;
 use locator::Locator;
 
+/// How to build a triangulation of space. The result is the same set of tetrahedra; only cost and numbering differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Algorithm3 {
+    /// Biased randomized insertion along a Hilbert curve, each point located from the one before: the fastest.
+    Spatial {
+        /// Decides the rounds.
+        seed: u64,
+    },
+    /// One by one in random order, located by a strategy.
+    Located {
+        /// The strategy.
+        locate: Locate,
+        /// Decides the order.
+        seed: u64,
+    },
+}
+
 /// The Delaunay triangulation of a set of points in space.
 ///
 /// It is a function of the set of points alone: ties of cospherical points are always broken in the same way (see
@@ -73,31 +91,34 @@ impl Delaunay3 {
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
     /// [`MAX_POINTS`].
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
-        Self::from_points_seeded(points, 0)
-    }
-
-    /// The same in an insertion order that the seed decides. The result does not depend on it.
-    ///
-    /// # Errors
-    /// As [`Self::from_points`].
-    pub fn from_points_seeded<P: Position3>(points: &[P], seed: u64) -> Result<Self, Error> {
         check_points(points)?;
-        let (base, duplicates) = build::triangulate(points, seed, &mut ());
+        let (base, duplicates) = build::triangulate(points, 0, &mut ());
         Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, ..Self::default() })
     }
 
-    /// The same, and counts what it does; see [`Self::work`].
+    /// Triangulates points with an algorithm of choice, and counts what it does; see [`Self::work`].
     ///
     /// # Errors
-    /// As [`Self::from_points`].
-    pub fn from_points_counted<P: Position3>(points: &[P], seed: u64) -> Result<Self, Error> {
+    /// As [`Self::from_points`]; [`Error::Parameter`] and [`Error::OnlyInThePlane`] as in [`Self::set_strategy`].
+    pub fn with_algorithm<P: Position3>(points: &[P], algorithm: Algorithm3) -> Result<Self, Error> {
         check_points(points)?;
         let mut work = Work::default();
-        let (base, duplicates) = build::triangulate(points, seed, &mut work);
-        Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() })
+        match algorithm {
+            Algorithm3::Spatial { seed } => {
+                let (base, duplicates) = build::triangulate(points, seed, &mut work);
+                Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() })
+            }
+            Algorithm3::Located { locate, seed } => {
+                let mut d = Self::new();
+                d.set_strategy(locate)?;
+                d.extend_shuffled(points, seed, &mut work);
+                d.work = work;
+                Ok(d)
+            }
+        }
     }
 
-    /// What a counted construction did.
+    /// What [`Self::with_algorithm`] did.
     pub fn work(&self) -> Work {
         self.work
     }
