@@ -71,6 +71,20 @@ pub(crate) struct InputArgs {
     pub(crate) stats: Option<PathBuf>,
 }
 
+/// The plane or space.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct DimArgs {
+    /// Dimension: 2 takes x and y, 3 takes z too.
+    #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
+    pub(crate) dim: u8,
+}
+
+impl DimArgs {
+    pub(crate) fn is_space(self) -> bool {
+        self.dim == 3
+    }
+}
+
 /// Triangulate points.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -78,8 +92,11 @@ pub(crate) struct InputArgs {
   delone triangulate tile.laz --class 2 -o terrain.ply -o terrain.png
   delone triangulate points.npy -o triangles.npy --check --stats stats.json
   delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
+  delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
 
-x and y are triangulated; heights are kept. Indices are those of the input points, from 0.
+x and y are triangulated; heights are kept. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
+seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
+from 0.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
@@ -91,12 +108,11 @@ pub(crate) struct TriangulateArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// Dimension: 2 triangulates x and y.
-    #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
-    pub(crate) dim: u8,
-    /// Algorithm; the triangles are the same.
-    #[arg(long, value_name = "NAME", default_value = "divide-conquer")]
-    pub(crate) algorithm: AlgorithmName,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    /// Algorithm; the result is the same [default: divide-conquer in the plane, incremental in space].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) algorithm: Option<AlgorithmName>,
     /// Point location of the incremental algorithm [default: spatial].
     #[arg(long, value_name = "NAME")]
     pub(crate) locate: Option<LocateName>,
@@ -114,7 +130,7 @@ pub(crate) struct TriangulateArgs {
 /// Bulk algorithms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AlgorithmName {
-    /// Divide and conquer in Morton order: the fastest.
+    /// Divide and conquer in Morton order: the fastest, in the plane.
     DivideConquer,
     /// One by one in random order; --locate says how points are located.
     Incremental,
@@ -180,10 +196,13 @@ pub(crate) struct QueryArgs {
   delone locate points.csv --queries queries.csv -o - --to csv --locate hierarchy
 
 Row i holds the vertices, counter-clockwise, of the triangle that contains query i; of one such triangle if the
-query is on an edge or a vertex; -1 -1 -1 if it is outside of the convex hull.")]
+query is on an edge or a vertex; -1 -1 -1 if it is outside of the convex hull. With --dim 3 likewise of a tetrahedron,
+in positive order, with four columns.")]
 pub(crate) struct LocateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
     #[command(flatten)]
     pub(crate) query: QueryArgs,
 }
@@ -199,6 +218,8 @@ distance the lexicographically smaller comes first.")]
 pub(crate) struct NearestArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
     #[command(flatten)]
     pub(crate) query: QueryArgs,
     /// How many vertices for each query.
@@ -227,9 +248,8 @@ pub(crate) struct HullArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// Dimension: 2 takes x and y.
-    #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
-    pub(crate) dim: u8,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
     /// Algorithm in space; the hull is the same.
     #[arg(long, value_name = "NAME", default_value = "quickhull")]
     pub(crate) algorithm: HullAlgorithm,
@@ -264,14 +284,14 @@ pub(crate) struct CameraArgs {
     view: Vec<f64>,
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
-    size: u32,
+    pub(crate) size: u32,
 }
 
 impl CameraArgs {
     pub(crate) fn camera(&self) -> Result<Camera, Failure> {
         match self.view[..] {
             [azimuth, elevation] if azimuth.is_finite() && (-90.0..=90.0).contains(&elevation) => {
-                Ok(Camera { size: self.size, azimuth, elevation })
+                Ok(Camera { size: self.size, azimuth, elevation, wireframe: false })
             }
             _ => Err(Failure::usage(
                 "--view takes two angles, the second from -90 to 90",
@@ -351,6 +371,8 @@ pub(crate) struct VoronoiArgs {
   ? X Y      locate; answers '? triangle A B C', '? edge A B', '? vertex A', '? outside A B' (a hull edge that
              the point is beyond) or '? nowhere' (there is no triangle, and the point is on no edge)
   @ X Y      nearest vertex; answers '@ ID' or '@ none'
+With --dim 3 points have three coordinates, and '?' answers 'tetrahedron A B C D', 'facet A B C', 'edge A B',
+'vertex A', 'outside A B C' or 'nowhere'.
 Ids count up from 0 and are never used again.
 
 Examples:
@@ -360,6 +382,8 @@ pub(crate) struct ReplayArgs {
     /// File of operations, or - for standard input.
     #[arg(value_name = "OPS")]
     pub(crate) operations: PathBuf,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
     /// Output file for the triangles at the end, in any format that meshes have; may be repeated.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
@@ -429,12 +453,15 @@ pub(crate) enum ExperimentName {
 #[command(after_help = "Examples:
   delone check points.npy triangles.npy
   delone check points.node other.1.ele
+  delone check points.npy tetrahedra.npy --dim 3
 
 Exit status: 0 Delaunay (the answer says whether canonical too), 1 not Delaunay or bad data, 2 wrong usage.")]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// File of triangles: npy ele ply obj.
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    /// File of triangles (npy ele ply obj) or of tetrahedra (npy ele).
     #[arg(value_name = "MESH")]
     pub(crate) mesh: PathBuf,
 }
@@ -471,8 +498,10 @@ pub(crate) struct GenerateArgs {
 #[command(after_help = "Examples:
   delone draw points.csv -o picture.svg
   delone draw tile.laz --class 2 -o relief.png --size 3000 --edges=no
+  delone draw model.ply --dim 3 --view 200,30 --cut 1,0,0,0.5 -o inside.png
 
-What is drawn follows from the room there is; --edges, --points and --fill decide otherwise.")]
+What is drawn follows from the room there is; --edges, --points and --fill decide otherwise. With --dim 3 the hull is
+drawn, or what a cut leaves of the tetrahedra.")]
 pub(crate) struct DrawArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -482,9 +511,16 @@ pub(crate) struct DrawArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// The longer side in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
-    pub(crate) size: u32,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+    /// In space, take away the tetrahedra whose middle is beyond the plane A x + B y + C z = D.
+    #[arg(long, value_name = "A,B,C,D", value_delimiter = ',', num_args = 1, allow_negative_numbers = true)]
+    pub(crate) cut: Vec<f64>,
+    /// In space, draw edges alone, those behind too.
+    #[arg(long)]
+    pub(crate) wireframe: bool,
     /// Draw edges.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
     pub(crate) edges: Option<Choice>,
@@ -510,6 +546,8 @@ pub(crate) enum Choice {
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
 }
 
 /// Shrink points.

@@ -7,7 +7,7 @@ use crate::args::{Choice, DrawArgs};
 use crate::message::Failure;
 use crate::progress::Phase;
 use crate::stats::Stats;
-use crate::{files, triangulate};
+use crate::{files, space, triangulate};
 
 pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &[&args.input.input])?;
@@ -19,6 +19,9 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
             "pictures are svg and png; for other files use delone triangulate",
         ));
     }
+    if args.dim.is_space() {
+        return space::draw(args, &outputs, quiet);
+    }
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
@@ -29,7 +32,7 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
     let surface = Surface { triangulation: &triangulation, heights: cloud.z.as_deref() };
     let yes = |choice: Option<Choice>| choice.map(|choice| choice == Choice::Yes);
     let options = picture::Options {
-        size: args.size,
+        size: args.camera.size,
         edges: yes(args.edges),
         points: yes(args.points),
         fill: yes(args.fill),

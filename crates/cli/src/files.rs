@@ -112,14 +112,38 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
     delone_io::read_points(source, format, &options).map_err(|error| Failure::file(&args.input, &error))
 }
 
+/// Reads the points of a command, which must have three coordinates.
+pub(crate) fn points_in_space(args: &InputArgs, quiet: bool) -> Result<Vec<[f64; 3]>, Failure> {
+    in_space(points(args, 3, quiet)?, &args.input)
+}
+
+fn in_space(cloud: Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
+    let Cloud { xy, z } = cloud;
+    match z {
+        Some(z) => Ok(xy.iter().zip(z).map(|(&[x, y], z)| [x, y, z]).collect()),
+        None if xy.is_empty() => Ok(Vec::new()),
+        None => Err(Failure::new(
+            format!("{}: the points have no third coordinate", path.display()),
+            "leave --dim 3 out, or name three columns with --columns",
+        )),
+    }
+}
+
+/// Reads points of space that are asked for.
+pub(crate) fn queries_in_space(path: &Path, quiet: bool) -> Result<Vec<[f64; 3]>, Failure> {
+    in_space(asked(path, 3, quiet)?, path)
+}
+
 /// Reads points that are asked for.
 pub(crate) fn queries(path: &Path, quiet: bool) -> Result<Vec<[f64; 2]>, Failure> {
+    Ok(asked(path, 2, quiet)?.xy)
+}
+
+fn asked(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
     let format = format(path, None, "the extension")?;
-    let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
+    let options = ReadOptions { dimension, ..ReadOptions::default() };
     let (source, _phase) = open(path, quiet)?;
-    let cloud =
-        delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))?;
-    Ok(cloud.xy)
+    delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))
 }
 
 /// Reads the rings of polygons.
@@ -142,6 +166,19 @@ pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
 
 /// Reads triangles.
 pub(crate) fn triangles(path: &Path, quiet: bool) -> Result<Vec<[u64; 3]>, Failure> {
+    simplices(path, quiet, delone_io::read_triangles)
+}
+
+/// Reads tetrahedra.
+pub(crate) fn tetrahedra(path: &Path, quiet: bool) -> Result<Vec<[u64; 4]>, Failure> {
+    simplices(path, quiet, delone_io::read_tetrahedra)
+}
+
+fn simplices<T>(
+    path: &Path,
+    quiet: bool,
+    read: fn(Box<dyn Source>, Format) -> Result<Vec<T>, delone_io::Error>,
+) -> Result<Vec<T>, Failure> {
     if is_standard(path) {
         return Err(Failure::usage(
             "triangles are not read from standard input",
@@ -150,7 +187,7 @@ pub(crate) fn triangles(path: &Path, quiet: bool) -> Result<Vec<[u64; 3]>, Failu
     }
     let format = format(path, None, "the extension")?;
     let (source, _phase) = open(path, quiet)?;
-    delone_io::read_triangles(source, format).map_err(|error| Failure::file(path, &error))
+    read(source, format).map_err(|error| Failure::file(path, &error))
 }
 
 /// Writes a file whole, or leaves what was there.

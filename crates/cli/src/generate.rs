@@ -1,6 +1,9 @@
 //! `delone generate`: named sets of points.
 
-use delone_oracle::generate::Kind;
+use std::path::PathBuf;
+
+use delone_io::Format;
+use delone_oracle::generate::{Kind, Kind3};
 
 use crate::args::GenerateArgs;
 use crate::files;
@@ -10,12 +13,18 @@ use crate::stats::Stats;
 
 pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
     if args.kind == "list" {
-        let line = |kind: &Kind| format!("{:15} {}\n", kind.name(), kind.about());
-        return answer(&Kind::ALL.iter().map(line).collect::<String>());
+        let line = |name: &str, about: &str| format!("{name:15} {about}\n");
+        let plane = Kind::ALL.iter().map(|kind| line(kind.name(), kind.about()));
+        let space = Kind3::ALL.iter().map(|kind| line(kind.name(), kind.about()));
+        return answer(&plane.chain(["\nIn space:\n".to_owned()]).chain(space).collect::<String>());
     }
-    let kind = Kind::named(&args.kind).ok_or_else(|| {
-        Failure::usage(format!("there is no set named {:?}", args.kind), "see delone generate list")
-    })?;
+    let (plane, space) = (Kind::named(&args.kind), Kind3::named(&args.kind));
+    if plane.is_none() && space.is_none() {
+        return Err(Failure::usage(
+            format!("there is no set named {:?}", args.kind),
+            "see delone generate list",
+        ));
+    }
     if args.output.is_none() {
         return Err(Failure::usage(
             "the output file is missing",
@@ -30,16 +39,31 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
     }
     let mut stats = Stats::start();
     let outputs = files::outputs(args.output.as_slice(), args.to, args.stats.as_deref(), &[])?;
+    if let Some(kind) = plane {
+        make(|| kind.points(args.n, args.seed), &outputs, &mut stats, quiet)?;
+    } else if let Some(kind) = space {
+        make(|| kind.points(args.n, args.seed), &outputs, &mut stats, quiet)?;
+    }
+    stats.phase("write");
+    stats.write(args.stats.as_deref())
+}
+
+/// Makes points of D coordinates and writes them.
+fn make<const D: usize>(
+    points: impl FnOnce() -> Vec<[f64; D]>,
+    outputs: &[(PathBuf, Format)],
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
     let points = {
         let _phase = Phase::start(quiet, "generating");
-        kind.points(args.n, args.seed)
+        points()
     };
     stats.set("points", points.len());
     stats.phase("build");
     let _phase = Phase::start(quiet, "writing");
-    for (path, format) in &outputs {
+    for (path, format) in outputs {
         files::write(path, |out| delone_io::write_points(out, *format, &points))?;
     }
-    stats.phase("write");
-    stats.write(args.stats.as_deref())
+    Ok(())
 }

@@ -16,7 +16,7 @@ pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
     let mut stats = Stats::start();
-    if args.dim == 2 {
+    if !args.dim.is_space() {
         plane(args, &outputs, &mut stats, quiet)
     } else {
         space(args, &outputs, &mut stats, quiet)
@@ -71,16 +71,9 @@ fn space(
         ));
     }
     let camera = args.camera.camera()?;
-    let cloud = files::points(&args.input, 3, quiet)?;
+    let points = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
-    stats.set("points", cloud.xy.len());
-    let Some(z) = &cloud.z else {
-        return Err(Failure::new(
-            format!("{}: the points have no third coordinate", args.input.input.display()),
-            "leave --dim 3 out, or name three columns with --columns",
-        ));
-    };
-    let points: Vec<[f64; 3]> = cloud.xy.iter().zip(z).map(|(&[x, y], &z)| [x, y, z]).collect();
+    stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
     let hull = match args.algorithm {
         HullAlgorithm::Quickhull => Hull3::of(&points),

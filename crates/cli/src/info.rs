@@ -6,9 +6,12 @@ use delone_predicates::{in_circle_with_ties, orient2d};
 use crate::args::InfoArgs;
 use crate::message::{Failure, answer};
 use crate::stats::Stats;
-use crate::{files, triangulate};
+use crate::{files, space, triangulate};
 
 pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
+    if args.dim.is_space() {
+        return space::info(args, quiet);
+    }
     files::keep_apart(&[&args.input.input], args.input.stats.as_deref())?;
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
@@ -25,8 +28,7 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
         Dimension::Empty => "nothing: there is no point",
         Dimension::Point => "a point",
         Dimension::Line => "a line: all points are collinear",
-        Dimension::Plane => "the plane",
-        Dimension::Space => "space",
+        Dimension::Plane | Dimension::Space => "the plane",
     };
     line("they span", span.to_owned());
     for (axis, values) in [("x", 0), ("y", 1)] {
@@ -83,7 +85,7 @@ fn plane(d: &Delaunay2, line: &mut impl FnMut(&str, String), stats: &mut Stats) 
     stats.set("cocircular_pairs", ties);
 }
 
-fn range(values: impl Iterator<Item = f64>) -> Option<String> {
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> Option<String> {
     let (low, high) =
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.min(low), x.max(high)));
     (low <= high).then(|| format!("{low:?} to {high:?}"))

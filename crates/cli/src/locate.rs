@@ -3,13 +3,16 @@
 use delone::{Algorithm, Delaunay2, Locate, Location, TriangleId, Work};
 
 use crate::args::{InputArgs, LocateArgs, QueryArgs};
-use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
 use crate::stats::{Stats, work_done};
 use crate::triangulate::{build, remark};
+use crate::{files, space};
 
 pub(crate) fn run(args: &LocateArgs, quiet: bool) -> Result<(), Failure> {
+    if args.dim.is_space() {
+        return space::locate(&args.input, &args.query, quiet);
+    }
     let mut work = Work::default();
     answer(&args.input, &args.query, 3, quiet, |triangulation, q, row| {
         let location = triangulation.locate_counted(q, &mut work)?;
@@ -63,7 +66,7 @@ pub(crate) fn answer(
     stats.write(input.stats.as_deref())
 }
 
-fn strategy(query: &QueryArgs) -> Result<Locate, Failure> {
+pub(crate) fn strategy(query: &QueryArgs) -> Result<Locate, Failure> {
     query.locate.strategy(query.seed).ok_or_else(|| {
         Failure::usage(
             "that strategy is for building in bulk, not for queries",

@@ -15,6 +15,7 @@ mod nearest;
 mod progress;
 mod reduce;
 mod replay;
+mod space;
 mod stats;
 mod triangulate;
 mod voronoi;

@@ -42,6 +42,8 @@ impl Failure {
                 | Error::NotAMesh(_)
                 | Error::NotCells(_)
                 | Error::NotASolid(_)
+                | Error::NotTetrahedra(_)
+                | Error::NotABody(_)
         );
         Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
     }

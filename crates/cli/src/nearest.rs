@@ -5,9 +5,13 @@ use delone::Work;
 use crate::args::NearestArgs;
 use crate::locate::answer;
 use crate::message::Failure;
+use crate::space;
 
 pub(crate) fn run(args: &NearestArgs, quiet: bool) -> Result<(), Failure> {
     let k = args.k as usize;
+    if args.dim.is_space() {
+        return space::nearest(&args.input, &args.query, k, quiet);
+    }
     let mut work = Work::default();
     answer(&args.input, &args.query, k, quiet, |triangulation, q, row| {
         let end = row.len() + k;

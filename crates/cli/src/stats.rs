@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
-use delone::{Counters, Delaunay2, Work};
+use delone::{Counters, Delaunay2, Delaunay3, Work};
 use serde_json::{Map, Value, json};
 
 use crate::files;
@@ -56,6 +56,17 @@ impl Stats {
             _ => json!({}),
         };
         self.set("counters", counters);
+    }
+
+    /// Notes what a triangulation of space has.
+    pub(crate) fn space(&mut self, d: &Delaunay3, points: usize) {
+        self.set("points", points);
+        self.set("duplicates", d.duplicates().count());
+        self.set("vertices", d.vertex_count());
+        self.set("simplices", d.tetrahedra().count());
+        self.set("hull", d.hull().count());
+        self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
+        self.set("counters", work_done(&d.work()));
     }
 
     /// Writes all of it, if a file was named.

@@ -7,19 +7,17 @@ use delone::{Algorithm, Delaunay2, Dimension};
 use delone_io::{Cloud, Surface};
 
 use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
-use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
+use crate::{files, space};
 
 pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
-    if args.dim == 3 {
-        return Err(Failure::usage(
-            "triangulation in space (--dim 3) is not available in this version",
-            "leave --dim out: x and y are triangulated and z is kept",
-        ));
+    if args.dim.is_space() {
+        return space::triangulate(args, quiet);
     }
-    if args.locate.is_some() && args.algorithm != AlgorithmName::Incremental {
+    let name = args.algorithm.unwrap_or(AlgorithmName::DivideConquer);
+    if args.locate.is_some() && name != AlgorithmName::Incremental {
         return Err(Failure::usage(
             "--locate is for the incremental algorithm",
             "add --algorithm incremental",
@@ -31,9 +29,9 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::file(path, &delone_io::Error::NotAMesh(*format)));
     }
     let mut stats = Stats::start();
-    let Cloud { xy, z } = files::points(&args.input, usize::from(args.dim), quiet)?;
+    let Cloud { xy, z } = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
-    let algorithm = match args.algorithm {
+    let algorithm = match name {
         AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
         AlgorithmName::Incremental => incremental(args.locate.unwrap_or(LocateName::Spatial), args.seed),
     };
@@ -43,7 +41,7 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         "algorithm",
         if algorithm == Algorithm::DivideAndConquer { "divide-conquer" } else { "incremental" },
     );
-    if args.algorithm == AlgorithmName::Incremental {
+    if name == AlgorithmName::Incremental {
         let locate = args.locate.unwrap_or(LocateName::Spatial).to_possible_value();
         stats.set("locate", locate.map(|value| value.get_name().to_owned()));
     }

@@ -38,6 +38,12 @@ pub enum Error {
     /// The format holds no Voronoi cells.
     #[error("Voronoi cells are not written to {0} files")]
     NotCells(Format),
+    /// The format holds no tetrahedra.
+    #[error("tetrahedra are not read from {0} files")]
+    NotTetrahedra(Format),
+    /// The format holds no triangulation of space.
+    #[error("triangulations of space are not written to {0} files")]
+    NotABody(Format),
     /// The format holds no closed surfaces.
     #[error("surfaces in space are not written to {0} files")]
     NotASolid(Format),
@@ -61,6 +67,10 @@ impl Error {
             Self::NotPoints(_) => "points: csv xyz txt npy bin node las laz ply obj geojson",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj",
             Self::NotCells(_) => "cells: geojson svg png",
+            Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele",
+            Self::NotABody(_) => {
+                "tetrahedra: npy ele neigh node vtu; their hull: ply obj stl; pictures: svg png"
+            }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
             Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",
         }

@@ -4,6 +4,7 @@
 //! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
 //! ([`Output`]), so no reader ever sees half a file.
 
+mod body;
 mod cloud;
 mod diagram;
 mod error;
@@ -13,6 +14,7 @@ mod output;
 pub mod picture;
 mod solid;
 
+pub use body::{Body, Cut, write_body};
 pub use cloud::Cloud;
 pub use diagram::Diagram;
 pub use error::Error;
@@ -62,11 +64,20 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
 pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 3]>, Error> {
     use formats::{npy, obj, ply, triangle};
     match format {
-        Format::Npy => npy::read_triangles(source),
+        Format::Npy => npy::read_simplices(source),
         Format::Ele => triangle::read_ele(source),
         Format::Ply => ply::read_triangles(source),
         Format::Obj => obj::read_triangles(source),
         _ => Err(Error::NotTriangles(format)),
+    }
+}
+
+/// Reads the tetrahedra of a mesh file as indices into its points, from 0.
+pub fn read_tetrahedra(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 4]>, Error> {
+    match format {
+        Format::Npy => formats::npy::read_simplices(source),
+        Format::Ele => formats::triangle::read_ele(source),
+        _ => Err(Error::NotTetrahedra(format)),
     }
 }
 
@@ -112,7 +123,7 @@ pub fn write_surface(out: &mut dyn std::io::Write, format: Format, surface: &Sur
     match format {
         Format::Npy => npy::write_triangles(out, surface)?,
         Format::Node => triangle::write_node(out, surface)?,
-        Format::Ele => triangle::write_ele(out, surface)?,
+        Format::Ele => triangle::write_ele(out, surface.triangles())?,
         Format::Neigh => triangle::write_neigh(out, surface)?,
         Format::Edge => triangle::write_edge(out, surface)?,
         Format::Ply => ply::write(out, surface)?,
@@ -152,8 +163,12 @@ pub fn write_diagram(
     Ok(())
 }
 
-/// Writes bare points.
-pub fn write_points(out: &mut dyn std::io::Write, format: Format, points: &[[f64; 2]]) -> Result<(), Error> {
+/// Writes bare points of the plane (D = 2) or of space (D = 3).
+pub fn write_points<const D: usize>(
+    out: &mut dyn std::io::Write,
+    format: Format,
+    points: &[[f64; D]],
+) -> Result<(), Error> {
     use formats::{geojson, npy, obj, ply, raw, text, triangle};
     match format {
         Format::Text => text::write(out, points)?,

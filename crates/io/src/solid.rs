@@ -13,6 +13,8 @@ pub struct Solid {
     pub points: Vec<[f64; 3]>,
     /// The faces as indices of corners, counter-clockwise seen from outside.
     pub faces: Vec<Vec<usize>>,
+    /// For each face whether a cut has laid it open; none is, if this is empty.
+    pub laid_open: Vec<bool>,
 }
 
 impl Solid {
@@ -23,6 +25,7 @@ impl Solid {
         Self {
             points: hull.corners().iter().map(|&i| points[i]).collect(),
             faces: faces.map(|face| face.iter().map(place).collect()).collect(),
+            laid_open: Vec::new(),
         }
     }
 }

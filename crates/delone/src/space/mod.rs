@@ -215,6 +215,15 @@ impl Delaunay3 {
         joined.unwrap_or_default().into_iter().map(|p| self.base.mesh.name(p))
     }
 
+    /// The tetrahedra at a vertex, ghosts included, in no special order; none for an id that is no vertex.
+    pub fn tetrahedra_at(&self, v: VertexId) -> Vec<TetrahedronId> {
+        let mut star = Vec::new();
+        if let Some(place) = self.base.mesh.place(v) {
+            self.base.mesh.star(place, &mut star);
+        }
+        star
+    }
+
     fn neighbors_of(&self, p: Place, star: &mut Vec<TetrahedronId>) -> Vec<Place> {
         let mut joined = Vec::new();
         if !self.base.is_scaffold(p) {

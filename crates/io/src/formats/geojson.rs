@@ -131,11 +131,14 @@ pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
     writeln!(out, "\n]}}")
 }
 
-pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
+pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
     write!(out, "{{\"type\":\"MultiPoint\",\"coordinates\":[")?;
-    for (i, [x, y]) in points.iter().enumerate() {
-        let separator = if i == 0 { "" } else { "," };
-        write!(out, "{separator}\n[{x:?},{y:?}]")?;
+    for (i, p) in points.iter().enumerate() {
+        write!(out, "{}\n[", if i == 0 { "" } else { "," })?;
+        for (k, x) in p.iter().enumerate() {
+            write!(out, "{}{x:?}", if k > 0 { "," } else { "" })?;
+        }
+        write!(out, "]")?;
     }
     writeln!(out, "\n]}}")
 }

@@ -11,3 +11,8 @@ pub(crate) mod stl;
 pub(crate) mod text;
 pub(crate) mod triangle;
 pub(crate) mod vtu;
+
+/// A point of the plane or of space, in space.
+fn in_space<const D: usize>(p: &[f64; D]) -> [f64; 3] {
+    [0, 1, 2].map(|k| p.get(k).copied().unwrap_or_default())
+}

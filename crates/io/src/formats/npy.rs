@@ -62,9 +62,10 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     Ok(cloud)
 }
 
-pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> {
+/// Reads rows of N indices.
+pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
     let file = open(source)?;
-    let [rows, _] = shape(&file, &[3], "(t, 3)")?;
+    let [rows, _] = shape(&file, &[N as u64], &format!("(t, {N})"))?;
     let (found, order) = (type_name(&file), file.order());
     let values: Vec<i128> = match found.trim_start_matches(['<', '>', '|', '=']) {
         "i4" => integers(file.data::<i32>())?,
@@ -77,10 +78,10 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
         return Err(Error::content(format!("the array has the negative index {negative}")));
     }
     let at = |row: usize, k: usize| match order {
-        Order::C => values[3 * row + k] as u64,
+        Order::C => values[N * row + k] as u64,
         Order::Fortran => values[k * rows + row] as u64,
     };
-    Ok((0..rows).map(|row| [0, 1, 2].map(|k| at(row, k))).collect())
+    Ok((0..rows).map(|row| std::array::from_fn(|k| at(row, k))).collect())
 }
 
 fn integers<T: Into<i128>, E: std::fmt::Display>(
@@ -102,8 +103,8 @@ pub(crate) fn write_triangles(out: &mut dyn Write, surface: &Surface) -> io::Res
     writer.finish()
 }
 
-pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
-    let shape = [points.len() as u64, 2];
+pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+    let shape = [points.len() as u64, D as u64];
     let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
     writer.extend(points.as_flattened().iter().copied())?;
     writer.finish()

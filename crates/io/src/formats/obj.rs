@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use super::in_space;
 use super::lines::{Line, Lines};
 use crate::{Cloud, Error, Shape, Source};
 
@@ -58,6 +59,6 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     Ok(())
 }
 
-pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
-    points.iter().try_for_each(|[x, y]| writeln!(out, "v {x:?} {y:?} 0"))
+pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+    points.iter().map(in_space).try_for_each(|[x, y, z]| writeln!(out, "v {x:?} {y:?} {z:?}"))
 }

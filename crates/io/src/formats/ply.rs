@@ -5,6 +5,7 @@ use std::io::{self, BufRead, Write};
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{DefaultElement, ElementDef, Property, PropertyAccess, PropertyAccessResult};
 
+use super::in_space;
 use crate::{Cloud, Error, Shape, Source};
 
 struct Vertex([f64; 3]);
@@ -136,9 +137,9 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     Ok(())
 }
 
-pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
+pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
     header(out, points.len(), None)?;
-    points.iter().try_for_each(|&[x, y]| write_position(out, [x, y, 0.0]))
+    points.iter().try_for_each(|p| write_position(out, in_space(p)))
 }
 
 fn header(out: &mut dyn Write, points: usize, faces: Option<usize>) -> io::Result<()> {

@@ -27,6 +27,6 @@ pub(crate) fn read(mut source: Box<dyn Source>, dimension: usize) -> Result<Clou
     }
 }
 
-pub(crate) fn write(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
+pub(crate) fn write<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
     points.as_flattened().iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))
 }

@@ -109,10 +109,13 @@ impl Separator {
     }
 }
 
-pub(crate) fn write(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
-    writeln!(out, "x,y")?;
-    for [x, y] in points {
-        writeln!(out, "{x:?},{y:?}")?;
+pub(crate) fn write<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+    writeln!(out, "{}", ["x", "y", "z"][..D].join(","))?;
+    for p in points {
+        for (k, x) in p.iter().enumerate() {
+            write!(out, "{}{x:?}", if k > 0 { "," } else { "" })?;
+        }
+        writeln!(out)?;
     }
     Ok(())
 }

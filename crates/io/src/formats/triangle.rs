@@ -39,18 +39,22 @@ pub(crate) fn read_node(source: Box<dyn Source>) -> Result<Cloud, Error> {
 
 /// Triangles: `count corners attributes`, then `index a b c ...` each. The first index tells whether the file
 /// counts from 0 or from 1.
-pub(crate) fn read_ele(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> {
+pub(crate) fn read_ele<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
     let mut lines = Lines::new(source);
     let Some(line) = lines.next()? else {
         return Err(Error::content("the file has no header line"));
     };
     let mut words = line.text.split_whitespace();
-    let count: usize = line.number(words.next(), "the number of triangles")?;
+    let count: usize = line.number(words.next(), "the number of simplices")?;
+    let corners: usize = line.number(words.next(), "the corners of each")?;
+    if corners < N {
+        return Err(line.error(format!("simplices of {corners} corners, not {N}")));
+    }
     let mut triangles = Vec::new();
     let mut base = 0;
     for i in 0..count {
         let Some(line) = lines.next()? else {
-            return Err(Error::Truncated(format!("after {i} of {count} triangles")));
+            return Err(Error::Truncated(format!("after {i} of {count} simplices")));
         };
         let mut words = line.text.split_whitespace();
         let index: u64 = line.number(words.next(), "the index")?;
@@ -61,7 +65,11 @@ pub(crate) fn read_ele(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> 
             let corner: u64 = line.number(words.next(), "a corner")?;
             corner.checked_sub(base).ok_or_else(|| line.error("corner 0 in a file that counts from 1"))
         };
-        triangles.push([corner()?, corner()?, corner()?]);
+        let mut corners = [0; N];
+        for slot in &mut corners {
+            *slot = corner()?;
+        }
+        triangles.push(corners);
     }
     Ok(triangles)
 }
@@ -79,18 +87,27 @@ pub(crate) fn write_node(out: &mut dyn Write, surface: &Surface) -> io::Result<(
     Ok(())
 }
 
-pub(crate) fn write_points(out: &mut dyn Write, points: &[[f64; 2]]) -> io::Result<()> {
-    writeln!(out, "{} 2 0 0", points.len())?;
-    for (i, [x, y]) in points.iter().enumerate() {
-        writeln!(out, "{i} {x:?} {y:?}")?;
+pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+    writeln!(out, "{} {D} 0 0", points.len())?;
+    for (i, p) in points.iter().enumerate() {
+        write!(out, "{i}")?;
+        p.iter().try_for_each(|x| write!(out, " {x:?}"))?;
+        writeln!(out)?;
     }
     Ok(())
 }
 
-pub(crate) fn write_ele(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    writeln!(out, "{} 3 0", surface.triangles().count())?;
-    for (i, [a, b, c]) in surface.triangles().enumerate() {
-        writeln!(out, "{i} {a} {b} {c}")?;
+/// Writes simplices of N corners, numbered.
+pub(crate) fn write_ele<const N: usize>(
+    out: &mut dyn Write,
+    simplices: impl Iterator<Item = [usize; N]>,
+) -> io::Result<()> {
+    let simplices: Vec<[usize; N]> = simplices.collect();
+    writeln!(out, "{} {N} 0", simplices.len())?;
+    for (i, corners) in simplices.iter().enumerate() {
+        write!(out, "{i}")?;
+        corners.iter().try_for_each(|corner| write!(out, " {corner}"))?;
+        writeln!(out)?;
     }
     Ok(())
 }

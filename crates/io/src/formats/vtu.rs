@@ -4,13 +4,24 @@ use std::io::{self, Write};
 
 use crate::Shape;
 
-/// VTK's number for a triangle.
-const TRIANGLE: u8 = 5;
+/// VTK's numbers for a triangle and for a tetrahedron.
+const KINDS: [(usize, u8); 2] = [(3, 5), (4, 10)];
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
-    let (points, cells) = (shape.positions().count(), shape.triangles().count());
+    write_cells(out, shape, shape.triangles())
+}
+
+/// Writes cells of N corners.
+pub(crate) fn write_cells<const N: usize>(
+    out: &mut dyn Write,
+    shape: &impl Shape,
+    simplices: impl Iterator<Item = [usize; N]>,
+) -> io::Result<()> {
+    let simplices: Vec<[usize; N]> = simplices.collect();
+    let (points, cells) = (shape.positions().count(), simplices.len());
+    let kind = KINDS.into_iter().find(|kind| kind.0 == N).map_or(0, |kind| kind.1);
     let sizes =
-        [24 * points, 8 * points * usize::from(shape.heights().is_some()), 24 * cells, 8 * cells, cells];
+        [24 * points, 8 * points * usize::from(shape.heights().is_some()), 8 * N * cells, 8 * cells, cells];
     // Each array is preceded by its length in eight bytes.
     let offsets: Vec<usize> =
         sizes.iter().scan(0, |offset, size| Some(std::mem::replace(offset, *offset + size + 8))).collect();
@@ -45,16 +56,16 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
         out.write_all(&z.to_le_bytes())?;
     }
     length(out, 2)?;
-    for index in shape.triangles().flatten() {
-        out.write_all(&(index as i64).to_le_bytes())?;
+    for index in simplices.iter().flatten() {
+        out.write_all(&(*index as i64).to_le_bytes())?;
     }
     length(out, 3)?;
     for end in 1..=cells {
-        out.write_all(&(3 * end as i64).to_le_bytes())?;
+        out.write_all(&((N * end) as i64).to_le_bytes())?;
     }
     length(out, 4)?;
     for _ in 0..cells {
-        out.write_all(&[TRIANGLE])?;
+        out.write_all(&[kind])?;
     }
     writeln!(out, "\n</AppendedData>\n</VTKFile>")
 }

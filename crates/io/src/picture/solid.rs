@@ -9,8 +9,9 @@ use super::svg::hex;
 use super::view::View;
 use crate::{Error, Format, Solid};
 
-/// The colour of a face in full light.
+/// The colour of a face in full light, and of one that a cut has laid open.
 const FACE: Rgb = [126, 178, 214];
+const INSIDE: Rgb = [240, 196, 128];
 /// Light from everywhere, and from the lamp.
 const AMBIENT: f64 = 0.35;
 const LAMP: f64 = 0.75;
@@ -24,11 +25,13 @@ pub struct Camera {
     pub azimuth: f64,
     /// Degrees above the plane of x and y.
     pub elevation: f64,
+    /// Draw edges alone, those behind too.
+    pub wireframe: bool,
 }
 
 impl Default for Camera {
     fn default() -> Self {
-        Self { size: 1600, azimuth: -60.0, elevation: 25.0 }
+        Self { size: 1600, azimuth: -60.0, elevation: 25.0, wireframe: false }
     }
 }
 
@@ -49,6 +52,15 @@ impl Axes {
     fn turn(&self, p: [f64; 3]) -> [f64; 3] {
         self.0.map(|axis| (0..3).map(|k| axis[k] * p[k]).sum())
     }
+}
+
+/// How to draw.
+struct Style {
+    /// The width of edges, if they are drawn.
+    outline: Option<f64>,
+    fill: bool,
+    /// Whether lengths are known.
+    to_scale: bool,
 }
 
 /// A face that is turned to the viewer.
@@ -74,19 +86,21 @@ pub(crate) fn write(
     let turned: Vec<[f64; 3]> = solid.points.iter().map(|p| axes.turn(p.map(|x| x * half))).collect();
     let view = View::around(turned.iter().map(|&[x, y, _]| [x, y]), camera.size);
     let mut faces: Vec<Visible> =
-        solid.faces.iter().filter_map(|face| Visible::of(face, &turned, &view)).collect();
+        (0..solid.faces.len()).filter_map(|i| Visible::of(solid, i, &turned, &view, camera)).collect();
     faces.sort_by(|f, g| f.depth.total_cmp(&g.depth));
     let room = f64::from(view.width) * f64::from(view.height);
     let spacing = (room / faces.len().max(1) as f64).sqrt();
-    let outline = (spacing > 5.0).then(|| (spacing / 40.0).clamp(0.4, 1.4));
+    let outline = (spacing > 5.0 || camera.wireframe).then(|| (spacing / 40.0).clamp(0.4, 1.4));
+    let style = Style { outline, fill: !camera.wireframe, to_scale: half == 1.0 };
     match format {
-        Format::Svg => Ok(svg(out, &faces, &view, outline, half == 1.0)?),
-        _ => png(out, &faces, &view, outline, half == 1.0),
+        Format::Svg => Ok(svg(out, &faces, &view, &style)?),
+        _ => png(out, &faces, &view, &style),
     }
 }
 
 impl Visible {
-    fn of(face: &[usize], turned: &[[f64; 3]], view: &View) -> Option<Self> {
+    fn of(solid: &Solid, i: usize, turned: &[[f64; 3]], view: &View, camera: &Camera) -> Option<Self> {
+        let face = &solid.faces[i];
         let corners: Vec<[f64; 2]> = face.iter().map(|&i| view.place([turned[i][0], turned[i][1]])).collect();
         let depth = |i: usize| turned[i][2];
         // Depths in pixels, as positions are; pixels count downwards.
@@ -105,8 +119,9 @@ impl Visible {
         let lamp = [-0.42, 0.56, 0.714];
         let lit = (0..3).map(|k| lamp[k] * normal[k]).sum::<f64>() / length;
         let mean = face.iter().map(|&i| depth(i) / face.len() as f64).sum();
-        let colour = shade(FACE, AMBIENT + LAMP * lit.max(0.0));
-        (normal[2] > 0.0).then_some(Self { depth: mean, corners, colour })
+        let paint = if solid.laid_open.get(i) == Some(&true) { INSIDE } else { FACE };
+        let colour = shade(paint, AMBIENT + LAMP * lit.max(0.0));
+        (normal[2] > 0.0 || camera.wireframe).then_some(Self { depth: mean, corners, colour })
     }
 
     fn outline(&self) -> Rgb {
@@ -114,15 +129,9 @@ impl Visible {
     }
 }
 
-fn png(
-    out: &mut dyn Write,
-    faces: &[Visible],
-    view: &View,
-    outline: Option<f64>,
-    to_scale: bool,
-) -> Result<(), Error> {
+fn png(out: &mut dyn Write, faces: &[Visible], view: &View, style: &Style) -> Result<(), Error> {
     let mut raster = Raster::new(view.width, view.height, PAPER);
-    if outline.is_none() {
+    if style.outline.is_none() {
         for face in faces {
             raster.dot(face.corners[0], face.colour);
             for side in face.corners[1..].windows(2) {
@@ -131,38 +140,35 @@ fn png(
         }
     }
     let mut canvas = Canvas::from(&raster)?;
-    if let Some(width) = outline {
+    if let Some(width) = style.outline {
         for face in faces {
-            canvas.fill(std::slice::from_ref(&face.corners), face.colour);
+            if style.fill {
+                canvas.fill(std::slice::from_ref(&face.corners), face.colour);
+            }
             let next = face.corners.iter().cycle().skip(1);
             canvas.lines(face.corners.iter().zip(next).map(|(&a, &b)| [a, b]), face.outline(), 255, width);
         }
     }
-    if to_scale {
+    if style.to_scale {
         canvas.scale(view);
     }
     canvas.encode(out)
 }
 
-fn svg(
-    out: &mut dyn Write,
-    faces: &[Visible],
-    view: &View,
-    outline: Option<f64>,
-    to_scale: bool,
-) -> std::io::Result<()> {
+fn svg(out: &mut dyn Write, faces: &[Visible], view: &View, style: &Style) -> std::io::Result<()> {
     super::svg::open(out, view)?;
-    writeln!(out, r#"<g stroke-width="{:.2}" stroke-linejoin="round">"#, outline.unwrap_or(0.6))?;
+    writeln!(out, r#"<g stroke-width="{:.2}" stroke-linejoin="round">"#, style.outline.unwrap_or(0.6))?;
     for face in faces {
-        let stroke = hex(if outline.is_some() { face.outline() } else { face.colour });
-        write!(out, r#"<path fill="{}" stroke="{stroke}" d=""#, hex(face.colour))?;
+        let stroke = hex(if style.outline.is_some() { face.outline() } else { face.colour });
+        let fill = if style.fill { hex(face.colour) } else { "none".to_owned() };
+        write!(out, r#"<path fill="{fill}" stroke="{stroke}" d=""#)?;
         for (k, [x, y]) in face.corners.iter().enumerate() {
             write!(out, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' })?;
         }
         writeln!(out, r#"Z"/>"#)?;
     }
     writeln!(out, "</g>")?;
-    if to_scale {
+    if style.to_scale {
         super::svg::scale(out, view)?;
     }
     writeln!(out, "</svg>")
