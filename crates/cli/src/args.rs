@@ -278,7 +278,7 @@ pub(crate) struct CameraArgs {
         value_name = "AROUND,UP",
         value_delimiter = ',',
         num_args = 1,
-        allow_negative_numbers = true,
+        allow_hyphen_values = true,
         default_value = "-60,25"
     )]
     view: Vec<f64>,
@@ -346,7 +346,7 @@ pub(crate) struct VoronoiArgs {
     #[arg(long, value_name = "REGION", default_value = "box")]
     pub(crate) clip: PathBuf,
     /// The box to clip to [default: the bounding box of the sites].
-    #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) bounds: Vec<f64>,
     /// Move sites to the centroids of their cells, at most so many times (Lloyd relaxation).
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -516,7 +516,7 @@ pub(crate) struct DrawArgs {
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
     /// In space, take away the tetrahedra whose middle is beyond the plane A x + B y + C z = D.
-    #[arg(long, value_name = "A,B,C,D", value_delimiter = ',', num_args = 1, allow_negative_numbers = true)]
+    #[arg(long, value_name = "A,B,C,D", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     pub(crate) cut: Vec<f64>,
     /// In space, draw edges alone, those behind too.
     #[arg(long)]

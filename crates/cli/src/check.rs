@@ -3,13 +3,16 @@
 use delone::plane::verify::{Objection, verify};
 
 use crate::args::CheckArgs;
-use crate::files;
 use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
+use crate::{files, space};
 
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&[&args.input.input, &args.mesh], args.input.stats.as_deref())?;
+    if args.dim.is_space() {
+        return space::check(args, quiet);
+    }
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     let triangles = files::triangles(&args.mesh, quiet)?;

@@ -1,13 +1,16 @@
-//! What commands do with `--dim 3`: triangulate, draw, locate, find the nearest, describe.
+//! What commands do with `--dim 3`: triangulate, draw, locate, find the nearest, describe, judge.
 
 use std::path::Path;
 
 use clap::ValueEnum;
+use delone::space::verify::{Objection3, verify};
 use delone::{Algorithm3, Delaunay3, Dimension, Location3, TetrahedronId, VertexId, Work};
 use delone_io::{Body, Cut, Format, picture};
 use delone_predicates::in_sphere_with_ties;
 
-use crate::args::{AlgorithmName, DrawArgs, InfoArgs, InputArgs, LocateName, QueryArgs, TriangulateArgs};
+use crate::args::{
+    AlgorithmName, CheckArgs, DrawArgs, InfoArgs, InputArgs, LocateName, QueryArgs, TriangulateArgs,
+};
 use crate::files;
 use crate::locate::strategy;
 use crate::message::{Failure, answer, note};
@@ -223,7 +226,7 @@ fn tetrahedron(d: &Delaunay3, location: Location3) -> Option<[usize; 4]> {
     finite.map(|t| positive(mesh.corners(t).map(VertexId::index))).min()
 }
 
-/// The even permutation of four corners with the smallest first and the largest but the odd one in order.
+/// The even permutation that starts with the smallest corner, followed by the smallest of the others.
 pub(crate) fn positive(mut corners: [usize; 4]) -> [usize; 4] {
     // Two swaps keep the order positive.
     let least = (0..4).min_by_key(|&k| corners[k]).unwrap_or(0);
@@ -287,4 +290,51 @@ pub(crate) fn info(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("count");
     stats.write(args.input.stats.as_deref())?;
     answer(&text)
+}
+
+/// `delone check --dim 3`.
+pub(crate) fn check(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+    let mut stats = Stats::start();
+    let points = files::points_in_space(&args.input, quiet)?;
+    let tetrahedra = files::tetrahedra(&args.mesh, quiet)?;
+    stats.phase("read");
+    let verdict = {
+        let _phase = Phase::start(quiet, "checking");
+        verify(&points, &tetrahedra)
+    };
+    stats.phase("check");
+    stats.set("points", points.len());
+    stats.set("simplices", tetrahedra.len());
+    stats.set("delaunay", verdict.is_ok());
+    stats.set("canonical", verdict.is_ok_and(|verdict| verdict.is_canonical()));
+    if let Ok(verdict) = verdict {
+        stats.set("duplicates", verdict.duplicates);
+        stats.set("hull", verdict.hull);
+        stats.set("negative", verdict.negative);
+        stats.set("other_ties", verdict.other_ties);
+    }
+    stats.write(args.input.stats.as_deref())?;
+    let verdict = match verdict {
+        Ok(verdict) => verdict,
+        Err(Objection3::Points(error)) => return Err(Failure::points(&args.input.input, &error)),
+        Err(objection) => {
+            return Err(Failure::new(
+                format!("{}: not Delaunay: {objection}", args.mesh.display()),
+                "tetrahedra and points are counted from 0",
+            ));
+        }
+    };
+    let count = tetrahedra.len();
+    answer(&if verdict.is_canonical() {
+        format!("Delaunay, and the canonical triangulation: {count} tetrahedra\n")
+    } else {
+        let others = verdict.other_ties;
+        format!(
+            "Delaunay, not the canonical triangulation: {others} ties between neighbours are broken in another way; {count} tetrahedra\n"
+        )
+    })?;
+    if verdict.negative > 0 {
+        note(quiet, format_args!("{} tetrahedra are in negative order", verdict.negative));
+    }
+    Ok(())
 }

@@ -12,6 +12,7 @@ mod nearest;
 mod position;
 mod remove;
 mod scaffold;
+pub mod verify;
 
 pub use locate::Location3;
 pub use position::Position3;

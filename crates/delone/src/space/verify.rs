@@ -1,0 +1,267 @@
+//! Judging tetrahedra from elsewhere: are they a Delaunay triangulation of these points, and are they *the* canonical
+//! one?
+//!
+//! Nothing is believed. Tetrahedra that are in positive order, glued in pairs across facets, with a connected border
+//! that is nowhere dented, cover the hull everywhere equally often (their boundary is that of the hull); so it is enough
+//! that one point is covered once, and that they add up to a ball. Then empty spheres across facets make all spheres empty. All is proved with exact
+//! predicates. Cost: O(n log n).
+
+use delone_predicates::{Sign, in_sphere, in_sphere_with_ties, lexicographic3, orient3d};
+
+use super::scaffold::are_collinear;
+use crate::error::Error;
+use crate::mesh::tetrahedra::FACETS;
+
+/// What is right about tetrahedra that are a Delaunay triangulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Verdict3 {
+    /// Facets between neighbours whose five corners are cospherical and divided in another way than the canonical one.
+    pub other_ties: usize,
+    /// Tetrahedra given in negative order.
+    pub negative: usize,
+    /// Points that equal a corner without being one.
+    pub duplicates: usize,
+    /// Facets on the border of the convex hull.
+    pub hull: usize,
+}
+
+impl Verdict3 {
+    /// Whether the tetrahedra are those that Delone gives.
+    pub fn is_canonical(&self) -> bool {
+        self.other_ties == 0
+    }
+}
+
+/// Why tetrahedra are not a Delaunay triangulation of the points. Tetrahedra and points are named by their index.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Objection3 {
+    /// The points themselves are not valid.
+    #[error(transparent)]
+    Points(#[from] Error),
+    /// A corner that no point has.
+    #[error("tetrahedron {tetrahedron} has the corner {corner}, but there are {points} points")]
+    Index {
+        /// The tetrahedron.
+        tetrahedron: usize,
+        /// Its corner.
+        corner: u64,
+        /// The number of points.
+        points: usize,
+    },
+    /// Four coplanar corners.
+    #[error("tetrahedron {0} is flat: its corners are coplanar")]
+    Flat(usize),
+    /// Two tetrahedra on the same side of a facet, or more than two at one.
+    #[error("tetrahedra {0} and {1} overlap: they lie on the same side of a common facet")]
+    Overlap(usize, usize),
+    /// The facet rule fails.
+    #[error(
+        "tetrahedron {tetrahedron} is not Delaunay: its sphere contains point {point}, a corner of tetrahedron {neighbor}"
+    )]
+    Sphere {
+        /// The tetrahedron.
+        tetrahedron: usize,
+        /// The tetrahedron across its facet.
+        neighbor: usize,
+        /// The corner of that tetrahedron inside the sphere.
+        point: usize,
+    },
+    /// A border that is not the convex hull.
+    #[error("the border is not the convex hull: it turns inwards at the edge of points {0} and {1}")]
+    Dent(usize, usize),
+    /// A border that is no closed surface, or more than one.
+    #[error(
+        "the tetrahedra have a hole or fall apart: their border is not one closed surface (at point {0})"
+    )]
+    Border(usize),
+    /// Tetrahedra that lie over each other, or are glued into something that is no ball.
+    #[error("the tetrahedra cover some place {0} times, or are glued into something that is no ball")]
+    Cover(usize),
+    /// A point left out.
+    #[error("point {0} is not a corner of any tetrahedron")]
+    Missing(usize),
+}
+
+/// A facet of a tetrahedron: its corners in increasing order, whether that is an even permutation of what is seen from
+/// inside, the tetrahedron and the corner across.
+type Side = ([usize; 3], bool, usize, usize);
+
+/// Judges `tetrahedra`, corners as indices of `points`, in either order.
+pub fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict3, Objection3> {
+    super::check_points(points)?;
+    let (tetrahedra, negative) = oriented(points, tetrahedra)?;
+    let duplicates = check_coverage(points, &tetrahedra)?;
+    if tetrahedra.is_empty() {
+        return Ok(Verdict3 { other_ties: 0, negative, duplicates, hull: 0 });
+    }
+    let mut sides: Vec<Side> =
+        (0..tetrahedra.len()).flat_map(|t| [0, 1, 2, 3].map(|k| side(tetrahedra[t], t, k))).collect();
+    sides.sort_unstable();
+    let other_ties = check_pairs(points, &tetrahedra, &sides)?;
+    let hull = check_border(points, &sides)?;
+    match cover(points, &tetrahedra) {
+        Some(1) | None if is_ball(&tetrahedra, hull) => {}
+        times => return Err(Objection3::Cover(times.unwrap_or(0))),
+    }
+    Ok(Verdict3 { other_ties, negative, duplicates, hull })
+}
+
+/// The tetrahedra in positive order, and how many were not.
+fn oriented(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<(Vec<[usize; 4]>, usize), Objection3> {
+    let mut negative = 0;
+    let mut result = Vec::with_capacity(tetrahedra.len());
+    for (tetrahedron, corners) in tetrahedra.iter().enumerate() {
+        if let Some(&corner) = corners.iter().find(|&&corner| corner >= points.len() as u64) {
+            return Err(Objection3::Index { tetrahedron, corner, points: points.len() });
+        }
+        let [a, b, c, d] = corners.map(|corner| corner as usize);
+        result.push(match orient3d(points[a], points[b], points[c], points[d]) {
+            Sign::Positive => [a, b, c, d],
+            Sign::Zero => return Err(Objection3::Flat(tetrahedron)),
+            Sign::Negative => {
+                negative += 1;
+                [b, a, c, d]
+            }
+        });
+    }
+    Ok((result, negative))
+}
+
+/// Every point is a corner or equals one; without tetrahedra all points must be coplanar. Returns the number of points
+/// that are no corner.
+fn check_coverage(points: &[[f64; 3]], tetrahedra: &[[usize; 4]]) -> Result<usize, Objection3> {
+    if tetrahedra.is_empty() {
+        let Some(&a) = points.first() else { return Ok(0) };
+        let Some(&b) = points.iter().find(|&&p| p != a) else { return Ok(points.len() - 1) };
+        let Some(&c) = points.iter().find(|&&p| !are_collinear(a, b, p)) else { return Ok(0) };
+        let off = points.iter().position(|&d| !orient3d(a, b, c, d).is_zero());
+        return off.map_or(Ok(0), |off| Err(Objection3::Missing(off)));
+    }
+    let mut used = vec![false; points.len()];
+    tetrahedra.as_flattened().iter().for_each(|&corner| used[corner] = true);
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(used[j].cmp(&used[i])));
+    let mut duplicates = 0;
+    let mut corner = None;
+    for i in order {
+        if used[i] {
+            corner = Some(points[i]);
+        } else if corner == Some(points[i]) {
+            duplicates += 1;
+        } else {
+            return Err(Objection3::Missing(i));
+        }
+    }
+    Ok(duplicates)
+}
+
+fn side(corners: [usize; 4], t: usize, k: usize) -> Side {
+    let seen = FACETS[k].map(|i| corners[i]);
+    let mut sorted = seen;
+    sorted.sort_unstable();
+    let [a, b, c] = sorted;
+    let even = [[a, b, c], [b, c, a], [c, a, b]].contains(&seen);
+    (sorted, even, t, k)
+}
+
+/// Each facet has one tetrahedron on each side at most, and neither contains the other's apex in its sphere. Returns
+/// the number of ties that were broken in another way.
+fn check_pairs(points: &[[f64; 3]], tetrahedra: &[[usize; 4]], sides: &[Side]) -> Result<usize, Objection3> {
+    let mut other_ties = 0;
+    for facet in sides.chunk_by(|s, t| s.0 == t.0) {
+        if let Some(pair) = facet.windows(2).find(|pair| pair[0].1 == pair[1].1) {
+            return Err(Objection3::Overlap(pair[0].2, pair[1].2));
+        }
+        let &[(_, _, tetrahedron, _), (_, _, neighbor, k)] = facet else { continue };
+        let [a, b, c, d] = tetrahedra[tetrahedron].map(|corner| points[corner]);
+        let point = tetrahedra[neighbor][k];
+        match in_sphere_with_ties(a, b, c, d, points[point]) {
+            Sign::Negative => {}
+            Sign::Positive => return Err(Objection3::Sphere { tetrahedron, neighbor, point }),
+            Sign::Zero => other_ties += usize::from(in_sphere(a, b, c, d, points[point]).is_positive()),
+        }
+    }
+    Ok(other_ties)
+}
+
+/// The facets with one tetrahedron are one closed surface that turns inwards nowhere. Returns their number.
+fn check_border(points: &[[f64; 3]], sides: &[Side]) -> Result<usize, Objection3> {
+    let lone = sides.chunk_by(|s, t| s.0 == t.0).filter(|facet| facet.len() == 1).map(|facet| facet[0]);
+    // Counter-clockwise seen from outside.
+    let facets: Vec<[usize; 3]> =
+        lone.map(|([a, b, c], even, ..)| if even { [a, c, b] } else { [a, b, c] }).collect();
+    let mut edges: Vec<(usize, usize, usize)> = Vec::with_capacity(3 * facets.len());
+    for (f, &[a, b, c]) in facets.iter().enumerate() {
+        edges.extend([(a, b, f), (b, c, f), (c, a, f)]);
+    }
+    edges.sort_unstable();
+    if let Some(pair) = edges.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
+        return Err(Objection3::Border(pair[0].0));
+    }
+    let across = |a: usize, b: usize| {
+        let found = edges.binary_search_by_key(&(b, a), |edge| (edge.0, edge.1));
+        found.map(|i| edges[i].2).map_err(|_| Objection3::Border(a))
+    };
+    let mut met = vec![false; facets.len()];
+    let mut pending = vec![0];
+    met[0] = true;
+    while let Some(f) = pending.pop() {
+        let [a, b, c] = facets[f];
+        for (u, v) in [(a, b), (b, c), (c, a)] {
+            let g = across(u, v)?;
+            let tip = facets[g].into_iter().find(|w| ![u, v].contains(w)).unwrap_or(u);
+            if orient3d(points[a], points[b], points[c], points[tip]).is_positive() {
+                return Err(Objection3::Dent(u, v));
+            }
+            if !std::mem::replace(&mut met[g], true) {
+                pending.push(g);
+            }
+        }
+    }
+    match met.iter().position(|met| !met) {
+        Some(f) => Err(Objection3::Border(facets[f][0])),
+        None => Ok(facets.len()),
+    }
+}
+
+/// Whether corners, edges, facets and tetrahedra add up as those of a ball do.
+fn is_ball(tetrahedra: &[[usize; 4]], hull: usize) -> bool {
+    let distinct = |mut of: Vec<[usize; 2]>| {
+        of.sort_unstable();
+        of.dedup();
+        of.len() as i64
+    };
+    let pairs = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    let edge = |t: &[usize; 4], [i, j]: [usize; 2]| [t[i].min(t[j]), t[i].max(t[j])];
+    let edges = distinct(tetrahedra.iter().flat_map(|t| pairs.map(|pair| edge(t, pair))).collect());
+    let corners = distinct(tetrahedra.iter().flatten().map(|&corner| [corner; 2]).collect());
+    // V - E + F - T = 1, where 2 F = 4 T + h.
+    2 * (corners - edges) + 2 * tetrahedra.len() as i64 + hull as i64 == 2
+}
+
+/// How many tetrahedra cover a point that is on the border of none; `None` where no such point was found, as when the
+/// first tetrahedron is too thin for any `f64` inside of it.
+fn cover(points: &[[f64; 3]], tetrahedra: &[[usize; 4]]) -> Option<usize> {
+    let corners = tetrahedra[0].map(|corner| points[corner]);
+    (0..16).find_map(|step| {
+        // Near the middle of it.
+        let aside = f64::from(step) / 128.0;
+        let shares = [0.25 + aside, 0.25 - aside / 2.0, 0.25 - aside / 3.0, 0.25 - aside / 6.0];
+        let q = [0, 1, 2].map(|axis| (0..4).map(|k| corners[k][axis] * shares[k]).sum::<f64>());
+        let mut count = 0;
+        for t in tetrahedra {
+            let signs = FACETS.map(|facet| {
+                let [a, b, c] = facet.map(|i| points[t[i]]);
+                orient3d(a, b, c, q)
+            });
+            if signs.iter().all(|sign| !sign.is_negative()) {
+                if signs.iter().any(|sign| sign.is_zero()) {
+                    return None;
+                }
+                count += 1;
+            }
+        }
+        (count > 0).then_some(count)
+    })
+}
