@@ -177,7 +177,7 @@ pub(crate) fn tetrahedra(path: &Path, quiet: bool) -> Result<Vec<[u64; 4]>, Fail
 fn simplices<T>(
     path: &Path,
     quiet: bool,
-    read: fn(Box<dyn Source>, Format) -> Result<Vec<T>, delone_io::Error>,
+    read: impl Fn(Box<dyn Source>, Format) -> Result<Vec<T>, delone_io::Error>,
 ) -> Result<Vec<T>, Failure> {
     if is_standard(path) {
         return Err(Failure::usage(

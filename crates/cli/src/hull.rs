@@ -16,11 +16,11 @@ pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
     let mut stats = Stats::start();
-    if !args.dim.is_space() {
-        plane(args, &outputs, &mut stats, quiet)
+    if args.dim.is_space() {
+        space(args, &outputs, &mut stats, quiet)?;
     } else {
-        space(args, &outputs, &mut stats, quiet)
-    }?;
+        plane(args, &outputs, &mut stats, quiet)?;
+    }
     stats.phase("write");
     stats.write(stats_path)
 }

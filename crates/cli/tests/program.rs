@@ -205,7 +205,9 @@ fn wrong_usage() {
         ("triangulate p.csv -o m.ply --algorithm sweep", "sweep"),
         ("triangulate p.csv -o m.ply --locate spatial", "--locate"),
         ("triangulate p.csv -o m.ply --dim 4", "4"),
-        ("triangulate p.csv -o m.ply --dim 3", "not available"),
+        ("triangulate p.csv -o m.ply --dim 3 --algorithm divide-conquer", "for the plane"),
+        ("triangulate p.csv -o m.geojson --dim 3", "triangulations of space are not written"),
+        ("triangulate p.csv -o m.ply --dim 3 --locate history", "for the plane"),
         ("triangulate p.csv -o m.ply --threads 0", "0"),
         ("triangulate p.csv -o m.ply --class 2", "--class"),
         ("triangulate p.csv -o m.ply --class two", "two"),
@@ -393,7 +395,7 @@ fn operations_are_replayed() {
     place.file("bad.txt", "+ 0 0\n- 0\n- 0\n");
     place.fail("replay bad.txt -o t2.npy", 1, "line 3: 0 is no vertex");
     place.file("bad.txt", "+ 0 0\n+ 1\n");
-    place.fail("replay bad.txt -o t2.npy", 1, "line 2: + takes another number of values than 1");
+    place.fail("replay bad.txt -o t2.npy", 1, "line 2: + takes 2 values, not 1");
     place.file("bad.txt", "+ 0 inf\n");
     place.fail("replay bad.txt -o t2.npy", 1, "line 1: the y coordinate inf is not finite");
     place.file("bad.txt", "insert 0 0\n");
