@@ -98,6 +98,21 @@ fn grids_tile_their_box() {
             .sum();
         let boxes: usize = [x, y, z].map(|side| side - 1).into_iter().product();
         assert_eq!(six_volumes, 6.0 * boxes as f64, "{x} {y} {z}");
+        // Euler's relation of a ball, and of what the hull adds.
+        let [v, e, f, t] = [d.vertex_count(), d.edges().count(), d.facets().count(), d.cells().count()];
+        if t > 0 {
+            assert_eq!(v + f, e + t + 1, "{x} {y} {z}");
+            assert_eq!(2 * f, 4 * t + d.hull().count(), "{x} {y} {z}");
+        }
+        for v in d.vertices().take(30) {
+            let star = d.tetrahedra_at(v);
+            assert!(star.iter().all(|&t| d.mesh().corners(t).contains(&v)));
+            let at = d.cells().filter(|&t| d.mesh().corners(t).contains(&v)).count();
+            assert_eq!(
+                star.iter().filter(|&&t| !d.mesh().is_ghost(t)).count(),
+                if t > 0 { at } else { star.len() / 2 }
+            );
+        }
     }
 }
 
@@ -115,6 +130,7 @@ fn less_than_space() {
     let d = Delaunay3::from_points(&plane).expect("finite");
     assert_eq!((d.dimension(), d.hull().count(), d.check()), (Dimension::Plane, 162, Ok(())));
     assert_eq!(d.edges().count(), 261);
+    assert_eq!(d.facets().count(), 162);
     assert!(Delaunay3::from_points(&[[0.0, f64::NAN, 0.0]]).is_err());
     // The first of equal points is the vertex.
     let twice = [[0.0; 3], [1.0, 0.0, 0.0], [0.0; 3], [-0.0; 3], [1.0, 0.0, 0.0]];

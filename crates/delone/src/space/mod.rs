@@ -21,7 +21,7 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use crate::error::Error;
-use crate::ids::{Duplicate, MAX_POINTS, Place, TetrahedronId, VertexId};
+use crate::ids::{Duplicate, FacetId, MAX_POINTS, Place, TetrahedronId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::Dimension;
@@ -124,7 +124,8 @@ impl Delaunay3 {
         self.work
     }
 
-    /// The topology: tetrahedra, facets, neighbours.
+    /// The topology: tetrahedra, facets, neighbours. Below space its tetrahedra have corners without a name, which
+    /// stand for the dimensions that are missing.
     pub fn mesh(&self) -> &Mesh3 {
         &self.base.mesh
     }
@@ -172,31 +173,33 @@ impl Delaunay3 {
         self.cells().map(|t| self.base.mesh.corners(t))
     }
 
+    /// The finite facets, each from one of its two sides; of coplanar points the triangles.
+    pub fn facets(&self) -> impl Iterator<Item = FacetId> + '_ {
+        let (mesh, dimension) = (&self.base.mesh, self.dimension());
+        let wanted = move |f: &FacetId| match dimension {
+            // From the smaller of two finite sides.
+            Dimension::Space => {
+                let g = mesh.twin(*f);
+                *f < g || mesh.is_ghost(g.tetrahedron())
+            }
+            Dimension::Plane => {
+                self.base.is_scaffold(mesh.cells[f.tetrahedron().index()].corners[f.corner()])
+            }
+            _ => false,
+        };
+        let finite = mesh.cells().filter(|&t| !mesh.is_ghost(t));
+        finite.flat_map(|t| [0, 1, 2, 3].map(|k| t.facet(k))).filter(wanted)
+    }
+
     /// The facets of the hull, counter-clockwise seen from outside; flat faces are cut into triangles, as the
     /// triangulation has them. Coplanar points have each triangle once, seen from either side; less than a plane has
     /// none.
     pub fn hull(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
-        let mesh = &self.base.mesh;
-        let dimension = self.dimension();
-        let finite = move |t: TetrahedronId| {
-            let [a, b, c, last] = mesh.cells[t.index()].corners;
-            match dimension {
-                Dimension::Space => last.is_ghost().then(|| [a, b, c].map(|p| mesh.name(p))),
-                Dimension::Plane => self.triangle_below(t),
-                _ => None,
-            }
-        };
-        mesh.cells().filter_map(finite)
-    }
-
-    /// The triangle of coplanar points that a tetrahedron with the apex stands on.
-    fn triangle_below(&self, t: TetrahedronId) -> Option<[VertexId; 3]> {
-        let mesh = &self.base.mesh;
-        if mesh.is_ghost(t) {
-            return None;
-        }
-        let apex = mesh.cells[t.index()].corners.iter().position(|&p| self.base.is_scaffold(p))?;
-        Some(mesh.facet_corners(t.facet(apex)))
+        let (mesh, dimension) = (&self.base.mesh, self.dimension());
+        let ghosts = mesh.cells().filter(move |&t| dimension == Dimension::Space && mesh.is_ghost(t));
+        let outer = ghosts.map(|t| mesh.facet_corners(t.facet(3)));
+        let flat = self.facets().filter(move |_| dimension == Dimension::Plane);
+        outer.chain(flat.map(|f| mesh.facet_corners(f)))
     }
 
     /// The edges, each once, of whatever the points span.
@@ -216,10 +219,11 @@ impl Delaunay3 {
         joined.unwrap_or_default().into_iter().map(|p| self.base.mesh.name(p))
     }
 
-    /// The tetrahedra at a vertex, ghosts included, in no special order; none for an id that is no vertex.
+    /// The tetrahedra at a vertex, ghosts included, in no special order; none for an id that is no vertex, and below
+    /// space.
     pub fn tetrahedra_at(&self, v: VertexId) -> Vec<TetrahedronId> {
         let mut star = Vec::new();
-        if let Some(place) = self.base.mesh.place(v) {
+        if let Some(place) = self.base.mesh.place(v).filter(|_| self.dimension() == Dimension::Space) {
             self.base.mesh.star(place, &mut star);
         }
         star
