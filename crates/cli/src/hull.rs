@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use delone::Work;
-use delone::hull::spatial::{Hull3, HullHistory, Span};
+use delone::hull::spatial::{Hull3, HullHistory};
+use delone::{Dimension, Work};
 use delone_io::{Format, Solid};
 
 use crate::args::{HullAlgorithm, HullArgs};
@@ -88,7 +88,7 @@ fn space(
     drop(phase);
     stats.phase("build");
     let span = format!("{:?}", hull.span()).to_lowercase();
-    if hull.span() < Span::Space {
+    if hull.span() < Dimension::Space {
         note(quiet, format_args!("the points span only this: {span}, so there are no facets"));
     }
     stats.set("dimension", span);

@@ -1,7 +1,7 @@
 //! Convex hulls in space against their definition, and the lifting map.
 
-use delone::hull::spatial::{Hull3, HullHistory, Span};
-use delone::{Delaunay2, Work};
+use delone::hull::spatial::{Hull3, HullHistory};
+use delone::{Delaunay2, Dimension, Work};
 use delone_oracle::exact;
 use delone_oracle::generate::{Kind, Random};
 
@@ -62,7 +62,7 @@ fn hulls_are_convex_closed_and_hold_everything() {
     for (name, points) in sets() {
         let hull = Hull3::of(&points).expect("finite");
         let facets: Vec<[usize; 3]> = hull.facets().collect();
-        if hull.span() < Span::Space {
+        if hull.span() < Dimension::Space {
             assert!(facets.is_empty(), "{name}");
             continue;
         }
@@ -86,7 +86,7 @@ fn hulls_are_convex_closed_and_hold_everything() {
         for &v in hull.corners().iter().take(12) {
             let others: Points = points.iter().copied().filter(|&p| p != points[v]).collect();
             let without = Hull3::of(&others).expect("finite");
-            let outside = without.span() < Span::Space
+            let outside = without.span() < Dimension::Space
                 || without.facets().any(|f| {
                     let [a, b, c] = f.map(|i| others[i]);
                     exact::orient3d(a, b, c, points[v]) > 0
@@ -110,7 +110,7 @@ fn one_set_has_one_hull() {
         Random::new(3).shuffle(&mut shuffled);
         let (one, other) = (shape(&points), shape(&shuffled));
         // A flat face has two sides.
-        if one.0 == Span::Space {
+        if one.0 == Dimension::Space {
             assert_eq!(one, other, "{name}");
         } else {
             assert_eq!((one.0, one.1), (other.0, other.1), "{name}");
@@ -141,7 +141,7 @@ fn large_hulls_are_the_same_by_both_algorithms() {
         let hull = Hull3::of(&points).expect("finite");
         let history = HullHistory::build(&points, round).expect("finite");
         assert_eq!(history.hull(), &hull, "round {round}");
-        assert_eq!(hull.span(), Span::Space);
+        assert_eq!(hull.span(), Dimension::Space);
         let edges = hull.faces().iter().map(Vec::len).sum::<usize>() / 2;
         assert_eq!(hull.corners().len() + hull.faces().len(), edges + 2, "round {round}");
     }
@@ -150,12 +150,12 @@ fn large_hulls_are_the_same_by_both_algorithms() {
 #[test]
 fn spans_are_told() {
     let span = |points: &[[f64; 3]]| Hull3::of(points).expect("finite").span();
-    assert_eq!(span(&[]), Span::Empty);
-    assert_eq!(span(&[[1.0; 3], [1.0; 3]]), Span::Point);
-    assert_eq!(span(&[[0.0; 3], [1.0; 3], [3.0; 3]]), Span::Line);
+    assert_eq!(span(&[]), Dimension::Empty);
+    assert_eq!(span(&[[1.0; 3], [1.0; 3]]), Dimension::Point);
+    assert_eq!(span(&[[0.0; 3], [1.0; 3], [3.0; 3]]), Dimension::Line);
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.5, 0.0, 0.5]];
     let hull = Hull3::of(&square).expect("finite");
-    assert_eq!((hull.span(), hull.corners().len(), hull.faces().len()), (Span::Plane, 4, 1));
+    assert_eq!((hull.span(), hull.corners().len(), hull.faces().len()), (Dimension::Plane, 4, 1));
     assert!(Hull3::of(&[[0.0, f64::NAN, 0.0]]).is_err());
 }
 
@@ -209,7 +209,7 @@ fn history_makes_the_same_hull_and_knows_what_is_inside() {
 
 /// By definition: not outside of any facet; for flat sets, if the hull does not grow by it.
 fn is_inside(points: &[[f64; 3]], hull: &Hull3, q: [f64; 3]) -> bool {
-    if hull.span() == Span::Space {
+    if hull.span() == Dimension::Space {
         let beyond = |[a, b, c]: [usize; 3]| exact::orient3d(points[a], points[b], points[c], q) > 0;
         return !hull.facets().any(beyond);
     }

@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use delone::hull::spatial::{Hull3, Span};
+use delone::Dimension;
+use delone::hull::spatial::Hull3;
 
 use crate::{Error, Format, Shape, picture};
 
@@ -21,7 +22,7 @@ impl Solid {
     /// A convex hull of points, with its corners alone, by increasing index in the input.
     pub fn of_hull(hull: &Hull3, points: &[[f64; 3]]) -> Self {
         let place = |i: &usize| hull.corners().partition_point(|corner| corner < i);
-        let faces = hull.faces().iter().filter(|_| hull.span() == Span::Space);
+        let faces = hull.faces().iter().filter(|_| hull.span() == Dimension::Space);
         Self {
             points: hull.corners().iter().map(|&i| points[i]).collect(),
             faces: faces.map(|face| face.iter().map(place).collect()).collect(),

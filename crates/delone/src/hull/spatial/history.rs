@@ -18,9 +18,10 @@ use delone_predicates::orient3d;
 use super::faces::Faces;
 use super::shell::{NONE, Shell};
 use super::start::{are_collinear, lexicographic, turn};
-use super::{Hull3, Span, check};
+use super::{Hull3, check};
 use crate::error::Error;
 use crate::locate::tally::Tally;
+use crate::mesh::Dimension;
 use crate::order::random::SplitMix;
 
 /// A convex hull with its history.
@@ -188,13 +189,13 @@ fn first_four(points: &[[f64; 3]], order: &[usize]) -> Option<[usize; 4]> {
 }
 
 /// Whether a point is in what corners span that do not span space.
-fn lies_in(span: Span, corners: &[[f64; 3]], q: [f64; 3]) -> bool {
+fn lies_in(span: Dimension, corners: &[[f64; 3]], q: [f64; 3]) -> bool {
     match (span, corners) {
-        (Span::Point, &[a]) => a == q,
-        (Span::Line, &[a, b]) => {
+        (Dimension::Point, &[a]) => a == q,
+        (Dimension::Line, &[a, b]) => {
             are_collinear(&[a, b, q], [0, 1, 2]) && lexicographic(a, q).is_le() && lexicographic(q, b).is_le()
         }
-        (Span::Plane, &[a, b, c, ..]) if orient3d(a, b, c, q).is_zero() => {
+        (Dimension::Plane, &[a, b, c, ..]) if orient3d(a, b, c, q).is_zero() => {
             // Along an axis in which the plane does not vanish, inside stays inside.
             let axis = (0..3).find(|&axis| turn(&[a, b, c], [0, 1, 2], axis).is_ne()).unwrap_or(2);
             let around = turn(&[a, b, c], [0, 1, 2], axis);

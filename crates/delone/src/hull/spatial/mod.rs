@@ -14,38 +14,25 @@ mod start;
 pub use history::HullHistory;
 
 use crate::error::Error;
+use crate::mesh::Dimension;
 use start::{Start, turn};
-
-/// What points in space span.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Span {
-    /// No point.
-    Empty,
-    /// One point.
-    Point,
-    /// A line.
-    Line,
-    /// A plane.
-    Plane,
-    /// Space.
-    Space,
-}
 
 /// The convex hull of points in space.
 ///
 /// ```
-/// use delone::hull::spatial::{Hull3, Span};
+/// use delone::Dimension;
+/// use delone::hull::spatial::Hull3;
 ///
 /// let cube: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
 /// let hull = Hull3::of(&cube)?;
-/// assert_eq!(hull.span(), Span::Space);
+/// assert_eq!(hull.span(), Dimension::Space);
 /// assert_eq!(hull.corners().len(), 8);
 /// assert_eq!((hull.faces().len(), hull.facets().count()), (6, 12));
 /// # Ok::<(), delone::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hull3 {
-    span: Span,
+    span: Dimension,
     corners: Vec<usize>,
     faces: Vec<Vec<usize>>,
 }
@@ -60,7 +47,7 @@ impl Hull3 {
         check(points)?;
         Ok(match Start::of(points) {
             Start::Lower(span, corners) => Self { span, corners, faces: Vec::new() },
-            Start::Flat(corners) => Self { span: Span::Plane, faces: vec![corners.clone()], corners },
+            Start::Flat(corners) => Self { span: Dimension::Plane, faces: vec![corners.clone()], corners },
             Start::Tetrahedron(_) => Self::solid(quickhull::faces(points)),
         })
     }
@@ -70,11 +57,11 @@ impl Hull3 {
         let mut corners: Vec<usize> = faces.iter().flatten().copied().collect();
         corners.sort_unstable();
         corners.dedup();
-        Self { span: Span::Space, corners, faces }
+        Self { span: Dimension::Space, corners, faces }
     }
 
     /// What the points span: a hull of less than space has no facets.
-    pub fn span(&self) -> Span {
+    pub fn span(&self) -> Dimension {
         self.span
     }
 
@@ -91,7 +78,7 @@ impl Hull3 {
 
     /// The faces cut into triangles, counter-clockwise seen from outside. None for less than space.
     pub fn facets(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
-        let solid = self.faces.iter().filter(|_| self.span == Span::Space);
+        let solid = self.faces.iter().filter(|_| self.span == Dimension::Space);
         solid.flat_map(|face| face[1..].windows(2).map(|side| [face[0], side[0], side[1]]))
     }
 

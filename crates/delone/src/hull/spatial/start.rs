@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use delone_predicates::{orient2d, orient3d};
 
 use super::super::planar;
-use super::Span;
+use crate::mesh::Dimension;
 
 /// The orientation of three points seen along an axis.
 pub(super) fn turn(points: &[[f64; 3]], corners: [usize; 3], axis: usize) -> Ordering {
@@ -44,7 +44,7 @@ fn square(u: [f64; 3]) -> f64 {
 
 /// Where to begin.
 pub(super) enum Start {
-    Lower(Span, Vec<usize>),
+    Lower(Dimension, Vec<usize>),
     Flat(Vec<usize>),
     /// Four corners, the last one on the positive side of the others.
     Tetrahedron([usize; 4]),
@@ -53,11 +53,13 @@ pub(super) enum Start {
 impl Start {
     pub(super) fn of(points: &[[f64; 3]]) -> Self {
         let order = |i: &usize, j: &usize| lexicographic(points[*i], points[*j]).then(i.cmp(j));
-        let Some(a) = (0..points.len()).min_by(order) else { return Self::Lower(Span::Empty, Vec::new()) };
+        let Some(a) = (0..points.len()).min_by(order) else {
+            return Self::Lower(Dimension::Empty, Vec::new());
+        };
         let last = |i: &usize, j: &usize| lexicographic(points[*i], points[*j]).then(j.cmp(i));
         let b = (0..points.len()).max_by(last).unwrap_or(a);
         if points[a] == points[b] {
-            return Self::Lower(Span::Point, vec![a]);
+            return Self::Lower(Dimension::Point, vec![a]);
         }
         // Far from each other, as far as rounding tells; if it tells wrong, any that will do.
         let from = |i: usize, j: usize| [0, 1, 2].map(|k| points[j][k] / 2.0 - points[i][k] / 2.0);
@@ -70,7 +72,7 @@ impl Start {
             best.filter(holds).or_else(|| (0..points.len()).find(holds))
         };
         let Some(c) = any(&|&c| !are_collinear(points, [a, b, c]), furthest(&off_line)) else {
-            return Self::Lower(Span::Line, vec![a, b]);
+            return Self::Lower(Dimension::Line, vec![a, b]);
         };
         let side = |d: usize| orient3d(points[a], points[b], points[c], points[d]);
         let normal = cross(along, from(a, c));
