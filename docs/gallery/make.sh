@@ -31,3 +31,14 @@ awk 'BEGIN { for (i = 0; i < 600; i++) { z = 1 - (2 * i + 1) / 600; r = sqrt(1 -
     printf "%.9f,%.9f,%.9f\n", r * cos(t), r * sin(t), z } }' > "$work/sphere.csv"
 $delone hull "$work/sphere.csv" --dim 3 -o $here/sphere.png --size 640
 $delone hull data/autzen_trim.laz --dim 3 -o $here/tile.png --size 960
+
+# Tetrahedra of a ball, cut open.
+$delone generate ball -n 1500 --seed 1 -o "$work/ball.csv"
+$delone draw "$work/ball.csv" --dim 3 --view -60,40 --cut 0,0,1,0.1 -o $here/ball.png --size 640
+# A scanned head, if there is one.
+scan=${SCAN:-../shared/data/igea.ply}
+if [ -e "$scan" ]; then
+    $delone draw "$scan" --dim 3 --view 30,20 --cut 1,0,0,0 -o $here/scan.png --size 800
+else
+    echo "no $scan: its picture stays as it is"
+fi
