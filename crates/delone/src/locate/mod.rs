@@ -16,6 +16,7 @@ pub(crate) mod conflict_lists;
 pub(crate) mod hierarchy;
 pub(crate) mod history;
 pub(crate) mod jump_and_walk;
+pub(crate) mod nearest;
 pub(crate) mod search;
 pub(crate) mod tally;
 pub(crate) mod tree;

@@ -1,51 +1,41 @@
 //! Vertices by distance and by region: nearest, k nearest, within a circle, within a rectangle.
 //!
-//! Why following edges is enough: of the neighbours of a vertex that is not nearest to q one is nearer, so a
-//! descent ends at the nearest; the k + 1 nearest vertices are the k nearest and a neighbour of one of them; and the
-//! vertices in a circle are connected by edges between them (all three because the edges contain those of the
-//! Delaunay graph). Vertices in a rectangle need not be; there the triangles that meet it are visited.
-//!
-//! Equal distances are ordered by the points, lexicographically, so every answer is a function of the set of
-//! points alone.
+//! The first three follow edges (`locate/nearest.rs`). Vertices in a rectangle need not be connected by edges; there the
+//! triangles that meet it are visited. Equal distances are ordered by the points, so answers are functions of the set.
 //!
 //! Cost: location, and O(1) expected for the nearest, O(k log k) for k of them, and the size of the answer for
 //! regions (up to logarithmic factors, on evenly spread points).
 
 use std::cmp::Ordering;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
 use delone_predicates::{compare_distances, compare_with_radius, lexicographic, orient2d};
 
 use super::insert::Spot;
+use super::layer::Layer;
 use super::{Delaunay2, Position2, finite};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, VertexId};
+use crate::locate::nearest::{self, Metric};
 use crate::locate::tally::Tally;
-
-/// A vertex on the way to becoming one of the nearest. The greatest is the nearest, as a heap wants it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Candidate {
-    place: Place,
-    point: [f64; 2],
-    q: [f64; 2],
-}
 
 /// By distance, then lexicographically.
 pub(super) fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
     compare_distances(q, a, b).then_with(|| lexicographic(a, b))
 }
 
-impl Eq for Candidate {}
-
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> Ordering {
-        nearer(self.q, other.point, self.point)
+impl Metric for Layer {
+    fn nearer(&self, q: [f64; 2], a: Place, b: Place) -> Ordering {
+        nearer(q, self.points[a.index()], self.points[b.index()])
     }
-}
 
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
+    fn is_within(&self, q: [f64; 2], v: Place, radius: f64) -> bool {
+        compare_with_radius(q, self.points[v.index()], radius).is_le()
+    }
+
+    #[inline]
+    fn beside(&self, v: Place, each: impl FnMut(Place)) {
+        self.mesh.spokes(v).map(|e| self.mesh.head(e)).filter(|w| !w.is_ghost()).for_each(each);
     }
 }
 
@@ -88,18 +78,8 @@ impl Delaunay2 {
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn k_nearest<P: Position2>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
         let q = finite(&q)?;
-        let candidate = |place: Place| Candidate { place, point: self.base.points[place.index()], q };
-        let mut found = Vec::new();
-        let mut waiting: BinaryHeap<Candidate> =
-            self.nearest_place(q, &mut ()).into_iter().map(candidate).collect();
-        let mut seen: BTreeSet<Place> = waiting.iter().map(|c| c.place).collect();
-        while found.len() < k {
-            let Some(Candidate { place, .. }) = waiting.pop() else { break };
-            found.push(self.base.mesh.name(place));
-            let fresh = self.beside(place).filter(|w| seen.insert(*w));
-            waiting.extend(fresh.map(candidate));
-        }
-        Ok(found)
+        let found = nearest::k_nearest(&self.base, self.nearest_place(q, &mut ()), q, k);
+        Ok(found.into_iter().map(|v| self.base.mesh.name(v)).collect())
     }
 
     /// The vertices at most `radius` away from a point, by increasing id. None for a negative radius.
@@ -111,13 +91,7 @@ impl Delaunay2 {
         if !radius.is_finite() {
             return Err(Error::Parameter { name: "radius", value: radius, range: "finite" });
         }
-        let inside = |v: &Place| compare_with_radius(q, self.base.points[v.index()], radius).is_le();
-        let mut pending: Vec<Place> = self.nearest_place(q, &mut ()).into_iter().filter(inside).collect();
-        let mut seen: BTreeSet<Place> = pending.iter().copied().collect();
-        while let Some(v) = pending.pop() {
-            pending.extend(self.beside(v).filter(|w| inside(w) && seen.insert(*w)));
-        }
-        Ok(self.sorted_names(seen))
+        Ok(self.sorted_names(nearest::within(&self.base, self.nearest_place(q, &mut ()), q, radius)))
     }
 
     /// The vertices in a rectangle given by its lower left and upper right corners, its border included, by
@@ -156,7 +130,7 @@ impl Delaunay2 {
         let mesh = &self.base.mesh;
         let point = |v: Place| self.base.points[v.index()];
         let better = |a: Place, b: Place| if nearer(q, point(b), point(a)).is_lt() { b } else { a };
-        let mut best = match self.spot(q, tally).spot {
+        let start = match self.spot(q, tally).spot {
             Spot::Empty => return None,
             Spot::Vertex(v) | Spot::End(v) => return Some(v),
             Spot::BesidePoint => return mesh.lone,
@@ -165,23 +139,7 @@ impl Delaunay2 {
                 mesh.places(t).into_iter().filter(|v| !v.is_ghost()).reduce(better)?
             }
         };
-        loop {
-            let mut next = best;
-            for w in self.beside(best) {
-                tally.compared();
-                next = better(next, w);
-            }
-            if next == best {
-                return Some(best);
-            }
-            best = next;
-        }
-    }
-
-    /// The neighbours of a vertex.
-    fn beside(&self, v: Place) -> impl Iterator<Item = Place> + '_ {
-        let mesh = &self.base.mesh;
-        mesh.spokes(v).map(|e| mesh.head(e)).filter(|w| !w.is_ghost())
+        Some(nearest::descend(&self.base, start, q, tally))
     }
 
     fn sorted_names(&self, places: impl IntoIterator<Item = Place>) -> Vec<VertexId> {

@@ -8,7 +8,7 @@ use super::layer::Layer;
 use crate::fetch::fetch;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
-use crate::locate::{Ground, Level, Start};
+use crate::locate::{Ground, Level, Start, nearest};
 use crate::mesh::Dimension;
 
 impl Layer {
@@ -104,20 +104,9 @@ impl Ground for Layer {
         let t = self.walk(self.start_cell(start), q, tally);
         let nearer = |a: Place, b: Place| if self.compare_distances(q, b, a).is_lt() { b } else { a };
         let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !p.is_ghost());
-        let mut best = corners.reduce(nearer).expect("a tetrahedron has a finite corner");
+        let best = corners.reduce(nearer).expect("a tetrahedron has a finite corner");
         (0..4).for_each(|_| tally.compared());
-        // Of the neighbours of a vertex that is not nearest one is nearer.
-        let (mut star, mut joined) = (Vec::new(), Vec::new());
-        loop {
-            if exactly {
-                self.neighbors(best, &mut star, &mut joined);
-            }
-            joined.iter().for_each(|_| tally.compared());
-            match joined.iter().copied().reduce(nearer) {
-                Some(next) if self.compare_distances(q, next, best).is_lt() => best = next,
-                _ => return best,
-            }
-        }
+        if exactly { nearest::descend(self, best, q, tally) } else { best }
     }
 }
 

@@ -1,0 +1,110 @@
+//! Vertices by distance, along edges: nearest, k nearest, within a radius; in the plane and in space.
+//!
+//! Why following edges is enough: of the neighbours of a vertex that is not nearest to q one is nearer, so a
+//! descent ends at the nearest; the k + 1 nearest vertices are the k nearest and a neighbour of one of them; and the
+//! vertices within a radius are connected by edges between them (all three because the edges contain those of the
+//! Delaunay graph).
+//!
+//! Equal distances are ordered by the points, lexicographically, so every answer is a function of the set of
+//! points alone.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeSet, BinaryHeap};
+
+use super::Ground;
+use super::tally::Tally;
+use crate::ids::Place;
+
+/// A triangulation as searches by distance see it.
+pub(crate) trait Metric: Ground {
+    /// Compares two vertices by their distance from `q`, then lexicographically.
+    fn nearer(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
+
+    /// Whether a vertex is at most `radius` away from `q`.
+    fn is_within(&self, q: Self::Point, v: Place, radius: f64) -> bool;
+
+    /// Calls for each neighbour of a vertex.
+    fn beside(&self, v: Place, each: impl FnMut(Place));
+}
+
+/// The nearest vertex, down along edges from another one.
+pub(crate) fn descend<G: Metric, T: Tally>(ground: &G, from: Place, q: G::Point, tally: &mut T) -> Place {
+    let mut best = from;
+    loop {
+        let mut next = best;
+        ground.beside(best, |w| {
+            tally.compared();
+            if ground.nearer(q, w, next).is_lt() {
+                next = w;
+            }
+        });
+        if next == best {
+            return best;
+        }
+        best = next;
+    }
+}
+
+/// A vertex on the way to becoming one of the nearest. The greatest is the nearest, as a heap wants it.
+struct Candidate<'a, G: Metric> {
+    ground: &'a G,
+    q: G::Point,
+    place: Place,
+}
+
+impl<G: Metric> PartialEq for Candidate<'_, G> {
+    fn eq(&self, other: &Self) -> bool {
+        self.place == other.place
+    }
+}
+
+impl<G: Metric> Eq for Candidate<'_, G> {}
+
+impl<G: Metric> Ord for Candidate<'_, G> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.ground.nearer(self.q, other.place, self.place)
+    }
+}
+
+impl<G: Metric> PartialOrd for Candidate<'_, G> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// The k nearest vertices, nearest first, given the nearest one.
+pub(crate) fn k_nearest<G: Metric>(ground: &G, nearest: Option<Place>, q: G::Point, k: usize) -> Vec<Place> {
+    let candidate = |place: Place| Candidate { ground, q, place };
+    let mut found = Vec::new();
+    let mut waiting: BinaryHeap<_> = nearest.into_iter().map(candidate).collect();
+    let mut seen: BTreeSet<Place> = nearest.into_iter().collect();
+    while found.len() < k {
+        let Some(Candidate { place, .. }) = waiting.pop() else { break };
+        found.push(place);
+        ground.beside(place, |w| {
+            if seen.insert(w) {
+                waiting.push(candidate(w));
+            }
+        });
+    }
+    found
+}
+
+/// The vertices at most `radius` away, in no special order, given the nearest one.
+pub(crate) fn within<G: Metric>(
+    ground: &G,
+    nearest: Option<Place>,
+    q: G::Point,
+    radius: f64,
+) -> BTreeSet<Place> {
+    let mut pending: Vec<Place> = nearest.into_iter().filter(|&v| ground.is_within(q, v, radius)).collect();
+    let mut seen: BTreeSet<Place> = pending.iter().copied().collect();
+    while let Some(v) = pending.pop() {
+        ground.beside(v, |w| {
+            if ground.is_within(q, w, radius) && seen.insert(w) {
+                pending.push(w);
+            }
+        });
+    }
+    seen
+}
