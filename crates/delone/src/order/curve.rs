@@ -158,9 +158,10 @@ mod tests {
         let skewed =
             |i: u32| if i.is_multiple_of(7) { [1e300, 0.0, 0.0] } else { [f64::from(i) * 1e-200, 1.0, 0.0] };
         let mut order = hilbert(5000, &skewed);
-        // All but one in seven share their first key.
-        let steps = order.windows(2).filter(|w| w[1] > w[0] && w[1] - w[0] <= 2).count();
-        assert!(steps > 4900, "{steps}");
+        // All but one in seven share their first key, and are on a line: the way along it is short all the same.
+        let near: Vec<u32> = order.iter().copied().filter(|i| !i.is_multiple_of(7)).collect();
+        let way: u32 = near.windows(2).map(|w| w[0].abs_diff(w[1])).sum();
+        assert!(way < 6 * 5000, "{way}");
         order.sort_unstable();
         assert!(order.into_iter().eq(0..5000));
         let mut order = rounds(5000, 3);
