@@ -337,6 +337,8 @@ fn in_sphere_is_exact() {
             let filter = Filter3::for_box(extent, grid);
             assert_eq!(filter.in_sphere(a, b, c, d, e), sign(perturbed), "{name}: {five:?}, in a box");
             assert_eq!(filter.orient3d(a, b, c, d), orient3d(a, b, c, d), "{name}: {five:?}, in a box");
+            let both = filter.in_spheres([[a, b, c, d], [b, a, c, d]], e);
+            assert_eq!(both, [sign(perturbed), -sign(perturbed)], "{name}: {five:?}, two at once");
         }
         for swapped in [in_sphere(b, a, c, d, e), in_sphere(a, c, b, d, e), in_sphere(a, b, d, c, e)] {
             assert_eq!(swapped, -sign(perturbed), "{name}: {five:?}, swapped");

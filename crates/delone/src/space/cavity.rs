@@ -19,12 +19,16 @@ use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
 /// Marks of tetrahedra while a cavity is dug.
 const INSIDE: u8 = 1;
 const OUTSIDE: u8 = 2;
+const WAITING: u8 = 3;
 
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cavity {
     /// The tetrahedra in conflict; then the new ones.
     pub(super) cells: Vec<TetrahedronId>,
+    /// All that are or were to be tested, in their order, and how many they are.
+    queue: Vec<TetrahedronId>,
+    queued: usize,
     /// The facets around them, seen from outside.
     border: Vec<FacetId>,
     /// The border's vertices by their number, each with a new tetrahedron; the ghost has the first.
@@ -53,36 +57,68 @@ impl Cavity {
         self.refill(&mut layer.mesh, v);
     }
 
-    /// Collects the tetrahedra in conflict and their border.
+    /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what goes on the lists is decided
+    /// without branches, which would go the wrong way half of the time.
     fn find<T: Tally>(&mut self, layer: &mut Layer, q: [f64; 3], seed: TetrahedronId, tally: &mut T) {
         self.cells.clear();
-        self.border.clear();
-        layer.mesh.marks[seed.index()] = INSIDE;
-        self.cells.push(seed);
+        self.queued = 0;
+        self.enter(&mut layer.mesh, seed);
         let mut done = 0;
-        while let Some(&t) = self.cells.get(done) {
-            done += 1;
-            for g in layer.mesh.cells[t.index()].across {
-                let outside = g.tetrahedron();
-                let mark = match layer.mesh.marks[outside.index()] {
-                    0 => {
-                        tally.in_circle();
-                        let mark = if layer.conflicts(outside, q) { INSIDE } else { OUTSIDE };
-                        layer.mesh.marks[outside.index()] = mark;
-                        if mark == INSIDE {
-                            for f in layer.mesh.cells[outside.index()].across {
-                                fetch(&layer.mesh.cells, f.tetrahedron().index());
-                            }
-                            self.cells.push(outside);
-                        }
-                        mark
-                    }
-                    mark => mark,
-                };
-                if mark == OUTSIDE {
-                    self.border.push(g);
-                }
+        while done < self.queued {
+            let t = self.queue[done];
+            tally.in_circle();
+            if done + 1 == self.queued {
+                done += 1;
+                let inside = layer.conflicts(t, q);
+                self.judge(&mut layer.mesh, t, inside);
+                continue;
             }
+            let u = self.queue[done + 1];
+            tally.in_circle();
+            done += 2;
+            let [first, second] = layer.both_conflict(t, u, q);
+            self.judge(&mut layer.mesh, t, first);
+            self.judge(&mut layer.mesh, u, second);
+        }
+        let mut count = 0;
+        self.border.resize(4 * self.cells.len(), FacetId::NONE);
+        for &t in &self.cells {
+            let across = layer.mesh.cells[t.index()].across;
+            for facet in across {
+                self.border[count] = facet;
+                count += usize::from(layer.mesh.marks[facet.tetrahedron().index()] == OUTSIDE);
+            }
+        }
+        self.border.truncate(count);
+    }
+
+    /// Notes whether a tetrahedron is in conflict.
+    #[inline]
+    fn judge(&mut self, mesh: &mut Mesh3, t: TetrahedronId, inside: bool) {
+        if inside {
+            self.enter(mesh, t);
+        } else {
+            mesh.marks[t.index()] = OUTSIDE;
+        }
+    }
+
+    /// Takes a tetrahedron into the cavity, and asks for its neighbours.
+    #[inline]
+    fn enter(&mut self, mesh: &mut Mesh3, t: TetrahedronId) {
+        mesh.marks[t.index()] = INSIDE;
+        self.cells.push(t);
+        if self.queue.len() < self.queued + 4 {
+            self.queue.resize(2 * self.queued + 64, TetrahedronId::NONE);
+        }
+        let across = mesh.cells[t.index()].across;
+        for facet in across {
+            let next = facet.tetrahedron();
+            let mark = &mut mesh.marks[next.index()];
+            let fresh = *mark == 0;
+            *mark = if fresh { WAITING } else { *mark };
+            fetch(&mesh.cells, next.index());
+            self.queue[self.queued] = next;
+            self.queued += usize::from(fresh);
         }
     }
 

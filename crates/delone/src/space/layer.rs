@@ -154,6 +154,19 @@ impl Layer {
         self.filter.in_sphere(at(a), at(b), at(c), at(d), q).is_positive()
     }
 
+    /// The same for two.
+    #[inline]
+    pub(super) fn both_conflict(&self, t: TetrahedronId, u: TetrahedronId, q: [f64; 3]) -> [bool; 2] {
+        let (first, second) = (&self.mesh.cells[t.index()].corners, &self.mesh.cells[u.index()].corners);
+        if first[3].is_ghost() || second[3].is_ghost() {
+            return [self.conflicts(t, q), self.conflicts(u, q)];
+        }
+        let at = |p: Place| self.points[p.index()];
+        let of = |corners: &[Place; 4]| [at(corners[0]), at(corners[1]), at(corners[2]), at(corners[3])];
+        let [first, second] = self.filter.in_spheres([of(first), of(second)], q);
+        [first.is_positive(), second.is_positive()]
+    }
+
     /// The same for a ghost.
     fn is_beyond_hull(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
         let cell = &self.mesh.cells[t.index()];
