@@ -45,6 +45,14 @@ pub enum Error {
     /// Location by history forgets nothing, so nothing can be removed or moved.
     #[error("a triangulation that is located by history cannot lose vertices")]
     InsertOnly,
+    /// An instance of another number of points than was preprocessed.
+    #[error("{found} points for {expected} centres")]
+    Length {
+        /// The number of centres.
+        expected: usize,
+        /// The number of points.
+        found: usize,
+    },
     /// There is no location by history in space.
     #[error("location by history is for the plane")]
     OnlyInThePlane,

@@ -37,8 +37,8 @@ fn jump_and_walk_with_32_samples() {
     for (n, paper) in [(3_200, 36.0), (32_000, 50.0)] {
         let d = located(n, Locate::JumpAndWalk(JumpAndWalk { sample: Some(32), ..JumpAndWalk::default() }));
         let visited = mean(&d, |work| work.visited);
-        // Three more than crossings: the triangles turned through at the start, and the last.
-        near(visited, 2.16 * (n as f64).sqrt() / (2.0 * 33f64.sqrt()) + 3.0, 0.1);
+        // Two more than crossings: the triangles turned through at the start, two and a half, where less is crossed.
+        near(visited, 2.16 * (n as f64).sqrt() / (2.0 * 33f64.sqrt()) + 2.0, 0.1);
         assert!(visited < paper);
         assert!((mean(&d, |work| work.compared) - 32.0).abs() < 1e-9);
     }

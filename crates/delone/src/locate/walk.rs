@@ -132,23 +132,25 @@ fn straight<G: Surface, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut
         tally.orientation();
         ground.side(from, q, w) == Ordering::Greater
     };
-    // The spoke on the right of the line whose next spoke is on the left. Around a vertex of the hull there may
-    // be none, and around `q` itself: the visibility walk knows what to do.
+    // The line leaves between a spoke on its right and the next one, counter-clockwise, on its left. From a spoke on
+    // the right it is found counter-clockwise, from one on the left clockwise, never further than half around. At a
+    // vertex of the hull there may be none, and at `q` itself: the visibility walk knows what to do.
     let first = mesh.incident[v.index()];
     let mut spoke = first;
-    let mut right = !mesh.head(spoke).is_ghost() && !is_left(mesh.head(spoke));
+    let turns_left = !mesh.head(spoke).is_ghost() && !is_left(mesh.head(spoke));
+    // The walk is in the triangle of the first spoke, and going clockwise leaves it.
+    steps += usize::from(!turns_left);
     let mut side = loop {
-        let next = mesh.spin(spoke);
+        let next = if turns_left { mesh.spin(spoke) } else { mesh.twin(spoke).next() };
         let head = mesh.head(next);
         steps += 1;
-        let next_right = !head.is_ghost() && !is_left(head);
-        if right && !next_right && !head.is_ghost() {
-            break spoke.next();
-        }
-        if next == first {
+        if next == first || head.is_ghost() || mesh.head(spoke).is_ghost() {
             return visibility(ground, spoke, q, |_| false, tally);
         }
-        (spoke, right) = (next, next_right);
+        if is_left(head) == turns_left {
+            break if turns_left { spoke.next() } else { next.next() };
+        }
+        spoke = next;
     };
     (0..steps).for_each(|_| tally.visited());
     loop {

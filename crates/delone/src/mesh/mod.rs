@@ -191,6 +191,15 @@ impl Mesh {
         }
     }
 
+    /// No vertex again, in the memory that there is. Names are left alone.
+    pub(crate) fn restart(&mut self, places: usize) {
+        self.edges.clear();
+        self.incident.clear();
+        self.incident.resize(places, EdgeId::NONE);
+        (self.ghost_edge, self.lone, self.vertex_count) = (EdgeId::NONE, None, 0);
+        self.free = Slots::default();
+    }
+
     /// The vertex at a place.
     #[inline]
     pub(crate) fn name(&self, place: Place) -> VertexId {

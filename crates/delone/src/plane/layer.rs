@@ -51,6 +51,15 @@ impl Layer {
         }
     }
 
+    /// Starts anew with other points, none a vertex yet, in the memory that there is.
+    pub(super) fn restart(&mut self, points: impl Iterator<Item = [f64; 2]>) {
+        self.points.clear();
+        self.points.extend(points);
+        self.mesh.restart(self.points.len());
+        self.free = Slots::default();
+        self.spanned = false;
+    }
+
     /// What it takes, buffers not counted.
     pub(super) fn bytes(&self) -> usize {
         size_of_val(&*self.mesh.edges) + size_of_val(&*self.mesh.incident) + size_of_val(&*self.points)

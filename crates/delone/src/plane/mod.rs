@@ -6,6 +6,7 @@ mod change;
 pub mod check;
 mod flips;
 mod furthest;
+mod hints;
 mod hull;
 mod insert;
 mod layer;
@@ -21,6 +22,7 @@ mod voronoi;
 
 pub use build::{Algorithm, Counters};
 pub use furthest::{EnclosingCircle, Furthest2};
+pub use hints::{HintOrder, Hints2};
 pub use hull::convex_hull;
 pub use locate::Location;
 pub use locator::Footprint;

@@ -1,0 +1,246 @@
+//! Imprecise points: preprocess their approximate positions once, triangulate many instances fast.
+//!
+//! The centres are inserted one by one; for each the nearest one inserted before it is its *hint*. An instance is inserted
+//! in the same order, each point located by a straight walk from the instance of its hint. For disjoint unit disks that
+//! takes O(1) expected steps a point, whatever the instance.
+//!
+//! Source: Devillers, "Delaunay triangulation of imprecise points: preprocess and actually get a fast query time",
+//! JoCG 2011, §3; the order is random as in the analysis, or spatial as in §5, which is as good and knows the cache.
+//!
+//! Cost: O(n log n) expected to preprocess; O(n) expected for an instance of disjoint unit disks, and for other
+//! instances what the walks take. Nothing is allocated for an instance after the first.
+
+use std::collections::BTreeMap;
+
+use super::insert::Spot;
+use super::layer::Layer;
+use super::{Delaunay2, Position2, check_finite};
+use crate::error::Error;
+use crate::ids::{Duplicate, EdgeId, Inserted, Place, VertexId};
+use crate::locate::nearest::Metric;
+use crate::locate::tally::Tally;
+use crate::locate::{Start, Walk};
+use crate::mesh::Names;
+use crate::order::brio;
+use crate::order::random::SplitMix;
+
+/// In which order centres are inserted, and instances after them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HintOrder {
+    /// At random.
+    Random {
+        /// Decides the order.
+        seed: u64,
+    },
+    /// In biased random rounds, each along a curve: the faster one.
+    Spatial {
+        /// Decides the rounds.
+        seed: u64,
+    },
+}
+
+impl Default for HintOrder {
+    fn default() -> Self {
+        Self::Spatial { seed: 0 }
+    }
+}
+
+/// What is known of imprecise points before an instance comes.
+///
+/// ```
+/// use delone::{HintOrder, Hints2};
+///
+/// let centres = [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 5.0]];
+/// let mut hints = Hints2::preprocess(&centres, HintOrder::default())?;
+/// let noisy = centres.map(|[x, y]| [x + 0.5, y - 0.25]);
+/// let triangulation = hints.triangulate(&noisy)?;
+/// assert_eq!(triangulation.triangles().count(), 2);
+/// assert!(triangulation.check().is_ok());
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Hints2 {
+    /// Point `order[k]` is inserted as the k-th, at place k.
+    order: Vec<u32>,
+    /// The hint of the k-th: an earlier place.
+    hints: Vec<u32>,
+    /// The names when all points are distinct.
+    names: Names,
+    /// The last instance.
+    current: Delaunay2,
+}
+
+impl Hints2 {
+    /// Finds an order and the hints for points near these centres.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
+    pub fn preprocess<P: Position2>(centres: &[P], order: HintOrder) -> Result<Self, Error> {
+        super::check_count(centres.len())?;
+        let points: Vec<[f64; 2]> = centres.iter().map(Position2::xy).collect();
+        check_finite(&points)?;
+        let order = match order {
+            HintOrder::Spatial { seed } => brio::order(&points, seed),
+            HintOrder::Random { seed } => {
+                let mut order: Vec<u32> = (0..points.len() as u32).collect();
+                SplitMix(seed).shuffle(&mut order);
+                order
+            }
+        };
+        let mut d = Delaunay2::new();
+        let mut hints = Vec::with_capacity(points.len());
+        // For each vertex the place that it stands for: equal centres are one vertex, with the first one's place.
+        let mut places: Vec<u32> = Vec::with_capacity(points.len());
+        for (k, &i) in order.iter().enumerate() {
+            let q = points[i as usize];
+            hints.push(match d.insert(q)? {
+                Inserted::Existing(v) => places[v.index()],
+                Inserted::New(v) => {
+                    places.push(k as u32);
+                    d.nearest_neighbor(v).map_or(0, |w| places[w.index()])
+                }
+            });
+        }
+        let names = Names::along(&order);
+        Ok(Self { order, hints, names, current: Delaunay2::new() })
+    }
+
+    /// Triangulates an instance: point i is near centre i, or anywhere.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if there are more or fewer points than centres; [`Error::NotFinite`] names the first NaN or
+    /// infinite coordinate. The last instance is still there then.
+    pub fn triangulate<P: Position2>(&mut self, instance: &[P]) -> Result<&Delaunay2, Error> {
+        self.triangulate_counted(instance, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::triangulate`].
+    pub fn triangulate_counted<P: Position2, T: Tally>(
+        &mut self,
+        instance: &[P],
+        tally: &mut T,
+    ) -> Result<&Delaunay2, Error> {
+        self.place(instance)?;
+        let Delaunay2 { base, duplicates, .. } = &mut self.current;
+        insert_all::<_, false>(base, &mut self.hints, duplicates, tally);
+        Ok(&self.current)
+    }
+
+    /// The same for points that move from instance to instance: the nearest neighbours of this one are the hints for the
+    /// next.
+    ///
+    /// # Errors
+    /// As [`Self::triangulate`].
+    pub fn follow<P: Position2>(&mut self, instance: &[P]) -> Result<&Delaunay2, Error> {
+        self.follow_counted(instance, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::triangulate`].
+    pub fn follow_counted<P: Position2, T: Tally>(
+        &mut self,
+        instance: &[P],
+        tally: &mut T,
+    ) -> Result<&Delaunay2, Error> {
+        self.place(instance)?;
+        let Delaunay2 { base, duplicates, .. } = &mut self.current;
+        insert_all::<_, true>(base, &mut self.hints, duplicates, tally);
+        Ok(&self.current)
+    }
+
+    /// Puts an instance at its places, none a vertex yet.
+    fn place<P: Position2>(&mut self, instance: &[P]) -> Result<(), Error> {
+        if instance.len() != self.order.len() {
+            return Err(Error::Length { expected: self.order.len(), found: instance.len() });
+        }
+        for (index, p) in instance.iter().enumerate() {
+            let p = p.xy();
+            if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
+                return Err(Error::NotFinite { index, axis, value: p[axis] });
+            }
+        }
+        let d = &mut self.current;
+        let named = d.named.get_or_insert_default();
+        named.clear();
+        named.extend(instance.iter().map(Position2::xy));
+        d.base.restart(self.order.iter().map(|&i| named[i as usize]));
+        d.base.mesh.names.get_or_insert_default().clone_from(&self.names);
+        d.duplicates.clear();
+        d.locator.take();
+        d.upkeep.renew(self.order.len());
+        Ok(())
+    }
+
+    /// The last instance; no points before the first.
+    pub fn current(&self) -> &Delaunay2 {
+        &self.current
+    }
+
+    /// The order of insertion.
+    pub fn order(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.order.iter().map(|&i| i as usize)
+    }
+
+    /// For each point that is inserted, in the order of insertion, the point that is its hint. The first is its own.
+    pub fn hints(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.hints.iter().map(|&k| self.order[k as usize] as usize)
+    }
+}
+
+/// Makes the points at all places vertices, in their order, each located from its hint; and takes the nearest of those
+/// before it for a new hint, if wanted.
+fn insert_all<T: Tally, const RENEW: bool>(
+    layer: &mut Layer,
+    hints: &mut [u32],
+    duplicates: &mut Vec<Duplicate>,
+    tally: &mut T,
+) {
+    // Where the vertex is that stands for a place whose point equals another one.
+    let mut stands: BTreeMap<Place, Place> = BTreeMap::new();
+    for (k, hint) in hints.iter_mut().enumerate() {
+        let (v, near) = (Place::new(k), Place::new(*hint as usize));
+        let q = layer.points[k];
+        let near = if stands.is_empty() { near } else { stands.get(&near).copied().unwrap_or(near) };
+        let start = if layer.spanned {
+            Start::Vertex(near)
+        } else {
+            match layer.mesh.incident[near.index()] {
+                EdgeId::NONE => Start::Anywhere,
+                e => Start::At(e, Walk::Visibility),
+            }
+        };
+        match layer.spot(start, q, tally).0 {
+            Spot::Vertex(w) => {
+                stands.insert(v, w);
+                duplicates.push(coincide(layer, v, w));
+            }
+            spot => {
+                layer.insert_at(v, spot, tally);
+                if RENEW && k > 0 {
+                    let joined = layer.mesh.spokes(v).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
+                    let nearest = joined.reduce(|a, b| if layer.nearer(q, b, a).is_lt() { b } else { a });
+                    *hint = nearest.map_or(*hint, |w| w.index() as u32);
+                }
+            }
+        }
+    }
+    Duplicate::settle(duplicates);
+}
+
+/// Notes that the point at `v` equals the vertex at `w`: the one given first is the vertex.
+fn coincide(layer: &mut Layer, v: Place, w: Place) -> Duplicate {
+    let names = layer.mesh.names();
+    let (new, old): (VertexId, VertexId) = (names.of(v), names.of(w));
+    names.release(new);
+    if new < old {
+        names.release(old);
+        names.bind(new, w);
+    }
+    layer.free.give(v.index());
+    Duplicate { point: new.max(old).index(), vertex: new.min(old) }
+}
