@@ -47,8 +47,9 @@ pub use locate::tally::{Tally, Work};
 pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::tetrahedra::Mesh3;
 pub use mesh::{Dimension, Mesh};
+pub use order::HintOrder;
 pub use plane::{
-    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, HintOrder, Hints2,
-    Location, NearestSites, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
+    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Hints2, Location,
+    NearestSites, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
 };
-pub use space::{Algorithm3, Delaunay3, Location3, Position3};
+pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Position3};

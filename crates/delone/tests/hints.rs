@@ -1,8 +1,8 @@
 //! Imprecise points: every instance is what it is without hints, and walks are as short as the paper says.
 
-use delone::{Delaunay2, Error, HintOrder, Hints2, Work};
+use delone::{Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Work};
 use delone_oracle::brute;
-use delone_oracle::generate::{Kind, Random};
+use delone_oracle::generate::{Kind, Kind3, Random};
 
 const ORDERS: [HintOrder; 2] = [HintOrder::Random { seed: 3 }, HintOrder::Spatial { seed: 4 }];
 
@@ -89,6 +89,75 @@ fn walks_are_as_short_as_in_the_paper() {
             let visited = work.visited as f64 / n as f64;
             // In spatial order the triangle where a walk starts is one of the last made, and a better one.
             let expected = if matches!(order, HintOrder::Random { .. }) { 2.65..2.95 } else { 2.4..2.7 };
+            assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
+        }
+    }
+}
+
+#[test]
+fn every_instance_in_space_is_the_canonical_triangulation() {
+    for &kind in Kind3::ALL {
+        for order in ORDERS {
+            let n = if kind == Kind3::HugeSpan3 { 40 } else { 200 };
+            let centres = kind.points(n, 1);
+            let mut hints = Hints3::preprocess(&centres, order).expect("finite");
+            let mut random = Random::new(7);
+            for round in 0..6 {
+                let instance: Vec<[f64; 3]> = match round {
+                    0 => centres.clone(),
+                    1 => centres.iter().map(|p| p.map(|x| x + random.between(-0.5, 0.5))).collect(),
+                    2 => kind.points(n, 99),
+                    3 => vec![[2.0, 3.0, 4.0]; n],
+                    4 => (0..n).map(|i| [(i % 50) as f64, 1.0, (i % 2) as f64]).collect(),
+                    _ => centres.iter().rev().copied().collect(),
+                };
+                let what = format!("{} {order:?} {round}", kind.name());
+                let d = if round % 2 == 0 { hints.triangulate(&instance) } else { hints.follow(&instance) };
+                let d = d.expect("finite");
+                assert_eq!(d.check(), Ok(()), "{what}");
+                let fresh = Delaunay3::from_points(&instance).expect("finite");
+                let ids = |d: &Delaunay3| {
+                    let mut all: Vec<_> = d
+                        .tetrahedra()
+                        .map(|mut t| {
+                            t.sort_unstable();
+                            t
+                        })
+                        .collect();
+                    all.sort_unstable();
+                    (all, d.dimension(), d.edges().count(), d.duplicates().collect::<Vec<_>>())
+                };
+                assert!(ids(d) == ids(&fresh), "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn walks_in_space_are_as_short_as_in_the_paper() {
+    // §5: 5.2 to 5.3 visited in random order, 4.5 in spatial order.
+    for order in ORDERS {
+        for n in [1_000, 20_000] {
+            let centres = Kind3::Balls.points(n, 5);
+            let mut hints = Hints3::preprocess(&centres, order).expect("finite");
+            let mut random = Random::new(9);
+            let mut inside = || loop {
+                let u = [0, 1, 2].map(|_| random.between(-1.0, 1.0));
+                if u.iter().map(|x| x * x).sum::<f64>() <= 1.0 {
+                    break u;
+                }
+            };
+            let instance: Vec<[f64; 3]> = centres
+                .iter()
+                .map(|p| {
+                    let u = inside();
+                    [0, 1, 2].map(|k| p[k] + u[k])
+                })
+                .collect();
+            let mut work = Work::default();
+            hints.triangulate_counted(&instance, &mut work).expect("finite");
+            let visited = work.visited as f64 / n as f64;
+            let expected = if matches!(order, HintOrder::Random { .. }) { 5.1..5.45 } else { 4.3..4.7 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
         }
     }

@@ -1,8 +1,8 @@
 //! Hilbert order in space, and the rounds of a biased randomized insertion order along it.
 //!
 //! Sources: Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 2004, for the keys; Amenta, Choi &
-//! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Keys have a few bits more than it takes to tell evenly spread
-//! points apart; where many points share a key, they get keys in their own bounding box, recursively.
+//! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Keys have a few bits more than it takes to
+//! tell evenly spread points apart; where many points share a key, they get keys in their own bounding box, recursively.
 //!
 //! Cost: O(n log n).
 

@@ -6,3 +6,24 @@ mod hilbert;
 pub(crate) mod morton;
 mod quantize;
 pub(crate) mod random;
+
+/// In which order centres are inserted, and instances after them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HintOrder {
+    /// At random.
+    Random {
+        /// Decides the order.
+        seed: u64,
+    },
+    /// In biased random rounds, each along a curve: the faster one.
+    Spatial {
+        /// Decides the rounds.
+        seed: u64,
+    },
+}
+
+impl Default for HintOrder {
+    fn default() -> Self {
+        Self::Spatial { seed: 0 }
+    }
+}

@@ -21,29 +21,9 @@ use crate::locate::nearest::Metric;
 use crate::locate::tally::Tally;
 use crate::locate::{Start, Walk};
 use crate::mesh::Names;
+use crate::order::HintOrder;
 use crate::order::brio;
 use crate::order::random::SplitMix;
-
-/// In which order centres are inserted, and instances after them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HintOrder {
-    /// At random.
-    Random {
-        /// Decides the order.
-        seed: u64,
-    },
-    /// In biased random rounds, each along a curve: the faster one.
-    Spatial {
-        /// Decides the rounds.
-        seed: u64,
-    },
-}
-
-impl Default for HintOrder {
-    fn default() -> Self {
-        Self::Spatial { seed: 0 }
-    }
-}
 
 /// What is known of imprecise points before an instance comes.
 ///

@@ -22,7 +22,7 @@ mod voronoi;
 
 pub use build::{Algorithm, Counters};
 pub use furthest::{EnclosingCircle, Furthest2};
-pub use hints::{HintOrder, Hints2};
+pub use hints::Hints2;
 pub use hull::convex_hull;
 pub use locate::Location;
 pub use locator::Footprint;

@@ -63,7 +63,7 @@ pub(super) fn build<T: Tally>(
 }
 
 /// Notes that the point at `v` equals the vertex at `w`: the one given first is the vertex.
-fn coincide(layer: &mut Layer, v: Place, w: Place) -> Duplicate {
+pub(super) fn coincide(layer: &mut Layer, v: Place, w: Place) -> Duplicate {
     let names = &mut layer.mesh.names;
     let (new, old) = (names.of(v), names.of(w));
     names.release(new);

@@ -5,6 +5,7 @@ mod cavity;
 mod change;
 pub mod check;
 mod ground;
+mod hints;
 mod layer;
 mod locate;
 mod locator;
@@ -14,6 +15,7 @@ mod remove;
 mod scaffold;
 pub mod verify;
 
+pub use hints::Hints3;
 pub use locate::Location3;
 pub use position::Position3;
 

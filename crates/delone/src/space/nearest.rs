@@ -66,6 +66,20 @@ impl Delaunay3 {
         Ok(self.nearest_place(q, tally).map(|v| self.base.mesh.name(v)))
     }
 
+    /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if
+    /// there is no other, and for an id that is no vertex.
+    pub fn nearest_neighbor(&self, v: VertexId) -> Option<VertexId> {
+        let (layer, place) = (&self.base, self.base.mesh.place(v)?);
+        let q = layer.points[place.index()];
+        let mut best = None;
+        layer.beside(place, |w| {
+            if best.is_none_or(|best| Metric::nearer(layer, q, w, best).is_lt()) {
+                best = Some(w);
+            }
+        });
+        best.map(|w| layer.mesh.name(w))
+    }
+
     /// The k vertices nearest to a point, nearest first, ties as in [`Self::nearest`]; all of them if there are
     /// fewer.
     ///

@@ -1,0 +1,176 @@
+//! Imprecise points in space: preprocess their approximate positions once, triangulate many instances fast.
+//!
+//! As in the plane (`plane/hints.rs`): each centre's hint is the nearest one inserted before it, and each point of an
+//! instance is located by a walk from the instance of its hint.
+//!
+//! Source: Devillers, "Delaunay triangulation of imprecise points: preprocess and actually get a fast query time",
+//! JoCG 2011, §3 and the experiments in space of §5.
+//!
+//! Cost: O(n log n) expected to preprocess evenly spread points; O(n) expected for an instance of disjoint unit balls.
+//! Nothing is allocated for an instance after the first.
+
+use super::layer::Layer;
+use super::{Delaunay3, Position3, build, check_points};
+use crate::error::Error;
+use crate::ids::{Duplicate, Inserted, Place, TetrahedronId};
+use crate::locate::nearest::Metric;
+use crate::locate::tally::Tally;
+use crate::mesh::Names;
+use crate::order::random::SplitMix;
+use crate::order::{HintOrder, curve};
+
+/// What is known of imprecise points in space before an instance comes.
+///
+/// ```
+/// use delone::{HintOrder, Hints3};
+///
+/// let centres = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
+/// let mut hints = Hints3::preprocess(&centres, HintOrder::default())?;
+/// let noisy = centres.map(|p| p.map(|x| x + 0.25));
+/// assert_eq!(hints.triangulate(&noisy)?.tetrahedra().count(), 1);
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Hints3 {
+    /// Point `along[k]` is kept at place k.
+    along: Vec<u32>,
+    /// The places in the order of insertion.
+    order: Vec<u32>,
+    /// For each of them the place of its hint.
+    hints: Vec<u32>,
+    /// The names when all points are distinct.
+    names: Names,
+    /// The last instance.
+    current: Delaunay3,
+}
+
+impl Hints3 {
+    /// Finds an order and the hints for points near these centres.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
+    pub fn preprocess<P: Position3>(centres: &[P], order: HintOrder) -> Result<Self, Error> {
+        check_points(centres)?;
+        let count = centres.len();
+        let (along, order) = match order {
+            HintOrder::Spatial { seed } => {
+                (curve::hilbert(count, &|i| centres[i as usize].xyz()), curve::rounds(count, seed))
+            }
+            HintOrder::Random { seed } => {
+                let mut along: Vec<u32> = (0..count as u32).collect();
+                SplitMix(seed).shuffle(&mut along);
+                (along, (0..count as u32).collect())
+            }
+        };
+        let mut d = Delaunay3::new();
+        let mut hints = Vec::with_capacity(count);
+        // For each vertex the place that it stands for: equal centres are one vertex, with the first one's place.
+        let mut places: Vec<u32> = Vec::with_capacity(count);
+        for &place in &order {
+            let q = centres[along[place as usize] as usize].xyz();
+            hints.push(match d.insert(q)? {
+                Inserted::Existing(v) => places[v.index()],
+                Inserted::New(v) => {
+                    places.push(place);
+                    d.nearest_neighbor(v).map_or(place, |w| places[w.index()])
+                }
+            });
+        }
+        let names = Names::along(&along);
+        Ok(Self { along, order, hints, names, current: Delaunay3::new() })
+    }
+
+    /// Triangulates an instance: point i is near centre i, or anywhere.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if there are more or fewer points than centres; [`Error::NotFinite`] names the first NaN or
+    /// infinite coordinate. The last instance is still there then.
+    pub fn triangulate<P: Position3>(&mut self, instance: &[P]) -> Result<&Delaunay3, Error> {
+        self.triangulate_counted(instance, &mut ())
+    }
+
+    /// The same, and counts what it does.
+    ///
+    /// # Errors
+    /// As [`Self::triangulate`].
+    pub fn triangulate_counted<P: Position3, T: Tally>(
+        &mut self,
+        instance: &[P],
+        tally: &mut T,
+    ) -> Result<&Delaunay3, Error> {
+        self.place(instance)?;
+        self.insert_all::<T, false>(tally);
+        Ok(&self.current)
+    }
+
+    /// The same for points that move from instance to instance: the nearest neighbours of this one are the hints for the
+    /// next.
+    ///
+    /// # Errors
+    /// As [`Self::triangulate`].
+    pub fn follow<P: Position3>(&mut self, instance: &[P]) -> Result<&Delaunay3, Error> {
+        self.place(instance)?;
+        self.insert_all::<(), true>(&mut ());
+        Ok(&self.current)
+    }
+
+    /// The last instance; no points before the first.
+    pub fn current(&self) -> &Delaunay3 {
+        &self.current
+    }
+
+    /// Puts an instance at its places, none a vertex yet.
+    fn place<P: Position3>(&mut self, instance: &[P]) -> Result<(), Error> {
+        if instance.len() != self.along.len() {
+            return Err(Error::Length { expected: self.along.len(), found: instance.len() });
+        }
+        check_points(instance)?;
+        let d = &mut self.current;
+        d.base.restart(self.along.iter().map(|&i| instance[i as usize].xyz()));
+        d.base.mesh.names.clone_from(&self.names);
+        d.duplicates.clear();
+        d.moved.clear();
+        d.locator.take();
+        d.hinted = instance.len();
+        Ok(())
+    }
+
+    /// Makes all points vertices, each located from its hint; and takes the nearest of those before it for a new hint,
+    /// if wanted.
+    fn insert_all<T: Tally, const RENEW: bool>(&mut self, tally: &mut T) {
+        let Delaunay3 { base: layer, duplicates, .. } = &mut self.current;
+        let first = layer.begin(&self.order);
+        let Some(&a) = first.first() else { return };
+        let mut last = layer.mesh.incident[a.index()];
+        for (&place, hint) in self.order.iter().zip(&mut self.hints) {
+            let v = Place::new(place as usize);
+            if first.contains(&v) {
+                continue;
+            }
+            let q = layer.points[v.index()];
+            // The hint may be no vertex: because it equals another, or has not been inserted where the first ones
+            // do not span space.
+            let near = layer.mesh.incident[*hint as usize];
+            let from = if near == TetrahedronId::NONE { last } else { near };
+            last = layer.walk(from, q, tally);
+            if let Some(w) = layer.vertex_at(last, q) {
+                duplicates.push(build::coincide(layer, v, w));
+                continue;
+            }
+            layer.insert(v, last, tally);
+            last = layer.mesh.incident[v.index()];
+            if RENEW {
+                *hint = nearest(layer, v).map_or(*hint, |w| w.index() as u32);
+            }
+        }
+        Duplicate::settle(duplicates);
+    }
+}
+
+/// The nearest neighbour of a vertex that was inserted last.
+fn nearest(layer: &Layer, v: Place) -> Option<Place> {
+    let q = layer.points[v.index()];
+    let corners = layer.cavity.cells.iter().flat_map(|t| layer.mesh.cells[t.index()].corners);
+    let joined = corners.filter(|&p| p != v && !p.is_ghost() && !layer.is_scaffold(p));
+    joined.reduce(|a, b| if layer.nearer(q, b, a).is_lt() { b } else { a })
+}
