@@ -90,7 +90,7 @@ fn main() {
         return;
     }
     if !args.space.is_empty() {
-        let each = |name: &String| args.size.iter().all(|&size| space::run(name, size, args.runs));
+        let each = |name: &String| args.size.iter().all(|&size| space::run(name, size, args.runs, args.memory));
         let right = args.space.iter().fold(true, |right, name| each(name) && right);
         std::process::exit(i32::from(!right));
     }
@@ -168,7 +168,7 @@ fn report(kind: Kind, size: usize, entries: &[Entry], memory: bool) {
             _ => String::new(),
         };
         let bytes = if memory && !entry.times.is_empty() {
-            crate::memory::peak(entry.engine.name, kind, size)
+            crate::memory::peak(entry.engine.name, kind.name(), size)
         } else {
             None
         };

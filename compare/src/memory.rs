@@ -4,7 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use delone_oracle::generate::Kind;
+use delone_oracle::generate::{Kind, Kind3};
 
 use crate::engines::ENGINES;
 
@@ -18,25 +18,31 @@ fn status(field: &str) -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// The child: `engine kind n`; prints bytes per point above the input.
+/// The child: `engine kind n`; prints bytes per point above the input. In space the engine is `space/NAME`.
 pub fn child(task: &str) -> Option<()> {
-    let mut words = task.split(' ');
-    let engine = ENGINES.iter().find(|e| Some(e.name) == words.clone().next())?;
-    words.next();
-    let kind = Kind::named(words.next()?)?;
-    let n: usize = words.next()?.parse().ok()?;
-    let points = kind.points(n, 1);
+    let words: Vec<&str> = task.split(' ').collect();
+    let &[name, kind, n] = words.as_slice() else { return None };
+    let n: usize = n.parse().ok()?;
+    if let Some(name) = name.strip_prefix("space/") {
+        let points = Kind3::named(kind)?.points(n, 1);
+        return measured(n, || crate::space::build(name, &points));
+    }
+    let engine = ENGINES.iter().find(|e| e.name == name)?;
+    let points = Kind::named(kind)?.points(n, 1);
+    measured(n, || (engine.run)(&points, false).ok().map(drop))
+}
+
+fn measured(n: usize, work: impl FnOnce() -> Option<()>) -> Option<()> {
     fs::write("/proc/self/clear_refs", "5").ok()?;
     let before = status("VmRSS")?;
-    (engine.run)(&points, false).ok()?;
-    let peak = status("VmHWM")?;
-    println!("{}", (peak - before) / n as f64);
+    work()?;
+    println!("{}", (status("VmHWM")? - before) / n as f64);
     Some(())
 }
 
 /// Bytes per point above the engine's own copy of the input, or nothing where that cannot be measured.
-pub fn peak(engine: &str, kind: Kind, n: usize) -> Option<f64> {
+pub fn peak(engine: &str, kind: &str, n: usize) -> Option<f64> {
     let program = std::env::current_exe().ok()?;
-    let output = Command::new(program).env(CHILD, format!("{engine} {} {n}", kind.name())).output().ok()?;
+    let output = Command::new(program).env(CHILD, format!("{engine} {kind} {n}")).output().ok()?;
     String::from_utf8(output.stdout).ok()?.trim().parse().ok()
 }

@@ -24,7 +24,7 @@ const ENGINES: &[(&str, fn(&Points) -> Run)] = &[
 ];
 
 /// Times all engines and prints the minimum over the runs. False if numbers of tetrahedra differ.
-pub fn run(name: &str, size: usize, runs: usize) -> bool {
+pub fn run(name: &str, size: usize, runs: usize, memory: bool) -> bool {
     let points = match Kind3::named(name) {
         Some(kind) => kind.points(size, 1),
         None => match scan(name) {
@@ -52,11 +52,24 @@ pub fn run(name: &str, size: usize, runs: usize) -> bool {
             if removal.is_finite() {
                 print!(" {:>10.0} {:>6.2} x", removal * 1e9, removal / best[0].2);
             }
+            let peak = if memory { crate::memory::peak(&format!("space/{engine}"), name, size) } else { None };
+            if let Some(bytes) = peak {
+                print!(" {bytes:>6.0} B/point");
+            }
             println!();
         }
     }
     let general = matches!(name, "cube" | "ball" | "balls" | "clusters3");
     !general || best.iter().all(|&(seconds, cells, _)| !seconds.is_finite() || cells == 0 || cells == best[0].1)
+}
+
+/// Builds once, for who measures memory.
+pub fn build(name: &str, points: &Points) -> Option<()> {
+    if name == "delone" {
+        return Delaunay3::from_points(points).ok().map(drop);
+    }
+    let engine = ENGINES.iter().find(|engine| engine.0 == name)?;
+    (engine.1)(points).map(drop)
 }
 
 /// The vertices of a model in PLY, ascii or binary, as far as three doubles or floats begin each.
