@@ -93,6 +93,7 @@ impl DimArgs {
   delone triangulate points.npy -o triangles.npy --check --stats stats.json
   delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
   delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
+  delone triangulate measured.npy --hints nominal.npy -o triangles.npy --stats stats.json
 
 x and y are triangulated; heights are kept. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
 seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
@@ -116,6 +117,10 @@ pub(crate) struct TriangulateArgs {
     /// Point location of the incremental algorithm [default: spatial].
     #[arg(long, value_name = "NAME")]
     pub(crate) locate: Option<LocateName>,
+    /// File of approximate positions, row by row those of the points: they are preprocessed, and the points located from
+    /// their hints.
+    #[arg(long, value_name = "CENTRES", conflicts_with_all = ["algorithm", "locate"])]
+    pub(crate) hints: Option<PathBuf>,
     /// Threads at most; the result does not depend on it. The present algorithms use one.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,

@@ -54,6 +54,7 @@ impl Failure {
             delone::Error::NotFinite { .. } => {
                 "remove that point or repair its coordinates: every finite number is accepted"
             }
+            delone::Error::Length { .. } => "give as many centres as points, row by row",
             _ => "split the points into smaller sets",
         };
         Self::new(format!("{}: {error}", path.display()), help)

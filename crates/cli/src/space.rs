@@ -1,10 +1,10 @@
 //! What commands do with `--dim 3`: triangulate, draw, locate, find the nearest, describe, judge.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use delone::space::verify::{Objection3, verify};
-use delone::{Algorithm3, Delaunay3, Dimension, Location3, TetrahedronId, VertexId, Work};
+use delone::{Algorithm3, Delaunay3, Dimension, HintOrder, Hints3, Location3, TetrahedronId, VertexId, Work};
 use delone_io::{Body, Cut, Format, picture};
 use delone_predicates::in_sphere_with_ties;
 
@@ -44,12 +44,46 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     let mut stats = Stats::start();
     let points = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
+    if let Some(centres) = &args.hints {
+        let centres_points = files::queries_in_space(centres, quiet)?;
+        let mut hints = {
+            let _phase = Phase::start(quiet, "preprocessing");
+            let order = HintOrder::Spatial { seed: args.seed };
+            Hints3::preprocess(&centres_points, order).map_err(|error| Failure::points(centres, &error))?
+        };
+        stats.phase("preprocess");
+        let mut work = Work::default();
+        let d = {
+            let _phase = Phase::start(quiet, "triangulating");
+            hints
+                .triangulate_counted(&points, &mut work)
+                .map_err(|error| Failure::points(&args.input.input, &error))?
+        };
+        stats.phase("build");
+        stats.set("algorithm", "hints");
+        stats.set("visited_triangles", work.visited);
+        finish(args, &outputs, d, &points, &mut stats, quiet)?;
+        return stats.write(stats_path);
+    }
     let d = build(&points, algorithm, &args.input.input, quiet)?;
     stats.phase("build");
     stats.set("algorithm", "incremental");
     stats.set("locate", locate.to_possible_value().map(|value| value.get_name().to_owned()));
+    finish(args, &outputs, &d, &points, &mut stats, quiet)?;
+    stats.write(stats_path)
+}
+
+/// Remarks, checks, counts and writes.
+fn finish(
+    args: &TriangulateArgs,
+    outputs: &[(PathBuf, Format)],
+    d: &Delaunay3,
+    points: &[[f64; 3]],
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
     stats.set("threads", 1);
-    remark(&d, points.len(), quiet);
+    remark(d, points.len(), quiet);
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         d.check().map_err(|flaw| {
@@ -61,14 +95,14 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
         stats.phase("check");
         note(quiet, "checked: this is the canonical Delaunay triangulation");
     }
-    stats.space(&d, points.len());
-    let body = Body { triangulation: &d, points: &points };
+    stats.space(d, points.len());
+    let body = Body { triangulation: d, points };
     let _phase = Phase::start(quiet, "writing");
-    for (path, format) in &outputs {
+    for (path, format) in outputs {
         files::write(path, |out| delone_io::write_body(out, *format, &body, &picture::Camera::default()))?;
     }
     stats.phase("write");
-    stats.write(stats_path)
+    Ok(())
 }
 
 /// Whether a triangulation of space, or its hull, can be written in a format.
@@ -105,11 +139,7 @@ fn remark(d: &Delaunay3, points: usize, quiet: bool) {
 }
 
 /// `delone draw --dim 3`.
-pub(crate) fn draw(
-    args: &DrawArgs,
-    outputs: &[(std::path::PathBuf, Format)],
-    quiet: bool,
-) -> Result<(), Failure> {
+pub(crate) fn draw(args: &DrawArgs, outputs: &[(PathBuf, Format)], quiet: bool) -> Result<(), Failure> {
     let mut camera = args.camera.camera()?;
     camera.wireframe = args.wireframe;
     let cut = match args.cut[..] {

@@ -1,10 +1,10 @@
 //! `delone triangulate`: points in, triangles out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use delone::{Algorithm, Delaunay2, Dimension};
-use delone_io::{Cloud, Surface};
+use delone::{Algorithm, Delaunay2, Dimension, HintOrder, Hints2, Work};
+use delone_io::{Cloud, Format, Surface};
 
 use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
 use crate::message::{Failure, note};
@@ -31,6 +31,22 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let Cloud { xy, z } = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
+    if let Some(centres) = &args.hints {
+        let mut hints = by_hints(args, centres, quiet)?;
+        stats.phase("preprocess");
+        let mut work = Work::default();
+        let triangulation = {
+            let _phase = Phase::start(quiet, "triangulating");
+            hints
+                .triangulate_counted(&xy, &mut work)
+                .map_err(|error| Failure::points(&args.input.input, &error))?
+        };
+        stats.phase("build");
+        stats.set("algorithm", "hints");
+        stats.set("visited_triangles", work.visited);
+        finish(args, &outputs, triangulation, z.as_deref(), &mut stats, quiet)?;
+        return stats.write(stats_path);
+    }
     let algorithm = match name {
         AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
         AlgorithmName::Incremental => incremental(args.locate.unwrap_or(LocateName::Spatial), args.seed),
@@ -45,8 +61,21 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         let locate = args.locate.unwrap_or(LocateName::Spatial).to_possible_value();
         stats.set("locate", locate.map(|value| value.get_name().to_owned()));
     }
+    finish(args, &outputs, &triangulation, z.as_deref(), &mut stats, quiet)?;
+    stats.write(stats_path)
+}
+
+/// Remarks, checks, counts and writes.
+fn finish(
+    args: &TriangulateArgs,
+    outputs: &[(PathBuf, Format)],
+    triangulation: &Delaunay2,
+    heights: Option<&[f64]>,
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
     stats.set("threads", 1);
-    remark(&triangulation, quiet);
+    remark(triangulation, quiet);
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         triangulation.check().map_err(|flaw| {
@@ -58,14 +87,22 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         stats.phase("check");
         note(quiet, "checked: this is the canonical Delaunay triangulation");
     }
-    stats.triangulation(&triangulation);
-    let surface = Surface { triangulation: &triangulation, heights: z.as_deref() };
+    stats.triangulation(triangulation);
+    let surface = Surface { triangulation, heights };
     let _phase = Phase::start(quiet, "writing");
-    for (path, format) in &outputs {
+    for (path, format) in outputs {
         files::write(path, |out| delone_io::write_surface(out, *format, &surface))?;
     }
     stats.phase("write");
-    stats.write(stats_path)
+    Ok(())
+}
+
+/// The hints of the centres in a file.
+fn by_hints(args: &TriangulateArgs, centres: &Path, quiet: bool) -> Result<Hints2, Failure> {
+    let points = files::queries(centres, quiet)?;
+    let _phase = Phase::start(quiet, "preprocessing");
+    let order = HintOrder::Spatial { seed: args.seed };
+    Hints2::preprocess(&points, order).map_err(|error| Failure::points(centres, &error))
 }
 
 /// The incremental algorithm with a way to locate points.

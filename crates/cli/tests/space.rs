@@ -55,6 +55,28 @@ fn corners(line: &str) -> Vec<u64> {
 }
 
 #[test]
+fn instances_are_triangulated_by_hints() {
+    let place = Place::new();
+    for (kind, dim) in [("disks", 2), ("balls", 3)] {
+        place.succeed(&format!("generate {kind} -n 400 --seed 1 -o centres.npy"));
+        place.succeed(&format!("generate {kind} -n 400 --seed 2 -o other.npy"));
+        for instance in ["centres.npy", "other.npy"] {
+            let out = format!("-o hinted.ply --check --stats s.json -q --dim {dim}");
+            place.succeed(&format!("triangulate {instance} --hints centres.npy {out}"));
+            place.succeed(&format!("triangulate {instance} --dim {dim} -o plain.ply -q --stats p.json"));
+            let (hinted, plain) = (json(&place, "s.json"), json(&place, "p.json"));
+            assert_eq!((&hinted["simplices"], &hinted["hull"]), (&plain["simplices"], &plain["hull"]));
+            assert_eq!(hinted["algorithm"], "hints");
+            let visited = hinted["visited_triangles"].as_u64().expect("a count");
+            assert!(instance == "other.npy" || visited < 400 * 5, "{kind}: {visited}");
+        }
+    }
+    place.file("few.csv", "0,0\n1,1\n");
+    place.fail("triangulate few.csv --hints centres.npy -o x.npy", 1, "2 points for 400 centres");
+    place.fail("triangulate few.csv --hints centres.npy --locate tree -o x.npy", 2, "cannot be used");
+}
+
+#[test]
 fn queries_in_space() {
     let place = Place::new();
     place.file("p.csv", "0,0,0\n4,0,0\n0,4,0\n0,0,4\n");
