@@ -417,6 +417,7 @@ pub(crate) struct ReplayArgs {
   delone experiment jump-and-walk -o results
   delone experiment history -o results
   delone experiment radial --largest 1000000
+  delone experiment imprecise -o results
 
 A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
 seconds on this machine and differ from run to run; counts depend on the seed alone.")]
@@ -451,6 +452,10 @@ pub(crate) enum ExperimentName {
     /// Nearest sites by the history of radial triangles: its size, the work of a query, and its time beside other
     /// ways (the same, §5).
     Radial,
+    /// Triangulate instances of imprecise points by hints, in the plane and in space (Devillers 2011, §5).
+    Imprecise,
+    /// Follow points in Brownian motion by the hints of the last step (the same).
+    Brownian,
 }
 
 /// Judge triangles.

@@ -2,6 +2,7 @@
 
 mod hierarchy;
 mod history;
+mod imprecise;
 mod jump_and_walk;
 mod plot;
 mod radial;
@@ -44,6 +45,8 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
             ExperimentName::Hierarchy => hierarchy::run(args.largest, args.seed),
             ExperimentName::JumpAndWalk => jump_and_walk::run(args.largest, args.seed),
             ExperimentName::Radial => radial::run(args.largest, args.seed),
+            ExperimentName::Imprecise => imprecise::run(args.largest, args.seed),
+            ExperimentName::Brownian => imprecise::brownian(args.largest, args.seed),
             ExperimentName::History => history::run(args.largest, args.seed),
         }
     }
