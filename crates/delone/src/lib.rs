@@ -49,7 +49,7 @@ pub use mesh::tetrahedra::Mesh3;
 pub use mesh::{Dimension, Mesh};
 pub use order::HintOrder;
 pub use plane::{
-    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Hints2, Location,
-    NearestSites, Position2, Region, Relaxation, Ring, Voronoi2, VoronoiEdge, convex_hull,
+    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Hints2, Location, Moving2,
+    NearestSites, Position2, Region, Relaxation, Ring, Step, Voronoi2, VoronoiEdge, convex_hull,
 };
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Position3};

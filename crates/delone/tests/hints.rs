@@ -1,6 +1,6 @@
 //! Imprecise points: every instance is what it is without hints, and walks are as short as the paper says.
 
-use delone::{Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Work};
+use delone::{Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2, Step, Work};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Kind3, Random};
 
@@ -160,5 +160,68 @@ fn walks_in_space_are_as_short_as_in_the_paper() {
             let expected = if matches!(order, HintOrder::Random { .. }) { 5.1..5.45 } else { 4.3..4.7 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
         }
+    }
+}
+
+#[test]
+fn moving_points_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
+    for &kind in Kind::ALL {
+        let n = 400;
+        let start = kind.points(n, 1);
+        let size = (0..2)
+            .map(|k| {
+                let of = start.iter().map(|p| p[k]);
+                of.clone().fold(f64::MIN, f64::max) / 2.0 - of.fold(f64::MAX, f64::min) / 2.0
+            })
+            .fold(0.0, f64::max);
+        let spacing = size * 2.0 / (n as f64).sqrt();
+        let mut moving = Moving2::new(&start).expect("finite");
+        same(moving.triangulation(), &start, kind.name());
+        let mut random = Random::new(2);
+        let mut points = start.clone();
+        for round in 0..40 {
+            let share = [0.0, 1e-9, 0.001, 0.01, 0.05, 0.1, 0.3, 1.0, 10.0, 0.02][round % 10];
+            for p in &mut points {
+                let there = p.map(|x| x + spacing * share * random.between(-1.0, 1.0));
+                if there.iter().all(|x| x.is_finite()) {
+                    *p = there;
+                }
+            }
+            if round == 17 {
+                points = vec![[1.0, 1.0]; n];
+            }
+            if round == 18 {
+                points.clone_from(&start);
+            }
+            if round == 25 {
+                points[3] = points[n - 1];
+            }
+            let step = moving.step(&points).expect("finite");
+            same(moving.triangulation(), &points, &format!("{} {round} {step:?}", kind.name()));
+        }
+    }
+    let mut moving = Moving2::new(&[[0.0, 0.0], [1.0, 0.0]]).expect("finite");
+    assert_eq!(moving.step(&[[0.0, 0.0]]), Err(Error::Length { expected: 2, found: 1 }));
+    assert!(moving.step(&[[0.0, 0.0], [f64::NAN, 0.0]]).is_err());
+    assert_eq!(moving.triangulation().points(), [[0.0, 0.0], [1.0, 0.0]]);
+}
+
+#[test]
+fn small_motions_are_repaired() {
+    let n = 20_000;
+    let mut points = Kind::Uniform.points(n, 1);
+    let spacing = 1.0 / (n as f64).sqrt();
+    let mut moving = Moving2::new(&points).expect("finite");
+    let mut random = Random::new(2);
+    for round in 0..4 {
+        for p in &mut points {
+            *p = p.map(|x| x + 0.05 * spacing * random.between(-1.0, 1.0));
+        }
+        let step = moving.step(&points).expect("finite");
+        assert!(
+            matches!(step, Step::Repaired { flips, reinserted } if flips > 0 && reinserted < n / 20),
+            "{step:?}"
+        );
+        same(moving.triangulation(), &points, &format!("{round}"));
     }
 }

@@ -115,7 +115,7 @@ fn check_line(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
 }
 
 /// Convex at every vertex, and once around: the hull has one lexicographic minimum.
-fn check_hull(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+pub(super) fn check_hull(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
     let hull: Vec<_> = mesh.border().collect();
     let n = hull.len();
     let mut minima = 0;

@@ -187,7 +187,7 @@ impl Hole {
         let degree = self.border.len();
         let finite: Vec<usize> = (0..degree).filter(|&i| !self.border[i].0.is_ghost()).collect();
         let local: Vec<[f64; 2]> = finite.iter().map(|&i| points[self.border[i].0.index()]).collect();
-        let (patch, _, indices) = build::in_order(&local);
+        let build::InOrder { mesh: patch, indices, .. } = build::in_order(&local);
         // The place in the patch of each vertex of the border, and back.
         let mut place = vec![Place::GHOST; degree];
         for (position, &index) in indices.iter().enumerate() {

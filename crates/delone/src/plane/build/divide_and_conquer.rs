@@ -61,24 +61,38 @@ pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counter
     let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(points.len()) };
     mesh.lone = if n == 1 { Some(Place::new(indices[0] as usize)) } else { None };
     mesh.number_vertices(|position| Place::new(indices[position.index()] as usize));
-    let mut duplicates: Vec<_> = duplicates
-        .into_iter()
-        .map(|(point, vertex)| Duplicate { point: point as usize, vertex: VertexId::new(vertex as usize) })
-        .collect();
-    duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
-    (mesh, duplicates, counters)
+    (mesh, sorted(duplicates), counters)
 }
 
-/// The same for distinct points, with vertices at their positions in Morton order. Returns also the points in that order and their indices.
-pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> (Mesh, Vec<[f64; 2]>, Vec<u32>) {
-    let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points);
-    debug_assert!(duplicates.is_empty(), "the points are distinct");
-    let (edges, _) = build(&ordered, &cuts, &boxes);
-    let n = ordered.len();
+/// The triangulation of points, with vertices at their positions in Morton order.
+pub(in crate::plane) struct InOrder {
+    pub(in crate::plane) mesh: Mesh,
+    /// The vertices' points.
+    pub(in crate::plane) points: Vec<[f64; 2]>,
+    /// Their indices.
+    pub(in crate::plane) indices: Vec<u32>,
+    pub(in crate::plane) duplicates: Vec<Duplicate>,
+}
+
+/// The same as `triangulate`, in the order of memory.
+pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
+    let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points);
+    let (edges, _) = build(&points, &cuts, &boxes);
+    let n = points.len();
     let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(n) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
     mesh.number_vertices(|position| position);
-    (mesh, ordered, indices)
+    InOrder { mesh, points, indices, duplicates: sorted(duplicates) }
+}
+
+fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
+    let named = |(point, vertex): (u32, u32)| Duplicate {
+        point: point as usize,
+        vertex: VertexId::new(vertex as usize),
+    };
+    let mut duplicates: Vec<Duplicate> = duplicates.into_iter().map(named).collect();
+    duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
+    duplicates
 }
 
 fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {

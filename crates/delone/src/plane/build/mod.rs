@@ -7,7 +7,7 @@ mod leaf;
 mod merge;
 
 pub use divide_and_conquer::Counters as DivideAndConquerCounters;
-pub(super) use divide_and_conquer::in_order;
+pub(super) use divide_and_conquer::{InOrder, in_order};
 
 use crate::ids::Duplicate;
 use crate::locate::Locate;

@@ -1,0 +1,284 @@
+//! Points that move: from the triangulation of one step to that of the next.
+//!
+//! The neighbours of most points stay the same while they move little, so the triangulation is kept and repaired:
+//!
+//! 1. vertices whose motion would turn a triangle over are removed, at their old positions, until none would;
+//! 2. all others take their new positions, and edges are flipped until each is Delaunay (Lawson, "Software for C1
+//!    surface interpolation", 1977), those of the hull by the same rule with the ghost vertex;
+//! 3. the removed ones are inserted at their new positions, from where they were.
+//!
+//! Where too many would have to be removed, or the hull has folded over itself, the triangulation is built anew. Every
+//! way leads to the canonical triangulation of the positions.
+//!
+//! Cost: O(n) tests and the flips, if few points move past others; that of a construction otherwise.
+
+use delone_predicates::{in_circle, orient2d};
+
+use super::build::InOrder;
+use super::insert::Spot;
+use super::layer::Layer;
+use super::{Delaunay2, Position2, build, check, check_finite};
+use crate::error::Error;
+use crate::fetch::fetch;
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::locate::{Start, Walk};
+use crate::mesh::{Mesh, Names};
+
+/// One vertex in so many may be removed before building anew is faster.
+const REMOVED: usize = 12;
+/// So many flips a vertex may be needed before something is wrong with the hull.
+const FLIPS: usize = 20;
+/// How many places ahead memory is asked.
+const AHEAD: usize = 24;
+
+/// How a step was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// By repair.
+    Repaired {
+        /// Edges flipped.
+        flips: usize,
+        /// Vertices removed and inserted again.
+        reinserted: usize,
+    },
+    /// By a construction from nothing.
+    Rebuilt,
+}
+
+/// The triangulation of points that move.
+///
+/// ```
+/// use delone::Moving2;
+///
+/// let mut moving = Moving2::new(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 5.0]])?;
+/// moving.step(&[[0.1, 0.0], [4.0, 0.1], [0.0, 3.9], [4.1, 5.0]])?;
+/// assert_eq!(moving.triangulation().triangles().count(), 2);
+/// assert!(moving.triangulation().check().is_ok());
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Moving2 {
+    current: Delaunay2,
+    /// For each place where its vertex goes.
+    goals: Vec<[f64; 2]>,
+    /// Triangles that may turn over.
+    doubtful: Vec<TriangleId>,
+    /// Vertices that were removed, each with a place that was near.
+    removed: Vec<(VertexId, Place)>,
+    /// Edges that may not be Delaunay.
+    pending: Vec<EdgeId>,
+}
+
+impl Moving2 {
+    /// Triangulates the first positions.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
+    pub fn new<P: Position2>(positions: &[P]) -> Result<Self, Error> {
+        super::check_count(positions.len())?;
+        let positions: Vec<[f64; 2]> = positions.iter().map(Position2::xy).collect();
+        check_finite(&positions)?;
+        let mut moving = Self::default();
+        moving.rebuild(positions);
+        Ok(moving)
+    }
+
+    /// The triangulation of the last positions. Vertex i is the i-th of them.
+    pub fn triangulation(&self) -> &Delaunay2 {
+        &self.current
+    }
+
+    /// Moves all points: point i to the i-th position.
+    ///
+    /// # Errors
+    /// [`Error::Length`] if there are more or fewer positions than points; [`Error::NotFinite`] names the first NaN or
+    /// infinite coordinate. Nothing has changed then.
+    pub fn step<P: Position2>(&mut self, positions: &[P]) -> Result<Step, Error> {
+        let expected = self.current.points().len();
+        if positions.len() != expected {
+            return Err(Error::Length { expected, found: positions.len() });
+        }
+        let positions: Vec<[f64; 2]> = positions.iter().map(Position2::xy).collect();
+        check_finite(&positions)?;
+        match self.repair(&positions) {
+            Some(step) => {
+                self.current.named = Some(positions);
+                self.current.locator.take();
+                Ok(step)
+            }
+            None => {
+                self.rebuild(positions);
+                Ok(Step::Rebuilt)
+            }
+        }
+    }
+
+    /// Builds anew, vertices at places along a curve.
+    fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
+        let InOrder { mut mesh, points, indices, duplicates } = build::in_order(&positions);
+        let mut names = Names::default();
+        names.reserve(positions.len());
+        indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
+        mesh.names = Some(names);
+        self.current.base = Layer::new(mesh, points);
+        self.current.duplicates = duplicates;
+        self.current.named = Some(positions);
+        self.current.locator.take();
+        self.current.upkeep.renew(self.current.vertex_count());
+    }
+
+    /// Repairs the triangulation, or says that it cannot.
+    fn repair(&mut self, positions: &[[f64; 2]]) -> Option<Step> {
+        self.removed.clear();
+        if !self.current.base.spanned || !self.current.duplicates.is_empty() {
+            return None;
+        }
+        self.set_goals(positions);
+        self.untangle()?;
+        let layer = &mut self.current.base;
+        std::mem::swap(&mut layer.points, &mut self.goals);
+        let flips = flip_all(layer, &mut self.pending)?;
+        check::check_hull(&layer.points, &layer.mesh).ok()?;
+        for &(v, near) in &self.removed {
+            let q = positions[v.index()];
+            let start = match layer.mesh.incident[near.index()] {
+                EdgeId::NONE => Start::Anywhere,
+                e => Start::At(e, Walk::Visibility),
+            };
+            match layer.spot(start, q, &mut ()).0 {
+                // Two points in one place: a duplicate has no place of its own.
+                Spot::Vertex(_) => return None,
+                spot => {
+                    let place = layer.insert(spot, q, &mut ()).ok()?;
+                    layer.mesh.names().bind(v, place);
+                }
+            }
+        }
+        Some(Step::Repaired { flips, reinserted: self.removed.len() })
+    }
+
+    fn set_goals(&mut self, positions: &[[f64; 2]]) {
+        let layer = &self.current.base;
+        let name = |place: usize| layer.mesh.name(Place::new(place));
+        self.goals.clear();
+        self.goals.extend((0..layer.points.len()).map(|place| {
+            if place + AHEAD < layer.points.len() {
+                fetch(positions, name(place + AHEAD).index());
+            }
+            positions.get(name(place).index()).copied().unwrap_or_default()
+        }));
+    }
+
+    /// Removes vertices until no triangle turns over on the way to the goals. None if they are too many.
+    fn untangle(&mut self) -> Option<()> {
+        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, removed, .. } = self;
+        let most = layer.mesh.vertex_count / REMOVED + 8;
+        let turns_over = |mesh: &Mesh, t: TriangleId| {
+            let [a, b, c] = mesh.places(t);
+            let finite = !a.is_ghost() && !b.is_ghost() && !c.is_ghost();
+            finite && !orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
+        };
+        doubtful.clear();
+        let all = (0..layer.mesh.slot_count()).map(TriangleId::new);
+        doubtful.extend(all.filter(|&t| turns_over(&layer.mesh, t)));
+        if doubtful.len() > 2 * most {
+            return None;
+        }
+        while let Some(t) = doubtful.pop() {
+            if !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t) {
+                continue;
+            }
+            // Of the corners the one that goes furthest.
+            let way = |p: Place| {
+                let (from, to) = (layer.points[p.index()], goals[p.index()]);
+                (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2)
+            };
+            let v = layer.mesh.places(t).into_iter().reduce(|p, q| if way(q) > way(p) { q } else { p })?;
+            let around: Vec<Place> =
+                layer.mesh.spokes(v).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost()).collect();
+            removed.push((layer.mesh.name(v), around[0]));
+            let name = layer.mesh.name(v);
+            layer.mesh.names().release(name);
+            layer.remove(v, &mut ());
+            if removed.len() > most || !layer.spanned {
+                return None;
+            }
+            for w in around {
+                let spokes = layer.mesh.spokes(w);
+                doubtful.extend(spokes.map(EdgeId::triangle).filter(|&t| turns_over(&layer.mesh, t)));
+            }
+        }
+        Some(())
+    }
+}
+
+/// Flips edges until all are Delaunay, and counts. None if there is no end to it.
+fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
+    let Layer { mesh, points, .. } = layer;
+    let most = FLIPS * mesh.vertex_count;
+    let mut flips = 0;
+    pending.clear();
+    for t in (0..mesh.slot_count()).map(TriangleId::new) {
+        if !mesh.is_triangle(t) {
+            continue;
+        }
+        for e in [t.edge(0), t.edge(1), t.edge(2)] {
+            if e > mesh.twin(e) || !is_to_flip(mesh, points, e) {
+                continue;
+            }
+            pending.push(e);
+            while let Some(e) = pending.pop() {
+                if is_to_flip(mesh, points, e) {
+                    let f = mesh.twin(e);
+                    flip(mesh, e);
+                    flips += 1;
+                    if flips > most {
+                        return None;
+                    }
+                    pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
+                }
+            }
+        }
+    }
+    Some(flips)
+}
+
+/// Whether the triangle of an edge is in conflict with the apex on the other side.
+#[inline]
+fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> bool {
+    let f = mesh.twin(e);
+    let [a, b, c, d] = [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(f)];
+    let at = |p: Place| points[p.index()];
+    if a.is_ghost() {
+        return orient2d(at(b), at(c), at(d)).is_positive();
+    }
+    if b.is_ghost() {
+        return orient2d(at(c), at(a), at(d)).is_positive();
+    }
+    // A hull edge has nothing beyond it.
+    !c.is_ghost() && !d.is_ghost() && in_circle(at(a), at(b), at(c), at(d)).is_positive()
+}
+
+/// Replaces an edge by the one between the two apexes. The sides of the quadrilateral stay with `e` and its twin:
+/// `e.next()`, `e.previous()` and those of the twin.
+fn flip(mesh: &mut Mesh, e: EdgeId) {
+    let f = mesh.twin(e);
+    let [a, b, c, d] = [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(f)];
+    let outside = [e.next(), e.previous(), f.next(), f.previous()].map(|side| mesh.twin(side));
+    // (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b).
+    let set = |mesh: &mut Mesh, e: EdgeId, corners: [Place; 3]| {
+        for (side, corner) in [e, e.next(), e.previous()].into_iter().zip(corners) {
+            mesh.edges[side.index()].origin = corner;
+        }
+    };
+    set(mesh, e, [d, c, a]);
+    set(mesh, f, [c, d, b]);
+    let [b_c, c_a, a_d, d_b] = outside;
+    mesh.link(e.next(), c_a);
+    mesh.link(e.previous(), a_d);
+    mesh.link(f.next(), d_b);
+    mesh.link(f.previous(), b_c);
+    for side in [e.next(), e.previous(), f.next(), f.previous()] {
+        mesh.remember(side);
+    }
+}
