@@ -2,7 +2,8 @@
 //!
 //! The neighbours of most points stay the same while they move little, so the triangulation is kept and repaired:
 //!
-//! 1. vertices whose motion would turn a triangle over are removed, at their old positions, until none would;
+//! 1. where the motion would turn a triangle over, one of its edges is flipped if that helps; otherwise one of its
+//!    vertices is removed, at its old position;
 //! 2. all others take their new positions, and edges are flipped until each is Delaunay (Lawson, "Software for C1
 //!    surface interpolation", 1977), those of the hull by the same rule with the ghost vertex;
 //! 3. the removed ones are inserted at their new positions, from where they were.
@@ -11,6 +12,8 @@
 //! way leads to the canonical triangulation of the positions.
 //!
 //! Cost: O(n) tests and the flips, if few points move past others; that of a construction otherwise.
+
+use std::collections::BTreeMap;
 
 use delone_predicates::{in_circle, orient2d};
 
@@ -45,6 +48,14 @@ pub enum Step {
     Rebuilt,
 }
 
+/// An edge to be flipped.
+#[derive(Clone, Copy, Debug)]
+struct Plan {
+    edge: EdgeId,
+    /// The corners of the two triangles, as long as it is good.
+    corners: [Place; 4],
+}
+
 /// The triangulation of points that move.
 ///
 /// ```
@@ -59,10 +70,14 @@ pub enum Step {
 #[derive(Clone, Debug, Default)]
 pub struct Moving2 {
     current: Delaunay2,
+    /// Memory for the next positions.
+    spare: Vec<[f64; 2]>,
     /// For each place where its vertex goes.
     goals: Vec<[f64; 2]>,
     /// Triangles that may turn over.
     doubtful: Vec<TriangleId>,
+    /// For triangles that would turn over, and for their neighbours across it, an edge whose flip helps.
+    plans: BTreeMap<TriangleId, Plan>,
     /// Vertices that were removed, each with a place that was near.
     removed: Vec<(VertexId, Place)>,
     /// Edges that may not be Delaunay.
@@ -98,19 +113,20 @@ impl Moving2 {
         if positions.len() != expected {
             return Err(Error::Length { expected, found: positions.len() });
         }
-        let positions: Vec<[f64; 2]> = positions.iter().map(Position2::xy).collect();
-        check_finite(&positions)?;
-        match self.repair(&positions) {
-            Some(step) => {
-                self.current.named = Some(positions);
-                self.current.locator.take();
-                Ok(step)
-            }
-            None => {
-                self.rebuild(positions);
-                Ok(Step::Rebuilt)
-            }
+        let mut given = std::mem::take(&mut self.spare);
+        given.clear();
+        given.extend(positions.iter().map(Position2::xy));
+        if let Err(error) = check_finite(&given) {
+            self.spare = given;
+            return Err(error);
         }
+        if let Some(step) = self.repair(&given) {
+            self.spare = self.current.named.replace(given).unwrap_or_default();
+            self.current.locator.take();
+            return Ok(step);
+        }
+        self.rebuild(given);
+        Ok(Step::Rebuilt)
     }
 
     /// Builds anew, vertices at places along a curve.
@@ -169,9 +185,11 @@ impl Moving2 {
         }));
     }
 
-    /// Removes vertices until no triangle turns over on the way to the goals. None if they are too many.
+    /// Removes vertices until no triangle turns over on the way to the goals, and finds the edges that will not be
+    /// Delaunay there. None if they are too many.
     fn untangle(&mut self) -> Option<()> {
-        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, removed, .. } = self;
+        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, removed, pending, .. } =
+            self;
         let most = layer.mesh.vertex_count / REMOVED + 8;
         let turns_over = |mesh: &Mesh, t: TriangleId| {
             let [a, b, c] = mesh.places(t);
@@ -179,13 +197,38 @@ impl Moving2 {
             finite && !orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
         };
         doubtful.clear();
-        let all = (0..layer.mesh.slot_count()).map(TriangleId::new);
-        doubtful.extend(all.filter(|&t| turns_over(&layer.mesh, t)));
+        pending.clear();
+        plans.clear();
+        for t in (0..layer.mesh.slot_count()).map(TriangleId::new) {
+            if !layer.mesh.is_triangle(t) {
+                continue;
+            }
+            if turns_over(&layer.mesh, t) {
+                doubtful.push(t);
+            }
+            for e in [t.edge(0), t.edge(1), t.edge(2)] {
+                if e < layer.mesh.twin(e) && is_to_flip(&layer.mesh, goals, e) {
+                    pending.push(e);
+                }
+            }
+        }
         if doubtful.len() > 2 * most {
             return None;
         }
         while let Some(t) = doubtful.pop() {
             if !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t) {
+                continue;
+            }
+            if plans.get(&t).is_some_and(|plan| plan.is_good(&layer.mesh)) {
+                continue;
+            }
+            let good = |plan: &Plan| {
+                let other = layer.mesh.twin(plan.edge).triangle();
+                plans.get(&other).is_none_or(|theirs| !theirs.is_good(&layer.mesh))
+            };
+            if let Some(plan) = Plan::find(&layer.mesh, goals, t).filter(good) {
+                plans.insert(t, plan);
+                plans.insert(layer.mesh.twin(plan.edge).triangle(), plan);
                 continue;
             }
             // Of the corners the one that goes furthest.
@@ -204,40 +247,64 @@ impl Moving2 {
                 return None;
             }
             for w in around {
-                let spokes = layer.mesh.spokes(w);
-                doubtful.extend(spokes.map(EdgeId::triangle).filter(|&t| turns_over(&layer.mesh, t)));
+                for e in layer.mesh.spokes(w) {
+                    pending.push(e);
+                    if turns_over(&layer.mesh, e.triangle()) {
+                        doubtful.push(e.triangle());
+                    }
+                }
+            }
+        }
+        // No two of the plans that are left have a triangle in common.
+        for plan in plans.values() {
+            if plan.is_good(&layer.mesh) {
+                let (e, f) = (plan.edge, layer.mesh.twin(plan.edge));
+                flip(&mut layer.mesh, e);
+                pending.extend([e, e.next(), e.previous(), f.next(), f.previous()]);
             }
         }
         Some(())
     }
 }
 
-/// Flips edges until all are Delaunay, and counts. None if there is no end to it.
+impl Plan {
+    /// An edge of a triangle after whose flip both triangles are counter-clockwise.
+    fn find(mesh: &Mesh, goals: &[[f64; 2]], t: TriangleId) -> Option<Self> {
+        let turns_left = |p: Place, q: Place, r: Place| {
+            orient2d(goals[p.index()], goals[q.index()], goals[r.index()]).is_positive()
+        };
+        let plans = [0, 1, 2].map(|k| Self { edge: t.edge(k), corners: corners_around(mesh, t.edge(k)) });
+        plans.into_iter().find(|plan| {
+            let [a, b, c, d] = plan.corners;
+            !d.is_ghost() && turns_left(d, c, a) && turns_left(c, d, b)
+        })
+    }
+
+    /// Whether its triangles are those that it was made for.
+    fn is_good(&self, mesh: &Mesh) -> bool {
+        mesh.is_triangle(self.edge.triangle()) && corners_around(mesh, self.edge) == self.corners
+    }
+}
+
+/// The ends of an edge, and the apexes on its left and on its right.
+fn corners_around(mesh: &Mesh, e: EdgeId) -> [Place; 4] {
+    [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(mesh.twin(e))]
+}
+
+/// Flips edges until all are Delaunay, from those that may not be, and counts. None if there is no end to it.
 fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
     let Layer { mesh, points, .. } = layer;
     let most = FLIPS * mesh.vertex_count;
     let mut flips = 0;
-    pending.clear();
-    for t in (0..mesh.slot_count()).map(TriangleId::new) {
-        if !mesh.is_triangle(t) {
-            continue;
-        }
-        for e in [t.edge(0), t.edge(1), t.edge(2)] {
-            if e > mesh.twin(e) || !is_to_flip(mesh, points, e) {
-                continue;
+    while let Some(e) = pending.pop() {
+        if mesh.is_triangle(e.triangle()) && is_to_flip(mesh, points, e) {
+            let f = mesh.twin(e);
+            flip(mesh, e);
+            flips += 1;
+            if flips > most {
+                return None;
             }
-            pending.push(e);
-            while let Some(e) = pending.pop() {
-                if is_to_flip(mesh, points, e) {
-                    let f = mesh.twin(e);
-                    flip(mesh, e);
-                    flips += 1;
-                    if flips > most {
-                        return None;
-                    }
-                    pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
-                }
-            }
+            pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
         }
     }
     Some(flips)
@@ -246,8 +313,7 @@ fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
 /// Whether the triangle of an edge is in conflict with the apex on the other side.
 #[inline]
 fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> bool {
-    let f = mesh.twin(e);
-    let [a, b, c, d] = [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(f)];
+    let [a, b, c, d] = corners_around(mesh, e);
     let at = |p: Place| points[p.index()];
     if a.is_ghost() {
         return orient2d(at(b), at(c), at(d)).is_positive();
@@ -263,7 +329,7 @@ fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> bool {
 /// `e.next()`, `e.previous()` and those of the twin.
 fn flip(mesh: &mut Mesh, e: EdgeId) {
     let f = mesh.twin(e);
-    let [a, b, c, d] = [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(f)];
+    let [a, b, c, d] = corners_around(mesh, e);
     let outside = [e.next(), e.previous(), f.next(), f.previous()].map(|side| mesh.twin(side));
     // (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b).
     let set = |mesh: &mut Mesh, e: EdgeId, corners: [Place; 3]| {
