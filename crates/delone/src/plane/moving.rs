@@ -185,11 +185,9 @@ impl Moving2 {
         }));
     }
 
-    /// Removes vertices until no triangle turns over on the way to the goals, and finds the edges that will not be
-    /// Delaunay there. None if they are too many.
+    /// Removes vertices until no triangle turns over on the way to the goals. None if they are too many.
     fn untangle(&mut self) -> Option<()> {
-        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, removed, pending, .. } =
-            self;
+        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, removed, .. } = self;
         let most = layer.mesh.vertex_count / REMOVED + 8;
         let turns_over = |mesh: &Mesh, t: TriangleId| {
             let [a, b, c] = mesh.places(t);
@@ -197,21 +195,9 @@ impl Moving2 {
             finite && !orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
         };
         doubtful.clear();
-        pending.clear();
         plans.clear();
-        for t in (0..layer.mesh.slot_count()).map(TriangleId::new) {
-            if !layer.mesh.is_triangle(t) {
-                continue;
-            }
-            if turns_over(&layer.mesh, t) {
-                doubtful.push(t);
-            }
-            for e in [t.edge(0), t.edge(1), t.edge(2)] {
-                if e < layer.mesh.twin(e) && is_to_flip(&layer.mesh, goals, e) {
-                    pending.push(e);
-                }
-            }
-        }
+        let all = (0..layer.mesh.slot_count()).map(TriangleId::new);
+        doubtful.extend(all.filter(|&t| turns_over(&layer.mesh, t)));
         if doubtful.len() > 2 * most {
             return None;
         }
@@ -248,7 +234,6 @@ impl Moving2 {
             }
             for w in around {
                 for e in layer.mesh.spokes(w) {
-                    pending.push(e);
                     if turns_over(&layer.mesh, e.triangle()) {
                         doubtful.push(e.triangle());
                     }
@@ -258,9 +243,7 @@ impl Moving2 {
         // No two of the plans that are left have a triangle in common.
         for plan in plans.values() {
             if plan.is_good(&layer.mesh) {
-                let (e, f) = (plan.edge, layer.mesh.twin(plan.edge));
-                flip(&mut layer.mesh, e);
-                pending.extend([e, e.next(), e.previous(), f.next(), f.previous()]);
+                flip(&mut layer.mesh, plan.edge);
             }
         }
         Some(())
@@ -287,24 +270,37 @@ impl Plan {
 }
 
 /// The ends of an edge, and the apexes on its left and on its right.
+#[inline]
 fn corners_around(mesh: &Mesh, e: EdgeId) -> [Place; 4] {
     [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(mesh.twin(e))]
 }
 
-/// Flips edges until all are Delaunay, from those that may not be, and counts. None if there is no end to it.
+/// Flips edges until all are Delaunay, and counts. None if there is no end to it.
 fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
     let Layer { mesh, points, .. } = layer;
     let most = FLIPS * mesh.vertex_count;
     let mut flips = 0;
-    while let Some(e) = pending.pop() {
-        if mesh.is_triangle(e.triangle()) && is_to_flip(mesh, points, e) {
-            let f = mesh.twin(e);
-            flip(mesh, e);
-            flips += 1;
-            if flips > most {
-                return None;
+    pending.clear();
+    for t in (0..mesh.slot_count()).map(TriangleId::new) {
+        if !mesh.is_triangle(t) {
+            continue;
+        }
+        for e in [t.edge(0), t.edge(1), t.edge(2)] {
+            if e > mesh.twin(e) || !is_to_flip(mesh, points, e) {
+                continue;
             }
-            pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
+            pending.push(e);
+            while let Some(e) = pending.pop() {
+                if is_to_flip(mesh, points, e) {
+                    let f = mesh.twin(e);
+                    flip(mesh, e);
+                    flips += 1;
+                    if flips > most {
+                        return None;
+                    }
+                    pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
+                }
+            }
         }
     }
     Some(flips)
@@ -314,15 +310,20 @@ fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
 #[inline]
 fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> bool {
     let [a, b, c, d] = corners_around(mesh, e);
-    let at = |p: Place| points[p.index()];
-    if a.is_ghost() {
-        return orient2d(at(b), at(c), at(d)).is_positive();
+    if a.is_ghost() || b.is_ghost() || c.is_ghost() || d.is_ghost() {
+        return is_hull_to_flip([a, b, c, d], points);
     }
-    if b.is_ghost() {
-        return orient2d(at(c), at(a), at(d)).is_positive();
-    }
-    // A hull edge has nothing beyond it.
-    !c.is_ghost() && !d.is_ghost() && in_circle(at(a), at(b), at(c), at(d)).is_positive()
+    in_circle(points[a.index()], points[b.index()], points[c.index()], points[d.index()]).is_positive()
+}
+
+/// The same at the hull.
+#[cold]
+fn is_hull_to_flip([a, b, c, d]: [Place; 4], points: &[[f64; 2]]) -> bool {
+    let turns_left = |p: Place, q: Place, r: Place| {
+        orient2d(points[p.index()], points[q.index()], points[r.index()]).is_positive()
+    };
+    // A hull edge has nothing beyond it; one to the ghost leaves a dent if what is next to it is beyond the hull.
+    (a.is_ghost() && turns_left(b, c, d)) || (b.is_ghost() && turns_left(c, a, d))
 }
 
 /// Replaces an edge by the one between the two apexes. The sides of the quadrilateral stay with `e` and its twin:
