@@ -65,3 +65,23 @@ impl Pencil {
         }
     }
 }
+
+impl Filter {
+    /// Like [`crate::orient2d`], for points in the box.
+    #[inline]
+    pub fn orient2d(&self, a: Point2, b: Point2, c: Point2) -> Sign {
+        self.orient(Pencil::new(a, b).member(c).cross).unwrap_or_else(|| crate::orient2d(a, b, c))
+    }
+
+    /// Like [`crate::in_circle`], for points in the box.
+    #[inline]
+    pub fn in_circle(&self, a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
+        let pencil = Pencil::new(a, b);
+        let (p, q) = (pencil.member(c), pencil.member(d));
+        match self.circle(p.dot * q.cross - q.dot * p.cross) {
+            Some(Sign::Zero) => in_circle_tie(a, b, c, d),
+            Some(sign) => sign,
+            None => crate::in_circle(a, b, c, d),
+        }
+    }
+}

@@ -155,6 +155,8 @@ fn pencils_with_static_filters_are_exact() {
             (high - low) * (1.0 + f64::EPSILON)
         };
         let filter = Filter::for_box(extent(0), extent(1), Grid::of(points.into_iter().flatten()));
+        assert_eq!(filter.orient2d(l, r, p), sign(exact::orient2d(l, r, p)), "{name}: {points:?}");
+        assert_eq!(filter.in_circle(l, r, p, q), sign(exact::in_circle(l, r, p, q)), "{name}: {points:?}");
         let pencil = Pencil::new(l, r);
         let (mp, mq) = (pencil.member(p), pencil.member(q));
         assert_eq!(pencil.side(&mp, &filter), sign(exact::orient2d(l, r, p)), "{name}: {points:?}");

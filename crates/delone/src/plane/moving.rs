@@ -15,7 +15,7 @@
 
 use std::collections::BTreeMap;
 
-use delone_predicates::{in_circle, orient2d};
+use delone_predicates::{Filter, orient2d};
 
 use super::build::InOrder;
 use super::insert::Spot;
@@ -78,8 +78,8 @@ pub struct Moving2 {
     doubtful: Vec<TriangleId>,
     /// For triangles that would turn over, and for their neighbours across it, an edge whose flip helps.
     plans: BTreeMap<TriangleId, Plan>,
-    /// Vertices that were removed, each with a place that was near.
-    removed: Vec<(VertexId, Place)>,
+    /// Vertices that were removed, each with a neighbour that it had then.
+    removed: Vec<(VertexId, VertexId)>,
     /// Edges that may not be Delaunay.
     pending: Vec<EdgeId>,
 }
@@ -149,18 +149,18 @@ impl Moving2 {
         if !self.current.base.spanned || !self.current.duplicates.is_empty() {
             return None;
         }
-        self.set_goals(positions);
-        self.untangle()?;
+        let filter = self.set_goals(positions);
+        self.untangle(&filter)?;
         let layer = &mut self.current.base;
         std::mem::swap(&mut layer.points, &mut self.goals);
-        let flips = flip_all(layer, &mut self.pending)?;
+        let flips = flip_all(layer, &filter, &mut self.pending)?;
         check::check_hull(&layer.points, &layer.mesh).ok()?;
-        for &(v, near) in &self.removed {
+        // The last one first: its neighbour is there.
+        for &(v, near) in self.removed.iter().rev() {
             let q = positions[v.index()];
-            let start = match layer.mesh.incident[near.index()] {
-                EdgeId::NONE => Start::Anywhere,
-                e => Start::At(e, Walk::Visibility),
-            };
+            let near = layer.mesh.place(near);
+            let start =
+                near.map_or(Start::Anywhere, |p| Start::At(layer.mesh.incident[p.index()], Walk::Visibility));
             match layer.spot(start, q, &mut ()).0 {
                 // Two points in one place: a duplicate has no place of its own.
                 Spot::Vertex(_) => return None,
@@ -173,7 +173,8 @@ impl Moving2 {
         Some(Step::Repaired { flips, reinserted: self.removed.len() })
     }
 
-    fn set_goals(&mut self, positions: &[[f64; 2]]) {
+    /// Puts positions in the order of places; returns the filter for their box.
+    fn set_goals(&mut self, positions: &[[f64; 2]]) -> Filter {
         let layer = &self.current.base;
         let name = |place: usize| layer.mesh.name(Place::new(place));
         self.goals.clear();
@@ -181,18 +182,24 @@ impl Moving2 {
             if place + AHEAD < layer.points.len() {
                 fetch(positions, name(place + AHEAD).index());
             }
-            positions.get(name(place).index()).copied().unwrap_or_default()
+            // A free place goes nowhere.
+            positions.get(name(place).index()).copied().unwrap_or(positions[0])
         }));
+        let extent = [0, 1].map(|k| {
+            let of = self.goals.iter().map(|p| p[k]);
+            of.clone().fold(f64::MIN, f64::max) - of.fold(f64::MAX, f64::min)
+        });
+        Filter::for_box(extent[0], extent[1], None)
     }
 
     /// Removes vertices until no triangle turns over on the way to the goals. None if they are too many.
-    fn untangle(&mut self) -> Option<()> {
+    fn untangle(&mut self, filter: &Filter) -> Option<()> {
         let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, removed, .. } = self;
         let most = layer.mesh.vertex_count / REMOVED + 8;
         let turns_over = |mesh: &Mesh, t: TriangleId| {
             let [a, b, c] = mesh.places(t);
             let finite = !a.is_ghost() && !b.is_ghost() && !c.is_ghost();
-            finite && !orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
+            finite && !filter.orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
         };
         doubtful.clear();
         plans.clear();
@@ -225,8 +232,8 @@ impl Moving2 {
             let v = layer.mesh.places(t).into_iter().reduce(|p, q| if way(q) > way(p) { q } else { p })?;
             let around: Vec<Place> =
                 layer.mesh.spokes(v).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost()).collect();
-            removed.push((layer.mesh.name(v), around[0]));
             let name = layer.mesh.name(v);
+            removed.push((name, layer.mesh.name(around[0])));
             layer.mesh.names().release(name);
             layer.remove(v, &mut ());
             if removed.len() > most || !layer.spanned {
@@ -276,7 +283,7 @@ fn corners_around(mesh: &Mesh, e: EdgeId) -> [Place; 4] {
 }
 
 /// Flips edges until all are Delaunay, and counts. None if there is no end to it.
-fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
+fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Option<usize> {
     let Layer { mesh, points, .. } = layer;
     let most = FLIPS * mesh.vertex_count;
     let mut flips = 0;
@@ -286,12 +293,12 @@ fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
             continue;
         }
         for e in [t.edge(0), t.edge(1), t.edge(2)] {
-            if e > mesh.twin(e) || !is_to_flip(mesh, points, e) {
+            if e > mesh.twin(e) || !is_to_flip(mesh, points, filter, e) {
                 continue;
             }
             pending.push(e);
             while let Some(e) = pending.pop() {
-                if is_to_flip(mesh, points, e) {
+                if is_to_flip(mesh, points, filter, e) {
                     let f = mesh.twin(e);
                     flip(mesh, e);
                     flips += 1;
@@ -308,12 +315,13 @@ fn flip_all(layer: &mut Layer, pending: &mut Vec<EdgeId>) -> Option<usize> {
 
 /// Whether the triangle of an edge is in conflict with the apex on the other side.
 #[inline]
-fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> bool {
+fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], filter: &Filter, e: EdgeId) -> bool {
     let [a, b, c, d] = corners_around(mesh, e);
     if a.is_ghost() || b.is_ghost() || c.is_ghost() || d.is_ghost() {
         return is_hull_to_flip([a, b, c, d], points);
     }
-    in_circle(points[a.index()], points[b.index()], points[c.index()], points[d.index()]).is_positive()
+    let at = |p: Place| points[p.index()];
+    filter.in_circle(at(a), at(b), at(c), at(d)).is_positive()
 }
 
 /// The same at the hull.
