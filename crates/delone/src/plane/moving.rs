@@ -289,6 +289,15 @@ fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Op
     let mut flips = 0;
     pending.clear();
     for t in (0..mesh.slot_count()).map(TriangleId::new) {
+        // Neighbours across a cut of the order lie elsewhere.
+        for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
+            fetch(&mesh.edges, record.twin.index());
+        }
+        for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
+            if let Some(beyond) = mesh.edges.get(record.twin.previous().index()) {
+                fetch(points, beyond.origin.index());
+            }
+        }
         if !mesh.is_triangle(t) {
             continue;
         }
