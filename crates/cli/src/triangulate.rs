@@ -35,16 +35,19 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         let mut hints = by_hints(args, centres, quiet)?;
         stats.phase("preprocess");
         let mut work = Work::default();
-        let triangulation = {
+        {
             let _phase = Phase::start(quiet, "triangulating");
-            hints
-                .triangulate_counted(&xy, &mut work)
-                .map_err(|error| Failure::points(&args.input.input, &error))?
-        };
+            let done = hints.triangulate_counted(&xy, &mut work);
+            done.map_err(|error| Failure::points(&args.input.input, &error))?;
+        }
         stats.phase("build");
         stats.set("algorithm", "hints");
         stats.set("visited_triangles", work.visited);
-        finish(args, &outputs, triangulation, z.as_deref(), &mut stats, quiet)?;
+        stats.set("gave_up", hints.gave_up());
+        if hints.gave_up() {
+            note(quiet, "the points are far from their centres: walks from hints were given up");
+        }
+        finish(args, &outputs, hints.current(), z.as_deref(), &mut stats, quiet)?;
         return stats.write(stats_path);
     }
     let algorithm = match name {

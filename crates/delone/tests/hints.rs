@@ -47,6 +47,24 @@ fn every_instance_is_the_canonical_triangulation() {
 }
 
 #[test]
+fn hints_that_mislead_are_given_up() {
+    let centres = Kind::Uniform.points(30_000, 1);
+    let mut hints = Hints2::preprocess(&centres, HintOrder::default()).expect("finite");
+    hints.triangulate(&centres).expect("finite");
+    assert!(!hints.gave_up());
+    let mut shuffled = centres.clone();
+    Random::new(3).shuffle(&mut shuffled);
+    let mut work = Work::default();
+    let d = hints.triangulate_counted(&shuffled, &mut work).expect("finite");
+    same(d, &shuffled, "shuffled");
+    assert!(hints.gave_up());
+    assert!(work.visited < 60 * 30_000, "{}", work.visited);
+    // The hints themselves are as good as before.
+    same(hints.triangulate(&centres).expect("finite"), &centres, "again");
+    assert!(!hints.gave_up());
+}
+
+#[test]
 fn bad_instances_leave_the_last_one() {
     let centres = Kind::Uniform.points(50, 1);
     let mut hints = Hints2::preprocess(&centres, HintOrder::default()).expect("finite");

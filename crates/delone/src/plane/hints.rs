@@ -7,8 +7,10 @@
 //! Source: Devillers, "Delaunay triangulation of imprecise points: preprocess and actually get a fast query time",
 //! JoCG 2011, §3; the order is random as in the analysis, or spatial as in §5, which is as good and knows the cache.
 //!
-//! Cost: O(n log n) expected to preprocess; O(n) expected for an instance of disjoint unit disks, and for other
-//! instances what the walks take. Nothing is allocated for an instance after the first.
+//! Cost: O(n log n) expected to preprocess; O(n) expected for an instance of disjoint unit disks. Where hints mislead, as
+//! for an instance that has nothing to do with the centres (or disks that overlap as in §6.2), walks are given up after
+//! O(n) steps, and the instance is built by divide and conquer: O(n log n) at worst. Nothing is allocated for an instance
+//! after the first, unless walks were given up.
 
 use std::collections::BTreeMap;
 
@@ -24,6 +26,10 @@ use crate::mesh::Names;
 use crate::order::HintOrder;
 use crate::order::brio;
 use crate::order::random::SplitMix;
+
+/// Steps a point that walks may take in all, and some more for small sets.
+const STEPS: usize = 40;
+const SOME: usize = 10_000;
 
 /// What is known of imprecise points before an instance comes.
 ///
@@ -48,6 +54,7 @@ pub struct Hints2 {
     names: Names,
     /// The last instance.
     current: Delaunay2,
+    gave_up: bool,
 }
 
 impl Hints2 {
@@ -82,7 +89,7 @@ impl Hints2 {
             });
         }
         let names = Names::along(&order);
-        Ok(Self { order, hints, names, current: Delaunay2::new() })
+        Ok(Self { order, hints, names, current: Delaunay2::new(), gave_up: false })
     }
 
     /// Triangulates an instance: point i is near centre i, or anywhere.
@@ -105,8 +112,8 @@ impl Hints2 {
     ) -> Result<&Delaunay2, Error> {
         self.place(instance)?;
         let Delaunay2 { base, duplicates, .. } = &mut self.current;
-        insert_all::<_, false>(base, &mut self.hints, duplicates, tally);
-        Ok(&self.current)
+        let arrived = insert_all::<_, false>(base, &mut self.hints, duplicates, tally);
+        Ok(self.settle(arrived))
     }
 
     /// The same for points that move from instance to instance: the nearest neighbours of this one are the hints for the
@@ -129,8 +136,23 @@ impl Hints2 {
     ) -> Result<&Delaunay2, Error> {
         self.place(instance)?;
         let Delaunay2 { base, duplicates, .. } = &mut self.current;
-        insert_all::<_, true>(base, &mut self.hints, duplicates, tally);
-        Ok(&self.current)
+        let arrived = insert_all::<_, true>(base, &mut self.hints, duplicates, tally);
+        Ok(self.settle(arrived))
+    }
+
+    /// Whether the walks of the last instance were given up, so that it was built without hints.
+    pub fn gave_up(&self) -> bool {
+        self.gave_up
+    }
+
+    /// Builds without hints what did not arrive by them.
+    fn settle(&mut self, arrived: bool) -> &Delaunay2 {
+        self.gave_up = !arrived;
+        if !arrived {
+            let positions = self.current.named.take().unwrap_or_default();
+            self.current.rebuild(positions);
+        }
+        &self.current
     }
 
     /// Puts an instance at its places, none a vertex yet.
@@ -173,13 +195,14 @@ impl Hints2 {
 }
 
 /// Makes the points at all places vertices, in their order, each located from its hint; and takes the nearest of those
-/// before it for a new hint, if wanted.
+/// before it for a new hint, if wanted. False if walks were given up.
 fn insert_all<T: Tally, const RENEW: bool>(
     layer: &mut Layer,
     hints: &mut [u32],
     duplicates: &mut Vec<Duplicate>,
     tally: &mut T,
-) {
+) -> bool {
+    let mut left = STEPS * hints.len() + SOME;
     // Where the vertex is that stands for a place whose point equals another one.
     let mut stands: BTreeMap<Place, Place> = BTreeMap::new();
     for (k, hint) in hints.iter_mut().enumerate() {
@@ -194,7 +217,12 @@ fn insert_all<T: Tally, const RENEW: bool>(
                 e => Start::At(e, Walk::Visibility),
             }
         };
-        match layer.spot(start, q, tally).0 {
+        let (spot, steps) = layer.spot(start, q, tally);
+        if steps > left {
+            return false;
+        }
+        left -= steps;
+        match spot {
             Spot::Vertex(w) => {
                 stands.insert(v, w);
                 duplicates.push(coincide(layer, v, w));
@@ -210,6 +238,7 @@ fn insert_all<T: Tally, const RENEW: bool>(
         }
     }
     Duplicate::settle(duplicates);
+    true
 }
 
 /// Notes that the point at `v` equals the vertex at `w`: the one given first is the vertex.

@@ -94,7 +94,7 @@ impl Moving2 {
         let positions: Vec<[f64; 2]> = positions.iter().map(Position2::xy).collect();
         check_finite(&positions)?;
         let mut moving = Self::default();
-        moving.rebuild(positions);
+        moving.current.rebuild(positions);
         Ok(moving)
     }
 
@@ -125,22 +125,8 @@ impl Moving2 {
             self.current.locator.take();
             return Ok(step);
         }
-        self.rebuild(given);
+        self.current.rebuild(given);
         Ok(Step::Rebuilt)
-    }
-
-    /// Builds anew, vertices at places along a curve.
-    fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
-        let InOrder { mut mesh, points, indices, duplicates } = build::in_order(&positions);
-        let mut names = Names::default();
-        names.reserve(positions.len());
-        indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
-        mesh.names = Some(names);
-        self.current.base = Layer::new(mesh, points);
-        self.current.duplicates = duplicates;
-        self.current.named = Some(positions);
-        self.current.locator.take();
-        self.current.upkeep.renew(self.current.vertex_count());
     }
 
     /// Repairs the triangulation, or says that it cannot.
@@ -254,6 +240,22 @@ impl Moving2 {
             }
         }
         Some(())
+    }
+}
+
+impl Delaunay2 {
+    /// Becomes the triangulation of other points, with vertices at places along a curve.
+    pub(super) fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
+        let InOrder { mut mesh, points, indices, duplicates } = build::in_order(&positions);
+        let mut names = Names::default();
+        names.reserve(positions.len());
+        indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
+        mesh.names = Some(names);
+        self.base = Layer::new(mesh, points);
+        self.duplicates = duplicates;
+        self.named = Some(positions);
+        self.locator.take();
+        self.upkeep.renew(self.vertex_count());
     }
 }
 
