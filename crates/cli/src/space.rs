@@ -53,16 +53,19 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
         };
         stats.phase("preprocess");
         let mut work = Work::default();
-        let d = {
+        {
             let _phase = Phase::start(quiet, "triangulating");
-            hints
-                .triangulate_counted(&points, &mut work)
-                .map_err(|error| Failure::points(&args.input.input, &error))?
-        };
+            let done = hints.triangulate_counted(&points, &mut work);
+            done.map_err(|error| Failure::points(&args.input.input, &error))?;
+        }
         stats.phase("build");
         stats.set("algorithm", "hints");
         stats.set("visited_triangles", work.visited);
-        finish(args, &outputs, d, &points, &mut stats, quiet)?;
+        stats.set("gave_up", hints.gave_up());
+        if hints.gave_up() {
+            note(quiet, "the points are far from their centres: walks from hints were given up");
+        }
+        finish(args, &outputs, hints.current(), &points, &mut stats, quiet)?;
         return stats.write(stats_path);
     }
     let d = build(&points, algorithm, &args.input.input, quiet)?;

@@ -65,6 +65,22 @@ fn hints_that_mislead_are_given_up() {
 }
 
 #[test]
+fn hints_that_mislead_in_space_are_given_up() {
+    let n = 60_000;
+    let centres = Kind3::Cube.points(n, 1);
+    let mut hints = Hints3::preprocess(&centres, HintOrder::default()).expect("finite");
+    let mut shuffled = centres.clone();
+    Random::new(3).shuffle(&mut shuffled);
+    let d = hints.triangulate(&shuffled).expect("finite");
+    let fresh = Delaunay3::from_points(&shuffled).expect("finite");
+    assert_eq!((d.cells().count(), d.hull().count()), (fresh.cells().count(), fresh.hull().count()));
+    assert!(hints.gave_up());
+    let count = fresh.cells().count();
+    assert_eq!(hints.triangulate(&centres).expect("finite").cells().count(), count);
+    assert!(!hints.gave_up());
+}
+
+#[test]
 fn bad_instances_leave_the_last_one() {
     let centres = Kind::Uniform.points(50, 1);
     let mut hints = Hints2::preprocess(&centres, HintOrder::default()).expect("finite");

@@ -6,8 +6,9 @@
 //! Source: Devillers, "Delaunay triangulation of imprecise points: preprocess and actually get a fast query time",
 //! JoCG 2011, §3 and the experiments in space of §5.
 //!
-//! Cost: O(n log n) expected to preprocess evenly spread points; O(n) expected for an instance of disjoint unit balls.
-//! Nothing is allocated for an instance after the first.
+//! Cost: O(n log n) expected to preprocess evenly spread points; O(n) expected for an instance of disjoint unit balls. Where
+//! hints mislead, walks are given up after O(n) steps, and the instance is built in spatial order. Nothing is allocated
+//! for an instance after the first, unless walks were given up.
 
 use super::layer::Layer;
 use super::{Delaunay3, Position3, build, check_points};
@@ -18,6 +19,27 @@ use crate::locate::tally::Tally;
 use crate::mesh::Names;
 use crate::order::random::SplitMix;
 use crate::order::{HintOrder, curve};
+
+/// Steps a point that walks may take in all, and some more for small sets.
+const STEPS: usize = 40;
+const SOME: usize = 10_000;
+
+/// Counts visits for itself, and all for another.
+struct Steps<'a, T> {
+    visited: usize,
+    tally: &'a mut T,
+}
+
+impl<T: Tally> Tally for Steps<'_, T> {
+    fn visited(&mut self) {
+        self.visited += 1;
+        self.tally.visited();
+    }
+
+    fn orientation(&mut self) {
+        self.tally.orientation();
+    }
+}
 
 /// What is known of imprecise points in space before an instance comes.
 ///
@@ -42,6 +64,7 @@ pub struct Hints3 {
     names: Names,
     /// The last instance.
     current: Delaunay3,
+    gave_up: bool,
 }
 
 impl Hints3 {
@@ -77,7 +100,7 @@ impl Hints3 {
             });
         }
         let names = Names::along(&along);
-        Ok(Self { along, order, hints, names, current: Delaunay3::new() })
+        Ok(Self { along, order, hints, names, current: Delaunay3::new(), gave_up: false })
     }
 
     /// Triangulates an instance: point i is near centre i, or anywhere.
@@ -99,8 +122,8 @@ impl Hints3 {
         tally: &mut T,
     ) -> Result<&Delaunay3, Error> {
         self.place(instance)?;
-        self.insert_all::<T, false>(tally);
-        Ok(&self.current)
+        let arrived = self.insert_all::<T, false>(tally);
+        self.settle(arrived, instance)
     }
 
     /// The same for points that move from instance to instance: the nearest neighbours of this one are the hints for the
@@ -110,13 +133,27 @@ impl Hints3 {
     /// As [`Self::triangulate`].
     pub fn follow<P: Position3>(&mut self, instance: &[P]) -> Result<&Delaunay3, Error> {
         self.place(instance)?;
-        self.insert_all::<(), true>(&mut ());
-        Ok(&self.current)
+        let arrived = self.insert_all::<(), true>(&mut ());
+        self.settle(arrived, instance)
     }
 
     /// The last instance; no points before the first.
     pub fn current(&self) -> &Delaunay3 {
         &self.current
+    }
+
+    /// Whether the walks of the last instance were given up, so that it was built without hints.
+    pub fn gave_up(&self) -> bool {
+        self.gave_up
+    }
+
+    /// Builds without hints what did not arrive by them.
+    fn settle<P: Position3>(&mut self, arrived: bool, instance: &[P]) -> Result<&Delaunay3, Error> {
+        self.gave_up = !arrived;
+        if !arrived {
+            self.current = Delaunay3::from_points(instance)?;
+        }
+        Ok(&self.current)
     }
 
     /// Puts an instance at its places, none a vertex yet.
@@ -136,11 +173,13 @@ impl Hints3 {
     }
 
     /// Makes all points vertices, each located from its hint; and takes the nearest of those before it for a new hint,
-    /// if wanted.
-    fn insert_all<T: Tally, const RENEW: bool>(&mut self, tally: &mut T) {
+    /// if wanted. False if walks were given up.
+    fn insert_all<T: Tally, const RENEW: bool>(&mut self, tally: &mut T) -> bool {
+        let most = STEPS * self.order.len() + SOME;
+        let mut steps = Steps { visited: 0, tally };
         let Delaunay3 { base: layer, duplicates, .. } = &mut self.current;
         let first = layer.begin(&self.order);
-        let Some(&a) = first.first() else { return };
+        let Some(&a) = first.first() else { return true };
         let mut last = layer.mesh.incident[a.index()];
         for (&place, hint) in self.order.iter().zip(&mut self.hints) {
             let v = Place::new(place as usize);
@@ -152,18 +191,22 @@ impl Hints3 {
             // do not span space.
             let near = layer.mesh.incident[*hint as usize];
             let from = if near == TetrahedronId::NONE { last } else { near };
-            last = layer.walk(from, q, tally);
+            last = layer.walk(from, q, &mut steps);
+            if steps.visited > most {
+                return false;
+            }
             if let Some(w) = layer.vertex_at(last, q) {
                 duplicates.push(build::coincide(layer, v, w));
                 continue;
             }
-            layer.insert(v, last, tally);
+            layer.insert(v, last, steps.tally);
             last = layer.mesh.incident[v.index()];
             if RENEW {
                 *hint = nearest(layer, v).map_or(*hint, |w| w.index() as u32);
             }
         }
         Duplicate::settle(duplicates);
+        true
     }
 }
 
