@@ -3,7 +3,7 @@
 //! A vertex keeps its name, the [`VertexId`], for life; a name is never given twice. Its place moves with the
 //! memory and is used again. As long as a mesh was only built in bulk the two are equal, and there is no table.
 
-use crate::ids::{Place, VertexId};
+use crate::ids::{Duplicate, Place, VertexId};
 
 /// Both ways: 4 bytes a name ever given, 4 bytes a place.
 #[derive(Clone, Debug, Default)]
@@ -75,6 +75,23 @@ impl Names {
             self.of[place.index()] = VertexId::GHOST;
             self.places[v.index()] = Place::GHOST;
         }
+    }
+
+    /// The point named `v` equals the vertex at a place: of the two the one given first is the vertex.
+    pub(crate) fn coincide(&mut self, v: VertexId, place: Place) -> Duplicate {
+        self.release(v);
+        let there = self.of(place);
+        if v < there {
+            self.release(there);
+            self.bind(v, place);
+        }
+        Duplicate { point: v.max(there).index(), vertex: v.min(there) }
+    }
+
+    /// No names, in the memory that there is.
+    pub(crate) fn clear(&mut self) {
+        self.of.clear();
+        self.places.clear();
     }
 
     /// Every vertex moves to the place that `moved` gives for its old one.

@@ -163,15 +163,9 @@ impl Delaunay2 {
                 _ => self.spot(q, tally),
             };
             if let Spot::Vertex(place) = found.spot {
-                let there = self.base.mesh.name(place);
-                let (vertex, point) = (there.min(v), there.max(v));
-                if vertex != there {
-                    let names = self.names();
-                    names.release(there);
-                    names.bind(v, place);
-                }
-                self.duplicates.push(Duplicate { point: point.index(), vertex });
-                last = Some(vertex);
+                let duplicate = self.names().coincide(v, place);
+                self.duplicates.push(duplicate);
+                last = Some(duplicate.vertex);
             } else {
                 self.place(v, found, q, tally);
                 last = Some(v);

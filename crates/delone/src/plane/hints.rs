@@ -18,7 +18,7 @@ use super::insert::Spot;
 use super::layer::Layer;
 use super::{Delaunay2, Position2, check_finite};
 use crate::error::Error;
-use crate::ids::{Duplicate, EdgeId, Inserted, Place, VertexId};
+use crate::ids::{Duplicate, EdgeId, Inserted, Place};
 use crate::locate::nearest::Metric;
 use crate::locate::tally::Tally;
 use crate::locate::{Start, Walk};
@@ -225,7 +225,10 @@ fn insert_all<T: Tally, const RENEW: bool>(
         match spot {
             Spot::Vertex(w) => {
                 stands.insert(v, w);
-                duplicates.push(coincide(layer, v, w));
+                let names = layer.mesh.names();
+                let name = names.of(v);
+                duplicates.push(names.coincide(name, w));
+                layer.free.give(k);
             }
             spot => {
                 layer.insert_at(v, spot, tally);
@@ -239,17 +242,4 @@ fn insert_all<T: Tally, const RENEW: bool>(
     }
     Duplicate::settle(duplicates);
     true
-}
-
-/// Notes that the point at `v` equals the vertex at `w`: the one given first is the vertex.
-fn coincide(layer: &mut Layer, v: Place, w: Place) -> Duplicate {
-    let names = layer.mesh.names();
-    let (new, old): (VertexId, VertexId) = (names.of(v), names.of(w));
-    names.release(new);
-    if new < old {
-        names.release(old);
-        names.bind(new, w);
-    }
-    layer.free.give(v.index());
-    Duplicate { point: new.max(old).index(), vertex: new.min(old) }
 }

@@ -233,13 +233,15 @@ impl Moving2 {
                 }
             }
         }
-        // No two of the plans that are left have a triangle in common.
         for plan in plans.values() {
             if plan.is_good(&layer.mesh) {
                 flip(&mut layer.mesh, plan.edge);
             }
         }
-        Some(())
+        // Every triangle that turned over has been destroyed, or there is a plan for it; this proves that plans did not
+        // spoil each other.
+        let good = |&t: &TriangleId| !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t);
+        plans.keys().all(good).then_some(())
     }
 }
 

@@ -54,22 +54,11 @@ pub(super) fn build<T: Tally>(
         let q = layer.points[v.index()];
         last = layer.walk(last, q, tally);
         if let Some(w) = layer.vertex_at(last, q) {
-            duplicates.push(coincide(layer, v, w));
+            let name = layer.mesh.names.of(v);
+            duplicates.push(layer.mesh.names.coincide(name, w));
             continue;
         }
         layer.insert(v, last, tally);
         last = layer.mesh.incident[v.index()];
     }
-}
-
-/// Notes that the point at `v` equals the vertex at `w`: the one given first is the vertex.
-pub(super) fn coincide(layer: &mut Layer, v: Place, w: Place) -> Duplicate {
-    let names = &mut layer.mesh.names;
-    let (new, old) = (names.of(v), names.of(w));
-    names.release(new);
-    if new < old {
-        names.release(old);
-        names.bind(new, w);
-    }
-    Duplicate { point: new.max(old).index(), vertex: new.min(old) }
 }

@@ -122,15 +122,7 @@ impl Delaunay3 {
             let v = VertexId::new(i as usize);
             match self.place(points[v.index()].xyz(), tally) {
                 Ok(place) => self.base.mesh.names.bind(v, place),
-                Err(place) => {
-                    let names = &mut self.base.mesh.names;
-                    let there = names.of(place);
-                    if v < there {
-                        names.release(there);
-                        names.bind(v, place);
-                    }
-                    self.duplicates.push(Duplicate { point: v.max(there).index(), vertex: v.min(there) });
-                }
+                Err(place) => self.duplicates.push(self.base.mesh.names.coincide(v, place)),
             }
         }
         Duplicate::settle(&mut self.duplicates);

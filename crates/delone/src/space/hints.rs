@@ -11,7 +11,7 @@
 //! for an instance after the first, unless walks were given up.
 
 use super::layer::Layer;
-use super::{Delaunay3, Position3, build, check_points};
+use super::{Delaunay3, Position3, check_points};
 use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, Place, TetrahedronId};
 use crate::locate::nearest::Metric;
@@ -196,7 +196,8 @@ impl Hints3 {
                 return false;
             }
             if let Some(w) = layer.vertex_at(last, q) {
-                duplicates.push(build::coincide(layer, v, w));
+                let name = layer.mesh.names.of(v);
+                duplicates.push(layer.mesh.names.coincide(name, w));
                 continue;
             }
             layer.insert(v, last, steps.tally);

@@ -68,7 +68,7 @@ impl Layer {
         Self { mesh, points, limits, grid, filter, ..Self::default() }
     }
 
-    /// Starts anew with other points, as [`Self::new`], in the memory that there is.
+    /// Starts anew with other points, as [`Self::new`], in the memory that there is. They have no names.
     pub(super) fn restart(&mut self, points: impl Iterator<Item = [f64; 3]>) {
         self.points.clear();
         self.points.extend(points);
@@ -79,6 +79,7 @@ impl Layer {
         self.filter = Filter3::for_box(self.limits.extent(), self.grid);
         self.mesh.incident.clear();
         self.mesh.incident.resize(self.points.len(), TetrahedronId::NONE);
+        self.mesh.names.clear();
         self.clear_mesh();
     }
 
