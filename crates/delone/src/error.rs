@@ -1,6 +1,6 @@
 //! What can be wrong with what was asked for: what, and where.
 
-use crate::ids::{MAX_POINTS, VertexId};
+use crate::ids::VertexId;
 
 /// Why a triangulation could not be built, changed or asked.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -17,10 +17,12 @@ pub enum Error {
         value: f64,
     },
     /// More points than 32-bit edge indices can serve.
-    #[error("{count} points are more than the {MAX_POINTS} that one triangulation holds")]
+    #[error("{count} points are more than the {most} that one triangulation holds")]
     TooManyPoints {
         /// The number of points given.
         count: usize,
+        /// The largest number.
+        most: usize,
     },
     /// A coordinate of a point given alone is NaN or infinite.
     #[error("the {} coordinate {value} is not finite", ["x", "y", "z"][*.axis])]

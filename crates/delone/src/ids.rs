@@ -9,6 +9,13 @@ use std::fmt;
 /// The largest number of points of one triangulation: 2^29 = 536,870,912.
 pub const MAX_POINTS: usize = 1 << 29;
 
+/// The largest number of points of one triangulation of space: 2^27 = 134,217,728, whose 6.77 tetrahedra each, where
+/// they are evenly spread, have indices below [`MAX_TETRAHEDRA`].
+pub const MAX_POINTS_IN_SPACE: usize = 1 << 27;
+
+/// One more than the largest index of a tetrahedron, four facets each: 2^30, or 32 gigabytes of them.
+pub(crate) const MAX_TETRAHEDRA: usize = 1 << 30;
+
 /// A vertex: the index of its point, counted over the input and all later insertions.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct VertexId(u32);
@@ -225,7 +232,7 @@ impl TetrahedronId {
 
     #[inline]
     pub(crate) fn new(index: usize) -> Self {
-        debug_assert!(index < 1 << 30, "tetrahedron index {index} is out of range");
+        debug_assert!(index < MAX_TETRAHEDRA, "tetrahedron index {index} is out of range");
         Self(index as u32)
     }
 

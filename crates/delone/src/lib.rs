@@ -42,7 +42,10 @@ pub mod plane;
 pub mod space;
 
 pub use error::{Error, RegionProblem};
-pub use ids::{Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, TetrahedronId, TriangleId, VertexId};
+pub use ids::{
+    Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, MAX_POINTS_IN_SPACE, TetrahedronId, TriangleId,
+    VertexId,
+};
 pub use locate::tally::{Tally, Work};
 pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
 pub use mesh::tetrahedra::Mesh3;

@@ -13,7 +13,7 @@
 use std::collections::BTreeSet;
 
 use super::Names;
-use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
+use crate::ids::{FacetId, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
 
 /// The corners of facet k, so that they are seen counter-clockwise from corner k.
 pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
@@ -156,8 +156,12 @@ impl Mesh3 {
     }
 
     /// A tetrahedron to be filled in.
+    ///
+    /// # Panics
+    /// Beyond 2^30 of them, 32 gigabytes: indices would no longer be true.
     pub(crate) fn new_cell(&mut self) -> TetrahedronId {
         self.free.pop().unwrap_or_else(|| {
+            assert!(self.cells.len() < MAX_TETRAHEDRA, "too many tetrahedra for 32-bit indices");
             self.cells.push(Tetrahedron::FREE);
             self.marks.push(0);
             TetrahedronId::new(self.cells.len() - 1)

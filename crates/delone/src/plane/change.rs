@@ -192,7 +192,7 @@ impl Delaunay2 {
         let given = self.points().len();
         let count = given + points.len();
         if count > MAX_POINTS {
-            return Err(Error::TooManyPoints { count });
+            return Err(Error::TooManyPoints { count, most: MAX_POINTS });
         }
         self.names().reserve(points.len());
         if let Some(named) = &mut self.named {

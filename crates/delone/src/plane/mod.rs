@@ -249,7 +249,7 @@ impl Delaunay2 {
 }
 
 fn check_count(count: usize) -> Result<(), Error> {
-    if count > MAX_POINTS { Err(Error::TooManyPoints { count }) } else { Ok(()) }
+    if count > MAX_POINTS { Err(Error::TooManyPoints { count, most: MAX_POINTS }) } else { Ok(()) }
 }
 
 fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {

@@ -16,7 +16,7 @@ use crate::order::curve;
 /// Tetrahedra a point that room is made for at once: evenly spread points have 6.77.
 const USUAL: usize = 7;
 
-/// Triangulates finite points, at most [`crate::MAX_POINTS`] of them.
+/// Triangulates finite points, at most [`crate::MAX_POINTS_IN_SPACE`] of them.
 pub(super) fn triangulate<P: Position3, T: Tally>(
     points: &[P],
     seed: u64,

@@ -6,7 +6,7 @@
 use super::locator::Locator;
 use super::{Delaunay3, Position3, finite};
 use crate::error::Error;
-use crate::ids::{Duplicate, Inserted, MAX_POINTS, Place, VertexId};
+use crate::ids::{Duplicate, Inserted, MAX_POINTS_IN_SPACE, Place, VertexId};
 use crate::locate::tally::Tally;
 use crate::locate::{Locate, Start, Strategy};
 use crate::order::random::SplitMix;
@@ -21,7 +21,7 @@ impl Delaunay3 {
     /// where it leaves the line or plane of all others.
     ///
     /// # Errors
-    /// [`Error::Coordinate`] for NaN and infinities; [`Error::TooManyPoints`] after [`MAX_POINTS`] ids. Nothing has
+    /// [`Error::Coordinate`] for NaN and infinities; [`Error::TooManyPoints`] after [`MAX_POINTS_IN_SPACE`] ids. Nothing has
     /// changed then.
     ///
     /// ```
@@ -53,8 +53,8 @@ impl Delaunay3 {
     ) -> Result<Inserted, Error> {
         let q = finite(&point)?;
         let name = self.base.mesh.names.given();
-        if name >= MAX_POINTS {
-            return Err(Error::TooManyPoints { count: name + 1 });
+        if name >= MAX_POINTS_IN_SPACE {
+            return Err(Error::TooManyPoints { count: name + 1, most: MAX_POINTS_IN_SPACE });
         }
         match self.place(q, tally) {
             Err(there) => Ok(Inserted::Existing(self.base.mesh.name(there))),

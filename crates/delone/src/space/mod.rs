@@ -23,7 +23,7 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use crate::error::Error;
-use crate::ids::{Duplicate, FacetId, MAX_POINTS, Place, TetrahedronId, VertexId};
+use crate::ids::{Duplicate, FacetId, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::Dimension;
@@ -92,7 +92,7 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
-    /// [`MAX_POINTS`].
+    /// [`MAX_POINTS_IN_SPACE`].
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         check_points(points)?;
         let (base, duplicates) = build::triangulate(points, 0, &mut ());
@@ -241,8 +241,8 @@ impl Delaunay3 {
 }
 
 fn check_points<P: Position3>(points: &[P]) -> Result<(), Error> {
-    if points.len() > MAX_POINTS {
-        return Err(Error::TooManyPoints { count: points.len() });
+    if points.len() > MAX_POINTS_IN_SPACE {
+        return Err(Error::TooManyPoints { count: points.len(), most: MAX_POINTS_IN_SPACE });
     }
     for (index, p) in points.iter().enumerate() {
         let p = p.xyz();

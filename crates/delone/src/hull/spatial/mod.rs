@@ -96,7 +96,7 @@ impl Hull3 {
 /// Whether all points are finite, and not too many.
 fn check(points: &[[f64; 3]]) -> Result<(), Error> {
     if points.len() > crate::MAX_POINTS {
-        return Err(Error::TooManyPoints { count: points.len() });
+        return Err(Error::TooManyPoints { count: points.len(), most: crate::MAX_POINTS });
     }
     let flat = points.as_flattened();
     match flat.iter().position(|x| !x.is_finite()) {
