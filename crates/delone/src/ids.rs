@@ -10,7 +10,7 @@ use std::fmt;
 pub const MAX_POINTS: usize = 1 << 29;
 
 /// The largest number of points of one triangulation of space: 2^27 = 134,217,728, whose 6.77 tetrahedra each, where
-/// they are evenly spread, have indices below [`MAX_TETRAHEDRA`].
+/// they are evenly spread, have indices below 2^30.
 pub const MAX_POINTS_IN_SPACE: usize = 1 << 27;
 
 /// One more than the largest index of a tetrahedron, four facets each: 2^30, or 32 gigabytes of them.
