@@ -3,6 +3,8 @@
 //! The same analysis as in the plane. With extents X, Y, Z and L = X^2 + Y^2 + Z^2, the permanent of an orientation is
 //! at most 6 XYZ, that of an in-sphere determinant 24 XYZ L.
 
+use std::ops::{Add, Mul, Sub};
+
 use super::{Grid, U, outside_of};
 use crate::{Point3, Sign};
 
@@ -128,25 +130,12 @@ impl Filter3 {
     #[inline]
     pub fn in_spheres(&self, quadruples: [[Point3; 4]; 2], e: Point3) -> [Sign; 2] {
         let [p, q] = &quadruples;
-        let (ax, ay, az) = Pair::vector(&p[0], &q[0], &e);
-        let (bx, by, bz) = Pair::vector(&p[1], &q[1], &e);
-        let (cx, cy, cz) = Pair::vector(&p[2], &q[2], &e);
-        let (dx, dy, dz) = Pair::vector(&p[3], &q[3], &e);
-        let ab = ax * by - bx * ay;
-        let bc = bx * cy - cx * by;
-        let cd = cx * dy - dx * cy;
-        let da = dx * ay - ax * dy;
-        let ac = ax * cy - cx * ay;
-        let bd = bx * dy - dx * by;
-        let la = ax * ax + ay * ay + az * az;
-        let lb = bx * bx + by * by + bz * bz;
-        let lc = cx * cx + cy * cy + cz * cz;
-        let ld = dx * dx + dy * dy + dz * dz;
-        let abc = az * bc - bz * ac + cz * ab;
-        let bcd = bz * cd - cz * bd + dz * bc;
-        let cda = cz * da + dz * ac + az * cd;
-        let dab = dz * ab + az * bd + bz * da;
-        let det = (ld * abc - lc * dab) + (lb * cda - la * bcd);
+        let det = sphere_determinant(
+            Pair::vector(&p[0], &q[0], &e),
+            Pair::vector(&p[1], &q[1], &e),
+            Pair::vector(&p[2], &q[2], &e),
+            Pair::vector(&p[3], &q[3], &e),
+        );
         let first = self.side_of_sphere(det.0[0], || quadruples[0], e);
         [first, self.side_of_sphere(det.0[1], || quadruples[1], e)]
     }
@@ -154,25 +143,8 @@ impl Filter3 {
     /// Like [`crate::in_sphere`], for points in the box.
     #[inline]
     pub fn in_sphere(&self, a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
-        let (ax, ay, az) = (a[0] - e[0], a[1] - e[1], a[2] - e[2]);
-        let (bx, by, bz) = (b[0] - e[0], b[1] - e[1], b[2] - e[2]);
-        let (cx, cy, cz) = (c[0] - e[0], c[1] - e[1], c[2] - e[2]);
-        let (dx, dy, dz) = (d[0] - e[0], d[1] - e[1], d[2] - e[2]);
-        let ab = ax * by - bx * ay;
-        let bc = bx * cy - cx * by;
-        let cd = cx * dy - dx * cy;
-        let da = dx * ay - ax * dy;
-        let ac = ax * cy - cx * ay;
-        let bd = bx * dy - dx * by;
-        let la = ax * ax + ay * ay + az * az;
-        let lb = bx * bx + by * by + bz * bz;
-        let lc = cx * cx + cy * cy + cz * cz;
-        let ld = dx * dx + dy * dy + dz * dz;
-        let abc = az * bc - bz * ac + cz * ab;
-        let bcd = bz * cd - cz * bd + dz * bc;
-        let cda = cz * da + dz * ac + az * cd;
-        let dab = dz * ab + az * bd + bz * da;
-        let det = (ld * abc - lc * dab) + (lb * cda - la * bcd);
+        let from_e = |p: Point3| (p[0] - e[0], p[1] - e[1], p[2] - e[2]);
+        let det = sphere_determinant(from_e(a), from_e(b), from_e(c), from_e(d));
         self.side_of_sphere(det, || [a, b, c, d], e)
     }
 
@@ -194,6 +166,30 @@ impl Filter3 {
     }
 }
 
+/// The in-sphere determinant of four vectors from the fifth point: negative inside.
+#[inline]
+fn sphere_determinant<T>(a: (T, T, T), b: (T, T, T), c: (T, T, T), d: (T, T, T)) -> T
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>,
+{
+    let ((ax, ay, az), (bx, by, bz), (cx, cy, cz), (dx, dy, dz)) = (a, b, c, d);
+    let ab = ax * by - bx * ay;
+    let bc = bx * cy - cx * by;
+    let cd = cx * dy - dx * cy;
+    let da = dx * ay - ax * dy;
+    let ac = ax * cy - cx * ay;
+    let bd = bx * dy - dx * by;
+    let la = ax * ax + ay * ay + az * az;
+    let lb = bx * bx + by * by + bz * bz;
+    let lc = cx * cx + cy * cy + cz * cz;
+    let ld = dx * dx + dy * dy + dz * dz;
+    let abc = az * bc - bz * ac + cz * ab;
+    let bcd = bz * cd - cz * bd + dz * bc;
+    let cda = cz * da + dz * ac + az * cd;
+    let dab = dz * ab + az * bd + bz * da;
+    (ld * abc - lc * dab) + (lb * cda - la * bcd)
+}
+
 /// Two numbers that are computed with side by side, as every processor of today can.
 #[derive(Clone, Copy)]
 struct Pair([f64; 2]);
@@ -206,7 +202,7 @@ impl Pair {
     }
 }
 
-impl std::ops::Add for Pair {
+impl Add for Pair {
     type Output = Self;
 
     #[inline]
@@ -215,7 +211,7 @@ impl std::ops::Add for Pair {
     }
 }
 
-impl std::ops::Sub for Pair {
+impl Sub for Pair {
     type Output = Self;
 
     #[inline]
@@ -224,7 +220,7 @@ impl std::ops::Sub for Pair {
     }
 }
 
-impl std::ops::Mul for Pair {
+impl Mul for Pair {
     type Output = Self;
 
     #[inline]
