@@ -55,4 +55,4 @@ pub use plane::{
     Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Hints2, Location, Moving2,
     NearestSites, Position2, Region, Relaxation, Ring, Step, Voronoi2, VoronoiEdge, convex_hull,
 };
-pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Position3};
+pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Position3, Step3};

@@ -1,6 +1,8 @@
 //! Imprecise points: every instance is what it is without hints, and walks are as short as the paper says.
 
-use delone::{Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2, Step, Work};
+use delone::{
+    Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2, Moving3, Step, Step3, VertexId, Work,
+};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Kind3, Random};
 
@@ -128,6 +130,22 @@ fn walks_are_as_short_as_in_the_paper() {
     }
 }
 
+fn same_in_space(d: &Delaunay3, points: &[[f64; 3]], what: &str) {
+    assert_eq!(d.check(), Ok(()), "{what}");
+    let fresh = Delaunay3::from_points(points).expect("finite");
+    let sorted = |mut t: [VertexId; 4]| {
+        t.sort_unstable();
+        t
+    };
+    let ids = |d: &Delaunay3| {
+        let mut all: Vec<_> = d.tetrahedra().map(sorted).collect();
+        all.sort_unstable();
+        (all, d.dimension(), d.edges().count(), d.duplicates().collect::<Vec<_>>())
+    };
+    assert!(ids(d) == ids(&fresh), "{what}");
+    assert!(d.vertices().all(|v| d.point(v) == points[v.index()]), "{what}");
+}
+
 #[test]
 fn every_instance_in_space_is_the_canonical_triangulation() {
     for &kind in Kind3::ALL {
@@ -147,21 +165,7 @@ fn every_instance_in_space_is_the_canonical_triangulation() {
                 };
                 let what = format!("{} {order:?} {round}", kind.name());
                 let d = if round % 2 == 0 { hints.triangulate(&instance) } else { hints.follow(&instance) };
-                let d = d.expect("finite");
-                assert_eq!(d.check(), Ok(()), "{what}");
-                let fresh = Delaunay3::from_points(&instance).expect("finite");
-                let ids = |d: &Delaunay3| {
-                    let mut all: Vec<_> = d
-                        .tetrahedra()
-                        .map(|mut t| {
-                            t.sort_unstable();
-                            t
-                        })
-                        .collect();
-                    all.sort_unstable();
-                    (all, d.dimension(), d.edges().count(), d.duplicates().collect::<Vec<_>>())
-                };
-                assert!(ids(d) == ids(&fresh), "{what}");
+                same_in_space(d.expect("finite"), &instance, &what);
             }
         }
     }
@@ -202,18 +206,12 @@ fn moving_points_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
     for &kind in Kind::ALL {
         let n = 400;
         let start = kind.points(n, 1);
-        let size = (0..2)
-            .map(|k| {
-                let of = start.iter().map(|p| p[k]);
-                of.clone().fold(f64::MIN, f64::max) / 2.0 - of.fold(f64::MAX, f64::min) / 2.0
-            })
-            .fold(0.0, f64::max);
-        let spacing = size * 2.0 / (n as f64).sqrt();
+        let spacing = size(&start) / (n as f64).sqrt();
         let mut moving = Moving2::new(&start).expect("finite");
         same(moving.triangulation(), &start, kind.name());
         let mut random = Random::new(2);
         let mut points = start.clone();
-        for round in 0..40 {
+        for round in 0..100 {
             let share = [0.0, 1e-9, 0.001, 0.01, 0.05, 0.1, 0.3, 1.0, 10.0, 0.02][round % 10];
             for p in &mut points {
                 let there = p.map(|x| x + spacing * share * random.between(-1.0, 1.0));
@@ -258,4 +256,53 @@ fn small_motions_are_repaired() {
         );
         same(moving.triangulation(), &points, &format!("{round}"));
     }
+}
+
+#[test]
+fn moving_points_in_space_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
+    let mut repaired = [0; 10];
+    for &kind in Kind3::ALL {
+        let n = if kind == Kind3::HugeSpan3 { 40 } else { 300 };
+        let start = kind.points(n, 1);
+        let spacing = size(&start) / (n as f64).cbrt();
+        let mut moving = Moving3::new(&start).expect("finite");
+        same_in_space(moving.triangulation(), &start, kind.name());
+        let mut random = Random::new(2);
+        let mut points = start.clone();
+        for round in 0..100 {
+            let share = [0.0, 1e-9, 1e-5, 0.0001, 0.0003, 0.001, 0.01, 0.1, 1.0, 10.0][round % 10];
+            for p in &mut points {
+                let there = p.map(|x| x + spacing * share * random.between(-1.0, 1.0));
+                if there.iter().all(|x| x.is_finite()) {
+                    *p = there;
+                }
+            }
+            match round {
+                17 => points = vec![[1.0, 1.0, 2.0]; n],
+                18 => points.clone_from(&start),
+                25 => points[3] = points[n - 1],
+                // A few go far while the others stay.
+                40 | 50 | 60 => points[5] = points[n / 2].map(|x| x + spacing * 0.01),
+                41 | 51 | 61 => points[7] = points[0].map(|x| x + spacing * 2.0),
+                42 | 52 => points[9][2] += 3.0 * size(&start),
+                _ => {}
+            }
+            let step = moving.step(&points).expect("finite");
+            repaired[round % 10] += usize::from(matches!(step, Step3::Repaired { .. }));
+            same_in_space(moving.triangulation(), &points, &format!("{} {round} {step:?}", kind.name()));
+        }
+    }
+    assert!(repaired[0] > 60 && repaired[3] > 40 && repaired[9] == 0, "{repaired:?}");
+    let start = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let mut moving = Moving3::new(&start).expect("finite");
+    assert_eq!(moving.step(&start[1..]), Err(Error::Length { expected: 2, found: 1 }));
+    assert!(moving.step(&[start[0], [f64::NAN, 0.0, 0.0]]).is_err());
+    same_in_space(moving.triangulation(), &start, "after errors");
+}
+
+/// The longer side of the box around points.
+fn size<const D: usize>(points: &[[f64; D]]) -> f64 {
+    let along = |k: usize| points.iter().map(move |p| p[k]);
+    let extent = |k| along(k).fold(f64::MIN, f64::max) / 2.0 - along(k).fold(f64::MAX, f64::min) / 2.0;
+    2.0 * (0..D).map(extent).fold(0.0, f64::max)
 }

@@ -25,7 +25,7 @@ const WAITING: u8 = 3;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cavity {
     /// The tetrahedra in conflict; then the new ones.
-    pub(super) cells: Vec<TetrahedronId>,
+    cells: Vec<TetrahedronId>,
     /// All that are or were to be tested, in their order, and how many they are.
     queue: Vec<TetrahedronId>,
     queued: usize,
@@ -55,6 +55,11 @@ impl Cavity {
         tally.destroyed(self.cells.len());
         tally.created(self.border.len());
         self.refill(&mut layer.mesh, v);
+    }
+
+    /// The vertices that the last one inserted is joined to, the ghost not among them.
+    pub(super) fn joined(&self) -> impl Iterator<Item = Place> {
+        self.vertices[1..].iter().map(|vertex| vertex.0)
     }
 
     /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what goes on the lists is decided

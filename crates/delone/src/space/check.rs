@@ -1,13 +1,14 @@
 //! Geometric validity, proved with exact predicates alone.
 //!
 //! A three-dimensional sphere of tetrahedra (`mesh::tetrahedra`) is the canonical Delaunay triangulation of its vertices
-//! if every finite tetrahedron is in positive order, the hull is convex at every edge, and no facet has the vertex
-//! across it inside the sphere of its tetrahedron (Delaunay's lemma: local implies global, for the perturbed points
-//! too). Cost: O(n log n).
+//! if every finite tetrahedron is in positive order, the hull is convex at every edge and goes around each of its
+//! vertices once, and no facet has the vertex across it inside the sphere of its tetrahedron (Delaunay's lemma: local
+//! implies global, for the perturbed points too). Cost: O(n log n).
 
-use delone_predicates::{in_sphere, orient3d};
+use delone_predicates::{in_sphere, lexicographic3, orient3d};
 
 use super::Delaunay3;
+use super::layer::Layer;
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
 use crate::mesh::tetrahedra::Flaw3 as MeshFlaw;
 use crate::mesh::{Dimension, tetrahedra};
@@ -25,6 +26,9 @@ pub enum Flaw3 {
     /// The hull is not convex at an edge of a facet.
     #[error("the hull is not convex at facet {0:?}")]
     Hull(FacetId),
+    /// The hull does not go around a vertex once.
+    #[error("the hull does not go around vertex {0:?} once")]
+    Winding(VertexId),
     /// A facet is not locally Delaunay under the canonical rule.
     #[error("the vertex across facet {0:?} is inside the sphere of its tetrahedron")]
     Delaunay(FacetId),
@@ -74,6 +78,7 @@ impl Delaunay3 {
                 }
             }
         }
+        check_winding(layer)?;
         self.check_span()?;
         self.check_vertices()
     }
@@ -106,5 +111,87 @@ impl Delaunay3 {
             mesh.contains(VertexId::new(d.point)) || !mesh.contains(d.vertex) || d.vertex.index() >= d.point
         };
         self.duplicates().find(wrong).map_or(Ok(()), |d| Err(Flaw3::Duplicate(d)))
+    }
+}
+
+/// Around each of its vertices the hull goes once and is convex, given that it is convex at its edges. A closed surface
+/// like that is the border of a convex body (van Heijenoort, "On locally convex manifolds", 1952).
+pub(super) fn check_winding(layer: &Layer) -> Result<(), Flaw3> {
+    let mesh = &layer.mesh;
+    let point = |p: Place| layer.points[p.index()];
+    let mut met = vec![false; mesh.incident.len()];
+    let mut link: Vec<[f64; 3]> = Vec::new();
+    let mut corners_met = 0;
+    let mut corners = 0;
+    let mut last = VertexId::GHOST;
+    for ghost in mesh.cells().filter(|&t| mesh.is_ghost(t)) {
+        corners += 3;
+        for &v in &mesh.cells[ghost.index()].corners[..3] {
+            if std::mem::replace(&mut met[v.index()], true) {
+                continue;
+            }
+            last = mesh.name(v);
+            link.clear();
+            let mut t = ghost;
+            loop {
+                let cell = &mesh.cells[t.index()];
+                let i = cell.corners.iter().position(|&p| p == v).unwrap_or_default();
+                link.push(point(cell.corners[(i + 1) % 3]));
+                t = cell.across[(i + 1) % 3].tetrahedron();
+                if t == ghost {
+                    break;
+                }
+            }
+            corners_met += link.len();
+            if !goes_once(point(v), &link) {
+                return Err(Flaw3::Winding(last));
+            }
+        }
+    }
+    // Ghosts at a vertex that are not met on the way around it are another fan.
+    if corners_met == corners { Ok(()) } else { Err(Flaw3::Winding(last)) }
+}
+
+/// Whether the cone from `v` over a closed polygon, counter-clockwise from outside, is convex and goes once around, if
+/// it is convex at every edge: seen from its first edge it turns by half a circle at most and never back. Where it is
+/// flat, a plane through `v` must cut it twice.
+fn goes_once(v: [f64; 3], link: &[[f64; 3]]) -> bool {
+    let [first, .., last] = link else { return false };
+    let next = |i: usize| &link[(i + 1) % link.len()];
+    let is_beyond = |p: &[f64; 3], q: &[f64; 3], r: &[f64; 3]| orient3d(v, *p, *q, *r).is_positive();
+    let before = |p: &[f64; 3]| lexicographic3(*p, v).is_lt();
+    let changes = (0..link.len()).filter(|&i| before(&link[i]) != before(next(i))).count();
+    changes <= 2
+        && link.iter().enumerate().all(|(i, p)| {
+            !is_beyond(p, next(i), first) && !is_beyond(first, &link[1], p) && !is_beyond(last, first, p)
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::goes_once;
+
+    /// The points of a polygon in the plane z = 1, seen counter-clockwise from below.
+    fn cone(polygon: &[[f64; 2]]) -> Vec<[f64; 3]> {
+        polygon.iter().rev().map(|&[x, y]| [x, y, 1.0]).collect()
+    }
+
+    #[test]
+    fn cones_that_wind_twice_are_found() {
+        let apex = [0.0, 0.0, 0.0];
+        let square = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+        assert!(goes_once(apex, &cone(&square)));
+        // Convex at every edge, twice around: a star of five points.
+        let star = [0, 2, 4, 1, 3].map(|k| {
+            let (sin, cos) = (f64::from(k) * std::f64::consts::TAU / 5.0).sin_cos();
+            [cos, sin]
+        });
+        assert!(!goes_once(apex, &cone(&star)));
+        let twice = [square, square.map(|p| p.map(|x| 1.5 * x))].concat();
+        assert!(!goes_once(apex, &cone(&twice)));
+        // Flat: all in the plane of the apex.
+        let flat = |polygon: &[[f64; 2]]| polygon.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>();
+        assert!(goes_once(apex, &flat(&square)));
+        assert!(!goes_once(apex, &flat(&twice)));
     }
 }

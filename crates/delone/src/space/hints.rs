@@ -63,7 +63,7 @@ pub struct Hints3 {
     /// The names when all points are distinct.
     names: Names,
     /// The last instance.
-    current: Delaunay3,
+    pub(super) current: Delaunay3,
     gave_up: bool,
 }
 
@@ -147,6 +147,16 @@ impl Hints3 {
         self.gave_up
     }
 
+    /// The order of insertion.
+    pub fn order(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.order.iter().map(|&place| self.along[place as usize] as usize)
+    }
+
+    /// For each point that is inserted, in the order of insertion, the point that is its hint. The first is its own.
+    pub fn hints(&self) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.hints.iter().map(|&place| self.along[place as usize] as usize)
+    }
+
     /// Builds without hints what did not arrive by them.
     fn settle<P: Position3>(&mut self, arrived: bool, instance: &[P]) -> Result<&Delaunay3, Error> {
         self.gave_up = !arrived;
@@ -214,7 +224,6 @@ impl Hints3 {
 /// The nearest neighbour of a vertex that was inserted last.
 fn nearest(layer: &Layer, v: Place) -> Option<Place> {
     let q = layer.points[v.index()];
-    let corners = layer.cavity.cells.iter().flat_map(|t| layer.mesh.cells[t.index()].corners);
-    let joined = corners.filter(|&p| p != v && !p.is_ghost() && !layer.is_scaffold(p));
+    let joined = layer.cavity.joined().filter(|&p| !layer.is_scaffold(p));
     joined.reduce(|a, b| if layer.nearer(q, b, a).is_lt() { b } else { a })
 }

@@ -4,7 +4,7 @@
 use delone_predicates::{Filter3, Grid};
 
 use super::cavity::Cavity;
-use super::remove::Hole;
+use super::hole::Hole;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::tetrahedra::{FACETS, Mesh3};
@@ -25,6 +25,8 @@ pub(super) struct Layer {
     pub(super) scaffold: Vec<Place>,
     pub(super) cavity: Cavity,
     pub(super) hole: Hole,
+    /// What holes are filled with.
+    pub(super) fill: Option<Box<Layer>>,
 }
 
 /// The box around points, axis by axis.
@@ -70,17 +72,22 @@ impl Layer {
 
     /// Starts anew with other points, as [`Self::new`], in the memory that there is. They have no names.
     pub(super) fn restart(&mut self, points: impl Iterator<Item = [f64; 3]>) {
-        self.points.clear();
-        self.points.extend(points);
+        self.set_points(points);
         self.free.clear();
-        self.limits = Limits::default();
-        self.points.iter().for_each(|&p| _ = self.limits.include(p));
-        self.grid = Grid::of(self.points.as_flattened().iter().copied());
-        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
         self.mesh.incident.clear();
         self.mesh.incident.resize(self.points.len(), TetrahedronId::NONE);
         self.mesh.names.clear();
         self.clear_mesh();
+    }
+
+    /// Gives all places other points, and looks at nothing else.
+    pub(super) fn set_points(&mut self, points: impl Iterator<Item = [f64; 3]>) {
+        self.points.clear();
+        self.points.extend(points);
+        self.limits = Limits::default();
+        self.points.iter().for_each(|&p| _ = self.limits.include(p));
+        self.grid = Grid::of(self.points.as_flattened().iter().copied());
+        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
     }
 
     pub(super) fn clear_mesh(&mut self) {
@@ -155,7 +162,15 @@ impl Layer {
         self.filter.in_sphere(at(a), at(b), at(c), at(d), q).is_positive()
     }
 
-    /// The same for two.
+    /// Whether the corners of a finite tetrahedron are in positive order.
+    #[inline]
+    pub(super) fn is_positive(&self, t: TetrahedronId) -> bool {
+        let [a, b, c, d] = self.mesh.cells[t.index()].corners;
+        let at = |p: Place| self.points[p.index()];
+        self.filter.orient3d(at(a), at(b), at(c), at(d)).is_positive()
+    }
+
+    /// The same as [`Self::conflicts`] for two.
     #[inline]
     pub(super) fn both_conflict(&self, t: TetrahedronId, u: TetrahedronId, q: [f64; 3]) -> [bool; 2] {
         let (first, second) = (&self.mesh.cells[t.index()].corners, &self.mesh.cells[u.index()].corners);

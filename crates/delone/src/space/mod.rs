@@ -6,9 +6,11 @@ mod change;
 pub mod check;
 mod ground;
 mod hints;
+mod hole;
 mod layer;
 mod locate;
 mod locator;
+mod moving;
 mod nearest;
 mod position;
 mod remove;
@@ -17,6 +19,7 @@ pub mod verify;
 
 pub use hints::Hints3;
 pub use locate::Location3;
+pub use moving::{Moving3, Step3};
 pub use position::Position3;
 
 use std::collections::BTreeSet;
