@@ -34,7 +34,7 @@ pub(super) struct Hole {
 }
 
 /// A facet of the border.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Border {
     /// Its corners by number as the hole sees them, from the smallest on.
     corners: [u32; 3],
@@ -101,7 +101,7 @@ impl Hole {
             let corners = turned(layer.mesh.facet_places(f).map(|p| self.number(p)));
             self.border.push(Border { corners, outside: layer.mesh.twin(f), inside: FacetId::NONE });
         }
-        self.border.sort_unstable();
+        self.border.sort_unstable_by_key(|facet| facet.corners);
     }
 
     /// The number of a vertex; the ghost has the largest.
@@ -127,7 +127,7 @@ impl Hole {
         let first = (0..self.border.len()).find_map(|k| {
             // One of a facet's corners is no ghost.
             fill.mesh.star(Place::new(self.border[k].corners[0] as usize), &mut star);
-            let is_at = |t: &TetrahedronId| (0..4).any(|i| self.on_border(fill, t.facet(i)) == Some(k));
+            let is_at = |t: &TetrahedronId| (0..4).any(|i| self.on_border(fill, t.facet(i)).is_some());
             star.iter().copied().find(is_at)
         });
         self.star = star;
