@@ -13,8 +13,6 @@
 //!
 //! Cost: O(n) tests and the flips, if few points move past others; that of a construction otherwise.
 
-use std::collections::BTreeMap;
-
 use delone_predicates::{Filter, orient2d};
 
 use super::build::InOrder;
@@ -34,6 +32,9 @@ const FLIPS: usize = 20;
 /// How many places ahead memory is asked.
 const AHEAD: usize = 24;
 
+/// So many triangles are looked at together.
+const BLOCK: usize = 16;
+
 /// How a step was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
@@ -52,6 +53,8 @@ pub enum Step {
 #[derive(Clone, Copy, Debug)]
 struct Plan {
     edge: EdgeId,
+    /// The triangle across it.
+    other: TriangleId,
     /// The corners of the two triangles, as long as it is good.
     corners: [Place; 4],
 }
@@ -76,8 +79,10 @@ pub struct Moving2 {
     goals: Vec<[f64; 2]>,
     /// Triangles that may turn over.
     doubtful: Vec<TriangleId>,
-    /// For triangles that would turn over, and for their neighbours across it, an edge whose flip helps.
-    plans: BTreeMap<TriangleId, Plan>,
+    /// Edges whose flip helps a triangle that would turn over.
+    plans: Vec<Plan>,
+    /// For each triangle one more than the last plan that it is part of.
+    planned: Vec<u32>,
     /// Vertices that were removed, each with a neighbour that it had then.
     removed: Vec<(VertexId, VertexId)>,
     /// Edges that may not be Delaunay.
@@ -137,6 +142,7 @@ impl Moving2 {
         }
         let filter = self.set_goals(positions);
         self.untangle(&filter)?;
+
         let layer = &mut self.current.base;
         std::mem::swap(&mut layer.points, &mut self.goals);
         let flips = flip_all(layer, &filter, &mut self.pending)?;
@@ -180,15 +186,19 @@ impl Moving2 {
 
     /// Removes vertices until no triangle turns over on the way to the goals. None if they are too many.
     fn untangle(&mut self, filter: &Filter) -> Option<()> {
-        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, removed, .. } = self;
+        let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, planned, removed, .. } =
+            self;
         let most = layer.mesh.vertex_count / REMOVED + 8;
         let turns_over = |mesh: &Mesh, t: TriangleId| {
             let [a, b, c] = mesh.places(t);
             let finite = !a.is_ghost() && !b.is_ghost() && !c.is_ghost();
             finite && !filter.orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
         };
+        for plan in plans.drain(..) {
+            plan.triangles().into_iter().for_each(|t| planned[t.index()] = 0);
+        }
+        planned.resize(layer.mesh.slot_count(), 0);
         doubtful.clear();
-        plans.clear();
         let all = (0..layer.mesh.slot_count()).map(TriangleId::new);
         doubtful.extend(all.filter(|&t| turns_over(&layer.mesh, t)));
         if doubtful.len() > 2 * most {
@@ -198,16 +208,19 @@ impl Moving2 {
             if !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t) {
                 continue;
             }
-            if plans.get(&t).is_some_and(|plan| plan.is_good(&layer.mesh)) {
+            // A triangle is part of one good plan at most.
+            let is_planned = |t: TriangleId| {
+                let plan = planned.get(t.index()).and_then(|&k| plans.get((k as usize).wrapping_sub(1)));
+                plan.is_some_and(|plan| plan.is_good(&layer.mesh))
+            };
+            if is_planned(t) {
                 continue;
             }
-            let good = |plan: &Plan| {
-                let other = layer.mesh.twin(plan.edge).triangle();
-                plans.get(&other).is_none_or(|theirs| !theirs.is_good(&layer.mesh))
-            };
-            if let Some(plan) = Plan::find(&layer.mesh, goals, t).filter(good) {
-                plans.insert(t, plan);
-                plans.insert(layer.mesh.twin(plan.edge).triangle(), plan);
+            let plan = Plan::find(&layer.mesh, goals, filter, t);
+            if let Some(plan) = plan.filter(|plan| !is_planned(plan.other)) {
+                plans.push(plan);
+                // Removal makes no triangles beyond those that there are.
+                plan.triangles().into_iter().for_each(|t| planned[t.index()] = plans.len() as u32);
                 continue;
             }
             // Of the corners the one that goes furthest.
@@ -233,7 +246,7 @@ impl Moving2 {
                 }
             }
         }
-        for plan in plans.values() {
+        for plan in &*plans {
             if plan.is_good(&layer.mesh) {
                 flip(&mut layer.mesh, plan.edge);
             }
@@ -241,7 +254,7 @@ impl Moving2 {
         // Every triangle that turned over has been destroyed, or there is a plan for it; this proves that plans did not
         // spoil each other.
         let good = |&t: &TriangleId| !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t);
-        plans.keys().all(good).then_some(())
+        plans.iter().flat_map(|plan| plan.triangles()).all(|t| good(&t)).then_some(())
     }
 }
 
@@ -263,15 +276,19 @@ impl Delaunay2 {
 
 impl Plan {
     /// An edge of a triangle after whose flip both triangles are counter-clockwise.
-    fn find(mesh: &Mesh, goals: &[[f64; 2]], t: TriangleId) -> Option<Self> {
+    fn find(mesh: &Mesh, goals: &[[f64; 2]], filter: &Filter, t: TriangleId) -> Option<Self> {
         let turns_left = |p: Place, q: Place, r: Place| {
-            orient2d(goals[p.index()], goals[q.index()], goals[r.index()]).is_positive()
+            filter.orient2d(goals[p.index()], goals[q.index()], goals[r.index()]).is_positive()
         };
-        let plans = [0, 1, 2].map(|k| Self { edge: t.edge(k), corners: corners_around(mesh, t.edge(k)) });
-        plans.into_iter().find(|plan| {
-            let [a, b, c, d] = plan.corners;
-            !d.is_ghost() && turns_left(d, c, a) && turns_left(c, d, b)
+        [t.edge(0), t.edge(1), t.edge(2)].into_iter().find_map(|edge| {
+            let corners @ [a, b, c, d] = corners_around(mesh, edge);
+            let helps = !d.is_ghost() && turns_left(d, c, a) && turns_left(c, d, b);
+            helps.then(|| Self { edge, other: mesh.twin(edge).triangle(), corners })
         })
+    }
+
+    fn triangles(&self) -> [TriangleId; 2] {
+        [self.edge.triangle(), self.other]
     }
 
     /// Whether its triangles are those that it was made for.
@@ -287,28 +304,34 @@ fn corners_around(mesh: &Mesh, e: EdgeId) -> [Place; 4] {
 }
 
 /// Flips edges until all are Delaunay, and counts. None if there is no end to it.
+///
+/// Triangles are looked at block by block: which of their edges is to be tested is decided without branches, which would
+/// go the wrong way half of the time, and flips are made while all is in the cache.
 fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Option<usize> {
     let Layer { mesh, points, .. } = layer;
     let most = FLIPS * mesh.vertex_count;
     let mut flips = 0;
     pending.clear();
-    for t in (0..mesh.slot_count()).map(TriangleId::new) {
-        // Neighbours across a cut of the order lie elsewhere.
-        for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
-            fetch(&mesh.edges, record.twin.index());
-        }
-        for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
-            if let Some(beyond) = mesh.edges.get(record.twin.previous().index()) {
-                fetch(points, beyond.origin.index());
+    let mut edges = [EdgeId::NONE; 3 * BLOCK];
+    let slots = mesh.slot_count();
+    for first in (0..slots).step_by(BLOCK) {
+        let mut count = 0;
+        for t in first..slots.min(first + BLOCK) {
+            ask_ahead(mesh, points, t);
+            let t = TriangleId::new(t);
+            for e in [t.edge(0), t.edge(1), t.edge(2)] {
+                edges[count] = e;
+                let twin = mesh.twin(e);
+                count += usize::from(e < twin && twin != EdgeId::NONE);
             }
         }
-        if !mesh.is_triangle(t) {
-            continue;
+        let mut found = 0;
+        for k in 0..count {
+            let e = edges[k];
+            edges[found] = e;
+            found += usize::from(is_to_flip(mesh, points, filter, e));
         }
-        for e in [t.edge(0), t.edge(1), t.edge(2)] {
-            if e > mesh.twin(e) || !is_to_flip(mesh, points, filter, e) {
-                continue;
-            }
+        for &e in &edges[..found] {
             pending.push(e);
             while let Some(e) = pending.pop() {
                 if is_to_flip(mesh, points, filter, e) {
@@ -324,6 +347,19 @@ fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Op
         }
     }
     Some(flips)
+}
+
+/// Asks for what lies elsewhere, across a cut of the order, and will be looked at some triangles later.
+#[inline]
+fn ask_ahead(mesh: &Mesh, points: &[[f64; 2]], t: usize) {
+    for record in mesh.edges.get(4 * (t + 2 * AHEAD)..).into_iter().flatten().take(3) {
+        fetch(&mesh.edges, record.twin.index());
+    }
+    for record in mesh.edges.get(4 * (t + AHEAD)..).into_iter().flatten().take(3) {
+        if let Some(beyond) = mesh.edges.get(record.twin.previous().index()) {
+            fetch(points, beyond.origin.index());
+        }
+    }
 }
 
 /// Whether the triangle of an edge is in conflict with the apex on the other side.
