@@ -37,12 +37,12 @@ use std::sync::OnceLock;
 use delone_predicates::circumcentre;
 
 use crate::error::Error;
-use crate::ids::{Duplicate, EdgeId, MAX_POINTS, TriangleId, VertexId};
+use crate::ids::{Duplicate, EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
-use crate::mesh::{Dimension, Mesh};
+use crate::mesh::{Dimension, Mesh, Names};
 use crate::order::random::SplitMix;
-use build::Built;
+use build::{Built, InOrder};
 use change::Upkeep;
 use layer::Layer;
 use locator::Locator;
@@ -245,6 +245,20 @@ impl Delaunay2 {
         }
         let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
         circumcentre(a, b, c)
+    }
+
+    /// Becomes the triangulation of other points, with vertices at places along a curve.
+    fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
+        let InOrder { mut mesh, points, indices, duplicates } = build::in_order(&positions);
+        let mut names = Names::default();
+        names.reserve(positions.len());
+        indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
+        mesh.names = Some(names);
+        self.base = Layer::new(mesh, points);
+        self.duplicates = duplicates;
+        self.named = Some(positions);
+        self.locator.take();
+        self.upkeep.renew(self.vertex_count());
     }
 }
 

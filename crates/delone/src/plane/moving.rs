@@ -15,15 +15,14 @@
 
 use delone_predicates::{Filter, orient2d};
 
-use super::build::InOrder;
 use super::insert::Spot;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, build, check, check_finite};
+use super::{Delaunay2, Position2, check, check_finite};
 use crate::error::Error;
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
-use crate::mesh::{Mesh, Names};
+use crate::mesh::Mesh;
 
 /// One vertex in so many may be removed before building anew is faster.
 const REMOVED: usize = 12;
@@ -255,22 +254,6 @@ impl Moving2 {
         // spoil each other.
         let good = |&t: &TriangleId| !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t);
         plans.iter().flat_map(|plan| plan.triangles()).all(|t| good(&t)).then_some(())
-    }
-}
-
-impl Delaunay2 {
-    /// Becomes the triangulation of other points, with vertices at places along a curve.
-    pub(super) fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
-        let InOrder { mut mesh, points, indices, duplicates } = build::in_order(&positions);
-        let mut names = Names::default();
-        names.reserve(positions.len());
-        indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
-        mesh.names = Some(names);
-        self.base = Layer::new(mesh, points);
-        self.duplicates = duplicates;
-        self.named = Some(positions);
-        self.locator.take();
-        self.upkeep.renew(self.vertex_count());
     }
 }
 
