@@ -6,12 +6,24 @@
 use crate::ids::{Duplicate, Place, VertexId};
 
 /// Both ways: 4 bytes a name ever given, 4 bytes a place.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Names {
     /// For each place its vertex; [`VertexId::GHOST`] for a free one.
     of: Vec<VertexId>,
     /// For each name its place; [`Place::GHOST`] for a vertex that is gone, and for the name of a duplicate.
     places: Vec<Place>,
+}
+
+impl Clone for Names {
+    fn clone(&self) -> Self {
+        Self { of: self.of.clone(), places: self.places.clone() }
+    }
+
+    /// In the memory that there is.
+    fn clone_from(&mut self, source: &Self) {
+        self.of.clone_from(&source.of);
+        self.places.clone_from(&source.places);
+    }
 }
 
 impl Names {

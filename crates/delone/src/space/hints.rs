@@ -7,8 +7,8 @@
 //! JoCG 2011, §3 and the experiments in space of §5.
 //!
 //! Cost: O(n log n) expected to preprocess evenly spread points; O(n) expected for an instance of disjoint unit balls. Where
-//! hints mislead, walks are given up after O(n) steps, and the instance is built in spatial order. Nothing is allocated
-//! for an instance after the first, unless walks were given up.
+//! hints mislead, walks are given up after O(n) steps, and the instance is built in spatial order. Nothing but a few words
+//! is allocated for an instance after the first, unless walks were given up.
 
 use super::layer::Layer;
 use super::{Delaunay3, Position3, check_points};
