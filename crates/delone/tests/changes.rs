@@ -111,7 +111,7 @@ fn small_sets_are_checked_after_every_change() {
 #[test]
 fn long_mixes_end_in_the_triangulation_of_what_is_left() {
     for (i, &kind) in Kind::ALL.iter().enumerate() {
-        let hard = [Kind::HugeSpan, Kind::Octaves].contains(&kind);
+        let hard = kind.is_extreme();
         let (n, steps) = if hard { (400, 2_000) } else { (20_000, 100_000) };
         let source = kind.points(n, 3);
         let locate = if i % 2 == 0 { Locate::Tree } else { Locate::Hierarchy(Hierarchy::default()) };
@@ -136,7 +136,7 @@ fn long_mixes_end_in_the_triangulation_of_what_is_left() {
 #[test]
 fn bulk_sets_can_be_changed() {
     for &kind in Kind::ALL {
-        let n = if [Kind::HugeSpan, Kind::Octaves].contains(&kind) { 200 } else { 3_000 };
+        let n = if kind.is_extreme() { 200 } else { 3_000 };
         let source = kind.points(n, 4);
         for algorithm in [Algorithm::DivideAndConquer, Algorithm::ConflictLists { seed: 1 }] {
             let d = Delaunay2::with_algorithm(&source, algorithm).expect("finite");
@@ -154,7 +154,7 @@ fn bulk_sets_can_be_changed() {
 #[test]
 fn adding_in_bulk_is_inserting() {
     for &kind in Kind::ALL {
-        let n = if [Kind::HugeSpan, Kind::Octaves].contains(&kind) { 100 } else { 2_000 };
+        let n = if kind.is_extreme() { 100 } else { 2_000 };
         let source = kind.points(n, 4);
         let mut d = Delaunay2::from_points(&source[..n / 3]).expect("finite");
         assert_eq!(d.extend(&source[n / 3..], 9), Ok(n / 3..n));

@@ -102,8 +102,7 @@ fn thousands_of_small_sets_against_the_oracle() {
 fn medium_sets_against_the_oracle() {
     for &kind in Kind::ALL {
         for seed in 0..2 {
-            let points = kind
-                .points(if [Kind::HugeSpan, Kind::Octaves].contains(&kind) { 16 } else { 32 }, 1000 + seed);
+            let points = kind.points(if kind.is_extreme() { 16 } else { 32 }, 1000 + seed);
             assert_eq!(
                 agreed(&points, kind.name(), algorithms()),
                 brute::delaunay(&points),
@@ -117,7 +116,7 @@ fn medium_sets_against_the_oracle() {
 #[test]
 fn large_sets_agree_across_algorithms_and_shuffles() {
     for &kind in Kind::ALL {
-        let n = if [Kind::HugeSpan, Kind::Octaves].contains(&kind) { 3_000 } else { 100_000 };
+        let n = if kind.is_extreme() { 3_000 } else { 100_000 };
         let mut points = kind.points(n, 11);
         let expected = agreed(&points, kind.name(), scalable_algorithms());
         Random::new(5).shuffle(&mut points);

@@ -67,6 +67,30 @@ fn hints_that_mislead_are_given_up() {
 }
 
 #[test]
+fn nested_disks_take_quadratic_time_until_hints_are_given_up() {
+    // §6.2: disks that overlap two by two, of which an instance can make all hints bad.
+    let mut last = 0.0;
+    for (n, gives_up) in [(101, false), (201, false), (401, false), (1201, true)] {
+        let (centres, instance) = (Kind::Nested.points(n, 0), Kind::NestedInstance.points(n, 0));
+        // The instance is inside of the disks, of radius 2.1 times their height.
+        for (p, q) in centres.iter().zip(&instance).skip(1) {
+            assert!(((p[0] - q[0]) / p[1]).hypot((p[1] - q[1]) / p[1]) <= 2.1);
+        }
+        let mut hints = Hints2::preprocess(&centres, HintOrder::Random { seed: 1 }).expect("finite");
+        let mut work = Work::default();
+        same(hints.triangulate_counted(&instance, &mut work).expect("finite"), &instance, "nested");
+        assert_eq!(hints.gave_up(), gives_up, "{n}");
+        let visited = work.visited as f64 / n as f64;
+        if gives_up {
+            assert!(visited < 40.0 + 10_000.0 / n as f64 + 2.0, "{n}: {visited}");
+        } else {
+            assert!(visited > 1.4 * last, "{n}: {visited} after {last}");
+            last = visited;
+        }
+    }
+}
+
+#[test]
 fn hints_that_mislead_in_space_are_given_up() {
     let n = 60_000;
     let centres = Kind3::Cube.points(n, 1);

@@ -11,7 +11,7 @@ fn triangles(d: &Delaunay2) -> Vec<[u64; 3]> {
 #[test]
 fn what_delone_gives_is_canonical() {
     for &kind in Kind::ALL {
-        let points = kind.points(if [Kind::HugeSpan, Kind::Octaves].contains(&kind) { 300 } else { 3000 }, 4);
+        let points = kind.points(if kind.is_extreme() { 300 } else { 3000 }, 4);
         let d = Delaunay2::with_algorithm(&points, Algorithm::default()).expect("finite");
         let verdict = verify(&points, &triangles(&d)).unwrap_or_else(|o| panic!("{}: {o}", kind.name()));
         assert!(verdict.is_canonical(), "{}", kind.name());

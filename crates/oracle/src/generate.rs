@@ -162,6 +162,10 @@ kinds! {
     }).collect();
     /// Three concentric circles and two crossing lines on integers: symmetric in many ways.
     Spokes = "spokes", spokes;
+    /// Centres of disks of falling radii that overlap two by two (Devillers 2011, §6.2).
+    Nested = "nested", |n, _| nested(n, false);
+    /// An instance of `nested`, row by row, for which hints mislead.
+    NestedInstance = "nested-instance", |n, _| nested(n, true);
     /// Uniform in a square kilometre at a UTM-like offset, in millimetres.
     Utm = "utm", |n, r| repeat(n, || {
         [500_000.0 + (r.unit() * 1e6).floor() / 1e3, 5_400_000.0 + (r.unit() * 1e6).floor() / 1e3]
@@ -285,6 +289,28 @@ fn spokes(n: usize, random: &mut Random) -> Vec<Point2> {
         (-40..=40).flat_map(|i| [[f64::from(i) * 30.0; 2], [f64::from(i) * 30.0, f64::from(i) * -30.0]]),
     );
     repeat(n, || places[random.below(places.len())])
+}
+
+/// Pairs (x, s) and (x, -s), s falling by tenths while there is room for it; the first point is to the right of all.
+/// With x = 2 s they are the centres of disks of radius 2.1 s. These hold points near the axis: on a parabola so narrow
+/// that the first point is joined to all others, and a walk from one of a pair to the other crosses all that fan.
+fn nested(n: usize, is_instance: bool) -> Vec<Point2> {
+    let levels = n / 2;
+    let step = (600.0 / levels.max(1) as f64).min(1.0);
+    let scale = |level: usize| libm::exp10((levels as f64 / 2.0 - level as f64) * step);
+    let pair = |i: usize| {
+        let s = scale((i - 1) / 2);
+        let x = if is_instance { s * (s / (8.0 * scale(0))) } else { 2.0 * s };
+        [x, if i % 2 == 1 { s } else { -s }]
+    };
+    (0..n).map(|i| if i == 0 { [3.0 * scale(0), 0.0] } else { pair(i) }).collect()
+}
+
+impl Kind {
+    /// Whether coordinates span so many magnitudes that hardly a decision can be made in floating point.
+    pub fn is_extreme(self) -> bool {
+        matches!(self, Self::HugeSpan | Self::Octaves | Self::Nested | Self::NestedInstance)
+    }
 }
 
 #[cfg(test)]
