@@ -417,7 +417,8 @@ pub(crate) struct ReplayArgs {
   delone experiment jump-and-walk -o results
   delone experiment history -o results
   delone experiment radial --largest 1000000
-  delone experiment imprecise -o results
+  delone experiment imprecise --largest 10000000 -o results
+  delone experiment scan model.ply
 
 A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
 seconds on this machine and differ from run to run; counts depend on the seed alone.")]
@@ -425,6 +426,9 @@ pub(crate) struct ExperimentArgs {
     /// Which experiment.
     #[arg(value_name = "NAME")]
     pub(crate) name: ExperimentName,
+    /// File of points in space, for scan.
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: Option<PathBuf>,
     /// Folder for tables and plots.
     #[arg(long, short, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
@@ -454,8 +458,10 @@ pub(crate) enum ExperimentName {
     Radial,
     /// Triangulate instances of imprecise points by hints, in the plane and in space (Devillers 2011, §5).
     Imprecise,
-    /// Follow points in Brownian motion by the hints of the last step (the same).
+    /// Follow points in Brownian motion by the hints of the last step (the same), and automatically.
     Brownian,
+    /// Add noise to the points of a scanned model, and triangulate by hints (the same).
+    Scan,
 }
 
 /// Judge triangles.

@@ -1,6 +1,7 @@
-//! Imprecise and moving points: the tables of Devillers 2011, §5.
+//! Imprecise points: the tables of Devillers 2011, §5, for disjoint unit disks and balls, and for a scanned model.
 
 use std::hint::black_box;
+use std::path::Path;
 
 use delone::{
     Algorithm, Algorithm3, Counters, Delaunay2, Delaunay3, Error, Hierarchy, HintOrder, Hints2, Hints3,
@@ -11,12 +12,32 @@ use delone_oracle::generate::{Kind, Kind3, Random};
 use super::plot::Plot;
 use super::table::{Table, short};
 use super::{Findings, timed};
+use crate::files;
+use crate::message::Failure;
 
-/// Steps of the Brownian motion.
-const STEPS: usize = 10;
-/// The paper's visited triangles a point, for any number of them: hints in random and in spatial order, spatial sort.
-const PAPER: [f64; 3] = [2.8, 2.8, 3.7];
-const PAPER_IN_SPACE: [f64; 3] = [5.25, 4.5, 6.6];
+const METHODS: [&str; 5] =
+    ["hints, random order", "hints, spatial order", "spatial sort", "hierarchy", "divide and conquer"];
+
+/// What the paper found: nanoseconds a point by the methods above (the last is Triangle), to preprocess, and instances
+/// that amortise it.
+type Published = (usize, &'static [f64], Option<f64>, Option<u32>);
+const PLANE: [Published; 5] = [
+    (1_000, &[900.0, 1000.0, 1100.0, 1800.0, 960.0], Some(2000.0), None),
+    (10_000, &[880.0, 790.0, 850.0, 1600.0, 1120.0], Some(1400.0), None),
+    (100_000, &[1200.0, 590.0, 830.0, 2800.0, 1050.0], Some(1700.0), Some(15)),
+    (1_000_000, &[2900.0, 610.0, 900.0, 5780.0, 1610.0], Some(2000.0), Some(7)),
+    (10_000_000, &[3800.0, 610.0, 1000.0, 9000.0, 2400.0], Some(2300.0), Some(6)),
+];
+const SPACE: [Published; 2] = [
+    (100_000, &[14_200.0, 7800.0, 8000.0, 18_000.0], None, None),
+    (1_000_000, &[19_000.0, 7900.0, 8200.0, 25_000.0], None, None),
+];
+/// Visited a point by the first three methods, for any number of points.
+const PLANE_VISITED: [f64; 3] = [2.8, 2.8, 3.7];
+const SPACE_VISITED: [f64; 3] = [5.25, 4.5, 6.6];
+/// The smallest of the scanned models, 53 thousand points.
+const SCAN: [Published; 0] = [];
+const SCAN_VISITED: [f64; 3] = [f64::NAN, 6.1, 7.6];
 
 /// A random point of the unit ball of D dimensions.
 fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
@@ -29,11 +50,11 @@ fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
     }
 }
 
-/// Each point moved randomly inside of its unit ball.
-fn moved<const D: usize>(points: &[[f64; D]], random: &mut Random) -> Vec<[f64; D]> {
+/// Each point moved randomly inside of a ball around it.
+pub(super) fn moved<const D: usize>(points: &[[f64; D]], radius: f64, random: &mut Random) -> Vec<[f64; D]> {
     let shift = |p: &[f64; D]| {
         let (mut q, u) = (*p, in_ball::<D>(random));
-        q.iter_mut().zip(u).for_each(|(x, u)| *x += u);
+        q.iter_mut().zip(u).for_each(|(x, u)| *x += radius * u);
         q
     };
     points.iter().map(shift).collect()
@@ -52,93 +73,170 @@ impl Cost {
     }
 }
 
+/// What the methods cost, and nanoseconds a point to preprocess in spatial order.
+type Row = (Vec<Cost>, f64);
+
 /// `delone experiment imprecise`.
 pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
     let mut findings = Findings::default();
-    let methods =
-        ["hints, random order", "hints, spatial order", "spatial sort", "hierarchy", "divide and conquer"];
-    collect(&mut findings, "imprecise", "Disjoint unit disks", &methods, &PAPER, largest, |n| {
-        plane(n, seed)
-    })?;
-    let methods = ["hints, random order", "hints, spatial order", "spatial sort", "hierarchy"];
-    let most = largest.min(100_000);
+    let sizes = |most: usize| (3..).map(|k| 10_usize.pow(k)).take_while(move |&n| n <= most);
+    let mut plane = Report::new("imprecise", "Disjoint unit disks", &METHODS, &PLANE, &PLANE_VISITED);
+    for n in sizes(largest) {
+        let centres = Kind::Disks.points(n, seed);
+        let instance = moved(&centres, 1.0, &mut Random::new(seed + 1));
+        plane.row(n, &in_plane(&centres, &instance, seed)?);
+    }
+    plane.finish(&mut findings);
     let title = "Disjoint unit balls in space";
-    collect(&mut findings, "imprecise-space", title, &methods, &PAPER_IN_SPACE, most, |n| space(n, seed))?;
+    let mut space = Report::new("imprecise-space", title, &METHODS[..4], &SPACE, &SPACE_VISITED);
+    for n in sizes(largest / 10) {
+        let centres = Kind3::Balls.points(n, seed);
+        let instance = moved(&centres, 1.0, &mut Random::new(seed + 1));
+        space.row(n, &in_space(&centres, &instance, seed)?);
+    }
+    space.finish(&mut findings);
     Ok(findings)
 }
 
-/// What each method costs, and nanoseconds a point to preprocess in spatial order.
-type Row = (Vec<Cost>, f64);
-
-/// Makes the table and the plot of one dimension.
-fn collect(
-    findings: &mut Findings,
-    name: &str,
-    title: &str,
-    methods: &[&str],
-    paper: &[f64],
-    largest: usize,
-    measure: impl Fn(usize) -> Result<Row, Error>,
-) -> Result<(), Error> {
-    let mut times = Table::new(
-        &format!("{name}-times"),
-        &format!("{title}: nanoseconds a point"),
-        &[&["points"], methods, &["preprocessing", "instances to amortise"]].concat(),
-    );
-    let walkers: Vec<&str> = methods.iter().take(paper.len()).copied().collect();
-    let mut visits = Table::new(
-        &format!("{name}-visited"),
-        &format!("{title}: triangles visited a point"),
-        &[&["points"], walkers.as_slice()].concat(),
-    );
-    let mut curves: Vec<Vec<(f64, f64)>> = vec![Vec::new(); methods.len()];
-    let mut n = 1_000;
-    while n <= largest {
-        let (costs, preprocessing) = measure(n)?;
-        let saved = costs[2].ns - costs[1].ns;
-        let instances = if saved > 0.0 { short(preprocessing / saved) } else { "-".to_owned() };
-        let cells: Vec<String> = costs.iter().map(|cost| short(cost.ns)).collect();
-        times.row([vec![n.to_string()], cells, vec![short(preprocessing), instances]].concat());
-        let visited = costs.iter().take(paper.len()).map(|cost| cost.visited.map_or("-".to_owned(), short));
-        visits.row([vec![n.to_string()], visited.collect()].concat());
-        for (curve, cost) in curves.iter_mut().zip(&costs) {
-            curve.push((n as f64, cost.ns));
-        }
-        n *= 10;
+/// `delone experiment scan`: noise around the points of a scanned model, as strong as points are from their hints.
+pub(super) fn scan(path: &Path, largest: usize, seed: u64) -> Result<Findings, Failure> {
+    let mut model = files::queries_in_space(path, true)?;
+    let wrong = |error: Error| Failure::points(path, &error);
+    if model.len() < 100 {
+        return Err(Failure::new(
+            format!("{}: {} points are too few for an experiment", path.display(), model.len()),
+            "give a model of some thousand points",
+        ));
     }
-    visits.row([vec!["the paper".to_owned()], paper.iter().copied().map(short).collect()].concat());
-    let mut plot = Plot::new(&format!("{name}-times"), title, ["points n", "nanoseconds a point"]);
-    for (method, curve) in methods.iter().zip(curves) {
-        plot.curve(method, curve);
+    let mut findings = Findings::default();
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    let title = format!("Noisy samples of {name}");
+    let mut report = Report::new("scan", &title, &METHODS[..4], &SCAN, &SCAN_VISITED);
+    let mut random = Random::new(seed);
+    random.shuffle(&mut model);
+    let most = model.len().min(largest);
+    let sizes = (3..).map(|k| 10_usize.pow(k)).take_while(|&n| n < most).chain([most]);
+    for n in sizes {
+        let centres = &model[..n];
+        let hints = Hints3::preprocess(centres, HintOrder::Spatial { seed }).map_err(wrong)?;
+        let far = hints.order().zip(hints.hints()).skip(1).map(|(i, j)| {
+            let square: f64 = (0..3).map(|k| (centres[i][k] - centres[j][k]).powi(2)).sum();
+            square.sqrt()
+        });
+        let radius = far.sum::<f64>() / n as f64;
+        let instance = moved(centres, radius, &mut random);
+        report.row(n, &in_space(centres, &instance, seed).map_err(wrong)?);
     }
-    findings.tables.extend([times, visits]);
-    findings.plots.push(plot);
-    Ok(())
+    report.finish(&mut findings);
+    Ok(findings)
 }
 
-fn plane(n: usize, seed: u64) -> Result<Row, Error> {
-    let centres = Kind::Disks.points(n, seed);
-    let instance = moved(&centres, &mut Random::new(seed + 1));
+/// The tables and the plot of a series of sets.
+struct Report<'a> {
+    title: String,
+    name: &'a str,
+    methods: &'a [&'a str],
+    published: &'a [Published],
+    published_visits: &'a [f64],
+    times: Table,
+    visits: Table,
+    curves: Vec<Vec<(f64, f64)>>,
+}
+
+/// A number, if there is one.
+fn known(value: f64) -> String {
+    if value.is_nan() { "-".to_owned() } else { short(value) }
+}
+
+impl<'a> Report<'a> {
+    fn new(
+        name: &'a str,
+        title: &str,
+        methods: &'a [&'a str],
+        published: &'a [Published],
+        published_visits: &'a [f64],
+    ) -> Self {
+        let heads = [&["points"], methods, &["preprocessing", "instances to amortise"]].concat();
+        let times = format!("{title}: nanoseconds a point");
+        let visits = format!("{title}: visited a point");
+        Self {
+            title: title.to_owned(),
+            name,
+            methods,
+            published,
+            published_visits,
+            times: Table::new(&format!("{name}-times"), &times, &heads),
+            visits: Table::new(
+                &format!("{name}-visited"),
+                &visits,
+                &[&["points"], &methods[..published_visits.len()]].concat(),
+            ),
+            curves: vec![Vec::new(); methods.len()],
+        }
+    }
+
+    fn row(&mut self, n: usize, (costs, preprocessing): &Row) {
+        let saved = costs[2].ns - costs[1].ns;
+        let instances = if saved > 0.0 { (preprocessing / saved).ceil() } else { f64::NAN };
+        let times = costs.iter().map(|cost| cost.ns).chain([*preprocessing, instances]);
+        self.times.row(std::iter::once(n.to_string()).chain(times.map(known)));
+        if let Some((_, ns, preprocessing, instances)) = self.published.iter().find(|row| row.0 == n) {
+            let more = [*preprocessing, instances.map(f64::from)].map(|value| value.unwrap_or(f64::NAN));
+            let cells = ns.iter().copied().chain(more).map(known);
+            self.times.row(std::iter::once(format!("{n} in 2011")).chain(cells));
+        }
+        let visits = costs.iter().take(self.published_visits.len());
+        let visits = visits.map(|cost| known(cost.visited.unwrap_or(f64::NAN)));
+        self.visits.row(std::iter::once(n.to_string()).chain(visits));
+        for (curve, cost) in self.curves.iter_mut().zip(costs) {
+            curve.push((n as f64, cost.ns));
+        }
+    }
+
+    fn finish(mut self, findings: &mut Findings) {
+        let visits = self.published_visits.iter().copied().map(known);
+        self.visits.row(std::iter::once("in 2011".to_owned()).chain(visits));
+        let name = format!("{}-times", self.name);
+        let mut plot = Plot::new(&name, &self.title, ["points n", "nanoseconds a point"]);
+        for (method, curve) in self.methods.iter().zip(self.curves) {
+            plot.curve(method, curve);
+        }
+        findings.tables.extend([self.times, self.visits]);
+        findings.plots.push(plot);
+    }
+}
+
+/// What an instance costs by hints, once there is memory from a first one, in which visits are counted.
+fn by_hints<H>(
+    n: usize,
+    hints: &mut H,
+    triangulate: impl Fn(&mut H, &mut Work) -> Result<(), Error>,
+) -> Result<Cost, Error> {
+    let mut work = Work::default();
+    triangulate(hints, &mut work)?;
+    let (done, seconds) = timed(|| triangulate(hints, &mut Work::default()));
+    done?;
+    Ok(Cost::of(n, seconds, Some(work.visited)))
+}
+
+fn hierarchy(seed: u64) -> Locate {
+    Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() })
+}
+
+fn in_plane(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64) -> Result<Row, Error> {
+    let n = centres.len();
     let mut costs = Vec::new();
     let mut preprocessing = 0.0;
     for order in [HintOrder::Random { seed }, HintOrder::Spatial { seed }] {
-        let (hints, seconds) = timed(|| Hints2::preprocess(&centres, order));
-        let mut hints = hints?;
+        let (hints, seconds) = timed(|| Hints2::preprocess(centres, order));
         preprocessing = seconds * 1e9 / n as f64;
-        let mut work = Work::default();
-        // The first instance makes the memory, and is counted; the second is timed.
-        hints.triangulate_counted(&instance, &mut work)?;
-        let (done, seconds) = timed(|| hints.triangulate(&instance).map(|d| black_box(d.vertex_count())));
-        done?;
-        costs.push(Cost::of(n, seconds, Some(work.visited)));
+        costs.push(by_hints(n, &mut hints?, |hints, work| {
+            hints.triangulate_counted(instance, work).map(|d| _ = black_box(d.vertex_count()))
+        })?);
     }
-    let hierarchy = Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() });
-    for algorithm in [
-        Algorithm::Incremental { seed },
-        Algorithm::Located { locate: hierarchy, seed },
-        Algorithm::DivideAndConquer,
-    ] {
-        let (d, seconds) = timed(|| Delaunay2::with_algorithm(&instance, algorithm));
+    let located = Algorithm::Located { locate: hierarchy(seed), seed };
+    for algorithm in [Algorithm::Incremental { seed }, located, Algorithm::DivideAndConquer] {
+        let (d, seconds) = timed(|| Delaunay2::with_algorithm(instance, algorithm));
         let visited = match d?.counters() {
             Counters::Incremental(work) => Some(work.visited),
             _ => None,
@@ -148,78 +246,20 @@ fn plane(n: usize, seed: u64) -> Result<Row, Error> {
     Ok((costs, preprocessing))
 }
 
-fn space(n: usize, seed: u64) -> Result<Row, Error> {
-    let centres = Kind3::Balls.points(n, seed);
-    let instance = moved(&centres, &mut Random::new(seed + 1));
+fn in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<Row, Error> {
+    let n = centres.len();
     let mut costs = Vec::new();
     let mut preprocessing = 0.0;
     for order in [HintOrder::Random { seed }, HintOrder::Spatial { seed }] {
-        let (hints, seconds) = timed(|| Hints3::preprocess(&centres, order));
-        let mut hints = hints?;
+        let (hints, seconds) = timed(|| Hints3::preprocess(centres, order));
         preprocessing = seconds * 1e9 / n as f64;
-        let mut work = Work::default();
-        hints.triangulate_counted(&instance, &mut work)?;
-        let (done, seconds) = timed(|| hints.triangulate(&instance).map(|d| black_box(d.vertex_count())));
-        done?;
-        costs.push(Cost::of(n, seconds, Some(work.visited)));
+        costs.push(by_hints(n, &mut hints?, |hints, work| {
+            hints.triangulate_counted(instance, work).map(|d| _ = black_box(d.vertex_count()))
+        })?);
     }
-    let hierarchy = Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() });
-    for algorithm in [Algorithm3::Spatial { seed }, Algorithm3::Located { locate: hierarchy, seed }] {
-        let (d, seconds) = timed(|| Delaunay3::with_algorithm(&instance, algorithm));
+    for algorithm in [Algorithm3::Spatial { seed }, Algorithm3::Located { locate: hierarchy(seed), seed }] {
+        let (d, seconds) = timed(|| Delaunay3::with_algorithm(instance, algorithm));
         costs.push(Cost::of(n, seconds, Some(d?.work().visited)));
     }
     Ok((costs, preprocessing))
-}
-
-/// `delone experiment brownian`: points that move by up to one unit a step, four units apart.
-pub(super) fn brownian(largest: usize, seed: u64) -> Result<Findings, Error> {
-    let mut table = Table::new(
-        "brownian",
-        "Brownian motion: nanoseconds a point and step, and triangles visited",
-        &["points", "spatial sort", "visited", "hints of the last step", "visited", "divide and conquer"],
-    );
-    let mut curves: [Vec<(f64, f64)>; 3] = Default::default();
-    let mut n = 1_000;
-    while n <= largest {
-        let side = 4.0 * (n as f64).sqrt();
-        let mut random = Random::new(seed);
-        let mut points: Vec<[f64; 2]> =
-            Kind::Uniform.points(n, seed).into_iter().map(|p| p.map(|x| x * side)).collect();
-        let mut hints = Hints2::preprocess(&points, HintOrder::Spatial { seed })?;
-        let (mut seconds, mut visited) = ([0.0; 3], [0, 0]);
-        for _ in 0..STEPS {
-            points = moved(&points, &mut random);
-            let mut work = Work::default();
-            let (done, time) =
-                timed(|| hints.follow_counted(&points, &mut work).map(|d| black_box(d.vertex_count())));
-            done?;
-            seconds[1] += time;
-            visited[1] += work.visited;
-            let (d, time) = timed(|| Delaunay2::with_algorithm(&points, Algorithm::Incremental { seed }));
-            seconds[0] += time;
-            if let Counters::Incremental(work) = d?.counters() {
-                visited[0] += work.visited;
-            }
-            let (d, time) = timed(|| Delaunay2::from_points(&points));
-            black_box(d?.vertex_count());
-            seconds[2] += time;
-        }
-        let each = |total: f64| total / (n * STEPS) as f64;
-        let [sort, follow, divide] = seconds.map(|total| each(total) * 1e9);
-        let [by_sort, by_hint] = visited.map(|count| each(count as f64));
-        table.row(
-            [vec![n.to_string()], [sort, by_sort, follow, by_hint, divide].map(short).to_vec()].concat(),
-        );
-        for (curve, ns) in curves.iter_mut().zip([sort, follow, divide]) {
-            curve.push((n as f64, ns));
-        }
-        n *= 10;
-    }
-    let mut plot = Plot::new("brownian", "Brownian motion", ["points n", "nanoseconds a point and step"]);
-    for (name, curve) in
-        ["spatial sort", "hints of the last step", "divide and conquer"].into_iter().zip(curves)
-    {
-        plot.curve(name, curve);
-    }
-    Ok(Findings { tables: vec![table], plots: vec![plot] })
 }

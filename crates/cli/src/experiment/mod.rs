@@ -1,5 +1,6 @@
 //! `delone experiment`: the papers' experiments on this machine, with the papers' figures beside.
 
+mod brownian;
 mod hierarchy;
 mod history;
 mod imprecise;
@@ -30,6 +31,12 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
     if args.largest < 100 {
         return Err(Failure::usage("--largest is below 100", "an experiment needs some points"));
     }
+    if args.model.is_some() && args.name != ExperimentName::Scan {
+        return Err(Failure::usage(
+            "only scan takes a file",
+            "leave the file out, or name the experiment scan",
+        ));
+    }
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder).map_err(|error| {
             Failure::new(
@@ -41,16 +48,18 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let findings = {
         let _phase = Phase::start(quiet, "experimenting");
-        match args.name {
-            ExperimentName::Hierarchy => hierarchy::run(args.largest, args.seed),
-            ExperimentName::JumpAndWalk => jump_and_walk::run(args.largest, args.seed),
-            ExperimentName::Radial => radial::run(args.largest, args.seed),
-            ExperimentName::Imprecise => imprecise::run(args.largest, args.seed),
-            ExperimentName::Brownian => imprecise::brownian(args.largest, args.seed),
-            ExperimentName::History => history::run(args.largest, args.seed),
-        }
-    }
-    .map_err(|error| Failure::new(error, "please report this: it is a bug"))?;
+        let (n, seed) = (args.largest, args.seed);
+        let findings = match args.name {
+            ExperimentName::Hierarchy => hierarchy::run(n, seed),
+            ExperimentName::JumpAndWalk => jump_and_walk::run(n, seed),
+            ExperimentName::Radial => radial::run(n, seed),
+            ExperimentName::Imprecise => imprecise::run(n, seed),
+            ExperimentName::Brownian => brownian::run(n, seed),
+            ExperimentName::Scan => Ok(imprecise::scan(model(args)?, n, seed)?),
+            ExperimentName::History => history::run(n, seed),
+        };
+        findings.map_err(|error| Failure::new(error, "please report this: it is a bug"))?
+    };
     stats.phase("build");
     let text: Vec<String> = findings.tables.iter().map(Table::to_string).collect();
     answer(&text.join("\n"))?;
@@ -65,6 +74,13 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
     }
     stats.phase("write");
     stats.write(args.stats.as_deref())
+}
+
+/// The file of the experiment that needs one.
+fn model(args: &ExperimentArgs) -> Result<&Path, Failure> {
+    args.model.as_deref().ok_or_else(|| {
+        Failure::usage("scan needs a file of points in space", "as in: delone experiment scan model.ply")
+    })
 }
 
 fn write(folder: &Path, name: &str, extension: &str, content: &str) -> Result<(), Failure> {

@@ -66,6 +66,7 @@ impl Hints2 {
         super::check_count(centres.len())?;
         let points: Vec<[f64; 2]> = centres.iter().map(Position2::xy).collect();
         check_finite(&points)?;
+        let is_spatial = matches!(order, HintOrder::Spatial { .. });
         let order = match order {
             HintOrder::Spatial { seed } => brio::order(&points, seed),
             HintOrder::Random { seed } => {
@@ -74,22 +75,35 @@ impl Hints2 {
                 order
             }
         };
+        let names = Names::along(&order);
+        // Neighbours in spatial order are near each other, and the walks from the one before find the nearest.
+        let before = (0..points.len() as u32).map(|k| k.saturating_sub(1)).collect();
+        let mut all = Self { order, hints: before, names, current: Delaunay2::new(), gave_up: false };
+        if is_spatial {
+            all.follow(&points)?;
+        }
+        if !is_spatial || all.gave_up {
+            all.hints = all.locate_hints(&points)?;
+        }
+        (all.current, all.gave_up) = (Delaunay2::new(), false);
+        Ok(all)
+    }
+
+    /// The hints of centres that are located one by one.
+    fn locate_hints(&self, centres: &[[f64; 2]]) -> Result<Vec<u32>, Error> {
         let mut d = Delaunay2::new();
-        let mut hints = Vec::with_capacity(points.len());
         // For each vertex the place that it stands for: equal centres are one vertex, with the first one's place.
-        let mut places: Vec<u32> = Vec::with_capacity(points.len());
-        for (k, &i) in order.iter().enumerate() {
-            let q = points[i as usize];
-            hints.push(match d.insert(q)? {
+        let mut places: Vec<u32> = Vec::with_capacity(centres.len());
+        let hint = |(k, &i): (usize, &u32)| {
+            Ok(match d.insert(centres[i as usize])? {
                 Inserted::Existing(v) => places[v.index()],
                 Inserted::New(v) => {
                     places.push(k as u32);
                     d.nearest_neighbor(v).map_or(0, |w| places[w.index()])
                 }
-            });
-        }
-        let names = Names::along(&order);
-        Ok(Self { order, hints, names, current: Delaunay2::new(), gave_up: false })
+            })
+        };
+        self.order.iter().enumerate().map(hint).collect()
     }
 
     /// Triangulates an instance: point i is near centre i, or anywhere.
@@ -228,6 +242,9 @@ fn insert_all<T: Tally, const RENEW: bool>(
                 let names = layer.mesh.names();
                 let name = names.of(v);
                 duplicates.push(names.coincide(name, w));
+                if RENEW {
+                    *hint = w.index() as u32;
+                }
                 layer.free.give(k);
             }
             spot => {

@@ -75,6 +75,7 @@ impl Hints3 {
     pub fn preprocess<P: Position3>(centres: &[P], order: HintOrder) -> Result<Self, Error> {
         check_points(centres)?;
         let count = centres.len();
+        let is_spatial = matches!(order, HintOrder::Spatial { .. });
         let (along, order) = match order {
             HintOrder::Spatial { seed } => {
                 (curve::hilbert(count, &|i| centres[i as usize].xyz()), curve::rounds(count, seed))
@@ -85,22 +86,36 @@ impl Hints3 {
                 (along, (0..count as u32).collect())
             }
         };
+        let names = Names::along(&along);
+        // Neighbours in spatial order are near each other, and the walks from the one before find the nearest.
+        let before = std::iter::once(&0).chain(&order).take(count).copied().collect();
+        let mut all = Self { along, order, hints: before, names, current: Delaunay3::new(), gave_up: false };
+        if is_spatial {
+            all.follow(centres)?;
+        }
+        if !is_spatial || all.gave_up {
+            all.hints = all.locate_hints(centres)?;
+        }
+        (all.current, all.gave_up) = (Delaunay3::new(), false);
+        Ok(all)
+    }
+
+    /// The hints of centres that are located one by one.
+    fn locate_hints<P: Position3>(&self, centres: &[P]) -> Result<Vec<u32>, Error> {
         let mut d = Delaunay3::new();
-        let mut hints = Vec::with_capacity(count);
         // For each vertex the place that it stands for: equal centres are one vertex, with the first one's place.
-        let mut places: Vec<u32> = Vec::with_capacity(count);
-        for &place in &order {
-            let q = centres[along[place as usize] as usize].xyz();
-            hints.push(match d.insert(q)? {
+        let mut places: Vec<u32> = Vec::with_capacity(centres.len());
+        let hint = |&place: &u32| {
+            let q = centres[self.along[place as usize] as usize].xyz();
+            Ok(match d.insert(q)? {
                 Inserted::Existing(v) => places[v.index()],
                 Inserted::New(v) => {
                     places.push(place);
                     d.nearest_neighbor(v).map_or(place, |w| places[w.index()])
                 }
-            });
-        }
-        let names = Names::along(&along);
-        Ok(Self { along, order, hints, names, current: Delaunay3::new(), gave_up: false })
+            })
+        };
+        self.order.iter().map(hint).collect()
     }
 
     /// Triangulates an instance: point i is near centre i, or anywhere.
@@ -208,6 +223,9 @@ impl Hints3 {
             if let Some(w) = layer.vertex_at(last, q) {
                 let name = layer.mesh.names.of(v);
                 duplicates.push(layer.mesh.names.coincide(name, w));
+                if RENEW {
+                    *hint = w.index() as u32;
+                }
                 continue;
             }
             layer.insert(v, last, steps.tally);

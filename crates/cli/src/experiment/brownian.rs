@@ -1,0 +1,195 @@
+//! Points that move: the Brownian motion of Devillers 2011, §5, and the automatic mover by displacement.
+
+use std::hint::black_box;
+
+use delone::{
+    Algorithm, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Moving2, Moving3, Step, Step3, Work,
+};
+use delone_oracle::generate::{Kind, Kind3, Random};
+
+use super::imprecise::moved;
+use super::plot::Plot;
+use super::table::{Table, short};
+use super::{Findings, timed};
+
+/// Steps of a motion.
+const STEPS: usize = 10;
+/// What the paper found: points, nanoseconds a point and step and triangles visited by spatial sort, and by hints.
+const PUBLISHED: [(usize, [f64; 4]); 5] = [
+    (1_000, [780.0, 3.81, 730.0, 2.77]),
+    (10_000, [780.0, 3.68, 690.0, 2.77]),
+    (100_000, [880.0, 3.77, 790.0, 2.77]),
+    (1_000_000, [960.0, 3.72, 810.0, 2.77]),
+    (10_000_000, [1120.0, 3.62, 830.0, 2.77]),
+];
+/// Mean displacements in mean spacings.
+const SHARES: [f64; 8] = [0.0001, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
+/// The mean distance of a point in the unit disk, and in the unit ball, from the centre.
+const MEAN_IN_DISK: f64 = 2.0 / 3.0;
+const MEAN_IN_BALL: f64 = 3.0 / 4.0;
+
+/// `delone experiment brownian`: points that move by up to one unit a step, four units apart; and what the automatic
+/// mover needs, by displacement.
+pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+    let mut findings = Findings::default();
+    brownian(&mut findings, largest, seed)?;
+    by_displacement(&mut findings, largest, seed)?;
+    Ok(findings)
+}
+
+fn brownian(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Error> {
+    let mut table = Table::new(
+        "brownian",
+        "Brownian motion: nanoseconds a point and step, and triangles visited",
+        &["points", "spatial sort", "visited", "hints of the last step", "visited", "automatic", "rebuilt"],
+    );
+    let mut curves: [Vec<(f64, f64)>; 3] = Default::default();
+    for n in (3..).map(|k| 10_usize.pow(k)).take_while(|&n| n <= largest) {
+        let side = 4.0 * (n as f64).sqrt();
+        let mut random = Random::new(seed);
+        let mut points: Vec<[f64; 2]> =
+            Kind::Uniform.points(n, seed).into_iter().map(|p| p.map(|x| x * side)).collect();
+        let mut hints = Hints2::preprocess(&points, HintOrder::Spatial { seed })?;
+        let mut moving = Moving2::new(&points)?;
+        let (mut seconds, mut visited, mut rebuilt) = ([0.0; 3], [0, 0], 0);
+        for _ in 0..STEPS {
+            points = moved(&points, 1.0, &mut random);
+            let (d, time) = timed(|| Delaunay2::with_algorithm(&points, Algorithm::Incremental { seed }));
+            seconds[0] += time;
+            if let Counters::Incremental(work) = d?.counters() {
+                visited[0] += work.visited;
+            }
+            let mut work = Work::default();
+            let follow = || hints.follow_counted(&points, &mut work).map(|d| black_box(d.vertex_count()));
+            let (done, time) = timed(follow);
+            done?;
+            seconds[1] += time;
+            visited[1] += work.visited;
+            let (step, time) = timed(|| moving.step(&points));
+            rebuilt += usize::from(step? == Step::Rebuilt);
+            seconds[2] += time;
+        }
+        let each = |total: f64| total / (n * STEPS) as f64;
+        let [sort, follow, automatic] = seconds.map(|total| each(total) * 1e9);
+        let [by_sort, by_hint] = visited.map(|count| each(count as f64));
+        let cells = [sort, by_sort, follow, by_hint, automatic].map(short);
+        table.row([vec![n.to_string()], cells.to_vec(), vec![format!("{rebuilt} of {STEPS}")]].concat());
+        if let Some((_, published)) = PUBLISHED.iter().find(|row| row.0 == n) {
+            let none = || "-".to_owned();
+            let cells = published.map(short);
+            table.row([vec![format!("{n} in 2011")], cells.to_vec(), vec![none(), none()]].concat());
+        }
+        for (curve, ns) in curves.iter_mut().zip([sort, follow, automatic]) {
+            curve.push((n as f64, ns));
+        }
+    }
+    let mut plot = Plot::new("brownian", "Brownian motion", ["points n", "nanoseconds a point and step"]);
+    for (name, curve) in ["spatial sort", "hints of the last step", "automatic"].into_iter().zip(curves) {
+        plot.curve(name, curve);
+    }
+    findings.tables.push(table);
+    findings.plots.push(plot);
+    Ok(())
+}
+
+/// What the automatic mover needs in the plane and in space, beside a construction from nothing.
+fn by_displacement(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Error> {
+    let (n, m) = (largest.min(1_000_000), largest.min(1_000_000) / 5);
+    let heads = ["displacement", "nanoseconds", "from nothing", "ratio", "how"];
+    let title =
+        |what: &str, n: usize| format!("{n} points in {what} that move by a mean share of their spacing");
+    let mut plane = Table::new("moving", &title("a square", n), &heads);
+    let mut space = Table::new("moving-space", &title("a cube", m), &heads);
+    let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
+    for share in SHARES {
+        let mut random = Random::new(seed);
+        let mut points = Kind::Uniform.points(n, seed);
+        let mut moving = Moving2::new(&points)?;
+        let radius = share / MEAN_IN_DISK / (n as f64).sqrt();
+        let motion = time_steps(n, || {
+            points = moved(&points, radius, &mut random);
+            let (step, time) = timed(|| moving.step(&points));
+            let (d, whole) = timed(|| Delaunay2::from_points(&points));
+            black_box(d?.vertex_count());
+            Ok((plane_step(step?, n), time, whole))
+        })?;
+        plane.row(motion.cells(share));
+        curves[0].push((share, motion.ratio()));
+        let mut points = Kind3::Cube.points(m, seed);
+        let mut moving = Moving3::new(&points)?;
+        let radius = share / MEAN_IN_BALL / (m as f64).cbrt();
+        let motion = time_steps(m, || {
+            points = moved(&points, radius, &mut random);
+            let (step, time) = timed(|| moving.step(&points));
+            let (d, whole) = timed(|| Delaunay3::from_points(&points));
+            black_box(d?.vertex_count());
+            Ok((space_step(step?, m), time, whole))
+        })?;
+        space.row(motion.cells(share));
+        curves[1].push((share, motion.ratio()));
+    }
+    let axes = ["mean displacement in spacings", "times as fast as from nothing"];
+    let mut plot = Plot::new("moving", "Automatic repair of moving points", axes);
+    for (name, curve) in ["plane", "space"].into_iter().zip(curves) {
+        plot.curve(name, curve);
+    }
+    findings.tables.extend([plane, space]);
+    findings.plots.push(plot);
+    Ok(())
+}
+
+/// The best of some steps.
+struct Motion {
+    ns: f64,
+    from_nothing: f64,
+    /// How the last step was made.
+    how: String,
+}
+
+impl Motion {
+    fn ratio(&self) -> f64 {
+        self.from_nothing / self.ns
+    }
+
+    fn cells(&self, share: f64) -> [String; 5] {
+        let how = self.how.clone();
+        [short(share), short(self.ns), short(self.from_nothing), short(self.ratio()), how]
+    }
+}
+
+/// Makes some steps; each gives how it was made, its seconds and those of a construction from nothing.
+fn time_steps(
+    n: usize,
+    mut step: impl FnMut() -> Result<(String, f64, f64), Error>,
+) -> Result<Motion, Error> {
+    let mut motion = Motion { ns: f64::INFINITY, from_nothing: f64::INFINITY, how: String::new() };
+    for _ in 0..STEPS / 2 {
+        let (how, time, whole) = step()?;
+        let each = |seconds: f64| seconds * 1e9 / n as f64;
+        motion.ns = motion.ns.min(each(time));
+        motion.from_nothing = motion.from_nothing.min(each(whole));
+        motion.how = how;
+    }
+    Ok(motion)
+}
+
+fn plane_step(step: Step, n: usize) -> String {
+    match step {
+        Step::Repaired { flips, reinserted } => {
+            let [flips, reinserted] = [flips, reinserted].map(|count| short(count as f64 / n as f64));
+            format!("repaired: {flips} flips and {reinserted} reinsertions a point")
+        }
+        Step::Rebuilt => "rebuilt".to_owned(),
+    }
+}
+
+fn space_step(step: Step3, n: usize) -> String {
+    match step {
+        Step3::Repaired { holes, reinserted } => {
+            let [holes, reinserted] = [holes, reinserted].map(|count| short(count as f64 / n as f64));
+            format!("repaired: {holes} holes and {reinserted} reinsertions a point")
+        }
+        Step3::Hinted => "by hints".to_owned(),
+        Step3::Rebuilt => "rebuilt".to_owned(),
+    }
+}
