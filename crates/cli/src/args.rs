@@ -52,7 +52,7 @@ pub(crate) enum Command {
 }
 
 /// How points are read.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
     /// File of points, or - for standard input: csv xyz txt npy bin node las laz ply obj geojson.
     #[arg(value_name = "IN")]
@@ -94,6 +94,7 @@ impl DimArgs {
   delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
   delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
   delone triangulate measured.npy --hints nominal.npy -o triangles.npy --stats stats.json
+  delone triangulate run-*.npy --hints nominal.npy -o 'mesh-{}.npy'
 
 x and y are triangulated; heights are kept. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
 seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
@@ -102,8 +103,11 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
+    /// With --hints, more instances of the same points.
+    #[arg(value_name = "IN")]
+    pub(crate) more: Vec<PathBuf>,
     /// Output file (npy node ele neigh edge ply obj stl vtu geojson svg png), or - for standard output; may be
-    /// repeated.
+    /// repeated. For several instances {} stands for the name of each.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.

@@ -9,6 +9,7 @@ mod furthest;
 mod generate;
 mod hull;
 mod info;
+mod instances;
 mod locate;
 mod message;
 mod nearest;

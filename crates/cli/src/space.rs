@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use delone::space::verify::{Objection3, verify};
-use delone::{Algorithm3, Delaunay3, Dimension, HintOrder, Hints3, Location3, TetrahedronId, VertexId, Work};
+use delone::{Algorithm3, Delaunay3, Dimension, Location3, TetrahedronId, VertexId, Work};
 use delone_io::{Body, Cut, Format, picture};
 use delone_predicates::in_sphere_with_ties;
 
@@ -38,36 +38,10 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     };
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
-    if let Some((path, format)) = outputs.iter().find(|(_, format)| !holds_bodies(*format)) {
-        return Err(Failure::file(path, &delone_io::Error::NotABody(*format)));
-    }
+    check_formats(&outputs)?;
     let mut stats = Stats::start();
     let points = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
-    if let Some(centres) = &args.hints {
-        let centres_points = files::queries_in_space(centres, quiet)?;
-        let mut hints = {
-            let _phase = Phase::start(quiet, "preprocessing");
-            let order = HintOrder::Spatial { seed: args.seed };
-            Hints3::preprocess(&centres_points, order).map_err(|error| Failure::points(centres, &error))?
-        };
-        stats.phase("preprocess");
-        let mut work = Work::default();
-        {
-            let _phase = Phase::start(quiet, "triangulating");
-            let done = hints.triangulate_counted(&points, &mut work);
-            done.map_err(|error| Failure::points(&args.input.input, &error))?;
-        }
-        stats.phase("build");
-        stats.set("algorithm", "hints");
-        stats.set("visited_triangles", work.visited);
-        stats.set("gave_up", hints.gave_up());
-        if hints.gave_up() {
-            note(quiet, "the points are far from their centres: walks from hints were given up");
-        }
-        finish(args, &outputs, hints.current(), &points, &mut stats, quiet)?;
-        return stats.write(stats_path);
-    }
     let d = build(&points, algorithm, &args.input.input, quiet)?;
     stats.phase("build");
     stats.set("algorithm", "incremental");
@@ -76,8 +50,16 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     stats.write(stats_path)
 }
 
+/// Refuses formats that hold neither tetrahedra nor their hull.
+pub(crate) fn check_formats(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
+    match outputs.iter().find(|(_, format)| !holds_bodies(*format)) {
+        Some((path, format)) => Err(Failure::file(path, &delone_io::Error::NotABody(*format))),
+        None => Ok(()),
+    }
+}
+
 /// Remarks, checks, counts and writes.
-fn finish(
+pub(crate) fn finish(
     args: &TriangulateArgs,
     outputs: &[(PathBuf, Format)],
     d: &Delaunay3,

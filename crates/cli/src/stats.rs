@@ -22,10 +22,11 @@ impl Stats {
         Self { started: Instant::now(), seconds: Map::new(), facts: Map::new() }
     }
 
-    /// Ends a phase: everything since the last one.
+    /// Ends a phase: everything since the last one. Times of phases of one name add up.
     pub(crate) fn phase(&mut self, name: &str) {
         let now = Instant::now();
-        let seconds = now.duration_since(self.started).as_secs_f64();
+        let before = self.seconds.get(name).and_then(Value::as_f64).unwrap_or(0.0);
+        let seconds = before + now.duration_since(self.started).as_secs_f64();
         self.seconds.insert(name.to_owned(), json!(seconds));
         self.started = now;
     }
@@ -33,6 +34,11 @@ impl Stats {
     /// Notes a fact.
     pub(crate) fn set(&mut self, name: &str, value: impl Into<Value>) {
         self.facts.insert(name.to_owned(), value.into());
+    }
+
+    /// A fact noted before.
+    pub(crate) fn get(&self, name: &str) -> Value {
+        self.facts.get(name).cloned().unwrap_or(Value::Null)
     }
 
     /// Notes what a triangulation has.

@@ -3,16 +3,25 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use delone::{Algorithm, Delaunay2, Dimension, HintOrder, Hints2, Work};
+use delone::{Algorithm, Delaunay2, Dimension};
 use delone_io::{Cloud, Format, Surface};
 
 use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
-use crate::{files, space};
+use crate::{files, instances, space};
 
 pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    if let Some(centres) = &args.hints {
+        return instances::run(args, centres, quiet);
+    }
+    if let Some(more) = args.more.first() {
+        return Err(Failure::usage(
+            format!("{}: several inputs are instances of imprecise points", more.display()),
+            "name their centres with --hints, or give one input",
+        ));
+    }
     if args.dim.is_space() {
         return space::triangulate(args, quiet);
     }
@@ -25,31 +34,10 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     }
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
-    if let Some((path, format)) = outputs.iter().find(|(_, format)| !format.holds_meshes()) {
-        return Err(Failure::file(path, &delone_io::Error::NotAMesh(*format)));
-    }
+    check_formats(&outputs)?;
     let mut stats = Stats::start();
     let Cloud { xy, z } = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
-    if let Some(centres) = &args.hints {
-        let mut hints = by_hints(args, centres, quiet)?;
-        stats.phase("preprocess");
-        let mut work = Work::default();
-        {
-            let _phase = Phase::start(quiet, "triangulating");
-            let done = hints.triangulate_counted(&xy, &mut work);
-            done.map_err(|error| Failure::points(&args.input.input, &error))?;
-        }
-        stats.phase("build");
-        stats.set("algorithm", "hints");
-        stats.set("visited_triangles", work.visited);
-        stats.set("gave_up", hints.gave_up());
-        if hints.gave_up() {
-            note(quiet, "the points are far from their centres: walks from hints were given up");
-        }
-        finish(args, &outputs, hints.current(), z.as_deref(), &mut stats, quiet)?;
-        return stats.write(stats_path);
-    }
     let algorithm = match name {
         AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
         AlgorithmName::Incremental => incremental(args.locate.unwrap_or(LocateName::Spatial), args.seed),
@@ -68,8 +56,16 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(stats_path)
 }
 
+/// Refuses formats that hold no triangles.
+pub(crate) fn check_formats(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
+    match outputs.iter().find(|(_, format)| !format.holds_meshes()) {
+        Some((path, format)) => Err(Failure::file(path, &delone_io::Error::NotAMesh(*format))),
+        None => Ok(()),
+    }
+}
+
 /// Remarks, checks, counts and writes.
-fn finish(
+pub(crate) fn finish(
     args: &TriangulateArgs,
     outputs: &[(PathBuf, Format)],
     triangulation: &Delaunay2,
@@ -98,14 +94,6 @@ fn finish(
     }
     stats.phase("write");
     Ok(())
-}
-
-/// The hints of the centres in a file.
-fn by_hints(args: &TriangulateArgs, centres: &Path, quiet: bool) -> Result<Hints2, Failure> {
-    let points = files::queries(centres, quiet)?;
-    let _phase = Phase::start(quiet, "preprocessing");
-    let order = HintOrder::Spatial { seed: args.seed };
-    Hints2::preprocess(&points, order).map_err(|error| Failure::points(centres, &error))
 }
 
 /// The incremental algorithm with a way to locate points.

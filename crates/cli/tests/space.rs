@@ -70,7 +70,20 @@ fn instances_are_triangulated_by_hints() {
             let visited = hinted["visited_triangles"].as_u64().expect("a count");
             assert!(instance == "other.npy" || visited < 400 * 5, "{kind}: {visited}");
         }
+        // The same at once: a file for each instance, and totals.
+        let several = "triangulate centres.npy other.npy --hints centres.npy -q --stats all.json";
+        place.succeed(&format!("{several} -o all-{{}}.ply --dim {dim}"));
+        let all = json(&place, "all.json");
+        assert_eq!(all["points"], 800);
+        assert_eq!(all["instances"][1]["simplices"], json(&place, "s.json")["simplices"]);
+        assert_eq!(all["instances"][1]["visited_triangles"], json(&place, "s.json")["visited_triangles"]);
+        let bytes = |name: &str| std::fs::read(place.path(name)).expect("written");
+        assert!(bytes("all-other.ply") == bytes("hinted.ply"), "{kind}");
+        place.fail(&format!("{several} -o x.ply --dim {dim}"), 2, "one output for 2 instances");
+        place.fail(&format!("{several} -o {{}}.csv --dim {dim}"), 2, "csv");
     }
+    place.fail("triangulate centres.npy other.npy -o x.npy", 2, "name their centres with --hints");
+    place.fail("triangulate centres.npy centres.npy --hints other.npy -o {}-x.npy", 2, "would overwrite");
     place.file("few.csv", "0,0\n1,1\n");
     place.fail("triangulate few.csv --hints centres.npy -o x.npy", 1, "2 points for 400 centres");
     place.fail("triangulate few.csv --hints centres.npy --locate tree -o x.npy", 2, "cannot be used");
