@@ -43,6 +43,8 @@ pub(crate) enum Command {
     Generate(GenerateArgs),
     /// Draw points, triangles and hull as SVG or PNG.
     Draw(DrawArgs),
+    /// Show points in Brownian motion as a moving picture.
+    Animate(AnimateArgs),
     /// Tell what is in a file of points: counts, bounds, duplicates, degeneracies.
     Info(InfoArgs),
     /// Shrink points on which algorithms disagree, and print them as a test.
@@ -519,6 +521,7 @@ pub(crate) struct GenerateArgs {
   delone draw points.csv -o picture.svg
   delone draw tile.laz --class 2 -o relief.png --size 3000 --edges=no
   delone draw model.ply --dim 3 --view 200,30 --cut 1,0,0,0.5 -o inside.png
+  delone draw centres.csv --disks 1 --hints -o imprecise.svg
 
 What is drawn follows from the room there is; --edges, --points and --fill decide otherwise. With --dim 3 the hull is
 drawn, or what a cut leaves of the tetrahedra.")]
@@ -550,6 +553,50 @@ pub(crate) struct DrawArgs {
     /// Fill triangles by height or density.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
     pub(crate) fill: Option<Choice>,
+    /// In the plane, draw a disk of this radius around each point: how imprecise it is.
+    #[arg(long, value_name = "RADIUS")]
+    pub(crate) disks: Option<f64>,
+    /// In the plane, join each point to its hint: the nearest of those before it in a random order.
+    #[arg(long)]
+    pub(crate) hints: bool,
+    /// Seed of the random order of --hints.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+}
+
+/// Show a motion.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone animate points.csv -o motion.png
+  delone generate disks -n 300 -o - --to csv | delone animate - --from csv --radius 1 --steps 100 -o motion.png
+  delone animate points.csv -o 'frame-{}.svg'
+
+Every step moves each point at random inside of a disk around it; the triangulation is repaired, or rebuilt where that is
+faster, and the statistics tell how often. The output is one animated PNG, or a file for each step.")]
+pub(crate) struct AnimateArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Animated picture: png; or, with {} where the number of the step shall stand, a series of png or svg.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: PathBuf,
+    /// Format of an output whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Number of steps.
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(..10_000))]
+    pub(crate) steps: u32,
+    /// How far a point goes in a step at most [default: a fifth of the distance of neighbours in an even set].
+    #[arg(long, value_name = "RADIUS")]
+    pub(crate) radius: Option<f64>,
+    /// Milliseconds a picture is shown.
+    #[arg(long, value_name = "MS", default_value_t = 40)]
+    pub(crate) delay: u16,
+    /// The longer side in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
+    /// Seed of the motion.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
 }
 
 /// Yes or no.

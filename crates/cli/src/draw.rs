@@ -1,6 +1,6 @@
 //! `delone draw`: pictures.
 
-use delone::Algorithm;
+use delone::{Algorithm, HintOrder, Hints2};
 use delone_io::{Format, Surface, picture};
 
 use crate::args::{Choice, DrawArgs};
@@ -19,12 +19,19 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
             "pictures are svg and png; for other files use delone triangulate",
         ));
     }
+    if args.disks.is_some_and(|radius| !radius.is_finite() || radius < 0.0) {
+        return Err(Failure::usage("--disks takes a radius", "as in --disks 0.5, in coordinate units"));
+    }
     if args.dim.is_space() {
+        if args.disks.is_some() || args.hints {
+            return Err(Failure::usage("--disks and --hints are for the plane", "leave them or --dim 3 out"));
+        }
         return space::draw(args, &outputs, quiet);
     }
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
+    let links = if args.hints { links(&cloud.xy, args)? } else { Vec::new() };
     let triangulation = triangulate::build(cloud.xy, Algorithm::default(), &args.input.input, quiet)?;
     triangulate::remark(&triangulation, quiet);
     stats.phase("build");
@@ -36,6 +43,9 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
         edges: yes(args.edges),
         points: yes(args.points),
         fill: yes(args.fill),
+        disks: args.disks,
+        links,
+        window: None,
     };
     let _phase = Phase::start(quiet, "drawing");
     for (path, format) in &outputs {
@@ -43,4 +53,11 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
     }
     stats.phase("write");
     stats.write(args.input.stats.as_deref())
+}
+
+/// From each point to its hint.
+fn links(points: &[[f64; 2]], args: &DrawArgs) -> Result<Vec<[[f64; 2]; 2]>, Failure> {
+    let hints = Hints2::preprocess(points, HintOrder::Random { seed: args.seed })
+        .map_err(|error| Failure::points(&args.input.input, &error))?;
+    Ok(hints.order().zip(hints.hints()).skip(1).map(|(i, j)| [points[i], points[j]]).collect())
 }

@@ -1,5 +1,6 @@
 //! The `delone` program: one file a command.
 
+mod animate;
 mod args;
 mod check;
 mod draw;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Check(args) => check::run(&args, quiet),
         Command::Generate(args) => generate::run(&args, quiet),
         Command::Draw(args) => draw::run(&args, quiet),
+        Command::Animate(args) => animate::run(&args, quiet),
         Command::Info(args) => info::run(&args, quiet),
         Command::Reduce(args) => reduce::run(&args, quiet),
         Command::Locate(args) => locate::run(&args, quiet),

@@ -29,6 +29,17 @@ impl Phase {
         Self::with_bar(quiet, bar, what, "{spinner} {msg} {wide_bar} {bytes}/{total_bytes} {eta}")
     }
 
+    /// A phase of so many equal parts.
+    pub(crate) fn count(quiet: bool, what: &'static str, parts: u64) -> Self {
+        let bar = ProgressBar::with_draw_target(Some(parts), ProgressDrawTarget::hidden());
+        Self::with_bar(quiet, bar, what, "{spinner} {msg} {wide_bar} {pos}/{len} {eta}")
+    }
+
+    /// One part of it is done.
+    pub(crate) fn advance(&self) {
+        self.bar.inc(1);
+    }
+
     fn with_bar(quiet: bool, bar: ProgressBar, what: &'static str, template: &str) -> Self {
         if quiet || !io::stderr().is_terminal() {
             return Self { bar, done: None };

@@ -1,4 +1,4 @@
-//! The commands `voronoi`, `hull` and `furthest`.
+//! The commands `voronoi`, `hull` and `furthest`, and motions and imprecise points in pictures.
 
 mod place;
 
@@ -152,4 +152,48 @@ fn cells_of_real_data() {
     let stats: Value =
         serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
     assert_eq!(stats["cells"], stats["vertices"]);
+}
+
+#[test]
+fn motions_are_shown() {
+    let place = Place::new();
+    place.succeed("generate disks -n 40 --seed 1 -o p.csv");
+    place.succeed("animate p.csv -o motion.png --steps 5 --size 200 --stats m.json -q");
+    let bytes = std::fs::read(place.path("motion.png")).expect("written");
+    let count = |what: &[u8]| bytes.windows(4).filter(|window| *window == what).count();
+    assert_eq!((count(b"acTL"), count(b"fcTL"), count(b"fdAT"), count(b"IEND")), (1, 6, 5, 1));
+    let stats: Value =
+        serde_json::from_slice(&std::fs::read(place.path("m.json")).expect("written")).expect("JSON");
+    assert_eq!(stats["repaired"].as_u64().zip(stats["rebuilt"].as_u64()).map(|(a, b)| a + b), Some(5));
+    place.succeed("animate p.csv -o f{}.svg --steps 10 --radius 0.5 -q");
+    let frame = |k: usize| std::fs::read_to_string(place.path(&format!("f{k:02}.svg"))).expect("written");
+    assert!(frame(0) != frame(1) && frame(10).ends_with("</svg>\n"));
+    // No points, one place, and boxes that overflow.
+    for points in ["", "1,1\n1,1\n", "1e308,1\n-1e308,1\n3,4\n"] {
+        place.file("odd.csv", points);
+        place.succeed("animate odd.csv -o odd.png --steps 2 -q");
+    }
+    place.file("bad.csv", "1,nan\n");
+    place.fail("animate bad.csv -o x.png", 1, "NaN");
+    place.fail("animate p.csv -o x.svg", 2, "no moving picture");
+    place.fail("animate p.csv -o x.png --radius inf", 2, "--radius");
+}
+
+#[test]
+fn disks_and_hints_are_drawn() {
+    let place = Place::new();
+    place.succeed("generate disks -n 30 --seed 1 -o p.csv");
+    place.succeed("draw p.csv --disks 1 --hints -o d.svg -o d.png --size 300 -q");
+    let svg = std::fs::read_to_string(place.path("d.svg")).expect("written");
+    assert_eq!(svg.matches("<circle").count(), 60);
+    assert_eq!(svg.matches("fill-opacity").count(), 1);
+    place.fail("draw p.csv --disks=-1 -o x.svg", 2, "--disks");
+    place.fail("draw p.csv --dim 3 --hints -o x.svg", 2, "for the plane");
+    place.succeed("generate cube -n 200 --seed 1 -o model.ply");
+    let table = place.succeed("experiment scan model.ply --largest 200");
+    assert!(table.contains("Noisy samples of model"), "{table}");
+    place.fail("experiment scan", 2, "needs a file");
+    place.fail("experiment imprecise model.ply", 2, "only scan");
+    place.file("few.csv", "1,2,3\n");
+    place.fail("experiment scan few.csv", 1, "too few");
 }

@@ -91,7 +91,7 @@ fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Erro
         for colour in [POINT, PAPER] {
             let wanted = |v: &VertexId| dot_colour(style.colour(diagram.cells.area(*v))) == colour;
             let positions = sites(diagram).filter(wanted).map(|v| view.place(diagram.triangulation.point(v)));
-            canvas.dots(positions, radius, colour);
+            canvas.dots(positions, radius, colour, 255);
         }
     }
     canvas.legend(view, &DENSITY, "large cells", "small");

@@ -8,6 +8,8 @@ pub(super) const INK: Rgb = [38, 50, 56];
 pub(super) const EDGE: Rgb = [96, 125, 139];
 pub(super) const HULL: Rgb = [216, 67, 21];
 pub(super) const POINT: Rgb = [26, 35, 126];
+pub(super) const DISK: Rgb = [187, 222, 251];
+pub(super) const LINK: Rgb = [46, 125, 50];
 
 /// Equally spaced colours, interpolated.
 pub(super) struct Ramp(&'static [Rgb]);

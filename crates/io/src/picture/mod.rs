@@ -3,7 +3,10 @@
 //! What is drawn follows from the room there is: edges while they are a few pixels long, vertices while they
 //! do not touch, and otherwise the triangles alone, coloured by height with shading (a relief) or, without
 //! heights, by how dense the points are.
+//!
+//! A series of pictures with one window is a motion: see [`Animation`].
 
+mod animation;
 mod cells;
 mod colour;
 mod png;
@@ -13,6 +16,7 @@ mod solid;
 mod svg;
 mod view;
 
+pub use animation::Animation;
 pub(crate) use cells::write as write_cells;
 pub use solid::Camera;
 pub(crate) use solid::write as write_solid;
@@ -33,11 +37,25 @@ pub struct Options {
     pub points: Option<bool>,
     /// Fill triangles with colour.
     pub fill: Option<bool>,
+    /// Draw a disk of this radius, in coordinate units, around each vertex.
+    pub disks: Option<f64>,
+    /// Lines to draw, such as those from points to their hints.
+    pub links: Vec<[[f64; 2]; 2]>,
+    /// The corners of the box that is shown, if it is not that of the points.
+    pub window: Option<[[f64; 2]; 2]>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { size: 1600, edges: None, points: None, fill: None }
+        Self {
+            size: 1600,
+            edges: None,
+            points: None,
+            fill: None,
+            disks: None,
+            links: Vec::new(),
+            window: None,
+        }
     }
 }
 
@@ -57,7 +75,7 @@ impl Layers {
         let spacing = (f64::from(view.width) * f64::from(view.height) / n as f64).sqrt();
         let relief = surface.heights.is_some();
         Self {
-            fill: options.fill.unwrap_or(relief || spacing < 60.0),
+            fill: options.fill.unwrap_or(relief || (spacing < 60.0 && options.disks.is_none())),
             edges: options.edges.unwrap_or(spacing > if relief { 14.0 } else { 5.0 }),
             points: options.points.unwrap_or(spacing > if relief { 40.0 } else { 12.0 }),
             spacing,
@@ -77,11 +95,11 @@ impl Layers {
 /// Draws a triangulation.
 pub fn write(out: &mut dyn Write, format: Format, surface: &Surface, options: &Options) -> Result<(), Error> {
     check_size(options.size)?;
-    let view = View::of(surface, options.size);
+    let view = View::of(surface, options);
     let layers = Layers::choose(surface, &view, options);
     match format {
-        Format::Svg => Ok(svg::write(out, surface, &view, layers)?),
-        _ => png::write(out, surface, &view, layers),
+        Format::Svg => Ok(svg::write(out, surface, &view, layers, options)?),
+        _ => png::draw(surface, &view, layers, options)?.encode(out),
     }
 }
 

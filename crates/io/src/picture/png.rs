@@ -8,19 +8,21 @@ use tiny_skia::{
     Transform,
 };
 
-use super::Layers;
-use super::colour::{EDGE, HULL, INK, PAPER, POINT, Ramp, Rgb};
+use super::colour::{DISK, EDGE, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
 use super::raster::Raster;
 use super::relief::Paint;
 use super::view::View;
+use super::{Layers, Options};
 use crate::{Error, Surface};
 
-pub(super) fn write(
-    out: &mut dyn Write,
+/// Draws a triangulation.
+pub(super) fn draw(
     surface: &Surface,
     view: &View,
     layers: Layers,
-) -> Result<(), Error> {
+    options: &Options,
+) -> Result<Canvas, Error> {
+    let d = surface.triangulation;
     let paint = Paint::of(surface);
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if layers.fill {
@@ -28,16 +30,22 @@ pub(super) fn write(
     }
     let mut canvas = Canvas::from(&raster)?;
     drop(raster);
+    let vertices = || d.vertices().map(|v| view.place(d.point(v)));
+    if let Some(radius) = options.disks {
+        canvas.dots(vertices(), view.length(radius), DISK, 180);
+    }
     if layers.edges {
         let alpha = if surface.heights.is_some() { 90 } else { 255 };
         canvas.edges(surface, view, layers.line_width(), alpha);
     }
+    let links = options.links.iter().map(|link| link.map(|p| view.place(p)));
+    canvas.lines(links, LINK, 255, 2.0 * layers.line_width());
     canvas.hull(surface, view, layers.line_width() * 1.5);
-    if layers.points || surface.triangulation.vertex_count() < 3 {
-        canvas.points(surface, view, layers.point_radius());
+    if layers.points || d.vertex_count() < 3 {
+        canvas.dots(vertices(), layers.point_radius(), POINT, 255);
     }
     canvas.strip(view, &paint, layers.fill);
-    canvas.encode(out)
+    Ok(canvas)
 }
 
 fn fill(raster: &mut Raster, surface: &Surface, view: &View, paint: &Paint) {
@@ -119,26 +127,32 @@ impl Canvas {
         self.lines((0..sides).map(|i| [hull[i], hull[(i + 1) % n]]), HULL, 255, width);
     }
 
-    fn points(&mut self, surface: &Surface, view: &View, radius: f64) {
-        let d = surface.triangulation;
-        self.dots(d.vertices().map(|v| view.place(d.point(v))), radius, POINT);
-    }
-
     /// A dot at each position.
-    pub(super) fn dots(&mut self, positions: impl Iterator<Item = [f64; 2]>, radius: f64, colour: Rgb) {
+    pub(super) fn dots(
+        &mut self,
+        positions: impl Iterator<Item = [f64; 2]>,
+        radius: f64,
+        colour: Rgb,
+        alpha: u8,
+    ) {
         for [x, y] in positions {
             let mut path = PathBuilder::new();
             path.push_circle(x as f32, y as f32, radius as f32);
             if let Some(path) = path.finish() {
                 self.0.fill_path(
                     &path,
-                    &brush(colour, 255),
+                    &brush(colour, alpha),
                     tiny_skia::FillRule::Winding,
                     Transform::identity(),
                     None,
                 );
             }
         }
+    }
+
+    /// Red, green and blue of all pixels, row by row.
+    pub(super) fn colours(&self) -> Vec<u8> {
+        self.0.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
     }
 
     /// Writes the picture.

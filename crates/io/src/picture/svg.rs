@@ -2,13 +2,19 @@
 
 use std::io::{self, Write};
 
-use super::Layers;
-use super::colour::{EDGE, HULL, POINT, Rgb};
+use super::colour::{DISK, EDGE, HULL, LINK, POINT, Rgb};
 use super::relief::Paint;
 use super::view::View;
+use super::{Layers, Options};
 use crate::Surface;
 
-pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers: Layers) -> io::Result<()> {
+pub(super) fn write(
+    out: &mut dyn Write,
+    surface: &Surface,
+    view: &View,
+    layers: Layers,
+    options: &Options,
+) -> io::Result<()> {
     let d = surface.triangulation;
     open(out, view)?;
     if layers.fill {
@@ -24,17 +30,16 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
         }
         writeln!(out, "</g>")?;
     }
+    if let Some(radius) = options.disks {
+        writeln!(out, r#"<g fill="{}" fill-opacity="0.7">"#, hex(DISK))?;
+        circles(out, view, d.vertices().map(|v| (d.point(v), v.index())), view.length(radius))?;
+    }
     if layers.edges {
-        write!(
-            out,
-            r#"<path fill="none" stroke="{}" stroke-width="{:.2}" d=""#,
-            hex(EDGE),
-            layers.line_width()
-        )?;
-        for [a, b] in d.edges() {
-            write!(out, "M{}L{}", place(view, d.point(a)), place(view, d.point(b)))?;
-        }
-        writeln!(out, r#""/>"#)?;
+        let edges = d.edges().map(|edge| edge.map(|v| d.point(v)));
+        segments(out, view, edges, EDGE, layers.line_width())?;
+    }
+    if !options.links.is_empty() {
+        segments(out, view, options.links.iter().copied(), LINK, 2.0 * layers.line_width())?;
     }
     write!(
         out,
@@ -48,19 +53,39 @@ pub(super) fn write(out: &mut dyn Write, surface: &Surface, view: &View, layers:
     writeln!(out, r#"{}"/>"#, if d.vertex_count() > 2 { "Z" } else { "" })?;
     if layers.points || d.vertex_count() < 3 {
         writeln!(out, r#"<g fill="{}">"#, hex(POINT))?;
-        for v in d.vertices() {
-            let [x, y] = view.place(d.point(v));
-            writeln!(
-                out,
-                r#"<circle cx="{x:.2}" cy="{y:.2}" r="{:.2}"><title>{}</title></circle>"#,
-                layers.point_radius(),
-                v.index()
-            )?;
-        }
-        writeln!(out, "</g>")?;
+        circles(out, view, d.vertices().map(|v| (d.point(v), v.index())), layers.point_radius())?;
     }
     scale(out, view)?;
     writeln!(out, "</svg>")
+}
+
+/// Lines of one colour.
+fn segments(
+    out: &mut dyn Write,
+    view: &View,
+    lines: impl Iterator<Item = [[f64; 2]; 2]>,
+    colour: Rgb,
+    width: f64,
+) -> io::Result<()> {
+    write!(out, r#"<path fill="none" stroke="{}" stroke-width="{width:.2}" d=""#, hex(colour))?;
+    for [a, b] in lines {
+        write!(out, "M{}L{}", place(view, a), place(view, b))?;
+    }
+    writeln!(out, r#""/>"#)
+}
+
+/// Circles that tell the index of their point, and the end of their group.
+fn circles(
+    out: &mut dyn Write,
+    view: &View,
+    points: impl Iterator<Item = ([f64; 2], usize)>,
+    radius: f64,
+) -> io::Result<()> {
+    for (p, index) in points {
+        let [x, y] = view.place(p);
+        writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}"><title>{index}</title></circle>"#)?;
+    }
+    writeln!(out, "</g>")
 }
 
 /// The start of a picture: white paper.

@@ -1,5 +1,8 @@
 //! From coordinates to pixels: the same scale in both directions, y upwards, a margin around.
 
+use delone::VertexId;
+
+use super::Options;
 use crate::Surface;
 
 /// Pixels left free around the drawing.
@@ -21,12 +24,22 @@ pub(super) struct View {
 }
 
 impl View {
-    /// Shows all points, the longer side `size` pixels long and the shorter at least a third of it.
-    pub(super) fn of(surface: &Surface, size: u32) -> Self {
-        Self::around(surface.triangulation.vertices().map(|v| surface.triangulation.point(v)), size)
+    /// Shows all points with their disks, or a window, the longer side `size` pixels long and the shorter at least a
+    /// third of it.
+    pub(super) fn of(surface: &Surface, options: &Options) -> Self {
+        let d = surface.triangulation;
+        let r = options.disks.unwrap_or(0.0);
+        let around = |v: VertexId| {
+            let [x, y] = d.point(v);
+            [[x - r, y - r], [x + r, y + r]]
+        };
+        match options.window {
+            Some(corners) => Self::around(corners.into_iter(), options.size),
+            None => Self::around(d.vertices().flat_map(around), options.size),
+        }
     }
 
-    /// The same for any points.
+    /// Shows some points.
     pub(super) fn around(points: impl Iterator<Item = [f64; 2]>, size: u32) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for p in points {
@@ -60,6 +73,11 @@ impl View {
     pub(super) fn place(&self, p: [f64; 2]) -> [f64; 2] {
         let along = |k: usize| (p[k] * self.half - self.low[k]) * self.scale;
         [self.offset[0] + along(0), self.offset[1] - along(1)]
+    }
+
+    /// The pixels of a length.
+    pub(super) fn length(&self, length: f64) -> f64 {
+        length * self.half * self.scale
     }
 
     /// Whether there is a strip below the drawing, and where it starts.

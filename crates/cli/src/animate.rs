@@ -1,0 +1,129 @@
+//! `delone animate`: points in Brownian motion (Devillers 2011, §5), and their triangulation kept up.
+
+use std::path::PathBuf;
+
+use delone::{Delaunay2, Moving2, Step};
+use delone_io::{Error, Format, Surface, picture};
+use delone_oracle::generate::Random;
+
+use crate::args::AnimateArgs;
+use crate::files;
+use crate::message::{Failure, note};
+use crate::progress::Phase;
+use crate::stats::Stats;
+
+/// What stands for the number of a picture in the name of an output.
+const NUMBER: &str = "{}";
+
+pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
+    let is_series = args.output.to_string_lossy().contains(NUMBER);
+    let stats_path = args.input.stats.as_deref();
+    let outputs = files::outputs(&names(args, is_series), args.to, stats_path, &[&args.input.input])?;
+    let shows = |format: Format| format == Format::Png || (is_series && format == Format::Svg);
+    if let Some((path, format)) = outputs.iter().find(|(_, format)| !shows(*format)) {
+        return Err(Failure::usage(
+            format!("{}: {format} is no moving picture", path.display()),
+            "write one png, or a series of png or svg with {} in its name: -o 'frame-{}.png'",
+        ));
+    }
+    if args.radius.is_some_and(|radius| !radius.is_finite() || radius < 0.0) {
+        return Err(Failure::usage("--radius is a length", "as in --radius 0.5, in coordinate units"));
+    }
+    let mut stats = Stats::start();
+    let cloud = files::points(&args.input, 2, quiet)?;
+    stats.phase("read");
+    let mut film = Film::new(cloud.xy, args)?;
+    stats.phase("build");
+    stats.triangulation(film.moving.triangulation());
+    let options =
+        picture::Options { size: args.size, window: Some(film.window), ..picture::Options::default() };
+    {
+        let phase = Phase::count(quiet, "drawing", outputs.len().max(args.steps as usize + 1) as u64);
+        let draw = |triangulation: &Delaunay2, on: &mut dyn FnMut(&Surface) -> Result<(), Error>| {
+            phase.advance();
+            on(&Surface { triangulation, heights: None })
+        };
+        if is_series {
+            for (step, (path, format)) in outputs.iter().enumerate() {
+                files::write(path, |out| {
+                    draw(film.at(step)?, &mut |surface| picture::write(out, *format, surface, &options))
+                })?;
+            }
+        } else {
+            files::write(&args.output, |out| {
+                let (pictures, delay) = (args.steps + 1, args.delay);
+                let mut animation = picture::Animation::start(out, film.window, pictures, delay, options)?;
+                for step in 0..pictures as usize {
+                    draw(film.at(step)?, &mut |surface| animation.add(surface))?;
+                }
+                animation.finish()
+            })?;
+        }
+    }
+    stats.phase("write");
+    note(quiet, format_args!("{} steps repaired, {} rebuilt", film.repaired, film.rebuilt));
+    stats.set("repaired", film.repaired);
+    stats.set("rebuilt", film.rebuilt);
+    stats.write(stats_path)
+}
+
+/// The file of the animation, or of each of its pictures.
+fn names(args: &AnimateArgs, is_series: bool) -> Vec<PathBuf> {
+    if !is_series {
+        return vec![args.output.clone()];
+    }
+    let digits = args.steps.to_string().len();
+    let name = |step: u32| args.output.to_string_lossy().replace(NUMBER, &format!("{step:0>digits$}"));
+    (0..=args.steps).map(|step| name(step).into()).collect()
+}
+
+/// Points that move at random inside of their box.
+struct Film {
+    moving: Moving2,
+    positions: Vec<[f64; 2]>,
+    window: [[f64; 2]; 2],
+    radius: f64,
+    random: Random,
+    repaired: usize,
+    rebuilt: usize,
+}
+
+impl Film {
+    fn new(positions: Vec<[f64; 2]>, args: &AnimateArgs) -> Result<Self, Failure> {
+        let moving = Moving2::new(&positions).map_err(|error| Failure::points(&args.input.input, &error))?;
+        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+        for p in &positions {
+            low = [0, 1].map(|k| low[k].min(p[k]));
+            high = [0, 1].map(|k| high[k].max(p[k]));
+        }
+        // A tenth of the distance of neighbours in an even set.
+        let longer = [0, 1].into_iter().map(|k| high[k] / 2.0 - low[k] / 2.0).fold(0.0, f64::max);
+        let radius = args.radius.unwrap_or(0.2 * longer / (positions.len().max(1) as f64).sqrt());
+        let random = Random::new(args.seed);
+        Ok(Self { moving, positions, window: [low, high], radius, random, repaired: 0, rebuilt: 0 })
+    }
+
+    /// The triangulation at a step: the start, or one step after the last.
+    fn at(&mut self, step: usize) -> Result<&Delaunay2, Error> {
+        if step > 0 {
+            let [low, high] = self.window;
+            for p in &mut self.positions {
+                let shift = loop {
+                    let u = [self.random.between(-1.0, 1.0), self.random.between(-1.0, 1.0)];
+                    if u[0] * u[0] + u[1] * u[1] <= 1.0 {
+                        break u;
+                    }
+                };
+                // Those that reach the border stay there until they turn.
+                *p = [0, 1].map(|k| (p[k] + self.radius * shift[k]).clamp(low[k], high[k]));
+            }
+            let step =
+                self.moving.step(&self.positions).map_err(|error| Error::Content(error.to_string()))?;
+            match step {
+                Step::Repaired { .. } => self.repaired += 1,
+                Step::Rebuilt => self.rebuilt += 1,
+            }
+        }
+        Ok(self.moving.triangulation())
+    }
+}

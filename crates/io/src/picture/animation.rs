@@ -1,0 +1,72 @@
+//! Moving pictures: animated PNG, which browsers and most viewers show, and others as the first picture.
+
+use std::io::Write;
+
+use super::view::View;
+use super::{Layers, Options, check_size, png};
+use crate::{Error, Surface};
+
+/// An animated PNG being written, picture by picture.
+pub struct Animation<W: Write> {
+    writer: ::png::Writer<W>,
+    options: Options,
+    /// Made from the first picture and kept, so that nothing jumps.
+    style: Option<(View, Layers)>,
+    size: [u32; 2],
+}
+
+fn failed(error: ::png::EncodingError) -> Error {
+    match error {
+        ::png::EncodingError::IoError(error) => Error::Io(error),
+        other => Error::content(format!("PNG: {other}")),
+    }
+}
+
+impl<W: Write> Animation<W> {
+    /// Starts an animation of so many pictures of a window, each shown for some milliseconds, over and over.
+    ///
+    /// # Errors
+    /// For a size or a number of pictures that no file can have, and when writing fails.
+    pub fn start(
+        out: W,
+        window: [[f64; 2]; 2],
+        pictures: u32,
+        milliseconds: u16,
+        options: Options,
+    ) -> Result<Self, Error> {
+        check_size(options.size)?;
+        let view = View::around(window.into_iter(), options.size);
+        let mut encoder = ::png::Encoder::new(out, view.width, view.height);
+        encoder.set_color(::png::ColorType::Rgb);
+        encoder.set_depth(::png::BitDepth::Eight);
+        // Lines on white paper repeat themselves best as they are.
+        encoder.set_filter(::png::Filter::NoFilter);
+        encoder.set_animated(pictures, 0).map_err(failed)?;
+        encoder.set_frame_delay(milliseconds, 1000).map_err(failed)?;
+        let writer = encoder.write_header().map_err(failed)?;
+        let options = Options { window: Some(window), ..options };
+        Ok(Self { writer, options, style: None, size: [view.width, view.height] })
+    }
+
+    /// Adds a picture.
+    ///
+    /// # Errors
+    /// When there are more than were said, and when writing fails.
+    pub fn add(&mut self, surface: &Surface) -> Result<(), Error> {
+        let (view, layers) = *self.style.get_or_insert_with(|| {
+            let view = View::of(surface, &self.options);
+            (view, Layers::choose(surface, &view, &self.options))
+        });
+        debug_assert_eq!([view.width, view.height], self.size);
+        let canvas = png::draw(surface, &view, layers, &self.options)?;
+        self.writer.write_image_data(&canvas.colours()).map_err(failed)
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// When there are fewer pictures than were said, and when writing fails.
+    pub fn finish(self) -> Result<(), Error> {
+        self.writer.finish().map_err(failed)
+    }
+}
