@@ -35,6 +35,10 @@ $delone hull data/autzen_trim.laz --dim 3 -o $here/tile.png --size 960
 # Tetrahedra of a ball, cut open.
 $delone generate ball -n 1500 --seed 1 -o "$work/ball.csv"
 $delone draw "$work/ball.csv" --dim 3 --view -60,40 --cut 0,0,1,0.1 -o $here/ball.png --size 640
+# Imprecise points, and moving ones.
+$delone generate disks -n 60 --seed 3 -o "$work/disks.csv"
+$delone draw "$work/disks.csv" --disks 1 --hints -o $here/hints.png --size 700
+$delone animate "$work/disks.csv" --radius 0.3 --steps 40 --size 400 -o $here/motion.png
 # A scanned head, if there is one.
 scan=${SCAN:-../shared/data/igea.ply}
 if [ -e "$scan" ]; then
