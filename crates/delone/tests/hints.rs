@@ -1,7 +1,8 @@
 //! Imprecise points: every instance is what it is without hints, and walks are as short as the paper says.
 
 use delone::{
-    Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2, Moving3, Step, Step3, VertexId, Work,
+    Algorithm, Algorithm3, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2,
+    Moving3, Step, Step3, VertexId, Work,
 };
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Kind3, Random};
@@ -150,6 +151,11 @@ fn walks_are_as_short_as_in_the_paper() {
             // In spatial order the triangle where a walk starts is one of the last made, and a better one.
             let expected = if matches!(order, HintOrder::Random { .. }) { 2.65..2.95 } else { 2.4..2.7 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
+            // Spatial sort alone: 3.7 by straight walks, fewer by visibility.
+            let d = Delaunay2::with_algorithm(&instance, Algorithm::Incremental { seed: 1 }).expect("finite");
+            let Counters::Incremental(work) = d.counters() else { panic!("counted") };
+            let visited = work.visited as f64 / n as f64;
+            assert!((3.0..3.8).contains(&visited), "spatial sort {n}: {visited}");
         }
     }
 }
@@ -221,6 +227,10 @@ fn walks_in_space_are_as_short_as_in_the_paper() {
             let visited = work.visited as f64 / n as f64;
             let expected = if matches!(order, HintOrder::Random { .. }) { 5.1..5.45 } else { 4.3..4.7 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
+            // Spatial sort alone: 6.6.
+            let d = Delaunay3::with_algorithm(&instance, Algorithm3::Spatial { seed: 1 }).expect("finite");
+            let visited = d.work().visited as f64 / n as f64;
+            assert!((6.0..6.7).contains(&visited), "spatial sort {n}: {visited}");
         }
     }
 }
