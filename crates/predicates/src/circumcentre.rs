@@ -36,8 +36,9 @@ pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     let (bb, cc) = (bx * bx + by * by, cx * cx + cy * cy);
     let (x, y) = (cy * bb - by * cc, bx * cc - cx * bb);
     let terms = (cy.abs() + cx.abs()) * bb + (by.abs() + bx.abs()) * cc;
-    // The products of four factors must be normal numbers, or nothing is known about their errors.
-    let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc);
+    // Products of up to four factors must be normal numbers, or nothing is known about their errors: with one difference
+    // near zero also those of two.
+    let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc) && size > 1e-280;
     if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
         return Some([a[0] + x / (2.0 * area), a[1] + y / (2.0 * area)]);
     }
@@ -97,6 +98,10 @@ mod tests {
     fn centres_beyond_the_range_are_none() {
         assert_eq!(circumcentre([-1e200, 0.0], [1e200, 0.0], [0.0, 1e-20]), None);
         assert_eq!(circumcentre([-1e-200, 0.0], [1e-200, 0.0], [0.0, 1e-200]), Some([0.0, 0.0]));
+        // Differences that are subnormal: their products lose bits, or all of them.
+        let [near, far] = [1.25e-309, 1.981_116_490_576_4e-310];
+        let centre = circumcentre([near, 1e-4], [near, -1e-4], [far, 3.981_071_705_534_969_5e-5]);
+        assert_eq!(centre, Some([4.000000000000001e300, 0.0]));
         assert_eq!(circumcentre([1e300, 0.0], [0.0, 1e300], [0.0, 0.0]), Some([5e299, 5e299]));
     }
 }
