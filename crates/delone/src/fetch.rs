@@ -4,7 +4,7 @@
 //! its window of instructions goes; with twenty such reads before each walk it stands still. Measured on 10^6 random
 //! points: insertion takes a tenth longer with plain reads.
 //!
-//! This is the only `unsafe` of the library.
+//! This and `memory.rs` are the only `unsafe` of the library.
 
 /// Asks for the cache line of an item. The index may be anything.
 #[inline]

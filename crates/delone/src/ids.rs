@@ -174,6 +174,17 @@ impl EdgeId {
     /// No edge: the twin of an edge not linked yet, the incident edge of an index that is no vertex.
     pub(crate) const NONE: Self = Self(u32::MAX);
 
+    /// As plain bits, and back.
+    #[inline]
+    pub(crate) fn bits(self) -> u32 {
+        self.0
+    }
+
+    #[inline]
+    pub(crate) fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
     #[inline]
     pub(crate) fn new(index: usize) -> Self {
         debug_assert!(index < 8 * MAX_POINTS, "edge index {index} is out of range");

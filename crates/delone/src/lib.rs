@@ -36,8 +36,10 @@ mod fetch;
 pub mod hull;
 mod ids;
 mod locate;
+mod memory;
 pub mod mesh;
 mod order;
+mod parallel;
 pub mod plane;
 pub mod space;
 

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 /// The rooms, bottom to top, in floors. A room may use those on lower floors, and its own inside; rooms on the
 /// same floor do not know each other.
 const FLOORS: &[&[&str]] = &[
-    &["ids", "fetch"],
-    &["error"],
+    &["ids", "fetch", "memory"],
+    &["error", "parallel"],
     &["order"],
     &["mesh"],
     &["locate"],

@@ -101,7 +101,7 @@ mod tests {
         // Differences that are subnormal: their products lose bits, or all of them.
         let [near, far] = [1.25e-309, 1.981_116_490_576_4e-310];
         let centre = circumcentre([near, 1e-4], [near, -1e-4], [far, 3.981_071_705_534_969_5e-5]);
-        assert_eq!(centre, Some([4.000000000000001e300, 0.0]));
+        assert_eq!(centre, Some([4.000_000_000_000_001e300, 0.0]));
         assert_eq!(circumcentre([1e300, 0.0], [0.0, 1e300], [0.0, 0.0]), Some([5e299, 5e299]));
     }
 }

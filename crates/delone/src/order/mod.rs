@@ -5,6 +5,7 @@ pub(crate) mod curve;
 mod hilbert;
 pub(crate) mod morton;
 mod quantize;
+mod radix;
 pub(crate) mod random;
 
 /// In which order centres are inserted, and instances after them.

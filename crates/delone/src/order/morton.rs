@@ -14,6 +14,8 @@
 use std::ops::Range;
 
 use super::quantize::{Quantizer, bounds};
+use super::radix;
+use crate::parallel;
 
 /// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
 const SHORT_RUN: usize = 32;
@@ -75,6 +77,12 @@ impl Cut {
     /// Before a point that equals the one before it. None is left when sorting is done.
     const DUPLICATE: Self = Self(255);
 
+    /// The first of the shallowest of some cuts. In two passes over bytes, which take sixteen at a time.
+    pub(crate) fn first_shallowest(cuts: &[Self]) -> Option<usize> {
+        let shallowest = cuts.iter().fold(u8::MAX, |least, cut| least.min(cut.0));
+        cuts.iter().position(|cut| cut.0 == shallowest)
+    }
+
     /// Between keys of `depth` bits.
     #[inline]
     fn between(left: u64, right: u64, depth: u32) -> Self {
@@ -93,84 +101,150 @@ impl Cut {
     }
 }
 
-/// Sorts points. All must be finite, and fewer than 2^32.
+/// Sorts points, in parallel if they are many. All must be finite, and fewer than 2^32.
 pub(crate) fn sort(points: &[[f64; 2]]) -> Sorted {
     let n = points.len();
-    let mut sorter = Sorter {
-        sorted: Sorted {
-            points: vec![[0.0; 2]; n],
-            indices: vec![0; n],
-            cuts: vec![Cut::OUTSIDE; n],
-            boxes: Vec::new(),
-            duplicates: Vec::new(),
-        },
-        removed: Vec::new(),
+    let mut sorted = Sorted {
+        points: parallel::filled([0.0; 2], n),
+        indices: parallel::filled(0, n),
+        cuts: parallel::filled(Cut::OUTSIDE, n),
+        boxes: Vec::new(),
+        duplicates: Vec::new(),
     };
     if n > 0 {
-        let depth = sorter.key_box(points, |i| i as u32, 0);
-        sorter.runs(0, n, depth);
-        sorter.close_gaps();
+        let mut sorter = Sorter::new(0, &mut sorted.points, &mut sorted.indices, &mut sorted.cuts);
+        let depth = sorter.key_box(points, |i| i as u32, 0..n);
+        sorter.runs(0..n, depth);
+        let Sorter { boxes, removed, duplicates, .. } = sorter;
+        (sorted.boxes, sorted.duplicates) = (boxes, duplicates);
+        sorted.close_gaps(&removed);
     }
-    sorter.sorted
+    sorted
 }
 
-struct Sorter {
-    sorted: Sorted,
-    /// Ascending positions of duplicates.
+/// Sorts the points at some positions. Inside, positions are counted from the first.
+struct Sorter<'a> {
+    start: usize,
+    points: &'a mut [[f64; 2]],
+    indices: &'a mut [u32],
+    cuts: &'a mut [Cut],
+    boxes: Vec<KeyBox>,
+    duplicates: Vec<(u32, u32)>,
+    /// Ascending positions of duplicates, counted from the first of all.
     removed: Vec<usize>,
 }
 
-impl Sorter {
-    /// Sorts points, which are in input order, into the positions from `start` on. The cut before the first is
-    /// left as it is.
-    fn key_box(&mut self, points: &[[f64; 2]], index_of: impl Fn(usize) -> u32, start: usize) -> u32 {
+impl<'a> Sorter<'a> {
+    fn new(start: usize, points: &'a mut [[f64; 2]], indices: &'a mut [u32], cuts: &'a mut [Cut]) -> Self {
+        Self { start, points, indices, cuts, boxes: Vec::new(), duplicates: Vec::new(), removed: Vec::new() }
+    }
+
+    /// Sorters of the runs of some positions, given by their ends.
+    fn split(&mut self, within: Range<usize>, ends: &[usize]) -> Vec<Sorter<'_>> {
+        let starts = std::iter::once(within.start).chain(ends.iter().copied()).map(|at| self.start + at);
+        let ends: Vec<usize> = ends.iter().map(|end| end - within.start).collect();
+        let points = parallel::split_at(&mut self.points[within.clone()], &ends);
+        let indices = parallel::split_at(&mut self.indices[within.clone()], &ends);
+        let cuts = parallel::split_at(&mut self.cuts[within], &ends);
+        let parts = starts.zip(points).zip(indices.into_iter().zip(cuts));
+        parts.map(|((start, points), (indices, cuts))| Sorter::new(start, points, indices, cuts)).collect()
+    }
+
+    /// Sorts points, which are in input order, into some positions, by keys in the box around them. The cut before the
+    /// first is left as it is. Returns the bits of the keys.
+    fn key_box(
+        &mut self,
+        points: &[[f64; 2]],
+        index_of: impl Fn(usize) -> u32 + Sync,
+        to: Range<usize>,
+    ) -> u32 {
         let n = points.len();
-        let (low, high) = bounds(points);
+        let ends = parallel::even_ends(n, parallel::parts(n));
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let chunks: Vec<&[[f64; 2]]> = starts.zip(&ends).map(|(start, &end)| &points[start..end]).collect();
+        let corners: Vec<[f64; 2]> =
+            parallel::map(chunks, bounds).into_iter().flat_map(|(low, high)| [low, high]).collect();
+        let (low, high) = bounds(&corners);
         let bits = (n.next_power_of_two().ilog2() + 3).div_ceil(2);
+        let depth = 2 * bits;
         let quantizer = Quantizer::new(low, high, bits);
-        self.sorted.boxes.push(KeyBox { start, end: start + n, quantizer, depth: 2 * bits });
+        self.boxes.push(KeyBox { start: self.start + to.start, end: self.start + to.end, quantizer, depth });
         // An entry holds a key above and a place in `points` below. Without a box all keys are equal.
-        let key = |&p: &[f64; 2]| {
+        let key = |p: [f64; 2]| {
             let [column, row] = quantizer.map_or([0, 0], |quantizer| quantizer.cell(p));
             u64::from(spread(column) << 1 | spread(row))
         };
-        let mut entries: Vec<u64> = points.iter().enumerate().map(|(i, p)| key(p) << 32 | i as u64).collect();
-        radix_sort(&mut entries, 2 * bits);
-        self.place(&entries, points, index_of, start, 2 * bits);
-        2 * bits
+        let mut entries = parallel::collect(n, |i| key(points[i]) << 32 | i as u64);
+        radix::sort(&mut entries, depth);
+        let ends: Vec<usize> = ends.iter().map(|end| to.start + end).collect();
+        let first = self.start + to.start;
+        parallel::map(self.split(to, &ends), |mut task| {
+            let from = task.start - first;
+            task.place(&entries, from, points, &index_of, depth);
+        });
+        depth
     }
 
-    /// Writes points, indices and cuts of sorted entries: three plain loops, because the points come from
-    /// everywhere in memory and nothing should stand in the way of fetching many at once.
+    /// Writes points, indices and cuts of sorted entries from one of them on: three plain loops, because the points come
+    /// from everywhere in memory and nothing should stand in the way of fetching many at once.
     fn place(
         &mut self,
         entries: &[u64],
+        from: usize,
         points: &[[f64; 2]],
-        index_of: impl Fn(usize) -> u32,
-        start: usize,
+        index_of: &(impl Fn(usize) -> u32 + Sync),
         depth: u32,
     ) {
-        let range = start..start + entries.len();
         let place = |entry: u64| entry as u32 as usize;
-        for (point, &entry) in self.sorted.points[range.clone()].iter_mut().zip(entries) {
+        for (point, &entry) in self.points.iter_mut().zip(&entries[from..]) {
             *point = points[place(entry)];
         }
-        for (index, &entry) in self.sorted.indices[range.clone()].iter_mut().zip(entries) {
+        for (index, &entry) in self.indices.iter_mut().zip(&entries[from..]) {
             *index = index_of(place(entry));
         }
-        for (cut, pair) in self.sorted.cuts[range].iter_mut().skip(1).zip(entries.windows(2)) {
+        // The first of all has none before it.
+        let skipped = usize::from(from == 0);
+        let pairs = entries[from + skipped - 1..].windows(2);
+        for (cut, pair) in self.cuts.iter_mut().skip(skipped).zip(pairs) {
             *cut = Cut::between(pair[0], pair[1], depth);
         }
     }
 
-    /// Sorts what shares a cell, among the points of the box sorted last.
-    fn runs(&mut self, start: usize, end: usize, depth: u32) {
-        let mut at = start + 1;
+    /// Sorts what shares a cell, among the points of a box.
+    fn runs(&mut self, within: Range<usize>, depth: u32) {
+        let parts = parallel::parts(within.len());
+        if parts == 1 {
+            return self.runs_of_part(within, depth);
+        }
+        // Parts end where cells do.
+        let mut ends: Vec<usize> = Vec::new();
+        for end in parallel::even_ends(within.len(), parts) {
+            let from = within.start + end;
+            let same = self.cuts[from.min(within.end)..within.end].iter();
+            let end = from + same.take_while(|&&cut| cut == Cut::SAME_CELL).count();
+            if ends.last().is_none_or(|&last| last < end) {
+                ends.push(end);
+            }
+        }
+        let sorted = parallel::map(self.split(within, &ends), |mut task| {
+            task.runs_of_part(0..task.points.len(), depth);
+            (task.boxes, task.duplicates, task.removed)
+        });
+        for (boxes, duplicates, removed) in sorted {
+            self.boxes.extend(boxes);
+            self.duplicates.extend(duplicates);
+            self.removed.extend(removed);
+        }
+    }
+
+    /// The same one after the other.
+    fn runs_of_part(&mut self, within: Range<usize>, depth: u32) {
+        let mut at = within.start + 1;
         while let Some(found) =
-            self.sorted.cuts[at.min(end)..end].iter().position(|&cut| cut == Cut::SAME_CELL)
+            self.cuts[at.min(within.end)..within.end].iter().position(|&cut| cut == Cut::SAME_CELL)
         {
             let first = at + found - 1;
-            let same = self.sorted.cuts[first + 1..end].iter().take_while(|&&cut| cut == Cut::SAME_CELL);
+            let same = self.cuts[first + 1..within.end].iter().take_while(|&&cut| cut == Cut::SAME_CELL);
             let run = first..first + 1 + same.count();
             at = run.end + 1;
             if run.len() <= SHORT_RUN {
@@ -184,16 +258,16 @@ impl Sorter {
     /// Sorts a long run of one cell by keys of its own.
     fn nested_box(&mut self, run: Range<usize>) {
         // The copies are gone before anything is nested deeper.
-        let points = self.sorted.points[run.clone()].to_vec();
-        let indices = self.sorted.indices[run.clone()].to_vec();
+        let points = self.points[run.clone()].to_vec();
+        let indices = self.indices[run.clone()].to_vec();
         if points.iter().all(|p| *p == points[0]) {
             drop((points, indices));
             run.clone().skip(1).for_each(|at| self.remove(at, run.start));
             return;
         }
-        let depth = self.key_box(&points, |i| indices[i], run.start);
+        let depth = self.key_box(&points, |i| indices[i], run.clone());
         drop((points, indices));
-        self.runs(run.start, run.end, depth);
+        self.runs(run, depth);
     }
 
     /// Sorts points of one cell lexicographically, with the cuts of a balanced tree.
@@ -201,20 +275,20 @@ impl Sorter {
         let mut run = [([0.0; 2], 0); SHORT_RUN];
         let run = &mut run[..length];
         for (i, item) in run.iter_mut().enumerate() {
-            *item = (self.sorted.points[start + i], self.sorted.indices[start + i]);
+            *item = (self.points[start + i], self.indices[start + i]);
         }
         run.sort_unstable_by(|a, b| a.partial_cmp(b).expect("finite"));
         let (mut distinct, mut last) = (0, start);
         for (i, &(point, index)) in run.iter().enumerate() {
             let at = start + i;
-            self.sorted.points[at] = point;
-            self.sorted.indices[at] = index;
+            self.points[at] = point;
+            self.indices[at] = index;
             if i > 0 && run[i - 1].0 == point {
                 self.remove(at, last);
                 continue;
             }
             if distinct > 0 {
-                self.sorted.cuts[at] = Cut::within_cell(distinct, depth);
+                self.cuts[at] = Cut::within_cell(distinct, depth);
             }
             (distinct, last) = (distinct + 1, at);
         }
@@ -222,17 +296,19 @@ impl Sorter {
 
     /// Marks the point at a position as a duplicate of another.
     fn remove(&mut self, at: usize, representative: usize) {
-        self.sorted.cuts[at] = Cut::DUPLICATE;
-        self.removed.push(at);
-        self.sorted.duplicates.push((self.sorted.indices[at], self.sorted.indices[representative]));
+        self.cuts[at] = Cut::DUPLICATE;
+        self.removed.push(self.start + at);
+        self.duplicates.push((self.indices[at], self.indices[representative]));
     }
+}
 
+impl Sorted {
     /// Moves points together where duplicates were.
-    fn close_gaps(&mut self) {
-        if self.removed.is_empty() {
+    fn close_gaps(&mut self, removed: &[usize]) {
+        if removed.is_empty() {
             return;
         }
-        let Sorted { points, indices, cuts, boxes, .. } = &mut self.sorted;
+        let Self { points, indices, cuts, boxes, .. } = self;
         let mut to = 0;
         for from in 0..points.len() {
             if cuts[from] != Cut::DUPLICATE {
@@ -243,7 +319,7 @@ impl Sorter {
         points.truncate(to);
         indices.truncate(to);
         cuts.truncate(to);
-        let moved = |at: usize| at - self.removed.partition_point(|&removed| removed < at);
+        let moved = |at: usize| at - removed.partition_point(|&removed| removed < at);
         for key_box in boxes {
             (key_box.start, key_box.end) = (moved(key_box.start), moved(key_box.end));
         }
@@ -256,41 +332,6 @@ fn spread(x: u32) -> u32 {
     let x = (x | x << 4) & 0x0f0f_0f0f;
     let x = (x | x << 2) & 0x3333_3333;
     (x | x << 1) & 0x5555_5555
-}
-
-/// Sorts entries by `key_bits` bits from bit 32 up, stably: least significant digits first.
-fn radix_sort(entries: &mut [u64], key_bits: u32) {
-    // Below this length a comparison sort is faster; indices ascend, so it is stable too.
-    if entries.len() < 512 {
-        entries.sort_unstable();
-        return;
-    }
-    let passes = key_bits.div_ceil(11);
-    let digit_bits = key_bits.div_ceil(passes);
-    let mut spare = vec![0; entries.len()];
-    let (mut from, mut to) = (&mut *entries, &mut *spare);
-    for pass in 0..passes {
-        let shift = 32 + pass * digit_bits;
-        let mask = (1u64 << digit_bits) - 1;
-        let digit = |entry: u64| (entry >> shift & mask) as usize;
-        let mut places = vec![0u32; 1 << digit_bits];
-        for &entry in &*from {
-            places[digit(entry)] += 1;
-        }
-        let mut total = 0;
-        for place in &mut places {
-            total += std::mem::replace(place, total);
-        }
-        for &entry in &*from {
-            let place = &mut places[digit(entry)];
-            to[*place as usize] = entry;
-            *place += 1;
-        }
-        std::mem::swap(&mut from, &mut to);
-    }
-    if passes % 2 == 1 {
-        to.copy_from_slice(from);
-    }
 }
 
 #[cfg(test)]
@@ -318,6 +359,21 @@ mod tests {
                     assert_eq!(points[duplicate as usize], points[representative as usize]);
                 }
             }
+        }
+    }
+
+    #[cfg(feature = "rayon")]
+    #[test]
+    fn threads_never_show() {
+        let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let (one, many) = (pool(1), pool(5));
+        for &kind in Kind::ALL {
+            let points = kind.points(100_000, 3);
+            let (a, b) = (one.install(|| sort(&points)), many.install(|| sort(&points)));
+            assert!(a.points == b.points && a.indices == b.indices, "{}", kind.name());
+            assert!(a.cuts == b.cuts && a.duplicates == b.duplicates, "{}", kind.name());
+            let boxes = |s: &super::Sorted| s.boxes.iter().map(|b| format!("{b:?}")).collect::<Vec<_>>();
+            assert!(boxes(&a) == boxes(&b), "{}", kind.name());
         }
     }
 

@@ -42,6 +42,7 @@ use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::{Dimension, Mesh, Names};
 use crate::order::random::SplitMix;
+use crate::parallel;
 use build::{Built, InOrder};
 use change::Upkeep;
 use layer::Layer;
@@ -119,7 +120,7 @@ impl Delaunay2 {
     /// [`Error::Parameter`] for a strategy whose parameters are out of range.
     pub fn with_algorithm<P: Position2>(points: &[P], algorithm: Algorithm) -> Result<Self, Error> {
         check_count(points.len())?;
-        Self::from_vec(points.iter().map(Position2::xy).collect(), algorithm)
+        Self::from_vec(parallel::collect(points.len(), |i| points[i].xy()), algorithm)
     }
 
     /// The same for coordinates that can be kept, which saves a copy. Errors as [`Self::with_algorithm`].

@@ -4,7 +4,7 @@
 ///
 /// Implemented for arrays and pairs of `f64`, `f32` and `i32`; for the points of `mint` and `geo-types` behind
 /// the features of those names.
-pub trait Position2 {
+pub trait Position2: Sync {
     /// x, then y.
     fn xy(&self) -> [f64; 2];
 }
@@ -30,21 +30,21 @@ macro_rules! numbers {
 numbers! { f64 f32 i32 }
 
 #[cfg(feature = "mint")]
-impl<T: Copy + Into<f64>> Position2 for mint::Point2<T> {
+impl<T: Copy + Into<f64> + Sync> Position2 for mint::Point2<T> {
     fn xy(&self) -> [f64; 2] {
         [self.x.into(), self.y.into()]
     }
 }
 
 #[cfg(feature = "geo-types")]
-impl<T: geo_types::CoordNum + Into<f64>> Position2 for geo_types::Coord<T> {
+impl<T: geo_types::CoordNum + Into<f64> + Sync> Position2 for geo_types::Coord<T> {
     fn xy(&self) -> [f64; 2] {
         [self.x.into(), self.y.into()]
     }
 }
 
 #[cfg(feature = "geo-types")]
-impl<T: geo_types::CoordNum + Into<f64>> Position2 for geo_types::Point<T> {
+impl<T: geo_types::CoordNum + Into<f64> + Sync> Position2 for geo_types::Point<T> {
     fn xy(&self) -> [f64; 2] {
         self.0.xy()
     }

@@ -4,7 +4,7 @@
 ///
 /// Implemented for arrays and triples of `f64`, `f32` and `i32`; for the points of `mint` behind the feature of
 /// that name.
-pub trait Position3 {
+pub trait Position3: Sync {
     /// x, y, z.
     fn xyz(&self) -> [f64; 3];
 }
@@ -30,7 +30,7 @@ macro_rules! numbers {
 numbers! { f64 f32 i32 }
 
 #[cfg(feature = "mint")]
-impl<T: Copy + Into<f64>> Position3 for mint::Point3<T> {
+impl<T: Copy + Into<f64> + Sync> Position3 for mint::Point3<T> {
     fn xyz(&self) -> [f64; 3] {
         [self.x.into(), self.y.into(), self.z.into()]
     }

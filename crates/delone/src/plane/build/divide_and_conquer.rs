@@ -20,13 +20,19 @@
 //! (v, u, ghost): edge 0 is the hull edge reversed, edge 1 leads to the ghost of the previous hull edge, edge
 //! 2 to that of the next.
 
+use std::ops::Range;
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
 use delone_predicates::{Filter, Grid, lexicographic};
 
+use super::builder::Builder;
 use super::leaf::Leaf;
 use super::merge::Part;
 use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
+use crate::parallel;
 
 /// What was done, for those who measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,15 +46,6 @@ pub struct Counters {
     pub connected: u64,
     /// Edges removed along a cut.
     pub removed: u64,
-}
-
-/// The state of the algorithm. Vertices are positions in the order until the very end.
-pub(super) struct Builder<'a> {
-    pub(super) points: &'a [[f64; 2]],
-    pub(super) edges: Vec<HalfEdge>,
-    /// For each strict corner of a hull the ghost of the hull edge that leaves it.
-    pub(super) leaving: Vec<TriangleId>,
-    pub(super) counters: Counters,
 }
 
 /// Triangulates points, all finite and at most [`crate::MAX_POINTS`]. Vertices are at the places of their
@@ -97,87 +94,205 @@ fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
 
 fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {
     let n = ordered.len();
-    let mut builder = Builder {
-        points: ordered,
-        edges: vec![HalfEdge::UNUSED; 8 * n.saturating_sub(1)],
-        leaving: vec![TriangleId::new(0); n],
-        counters: Counters::default(),
-    };
+    let mut edges = parallel::filled(HalfEdge::UNUSED, 8 * n.saturating_sub(1));
+    let mut leaving = parallel::filled(TriangleId::new(0), n);
+    let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
     if n > 0 {
         let grid = Grid::of(ordered.iter().copied().flatten());
-        Tree { cuts, boxes, next_box: 0, grid }.build(&mut builder);
+        Tree { cuts, boxes, grid }.build(0, &mut builder);
     }
-    (builder.edges, builder.counters)
+    let counters = builder.counters;
+    (edges, counters)
 }
 
 impl Mesh {
-    /// Puts each vertex from its position in an order to its place, and remembers an edge of each.
-    fn number_vertices(&mut self, place: impl Fn(Place) -> Place) {
-        for (slot, records) in self.edges.chunks_exact_mut(4).enumerate() {
-            for (k, record) in records[..3].iter_mut().enumerate() {
-                let e = EdgeId::new(4 * slot + k);
-                if record.origin.is_ghost() {
-                    self.ghost_edge = e;
-                } else {
-                    record.origin = place(record.origin);
-                    self.incident[record.origin.index()] = e;
+    /// Puts each vertex from its position in an order to its place, and remembers an edge of each: the last one.
+    ///
+    /// A task has the triangles of some positions, and writes for these alone; what it finds of others is written
+    /// afterwards.
+    fn number_vertices(&mut self, place: impl Fn(Place) -> Place + Sync) {
+        let n = self.vertex_count;
+        let incident: Vec<AtomicU32> =
+            parallel::collect(self.incident.len(), |_| AtomicU32::new(EdgeId::NONE.bits()));
+        let ends = parallel::even_ends(n, parallel::parts(n));
+        let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
+        let runs = std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied());
+        let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
+        let found = parallel::map(tasks, |(edges, (start, end)): (&mut [HalfEdge], (usize, usize))| {
+            let (mut ghost_edge, mut elsewhere) = (EdgeId::NONE, Vec::new());
+            for (slot, records) in edges.chunks_exact_mut(4).enumerate() {
+                for (k, record) in records[..3].iter_mut().enumerate() {
+                    let e = EdgeId::new(4 * (2 * start + slot) + k);
+                    let position = record.origin;
+                    if position.is_ghost() {
+                        ghost_edge = e;
+                        continue;
+                    }
+                    record.origin = place(position);
+                    if (start..end).contains(&position.index()) {
+                        incident[record.origin.index()].store(e.bits(), Relaxed);
+                    } else {
+                        elsewhere.push((record.origin, e));
+                    }
                 }
+            }
+            (ghost_edge, elsewhere)
+        });
+        self.incident = incident.into_iter().map(|bits| EdgeId::from_bits(bits.into_inner())).collect();
+        for (ghost_edge, elsewhere) in found {
+            if ghost_edge != EdgeId::NONE {
+                self.ghost_edge = ghost_edge;
+            }
+            for (v, e) in elsewhere {
+                let last = &mut self.incident[v.index()];
+                *last = if *last == EdgeId::NONE { e } else { e.max(*last) };
             }
         }
     }
 }
 
 /// The tree that the cuts are, walked without being built.
+#[derive(Clone, Copy)]
 struct Tree<'a> {
     cuts: &'a [Cut],
     boxes: &'a [KeyBox],
-    next_box: usize,
     grid: Option<Grid>,
 }
 
+/// A box, and the static filters of its depths.
+struct Cells {
+    key_box: KeyBox,
+    filters: Vec<Filter>,
+}
+
+/// Parts that wait for their right neighbour, with the cuts behind them, deeper and deeper.
+type Waiting = Vec<(Part, Cut)>;
+
 impl Tree<'_> {
-    /// Triangulates the points of the next box. Recursion follows the nesting of boxes, whose depth the
-    /// exponent range bounds; inside a box the parts that wait for a neighbour are on a stack.
-    fn build(&mut self, builder: &mut Builder) -> Part {
-        let key_box = self.boxes[self.next_box];
-        self.next_box += 1;
+    /// Triangulates the points of a box, in parallel if they are many: the tree is cut at some depth, and what is below
+    /// is built by tasks that own its memory.
+    fn build(&self, index: usize, builder: &mut Builder) -> Part {
+        let key_box = self.boxes[index];
         let cell_filter = |depth| {
             let [width, height] = key_box.cell(depth);
             Filter::for_box(width, height, self.grid)
         };
-        let filters: Vec<Filter> = (0..key_box.depths()).map(cell_filter).collect();
-        let mut waiting: Vec<(Part, Cut)> = Vec::with_capacity(40);
-        let mut at = key_box.start;
+        let cells = Cells { key_box, filters: (0..key_box.depths()).map(cell_filter).collect() };
+        let all = key_box.start..key_box.end;
+        // Tasks divide the memory of a builder, which may have more than this box.
+        let ends = if builder.positions() == all { self.run_ends(index) } else { Vec::new() };
+        if ends.len() < 2 {
+            return self.run(index, &cells, all, builder);
+        }
+        let tasks = builder.split(&ends);
+        let built = parallel::map(tasks, |mut task| {
+            let run = task.positions();
+            // A run that is a box of its own may be as large as all of this one.
+            let part = match self.box_of(index, &run) {
+                Some(nested) => self.build(nested, &mut task),
+                None => self.run(index, &cells, run, &mut task),
+            };
+            (part, task.counters)
+        });
+        let mut waiting = Waiting::new();
+        let mut whole = None;
+        for (part, counters) in built {
+            builder.counters.add(&counters);
+            let after = if part.end == key_box.end { Cut::OUTSIDE } else { self.cuts[part.end] };
+            let part = cells.join(builder, &mut waiting, part, after);
+            waiting.push((part, after));
+            whole = Some(part);
+        }
+        whole.unwrap_or_else(|| Part::single(key_box.start))
+    }
+
+    /// Where the runs of a box end that tasks shall build: subtrees that are not too large, or not to be divided in this
+    /// box.
+    fn run_ends(&self, index: usize) -> Vec<usize> {
+        let key_box = self.boxes[index];
+        let count = key_box.end - key_box.start;
+        let mut ends = Vec::new();
+        self.divide(index, key_box.start..key_box.end, count.div_ceil(parallel::parts(count)), &mut ends);
+        ends
+    }
+
+    /// Divides a run at its shallowest cut until no part has more than `most` points.
+    fn divide(&self, index: usize, run: Range<usize>, most: usize, ends: &mut Vec<usize>) {
+        let shallowest = if run.len() > most { self.shallowest_cut(index, &run) } else { None };
+        match shallowest {
+            None => ends.push(run.end),
+            Some(at) => {
+                self.divide(index, run.start..at, most, ends);
+                self.divide(index, at..run.end, most, ends);
+            }
+        }
+    }
+
+    /// The position before which a run has its shallowest cut, those inside of nested boxes not counted.
+    fn shallowest_cut(&self, index: usize, run: &Range<usize>) -> Option<usize> {
+        let mut best = None;
+        let mut nested = self.first_nested(index, run.start);
+        let mut at = run.start + 1;
+        while at < run.end {
+            let inner = self.boxes.get(nested).filter(|inner| inner.start < run.end);
+            let limit = inner.map_or(run.end, |inner| inner.start + 1).max(at);
+            let shallowest = Cut::first_shallowest(&self.cuts[at..limit]).map(|k| at + k);
+            best = best.into_iter().chain(shallowest).min_by_key(|&at| self.cuts[at]);
+            at = inner.map_or(run.end, |inner| inner.end);
+            nested = self.first_nested(nested, at);
+        }
+        best
+    }
+
+    /// The box that is nested in another one and is the whole of a run.
+    fn box_of(&self, index: usize, run: &Range<usize>) -> Option<usize> {
+        let nested = self.first_nested(index, run.start);
+        self.boxes.get(nested).is_some_and(|b| b.start == run.start && b.end == run.end).then_some(nested)
+    }
+
+    /// The first box after another one that starts at a position or later.
+    fn first_nested(&self, index: usize, start: usize) -> usize {
+        let after = self.boxes.get(index + 1..).unwrap_or_default();
+        index + 1 + after.partition_point(|b| b.start < start)
+    }
+
+    /// Triangulates a run of points of a box that is a subtree. Recursion follows the nesting of boxes, whose depth the
+    /// exponent range bounds; inside a box the parts that wait for a neighbour are on a stack.
+    fn run(&self, index: usize, cells: &Cells, run: Range<usize>, builder: &mut Builder) -> Part {
+        let mut waiting = Waiting::with_capacity(40);
+        let mut next_box = self.first_nested(index, run.start);
+        let mut at = run.start;
         loop {
-            let limit = self.boxes.get(self.next_box).map_or(key_box.end, |b| b.start.min(key_box.end));
-            let mut part = if at == limit {
-                self.build(builder)
+            let nested = self.boxes.get(next_box).filter(|b| b.start < run.end);
+            let limit = nested.map_or(run.end, |b| b.start);
+            let part = if at == limit {
+                let part = self.build(next_box, builder);
+                next_box = self.first_nested(next_box, part.end);
+                part
             } else {
-                let count = self.leaf_size(at, limit, &key_box);
+                let count = self.leaf_size(at, limit, &run);
                 let shallowest = self.cuts[at + 1..at + count].iter().min();
-                let depth = shallowest.map_or(0, |&cut| key_box.split(cut).0);
-                let leaf = if count > 1 { builder.leaf(at, count, &filters[depth]) } else { Leaf::Collinear };
+                let depth = shallowest.map_or(0, |&cut| cells.key_box.split(cut).0);
+                let filter = &cells.filters[depth];
+                let leaf = if count > 1 { builder.leaf(at, count, filter) } else { Leaf::Collinear };
                 match leaf {
                     Leaf::Part(part) => part,
                     Leaf::Collinear => Part::single(at),
                 }
             };
-            at = part.end();
-            let after = if at == key_box.end { Cut::OUTSIDE } else { self.cuts[at] };
-            while let Some((left, cut)) = waiting.pop_if(|(_, cut)| *cut > after) {
-                let (depth, by_x) = key_box.split(cut);
-                part = builder.merge(&left, &part, by_x, &filters[depth]);
-            }
-            if at == key_box.end {
+            at = part.end;
+            let after = if at == run.end { Cut::OUTSIDE } else { self.cuts[at] };
+            let part = cells.join(builder, &mut waiting, part, after);
+            if at == run.end {
                 return part;
             }
             waiting.push((part, after));
         }
     }
 
-    /// The size of the largest subtree of at most four points that starts at a position.
-    fn leaf_size(&self, at: usize, limit: usize, key_box: &KeyBox) -> usize {
-        let outside = |i: usize| i == key_box.start || i == key_box.end;
+    /// The size of the largest subtree of at most four points of a run that starts at a position.
+    fn leaf_size(&self, at: usize, limit: usize, run: &Range<usize>) -> usize {
+        let outside = |i: usize| i == run.start || i == run.end;
         let cut = |i: usize| if outside(i) { Cut::OUTSIDE } else { self.cuts[i] };
         let whole = |&count: &usize| {
             let border = cut(at).max(cut(at + count));
@@ -188,54 +303,29 @@ impl Tree<'_> {
     }
 }
 
-impl Builder<'_> {
-    /// The edge records of a triangle that is the ghost of hull edge u -> v.
-    #[inline]
-    pub(super) fn set_ghost_corners(&mut self, ghost: TriangleId, u: Place, v: Place) {
-        let first = ghost.edge(0).index();
-        let records = &mut self.edges[first..first + 3];
-        records[0].origin = v;
-        records[1].origin = u;
-        records[2].origin = Place::GHOST;
+impl Cells {
+    /// Merges a part with those to its left, as long as the cuts between them are deeper than the one after it.
+    fn join(&self, builder: &mut Builder, waiting: &mut Waiting, mut part: Part, after: Cut) -> Part {
+        while let Some((left, cut)) = waiting.pop_if(|(_, cut)| *cut > after) {
+            let (depth, by_x) = self.key_box.split(cut);
+            part = builder.merge(&left, &part, by_x, &self.filters[depth]);
+        }
+        part
     }
+}
 
-    #[inline]
-    pub(super) fn link(&mut self, e: EdgeId, f: EdgeId) {
-        self.edges[e.index()].twin = f;
-        self.edges[f.index()].twin = e;
-    }
-
-    #[inline]
-    pub(super) fn twin(&self, e: EdgeId) -> EdgeId {
-        self.edges[e.index()].twin
-    }
-
-    #[inline]
-    pub(super) fn tail(&self, e: EdgeId) -> Place {
-        self.edges[e.index()].origin
-    }
-
-    /// The ghost of the hull edge after that of `ghost`, counter-clockwise.
-    #[inline]
-    pub(super) fn next_ghost(&self, ghost: TriangleId) -> TriangleId {
-        self.twin(ghost.edge(2)).triangle()
-    }
-
-    /// The ghost of the hull edge before that of `ghost`.
-    #[inline]
-    pub(super) fn previous_ghost(&self, ghost: TriangleId) -> TriangleId {
-        self.twin(ghost.edge(1)).triangle()
-    }
-
-    #[inline]
-    pub(super) fn point(&self, v: Place) -> [f64; 2] {
-        self.points[v.index()]
+impl Counters {
+    fn add(&mut self, other: &Self) {
+        self.leaves += other.leaves;
+        self.merges += other.merges;
+        self.connected += other.connected;
+        self.removed += other.removed;
     }
 }
 
 impl Part {
     /// One point.
-    fn single(at: usize) -> Self {
+    pub(super) fn single(at: usize) -> Self {
         let v = Place::new(at);
         Self { start: at, end: at + 1, west: v, east: v, south: v, north: v }
     }
@@ -269,10 +359,6 @@ impl Part {
             part.east = if precedes(p(a.east), p(b.east)) { b.east } else { a.east };
         }
         part
-    }
-
-    fn end(&self) -> usize {
-        self.end
     }
 }
 

@@ -6,7 +6,7 @@
 
 use delone_predicates::{Filter, Member, Pencil, Sign};
 
-use super::divide_and_conquer::Builder;
+use super::builder::Builder;
 use super::merge::Part;
 use crate::ids::{Place, TriangleId};
 use crate::mesh::HalfEdge;
@@ -180,16 +180,16 @@ impl Builder<'_> {
         template: &Template<N>,
     ) {
         let first = 2 * start;
-        let records = &mut self.edges[4 * first..4 * (first + N)];
-        for (slot, (triangle, records)) in template.iter().zip(records.chunks_exact_mut(4)).enumerate() {
+        let records = self.records(TriangleId::new(first), N);
+        for (triangle, records) in template.iter().zip(records.chunks_exact_mut(4)) {
             for (&(corner, twin), record) in triangle.iter().zip(records) {
                 let twin = TriangleId::new(first + usize::from(twin / 10)).edge(usize::from(twin % 10));
                 *record = HalfEdge { origin: self::vertex(start, &corners, corner), twin };
             }
-            if triangle[2].0 == G {
-                let u = self::vertex(start, &corners, triangle[1].0);
-                self.leaving[u.index()] = TriangleId::new(first + slot);
-            }
+        }
+        for (slot, triangle) in template.iter().enumerate().filter(|(_, triangle)| triangle[2].0 == G) {
+            let u = self::vertex(start, &corners, triangle[1].0);
+            self.set_leaving(u, TriangleId::new(first + slot));
         }
     }
 }

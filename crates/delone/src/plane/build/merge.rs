@@ -19,7 +19,7 @@
 
 use delone_predicates::{Filter, Member, Pencil};
 
-use super::divide_and_conquer::Builder;
+use super::builder::Builder;
 use crate::ids::{Place, TriangleId};
 
 /// A triangulated run of positions, with the strict corners of its hull from which merges start.
@@ -70,9 +70,8 @@ impl Builder<'_> {
     /// The common tangent below both parts, closest to the gap: from the facing corners downwards, each side
     /// in turn as long as its next vertex is strictly below.
     fn lower_tangent(&self, l: Place, r: Place, l_single: bool, r_single: bool, filter: &Filter) -> Base {
-        let entering_l =
-            if l_single { TriangleId::new(0) } else { self.previous_ghost(self.leaving[l.index()]) };
-        let mut base = Base { l, r, entering_l, leaving_r: self.leaving[r.index()] };
+        let entering_l = if l_single { TriangleId::new(0) } else { self.previous_ghost(self.leaving(l)) };
+        let mut base = Base { l, r, entering_l, leaving_r: self.leaving(r) };
         loop {
             let pencil = Pencil::new(self.point(base.l), self.point(base.r));
             let below = |v: Place| pencil.side(&pencil.member(self.point(v)), filter).is_negative();
@@ -120,7 +119,7 @@ impl Builder<'_> {
         if !l_single {
             self.link(top.edge(2), leaving_l.edge(1));
         }
-        self.leaving[l.index()] = bottom;
+        self.set_leaving(l, bottom);
     }
 
     /// Lets the bubble rise until no vertex is above the base.
@@ -147,8 +146,8 @@ impl Builder<'_> {
         }
         // Vertices passed on the way may be on the outer hull too; only the last two surely left by here.
         let (l, r) = (self.tail(top.edge(0)), self.tail(top.edge(1)));
-        self.leaving[l.index()] = self.next_ghost(top);
-        self.leaving[r.index()] = top;
+        self.set_leaving(l, self.next_ghost(top));
+        self.set_leaving(r, top);
     }
 
     /// The vertex that the left or the right part offers, after removing the edges at its end of the base whose
@@ -198,7 +197,7 @@ impl Builder<'_> {
         let l1 = self.tail(ghost.edge(0));
         let freed = e.triangle();
         self.set_ghost_corners(freed, x, l1);
-        self.edges[ghost.edge(0).index()].origin = x;
+        self.set_tail(ghost.edge(0), x);
         self.link(ghost.edge(0), x_l);
         self.link(freed.edge(0), l1_x);
         self.link(freed.edge(1), ghost.edge(2));
@@ -215,13 +214,13 @@ impl Builder<'_> {
         let r1 = self.tail(ghost.edge(1));
         let freed = e.triangle();
         self.set_ghost_corners(freed, r1, y);
-        self.edges[ghost.edge(1).index()].origin = y;
+        self.set_tail(ghost.edge(1), y);
         self.link(ghost.edge(0), r_y);
         self.link(freed.edge(0), y_r1);
         self.link(freed.edge(1), before);
         self.link(freed.edge(2), ghost.edge(1));
-        if self.leaving[r1.index()] == ghost {
-            self.leaving[r1.index()] = freed;
+        if self.leaving(r1) == ghost {
+            self.set_leaving(r1, freed);
         }
     }
 
@@ -231,10 +230,10 @@ impl Builder<'_> {
         let left = self.next_ghost(top);
         let (before, inside) = (self.twin(top.edge(1)), self.twin(left.edge(0)));
         let (r, l1) = (self.tail(top.edge(1)), self.tail(left.edge(0)));
-        self.edges[top.edge(2).index()].origin = l1;
+        self.set_tail(top.edge(2), l1);
         self.link(top.edge(1), left.edge(0));
         self.link(top.edge(2), inside);
-        self.edges[left.edge(1).index()].origin = r;
+        self.set_tail(left.edge(1), r);
         self.link(left.edge(1), before);
         left
     }
@@ -244,10 +243,10 @@ impl Builder<'_> {
         let right = self.previous_ghost(top);
         let (after, inside) = (self.twin(top.edge(2)), self.twin(right.edge(0)));
         let (l, r1) = (self.tail(top.edge(0)), self.tail(right.edge(1)));
-        self.edges[top.edge(2).index()].origin = r1;
+        self.set_tail(top.edge(2), r1);
         self.link(top.edge(1), inside);
         self.link(top.edge(2), right.edge(0));
-        self.edges[right.edge(0).index()].origin = l;
+        self.set_tail(right.edge(0), l);
         self.link(right.edge(2), after);
         right
     }

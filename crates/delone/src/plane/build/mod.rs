@@ -1,5 +1,6 @@
 //! Bulk construction in the plane. Every algorithm gives the same set of triangles.
 
+mod builder;
 mod conflict_lists;
 mod divide_and_conquer;
 pub(super) mod incremental;

@@ -1,0 +1,68 @@
+//! Work on several threads at once; on one if there is but one, or without the feature `rayon`.
+//!
+//! Tasks own disjoint parts of arrays, so what they write does not depend on who does it: results are the same bits for any
+//! number of threads.
+
+use crate::memory::room_for;
+
+/// Work on fewer items is not worth a thread.
+pub(crate) const MANY: usize = 1 << 15;
+
+/// The threads there are.
+pub(crate) fn threads() -> usize {
+    #[cfg(feature = "rayon")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "rayon"))]
+    1
+}
+
+/// Into how many parts to cut work on so many items: more than there are threads, so that none waits long; one if it is not
+/// worth it.
+pub(crate) fn parts(items: usize) -> usize {
+    let threads = threads();
+    if threads == 1 || items < MANY { 1 } else { (8 * threads).min(items / (MANY / 16)) }
+}
+
+/// Does all tasks, and gives the results in their order.
+pub(crate) fn map<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Send + Sync) -> Vec<R> {
+    #[cfg(feature = "rayon")]
+    if tasks.len() > 1 {
+        use rayon::prelude::*;
+        return tasks.into_par_iter().with_max_len(1).map(work).collect();
+    }
+    tasks.into_iter().map(work).collect()
+}
+
+/// As many copies of a value.
+pub(crate) fn filled<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
+    collect(count, |_| value)
+}
+
+/// The results for 0, 1, 2 and so on.
+pub(crate) fn collect<T: Send>(count: usize, item: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+    let mut items = room_for(count);
+    #[cfg(feature = "rayon")]
+    if parts(count) > 1 {
+        use rayon::prelude::*;
+        (0..count).into_par_iter().with_min_len(MANY / 16).map(item).collect_into_vec(&mut items);
+        return items;
+    }
+    items.extend((0..count).map(item));
+    items
+}
+
+/// Cuts a slice into parts that end at given positions, increasing, the last at the end of the slice.
+pub(crate) fn split_at<'a, T>(mut items: &'a mut [T], ends: &[usize]) -> Vec<&'a mut [T]> {
+    let mut start = 0;
+    let part = |&end: &usize| {
+        let (part, rest) = std::mem::take(&mut items).split_at_mut(end - start);
+        (items, start) = (rest, end);
+        part
+    };
+    ends.iter().map(part).collect()
+}
+
+/// Where nearly equal parts end.
+pub(crate) fn even_ends(count: usize, parts: usize) -> Vec<usize> {
+    (1..=parts).map(|k| count * k / parts).collect()
+}

@@ -1,0 +1,124 @@
+//! What divide and conquer writes: the edge records and hull links of a run of positions.
+
+use std::ops::Range;
+
+use super::divide_and_conquer::Counters;
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::mesh::HalfEdge;
+use crate::parallel;
+
+/// The memory of the points at some positions. Vertices are positions in the order until the very end.
+pub(super) struct Builder<'a> {
+    pub(super) points: &'a [[f64; 2]],
+    pub(super) counters: Counters,
+    /// The first position.
+    start: usize,
+    /// The records of the triangles 2 start and on.
+    edges: &'a mut [HalfEdge],
+    /// For each strict corner of a hull the ghost of the hull edge that leaves it.
+    leaving: &'a mut [TriangleId],
+}
+
+impl<'a> Builder<'a> {
+    /// For as many positions as `leaving` is long.
+    pub(super) fn new(
+        points: &'a [[f64; 2]],
+        start: usize,
+        edges: &'a mut [HalfEdge],
+        leaving: &'a mut [TriangleId],
+    ) -> Self {
+        Self { points, counters: Counters::default(), start, edges, leaving }
+    }
+
+    /// The positions that it has memory for.
+    pub(super) fn positions(&self) -> Range<usize> {
+        self.start..self.start + self.leaving.len()
+    }
+
+    /// Builders of runs of the positions, given by their ends. The two triangles between two runs are with the left one.
+    pub(super) fn split(&mut self, ends: &[usize]) -> Vec<Builder<'_>> {
+        let (points, start, records) = (self.points, self.start, self.edges.len());
+        let edges: Vec<usize> = ends.iter().map(|end| (8 * (end - start)).min(records)).collect();
+        let places: Vec<usize> = ends.iter().map(|end| end - start).collect();
+        let starts = std::iter::once(start).chain(ends.iter().copied());
+        let edges = parallel::split_at(self.edges, &edges);
+        let leaving = parallel::split_at(self.leaving, &places);
+        let parts = edges.into_iter().zip(leaving).zip(starts);
+        parts.map(|((edges, leaving), start)| Builder::new(points, start, edges, leaving)).collect()
+    }
+
+    #[inline]
+    fn record(&self, e: EdgeId) -> &HalfEdge {
+        &self.edges[e.index() - 8 * self.start]
+    }
+
+    #[inline]
+    fn record_mut(&mut self, e: EdgeId) -> &mut HalfEdge {
+        &mut self.edges[e.index() - 8 * self.start]
+    }
+
+    /// The records of some triangles in a row.
+    #[inline]
+    pub(super) fn records(&mut self, first: TriangleId, count: usize) -> &mut [HalfEdge] {
+        let at = first.edge(0).index() - 8 * self.start;
+        &mut self.edges[at..at + 4 * count]
+    }
+
+    /// The corners of the triangle that is the ghost of hull edge u -> v.
+    #[inline]
+    pub(super) fn set_ghost_corners(&mut self, ghost: TriangleId, u: Place, v: Place) {
+        let records = self.records(ghost, 1);
+        records[0].origin = v;
+        records[1].origin = u;
+        records[2].origin = Place::GHOST;
+    }
+
+    #[inline]
+    pub(super) fn link(&mut self, e: EdgeId, f: EdgeId) {
+        self.record_mut(e).twin = f;
+        self.record_mut(f).twin = e;
+    }
+
+    #[inline]
+    pub(super) fn twin(&self, e: EdgeId) -> EdgeId {
+        self.record(e).twin
+    }
+
+    #[inline]
+    pub(super) fn tail(&self, e: EdgeId) -> Place {
+        self.record(e).origin
+    }
+
+    #[inline]
+    pub(super) fn set_tail(&mut self, e: EdgeId, v: Place) {
+        self.record_mut(e).origin = v;
+    }
+
+    /// The ghost of the hull edge that leaves a corner of a hull.
+    #[inline]
+    pub(super) fn leaving(&self, v: Place) -> TriangleId {
+        self.leaving[v.index() - self.start]
+    }
+
+    #[inline]
+    pub(super) fn set_leaving(&mut self, v: Place, ghost: TriangleId) {
+        self.leaving[v.index() - self.start] = ghost;
+    }
+
+    /// The ghost of the hull edge after that of `ghost`, counter-clockwise.
+    #[inline]
+    pub(super) fn next_ghost(&self, ghost: TriangleId) -> TriangleId {
+        self.twin(ghost.edge(2)).triangle()
+    }
+
+    /// The ghost of the hull edge before that of `ghost`.
+    #[inline]
+    pub(super) fn previous_ghost(&self, ghost: TriangleId) -> TriangleId {
+        self.twin(ghost.edge(1)).triangle()
+    }
+
+    #[inline]
+    pub(super) fn point(&self, v: Place) -> [f64; 2] {
+        self.points[v.index()]
+    }
+}
