@@ -61,12 +61,14 @@ pub fn run(kind: Kind, size: usize, runs: usize) -> bool {
     println!("  {:20} {}", "", OPERATIONS.map(|name| format!("{name:>16}")).concat());
     let count = |k: usize| if k == 3 { size / 2 } else { size } as f64;
     for ((name, _), seconds) in ENGINES.iter().zip(&best) {
-        let cell = |k: usize| format!("{:>8.0} {:>6.2}x", seconds[k] * 1e9 / count(k), seconds[k] / best[0][k]);
+        let cell =
+            |k: usize| format!("{:>8.0} {:>6.2}x", seconds[k] * 1e9 / count(k), seconds[k] / best[0][k]);
         println!("  {name:20} {}", [0, 1, 2, 3].map(cell).concat());
     }
     for ours in 0..2 {
         let peers = 2..ENGINES.len();
-        let ratio = |k: usize| peers.clone().map(|i| best[i][k] / best[ours][k]).fold(f64::INFINITY, f64::min);
+        let ratio =
+            |k: usize| peers.clone().map(|i| best[i][k] / best[ours][k]).fold(f64::INFINITY, f64::min);
         let ratios = [0, 1, 2, 3].map(|k| format!("{} {:.2} x", OPERATIONS[k], ratio(k)));
         println!("  best of the others / {}: {}", ENGINES[ours].0, ratios.join(", "));
     }
@@ -78,7 +80,9 @@ fn agree(name: &str, ours: &Run, theirs: &Run, queries: &Points) -> bool {
     let far = |i: &usize| compare_distances(queries[*i], ours.nearest[*i], theirs.nearest[*i]) != 0;
     let nearest = (0..queries.len()).filter(far).count();
     if inside + nearest > 0 {
-        println!("  {name}: {inside} queries on another side of the hull, {nearest} with another nearest distance");
+        println!(
+            "  {name}: {inside} queries on another side of the hull, {nearest} with another nearest distance"
+        );
     }
     inside + nearest == 0 || !name.starts_with("delone")
 }

@@ -2,8 +2,10 @@
 //! complete result; its triangles are taken out for judging after the clock has stopped.
 
 use std::hint::black_box;
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use spade::Triangulation as _;
 
 type Points = [[f64; 2]];
@@ -25,6 +27,7 @@ pub struct Engine {
 /// All of them, ours first.
 pub const ENGINES: &[Engine] = &[
     Engine { name: "delone", is_peer_crate: false, most: usize::MAX, run: delone_divide_and_conquer },
+    Engine { name: "delone-2-threads", is_peer_crate: false, most: usize::MAX, run: delone_on_two_threads },
     Engine { name: "delone-incremental", is_peer_crate: false, most: usize::MAX, run: delone_incremental },
     #[cfg(cgal)]
     Engine { name: "cgal", is_peer_crate: false, most: usize::MAX, run: cgal_plain },
@@ -43,9 +46,22 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     (start.elapsed(), result)
 }
 
-fn delone(points: &Points, wanted: bool, algorithm: delone::Algorithm) -> Result<Run, String> {
+/// Pools of one and of two threads; everybody else works on one.
+pub static POOLS: [LazyLock<ThreadPool>; 2] = [LazyLock::new(|| pool(1)), LazyLock::new(|| pool(2))];
+
+fn pool(threads: usize) -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
+}
+
+fn delone(
+    points: &Points,
+    wanted: bool,
+    algorithm: delone::Algorithm,
+    threads: usize,
+) -> Result<Run, String> {
     let own = points.to_vec();
-    let (time, result) = timed(|| delone::Delaunay2::from_vec(own, algorithm));
+    let pool = &POOLS[threads - 1];
+    let (time, result) = pool.install(|| timed(|| delone::Delaunay2::from_vec(own, algorithm)));
     let d = result.map_err(|error| error.to_string())?;
     let triangles =
         if wanted { d.triangles().map(|t| t.map(|v| v.index() as u64)).collect() } else { Vec::new() };
@@ -53,11 +69,15 @@ fn delone(points: &Points, wanted: bool, algorithm: delone::Algorithm) -> Result
 }
 
 fn delone_divide_and_conquer(points: &Points, wanted: bool) -> Result<Run, String> {
-    delone(points, wanted, delone::Algorithm::DivideAndConquer)
+    delone(points, wanted, delone::Algorithm::DivideAndConquer, 1)
+}
+
+fn delone_on_two_threads(points: &Points, wanted: bool) -> Result<Run, String> {
+    delone(points, wanted, delone::Algorithm::DivideAndConquer, 2)
 }
 
 fn delone_incremental(points: &Points, wanted: bool) -> Result<Run, String> {
-    delone(points, wanted, delone::Algorithm::Incremental { seed: 1 })
+    delone(points, wanted, delone::Algorithm::Incremental { seed: 1 }, 1)
 }
 
 #[cfg(cgal)]

@@ -28,7 +28,8 @@ pub fn run(size: usize, runs: usize) {
         let mut best = vec![(f64::INFINITY, 0); ENGINES.len()];
         for _ in 0..runs {
             for ((_, engine), best) in ENGINES.iter().zip(&mut best) {
-                if let Ok(Some((seconds, facets))) = panic::catch_unwind(AssertUnwindSafe(|| engine(points))) {
+                if let Ok(Some((seconds, facets))) = panic::catch_unwind(AssertUnwindSafe(|| engine(points)))
+                {
                     *best = (best.0.min(seconds), facets);
                 }
             }
@@ -53,8 +54,13 @@ fn delone(points: &Points) -> Option<(f64, usize)> {
 
 /// Without reading and writing: what Qhull says itself.
 fn qhull(points: &Points) -> Option<(f64, usize)> {
-    let mut child =
-        Command::new("qconvex").arg("s").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().ok()?;
+    let mut child = Command::new("qconvex")
+        .arg("s")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .ok()?;
     let mut text = format!("3\n{}\n", points.len());
     points.iter().for_each(|[x, y, z]| text.push_str(&format!("{x} {y} {z}\n")));
     child.stdin.take()?.write_all(text.as_bytes()).ok()?;

@@ -77,12 +77,17 @@ fn main() {
         return;
     }
     let args = Args::parse();
+    // One thread for all that does not ask for more.
+    engines::POOLS[0].install(|| compare(&args));
+}
+
+fn compare(args: &Args) {
     let chosen: Vec<&'static Engine> = ENGINES
         .iter()
         .filter(|e| args.engines.is_empty() || args.engines.iter().any(|name| name == e.name))
         .collect();
     if args.changes {
-        std::process::exit(i32::from(!each_set(&args, changes::run)));
+        std::process::exit(i32::from(!each_set(args, changes::run)));
     }
     if args.hull {
         panic::set_hook(Box::new(|_| {}));
@@ -90,13 +95,14 @@ fn main() {
         return;
     }
     if !args.space.is_empty() {
-        let each = |name: &String| args.size.iter().all(|&size| space::run(name, size, args.runs, args.memory));
+        let each =
+            |name: &String| args.size.iter().all(|&size| space::run(name, size, args.runs, args.memory));
         let right = args.space.iter().fold(true, |right, name| each(name) && right);
         std::process::exit(i32::from(!right));
     }
     if args.voronoi {
         panic::set_hook(Box::new(|_| {}));
-        std::process::exit(i32::from(!each_set(&args, voronoi::run)));
+        std::process::exit(i32::from(!each_set(args, voronoi::run)));
     }
     println!("ns/point, minimum of {} interleaved runs, one thread; output included", args.runs);
     let mut all_right = true;

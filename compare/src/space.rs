@@ -52,7 +52,8 @@ pub fn run(name: &str, size: usize, runs: usize, memory: bool) -> bool {
             if removal.is_finite() {
                 print!(" {:>10.0} {:>6.2} x", removal * 1e9, removal / best[0].2);
             }
-            let peak = if memory { crate::memory::peak(&format!("space/{engine}"), name, size) } else { None };
+            let peak =
+                if memory { crate::memory::peak(&format!("space/{engine}"), name, size) } else { None };
             if let Some(bytes) = peak {
                 print!(" {bytes:>6.0} B/point");
             }
@@ -60,7 +61,8 @@ pub fn run(name: &str, size: usize, runs: usize, memory: bool) -> bool {
         }
     }
     let general = matches!(name, "cube" | "ball" | "balls" | "clusters3");
-    !general || best.iter().all(|&(seconds, cells, _)| !seconds.is_finite() || cells == 0 || cells == best[0].1)
+    !general
+        || best.iter().all(|&(seconds, cells, _)| !seconds.is_finite() || cells == 0 || cells == best[0].1)
 }
 
 /// Builds once, for who measures memory.
@@ -75,7 +77,9 @@ pub fn build(name: &str, points: &Points) -> Option<()> {
 /// The vertices of a model in PLY, ascii or binary, as far as three doubles or floats begin each.
 fn scan(path: &str) -> Option<Vec<[f64; 3]>> {
     let file = std::io::BufReader::new(std::fs::File::open(path).ok()?);
-    let cloud = delone_io::read_points(Box::new(file), delone_io::Format::Ply, &delone_io::ReadOptions::default()).ok()?;
+    let cloud =
+        delone_io::read_points(Box::new(file), delone_io::Format::Ply, &delone_io::ReadOptions::default())
+            .ok()?;
     let z = cloud.z?;
     Some(cloud.xy.iter().zip(z).map(|(&[x, y], z)| [x, y, z]).collect())
 }
@@ -110,7 +114,8 @@ fn cgal_plain(points: &Points) -> Run {
 fn cgal(points: &Points) -> Run {
     let mut seconds = [0.0; 2];
     // SAFETY: the shim reads n points and writes two times.
-    let cells = unsafe { cgal_space(points.as_ptr().cast(), points.len(), points.len() / 10, seconds.as_mut_ptr()) };
+    let cells =
+        unsafe { cgal_space(points.as_ptr().cast(), points.len(), points.len() / 10, seconds.as_mut_ptr()) };
     Some((seconds[0], cells, Some(seconds[1] / (points.len() / 10) as f64)))
 }
 
@@ -119,8 +124,13 @@ fn qhull(points: &Points) -> Run {
     if points.len() > 100_000 {
         return None;
     }
-    let mut child =
-        Command::new("qdelaunay").arg("s").stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().ok()?;
+    let mut child = Command::new("qdelaunay")
+        .arg("s")
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .ok()?;
     let mut text = format!("3\n{}\n", points.len());
     points.iter().for_each(|[x, y, z]| text.push_str(&format!("{x} {y} {z}\n")));
     child.stdin.take()?.write_all(text.as_bytes()).ok()?;

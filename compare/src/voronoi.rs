@@ -39,7 +39,11 @@ pub fn run(kind: Kind, size: usize, runs: usize) -> bool {
         let cell = if cells.is_finite() { format!("{:.0}", ns(*cells)) } else { "-".to_owned() };
         let ratio = if cells.is_finite() { format!("{:.2} x", cells / best[0].1) } else { String::new() };
         let error = (sum - area).abs() / area;
-        println!("  {name:20} {:>10.0} {:>6.2} x {cell:>10} {ratio:>8}  {error:.1e} off", ns(*all), all / best[0].0);
+        println!(
+            "  {name:20} {:>10.0} {:>6.2} x {cell:>10} {ratio:>8}  {error:.1e} off",
+            ns(*all),
+            all / best[0].0
+        );
     }
     (best[0].2 - area).abs() <= 1e-12 * area
 }
@@ -70,7 +74,9 @@ fn voronoice(points: &Points, [low, high]: [[f64; 2]; 2]) -> Run {
     };
     let all = start.elapsed();
     let cells = diagram.iter_cells();
-    let sum: f64 = cells.map(|cell| area(cell.iter_vertices().map(|p| [p.x, p.y]).collect::<Vec<_>>().into_iter()).abs()).sum();
+    let sum: f64 = cells
+        .map(|cell| area(cell.iter_vertices().map(|p| [p.x, p.y]).collect::<Vec<_>>().into_iter()).abs())
+        .sum();
     (all.as_secs_f64(), None, sum)
 }
 

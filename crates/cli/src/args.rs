@@ -16,6 +16,10 @@ pub(crate) struct Cli {
     /// No progress and no notes on standard error; errors still appear.
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
+    /// Threads at most [default: RAYON_NUM_THREADS, or as many as there are cores]. Results do not depend on it;
+    /// construction in the plane by divide and conquer uses them.
+    #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -127,9 +131,6 @@ pub(crate) struct TriangulateArgs {
     /// their hints.
     #[arg(long, value_name = "CENTRES", conflicts_with_all = ["algorithm", "locate"])]
     pub(crate) hints: Option<PathBuf>,
-    /// Threads at most; the result does not depend on it. The present algorithms use one.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) threads: Option<u16>,
     /// Seed of randomized algorithms; it changes their course, not their result.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,

@@ -34,6 +34,10 @@ fn main() -> ExitCode {
         Err(error) => return message::usage(&error),
     };
     let quiet = cli.quiet;
+    if let Some(threads) = cli.threads {
+        // It fails only if there is a pool already, and there is none yet.
+        _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+    }
     let result = match cli.command {
         Command::Triangulate(args) => triangulate::run(&args, quiet),
         Command::Check(args) => check::run(&args, quiet),

@@ -53,6 +53,9 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         stats.set("locate", locate.map(|value| value.get_name().to_owned()));
     }
     finish(args, &outputs, &triangulation, z.as_deref(), &mut stats, quiet)?;
+    if algorithm == Algorithm::DivideAndConquer {
+        stats.set("threads", rayon::current_num_threads());
+    }
     stats.write(stats_path)
 }
 

@@ -46,7 +46,10 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         })?;
     }
     let mut stats = Stats::start();
-    let findings = {
+    // What is compared works on one thread, as in the papers.
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let one = one.map_err(|error| Failure::new(error, "the system gives no thread: try again"))?;
+    let findings = one.install(|| {
         let _phase = Phase::start(quiet, "experimenting");
         let (n, seed) = (args.largest, args.seed);
         let findings = match args.name {
@@ -58,8 +61,8 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
             ExperimentName::Scan => Ok(imprecise::scan(model(args)?, n, seed)?),
             ExperimentName::History => history::run(n, seed),
         };
-        findings.map_err(|error| Failure::new(error, "please report this: it is a bug"))?
-    };
+        findings.map_err(|error| Failure::new(error, "please report this: it is a bug"))
+    })?;
     stats.phase("build");
     let text: Vec<String> = findings.tables.iter().map(Table::to_string).collect();
     answer(&text.join("\n"))?;
