@@ -426,6 +426,7 @@ pub(crate) struct ReplayArgs {
   delone experiment radial --largest 1000000
   delone experiment imprecise --largest 10000000 -o results
   delone experiment scan model.ply
+  delone experiment growth --largest 10000000 -o results
 
 A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
 seconds on this machine and differ from run to run; counts depend on the seed alone.")]
@@ -469,6 +470,8 @@ pub(crate) enum ExperimentName {
     Brownian,
     /// Add noise to the points of a scanned model, and triangulate by hints (the same).
     Scan,
+    /// Time of a construction by the number of points, in the plane on one thread and on all, and in space.
+    Growth,
 }
 
 /// Judge triangles.

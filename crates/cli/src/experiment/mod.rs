@@ -1,6 +1,7 @@
 //! `delone experiment`: the papers' experiments on this machine, with the papers' figures beside.
 
 mod brownian;
+mod growth;
 mod hierarchy;
 mod history;
 mod imprecise;
@@ -47,8 +48,11 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
     }
     let mut stats = Stats::start();
     // What is compared works on one thread, as in the papers.
-    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let one = one.map_err(|error| Failure::new(error, "the system gives no thread: try again"))?;
+    let pool = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| Failure::new(error, "the system gives no thread: try again"))
+    };
+    let (one, all) = (pool(1)?, pool(rayon::current_num_threads())?);
     let findings = one.install(|| {
         let _phase = Phase::start(quiet, "experimenting");
         let (n, seed) = (args.largest, args.seed);
@@ -60,6 +64,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
             ExperimentName::Brownian => brownian::run(n, seed),
             ExperimentName::Scan => Ok(imprecise::scan(model(args)?, n, seed)?),
             ExperimentName::History => history::run(n, seed),
+            ExperimentName::Growth => growth::run(n, seed, &all),
         };
         findings.map_err(|error| Failure::new(error, "please report this: it is a bug"))
     })?;

@@ -159,12 +159,14 @@ impl<'a> Sorter<'a> {
         to: Range<usize>,
     ) -> u32 {
         let n = points.len();
-        let ends = parallel::even_ends(n, parallel::parts(n));
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        let chunks: Vec<&[[f64; 2]]> = starts.zip(&ends).map(|(start, &end)| &points[start..end]).collect();
-        let corners: Vec<[f64; 2]> =
-            parallel::map(chunks, bounds).into_iter().flat_map(|(low, high)| [low, high]).collect();
-        let (low, high) = bounds(&corners);
+        let parts = parallel::parts(n);
+        let (low, high) = if parts == 1 {
+            bounds(points)
+        } else {
+            let chunks = points.chunks(n.div_ceil(parts)).collect();
+            let corners = parallel::map(chunks, bounds).into_iter().flat_map(|(low, high)| [low, high]);
+            bounds(&corners.collect::<Vec<_>>())
+        };
         let bits = (n.next_power_of_two().ilog2() + 3).div_ceil(2);
         let depth = 2 * bits;
         let quantizer = Quantizer::new(low, high, bits);
@@ -176,19 +178,24 @@ impl<'a> Sorter<'a> {
         };
         let mut entries = parallel::collect(n, |i| key(points[i]) << 32 | i as u64);
         radix::sort(&mut entries, depth);
-        let ends: Vec<usize> = ends.iter().map(|end| to.start + end).collect();
+        if parts == 1 {
+            self.place(to, &entries, 0, points, &index_of, depth);
+            return depth;
+        }
+        let ends: Vec<usize> = parallel::even_ends(n, parts).into_iter().map(|end| to.start + end).collect();
         let first = self.start + to.start;
         parallel::map(self.split(to, &ends), |mut task| {
             let from = task.start - first;
-            task.place(&entries, from, points, &index_of, depth);
+            task.place(0..task.points.len(), &entries, from, points, &index_of, depth);
         });
         depth
     }
 
-    /// Writes points, indices and cuts of sorted entries from one of them on: three plain loops, because the points come
+    /// Writes points, indices and cuts of sorted entries from one of them on to some positions: three plain loops, because the points come
     /// from everywhere in memory and nothing should stand in the way of fetching many at once.
     fn place(
         &mut self,
+        to: Range<usize>,
         entries: &[u64],
         from: usize,
         points: &[[f64; 2]],
@@ -196,16 +203,16 @@ impl<'a> Sorter<'a> {
         depth: u32,
     ) {
         let place = |entry: u64| entry as u32 as usize;
-        for (point, &entry) in self.points.iter_mut().zip(&entries[from..]) {
+        for (point, &entry) in self.points[to.clone()].iter_mut().zip(&entries[from..]) {
             *point = points[place(entry)];
         }
-        for (index, &entry) in self.indices.iter_mut().zip(&entries[from..]) {
+        for (index, &entry) in self.indices[to.clone()].iter_mut().zip(&entries[from..]) {
             *index = index_of(place(entry));
         }
         // The first of all has none before it.
         let skipped = usize::from(from == 0);
         let pairs = entries[from + skipped - 1..].windows(2);
-        for (cut, pair) in self.cuts.iter_mut().skip(skipped).zip(pairs) {
+        for (cut, pair) in self.cuts[to].iter_mut().skip(skipped).zip(pairs) {
             *cut = Cut::between(pair[0], pair[1], depth);
         }
     }

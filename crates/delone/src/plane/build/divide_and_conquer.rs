@@ -55,9 +55,9 @@ pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counter
     let (edges, counters) = build(&ordered, &cuts, &boxes);
     let n = ordered.len();
     drop((ordered, cuts));
-    let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(points.len()) };
+    let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(indices[0] as usize)) } else { None };
-    mesh.number_vertices(|position| Place::new(indices[position.index()] as usize));
+    mesh.number_vertices(points.len(), |position| Place::new(indices[position.index()] as usize));
     (mesh, sorted(duplicates), counters)
 }
 
@@ -76,9 +76,9 @@ pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
     let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points);
     let (edges, _) = build(&points, &cuts, &boxes);
     let n = points.len();
-    let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(n) };
+    let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
-    mesh.number_vertices(|position| position);
+    mesh.number_vertices(n, |position| position);
     InOrder { mesh, points, indices, duplicates: sorted(duplicates) }
 }
 
@@ -106,30 +106,26 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
 }
 
 impl Mesh {
-    /// Puts each vertex from its position in an order to its place, and remembers an edge of each: the last one.
+    /// Puts each vertex from its position in an order to its place, one of so many, and remembers an edge of each: the
+    /// last one.
     ///
     /// A task has the triangles of some positions, and writes for these alone; what it finds of others is written
     /// afterwards.
-    fn number_vertices(&mut self, place: impl Fn(Place) -> Place + Sync) {
+    fn number_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
         let n = self.vertex_count;
-        let incident: Vec<AtomicU32> =
-            parallel::collect(self.incident.len(), |_| AtomicU32::new(EdgeId::NONE.bits()));
-        let ends = parallel::even_ends(n, parallel::parts(n));
-        let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
-        let runs = std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied());
-        let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
-        let found = parallel::map(tasks, |(edges, (start, end)): (&mut [HalfEdge], (usize, usize))| {
+        let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
+        let number = |edges: &mut [HalfEdge], positions: Range<usize>| {
             let (mut ghost_edge, mut elsewhere) = (EdgeId::NONE, Vec::new());
             for (slot, records) in edges.chunks_exact_mut(4).enumerate() {
                 for (k, record) in records[..3].iter_mut().enumerate() {
-                    let e = EdgeId::new(4 * (2 * start + slot) + k);
+                    let e = EdgeId::new(4 * (2 * positions.start + slot) + k);
                     let position = record.origin;
                     if position.is_ghost() {
                         ghost_edge = e;
                         continue;
                     }
                     record.origin = place(position);
-                    if (start..end).contains(&position.index()) {
+                    if positions.contains(&position.index()) {
                         incident[record.origin.index()].store(e.bits(), Relaxed);
                     } else {
                         elsewhere.push((record.origin, e));
@@ -137,9 +133,23 @@ impl Mesh {
                 }
             }
             (ghost_edge, elsewhere)
-        });
+        };
+        let parts = parallel::parts(n);
+        let (mut single, mut found) = (None, Vec::new());
+        if parts == 1 {
+            single = Some(number(&mut self.edges, 0..n));
+        } else {
+            let ends = parallel::even_ends(n, parts);
+            let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
+            let starts = std::iter::once(0).chain(ends.iter().copied());
+            let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end);
+            let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
+            found = parallel::map(tasks, |(edges, positions): (&mut [HalfEdge], Range<usize>)| {
+                number(edges, positions)
+            });
+        }
         self.incident = incident.into_iter().map(|bits| EdgeId::from_bits(bits.into_inner())).collect();
-        for (ghost_edge, elsewhere) in found {
+        for (ghost_edge, elsewhere) in single.into_iter().chain(found) {
             if ghost_edge != EdgeId::NONE {
                 self.ghost_edge = ghost_edge;
             }
@@ -180,8 +190,13 @@ impl Tree<'_> {
         let cells = Cells { key_box, filters: (0..key_box.depths()).map(cell_filter).collect() };
         let all = key_box.start..key_box.end;
         // Tasks divide the memory of a builder, which may have more than this box.
-        let ends = if builder.positions() == all { self.run_ends(index) } else { Vec::new() };
-        if ends.len() < 2 {
+        let parts = if builder.positions() == all { parallel::parts(all.len()) } else { 1 };
+        if parts == 1 {
+            return self.run(index, &cells, all, builder);
+        }
+        let mut ends = Vec::new();
+        self.divide(index, all.clone(), all.len().div_ceil(parts), &mut ends);
+        if ends.len() == 1 {
             return self.run(index, &cells, all, builder);
         }
         let tasks = builder.split(&ends);
@@ -206,17 +221,8 @@ impl Tree<'_> {
         whole.unwrap_or_else(|| Part::single(key_box.start))
     }
 
-    /// Where the runs of a box end that tasks shall build: subtrees that are not too large, or not to be divided in this
-    /// box.
-    fn run_ends(&self, index: usize) -> Vec<usize> {
-        let key_box = self.boxes[index];
-        let count = key_box.end - key_box.start;
-        let mut ends = Vec::new();
-        self.divide(index, key_box.start..key_box.end, count.div_ceil(parallel::parts(count)), &mut ends);
-        ends
-    }
-
-    /// Divides a run at its shallowest cut until no part has more than `most` points.
+    /// Divides a run at its shallowest cut until no part has more than `most` points, or can be divided in this box; tells
+    /// where the parts end.
     fn divide(&self, index: usize, run: Range<usize>, most: usize, ends: &mut Vec<usize>) {
         let shallowest = if run.len() > most { self.shallowest_cut(index, &run) } else { None };
         match shallowest {
