@@ -1,27 +1,33 @@
 //! NumPy arrays: points are float64 of shape (n, 2) or (n, 3), triangles integers of shape (t, 3).
 
-use std::io::{self, Write};
+use std::io::{self, BufReader, BufWriter, Write};
 
 use npyz::{DType, NpyFile, Order, WriterBuilder};
 
 use crate::{Cloud, Error, Shape, Source, Surface};
 
-fn open(source: Box<dyn Source>) -> Result<NpyFile<Box<dyn Source>>, Error> {
-    NpyFile::new(source).map_err(|error| match error.kind() {
+/// Numbers are read and written eight bytes at a time: from and to a buffer of a type that the compiler knows, which is ten
+/// times faster than from and to one behind a pointer.
+const BUFFER: usize = 1 << 18;
+
+type File = NpyFile<BufReader<Box<dyn Source>>>;
+
+fn open(source: Box<dyn Source>) -> Result<File, Error> {
+    NpyFile::new(BufReader::with_capacity(BUFFER, source)).map_err(|error| match error.kind() {
         io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
         _ => Error::content(format!("no NumPy array: {error}")),
     })
 }
 
 /// The rows and columns of a two-dimensional array in C order; NumPy writes Fortran order for transposed ones.
-fn shape(file: &NpyFile<Box<dyn Source>>, columns: &[u64], what: &str) -> Result<[usize; 2], Error> {
+fn shape(file: &File, columns: &[u64], what: &str) -> Result<[usize; 2], Error> {
     match *file.shape() {
         [rows, width] if columns.contains(&width) => Ok([rows as usize, width as usize]),
         ref other => Err(Error::content(format!("the array has the shape {other:?}, not {what}"))),
     }
 }
 
-fn type_name(file: &NpyFile<Box<dyn Source>>) -> String {
+fn type_name(file: &File) -> String {
     match file.dtype() {
         DType::Plain(plain) => plain.to_string(),
         other => other.descr(),
@@ -93,34 +99,43 @@ fn integers<T: Into<i128>, E: std::fmt::Display>(
 
 /// Writes the triangles: int64 of shape (t, 3), from 0, counter-clockwise.
 pub(crate) fn write_triangles(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(BUFFER, out);
     let count = surface.triangles().count() as u64;
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&[count, 3]).writer(out).begin_nd()?;
+    let mut writer =
+        npyz::WriteOptions::new().default_dtype().shape(&[count, 3]).writer(&mut out).begin_nd()?;
     for triangle in surface.triangles() {
         for index in triangle {
             writer.push(&(index as i64))?;
         }
     }
-    writer.finish()
+    writer.finish()?;
+    out.flush()
 }
 
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(BUFFER, out);
     let shape = [points.len() as u64, D as u64];
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
     writer.extend(points.as_flattened().iter().copied())?;
-    writer.finish()
+    writer.finish()?;
+    out.flush()
 }
 
 /// Writes rows of integers: int64 of shape (rows, columns).
 pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64]) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(BUFFER, out);
     let shape = [(values.len() / columns) as u64, columns as u64];
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
     writer.extend(values.iter().copied())?;
-    writer.finish()
+    writer.finish()?;
+    out.flush()
 }
 
 pub(crate) fn write_index_list(out: &mut dyn Write, values: &[i64]) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(BUFFER, out);
     let shape = [values.len() as u64];
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(out).begin_nd()?;
+    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
     writer.extend(values.iter().copied())?;
-    writer.finish()
+    writer.finish()?;
+    out.flush()
 }
