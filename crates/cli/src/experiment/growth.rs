@@ -24,6 +24,10 @@ pub(super) fn run(largest: usize, seed: u64, all_threads: &ThreadPool) -> Result
     let title = "Nanoseconds a point for a construction";
     let mut table = Table::new("growth", title, &heads);
     let mut curves: Vec<Vec<(f64, f64)>> = vec![Vec::new(); names.len()];
+    // The processor takes a while to come up to speed.
+    let some = Kind::Uniform.points(POINTS / 3, seed);
+    fastest(some.len(), || Delaunay2::from_points(&some).map(|d| _ = black_box(d.vertex_count())))?;
+    drop(some);
     // A third of a decade at a time.
     let sizes = (0..).map(|k| (1000.0 * 10f64.powf(f64::from(k) / 3.0)).round() as usize);
     for n in sizes.take_while(|&n| n <= largest) {
