@@ -9,7 +9,10 @@ mod memory;
 mod space;
 mod voronoi;
 
+use std::fs::File;
+use std::io::BufReader;
 use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
 use std::time::Duration;
 
 use clap::Parser;
@@ -27,7 +30,7 @@ struct Args {
     /// Runs of each engine, interleaved; the minimum counts.
     #[arg(long, default_value_t = 5)]
     runs: usize,
-    /// Sets of points.
+    /// Sets of points, by name or as files.
     #[arg(
         long,
         value_delimiter = ',',
@@ -108,12 +111,15 @@ fn compare(args: &Args) {
     let mut all_right = true;
     panic::set_hook(Box::new(|_| {})); // peers may panic: that is a result, not a report
     for name in &args.kinds {
-        let Some(kind) = Kind::named(name) else {
-            println!("\nthere is no set named {name}");
-            continue;
+        let sets: Vec<Vec<[f64; 2]>> = match Kind::named(name) {
+            Some(kind) => args.size.iter().map(|&size| kind.points(size, 1)).collect(),
+            None => read(name).into_iter().collect(),
         };
-        for &size in &args.size {
-            let points = kind.points(size, 1);
+        if sets.is_empty() {
+            println!("\nthere is no set named {name}, and no file of points");
+        }
+        for points in sets {
+            let size = points.len();
             let mut entries: Vec<_> =
                 chosen.iter().map(|engine| Entry { engine, times: Vec::new(), wrong: None }).collect();
             for run in 0..args.runs {
@@ -121,7 +127,7 @@ fn compare(args: &Args) {
                     measure(entry, &points, run == 0, args.patience);
                 }
             }
-            report(kind, size, &entries, args.memory);
+            report(name, size, &entries, args.memory);
             all_right &= entries.iter().all(|e| !e.engine.name.starts_with("delone") || e.wrong.is_none());
         }
     }
@@ -129,6 +135,14 @@ fn compare(args: &Args) {
         println!("\nDelone is wrong somewhere: see above");
         std::process::exit(1);
     }
+}
+
+/// The points of a file.
+fn read(path: &str) -> Option<Vec<[f64; 2]>> {
+    let format = delone_io::Format::of(Path::new(path)).ok()?;
+    let file = BufReader::new(File::open(path).ok()?);
+    let options = delone_io::ReadOptions { dimension: 2, ..delone_io::ReadOptions::default() };
+    Some(delone_io::read_points(Box::new(file), format, &options).ok()?.xy)
 }
 
 /// Another comparison on each set.
@@ -164,8 +178,8 @@ fn measure(entry: &mut Entry, points: &[[f64; 2]], judge: bool, patience: f64) {
     }
 }
 
-fn report(kind: Kind, size: usize, entries: &[Entry], memory: bool) {
-    println!("\n{} {size}", kind.name());
+fn report(name: &str, size: usize, entries: &[Entry], memory: bool) {
+    println!("\n{name} {size}");
     let ours = entries.iter().find(|e| e.engine.name == "delone").and_then(|e| e.nanoseconds(size));
     for entry in entries {
         let time = entry.nanoseconds(size).map_or("-".to_owned(), |ns| format!("{ns:.0}"));
@@ -174,7 +188,7 @@ fn report(kind: Kind, size: usize, entries: &[Entry], memory: bool) {
             _ => String::new(),
         };
         let bytes = if memory && !entry.times.is_empty() {
-            crate::memory::peak(entry.engine.name, kind.name(), size)
+            crate::memory::peak(entry.engine.name, name, size)
         } else {
             None
         };
