@@ -265,7 +265,7 @@ impl Tree<'_> {
     /// Triangulates a run of points of a box that is a subtree. Recursion follows the nesting of boxes, whose depth the
     /// exponent range bounds; inside a box the parts that wait for a neighbour are on a stack.
     fn run(&self, index: usize, cells: &Cells, run: Range<usize>, builder: &mut Builder) -> Part {
-        let mut waiting = Waiting::with_capacity(40);
+        let mut waiting = Waiting::with_capacity(8);
         let mut next_box = self.first_nested(index, run.start);
         let mut at = run.start;
         loop {
