@@ -38,7 +38,7 @@ pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
     let options =
         picture::Options { size: args.size, window: Some(film.window), ..picture::Options::default() };
     {
-        let phase = Phase::count(quiet, "drawing", outputs.len().max(args.steps as usize + 1) as u64);
+        let phase = Phase::count(quiet, "drawing", u64::from(args.steps) + 1);
         let draw = |triangulation: &Delaunay2, on: &mut dyn FnMut(&Surface) -> Result<(), Error>| {
             phase.advance();
             on(&Surface { triangulation, heights: None })

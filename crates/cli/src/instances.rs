@@ -14,6 +14,8 @@ use crate::{files, space, triangulate};
 
 /// What stands for the name of an instance in the name of an output.
 const NAME: &str = "{}";
+/// What is told of each instance, and added up.
+const COUNTS: [&str; 5] = ["points", "duplicates", "vertices", "simplices", "hull"];
 
 /// What differs between the plane and space.
 trait Room: Sized {
@@ -122,7 +124,7 @@ fn run_in<R: Room>(
     let mut stats = Stats::start();
     let mut hints = R::preprocess(centres, HintOrder::Spatial { seed: args.seed }, quiet)?;
     stats.phase("preprocess");
-    let mut total = Work::default();
+    let mut visited = 0;
     let mut records = Vec::new();
     for (input, outputs) in inputs.iter().zip(all.chunks(each)) {
         let one = InputArgs { input: input.to_path_buf(), ..args.input.clone() };
@@ -139,20 +141,19 @@ fn run_in<R: Room>(
             note(quiet, format_args!("{name}: far from the centres: walks from hints were given up"));
         }
         hints.finish(args, outputs, &points, &mut stats, quiet)?;
-        let counts = ["points", "duplicates", "vertices", "simplices", "hull"];
         let mut record: Map<String, Value> =
-            counts.into_iter().map(|key| (key.to_owned(), stats.get(key))).collect();
+            COUNTS.into_iter().map(|key| (key.to_owned(), stats.get(key))).collect();
         record.insert("input".to_owned(), json!(input.display().to_string()));
         record.insert("visited_triangles".to_owned(), json!(work.visited));
         record.insert("gave_up".to_owned(), json!(hints.gave_up()));
         records.push(record);
-        total.visited += work.visited;
+        visited += work.visited;
     }
     stats.set("algorithm", "hints");
-    stats.set("visited_triangles", total.visited);
+    stats.set("visited_triangles", visited);
     stats.set("gave_up", records.iter().any(|record| record["gave_up"] == json!(true)));
     if records.len() > 1 {
-        for key in ["points", "duplicates", "vertices", "simplices", "hull"] {
+        for key in COUNTS {
             stats.set(key, records.iter().filter_map(|record| record[key].as_u64()).sum::<u64>());
         }
         stats.set("instances", records);

@@ -6,7 +6,7 @@
 use crate::memory::room_for;
 
 /// Work on fewer items is not worth a thread.
-pub(crate) const MANY: usize = 1 << 15;
+const MANY: usize = 1 << 15;
 
 /// The threads there are.
 pub(crate) fn threads() -> usize {

@@ -48,7 +48,7 @@ pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};
 pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
 pub use orient::orient2d;
-pub use orient3d::orient3d;
+pub use orient3d::{are_collinear3, orient3d};
 pub use pencil::{Member, Pencil};
 pub use plane::Plane;
 pub use sign::Sign;

@@ -1,7 +1,7 @@
 //! Orientation of four points in space: filter, exact.
 
 use crate::filter::orient3d_filter;
-use crate::{Point3, Sign, exact};
+use crate::{Point3, Sign, exact, orient2d};
 
 /// On which side of the plane through `a`, `b`, `c` the point `d` is: positive where `a`, `b`, `c` are seen
 /// counter-clockwise. The sign of the determinant of b - a, c - a, d - a; zero if the four are coplanar.
@@ -24,4 +24,20 @@ pub fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
 #[inline(never)]
 pub(crate) fn orient3d_near(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     orient3d(a, b, c, d)
+}
+
+/// Whether three points are on one line: seen along each axis they are.
+///
+/// Exact for every finite input. O(1).
+///
+/// ```
+/// use delone_predicates::are_collinear3;
+/// assert!(are_collinear3([0.0, 0.0, 0.0], [1.0, 2.0, 4.0], [-2.0, -4.0, -8.0]));
+/// assert!(!are_collinear3([0.0, 0.0, 0.0], [1.0, 2.0, 4.0], [-2.0, -4.0, -8.000000000000002]));
+/// ```
+pub fn are_collinear3(a: Point3, b: Point3, c: Point3) -> bool {
+    (0..3).all(|axis| {
+        let [a, b, c] = [a, b, c].map(|p| [p[(axis + 1) % 3], p[(axis + 2) % 3]]);
+        orient2d(a, b, c).is_zero()
+    })
 }

@@ -8,7 +8,7 @@ use super::insert::Spot;
 use super::locate::Found;
 use super::locator::Locator;
 use super::{Delaunay2, Position2, finite};
-use crate::error::Error;
+use crate::error::{Error, check_finite};
 use crate::ids::{Duplicate, Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
@@ -137,7 +137,7 @@ impl Delaunay2 {
     /// has changed then.
     pub fn extend<P: Position2>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
-        super::check_finite(&points)?;
+        check_finite(points.iter().copied())?;
         let order = brio::order(&points, seed);
         self.extend_in_order(&points, &order, false, &mut ())
     }

@@ -16,8 +16,8 @@ use std::collections::BTreeMap;
 
 use super::insert::Spot;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, check_finite};
-use crate::error::Error;
+use super::{Delaunay2, Position2};
+use crate::error::{Error, check_finite};
 use crate::ids::{Duplicate, EdgeId, Inserted, Place};
 use crate::locate::nearest::Metric;
 use crate::locate::tally::Tally;
@@ -65,7 +65,7 @@ impl Hints2 {
     pub fn preprocess<P: Position2>(centres: &[P], order: HintOrder) -> Result<Self, Error> {
         super::check_count(centres.len())?;
         let points: Vec<[f64; 2]> = centres.iter().map(Position2::xy).collect();
-        check_finite(&points)?;
+        check_finite(points.iter().copied())?;
         let is_spatial = matches!(order, HintOrder::Spatial { .. });
         let order = match order {
             HintOrder::Spatial { seed } => brio::order(&points, seed),
@@ -124,10 +124,7 @@ impl Hints2 {
         instance: &[P],
         tally: &mut T,
     ) -> Result<&Delaunay2, Error> {
-        self.place(instance)?;
-        let Delaunay2 { base, duplicates, .. } = &mut self.current;
-        let arrived = insert_all::<_, false>(base, &mut self.hints, duplicates, tally);
-        Ok(self.settle(arrived))
+        self.insert::<_, _, false>(instance, tally)
     }
 
     /// The same for points that move from instance to instance: the nearest neighbours of this one are the hints for the
@@ -148,10 +145,7 @@ impl Hints2 {
         instance: &[P],
         tally: &mut T,
     ) -> Result<&Delaunay2, Error> {
-        self.place(instance)?;
-        let Delaunay2 { base, duplicates, .. } = &mut self.current;
-        let arrived = insert_all::<_, true>(base, &mut self.hints, duplicates, tally);
-        Ok(self.settle(arrived))
+        self.insert::<_, _, true>(instance, tally)
     }
 
     /// Whether the walks of the last instance were given up, so that it was built without hints.
@@ -159,14 +153,20 @@ impl Hints2 {
         self.gave_up
     }
 
-    /// Builds without hints what did not arrive by them.
-    fn settle(&mut self, arrived: bool) -> &Delaunay2 {
-        self.gave_up = !arrived;
-        if !arrived {
+    /// Triangulates an instance, and renews the hints if wanted; without hints where walks are given up.
+    fn insert<P: Position2, T: Tally, const RENEW: bool>(
+        &mut self,
+        instance: &[P],
+        tally: &mut T,
+    ) -> Result<&Delaunay2, Error> {
+        self.place(instance)?;
+        let Delaunay2 { base, duplicates, .. } = &mut self.current;
+        self.gave_up = !insert_all::<_, RENEW>(base, &mut self.hints, duplicates, tally);
+        if self.gave_up {
             let positions = self.current.named.take().unwrap_or_default();
             self.current.rebuild(positions);
         }
-        &self.current
+        Ok(&self.current)
     }
 
     /// Puts an instance at its places, none a vertex yet.
@@ -174,12 +174,7 @@ impl Hints2 {
         if instance.len() != self.order.len() {
             return Err(Error::Length { expected: self.order.len(), found: instance.len() });
         }
-        for (index, p) in instance.iter().enumerate() {
-            let p = p.xy();
-            if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
-                return Err(Error::NotFinite { index, axis, value: p[axis] });
-            }
-        }
+        check_finite(instance.iter().map(Position2::xy))?;
         let d = &mut self.current;
         let named = d.named.get_or_insert_default();
         named.clear();

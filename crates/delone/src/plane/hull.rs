@@ -1,7 +1,7 @@
 //! The convex hull of points of the plane.
 
-use super::{Position2, check_finite};
-use crate::error::Error;
+use super::Position2;
+use crate::error::{Error, check_finite};
 use crate::hull::planar;
 
 /// The corners of the convex hull as indices of points: counter-clockwise from the lexicographically smallest, none
@@ -18,6 +18,6 @@ use crate::hull::planar;
 /// ```
 pub fn convex_hull<P: Position2>(points: &[P]) -> Result<Vec<usize>, Error> {
     let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
-    check_finite(&points)?;
+    check_finite(points.iter().copied())?;
     Ok(planar::corners(&points))
 }

@@ -36,7 +36,7 @@ use std::sync::OnceLock;
 
 use delone_predicates::circumcentre;
 
-use crate::error::Error;
+use crate::error::{self, Error, check_finite};
 use crate::ids::{Duplicate, EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
@@ -126,7 +126,7 @@ impl Delaunay2 {
     /// The same for coordinates that can be kept, which saves a copy. Errors as [`Self::with_algorithm`].
     pub fn from_vec(points: Vec<[f64; 2]>, algorithm: Algorithm) -> Result<Self, Error> {
         check_count(points.len())?;
-        check_finite(&points)?;
+        check_finite(points.iter().copied())?;
         Ok(Self::assemble(match algorithm {
             Algorithm::DivideAndConquer => build::divide_and_conquer(points),
             Algorithm::Incremental { seed } => build::incremental(points, seed),
@@ -264,23 +264,11 @@ impl Delaunay2 {
 }
 
 fn check_count(count: usize) -> Result<(), Error> {
-    if count > MAX_POINTS { Err(Error::TooManyPoints { count, most: MAX_POINTS }) } else { Ok(()) }
-}
-
-fn check_finite(points: &[[f64; 2]]) -> Result<(), Error> {
-    let flat = points.as_flattened();
-    match flat.iter().position(|x| !x.is_finite()) {
-        Some(at) => Err(Error::NotFinite { index: at / 2, axis: at % 2, value: flat[at] }),
-        None => Ok(()),
-    }
+    error::check_count(count, MAX_POINTS)
 }
 
 /// The coordinates of a point, if they are finite.
 #[inline]
 fn finite<P: Position2>(point: &P) -> Result<[f64; 2], Error> {
-    let q = point.xy();
-    match q.iter().position(|x| !x.is_finite()) {
-        Some(axis) => Err(Error::Coordinate { axis, value: q[axis] }),
-        None => Ok(q),
-    }
+    error::finite(point.xy())
 }

@@ -17,8 +17,8 @@ use delone_predicates::{Filter, orient2d};
 
 use super::insert::Spot;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, check, check_finite};
-use crate::error::Error;
+use super::{Delaunay2, Position2, check};
+use crate::error::{Error, check_finite};
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
@@ -96,7 +96,7 @@ impl Moving2 {
     pub fn new<P: Position2>(positions: &[P]) -> Result<Self, Error> {
         super::check_count(positions.len())?;
         let positions: Vec<[f64; 2]> = positions.iter().map(Position2::xy).collect();
-        check_finite(&positions)?;
+        check_finite(positions.iter().copied())?;
         let mut moving = Self::default();
         moving.current.rebuild(positions);
         Ok(moving)
@@ -120,7 +120,7 @@ impl Moving2 {
         let mut given = std::mem::take(&mut self.spare);
         given.clear();
         given.extend(positions.iter().map(Position2::xy));
-        if let Err(error) = check_finite(&given) {
+        if let Err(error) = check_finite(given.iter().copied()) {
             self.spare = given;
             return Err(error);
         }

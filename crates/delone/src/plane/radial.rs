@@ -18,8 +18,8 @@ use delone_predicates::{Sign, angle, centre_direction, centre_side, lexicographi
 
 use super::layer::Layer;
 use super::nearest::nearer;
-use super::{Position2, check_finite, finite};
-use crate::error::Error;
+use super::{Position2, finite};
+use crate::error::{Error, check_finite};
 use crate::ids::{EdgeId, Place};
 use crate::locate::tally::Tally;
 use crate::locate::{Start, Walk};
@@ -80,7 +80,7 @@ impl NearestSites {
     pub fn build<P: Position2>(points: &[P], seed: u64) -> Result<Self, Error> {
         super::check_count(points.len())?;
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
-        check_finite(&points)?;
+        check_finite(points.iter().copied())?;
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_unstable_by(|&i, &j| lexicographic(points[i], points[j]).then(i.cmp(&j)));
         order.dedup_by(|later, first| points[*later] == points[*first]);

@@ -6,7 +6,7 @@
 
 use delone_predicates::{Sign, in_circle, in_circle_with_ties, lexicographic, orient2d, strictly_between};
 
-use crate::error::Error;
+use crate::error::{Error, check_finite};
 
 /// What is right about triangles that are a Delaunay triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,9 +80,7 @@ pub enum Objection {
 
 /// Judges `triangles`, corners as indices of `points`, in either orientation.
 pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection> {
-    if let Some(at) = points.as_flattened().iter().position(|x| !x.is_finite()) {
-        return Err(Error::NotFinite { index: at / 2, axis: at % 2, value: points.as_flattened()[at] }.into());
-    }
+    check_finite(points.iter().copied())?;
     let (triangles, clockwise) = oriented(points, triangles)?;
     let duplicates = check_coverage(points, &triangles)?;
     if triangles.is_empty() {

@@ -25,7 +25,7 @@ pub use position::Position3;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
-use crate::error::Error;
+use crate::error::{self, Error};
 use crate::ids::{Duplicate, FacetId, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
@@ -244,24 +244,12 @@ impl Delaunay3 {
 }
 
 fn check_points<P: Position3>(points: &[P]) -> Result<(), Error> {
-    if points.len() > MAX_POINTS_IN_SPACE {
-        return Err(Error::TooManyPoints { count: points.len(), most: MAX_POINTS_IN_SPACE });
-    }
-    for (index, p) in points.iter().enumerate() {
-        let p = p.xyz();
-        if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { index, axis, value: p[axis] });
-        }
-    }
-    Ok(())
+    error::check_count(points.len(), MAX_POINTS_IN_SPACE)?;
+    error::check_finite(points.iter().map(Position3::xyz))
 }
 
 /// The coordinates of a point, if they are finite.
 #[inline]
 fn finite<P: Position3>(point: &P) -> Result<[f64; 3], Error> {
-    let q = point.xyz();
-    match q.iter().position(|x| !x.is_finite()) {
-        Some(axis) => Err(Error::Coordinate { axis, value: q[axis] }),
-        None => Ok(q),
-    }
+    error::finite(point.xyz())
 }

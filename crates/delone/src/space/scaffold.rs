@@ -5,7 +5,7 @@
 //! sphere of a triangle and the apex exactly if it is in the circle of the triangle, ties included, because the height of
 //! the apex has no part in it. When the span changes, everything is triangulated anew.
 
-use delone_predicates::{orient2d, orient3d};
+use delone_predicates::{are_collinear3, orient2d, orient3d};
 
 use super::build;
 use super::layer::Layer;
@@ -13,14 +13,6 @@ use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 use crate::order::curve;
-
-/// Whether three points are on one line.
-pub(super) fn are_collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
-    (0..3).all(|k| {
-        let [a, b, c] = [a, b, c].map(|p| [p[(k + 1) % 3], p[(k + 2) % 3]]);
-        orient2d(a, b, c).is_zero()
-    })
-}
 
 impl Layer {
     /// What the vertices span.
@@ -46,7 +38,7 @@ impl Layer {
         let (mut corners, p) = (vec![a], at(a));
         if let Some(&b) = order.iter().find(|&&b| at(b) != p) {
             corners.push(b);
-            if let Some(&c) = order.iter().find(|&&c| !are_collinear(p, at(b), at(c))) {
+            if let Some(&c) = order.iter().find(|&&c| !are_collinear3(p, at(b), at(c))) {
                 corners.push(c);
                 corners.extend(order.iter().find(|&&d| !orient3d(p, at(b), at(c), at(d)).is_zero()));
             }
@@ -132,7 +124,7 @@ impl Layer {
         let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !self.is_scaffold(*p));
         match corners.map(|p| self.points[p.index()]).collect::<Vec<_>>()[..] {
             [a] => a == q,
-            [a, b] => are_collinear(a, b, q),
+            [a, b] => are_collinear3(a, b, q),
             [a, b, c] => orient3d(a, b, c, q).is_zero(),
             _ => false,
         }

@@ -6,9 +6,8 @@
 //! that one point is covered once, and that they add up to a ball. Then empty spheres across facets make all spheres empty. All is proved with exact
 //! predicates. Cost: O(n log n).
 
-use delone_predicates::{Sign, in_sphere, in_sphere_with_ties, lexicographic3, orient3d};
+use delone_predicates::{Sign, are_collinear3, in_sphere, in_sphere_with_ties, lexicographic3, orient3d};
 
-use super::scaffold::are_collinear;
 use crate::error::Error;
 use crate::mesh::tetrahedra::FACETS;
 
@@ -134,7 +133,7 @@ fn check_coverage(points: &[[f64; 3]], tetrahedra: &[[usize; 4]]) -> Result<usiz
     if tetrahedra.is_empty() {
         let Some(&a) = points.first() else { return Ok(0) };
         let Some(&b) = points.iter().find(|&&p| p != a) else { return Ok(points.len() - 1) };
-        let Some(&c) = points.iter().find(|&&p| !are_collinear(a, b, p)) else { return Ok(0) };
+        let Some(&c) = points.iter().find(|&&p| !are_collinear3(a, b, p)) else { return Ok(0) };
         let off = points.iter().position(|&d| !orient3d(a, b, c, d).is_zero());
         return off.map_or(Ok(0), |off| Err(Objection3::Missing(off)));
     }

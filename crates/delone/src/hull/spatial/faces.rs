@@ -1,9 +1,8 @@
 //! Flat faces from the triangles of a shell: coplanar neighbours joined, corners in the middle of sides left out.
 
-use delone_predicates::orient3d;
+use delone_predicates::{are_collinear3, lexicographic3, orient3d};
 
 use super::shell::{Facet, NONE, Shell};
-use super::start::{are_collinear, lexicographic};
 
 /// Flat faces from triangles.
 pub(super) struct Faces<'a> {
@@ -61,11 +60,12 @@ impl<'a> Faces<'a> {
         }
         let n = around.len();
         let strict = |&i: &usize| {
-            !are_collinear(self.points, [around[(i + n - 1) % n], around[i], around[(i + 1) % n]])
+            let [a, b, c] = [i + n - 1, i, i + 1].map(|k| self.points[around[k % n]]);
+            !are_collinear3(a, b, c)
         };
         let mut corners: Vec<usize> = (0..n).filter(strict).map(|i| around[i]).collect();
         let order = |i: &usize| self.points[corners[*i]];
-        let least = (0..corners.len()).min_by(|i, j| lexicographic(order(i), order(j))).unwrap_or(0);
+        let least = (0..corners.len()).min_by(|i, j| lexicographic3(order(i), order(j))).unwrap_or(0);
         corners.rotate_left(least);
         corners
     }

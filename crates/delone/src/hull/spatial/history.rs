@@ -13,13 +13,13 @@
 //! Cost: O(n log n) expected to build, O(n) expected facets that ever were (Theorem 4.1); O(log n) expected for a
 //! query inside of the hull. For the hull alone, [`Hull3::of`] is faster.
 
-use delone_predicates::orient3d;
+use delone_predicates::{are_collinear3, lexicographic3, orient3d};
 
 use super::faces::Faces;
 use super::shell::{NONE, Shell};
-use super::start::{are_collinear, lexicographic, turn};
+use super::start::turn;
 use super::{Hull3, check};
-use crate::error::Error;
+use crate::error::{self, Error};
 use crate::locate::tally::Tally;
 use crate::mesh::Dimension;
 use crate::order::random::SplitMix;
@@ -83,7 +83,7 @@ impl HullHistory {
     pub fn build_counted<T: Tally>(points: &[[f64; 3]], seed: u64, tally: &mut T) -> Result<Self, Error> {
         check(points)?;
         let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_unstable_by(|&i, &j| lexicographic(points[i], points[j]).then(i.cmp(&j)));
+        order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
         order.dedup_by(|later, first| points[*later] == points[*first]);
         SplitMix(seed).shuffle(&mut order);
         let Some(first) = first_four(points, &order) else {
@@ -130,9 +130,7 @@ impl HullHistory {
     /// # Errors
     /// As [`Self::contains`].
     pub fn contains_counted<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Result<bool, Error> {
-        if let Some(axis) = q.iter().position(|x| !x.is_finite()) {
-            return Err(Error::Coordinate { axis, value: q[axis] });
-        }
+        let q = error::finite(q)?;
         Ok(match &self.facets {
             Facets::None(corners) => lies_in(self.hull.span, corners, q),
             Facets::Some(history) => history.shell.is_in_box(q) && history.seen_from(q, tally).is_none(),
@@ -182,7 +180,7 @@ impl History {
 /// The first four points of an order that span space, the last one on the positive side of the others.
 fn first_four(points: &[[f64; 3]], order: &[usize]) -> Option<[usize; 4]> {
     let [&a, &b] = [order.first()?, order.get(1)?];
-    let c = order.iter().copied().find(|&c| !are_collinear(points, [a, b, c]))?;
+    let c = order.iter().copied().find(|&c| !are_collinear3(points[a], points[b], points[c]))?;
     let side = |&d: &usize| orient3d(points[a], points[b], points[c], points[d]);
     let d = order.iter().copied().find(|d| !side(d).is_zero())?;
     Some(if side(&d).is_positive() { [a, b, c, d] } else { [b, a, c, d] })
@@ -193,7 +191,7 @@ fn lies_in(span: Dimension, corners: &[[f64; 3]], q: [f64; 3]) -> bool {
     match (span, corners) {
         (Dimension::Point, &[a]) => a == q,
         (Dimension::Line, &[a, b]) => {
-            are_collinear(&[a, b, q], [0, 1, 2]) && lexicographic(a, q).is_le() && lexicographic(q, b).is_le()
+            are_collinear3(a, b, q) && lexicographic3(a, q).is_le() && lexicographic3(q, b).is_le()
         }
         (Dimension::Plane, &[a, b, c, ..]) if orient3d(a, b, c, q).is_zero() => {
             // Along an axis in which the plane does not vanish, inside stays inside.

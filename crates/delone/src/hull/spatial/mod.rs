@@ -13,7 +13,7 @@ mod start;
 
 pub use history::HullHistory;
 
-use crate::error::Error;
+use crate::error::{self, Error};
 use crate::mesh::Dimension;
 use start::{Start, turn};
 
@@ -95,12 +95,6 @@ impl Hull3 {
 
 /// Whether all points are finite, and not too many.
 fn check(points: &[[f64; 3]]) -> Result<(), Error> {
-    if points.len() > crate::MAX_POINTS {
-        return Err(Error::TooManyPoints { count: points.len(), most: crate::MAX_POINTS });
-    }
-    let flat = points.as_flattened();
-    match flat.iter().position(|x| !x.is_finite()) {
-        Some(at) => Err(Error::NotFinite { index: at / 3, axis: at % 3, value: flat[at] }),
-        None => Ok(()),
-    }
+    error::check_count(points.len(), crate::MAX_POINTS)?;
+    error::check_finite(points.iter().copied())
 }

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use delone_predicates::{orient2d, orient3d};
+use delone_predicates::{are_collinear3, lexicographic3, orient2d, orient3d};
 
 use super::super::planar;
 use crate::mesh::Dimension;
@@ -25,15 +25,6 @@ pub(super) fn without(p: [f64; 3], axis: usize) -> [f64; 2] {
     [p[(axis + 1) % 3], p[(axis + 2) % 3]]
 }
 
-pub(super) fn are_collinear(points: &[[f64; 3]], corners: [usize; 3]) -> bool {
-    (0..3).all(|axis| turn(points, corners, axis).is_eq())
-}
-
-pub(super) fn lexicographic(a: [f64; 3], b: [f64; 3]) -> Ordering {
-    let different = a.iter().zip(&b).find(|(x, y)| x != y);
-    different.map_or(Ordering::Equal, |(x, y)| x.total_cmp(y))
-}
-
 fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3])
 }
@@ -52,11 +43,11 @@ pub(super) enum Start {
 
 impl Start {
     pub(super) fn of(points: &[[f64; 3]]) -> Self {
-        let order = |i: &usize, j: &usize| lexicographic(points[*i], points[*j]).then(i.cmp(j));
+        let order = |i: &usize, j: &usize| lexicographic3(points[*i], points[*j]).then(i.cmp(j));
         let Some(a) = (0..points.len()).min_by(order) else {
             return Self::Lower(Dimension::Empty, Vec::new());
         };
-        let last = |i: &usize, j: &usize| lexicographic(points[*i], points[*j]).then(j.cmp(i));
+        let last = |i: &usize, j: &usize| lexicographic3(points[*i], points[*j]).then(j.cmp(i));
         let b = (0..points.len()).max_by(last).unwrap_or(a);
         if points[a] == points[b] {
             return Self::Lower(Dimension::Point, vec![a]);
@@ -71,7 +62,7 @@ impl Start {
         let any = |holds: &dyn Fn(&usize) -> bool, best: Option<usize>| {
             best.filter(holds).or_else(|| (0..points.len()).find(holds))
         };
-        let Some(c) = any(&|&c| !are_collinear(points, [a, b, c]), furthest(&off_line)) else {
+        let Some(c) = any(&|&c| !are_collinear3(points[a], points[b], points[c]), furthest(&off_line)) else {
             return Self::Lower(Dimension::Line, vec![a, b]);
         };
         let side = |d: usize| orient3d(points[a], points[b], points[c], points[d]);

@@ -179,8 +179,8 @@ struct Cells {
 type Waiting = Vec<(Part, Cut)>;
 
 impl Tree<'_> {
-    /// Triangulates the points of a box, in parallel if they are many: the tree is cut at some depth, and what is below
-    /// is built by tasks that own its memory.
+    /// Triangulates the points of a box, in parallel if they are many: the tree is divided at its shallowest cuts into runs
+    /// that are not too large, which tasks build in memory of their own.
     fn build(&self, index: usize, builder: &mut Builder) -> Part {
         let key_box = self.boxes[index];
         let cell_filter = |depth| {
