@@ -24,6 +24,7 @@
 
 mod centre;
 mod circumcentre;
+mod clear;
 pub mod counters;
 mod distance;
 mod exact;
@@ -42,6 +43,7 @@ mod stages;
 
 pub use centre::{centre_direction, centre_side};
 pub use circumcentre::circumcentre;
+pub use clear::keeps_clear;
 pub use distance::{angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3};
 pub use filter::{Filter, Filter3, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};

@@ -14,6 +14,12 @@ pub trait Tally {
     fn created(&mut self, _count: usize) {}
     /// Triangles were destroyed, ghosts included.
     fn destroyed(&mut self, _count: usize) {}
+    /// Another part of the operation did this.
+    fn add(&mut self, _other: &Self)
+    where
+        Self: Sized,
+    {
+    }
 }
 
 impl Tally for () {}
@@ -69,5 +75,14 @@ impl Tally for Work {
 
     fn destroyed(&mut self, count: usize) {
         self.destroyed += count as u64;
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.visited += other.visited;
+        self.compared += other.compared;
+        self.orientations += other.orientations;
+        self.in_circles += other.in_circles;
+        self.created += other.created;
+        self.destroyed += other.destroyed;
     }
 }

@@ -174,6 +174,24 @@ impl Mesh3 {
         self.free.push(t);
     }
 
+    /// Moves the last tetrahedra into free slots, given in increasing order, so that none of these is left.
+    pub(crate) fn pack(&mut self, free: &[TetrahedronId]) {
+        for &to in free {
+            while self.cells.last().is_some_and(|cell| cell.corners[0].is_ghost()) {
+                self.cells.pop();
+            }
+            if to.index() >= self.cells.len() {
+                break;
+            }
+            // Its slot is taken by the last.
+            self.cells.swap_remove(to.index());
+            let Tetrahedron { corners, across } = self.cells[to.index()];
+            across.into_iter().enumerate().for_each(|(k, f)| self.link(to.facet(k), f));
+            corners.into_iter().filter(|p| !p.is_ghost()).for_each(|p| self.incident[p.index()] = to);
+        }
+        self.marks.truncate(self.cells.len());
+    }
+
     /// Glues two facets to each other.
     #[inline]
     pub(crate) fn link(&mut self, f: FacetId, g: FacetId) {

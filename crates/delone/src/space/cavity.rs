@@ -10,11 +10,11 @@
 //! Cost: O(k) for k tetrahedra, about twenty on average over random insertions; nothing is allocated once the buffers
 //! have grown.
 
-use super::layer::Layer;
+use super::arena::{Arena, Memory};
 use crate::fetch::fetch;
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::locate::tally::Tally;
-use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
+use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 
 /// Marks of tetrahedra while a cavity is dug.
 const INSIDE: u8 = 1;
@@ -44,17 +44,28 @@ pub(super) struct Cavity {
 impl Cavity {
     /// Makes the point at `v` a vertex: removes the tetrahedra in conflict with it, starting from `seed`, one of them,
     /// and joins it to their border.
-    pub(super) fn insert<T: Tally>(
+    ///
+    /// `None` if there is no room; then the memory is good for nothing more.
+    pub(super) fn insert<A: Arena, T: Tally>(
         &mut self,
-        layer: &mut Layer,
+        arena: &mut A,
         v: Place,
         seed: TetrahedronId,
         tally: &mut T,
-    ) {
-        self.find(layer, layer.points[v.index()], seed, tally);
+    ) -> Option<()> {
+        self.find(&mut arena.memory(), v, seed, tally);
         tally.destroyed(self.cells.len());
         tally.created(self.border.len());
-        self.refill(&mut layer.mesh, v);
+        while self.cells.len() < self.border.len() {
+            self.cells.push(arena.new_cell()?);
+        }
+        // A ball of many tetrahedra may have few facets.
+        for t in self.cells.drain(self.border.len()..) {
+            arena.memory().marks[t.index()] = 0;
+            arena.free_cell(t);
+        }
+        self.refill(&mut arena.memory(), v);
+        Some(())
     }
 
     /// The vertices that the last one inserted is joined to, the ghost not among them.
@@ -64,34 +75,35 @@ impl Cavity {
 
     /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what goes on the lists is decided
     /// without branches, which would go the wrong way half of the time.
-    fn find<T: Tally>(&mut self, layer: &mut Layer, q: [f64; 3], seed: TetrahedronId, tally: &mut T) {
+    fn find<T: Tally>(&mut self, memory: &mut Memory<'_>, v: Place, seed: TetrahedronId, tally: &mut T) {
+        let q = memory.points[v.index()];
         self.cells.clear();
         self.queued = 0;
-        self.enter(&mut layer.mesh, seed);
+        self.enter(memory, seed);
         let mut done = 0;
         while done < self.queued {
             let t = self.queue[done];
             tally.in_circle();
             if done + 1 == self.queued {
                 done += 1;
-                let inside = layer.conflicts(t, q);
-                self.judge(&mut layer.mesh, t, inside);
+                let inside = memory.view().conflicts(t, q);
+                self.judge(memory, t, inside);
                 continue;
             }
             let u = self.queue[done + 1];
             tally.in_circle();
             done += 2;
-            let [first, second] = layer.both_conflict(t, u, q);
-            self.judge(&mut layer.mesh, t, first);
-            self.judge(&mut layer.mesh, u, second);
+            let [first, second] = memory.view().both_conflict(t, u, q);
+            self.judge(memory, t, first);
+            self.judge(memory, u, second);
         }
         let mut count = 0;
         self.border.resize(4 * self.cells.len(), FacetId::NONE);
         for &t in &self.cells {
-            let across = layer.mesh.cells[t.index()].across;
+            let across = memory.cells[t.index()].across;
             for facet in across {
                 self.border[count] = facet;
-                count += usize::from(layer.mesh.marks[facet.tetrahedron().index()] == OUTSIDE);
+                count += usize::from(memory.marks[facet.tetrahedron().index()] == OUTSIDE);
             }
         }
         self.border.truncate(count);
@@ -99,52 +111,44 @@ impl Cavity {
 
     /// Notes whether a tetrahedron is in conflict.
     #[inline]
-    fn judge(&mut self, mesh: &mut Mesh3, t: TetrahedronId, inside: bool) {
+    fn judge(&mut self, memory: &mut Memory<'_>, t: TetrahedronId, inside: bool) {
         if inside {
-            self.enter(mesh, t);
+            self.enter(memory, t);
         } else {
-            mesh.marks[t.index()] = OUTSIDE;
+            memory.marks[t.index()] = OUTSIDE;
         }
     }
 
     /// Takes a tetrahedron into the cavity, and asks for its neighbours.
     #[inline]
-    fn enter(&mut self, mesh: &mut Mesh3, t: TetrahedronId) {
-        mesh.marks[t.index()] = INSIDE;
+    fn enter(&mut self, memory: &mut Memory<'_>, t: TetrahedronId) {
+        memory.marks[t.index()] = INSIDE;
         self.cells.push(t);
         if self.queue.len() < self.queued + 4 {
             self.queue.resize(2 * self.queued + 64, TetrahedronId::NONE);
         }
-        let across = mesh.cells[t.index()].across;
+        let across = memory.cells[t.index()].across;
         for facet in across {
             let next = facet.tetrahedron();
-            let mark = &mut mesh.marks[next.index()];
+            let mark = &mut memory.marks[next.index()];
             let fresh = *mark == 0;
             *mark = if fresh { WAITING } else { *mark };
-            fetch(&mesh.cells, next.index());
+            fetch(memory.cells, next.index());
             self.queue[self.queued] = next;
             self.queued += usize::from(fresh);
         }
     }
 
     /// Joins `v` to every facet of the border.
-    fn refill(&mut self, mesh: &mut Mesh3, v: Place) {
+    fn refill(&mut self, memory: &mut Memory<'_>, v: Place) {
         let count = self.border.len();
-        while self.cells.len() < count {
-            self.cells.push(mesh.new_cell());
-        }
-        // A ball of many tetrahedra may have few facets.
-        for t in self.cells.drain(count..) {
-            mesh.marks[t.index()] = 0;
-            mesh.free_cell(t);
-        }
         // A sphere of F triangles has F / 2 + 2 corners; the ghost has a number even if it is none of them.
         self.widen(count / 2 + 3);
         self.vertices.clear();
         self.vertices.push((Place::GHOST, TetrahedronId::NONE));
         self.numbers.clear();
         for (&g, &t) in self.border.iter().zip(&self.cells) {
-            let outside = &mut mesh.cells[g.tetrahedron().index()];
+            let outside = &mut memory.cells[g.tetrahedron().index()];
             outside.across[g.corner()] = t.facet(0);
             let [i, j, k] = FACETS[g.corner()];
             let (mut a, mut b, mut c) = (outside.corners[i], outside.corners[j], outside.corners[k]);
@@ -154,12 +158,12 @@ impl Cavity {
             } else if b.is_ghost() {
                 (a, b, c) = (c, a, b);
             }
-            mesh.marks[g.tetrahedron().index()] = 0;
-            mesh.marks[t.index()] = 0;
-            mesh.cells[t.index()] = Tetrahedron { corners: [v, a, b, c], across: [g; 4] };
-            let i = number(&mut self.vertices, &mut mesh.incident, a, t);
-            let j = number(&mut self.vertices, &mut mesh.incident, b, t);
-            let k = if c.is_ghost() { 0 } else { number(&mut self.vertices, &mut mesh.incident, c, t) };
+            memory.marks[g.tetrahedron().index()] = 0;
+            memory.marks[t.index()] = 0;
+            memory.cells[t.index()] = Tetrahedron { corners: [v, a, b, c], across: [g; 4] };
+            let i = number(&mut self.vertices, memory.incident, a, t);
+            let j = number(&mut self.vertices, memory.incident, b, t);
+            let k = if c.is_ghost() { 0 } else { number(&mut self.vertices, memory.incident, c, t) };
             self.table[j << self.width | k] = t.facet(1);
             self.table[k << self.width | i] = t.facet(2);
             self.table[i << self.width | j] = t.facet(3);
@@ -167,15 +171,15 @@ impl Cavity {
         }
         for (&t, &(i, j, k)) in self.cells.iter().zip(&self.numbers) {
             let (i, j, k) = (i as usize, j as usize, k as usize);
-            let across = &mut mesh.cells[t.index()].across;
+            let across = &mut memory.cells[t.index()].across;
             across[1] = self.table[k << self.width | j];
             across[2] = self.table[i << self.width | k];
             across[3] = self.table[j << self.width | i];
         }
         for &(p, t) in &self.vertices[1..] {
-            mesh.incident[p.index()] = t;
+            memory.incident[p.index()] = t;
         }
-        mesh.incident[v.index()] = self.cells[0];
+        memory.incident[v.index()] = self.cells[0];
     }
 
     /// Makes room for so many vertices in the table.

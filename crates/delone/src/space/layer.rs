@@ -3,11 +3,12 @@
 
 use delone_predicates::{Filter3, Grid};
 
+use super::arena::{Arena, Memory, View};
 use super::cavity::Cavity;
 use super::hole::Hole;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
-use crate::mesh::tetrahedra::{FACETS, Mesh3};
+use crate::mesh::tetrahedra::Mesh3;
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
@@ -31,9 +32,9 @@ pub(super) struct Layer {
 
 /// The box around points, axis by axis.
 #[derive(Clone, Copy, Debug)]
-struct Limits {
-    low: [f64; 3],
-    high: [f64; 3],
+pub(super) struct Limits {
+    pub(super) low: [f64; 3],
+    pub(super) high: [f64; 3],
 }
 
 impl Default for Limits {
@@ -43,6 +44,12 @@ impl Default for Limits {
 }
 
 impl Limits {
+    pub(super) fn around(points: impl IntoIterator<Item = [f64; 3]>) -> Self {
+        let mut limits = Self::default();
+        points.into_iter().for_each(|p| _ = limits.include(p));
+        limits
+    }
+
     fn include(&mut self, p: [f64; 3]) -> bool {
         let grown = !self.contains(p);
         self.low = [0, 1, 2].map(|k| self.low[k].min(p[k]));
@@ -54,7 +61,7 @@ impl Limits {
         (0..3).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k])
     }
 
-    fn extent(&self) -> [f64; 3] {
+    pub(super) fn extent(&self) -> [f64; 3] {
         [0, 1, 2].map(|k| (self.high[k] - self.low[k]).max(0.0))
     }
 }
@@ -62,8 +69,7 @@ impl Limits {
 impl Layer {
     /// Points at their places, none a vertex yet.
     pub(super) fn new(points: Vec<[f64; 3]>) -> Self {
-        let mut limits = Limits::default();
-        points.iter().for_each(|&p| _ = limits.include(p));
+        let limits = Limits::around(points.iter().copied());
         let grid = Grid::of(points.as_flattened().iter().copied());
         let mesh = Mesh3 { incident: vec![TetrahedronId::NONE; points.len()], ..Mesh3::default() };
         let filter = Filter3::for_box(limits.extent(), grid);
@@ -84,8 +90,7 @@ impl Layer {
     pub(super) fn set_points(&mut self, points: impl Iterator<Item = [f64; 3]>) {
         self.points.clear();
         self.points.extend(points);
-        self.limits = Limits::default();
-        self.points.iter().for_each(|&p| _ = self.limits.include(p));
+        self.limits = Limits::around(self.points.iter().copied());
         self.grid = Grid::of(self.points.as_flattened().iter().copied());
         self.filter = Filter3::for_box(self.limits.extent(), self.grid);
     }
@@ -150,51 +155,23 @@ impl Layer {
         self.mesh.cells().next().unwrap_or(TetrahedronId::NONE)
     }
 
-    /// Whether the sphere of a tetrahedron contains `q`. That of a ghost is the half-space beyond its hull facet, with
-    /// the inside of the facet's circle.
+    /// What decisions look at.
+    #[inline]
+    pub(super) fn view(&self) -> View<'_> {
+        View { cells: &self.mesh.cells, points: &self.points, filter: &self.filter }
+    }
+
+    /// [`View::conflicts`].
     #[inline]
     pub(super) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
-        let [a, b, c, d] = self.mesh.cells[t.index()].corners;
-        if d.is_ghost() {
-            return self.is_beyond_hull(t, q);
-        }
-        let at = |p: Place| self.points[p.index()];
-        self.filter.in_sphere(at(a), at(b), at(c), at(d), q).is_positive()
+        self.view().conflicts(t, q)
     }
 
     /// Whether the corners of a finite tetrahedron are in positive order.
     #[inline]
     pub(super) fn is_positive(&self, t: TetrahedronId) -> bool {
-        let [a, b, c, d] = self.mesh.cells[t.index()].corners;
-        let at = |p: Place| self.points[p.index()];
-        self.filter.orient3d(at(a), at(b), at(c), at(d)).is_positive()
-    }
-
-    /// The same as [`Self::conflicts`] for two.
-    #[inline]
-    pub(super) fn both_conflict(&self, t: TetrahedronId, u: TetrahedronId, q: [f64; 3]) -> [bool; 2] {
-        let (first, second) = (&self.mesh.cells[t.index()].corners, &self.mesh.cells[u.index()].corners);
-        if first[3].is_ghost() || second[3].is_ghost() {
-            return [self.conflicts(t, q), self.conflicts(u, q)];
-        }
-        let at = |p: Place| self.points[p.index()];
-        let of = |corners: &[Place; 4]| [at(corners[0]), at(corners[1]), at(corners[2]), at(corners[3])];
-        let [first, second] = self.filter.in_spheres([of(first), of(second)], q);
-        [first.is_positive(), second.is_positive()]
-    }
-
-    /// The same for a ghost.
-    fn is_beyond_hull(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
-        let cell = &self.mesh.cells[t.index()];
-        let [a, b, c] = [0, 1, 2].map(|k| self.points[cell.corners[k].index()]);
-        let side = self.filter.orient3d(a, b, c, q);
-        if !side.is_zero() {
-            return side.is_positive();
-        }
-        // In the plane of the facet the sphere of the tetrahedron inside cuts out its circle.
-        let inner = &self.mesh.cells[cell.across[3].tetrahedron().index()];
-        let [a, b, c, d] = inner.corners.map(|p| self.points[p.index()]);
-        self.filter.in_sphere(a, b, c, d, q).is_positive()
+        let [a, b, c, d] = self.mesh.cells[t.index()].corners.map(|p| self.points[p.index()]);
+        self.filter.orient3d(a, b, c, d).is_positive()
     }
 
     /// The longest side of the box around all points.
@@ -213,38 +190,10 @@ impl Layer {
         Filter3::for_box(limits.extent(), None)
     }
 
-    /// Walks to `q` from a tetrahedron: to a finite one that contains it in its inside or on its border, or else to the
-    /// ghost of a hull facet that it is strictly beyond. Visibility walk, which ends in every Delaunay triangulation.
+    /// [`View::walk`], for a point that may be outside of the box around the others.
     #[inline]
     pub(super) fn walk<T: Tally>(&self, from: TetrahedronId, q: [f64; 3], tally: &mut T) -> TetrahedronId {
-        let mut t = from;
-        if self.mesh.is_ghost(t) {
-            t = self.mesh.twin(t.facet(3)).tetrahedron();
-        }
-        let mut entered = 4;
-        let filter = self.filter_with(q);
-        'walk: loop {
-            tally.visited();
-            let cell = &self.mesh.cells[t.index()];
-            if cell.corners[3].is_ghost() {
-                return t;
-            }
-            let [a, b, c, d] = cell.corners;
-            let at = |p: Place| self.points[p.index()];
-            let points = [at(a), at(b), at(c), at(d)];
-            for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
-                if k == entered {
-                    continue;
-                }
-                tally.orientation();
-                if filter.orient3d(points[i], points[j], points[l], q).is_negative() {
-                    let across = cell.across[k];
-                    (t, entered) = (across.tetrahedron(), across.corner());
-                    continue 'walk;
-                }
-            }
-            return t;
-        }
+        View { filter: &self.filter_with(q), ..self.view() }.walk(from, q, tally)
     }
 
     /// The vertex of a tetrahedron that a point equals.
@@ -258,8 +207,32 @@ impl Layer {
     #[inline]
     pub(super) fn insert<T: Tally>(&mut self, v: Place, seed: TetrahedronId, tally: &mut T) {
         let mut cavity = std::mem::take(&mut self.cavity);
-        cavity.insert(self, v, seed, tally);
+        let inserted = cavity.insert(self, v, seed, tally);
+        debug_assert!(inserted.is_some(), "a layer has room");
         self.cavity = cavity;
         self.mesh.vertex_count += 1;
+    }
+}
+
+impl Arena for Layer {
+    #[inline]
+    fn view(&self) -> View<'_> {
+        self.view()
+    }
+
+    #[inline]
+    fn memory(&mut self) -> Memory<'_> {
+        let Mesh3 { cells, marks, incident, .. } = &mut self.mesh;
+        Memory { cells, marks, incident, points: &self.points, filter: &self.filter }
+    }
+
+    #[inline]
+    fn new_cell(&mut self) -> Option<TetrahedronId> {
+        Some(self.mesh.new_cell())
+    }
+
+    #[inline]
+    fn free_cell(&mut self, t: TetrahedronId) {
+        self.mesh.free_cell(t);
     }
 }

@@ -1,5 +1,6 @@
 //! Delaunay triangulations of space.
 
+mod arena;
 mod build;
 mod cavity;
 mod change;

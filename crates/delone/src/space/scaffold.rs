@@ -7,6 +7,7 @@
 
 use delone_predicates::{are_collinear3, orient2d, orient3d};
 
+use super::arena::Arena;
 use super::build;
 use super::layer::Layer;
 use crate::ids::{Place, TetrahedronId};
@@ -33,26 +34,16 @@ impl Layer {
     /// Begins with the first of some places whose points span as much as all of them do; returns those that are
     /// vertices now. The mesh must be empty.
     pub(super) fn begin(&mut self, order: &[u32]) -> Vec<Place> {
-        let at = |i: u32| self.points[i as usize];
-        let Some(&a) = order.first() else { return Vec::new() };
-        let (mut corners, p) = (vec![a], at(a));
-        if let Some(&b) = order.iter().find(|&&b| at(b) != p) {
-            corners.push(b);
-            if let Some(&c) = order.iter().find(|&&c| !are_collinear3(p, at(b), at(c))) {
-                corners.push(c);
-                corners.extend(order.iter().find(|&&d| !orient3d(p, at(b), at(c), at(d)).is_zero()));
-            }
+        let vertices = spanning(&self.points, order);
+        if vertices.is_empty() {
+            return vertices;
         }
-        let vertices: Vec<Place> = corners.iter().map(|&i| Place::new(i as usize)).collect();
         let scaffold: Vec<[f64; 3]> = self.off_span(&vertices);
         self.scaffold = scaffold.into_iter().map(|p| self.keep(p)).collect();
-        let mut four: Vec<Place> = vertices.iter().chain(&self.scaffold).copied().collect();
-        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.points[four[k].index()]);
-        if orient3d(a, b, c, d).is_negative() {
-            four.swap(0, 1);
-        }
+        let four: Vec<Place> = vertices.iter().chain(&self.scaffold).copied().collect();
         self.mesh.vertex_count = vertices.len();
-        self.first_cells([four[0], four[1], four[2], four[3]]);
+        let begun = first_cells(self, [four[0], four[1], four[2], four[3]]);
+        debug_assert!(begun.is_some(), "a layer has room");
         vertices
     }
 
@@ -82,32 +73,6 @@ impl Layer {
                 vec![moved((0..3).find(|&k| seen(k)).unwrap_or(2))]
             }
             _ => Vec::new(),
-        }
-    }
-
-    /// A tetrahedron of four places in positive order, and the ghosts around it.
-    fn first_cells(&mut self, corners: [Place; 4]) {
-        let mesh = &mut self.mesh;
-        let first = mesh.new_cell();
-        mesh.cells[first.index()] = Tetrahedron { corners, ..Tetrahedron::FREE };
-        let ghosts = [0, 1, 2, 3].map(|k| {
-            let t = mesh.new_cell();
-            // Seen from the other side.
-            let [a, b, c] = FACETS[k].map(|i| corners[i]);
-            mesh.cells[t.index()].corners = [a, c, b, Place::GHOST];
-            mesh.link(first.facet(k), t.facet(3));
-            mesh.incident[corners[k].index()] = first;
-            t
-        });
-        for (i, &t) in ghosts.iter().enumerate() {
-            for (j, &u) in ghosts.iter().enumerate().filter(|&(j, _)| j != i) {
-                // They share all but the corners i and j of the first.
-                let corner = |t: TetrahedronId, p: Place| {
-                    mesh.cells[t.index()].corners.iter().position(|&q| q == p).unwrap_or(3)
-                };
-                let (f, g) = (t.facet(corner(t, corners[j])), u.facet(corner(u, corners[i])));
-                mesh.link(f, g);
-            }
         }
     }
 
@@ -144,4 +109,53 @@ impl Layer {
             rounds.into_iter().map(|i| vertices[along[i as usize] as usize].index() as u32).collect();
         build::build(self, &order, &mut Vec::new(), &mut ());
     }
+}
+
+/// The first of some places whose points span as much as all of them do: at most four.
+pub(super) fn spanning(points: &[[f64; 3]], order: &[u32]) -> Vec<Place> {
+    let at = |i: u32| points[i as usize];
+    let Some(&a) = order.first() else { return Vec::new() };
+    let (mut corners, p) = (vec![a], at(a));
+    if let Some(&b) = order.iter().find(|&&b| at(b) != p) {
+        corners.push(b);
+        if let Some(&c) = order.iter().find(|&&c| !are_collinear3(p, at(b), at(c))) {
+            corners.push(c);
+            corners.extend(order.iter().find(|&&d| !orient3d(p, at(b), at(c), at(d)).is_zero()));
+        }
+    }
+    corners.into_iter().map(|i| Place::new(i as usize)).collect()
+}
+
+/// Begins with the tetrahedron of four places, and the ghosts around it. `None` if there is no room.
+pub(super) fn first_cells(arena: &mut impl Arena, mut corners: [Place; 4]) -> Option<()> {
+    let points = arena.view().points;
+    let [a, b, c, d] = corners.map(|p| points[p.index()]);
+    if orient3d(a, b, c, d).is_negative() {
+        corners.swap(0, 1);
+    }
+    let first = arena.new_cell()?;
+    let mut ghosts = [TetrahedronId::NONE; 4];
+    for ghost in &mut ghosts {
+        *ghost = arena.new_cell()?;
+    }
+    let mut memory = arena.memory();
+    memory.cells[first.index()] = Tetrahedron { corners, ..Tetrahedron::FREE };
+    for (k, t) in ghosts.into_iter().enumerate() {
+        // Seen from the other side.
+        let [a, b, c] = FACETS[k].map(|i| corners[i]);
+        memory.cells[t.index()].corners = [a, c, b, Place::GHOST];
+        memory.link(first.facet(k), t.facet(3));
+        memory.incident[corners[k].index()] = first;
+    }
+    for (i, &t) in ghosts.iter().enumerate() {
+        for (j, &u) in ghosts.iter().enumerate().filter(|&(j, _)| j != i) {
+            // They share all but the corners i and j of the first.
+            let corner = |t: TetrahedronId, p: Place| {
+                memory.cells[t.index()].corners.iter().position(|&q| q == p).unwrap_or(3)
+            };
+            let (f, g) = (t.facet(corner(t, corners[j])), u.facet(corner(u, corners[i])));
+            memory.link(f, g);
+        }
+    }
+    Some(())
 }

@@ -1,0 +1,144 @@
+//! The port between an insertion and the memory that it works in: a layer, or a part of the memory of a layer that is
+//! one task's own.
+
+use delone_predicates::Filter3;
+
+use crate::ids::{FacetId, Place, TetrahedronId};
+use crate::locate::tally::Tally;
+use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+
+/// What decisions look at.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub(super) cells: &'a [Tetrahedron],
+    /// For each place its coordinates.
+    pub(super) points: &'a [[f64; 3]],
+    /// For the box around them.
+    pub(super) filter: &'a Filter3,
+}
+
+/// What an insertion writes, too.
+pub(super) struct Memory<'a> {
+    pub(super) cells: &'a mut [Tetrahedron],
+    /// For each tetrahedron a mark, zero between operations.
+    pub(super) marks: &'a mut [u8],
+    /// For each place a tetrahedron at its vertex.
+    pub(super) incident: &'a mut [TetrahedronId],
+    pub(super) points: &'a [[f64; 3]],
+    pub(super) filter: &'a Filter3,
+}
+
+/// Memory for tetrahedra.
+pub(super) trait Arena {
+    fn view(&self) -> View<'_>;
+    fn memory(&mut self) -> Memory<'_>;
+    /// A tetrahedron to be filled in, if there is room.
+    fn new_cell(&mut self) -> Option<TetrahedronId>;
+    /// Gives one back.
+    fn free_cell(&mut self, t: TetrahedronId);
+}
+
+impl<'a> Memory<'a> {
+    #[inline]
+    pub(super) fn view(&self) -> View<'_> {
+        View { cells: self.cells, points: self.points, filter: self.filter }
+    }
+
+    /// Glues two facets to each other.
+    #[inline]
+    pub(super) fn link(&mut self, f: FacetId, g: FacetId) {
+        self.cells[f.tetrahedron().index()].across[f.corner()] = g;
+        self.cells[g.tetrahedron().index()].across[g.corner()] = f;
+    }
+}
+
+impl View<'_> {
+    #[inline]
+    fn corners(&self, t: TetrahedronId) -> &[Place; 4] {
+        &self.cells[t.index()].corners
+    }
+
+    #[inline]
+    fn at(&self, p: Place) -> [f64; 3] {
+        self.points[p.index()]
+    }
+
+    /// The coordinates of four corners, none of them the ghost.
+    #[inline]
+    fn all(&self, &[a, b, c, d]: &[Place; 4]) -> [[f64; 3]; 4] {
+        [self.at(a), self.at(b), self.at(c), self.at(d)]
+    }
+
+    /// Whether the sphere of a tetrahedron contains `q`. That of a ghost is the half-space beyond its hull facet, with
+    /// the inside of the facet's circle.
+    #[inline]
+    pub(super) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
+        let corners = self.corners(t);
+        if corners[3].is_ghost() {
+            return self.is_beyond_hull(t, q);
+        }
+        let [a, b, c, d] = self.all(corners);
+        self.filter.in_sphere(a, b, c, d, q).is_positive()
+    }
+
+    /// The same for two.
+    #[inline]
+    pub(super) fn both_conflict(&self, t: TetrahedronId, u: TetrahedronId, q: [f64; 3]) -> [bool; 2] {
+        let (first, second) = (self.corners(t), self.corners(u));
+        if first[3].is_ghost() || second[3].is_ghost() {
+            return [self.conflicts(t, q), self.conflicts(u, q)];
+        }
+        let [first, second] = self.filter.in_spheres([self.all(first), self.all(second)], q);
+        [first.is_positive(), second.is_positive()]
+    }
+
+    /// The same for a ghost.
+    fn is_beyond_hull(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
+        let cell = &self.cells[t.index()];
+        let [a, b, c] = [0, 1, 2].map(|k| self.at(cell.corners[k]));
+        let side = self.filter.orient3d(a, b, c, q);
+        if !side.is_zero() {
+            return side.is_positive();
+        }
+        // In the plane of the facet the sphere of the tetrahedron inside cuts out its circle.
+        let [a, b, c, d] = self.all(self.corners(cell.across[3].tetrahedron()));
+        self.filter.in_sphere(a, b, c, d, q).is_positive()
+    }
+
+    /// Walks to `q` from a tetrahedron: to a finite one that contains it in its inside or on its border, or else to the
+    /// ghost of a hull facet that it is strictly beyond. Visibility walk, which ends in every Delaunay triangulation.
+    #[inline]
+    pub(super) fn walk<T: Tally>(&self, from: TetrahedronId, q: [f64; 3], tally: &mut T) -> TetrahedronId {
+        let mut t = from;
+        if self.corners(t)[3].is_ghost() {
+            t = self.cells[t.index()].across[3].tetrahedron();
+        }
+        let mut entered = 4;
+        'walk: loop {
+            tally.visited();
+            let cell = &self.cells[t.index()];
+            if cell.corners[3].is_ghost() {
+                return t;
+            }
+            let points = self.all(&cell.corners);
+            for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
+                if k == entered {
+                    continue;
+                }
+                tally.orientation();
+                if self.filter.orient3d(points[i], points[j], points[l], q).is_negative() {
+                    let across = cell.across[k];
+                    (t, entered) = (across.tetrahedron(), across.corner());
+                    continue 'walk;
+                }
+            }
+            return t;
+        }
+    }
+
+    /// The corner of a tetrahedron that a point equals.
+    #[inline]
+    pub(super) fn vertex_at(&self, t: TetrahedronId, q: [f64; 3]) -> Option<Place> {
+        self.corners(t).iter().copied().find(|&p| !p.is_ghost() && self.at(p) == q)
+    }
+}

@@ -1,0 +1,253 @@
+//! Parts triangulated apart, each by whoever has time, and joined by the triangulation of the points near the cuts.
+//!
+//! Source: Funke & Sanders, "Parallel d-d Delaunay triangulations in shared and distributed memory", ALENEX 2017. The sure
+//! tetrahedra of the parts ([`super::part`]) stay. What they leave open is a hole, and every tetrahedron that all points
+//! have there has its corners at the border: its vertices of one part are also corners of something of the part that
+//! is not sure. It is one of the triangulation of the border's vertices, which by the canonical rule is unique and
+//! fits; and to fill it in is what removal does in the small ([`super::super::hole`]).
+//!
+//! How the points are cut depends on them alone, and the parts own their memory, so the result is the same bits for any
+//! number of threads. Cost: that of [`super::build`], divided by the threads, and once more for the points near the
+//! cuts, a twentieth at most.
+
+use super::super::Position3;
+use super::super::layer::Layer;
+use super::cut::{Run, cut};
+use super::part::{Done, Part};
+use super::{ROOM, triangulate};
+use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
+use crate::locate::tally::Tally;
+use crate::mesh::tetrahedra::{Mesh3, Tetrahedron};
+use crate::mesh::{Dimension, Names};
+use crate::parallel;
+
+/// A bit of the marks of tetrahedra that fill the hole; the lower four tell which facets are at its border.
+const FILLS: u8 = 16;
+
+/// Triangulates points in parts. `None` if that would not pay, or there are parts that do not span space or are larger than
+/// expected.
+pub(super) fn triangulate_apart<P: Position3, T: Tally + Default + Send>(
+    points: &[P],
+    seed: u64,
+    tally: &mut T,
+) -> Option<(Layer, Vec<Duplicate>)> {
+    triangulate_runs(points, cut(points)?, seed, tally)
+}
+
+/// The same for points that are cut already.
+fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
+    points: &[P],
+    runs: Vec<Run>,
+    seed: u64,
+    tally: &mut T,
+) -> Option<(Layer, Vec<Duplicate>)> {
+    let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
+    let mut layer = Layer::new(parallel::collect(order.len(), |k| points[order[k] as usize].xyz()));
+    layer.mesh.names = Names::along(&order);
+    drop(order);
+    let parts = build_parts(&mut layer, runs, seed, tally)?;
+    let mut duplicates = Vec::new();
+    for part in &parts {
+        let names = &mut layer.mesh.names;
+        duplicates.extend(part.twins.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
+    }
+    layer.mesh.vertex_count = layer.points.len() - duplicates.len();
+    join(&mut layer, &parts, seed, tally)?;
+    Some((layer, duplicates))
+}
+
+/// Triangulates each run in its part of the layer's memory.
+fn build_parts<T: Tally + Default + Send>(
+    layer: &mut Layer,
+    runs: Vec<Run>,
+    seed: u64,
+    tally: &mut T,
+) -> Option<Vec<Done>> {
+    let count = layer.points.len();
+    let mesh = &mut layer.mesh;
+    mesh.cells = parallel::filled(Tetrahedron::FREE, ROOM * count);
+    mesh.marks = vec![0; ROOM * count];
+    let sum = |end: &mut usize, run: &Run| {
+        *end += run.order.len();
+        Some(*end)
+    };
+    let ends: Vec<usize> = runs.iter().scan(0, sum).collect();
+    let rooms: Vec<usize> = ends.iter().map(|end| ROOM * end).collect();
+    let memory = parallel::split_at(&mut mesh.cells, &rooms)
+        .into_iter()
+        .zip(parallel::split_at(&mut mesh.marks, &rooms))
+        .zip(parallel::split_at(&mut mesh.incident, &ends));
+    let starts = std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied());
+    let tasks = runs.into_iter().zip(memory).zip(starts).collect();
+    let points = &layer.points;
+    let build = |((run, ((cells, marks), incident)), (start, end)): ((Run, _), (usize, usize))| {
+        let mut tally = T::default();
+        let mut part = Part::new(&points[start..end], cells, marks, incident);
+        let built = part.build(seed, &mut tally);
+        built.map(|()| (part.settle(&run.others, start, ROOM * start), tally))
+    };
+    let parts: Option<Vec<(Done, T)>> = parallel::map(tasks, build).into_iter().collect();
+    let parts = parts?.into_iter().map(|(part, of_part)| {
+        tally.add(&of_part);
+        part
+    });
+    Some(parts.collect())
+}
+
+/// Fills what the borders of the parts leave open. `None` if the vertices there do not span space.
+fn join<T: Tally + Default + Send>(
+    layer: &mut Layer,
+    parts: &[Done],
+    seed: u64,
+    tally: &mut T,
+) -> Option<()> {
+    let vertices: Vec<Place> = parts.iter().flat_map(|part| part.vertices.iter().copied()).collect();
+    let at: Vec<[f64; 3]> = vertices.iter().map(|p| layer.points[p.index()]).collect();
+    let (mut fill, _) = triangulate(&at, seed, tally);
+    if fill.dimension() != Dimension::Space {
+        return None;
+    }
+    let walls = find_walls(&mut fill.mesh, &vertices, parts)?;
+    let inside = find_inside(&mut fill.mesh, &walls);
+
+    let border = parts.iter().flat_map(|part| &part.border);
+    let mut room: Vec<TetrahedronId> = parts.iter().flat_map(|part| &part.free).chain(border).copied().collect();
+    let mesh = &mut layer.mesh;
+    room.iter().for_each(|t| mesh.cells[t.index()] = Tetrahedron::FREE);
+    room.extend(parts.iter().flat_map(|part| part.unused.clone()).map(TetrahedronId::new));
+    if room.len() < inside.len() {
+        return None;
+    }
+    let mut becomes = vec![TetrahedronId::NONE; fill.mesh.cells.len()];
+    inside.iter().zip(&room).for_each(|(t, &to)| becomes[t.index()] = to);
+    let place = |p: Place| if p.is_ghost() { p } else { vertices[fill.mesh.names.of(p).index()] };
+    for (&t, &to) in inside.iter().zip(&room) {
+        let cell = fill.mesh.cells[t.index()];
+        let across = cell.across.map(|f| match becomes[f.tetrahedron().index()] {
+            TetrahedronId::NONE => FacetId::NONE,
+            there => there.facet(f.corner()),
+        });
+        mesh.cells[to.index()] = Tetrahedron { corners: cell.corners.map(place), across };
+        let corners = mesh.cells[to.index()].corners;
+        corners.into_iter().filter(|p| !p.is_ghost()).for_each(|p| mesh.incident[p.index()] = to);
+    }
+    for &(f, outside) in &walls {
+        mesh.link(becomes[f.tetrahedron().index()].facet(f.corner()), outside);
+    }
+    let left = &mut room[inside.len()..];
+    left.sort_unstable();
+    mesh.pack(left);
+    Some(())
+}
+
+/// Finds the facets of the border of the hole in the triangulation of its vertices, as it sees them from inside, with
+/// their other sides, and marks them.
+fn find_walls(fill: &mut Mesh3, vertices: &[Place], parts: &[Done]) -> Option<Vec<(FacetId, FacetId)>> {
+    let number = |p: Place| {
+        let k = vertices.binary_search(&p).ok()?;
+        fill.names.place(VertexId::new(k))
+    };
+    let mut seam = Vec::new();
+    for &(corners, outside) in parts.iter().flat_map(|part| &part.seam) {
+        let mut inside = [Place::GHOST; 3];
+        for (to, p) in inside.iter_mut().zip(corners).filter(|(_, p)| !p.is_ghost()) {
+            *to = number(p)?;
+        }
+        seam.push((from_smallest(inside), outside));
+    }
+    seam.sort_unstable();
+    let mut walls = Vec::new();
+    let mut star = Vec::new();
+    for same in seam.chunk_by(|a, b| a.0[0] == b.0[0]) {
+        fill.star(same[0].0[0], &mut star);
+        for &(corners, outside) in same {
+            let facets = star.iter().flat_map(|t| [0, 1, 2, 3].map(|k| t.facet(k)));
+            let facet = facets.into_iter().find(|&f| from_smallest(fill.facet_places(f)) == corners)?;
+            fill.marks[facet.tetrahedron().index()] |= 1 << facet.corner();
+            walls.push((facet, outside));
+        }
+    }
+    Some(walls)
+}
+
+/// The same in the same sense, from the smallest on. The ghost is the largest.
+fn from_smallest([a, b, c]: [Place; 3]) -> [Place; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
+/// The tetrahedra inside of walls; all if there are none.
+fn find_inside(fill: &mut Mesh3, walls: &[(FacetId, FacetId)]) -> Vec<TetrahedronId> {
+    let any = fill.cells().next().filter(|_| walls.is_empty());
+    let mut inside = Vec::new();
+    for t in walls.iter().map(|(f, _)| f.tetrahedron()).chain(any) {
+        if fill.marks[t.index()] & FILLS == 0 {
+            fill.marks[t.index()] |= FILLS;
+            inside.push(t);
+        }
+    }
+    let mut done = 0;
+    while let Some(&t) = inside.get(done) {
+        done += 1;
+        let walls = fill.marks[t.index()];
+        for k in (0..4).filter(|k| walls >> k & 1 == 0) {
+            let next = fill.twin(t.facet(k)).tetrahedron();
+            if fill.marks[next.index()] & FILLS == 0 {
+                fill.marks[next.index()] |= FILLS;
+                inside.push(next);
+            }
+        }
+    }
+    inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::cut::divide;
+    use super::super::triangulate_whole;
+    use super::triangulate_runs;
+    use crate::space::Delaunay3;
+    use delone_oracle::generate::Kind3;
+
+    /// All tetrahedra, ghosts included, as sorted corners.
+    fn cells(d: &Delaunay3) -> Vec<[usize; 4]> {
+        let mesh = d.mesh();
+        let corners = |t| {
+            let mut corners = mesh.corners(t).map(crate::VertexId::index);
+            corners.sort_unstable();
+            corners
+        };
+        let mut cells: Vec<[usize; 4]> = mesh.cells().map(corners).collect();
+        cells.sort_unstable();
+        cells
+    }
+
+    #[test]
+    fn parts_are_joined_to_the_one_triangulation() {
+        let mut joined = 0;
+        for &kind in Kind3::ALL {
+            for (count, cuts) in [(40, 1), (300, 1), (700, 3), (1500, 2)] {
+                let points = kind.points(count, 7);
+                let all = (0..points.len() as u32).collect();
+                let runs = divide(&points, all, cuts, Vec::new());
+                if runs.len() == 1 {
+                    continue;
+                }
+                let Some((base, duplicates)) = triangulate_runs(&points, runs, 0, &mut ()) else { continue };
+                joined += 1;
+                let apart = Delaunay3 { base, duplicates, ..Delaunay3::default() };
+                apart.check().unwrap_or_else(|flaw| panic!("{} {count}: {flaw}", kind.name()));
+                let (base, duplicates) = triangulate_whole(&points, 0, &mut ());
+                let whole = Delaunay3 { base, duplicates, ..Delaunay3::default() };
+                assert_eq!(cells(&apart), cells(&whole), "{} {count}", kind.name());
+                assert_eq!(apart.duplicates().count(), whole.duplicates().count());
+            }
+        }
+        assert!(joined > 40, "{joined}");
+    }
+}
