@@ -38,9 +38,17 @@ pub(crate) fn filled<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
     collect(count, |_| value)
 }
 
+/// The same where the memory of a large page is long in coming: for arrays of hundreds of bytes a point.
+pub(crate) fn filled_in_small_pages<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
+    collect_into(Vec::with_capacity(count), count, |_| value)
+}
+
 /// The results for 0, 1, 2 and so on.
 pub(crate) fn collect<T: Send>(count: usize, item: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
-    let mut items = room_for(count);
+    collect_into(room_for(count), count, item)
+}
+
+fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
     #[cfg(feature = "rayon")]
     if parts(count) > 1 {
         use rayon::prelude::*;

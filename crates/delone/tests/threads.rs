@@ -1,8 +1,8 @@
 //! The number of threads never shows: the same bits for one and for many.
 #![cfg(feature = "rayon")]
 
-use delone::{Delaunay2, VertexId};
-use delone_oracle::generate::Kind;
+use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, VertexId};
+use delone_oracle::generate::{Kind, Kind3};
 use rayon::ThreadPoolBuilder;
 
 /// Everything that a triangulation is: corners and neighbours by triangle, an edge of each vertex, duplicates.
@@ -40,5 +40,47 @@ fn many_threads_give_the_canonical_triangulation() {
         let points = kind.points(if kind.is_extreme() { 35_000 } else { 60_000 }, 2);
         let d = pool.install(|| Delaunay2::from_points(&points).expect("finite"));
         assert_eq!(d.check(), Ok(()), "{}", kind.name());
+    }
+}
+
+/// The same in space.
+fn bits3(d: &Delaunay3) -> impl PartialEq + use<> {
+    let mesh = d.mesh();
+    let cells: Vec<_> = d.cells().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();
+    let hull: Vec<_> = d.hull().collect();
+    (cells, hull, d.duplicates().collect::<Vec<_>>(), d.work())
+}
+
+/// The tetrahedra, whatever their order and that of their corners.
+fn set(d: &Delaunay3) -> Vec<[VertexId; 4]> {
+    let sorted = |mut corners: [VertexId; 4]| {
+        corners.sort_unstable();
+        corners
+    };
+    let mut set: Vec<_> = d.tetrahedra().map(sorted).collect();
+    set.sort_unstable();
+    set
+}
+
+#[test]
+fn threads_never_show_in_space() {
+    let on = |threads: usize, points: &[[f64; 3]]| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Delaunay3::with_algorithm(points, Algorithm3::Spatial { seed: 0 }).expect("finite"))
+    };
+    for (kind, n) in
+        [(Kind3::Cube, 130_000), (Kind3::Clusters3, 60_000), (Kind3::Grid3, 50_000), (Kind3::Sphere, 20_000)]
+    {
+        // Points that equal others, on either side of every cut.
+        let mut points = kind.points(n, 1);
+        points.extend_from_within(..n / 50);
+        let one = on(1, &points);
+        for threads in [2, 5] {
+            assert!(bits3(&on(threads, &points)) == bits3(&one), "{} on {threads} threads", kind.name());
+        }
+        assert_eq!(one.check(), Ok(()), "{}", kind.name());
+        let random = Algorithm3::Located { locate: Locate::default(), seed: 1 };
+        let other = Delaunay3::with_algorithm(&points, random).expect("finite");
+        assert!(set(&one) == set(&other), "{}", kind.name());
     }
 }

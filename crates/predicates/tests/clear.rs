@@ -21,13 +21,14 @@ fn corners(r: &mut Random, size: f64) -> [Point3; 4] {
 /// The centre and the radius, rounded.
 fn sphere([a, b, c, d]: [Point3; 4]) -> (Point3, f64) {
     let from = |p: Point3| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
-    let cross =
-        |p: Point3, q: Point3| [0, 1, 2].map(|k| p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3]);
+    let cross = |p: Point3, q: Point3| {
+        [0, 1, 2].map(|k| p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3])
+    };
     let dot = |p: Point3, q: Point3| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let (b, c, d) = (from(b), from(c), from(d));
     let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
-    let at = [0, 1, 2]
-        .map(|k| (dot(b, b) * cd[k] + dot(c, c) * db[k] + dot(d, d) * bc[k]) / (2.0 * dot(b, cd)));
+    let at =
+        [0, 1, 2].map(|k| (dot(b, b) * cd[k] + dot(c, c) * db[k] + dot(d, d) * bc[k]) / (2.0 * dot(b, cd)));
     ([0, 1, 2].map(|k| a[k] + at[k]), dot(at, at).sqrt())
 }
 
@@ -44,7 +45,9 @@ fn clear_spheres_are_clear() {
         let size = [1.0, 1e-55, 1e55, 1e-100, 1e200][r.below(5)];
         let corners = corners(&mut r, size);
         let (centre, radius) = sphere(corners);
-        if !centre.iter().all(|x| x.is_finite()) || exact::orient3d(corners[0], corners[1], corners[2], corners[3]) == 0 {
+        if !centre.iter().all(|x| x.is_finite())
+            || exact::orient3d(corners[0], corners[1], corners[2], corners[3]) == 0
+        {
             continue;
         }
         // A box with a side, an edge or a corner near the sphere.

@@ -4,12 +4,14 @@
 //! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Keys have a few bits more than it takes to
 //! tell evenly spread points apart; where many points share a key, they get keys in their own bounding box, recursively.
 //!
-//! Cost: O(n log n).
+//! Cost: O(n) passes for points spread evenly, O(n log n) otherwise.
 
+use super::radix;
 use super::random::SplitMix;
+use crate::parallel;
 
-/// The most bits an axis.
-const MOST_BITS: u32 = 21;
+/// The most bits an axis: three axes fit 32 bits.
+const MOST_BITS: u32 = 10;
 /// Runs of equal keys up to this length keep the order of the input.
 const SHORT_RUN: usize = 32;
 /// Each round holds seven times as many points as all before it.
@@ -17,24 +19,36 @@ const GROWTH: u64 = 8;
 /// The first round is not made smaller than this.
 const SMALLEST: usize = 64;
 
-/// The indices of points along the curve; equal points by increasing index.
-pub(crate) fn hilbert(count: usize, point: &impl Fn(u32) -> [f64; 3]) -> Vec<u32> {
-    let mut keyed: Vec<(u64, u32)> = (0..count as u32).map(|i| (0, i)).collect();
-    sort(&mut keyed, point);
-    keyed.into_iter().map(|(_, i)| i).collect()
+/// The indices of points along the curve; equal points by increasing index. In parallel if they are many.
+pub(crate) fn hilbert(count: usize, point: &(impl Fn(u32) -> [f64; 3] + Sync)) -> Vec<u32> {
+    let bits = bits_for(count);
+    let Some(cells) = Cells::around((0..count as u32).map(point), bits) else {
+        return (0..count as u32).collect();
+    };
+    // A key, and below it the index.
+    let mut entries = parallel::collect(count, |i| cells.key(point(i as u32)) << 32 | i as u64);
+    radix::sort(&mut entries, 3 * bits);
+    let mut pending: Vec<&mut [u64]> = long_runs(&mut entries).collect();
+    while let Some(run) = pending.pop() {
+        let bits = bits_for(run.len());
+        let Some(cells) = Cells::around(run.iter().map(|&entry| point(entry as u32)), bits) else { continue };
+        for entry in &mut *run {
+            let i = *entry as u32;
+            *entry = cells.key(point(i)) << 32 | u64::from(i);
+        }
+        radix::by_digits(run, 3 * bits);
+        pending.extend(long_runs(run));
+    }
+    entries.into_iter().map(|entry| entry as u32).collect()
 }
 
-fn sort(keyed: &mut [(u64, u32)], point: &impl Fn(u32) -> [f64; 3]) {
-    let mut pending = vec![keyed];
-    while let Some(part) = pending.pop() {
-        let bits = (part.len().max(1).ilog2() / 3 + 3).min(MOST_BITS);
-        let Some(cells) = Cells::around(part.iter().map(|&(_, i)| point(i)), bits) else { continue };
-        part.iter_mut().for_each(|(key, i)| *key = cells.key(point(*i)));
-        part.sort_unstable();
-        for run in part.chunk_by_mut(|a, b| a.0 == b.0).filter(|run| run.len() > SHORT_RUN) {
-            pending.push(run);
-        }
-    }
+fn bits_for(count: usize) -> u32 {
+    (count.max(1).ilog2() / 3 + 3).min(MOST_BITS)
+}
+
+/// The runs of equal keys that are too long.
+fn long_runs(entries: &mut [u64]) -> impl Iterator<Item = &mut [u64]> {
+    entries.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|run| run.len() > SHORT_RUN)
 }
 
 /// The cells of a box.
@@ -80,30 +94,20 @@ impl Cells {
 
 /// The position of a cell along the curve.
 fn curve(mut x: [u32; 3], bits: u32) -> u64 {
-    let mut q = 1 << (bits - 1);
-    while q > 1 {
-        let p = q - 1;
+    // All ones where a bit is set: which bits are set is chance, so nothing branches on it.
+    let ones = |x: u32, bit: u32| (x >> bit & 1).wrapping_neg();
+    for bit in (1..bits).rev() {
+        let below = (1 << bit) - 1;
         for i in 0..3 {
-            if x[i] & q != 0 {
-                x[0] ^= p;
-            } else {
-                let t = (x[0] ^ x[i]) & p;
-                x[0] ^= t;
-                x[i] ^= t;
-            }
+            let flip = ones(x[i], bit);
+            let t = (x[0] ^ x[i]) & below & !flip;
+            x[0] ^= t | below & flip;
+            x[i] ^= t;
         }
-        q >>= 1;
     }
     x[1] ^= x[0];
     x[2] ^= x[1];
-    let mut t = 0;
-    let mut q = 1 << (bits - 1);
-    while q > 1 {
-        if x[2] & q != 0 {
-            t ^= q - 1;
-        }
-        q >>= 1;
-    }
+    let t = (1..bits).fold(0, |t, bit| t ^ ((1 << bit) - 1) & ones(x[2], bit));
     let spread = |x: u32| {
         let x = u64::from(x);
         let x = (x | x << 32) & 0x001f_0000_0000_ffff;

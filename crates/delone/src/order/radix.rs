@@ -22,8 +22,8 @@ pub(super) fn sort(entries: &mut Vec<u64>, key_bits: u32) {
     }
 }
 
-/// Least significant digits first.
-fn by_digits(entries: &mut [u64], key_bits: u32) {
+/// Least significant digits first, on one thread.
+pub(super) fn by_digits(entries: &mut [u64], key_bits: u32) {
     if entries.len() < SHORT {
         entries.sort_unstable();
         return;

@@ -38,7 +38,7 @@ pub(super) trait Arena {
     fn free_cell(&mut self, t: TetrahedronId);
 }
 
-impl<'a> Memory<'a> {
+impl Memory<'_> {
     #[inline]
     pub(super) fn view(&self) -> View<'_> {
         View { cells: self.cells, points: self.points, filter: self.filter }

@@ -10,50 +10,33 @@
 //! number of threads. Cost: that of [`super::build`], divided by the threads, and once more for the points near the
 //! cuts, a twentieth at most.
 
-use super::super::Position3;
 use super::super::layer::Layer;
-use super::cut::{Run, cut};
+use super::cut::Run;
 use super::part::{Done, Part};
-use super::{ROOM, triangulate};
+use super::{ROOM, note_twins};
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
 use crate::locate::tally::Tally;
+use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::{Mesh3, Tetrahedron};
-use crate::mesh::{Dimension, Names};
 use crate::parallel;
 
 /// A bit of the marks of tetrahedra that fill the hole; the lower four tell which facets are at its border.
 const FILLS: u8 = 16;
 
-/// Triangulates points in parts. `None` if that would not pay, or there are parts that do not span space or are larger than
-/// expected.
-pub(super) fn triangulate_apart<P: Position3, T: Tally + Default + Send>(
-    points: &[P],
-    seed: u64,
-    tally: &mut T,
-) -> Option<(Layer, Vec<Duplicate>)> {
-    triangulate_runs(points, cut(points)?, seed, tally)
-}
-
-/// The same for points that are cut already.
-fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
-    points: &[P],
+/// Triangulates the points of a layer, where one run is kept after the other. `None` if they are not such that it can be
+/// done.
+pub(super) fn triangulate<T: Tally + Default + Send>(
+    layer: &mut Layer,
     runs: Vec<Run>,
     seed: u64,
+    duplicates: &mut Vec<Duplicate>,
     tally: &mut T,
-) -> Option<(Layer, Vec<Duplicate>)> {
-    let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
-    let mut layer = Layer::new(parallel::collect(order.len(), |k| points[order[k] as usize].xyz()));
-    layer.mesh.names = Names::along(&order);
-    drop(order);
-    let parts = build_parts(&mut layer, runs, seed, tally)?;
-    let mut duplicates = Vec::new();
-    for part in &parts {
-        let names = &mut layer.mesh.names;
-        duplicates.extend(part.twins.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
-    }
+) -> Option<()> {
+    let parts = build_parts(layer, runs, seed, tally)?;
+    join(layer, &parts, seed, tally)?;
+    parts.iter().for_each(|part| note_twins(layer, &part.twins, duplicates));
     layer.mesh.vertex_count = layer.points.len() - duplicates.len();
-    join(&mut layer, &parts, seed, tally)?;
-    Some((layer, duplicates))
+    Some(())
 }
 
 /// Triangulates each run in its part of the layer's memory.
@@ -65,7 +48,7 @@ fn build_parts<T: Tally + Default + Send>(
 ) -> Option<Vec<Done>> {
     let count = layer.points.len();
     let mesh = &mut layer.mesh;
-    mesh.cells = parallel::filled(Tetrahedron::FREE, ROOM * count);
+    mesh.cells = parallel::filled_in_small_pages(Tetrahedron::FREE, ROOM * count);
     mesh.marks = vec![0; ROOM * count];
     let sum = |end: &mut usize, run: &Run| {
         *end += run.order.len();
@@ -103,7 +86,7 @@ fn join<T: Tally + Default + Send>(
 ) -> Option<()> {
     let vertices: Vec<Place> = parts.iter().flat_map(|part| part.vertices.iter().copied()).collect();
     let at: Vec<[f64; 3]> = vertices.iter().map(|p| layer.points[p.index()]).collect();
-    let (mut fill, _) = triangulate(&at, seed, tally);
+    let (mut fill, _) = super::triangulate(at, seed, tally);
     if fill.dimension() != Dimension::Space {
         return None;
     }
@@ -111,7 +94,8 @@ fn join<T: Tally + Default + Send>(
     let inside = find_inside(&mut fill.mesh, &walls);
 
     let border = parts.iter().flat_map(|part| &part.border);
-    let mut room: Vec<TetrahedronId> = parts.iter().flat_map(|part| &part.free).chain(border).copied().collect();
+    let mut room: Vec<TetrahedronId> =
+        parts.iter().flat_map(|part| &part.free).chain(border).copied().collect();
     let mesh = &mut layer.mesh;
     room.iter().for_each(|t| mesh.cells[t.index()] = Tetrahedron::FREE);
     room.extend(parts.iter().flat_map(|part| part.unused.clone()).map(TetrahedronId::new));
@@ -141,33 +125,43 @@ fn join<T: Tally + Default + Send>(
 }
 
 /// Finds the facets of the border of the hole in the triangulation of its vertices, as it sees them from inside, with
-/// their other sides, and marks them.
+/// their other sides, and marks them. `None` if some are not there.
 fn find_walls(fill: &mut Mesh3, vertices: &[Place], parts: &[Done]) -> Option<Vec<(FacetId, FacetId)>> {
-    let number = |p: Place| {
-        let k = vertices.binary_search(&p).ok()?;
-        fill.names.place(VertexId::new(k))
-    };
-    let mut seam = Vec::new();
+    let count = parts.iter().map(|part| part.seam.len()).sum();
+    let mut seam: Vec<([Place; 3], FacetId)> = Vec::with_capacity(count);
     for &(corners, outside) in parts.iter().flat_map(|part| &part.seam) {
         let mut inside = [Place::GHOST; 3];
         for (to, p) in inside.iter_mut().zip(corners).filter(|(_, p)| !p.is_ghost()) {
-            *to = number(p)?;
+            *to = fill.names.place(VertexId::new(vertices.binary_search(&p).ok()?))?;
         }
         seam.push((from_smallest(inside), outside));
     }
     seam.sort_unstable();
-    let mut walls = Vec::new();
-    let mut star = Vec::new();
-    for same in seam.chunk_by(|a, b| a.0[0] == b.0[0]) {
-        fill.star(same[0].0[0], &mut star);
-        for &(corners, outside) in same {
-            let facets = star.iter().flat_map(|t| [0, 1, 2, 3].map(|k| t.facet(k)));
-            let facet = facets.into_iter().find(|&f| from_smallest(fill.facet_places(f)) == corners)?;
-            fill.marks[facet.tetrahedron().index()] |= 1 << facet.corner();
-            walls.push((facet, outside));
+    // For each place where those begin that have it for their smallest corner.
+    let mut begin = vec![0; vertices.len() + 1];
+    seam.iter().for_each(|(corners, _)| begin[corners[0].index() + 1] += 1);
+    let mut sum = 0;
+    for at in &mut begin {
+        sum += *at;
+        *at = sum;
+    }
+    let mut walls = Vec::with_capacity(count);
+    for t in 0..fill.cells.len() {
+        let t = TetrahedronId::new(t);
+        for f in [0, 1, 2, 3].map(|k| t.facet(k)) {
+            let corners = from_smallest(fill.facet_places(f));
+            if corners[0].is_ghost() {
+                continue;
+            }
+            let at = corners[0].index();
+            if let Some((_, outside)) = seam[begin[at]..begin[at + 1]].iter().find(|facet| facet.0 == corners)
+            {
+                fill.marks[t.index()] |= 1 << f.corner();
+                walls.push((f, *outside));
+            }
         }
     }
-    Some(walls)
+    (walls.len() == count).then_some(walls)
 }
 
 /// The same in the same sense, from the smallest on. The ghost is the largest.
@@ -210,8 +204,10 @@ fn find_inside(fill: &mut Mesh3, walls: &[(FacetId, FacetId)]) -> Vec<Tetrahedro
 mod tests {
     use super::super::cut::divide;
     use super::super::triangulate_whole;
-    use super::triangulate_runs;
+    use super::triangulate;
+    use crate::mesh::Names;
     use crate::space::Delaunay3;
+    use crate::space::layer::Layer;
     use delone_oracle::generate::Kind3;
 
     /// All tetrahedra, ghosts included, as sorted corners.
@@ -238,12 +234,19 @@ mod tests {
                 if runs.len() == 1 {
                     continue;
                 }
-                let Some((base, duplicates)) = triangulate_runs(&points, runs, 0, &mut ()) else { continue };
+                let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
+                let mut layer = Layer::new(order.iter().map(|&i| points[i as usize]).collect());
+                layer.mesh.names = Names::along(&order);
+                let (mut whole, mut duplicates) = (layer.clone(), Vec::new());
+                if triangulate(&mut layer, runs, 0, &mut duplicates, &mut ()).is_none() {
+                    continue;
+                }
                 joined += 1;
-                let apart = Delaunay3 { base, duplicates, ..Delaunay3::default() };
+                let apart = Delaunay3 { base: layer, duplicates, ..Delaunay3::default() };
                 apart.check().unwrap_or_else(|flaw| panic!("{} {count}: {flaw}", kind.name()));
-                let (base, duplicates) = triangulate_whole(&points, 0, &mut ());
-                let whole = Delaunay3 { base, duplicates, ..Delaunay3::default() };
+                let mut duplicates = Vec::new();
+                triangulate_whole(&mut whole, 0, &mut duplicates, &mut ());
+                let whole = Delaunay3 { base: whole, duplicates, ..Delaunay3::default() };
                 assert_eq!(cells(&apart), cells(&whole), "{} {count}", kind.name());
                 assert_eq!(apart.duplicates().count(), whole.duplicates().count());
             }

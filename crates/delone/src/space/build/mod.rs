@@ -14,42 +14,45 @@ use super::Position3;
 use super::arena::Arena;
 use super::cavity::Cavity;
 use super::layer::Layer;
-use crate::ids::{Duplicate, Place};
+use crate::ids::{Duplicate, Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::Names;
 use crate::order::curve;
+use crate::parallel;
 
 /// Tetrahedra a point that room is made for at once: evenly spread points have 6.77.
 const ROOM: usize = 7;
 
-/// Triangulates finite points, at most [`crate::MAX_POINTS_IN_SPACE`] of them.
+/// Triangulates finite points, at most [`crate::MAX_POINTS_IN_SPACE`] of them. They are kept in another order; what is
+/// given is dropped as soon as that is done.
 pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
-    points: &[P],
+    points: impl AsRef<[P]>,
     seed: u64,
     tally: &mut T,
 ) -> (Layer, Vec<Duplicate>) {
-    let apart = apart::triangulate_apart(points, seed, tally);
-    let (layer, mut duplicates) = apart.unwrap_or_else(|| triangulate_whole(points, seed, tally));
+    let runs = cut::cut(points.as_ref());
+    let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
+    let given = points.as_ref();
+    let mut layer = Layer::new(parallel::collect(order.len(), |k| given[order[k] as usize].xyz()));
+    drop(points);
+    layer.mesh.names = Names::along(&order);
+    drop(order);
+    let mut duplicates = Vec::new();
+    if runs.len() == 1 || apart::triangulate(&mut layer, runs, seed, &mut duplicates, tally).is_none() {
+        triangulate_whole(&mut layer, seed, &mut duplicates, tally);
+    }
     Duplicate::settle(&mut duplicates);
     (layer, duplicates)
 }
 
-fn triangulate_whole<P: Position3, T: Tally>(
-    points: &[P],
-    seed: u64,
-    tally: &mut T,
-) -> (Layer, Vec<Duplicate>) {
-    let order = curve::hilbert(points.len(), &|i| points[i as usize].xyz());
-    let kept = order.iter().map(|&i| points[i as usize].xyz()).collect();
-    let mut layer = Layer::new(kept);
-    layer.mesh.names = Names::along(&order);
-    let room = ROOM * points.len();
-    layer.mesh.cells.reserve_exact(room);
-    layer.mesh.marks.reserve_exact(room);
-    drop(order);
-    let mut duplicates = Vec::new();
-    build(&mut layer, &curve::rounds(points.len(), seed), &mut duplicates, tally);
-    (layer, duplicates)
+/// Makes all points vertices, which must be in an order that is short in space.
+fn triangulate_whole<T: Tally>(layer: &mut Layer, seed: u64, duplicates: &mut Vec<Duplicate>, tally: &mut T) {
+    let count = layer.points.len();
+    layer.clear_mesh();
+    layer.mesh.incident.fill(TetrahedronId::NONE);
+    layer.mesh.cells.reserve_exact(ROOM * count);
+    layer.mesh.marks.reserve_exact(ROOM * count);
+    build(layer, &curve::rounds(count, seed), duplicates, tally);
 }
 
 /// Makes the points at some places vertices, in this order, in an empty mesh. Those that equal others become
@@ -61,32 +64,36 @@ pub(super) fn build<T: Tally>(
     tally: &mut T,
 ) {
     let first = layer.begin(order);
+    let Some(&a) = first.first() else { return };
+    let start = layer.mesh.incident[a.index()];
+    let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
     let mut cavity = std::mem::take(&mut layer.cavity);
     let mut twins = Vec::new();
-    let all = insert_all(layer, &mut cavity, &first, order, &mut twins, tally);
+    let all = insert_all(layer, &mut cavity, start, others, &mut twins, tally);
     debug_assert!(all.is_some(), "a layer has room");
     layer.cavity = cavity;
     layer.mesh.vertex_count = order.len() - twins.len();
-    let names = &mut layer.mesh.names;
-    duplicates.extend(twins.into_iter().map(|(v, w)| names.coincide(names.of(v), w)));
+    note_twins(layer, &twins, duplicates);
 }
 
-/// Makes the points at some places vertices where the first of them are vertices already; those that equal a vertex are
+/// Points that equal vertices are duplicates of them.
+fn note_twins(layer: &mut Layer, twins: &[(Place, Place)], duplicates: &mut Vec<Duplicate>) {
+    let names = &mut layer.mesh.names;
+    duplicates.extend(twins.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
+}
+
+/// Makes the points at some places vertices, the first located from a tetrahedron near it; those that equal a vertex are
 /// listed with it. `None` if there is no room.
 fn insert_all<A: Arena, T: Tally>(
     arena: &mut A,
     cavity: &mut Cavity,
-    first: &[Place],
-    order: &[u32],
+    start: TetrahedronId,
+    places: impl Iterator<Item = Place>,
     twins: &mut Vec<(Place, Place)>,
     tally: &mut T,
 ) -> Option<()> {
-    let Some(&a) = first.first() else { return Some(()) };
-    let mut last = arena.memory().incident[a.index()];
-    for v in order.iter().map(|&i| Place::new(i as usize)) {
-        if first.contains(&v) {
-            continue;
-        }
+    let mut last = start;
+    for v in places {
         let view = arena.view();
         let q = view.points[v.index()];
         last = view.walk(last, q, tally);

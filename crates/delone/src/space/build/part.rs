@@ -101,7 +101,9 @@ impl<'a> Part<'a> {
         let &[a, b, c, d] = &first[..] else { return None };
         first_cells(self, [a, b, c, d])?;
         let mut twins = Vec::new();
-        insert_all(self, &mut Cavity::default(), &first, &order, &mut twins, tally)?;
+        let start = self.incident[a.index()];
+        let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
+        insert_all(self, &mut Cavity::default(), start, others, &mut twins, tally)?;
         self.twins = twins;
         Some(())
     }
@@ -125,8 +127,11 @@ impl<'a> Part<'a> {
                 }
             }
         }
-        let mut border: Vec<TetrahedronId> =
-            ghosts.iter().copied().filter(|&t| others.iter().any(|other| self.may_be_beyond(t, other))).collect();
+        let mut border: Vec<TetrahedronId> = ghosts
+            .iter()
+            .copied()
+            .filter(|&t| others.iter().any(|other| self.may_be_beyond(t, other)))
+            .collect();
         border.iter().for_each(|t| self.marks[t.index()] = BORDER);
         tested.append(&mut ghosts);
         let mut done = 0;
@@ -135,12 +140,12 @@ impl<'a> Part<'a> {
             for f in self.cells[t.index()].across {
                 let next = f.tetrahedron();
                 if self.marks[next.index()] == 0 {
-                    let corners = self.cells[next.index()].corners.map(|p| self.points[p.index()]);
-                    let is_sure = others.iter().all(|other| keeps_clear(corners, other.low, other.high));
-                    self.marks[next.index()] = if is_sure { SURE } else { BORDER };
                     tested.push(next);
-                    if !is_sure {
+                    if others.iter().any(|other| self.may_hold(next, other)) {
+                        self.marks[next.index()] = BORDER;
                         border.push(next);
+                    } else {
+                        self.marks[next.index()] = SURE;
                     }
                 }
             }
@@ -149,12 +154,24 @@ impl<'a> Part<'a> {
         border
     }
 
-    /// Whether some of a box may be beyond the hull facet of a ghost, or in its plane.
+    /// Whether the sphere of a finite tetrahedron may hold points of a box.
+    fn may_hold(&self, t: TetrahedronId, other: &Limits) -> bool {
+        let corners = self.cells[t.index()].corners.map(|p| self.points[p.index()]);
+        !keeps_clear(corners, other.low, other.high)
+    }
+
+    /// The same for a ghost: some of the box may be beyond its facet, or in the plane of the facet and in its circle, which
+    /// the sphere of the tetrahedron inside cuts out.
     fn may_be_beyond(&self, ghost: TetrahedronId, other: &Limits) -> bool {
-        let [a, b, c, _] = self.cells[ghost.index()].corners;
+        let Tetrahedron { corners: [a, b, c, _], across } = self.cells[ghost.index()];
         let [a, b, c] = [a, b, c].map(|p| self.points[p.index()]);
         let corner = |m: usize| [0, 1, 2].map(|k| if m >> k & 1 == 0 { other.low[k] } else { other.high[k] });
-        (0..8).any(|m| orient3d(a, b, c, corner(m)) != Sign::Negative)
+        let most = (0..8).map(|m| orient3d(a, b, c, corner(m))).max();
+        match most {
+            Some(Sign::Negative) | None => false,
+            Some(Sign::Zero) => self.may_hold(across[3].tetrahedron(), other),
+            Some(Sign::Positive) => true,
+        }
     }
 
     /// The vertices of the border, by place.
