@@ -25,7 +25,7 @@ pub fn child(task: &str) -> Option<()> {
     let n: usize = n.parse().ok()?;
     if let Some(name) = name.strip_prefix("space/") {
         let points = Kind3::named(kind)?.points(n, 1);
-        return measured(n, || crate::space::build(name, &points));
+        return measured(n, || crate::space::build(name, points));
     }
     let engine = ENGINES.iter().find(|e| e.name == name)?;
     let points = Kind::named(kind)?.points(n, 1);

@@ -8,6 +8,8 @@ use std::time::Instant;
 use delone::Delaunay3;
 use delone_oracle::generate::Kind3;
 
+use crate::engines::POOLS;
+
 type Points = [[f64; 3]];
 
 /// Seconds to build, the number of tetrahedra where points are in general position, and seconds to remove each of the
@@ -16,6 +18,7 @@ type Run = Option<(f64, usize, Option<f64>)>;
 
 const ENGINES: &[(&str, fn(&Points) -> Run)] = &[
     ("delone", delone),
+    ("delone-2-threads", delone_on_two_threads),
     #[cfg(cgal)]
     ("cgal", cgal_plain),
     #[cfg(cgal)]
@@ -48,7 +51,7 @@ pub fn run(name: &str, size: usize, runs: usize, memory: bool) -> bool {
     for ((engine, _), (seconds, cells, removal)) in ENGINES.iter().zip(&best) {
         if seconds.is_finite() {
             let ns = seconds * 1e9 / n as f64;
-            print!("  {engine:14} {ns:>8.0} {:>6.2} x {cells:>10} tetrahedra", seconds / best[0].0);
+            print!("  {engine:16} {ns:>8.0} {:>6.2} x {cells:>10} tetrahedra", seconds / best[0].0);
             if removal.is_finite() {
                 print!(" {:>10.0} {:>6.2} x", removal * 1e9, removal / best[0].2);
             }
@@ -65,13 +68,16 @@ pub fn run(name: &str, size: usize, runs: usize, memory: bool) -> bool {
         || best.iter().all(|&(seconds, cells, _)| !seconds.is_finite() || cells == 0 || cells == best[0].1)
 }
 
-/// Builds once, for who measures memory.
-pub fn build(name: &str, points: &Points) -> Option<()> {
-    if name == "delone" {
-        return Delaunay3::from_points(points).ok().map(drop);
+/// Builds once, for who measures memory. Delone is given the points themselves.
+pub fn build(name: &str, points: Vec<[f64; 3]>) -> Option<()> {
+    match name {
+        "delone" => Delaunay3::from_vec(points).ok().map(drop),
+        "delone-2-threads" => POOLS[1].install(|| Delaunay3::from_vec(points).ok().map(drop)),
+        _ => {
+            let engine = ENGINES.iter().find(|engine| engine.0 == name)?;
+            (engine.1)(&points).map(drop)
+        }
     }
-    let engine = ENGINES.iter().find(|engine| engine.0 == name)?;
-    (engine.1)(points).map(drop)
 }
 
 /// The vertices of a model in PLY, ascii or binary, as far as three doubles or floats begin each.
@@ -96,6 +102,12 @@ fn delone(points: &Points) -> Run {
         removed += 1;
     }
     Some((seconds, cells, Some(start.elapsed().as_secs_f64() / f64::from(removed.max(1)))))
+}
+
+fn delone_on_two_threads(points: &Points) -> Run {
+    let start = Instant::now();
+    let d = POOLS[1].install(|| Delaunay3::from_points(points)).ok()?;
+    Some((start.elapsed().as_secs_f64(), d.tetrahedra().count(), None))
 }
 
 #[cfg(cgal)]

@@ -174,7 +174,8 @@ impl Mesh3 {
         self.free.push(t);
     }
 
-    /// Moves the last tetrahedra into free slots, given in increasing order, so that none of these is left.
+    /// Moves the last tetrahedra into free slots, given in increasing order, so that none of these is left. Marks stay as
+    /// they are.
     pub(crate) fn pack(&mut self, free: &[TetrahedronId]) {
         for &to in free {
             while self.cells.last().is_some_and(|cell| cell.corners[0].is_ghost()) {
@@ -189,7 +190,6 @@ impl Mesh3 {
             across.into_iter().enumerate().for_each(|(k, f)| self.link(to.facet(k), f));
             corners.into_iter().filter(|p| !p.is_ghost()).for_each(|p| self.incident[p.index()] = to);
         }
-        self.marks.truncate(self.cells.len());
     }
 
     /// Glues two facets to each other.

@@ -14,8 +14,8 @@ use crate::parallel;
 const MOST_BITS: u32 = 10;
 /// Runs of equal keys up to this length keep the order of the input.
 const SHORT_RUN: usize = 32;
-/// Each round holds seven times as many points as all before it.
-const GROWTH: u64 = 8;
+/// Each round holds seven times as many points as all before it: of eight, two to this power.
+const GROWTH: u32 = 3;
 /// The first round is not made smaller than this.
 const SMALLEST: usize = 64;
 
@@ -121,23 +121,15 @@ fn curve(mut x: [u32; 3], bits: u32) -> u64 {
 
 /// The numbers below `count`, dealt into rounds at random: increasing in each, the smallest round first.
 pub(crate) fn rounds(count: usize, seed: u64) -> Vec<u32> {
+    // Each number is in the last round but for a chance of one in eight, and so on.
+    let most = (count / SMALLEST).max(1).ilog2() / GROWTH;
     let mut random = SplitMix(seed);
+    let steps: Vec<u8> =
+        (0..count).map(|_| (random.next().trailing_zeros() / GROWTH).min(most) as u8).collect();
     let mut order = Vec::with_capacity(count);
-    let mut rest: Vec<u32> = (0..count as u32).collect();
-    while rest.len() > SMALLEST {
-        let round = order.len();
-        rest.retain(|&i| {
-            let earlier = random.next().is_multiple_of(GROWTH);
-            if !earlier {
-                order.push(i);
-            }
-            earlier
-        });
-        // Built from the last round to the first, and turned round in the end.
-        order[round..].reverse();
+    for step in (0..=most).rev() {
+        order.extend((0..count as u32).filter(|&i| u32::from(steps[i as usize]) == step));
     }
-    order.extend(rest.iter().rev());
-    order.reverse();
     order
 }
 

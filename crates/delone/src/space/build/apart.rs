@@ -10,10 +10,9 @@
 //! number of threads. Cost: that of [`super::build`], divided by the threads, and once more for the points near the
 //! cuts, a twentieth at most.
 
-use super::super::layer::Layer;
-use super::cut::Run;
+use super::super::layer::{Layer, Limits};
 use super::part::{Done, Part};
-use super::{ROOM, note_twins};
+use super::{note_twins, room};
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
 use crate::locate::tally::Tally;
 use crate::mesh::Dimension;
@@ -23,11 +22,11 @@ use crate::parallel;
 /// A bit of the marks of tetrahedra that fill the hole; the lower four tell which facets are at its border.
 const FILLS: u8 = 16;
 
-/// Triangulates the points of a layer, where one run is kept after the other. `None` if they are not such that it can be
-/// done.
+/// Triangulates the points of a layer, where one run is kept after the other: their lengths, and boxes around all points
+/// of the others. `None` if they are not such that it can be done.
 pub(super) fn triangulate<T: Tally + Default + Send>(
     layer: &mut Layer,
-    runs: Vec<Run>,
+    runs: &[(usize, Vec<Limits>)],
     seed: u64,
     duplicates: &mut Vec<Duplicate>,
     tally: &mut T,
@@ -42,34 +41,37 @@ pub(super) fn triangulate<T: Tally + Default + Send>(
 /// Triangulates each run in its part of the layer's memory.
 fn build_parts<T: Tally + Default + Send>(
     layer: &mut Layer,
-    runs: Vec<Run>,
+    runs: &[(usize, Vec<Limits>)],
     seed: u64,
     tally: &mut T,
 ) -> Option<Vec<Done>> {
-    let count = layer.points.len();
     let mesh = &mut layer.mesh;
-    mesh.cells = parallel::filled_in_small_pages(Tetrahedron::FREE, ROOM * count);
-    mesh.marks = vec![0; ROOM * count];
-    let sum = |end: &mut usize, run: &Run| {
-        *end += run.order.len();
-        Some(*end)
+    let sums = |length: &dyn Fn(usize) -> usize| -> Vec<usize> {
+        let sum = |end: &mut usize, run: &(usize, Vec<Limits>)| {
+            *end += length(run.0);
+            Some(*end)
+        };
+        runs.iter().scan(0, sum).collect()
     };
-    let ends: Vec<usize> = runs.iter().scan(0, sum).collect();
-    let rooms: Vec<usize> = ends.iter().map(|end| ROOM * end).collect();
-    let memory = parallel::split_at(&mut mesh.cells, &rooms)
-        .into_iter()
-        .zip(parallel::split_at(&mut mesh.marks, &rooms))
-        .zip(parallel::split_at(&mut mesh.incident, &ends));
-    let starts = std::iter::once(0).chain(ends.iter().copied()).zip(ends.iter().copied());
-    let tasks = runs.into_iter().zip(memory).zip(starts).collect();
-    let points = &layer.points;
-    let build = |((run, ((cells, marks), incident)), (start, end)): ((Run, _), (usize, usize))| {
+    let (ends, rooms) = (sums(&|points| points), sums(&room));
+    let slots = rooms.last().copied().unwrap_or(0);
+    mesh.cells = parallel::filled_in_small_pages(Tetrahedron::FREE, slots);
+    mesh.marks = vec![0; slots];
+    let cells = parallel::split_at(&mut mesh.cells, &rooms);
+    let marks = parallel::split_at(&mut mesh.marks, &rooms);
+    let incident = parallel::split_at(&mut mesh.incident, &ends);
+    let starts: Vec<(usize, usize)> =
+        std::iter::once((0, 0)).chain(ends.iter().copied().zip(rooms.iter().copied())).collect();
+    let tasks =
+        cells.into_iter().zip(marks).zip(incident).enumerate().map(|(k, ((cells, marks), incident))| {
+            (k, Part::new(&layer.points[starts[k].0..ends[k]], cells, marks, incident))
+        });
+    let build = |(k, mut part): (usize, Part<'_>)| {
         let mut tally = T::default();
-        let mut part = Part::new(&points[start..end], cells, marks, incident);
-        let built = part.build(seed, &mut tally);
-        built.map(|()| (part.settle(&run.others, start, ROOM * start), tally))
+        part.build(seed, &mut tally)?;
+        Some((part.settle(&runs[k].1, starts[k].0, starts[k].1), tally))
     };
-    let parts: Option<Vec<(Done, T)>> = parallel::map(tasks, build).into_iter().collect();
+    let parts: Option<Vec<(Done, T)>> = parallel::map(tasks.collect(), build).into_iter().collect();
     let parts = parts?.into_iter().map(|(part, of_part)| {
         tally.add(&of_part);
         part
@@ -84,6 +86,8 @@ fn join<T: Tally + Default + Send>(
     seed: u64,
     tally: &mut T,
 ) -> Option<()> {
+    // Memory for what fills the hole.
+    layer.mesh.marks = Vec::new();
     let vertices: Vec<Place> = parts.iter().flat_map(|part| part.vertices.iter().copied()).collect();
     let at: Vec<[f64; 3]> = vertices.iter().map(|p| layer.points[p.index()]).collect();
     let (mut fill, _) = super::triangulate(at, seed, tally);
@@ -94,18 +98,18 @@ fn join<T: Tally + Default + Send>(
     let inside = find_inside(&mut fill.mesh, &walls);
 
     let border = parts.iter().flat_map(|part| &part.border);
-    let mut room: Vec<TetrahedronId> =
+    let mut slots: Vec<TetrahedronId> =
         parts.iter().flat_map(|part| &part.free).chain(border).copied().collect();
     let mesh = &mut layer.mesh;
-    room.iter().for_each(|t| mesh.cells[t.index()] = Tetrahedron::FREE);
-    room.extend(parts.iter().flat_map(|part| part.unused.clone()).map(TetrahedronId::new));
-    if room.len() < inside.len() {
+    slots.iter().for_each(|t| mesh.cells[t.index()] = Tetrahedron::FREE);
+    slots.extend(parts.iter().flat_map(|part| part.unused.clone()).map(TetrahedronId::new));
+    if slots.len() < inside.len() {
         return None;
     }
     let mut becomes = vec![TetrahedronId::NONE; fill.mesh.cells.len()];
-    inside.iter().zip(&room).for_each(|(t, &to)| becomes[t.index()] = to);
+    inside.iter().zip(&slots).for_each(|(t, &to)| becomes[t.index()] = to);
     let place = |p: Place| if p.is_ghost() { p } else { vertices[fill.mesh.names.of(p).index()] };
-    for (&t, &to) in inside.iter().zip(&room) {
+    for (&t, &to) in inside.iter().zip(&slots) {
         let cell = fill.mesh.cells[t.index()];
         let across = cell.across.map(|f| match becomes[f.tetrahedron().index()] {
             TetrahedronId::NONE => FacetId::NONE,
@@ -118,9 +122,10 @@ fn join<T: Tally + Default + Send>(
     for &(f, outside) in &walls {
         mesh.link(becomes[f.tetrahedron().index()].facet(f.corner()), outside);
     }
-    let left = &mut room[inside.len()..];
+    let left = &mut slots[inside.len()..];
     left.sort_unstable();
     mesh.pack(left);
+    mesh.marks = vec![0; mesh.cells.len()];
     Some(())
 }
 
@@ -238,7 +243,8 @@ mod tests {
                 let mut layer = Layer::new(order.iter().map(|&i| points[i as usize]).collect());
                 layer.mesh.names = Names::along(&order);
                 let (mut whole, mut duplicates) = (layer.clone(), Vec::new());
-                if triangulate(&mut layer, runs, 0, &mut duplicates, &mut ()).is_none() {
+                let runs: Vec<_> = runs.into_iter().map(|run| (run.order.len(), run.others)).collect();
+                if triangulate(&mut layer, &runs, 0, &mut duplicates, &mut ()).is_none() {
                     continue;
                 }
                 joined += 1;

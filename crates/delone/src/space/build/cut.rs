@@ -112,7 +112,7 @@ fn at_border(sample: &mut [[f64; 3]], (axis, at): (usize, f64)) -> Option<usize>
     let of_half = |half: &[[f64; 3]], other: &[[f64; 3]]| {
         let order = curve::hilbert(half.len(), &|i| half[i as usize]);
         let points: Vec<[f64; 3]> = order.into_iter().map(|i| half[i as usize]).collect();
-        let mut cells = vec![Tetrahedron::FREE; 2 * super::ROOM * points.len()];
+        let mut cells = vec![Tetrahedron::FREE; 2 * super::room(points.len())];
         let (mut marks, mut incident) = (vec![0; cells.len()], vec![TetrahedronId::NONE; points.len()]);
         let mut part = Part::new(&points, &mut cells, &mut marks, &mut incident);
         part.build(0, &mut ())?;

@@ -10,18 +10,22 @@ mod apart;
 mod cut;
 mod part;
 
+use cut::cut;
+
 use super::Position3;
 use super::arena::Arena;
 use super::cavity::Cavity;
-use super::layer::Layer;
+use super::layer::{Layer, Limits};
 use crate::ids::{Duplicate, Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::Names;
 use crate::order::curve;
 use crate::parallel;
 
-/// Tetrahedra a point that room is made for at once: evenly spread points have 6.77.
-const ROOM: usize = 7;
+/// Tetrahedra that room is made for at once: evenly spread points have 6.77 each.
+const fn room(points: usize) -> usize {
+    points * 69 / 10 + 64
+}
 
 /// Triangulates finite points, at most [`crate::MAX_POINTS_IN_SPACE`] of them. They are kept in another order; what is
 /// given is dropped as soon as that is done.
@@ -30,15 +34,17 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     seed: u64,
     tally: &mut T,
 ) -> (Layer, Vec<Duplicate>) {
-    let runs = cut::cut(points.as_ref());
+    let runs = cut(points.as_ref());
     let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
+    let parts: Vec<(usize, Vec<Limits>)> =
+        runs.into_iter().map(|run| (run.order.len(), run.others)).collect();
     let given = points.as_ref();
     let mut layer = Layer::new(parallel::collect(order.len(), |k| given[order[k] as usize].xyz()));
     drop(points);
     layer.mesh.names = Names::along(&order);
     drop(order);
     let mut duplicates = Vec::new();
-    if runs.len() == 1 || apart::triangulate(&mut layer, runs, seed, &mut duplicates, tally).is_none() {
+    if parts.len() == 1 || apart::triangulate(&mut layer, &parts, seed, &mut duplicates, tally).is_none() {
         triangulate_whole(&mut layer, seed, &mut duplicates, tally);
     }
     Duplicate::settle(&mut duplicates);
@@ -50,8 +56,8 @@ fn triangulate_whole<T: Tally>(layer: &mut Layer, seed: u64, duplicates: &mut Ve
     let count = layer.points.len();
     layer.clear_mesh();
     layer.mesh.incident.fill(TetrahedronId::NONE);
-    layer.mesh.cells.reserve_exact(ROOM * count);
-    layer.mesh.marks.reserve_exact(ROOM * count);
+    layer.mesh.cells.reserve_exact(room(count));
+    layer.mesh.marks.reserve_exact(room(count));
     build(layer, &curve::rounds(count, seed), duplicates, tally);
 }
 

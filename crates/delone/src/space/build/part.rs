@@ -89,13 +89,14 @@ impl<'a> Part<'a> {
         marks: &'a mut [u8],
         incident: &'a mut [TetrahedronId],
     ) -> Self {
-        let extent = Limits::around(points.iter().copied()).extent();
-        let filter = Filter3::for_box(extent, Grid::of(points.as_flattened().iter().copied()));
+        let filter = Filter3::default();
         Self { points, filter, cells, marks, incident, used: 0, free: Vec::new(), twins: Vec::new() }
     }
 
     /// Triangulates the points. `None` if they span less than space, or have more tetrahedra than there is room for.
     pub(super) fn build<T: Tally>(&mut self, seed: u64, tally: &mut T) -> Option<()> {
+        let extent = Limits::around(self.points.iter().copied()).extent();
+        self.filter = Filter3::for_box(extent, Grid::of(self.points.as_flattened().iter().copied()));
         let order = curve::rounds(self.points.len(), seed);
         let first = spanning(self.points, &order);
         let &[a, b, c, d] = &first[..] else { return None };
