@@ -191,3 +191,21 @@ fn nearest_vertices_by_brute_force() {
         }
     }
 }
+
+#[test]
+fn many_points_at_once_or_in_two_goes() {
+    for &kind in Kind3::ALL {
+        let points = kind.points(400, 5);
+        for first in [0, 3, 200] {
+            let mut d = Delaunay3::from_points(&points[..first]).expect("finite");
+            assert_eq!(d.extend(&points[first..], 1).expect("finite"), first..points.len());
+            assert_eq!(d.check(), Ok(()), "{}", kind.name());
+            let whole = Delaunay3::from_points(&points).expect("finite");
+            assert!(shape(&d) == shape(&whole), "{} after {first}", kind.name());
+            assert!(d.duplicates().eq(whole.duplicates()), "{} after {first}", kind.name());
+        }
+    }
+    let mut d = Delaunay3::new();
+    assert!(d.extend(&[[0.0; 3], [f64::NAN, 0.0, 0.0]], 0).is_err());
+    assert_eq!(d.extend(&[[0.0; 3]], 0), Ok(0..1));
+}

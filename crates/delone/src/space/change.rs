@@ -5,10 +5,11 @@
 
 use super::locator::Locator;
 use super::{Delaunay3, Position3, finite};
-use crate::error::Error;
+use crate::error::{self, Error};
 use crate::ids::{Duplicate, Inserted, MAX_POINTS_IN_SPACE, Place, VertexId};
 use crate::locate::tally::Tally;
 use crate::locate::{Locate, Start, Strategy};
+use crate::order::curve;
 use crate::order::random::SplitMix;
 
 /// Below this number of vertices everything is near everything.
@@ -113,14 +114,52 @@ impl Delaunay3 {
         }
     }
 
-    /// Inserts points in random order; point i gets the name i. There is no vertex yet.
+    /// Inserts many points, in biased random rounds along a curve that the seed decides. Point i gets the id that the i-th
+    /// of single insertions would if all were new; those that equal others are reported by [`Self::duplicates`]. Returns the
+    /// ids as a range of indices.
+    ///
+    /// Cost: that of as many insertions.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first bad coordinate, [`Error::TooManyPoints`] is as for [`Self::insert`]. Nothing
+    /// has changed then.
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    ///
+    /// let mut d = Delaunay3::from_points(&[[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])?;
+    /// assert_eq!(d.extend(&[[1, 1, 1], [4, 0, 0]], 0)?, 4..6);
+    /// assert_eq!((d.vertex_count(), d.duplicates().count()), (5, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn extend<P: Position3>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
+        let first = self.base.mesh.names.given();
+        error::check_count(first + points.len(), MAX_POINTS_IN_SPACE)?;
+        error::check_finite(points.iter().map(Position3::xyz))?;
+        let along = curve::hilbert(points.len(), &|i| points[i as usize].xyz());
+        let order = curve::rounds(points.len(), seed).into_iter().map(|k| along[k as usize]);
+        self.extend_in_order(points, order, &mut ());
+        Ok(first..first + points.len())
+    }
+
+    /// Inserts points in random order.
     pub(super) fn extend_shuffled<P: Position3, T: Tally>(&mut self, points: &[P], seed: u64, tally: &mut T) {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         SplitMix(seed).shuffle(&mut order);
+        self.extend_in_order(points, order.into_iter(), tally);
+    }
+
+    fn extend_in_order<P: Position3, T: Tally>(
+        &mut self,
+        points: &[P],
+        order: impl Iterator<Item = u32>,
+        tally: &mut T,
+    ) {
+        let first = self.base.mesh.names.given();
         self.base.mesh.names.reserve(points.len());
         for i in order {
-            let v = VertexId::new(i as usize);
-            match self.place(points[v.index()].xyz(), tally) {
+            let v = VertexId::new(first + i as usize);
+            match self.place(points[i as usize].xyz(), tally) {
                 Ok(place) => self.base.mesh.names.bind(v, place),
                 Err(place) => self.duplicates.push(self.base.mesh.names.coincide(v, place)),
             }
