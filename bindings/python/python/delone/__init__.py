@@ -1,0 +1,19 @@
+"""Delaunay triangulation and Voronoi diagrams in the plane and in space: exact on every input, fast, dynamic.
+
+import delone
+
+tri = delone.Delaunay(points)      # as scipy.spatial.Delaunay
+tri.simplices, tri.neighbors, tri.find_simplex(queries)
+tri.add_points(more)
+tri.remove([17, 4])
+"""
+
+from ._delaunay import Delaunay
+from ._hints import Hints
+from ._hull import ConvexHull
+from ._interpolate import LinearInterpolator
+from ._plot import plot
+from ._voronoi import Voronoi
+
+__version__ = "0.1.0"
+__all__ = ["ConvexHull", "Delaunay", "Hints", "LinearInterpolator", "Voronoi", "plot"]

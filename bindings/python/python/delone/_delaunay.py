@@ -1,0 +1,354 @@
+"""The triangulation, with the names of scipy.spatial.Delaunay."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import chain, count
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _delone
+from ._points import as_points, as_queries
+
+T = TypeVar("T")
+
+
+class Delaunay:
+    """The Delaunay triangulation of points in the plane or in space.
+
+    It is exact, and a function of the set of points alone: neither the order of the points nor the number of threads
+    shows. Points that equal an earlier one are reported as its duplicates. Points on one line, or in space in one
+    plane, are no error: they have no simplices.
+
+    Parameters
+    ----------
+    points : array_like of floats, shape (n, 2) or (n, 3)
+        The points. All must be finite.
+    furthest_site : bool
+        Not supported; False.
+    incremental : bool
+        For those who come from SciPy; points can be added and removed either way.
+    qhull_options : str, optional
+        For those who come from SciPy; ignored.
+
+    Examples
+    --------
+    >>> import delone
+    >>> tri = delone.Delaunay([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> len(tri.simplices)
+    2
+    >>> tri.find_simplex([[0.9, 0.5], [2.0, 2.0]]).tolist()[1]
+    -1
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        furthest_site: bool = False,
+        incremental: bool = False,
+        qhull_options: str | None = None,
+    ) -> None:
+        """Triangulates points."""
+        if furthest_site:
+            raise NotImplementedError("furthest-site triangulations")
+        # SciPy copies too: what a caller changes later does not change the triangulation.
+        self._points: NDArray[np.float64] = np.array(as_points(points), order="C")
+        self._points.flags.writeable = False
+        self._core = _delone.Triangulation(self._points)
+        self._removed: list[int] = []
+        self._cache: dict[str, Any] = {}
+
+    @classmethod
+    def _of(cls, points: NDArray[np.float64], core: _delone.Triangulation) -> Delaunay:
+        made = cls.__new__(cls)
+        made._points = np.array(points, order="C")
+        made._points.flags.writeable = False
+        made._core, made._removed, made._cache = core, [], {}
+        return made
+
+    def _once(self, name: str, make: Callable[[], T]) -> T:
+        if name not in self._cache:
+            self._cache[name] = make()
+        result: T = self._cache[name]
+        return result
+
+    # What there is.
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points given, removed ones and duplicates included: (n, ndim). Read-only."""
+        return self._points
+
+    @property
+    def ndim(self) -> int:
+        """2 in the plane, 3 in space."""
+        return int(self._points.shape[1])
+
+    @property
+    def npoints(self) -> int:
+        """The number of points given."""
+        return len(self._points)
+
+    @property
+    def nsimplex(self) -> int:
+        """The number of simplices."""
+        return len(self.simplices)
+
+    @property
+    def vertex_count(self) -> int:
+        """The number of vertices: points without duplicates and removed ones."""
+        return self._core.vertex_count
+
+    @property
+    def span(self) -> int:
+        """The dimension of what the points span: -1 for none, 0 for a point, 1 for a line, 2 for a plane, 3 for space."""
+        return self._core.span
+
+    @property
+    def min_bound(self) -> NDArray[np.float64]:
+        """The least coordinate of the points along each axis."""
+        return np.asarray(self._points.min(axis=0))
+
+    @property
+    def max_bound(self) -> NDArray[np.float64]:
+        """The largest coordinate of the points along each axis."""
+        return np.asarray(self._points.max(axis=0))
+
+    def _arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        return self._once("arrays", self._core.arrays)
+
+    @property
+    def simplices(self) -> NDArray[np.int32]:
+        """Corners as indices of points, (nsimplex, ndim + 1).
+
+        Counter-clockwise in the plane; in space the first three are seen counter-clockwise from the fourth.
+        """
+        return self._arrays()[0]
+
+    @property
+    def neighbors(self) -> NDArray[np.int32]:
+        """The simplices across from each corner, (nsimplex, ndim + 1); -1 where there is none."""
+        return self._arrays()[1]
+
+    @property
+    def convex_hull(self) -> NDArray[np.int32]:
+        """Facets of the hull, (nfacet, ndim): edges counter-clockwise around the plane's hull, triangles counter-clockwise
+        seen from outside."""
+        return self._once("hull", self._core.hull)
+
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """The edges, (nedge, 2), each once; those of points on a line too."""
+        return self._once("edges", self._core.edges)
+
+    @property
+    def duplicates(self) -> NDArray[np.int32]:
+        """Points that equal an earlier one, each with this: (m, 2)."""
+
+        def make() -> NDArray[np.int32]:
+            twins = self._core.duplicates()
+            return twins[~np.isin(twins[:, 0], self._removed)]
+
+        return self._once("duplicates", make)
+
+    @property
+    def coplanar(self) -> NDArray[np.int32]:
+        """Points that are no vertices, each with a simplex and the vertex that it equals: (m, 3).
+
+        SciPy lists what it lost to rounding here, too; nothing is lost here.
+        """
+        twins = self.duplicates
+        return np.column_stack([twins[:, 0], self.vertex_to_simplex[twins[:, 1]], twins[:, 1]])
+
+    @property
+    def vertex_to_simplex(self) -> NDArray[np.int32]:
+        """For each point a simplex that it is a corner of; -1 for those that are no corner."""
+
+        def make() -> NDArray[np.int32]:
+            simplices = self.simplices
+            result = np.full(self.npoints, -1, dtype=np.int32)
+            rows = np.repeat(np.arange(len(simplices), dtype=np.int32), self.ndim + 1)
+            result[simplices.ravel()] = rows
+            return result
+
+        return self._once("vertex_to_simplex", make)
+
+    @property
+    def vertex_neighbor_vertices(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Neighbours of all points as (indptr, indices): those of point k are indices[indptr[k]:indptr[k + 1]]."""
+
+        def make() -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+            edges = self.edges
+            ends = np.concatenate([edges, edges[:, ::-1]])
+            ends = ends[np.lexsort((ends[:, 1], ends[:, 0]))]
+            indptr = np.zeros(self.npoints + 1, dtype=np.int32)
+            np.cumsum(np.bincount(ends[:, 0], minlength=self.npoints), out=indptr[1:])
+            return indptr, np.ascontiguousarray(ends[:, 1])
+
+        return self._once("vertex_neighbor_vertices", make)
+
+    @property
+    def transform(self) -> NDArray[np.float64]:
+        """For each simplex the map to barycentric coordinates, (nsimplex, ndim + 1, ndim).
+
+        With T = transform[i, :ndim] and r = transform[i, ndim], the first ndim coordinates of x are T @ (x - r). NaN where
+        a simplex is too flat for floating point.
+        """
+
+        def make() -> NDArray[np.float64]:
+            corners = self._points[self.simplices]
+            last = corners[:, -1]
+            sides = np.swapaxes(corners[:, :-1] - last[:, None, :], 1, 2)
+            result = np.full((len(corners), self.ndim + 1, self.ndim), np.nan)
+            result[:, -1] = last
+            with np.errstate(all="ignore"):
+                size = np.abs(sides).max(axis=(1, 2), initial=0.0)[:, None, None]
+                scaled = sides / np.where(size > 0, size, 1.0)
+                sound = np.linalg.det(scaled) != 0.0
+                result[sound, :-1] = np.linalg.inv(scaled[sound]) / size[sound]
+            result[~np.isfinite(result[:, :-1]).all(axis=(1, 2))] = np.nan
+            return result
+
+        return self._once("transform", make)
+
+    #: Lifted points have the height paraboloid_scale * |x|^2 + paraboloid_shift; SciPy scales to the size of the others.
+    paraboloid_scale = 1.0
+    paraboloid_shift = 0.0
+
+    @staticmethod
+    def _lift(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
+
+    def lift_points(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Points on the paraboloid: one more coordinate, the square of the distance from the origin."""
+        return self._lift(np.asarray(x, dtype=np.float64))
+
+    @property
+    def equations(self) -> NDArray[np.float64]:
+        """Planes of the lifted simplices, (nsimplex, ndim + 2): normals of length 1 that point down, and offsets."""
+
+        def make() -> NDArray[np.float64]:
+            lifted = self._lift(self._points)[self.simplices]
+            sides = lifted[:, 1:] - lifted[:, :1]
+            count = self.ndim + 1
+            minors = [np.delete(sides, k, axis=2) for k in range(count)]
+            normals = np.stack([(-1) ** k * np.linalg.det(minor) for k, minor in enumerate(minors)], axis=1)
+            normals *= -np.sign(normals[:, -1:])
+            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+            offsets = -(normals * lifted[:, 0]).sum(axis=1)
+            return np.concatenate([normals, offsets[:, None]], axis=1)
+
+        return self._once("equations", make)
+
+    def plane_distance(self, xi: ArrayLike) -> NDArray[np.float64]:
+        """Distances of lifted points from the planes of all simplices, (..., nsimplex): positive for those whose
+        circumscribed circle or sphere holds the point."""
+        lifted = self.lift_points(xi)
+        return np.asarray(lifted @ self.equations[:, :-1].T + self.equations[:, -1])
+
+    # Questions.
+
+    def find_simplex(self, xi: ArrayLike, bruteforce: bool = False, tol: float | None = None) -> NDArray[np.int32]:
+        """The simplices that hold points, with the shape of `xi` without its last axis; -1 outside of the hull.
+
+        Exact: a point on the border between simplices is in one of them. `bruteforce` and `tol` are for those who come
+        from SciPy, and have no effect.
+        """
+        queries, shape = as_queries(xi, self.ndim)
+        return self._core.find(queries).reshape(shape)
+
+    locate = find_simplex
+
+    def nearest(self, xi: ArrayLike) -> NDArray[np.int64]:
+        """The nearest vertices; the lexicographically smallest of several. -1 if there is no vertex."""
+        queries, shape = as_queries(xi, self.ndim)
+        return self._core.nearest(queries).reshape(shape)
+
+    def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
+        """The k nearest vertices, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
+        if k < 1:
+            raise ValueError(f"k must be at least 1, not {k}")
+        queries, shape = as_queries(xi, self.ndim)
+        return self._core.k_nearest(queries, k).reshape((*shape, k))
+
+    # Changes.
+
+    def add_points(self, points: ArrayLike, restart: bool = False) -> None:
+        """Adds points, whose indices follow those there are. `restart` triangulates all anew, removed ones left out: the
+        result is the same, and for more points than there are it is faster."""
+        more = as_points(points, columns=self.ndim)
+        everything = np.concatenate([self._points, more])
+        if restart:
+            self._core = _built(everything, self._removed)
+        else:
+            self._core.extend(more)
+        everything.flags.writeable = False
+        self._points = everything
+        self._cache.clear()
+
+    def remove(self, points: int | Iterable[int]) -> None:
+        """Removes vertices by index, all or none. Duplicates of a vertex go with it. Indices of others stay as they are."""
+        wanted = [int(points)] if isinstance(points, (int, np.integer)) else [int(v) for v in points]
+        twins = self.duplicates
+        gone = twins[np.isin(twins[:, 1], wanted), 0].tolist()
+        self._core.remove(wanted)
+        self._removed.extend(wanted + gone)
+        self._cache.clear()
+
+    def close(self) -> None:
+        """Does nothing; for those who come from SciPy."""
+
+    # Copies, and how it looks.
+
+    def copy(self) -> Delaunay:
+        """A triangulation of its own with the same points."""
+        made = Delaunay._of(self._points, self._core.copy())
+        made._removed = list(self._removed)
+        return made
+
+    def __copy__(self) -> Delaunay:
+        """See `copy`."""
+        return self.copy()
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Delaunay:
+        """See `copy`."""
+        return self.copy()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Points and what was removed."""
+        return {"points": np.array(self._points), "removed": list(self._removed)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Triangulates again: the triangulation is a function of the points."""
+        self._points = state["points"]
+        self._points.flags.writeable = False
+        self._core = _built(self._points, state["removed"])
+        self._removed, self._cache = state["removed"], {}
+
+    def __repr__(self) -> str:
+        """A line that says what there is."""
+        what = "triangles" if self.ndim == 2 else "tetrahedra"
+        return f"<delone.Delaunay: {self.vertex_count} vertices, {self.nsimplex} {what}>"
+
+    def _repr_svg_(self) -> str | None:
+        """A picture for notebooks; of small triangulations of the plane."""
+        from ._plot import svg
+
+        return svg(self) if self.ndim == 2 and 0 < self.npoints <= 5000 else None
+
+
+def _built(points: NDArray[np.float64], removed: list[int]) -> _delone.Triangulation:
+    """The triangulation of points without some, indices kept: these are put where no other point is, and removed."""
+    if not removed:
+        return _delone.Triangulation(points)
+    column = points[:, 0]
+    ends = [np.nextafter(column.max(), np.inf), np.nextafter(column.min(), -np.inf)]
+    elsewhere = next(x for x in chain(ends, count(0.5)) if np.isfinite(x) and not (column == x).any())
+    moved = np.array(points)
+    moved[removed] = elsewhere
+    core = _delone.Triangulation(moved)
+    # The others equal it, and go with it.
+    core.remove([min(removed)])
+    return core

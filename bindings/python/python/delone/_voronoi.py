@@ -1,0 +1,178 @@
+"""Voronoi diagrams, with the names of scipy.spatial.Voronoi."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _delone
+from ._delaunay import Delaunay
+from ._points import as_points
+
+
+class Voronoi:
+    """The Voronoi diagram of points in the plane or in space.
+
+    Attributes
+    ----------
+    points : (n, ndim) array
+        The points.
+    vertices : (nvertex, ndim) array
+        The circumcentres of the triangulation's simplices, equal ones once.
+    ridge_points : (nridge, 2) array
+        The points that each ridge is between.
+    ridge_vertices : list of lists
+        The vertices of each ridge, in order around it; -1 is infinitely far away.
+    regions : list of lists
+        The vertices of each region; -1 is infinitely far away. In the plane in order, counter-clockwise.
+    point_region : (n,) array
+        The region of each point; that of the equal one for duplicates.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        furthest_site: bool = False,
+        incremental: bool = False,
+        qhull_options: str | None = None,
+    ) -> None:
+        """Makes the diagram of points."""
+        self._tri = Delaunay(points, furthest_site, incremental, qhull_options)
+        self._make()
+
+    def _make(self) -> None:
+        tri = self._tri
+        self.points = tri.points
+        self.ndim, self.npoints = tri.ndim, tri.npoints
+        self.min_bound: NDArray[np.float64] | None = tri.min_bound if tri.npoints else None
+        self.max_bound: NDArray[np.float64] | None = tri.max_bound if tri.npoints else None
+        centres = tri._core.centres() if tri.ndim == 2 else _circumcentres(tri.points[tri.simplices])
+        self.vertices, which = _distinct(centres)
+        self.ridge_points, self.ridge_vertices = _ridges(tri, which)
+        self.regions, self.point_region = _regions(tri, self.ridge_points, self.ridge_vertices)
+
+    @property
+    def triangulation(self) -> Delaunay:
+        """The Delaunay triangulation of the points."""
+        return self._tri
+
+    @property
+    def ridge_dict(self) -> dict[tuple[int, int], list[int]]:
+        """Vertices of ridges by pairs of points."""
+        return {(int(p), int(q)): v for (p, q), v in zip(self.ridge_points, self.ridge_vertices, strict=True)}
+
+    def cells(self, region: ArrayLike | Sequence[ArrayLike] | None = None) -> list[list[NDArray[np.float64]]]:
+        """The cells of all points of the plane, clipped: for each point the rings of its cell, counter-clockwise, holes
+        clockwise; none for duplicates.
+
+        `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
+        cells are clipped to the box of the points, a twentieth larger.
+        """
+        if self.ndim != 2:
+            raise NotImplementedError("cells are clipped in the plane")
+        if region is None:
+            if not self.npoints:
+                return []
+            low, high = self._tri.min_bound, self._tri.max_bound
+            margin = max(float((high - low).max()) / 20, float(np.abs(high).max()) * 1e-9, 1e-300)
+            (x0, y0), (x1, y1) = low - margin, high + margin
+            rings = [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
+        else:
+            given: list[Any] = list(region)  # type: ignore[arg-type]
+            is_one = bool(given) and np.ndim(given[0]) == 1
+            parts: list[Any] = [region] if is_one else given
+            rings = [as_points(ring, "region", 2) for ring in parts]
+        corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings)
+        pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
+        return [pieces[a:b] for a, b in pairwise(starts.tolist())]
+
+    def __repr__(self) -> str:
+        """A line that says what there is."""
+        return f"<delone.Voronoi: {self.npoints} points, {len(self.vertices)} vertices, {len(self.ridge_points)} ridges>"
+
+
+def _distinct(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """The distinct rows, sorted, and for each row which of them it is."""
+    order = np.lexsort(rows.T[::-1])
+    in_order = rows[order]
+    is_new = np.ones(len(rows), dtype=bool)
+    is_new[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
+    which = np.empty(len(rows), dtype=np.intp)
+    which[order] = np.cumsum(is_new) - 1
+    return in_order[is_new], which
+
+
+def _circumcentres(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of tetrahedra, (m, 4, 3), by floating point; in the plane there are exact ones."""
+    sides = corners[:, 1:] - corners[:, :1]
+    with np.errstate(all="ignore"):
+        squares = (sides**2).sum(axis=2)
+        try:
+            offsets = np.linalg.solve(2.0 * sides, squares[:, :, None])[:, :, 0]
+        except np.linalg.LinAlgError:
+            flat = np.linalg.det(sides) == 0.0
+            offsets = np.full(sides.shape[:2], np.inf)
+            offsets[~flat] = np.linalg.solve(2.0 * sides[~flat], squares[~flat, :, None])[:, :, 0]
+    return np.asarray(corners[:, 0] + offsets)
+
+
+def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], list[list[int]]]:
+    """Pairs of points, and the vertices between them."""
+    simplices, neighbors, ndim = tri.simplices, tri.neighbors, tri.ndim
+    if not len(simplices):
+        return np.empty((0, 2), dtype=np.int32), []
+    vertex_of = np.concatenate([which, [-1]])
+    if ndim == 2:
+        # An edge is across from a corner; from the smaller of its two triangles.
+        rows, corners = np.nonzero((neighbors < 0) | (np.arange(len(simplices))[:, None] < neighbors))
+        pairs = np.stack([simplices[rows, (corners + 1) % 3], simplices[rows, (corners + 2) % 3]], axis=1)
+        beyond = neighbors[rows, corners]
+        vertices = np.stack([vertex_of[np.where(beyond < 0, -1, beyond)], vertex_of[rows]], axis=1)
+        # Cocircular points: both sides are one vertex, and there is no ridge.
+        real = vertices[:, 0] != vertices[:, 1]
+        return np.ascontiguousarray(pairs[real]), vertices[real].tolist()
+    pairs, starts, around = _delone.ridges(simplices, neighbors, which.astype(np.int64))
+    flat = around.tolist()
+    return pairs, [flat[a:b] for a, b in pairwise(starts.tolist())]
+
+
+def _regions(
+    tri: Delaunay, ridge_points: NDArray[np.int32], ridge_vertices: list[list[int]]
+) -> tuple[list[list[int]], NDArray[np.int64]]:
+    """Vertices of regions, and the region of each point."""
+    regions: list[list[int]] = [[] for _ in range(tri.npoints)]
+    if tri.ndim == 3 and ridge_vertices:
+        lengths = [len(vertices) for vertices in ridge_vertices]
+        flat = np.array([v for vertices in ridge_vertices for v in vertices])
+        sites = np.repeat(ridge_points, lengths, axis=0).T.ravel()
+        # Pairs as one number, which sorts faster; infinity is -1.
+        most = int(flat.max()) + 2
+        both = np.sort(sites.astype(np.int64) * most + np.tile(flat + 1, 2))
+        both = both[np.r_[True, both[1:] != both[:-1]]]
+        ends = np.searchsorted(both // most, np.arange(tri.npoints + 1)).tolist()
+        found = (both % most - 1).tolist()
+        regions = [found[a:b] for a, b in pairwise(ends)]
+    elif tri.ndim == 2:
+        # Each ridge from the one side and from the other; then end to end.
+        follow: list[dict[int, int]] = [{} for _ in range(tri.npoints)]
+        for (p, q), (a, b) in zip(ridge_points.tolist(), ridge_vertices, strict=True):
+            follow[p][a] = b
+            follow[q][b] = a
+        for p, after in enumerate(follow):
+            if after:
+                first = -1 if -1 in after else next(iter(after))
+                ring, v = [first], after[first]
+                while v != first and v in after:
+                    ring.append(v)
+                    v = after[v]
+                if v != first:
+                    ring.append(v)
+                regions[p] = ring
+    point_region = np.arange(tri.npoints, dtype=np.int64)
+    twins = tri.duplicates
+    point_region[twins[:, 0]] = twins[:, 1]
+    return regions, point_region

@@ -1,0 +1,41 @@
+//! Convex hulls.
+
+use delone::hull::spatial::Hull3;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::interrupt::interruptible;
+use crate::triangulation::coordinates;
+use crate::value_error;
+
+/// The facets of the hull as rows of indices, and what the points span.
+#[pyfunction]
+pub fn convex_hull<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<i32>>> {
+    match points.shape()[1] {
+        2 => {
+            let points: Vec<[f64; 2]> = coordinates(&points)?;
+            let hull = interruptible(py, points.len(), move || delone::convex_hull(&points))?;
+            let corners = hull.map_err(value_error)?;
+            // On a line both ends are corners, and no edge has an inside.
+            let next = corners.iter().cycle().skip(1);
+            let edges = corners.iter().zip(next).flat_map(|(&v, &w)| [v as i32, w as i32]);
+            let edges: Vec<i32> = if corners.len() > 2 { edges.collect() } else { Vec::new() };
+            let count = edges.len() / 2;
+            PyArray1::from_vec(py, edges).reshape([count, 2])
+        }
+        3 => {
+            let points: Vec<[f64; 3]> = coordinates(&points)?;
+            let hull = interruptible(py, points.len(), move || Hull3::of(&points))?.map_err(value_error)?;
+            let is_body = hull.span() == delone::Dimension::Space;
+            let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);
+            let facets: Vec<i32> = facets.collect();
+            let count = facets.len() / 3;
+            PyArray1::from_vec(py, facets).reshape([count, 3])
+        }
+        columns => Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
+    }
+}

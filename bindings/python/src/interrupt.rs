@@ -1,0 +1,41 @@
+//! Long work that Ctrl-C ends.
+
+use std::sync::Mutex;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+/// How often to look for signals.
+const PAUSE: Duration = Duration::from_millis(50);
+/// Fewer points are not worth a thread.
+const FEW: usize = 20_000;
+
+/// Does work on so many points without Python's lock. On Ctrl-C the exception is raised within moments; the work goes on
+/// in the background until its result is dropped.
+pub fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    points: usize,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    if points < FEW {
+        return Ok(py.detach(work));
+    }
+    let (sender, receiver) = sync_channel(1);
+    thread::spawn(move || {
+        // Nobody is there any more after an interruption.
+        _ = sender.send(work());
+    });
+    // A receiver is for one thread; the lock lends it to whichever this is.
+    let receiver = Mutex::new(receiver);
+    loop {
+        let answer = py.detach(|| receiver.lock().ok().map(|receiver| receiver.recv_timeout(PAUSE)));
+        match answer {
+            Some(Ok(result)) => return Ok(result),
+            Some(Err(RecvTimeoutError::Timeout)) => py.check_signals()?,
+            _ => return Err(PyRuntimeError::new_err("the work ended without a result")),
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! A triangulation of the plane or of space, by its arrays and its queries.
+
+use delone::{Delaunay2, Delaunay3, Error, VertexId};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, ToPyArray};
+use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::engine::Engine;
+use crate::interrupt::interruptible;
+use crate::value_error;
+
+/// Queries that one task answers.
+const QUERIES: usize = 1024;
+
+type Rows<'py> = Bound<'py, PyArray2<i32>>;
+
+/// An engine and the rows of its simplices.
+pub struct State<E, const D: usize, const C: usize> {
+    pub engine: E,
+    /// For each number of a simplex its row, once it was asked for; -1 for what is not finite.
+    rows: Option<Vec<i32>>,
+}
+
+pub enum Core {
+    Plane(State<Delaunay2, 2, 3>),
+    Space(State<Delaunay3, 3, 4>),
+}
+
+/// See `_delone.pyi`.
+#[pyclass(module = "delone._delone")]
+pub struct Triangulation {
+    pub core: Core,
+}
+
+/// The same for either dimension.
+macro_rules! either {
+    ($core:expr, $state:ident => $body:expr) => {
+        match $core {
+            Core::Plane($state) => $body,
+            Core::Space($state) => $body,
+        }
+    };
+}
+
+#[pymethods]
+impl Triangulation {
+    #[new]
+    fn new(py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let core = match points.shape()[1] {
+            2 => Core::Plane(State::build(py, coordinates(&points)?)?),
+            3 => Core::Space(State::build(py, coordinates(&points)?)?),
+            columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
+        };
+        Ok(Self { core })
+    }
+
+    /// Corners and neighbours of the finite simplices.
+    fn arrays<'py>(&mut self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
+        either!(&mut self.core, state => state.arrays(py))
+    }
+
+    /// The circumcentres of the finite triangles of the plane, each the nearest number to the exact one.
+    fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let Core::Plane(state) = &self.core else {
+            return Err(PyValueError::new_err("exact circumcentres are for the plane"));
+        };
+        let d = &state.engine;
+        let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
+        let centres: Vec<[f64; 2]> = py.detach(|| d.mesh().triangles().map(centre).collect());
+        let count = centres.len();
+        PyArray1::from_vec(py, centres.into_flattened()).reshape([count, 2])
+    }
+
+    fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        either!(&self.core, state => state.hull(py))
+    }
+
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        either!(&self.core, state => state.edges(py))
+    }
+
+    /// Points that are no vertices because they equal one, each with this.
+    fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        either!(&self.core, state => state.duplicates(py))
+    }
+
+    #[getter]
+    fn vertex_count(&self) -> usize {
+        either!(&self.core, state => state.vertex_count())
+    }
+
+    #[getter]
+    fn span(&self) -> i32 {
+        either!(&self.core, state => state.span())
+    }
+
+    fn extend(&mut self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+        match &mut self.core {
+            Core::Plane(state) => state.extend(py, coordinates(&points)?),
+            Core::Space(state) => state.extend(py, coordinates(&points)?),
+        }
+    }
+
+    fn remove(&mut self, py: Python<'_>, vertices: Vec<i64>) -> PyResult<()> {
+        either!(&mut self.core, state => state.remove(py, &vertices))
+    }
+
+    fn is_vertex(&self, index: usize) -> bool {
+        // Ids are below 2^29.
+        index < 1 << 29 && either!(&self.core, state => state.is_vertex(VertexId::new(index)))
+    }
+
+    /// The rows of simplices that hold points; -1 outside.
+    fn find<'py>(
+        &mut self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        match &mut self.core {
+            Core::Plane(state) => state.find(py, coordinates(&queries)?),
+            Core::Space(state) => state.find(py, coordinates(&queries)?),
+        }
+    }
+
+    /// The nearest vertices; -1 if there is none.
+    fn nearest<'py>(
+        &self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let found = match &self.core {
+            Core::Plane(state) => state.nearest(py, coordinates(&queries)?),
+            Core::Space(state) => state.nearest(py, coordinates(&queries)?),
+        };
+        Ok(found?.to_pyarray(py))
+    }
+
+    /// The k nearest vertices, nearest first; -1 where there are not so many.
+    fn k_nearest<'py>(
+        &self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+        k: usize,
+    ) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        let count = queries.shape()[0];
+        let found = match &self.core {
+            Core::Plane(state) => state.k_nearest(py, coordinates(&queries)?, k),
+            Core::Space(state) => state.k_nearest(py, coordinates(&queries)?, k),
+        };
+        found?.to_pyarray(py).reshape([count, k])
+    }
+
+    fn copy(&self) -> Self {
+        Self {
+            core: match &self.core {
+                Core::Plane(state) => Core::Plane(State { engine: state.engine.clone(), rows: None }),
+                Core::Space(state) => Core::Space(State { engine: state.engine.clone(), rows: None }),
+            },
+        }
+    }
+}
+
+impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
+    pub fn of(engine: E) -> Self {
+        Self { engine, rows: None }
+    }
+
+    fn build(py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<Self> {
+        let built = interruptible(py, points.len(), move || E::build(points))?;
+        Ok(Self::of(built.map_err(value_error)?))
+    }
+
+    fn arrays<'py>(&mut self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
+        let engine = &self.engine;
+        let (rows, corners, neighbors) = py.detach(|| {
+            let mut rows = vec![-1; engine.slots()];
+            let (mut corners, mut across): (Vec<i32>, Vec<i32>) = (Vec::new(), Vec::new());
+            engine.visit(|simplex, vertices, beyond| {
+                rows[simplex] = (corners.len() / C) as i32;
+                corners.extend(vertices.map(|v| v.index() as i32));
+                across.extend(beyond.map(|simplex| simplex as i32));
+            });
+            for simplex in &mut across {
+                *simplex = rows[*simplex as usize];
+            }
+            (rows, corners, across)
+        });
+        self.rows = Some(rows);
+        let count = corners.len() / C;
+        let array = |values: Vec<i32>| PyArray1::from_vec(py, values).reshape([count, C]);
+        Ok((array(corners)?, array(neighbors)?))
+    }
+
+    fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        table(py, &self.engine.hull())
+    }
+
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        table(py, &py.detach(|| self.engine.edges()))
+    }
+
+    fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        let duplicates = self.engine.duplicates().into_iter().map(|d| [VertexId::new(d.point), d.vertex]);
+        table(py, &duplicates.collect::<Vec<_>>())
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.engine.vertex_count()
+    }
+
+    fn span(&self) -> i32 {
+        self.engine.span()
+    }
+
+    fn is_vertex(&self, v: VertexId) -> bool {
+        self.engine.is_vertex(v)
+    }
+
+    fn extend(&mut self, py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<()> {
+        self.rows = None;
+        py.detach(|| self.engine.extend(&points)).map_err(value_error)
+    }
+
+    /// All or none.
+    fn remove(&mut self, py: Python<'_>, vertices: &[i64]) -> PyResult<()> {
+        let mut wanted = Vec::with_capacity(vertices.len());
+        for &index in vertices {
+            let v = usize::try_from(index).ok().filter(|&index| index < 1 << 29).map(VertexId::new);
+            match v.filter(|&v| self.engine.is_vertex(v)) {
+                Some(v) => wanted.push(v),
+                None => return Err(PyIndexError::new_err(format!("point {index} is no vertex"))),
+            }
+        }
+        wanted.sort_unstable();
+        if let Some(twice) = wanted.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(PyValueError::new_err(format!("point {} is to be removed twice", twice[0].index())));
+        }
+        self.rows = None;
+        py.detach(|| wanted.into_iter().try_for_each(|v| self.engine.remove(v))).map_err(value_error)
+    }
+
+    fn find<'py>(&mut self, py: Python<'py>, queries: Vec<[f64; D]>) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        if self.rows.is_none() {
+            self.arrays(py)?;
+        }
+        let (engine, rows) = (&self.engine, self.rows.as_deref().unwrap_or(&[]));
+        let row = |q| engine.find(q).map(|found| found.and_then(|t| rows.get(t).copied()).unwrap_or(-1));
+        let found = py.detach(|| answers(&queries, row)).map_err(value_error)?;
+        Ok(PyArray1::from_vec(py, found))
+    }
+
+    fn nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>) -> PyResult<Vec<i64>> {
+        let vertex = |q| self.engine.nearest(q).map(|v| v.map_or(-1, |v| v.index() as i64));
+        py.detach(|| answers(&queries, vertex)).map_err(value_error)
+    }
+
+    fn k_nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>, k: usize) -> PyResult<Vec<i64>> {
+        let vertices = |q| self.engine.k_nearest(q, k);
+        let found = py.detach(|| answers(&queries, vertices)).map_err(value_error)?;
+        let padded = |found: Vec<VertexId>| {
+            found.into_iter().map(|v| v.index() as i64).chain(std::iter::repeat(-1)).take(k)
+        };
+        Ok(found.into_iter().flat_map(padded).collect())
+    }
+}
+
+/// The answers to queries, in their order, on all cores. The first error that any query has.
+fn answers<Q: Copy + Sync, A: Send>(
+    queries: &[Q],
+    answer: impl Fn(Q) -> Result<A, Error> + Sync,
+) -> Result<Vec<A>, Error> {
+    queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
+}
+
+/// The points of an array of `D` columns.
+pub fn coordinates<const D: usize>(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; D]>> {
+    if points.shape()[1] != D {
+        let columns = points.shape()[1];
+        return Err(PyValueError::new_err(format!(
+            "points of {columns} coordinates where there must be {D}"
+        )));
+    }
+    let values = points.as_slice()?;
+    Ok(values.as_chunks().0.to_vec())
+}
+
+/// Vertices as rows of numbers.
+fn table<'py, const N: usize>(py: Python<'py>, rows: &[[VertexId; N]]) -> PyResult<Rows<'py>> {
+    let values: Vec<i32> = rows.iter().flatten().map(|v| v.index() as i32).collect();
+    PyArray1::from_vec(py, values).reshape([rows.len(), N])
+}

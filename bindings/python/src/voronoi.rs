@@ -1,0 +1,135 @@
+//! Voronoi cells clipped to a region of the plane, and ridges in space.
+
+use delone::{Region, VertexId};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::triangulation::{Core, Triangulation, coordinates};
+use crate::value_error;
+
+/// Corners, the starts of rings among them, and the starts of points among the rings.
+type Polygons<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);
+
+/// The cells of so many points, clipped to a polygon with holes; empty for what is no vertex.
+#[pyfunction]
+pub fn clipped_cells<'py>(
+    py: Python<'py>,
+    triangulation: PyRef<'py, Triangulation>,
+    points: usize,
+    rings: Vec<PyReadonlyArray2<'py, f64>>,
+) -> PyResult<Polygons<'py>> {
+    let Core::Plane(state) = &triangulation.core else {
+        return Err(PyValueError::new_err("cells are clipped in the plane"));
+    };
+    let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
+    let engine = &state.engine;
+    let (corners, ring_starts, starts) = py.detach(|| {
+        let region = Region::polygon(&rings).map_err(value_error)?;
+        let cells = engine.voronoi().clip(&region);
+        let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
+        for v in (0..points).map(VertexId::new) {
+            for ring in cells.rings(v) {
+                corners.extend(ring.points());
+                ring_starts.push(corners.len() as i64);
+            }
+            starts.push(ring_starts.len() as i64 - 1);
+        }
+        Ok::<_, PyErr>((corners, ring_starts, starts))
+    })?;
+    let count = corners.len();
+    let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
+    Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
+}
+
+/// Pairs of points, the starts of their ridges, and the vertices of these.
+type Ridges<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);
+
+/// The ridges of the Voronoi diagram in space, from the rows of tetrahedra and the vertex of each: around each edge the
+/// vertices in turn, equal ones once, and -1 where the ring is open. Those of fewer than three are left out.
+#[pyfunction]
+pub fn ridges<'py>(
+    py: Python<'py>,
+    simplices: PyReadonlyArray2<'py, i32>,
+    neighbors: PyReadonlyArray2<'py, i32>,
+    vertices: PyReadonlyArray1<'py, i64>,
+) -> PyResult<Ridges<'py>> {
+    let (corners, _) = simplices.as_slice()?.as_chunks::<4>();
+    let (across, _) = neighbors.as_slice()?.as_chunks::<4>();
+    let vertices = vertices.as_slice()?;
+    let mesh = Rows { corners, across };
+    let (pairs, starts, around) = py.detach(|| {
+        let (mut pairs, mut starts, mut around) = (Vec::<i32>::new(), vec![0], Vec::<i64>::new());
+        let mut ring = Vec::new();
+        for (t, corners) in mesh.corners.iter().enumerate() {
+            for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
+                let start = around.len();
+                let Some(is_open) = mesh.turn(t, [corners[i], corners[j]], &mut ring) else { continue };
+                for vertex in ring.iter().map(|&t| vertices[t]).chain(is_open.then_some(-1)) {
+                    if around[start..].last() != Some(&vertex) {
+                        around.push(vertex);
+                    }
+                }
+                while around.len() > start + 1 && around[start..].last() == around.get(start) {
+                    around.pop();
+                }
+                if around.len() < start + 3 {
+                    around.truncate(start);
+                    continue;
+                }
+                pairs.extend([corners[i].min(corners[j]), corners[i].max(corners[j])]);
+                starts.push(around.len() as i64);
+            }
+        }
+        (pairs, starts, around)
+    });
+    let count = pairs.len() / 2;
+    let pairs = PyArray1::from_vec(py, pairs).reshape([count, 2])?;
+    Ok((pairs, PyArray1::from_vec(py, starts), PyArray1::from_vec(py, around)))
+}
+
+/// Tetrahedra by rows.
+struct Rows<'a> {
+    corners: &'a [[i32; 4]],
+    across: &'a [[i32; 4]],
+}
+
+impl Rows<'_> {
+    /// The tetrahedra around an edge in turn, and whether both ends are on the hull. `None` unless the first given is the
+    /// smallest of them, so that each edge is met once.
+    fn turn(&self, first: usize, edge: [i32; 2], ring: &mut Vec<usize>) -> Option<bool> {
+        ring.clear();
+        ring.push(first);
+        let mut others = (0..4).filter(|&k| !edge.contains(&self.corners[first][k]));
+        let (a, b) = (others.next()?, others.next()?);
+        let is_open = self.go(first, a, edge, ring)?;
+        if is_open {
+            // The other way round from the first.
+            ring.reverse();
+            self.go(first, b, edge, ring)?;
+        }
+        Some(is_open)
+    }
+
+    /// Goes on around an edge across from corner `k` of a tetrahedron, to its beginning or to the hull; says which.
+    fn go(&self, first: usize, mut k: usize, edge: [i32; 2], ring: &mut Vec<usize>) -> Option<bool> {
+        let mut t = first;
+        loop {
+            let next = self.across[t][k];
+            let Ok(next) = usize::try_from(next) else { return Some(true) };
+            if next == first {
+                return Some(false);
+            }
+            if next < first {
+                return None;
+            }
+            // It is entered across from its one corner that is new; it is left across from the other of the facet.
+            let shared = (0..4).find(|&i| {
+                let corner = self.corners[next][i];
+                !edge.contains(&corner) && self.corners[t].contains(&corner)
+            })?;
+            (t, k) = (next, shared);
+            ring.push(t);
+        }
+    }
+}
