@@ -1,8 +1,13 @@
 """The Rust half. Arrays of points are C-contiguous float64; see `delone` for what users call."""
 
+from typing import final
+
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = ["Hints", "Triangulation", "clipped_cells", "convex_hull", "ridges"]
+
+@final
 class Triangulation:
     def __new__(cls, points: NDArray[np.float64]) -> Triangulation: ...
     def arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
@@ -22,6 +27,7 @@ class Triangulation:
     def k_nearest(self, queries: NDArray[np.float64], k: int) -> NDArray[np.int64]: ...
     def copy(self) -> Triangulation: ...
 
+@final
 class Hints:
     def __new__(cls, centres: NDArray[np.float64]) -> Hints: ...
     def triangulate(self, points: NDArray[np.float64]) -> Triangulation: ...
