@@ -20,6 +20,9 @@ use crate::parallel;
 /// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
 const SHORT_RUN: usize = 32;
 
+/// Sets up to this size get no keys.
+const FEW: usize = 12;
+
 /// Points in Morton order, without duplicates.
 pub(crate) struct Sorted {
     /// The distinct points in order.
@@ -167,10 +170,18 @@ impl<'a> Sorter<'a> {
             let corners = parallel::map(chunks, bounds).into_iter().flat_map(|(low, high)| [low, high]);
             bounds(&corners.collect::<Vec<_>>())
         };
-        let bits = (n.next_power_of_two().ilog2() + 3).div_ceil(2);
+        // A few points are one cell, sorted by comparison.
+        let bits = if n <= FEW { 0 } else { (n.next_power_of_two().ilog2() + 3).div_ceil(2) };
         let depth = 2 * bits;
         let quantizer = Quantizer::new(low, high, bits);
         self.boxes.push(KeyBox { start: self.start + to.start, end: self.start + to.end, quantizer, depth });
+        if bits == 0 {
+            for (k, &p) in points.iter().enumerate() {
+                (self.points[to.start + k], self.indices[to.start + k]) = (p, index_of(k));
+            }
+            self.cuts[to][1..].fill(Cut::SAME_CELL);
+            return depth;
+        }
         // An entry holds a key above and a place in `points` below. Without a box all keys are equal.
         let key = |p: [f64; 2]| {
             let [column, row] = quantizer.map_or([0, 0], |quantizer| quantizer.cell(p));

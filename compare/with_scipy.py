@@ -1,6 +1,6 @@
 """Times delone beside SciPy in one run: constructor to simplices, and a million queries.
 
-python bindings/python/compare.py [--runs 3]
+python compare/with_scipy.py [--runs 3]
 """
 
 import argparse
