@@ -1,5 +1,7 @@
 //! Plots on doubly logarithmic axes.
 
+use std::ops::Range;
+
 use plotters::prelude::*;
 
 /// Told apart by everyone, also in grey (Okabe and Ito's palette).
@@ -58,6 +60,7 @@ impl Plot {
         let mut chart = ChartBuilder::on(&area)
             .caption(&self.title, ("sans-serif", 20))
             .margin(12)
+            .margin_right(30)
             .x_label_area_size(46)
             .y_label_area_size(70)
             .build_cartesian_2d(range(|p| p.0).log_scale(), range(|p| p.1).log_scale())?;
@@ -65,7 +68,7 @@ impl Plot {
             .configure_mesh()
             .x_desc(&self.axes[0])
             .y_desc(&self.axes[1])
-            .x_label_formatter(&|x| format!("{x}"))
+            .x_label_formatter(&|&x| if x < 1e5 { format!("{x}") } else { format!("{x:e}") })
             .y_label_formatter(&|y| format!("{y}"))
             .light_line_style(WHITE)
             .label_style(("sans-serif", 14))
@@ -77,15 +80,9 @@ impl Plot {
                 .label(name)
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
         }
-        // Where the curves are not: falling ones leave the upper right free, rising ones the upper left.
-        let falls = |points: &Vec<(f64, f64)>| points.first().map(|p| p.1) > points.last().map(|p| p.1);
-        let legend = match self.curves.first() {
-            Some((_, points)) if falls(points) => SeriesLabelPosition::UpperRight,
-            _ => SeriesLabelPosition::UpperLeft,
-        };
         chart
             .configure_series_labels()
-            .position(legend)
+            .position(self.free_place(&range(|p| p.0), &range(|p| p.1)))
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK.mix(0.3))
             .label_font(("sans-serif", 14))
@@ -93,5 +90,29 @@ impl Plot {
         drop(chart);
         area.present()?;
         Ok(())
+    }
+
+    /// Where the legend hides the fewest points: left or right, from top to bottom.
+    fn free_place(&self, across: &Range<f64>, up: &Range<f64>) -> SeriesLabelPosition {
+        use SeriesLabelPosition::{LowerLeft, LowerRight, MiddleLeft, MiddleRight, UpperLeft, UpperRight};
+        let share = |x: f64, range: &Range<f64>| (x / range.start).ln() / (range.end / range.start).ln();
+        let points = || self.curves.iter().flat_map(|(_, points)| points);
+        let hidden = |is_left: bool, third: f64| {
+            let is_hidden = |&&(x, y): &&(f64, f64)| {
+                let (x, y) = (share(x, across), share(y, up));
+                (if is_left { x < 0.4 } else { x > 0.6 }) && (0.0..1.0).contains(&(3.0 * y - third))
+            };
+            points().filter(is_hidden).count()
+        };
+        let places = [
+            (UpperLeft, true, 2.0),
+            (UpperRight, false, 2.0),
+            (MiddleLeft, true, 1.0),
+            (MiddleRight, false, 1.0),
+            (LowerLeft, true, 0.0),
+            (LowerRight, false, 0.0),
+        ];
+        let freest = places.into_iter().min_by_key(|&(_, is_left, third)| hidden(is_left, third));
+        freest.map_or(UpperLeft, |(place, ..)| place)
     }
 }
