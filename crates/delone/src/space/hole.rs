@@ -44,8 +44,8 @@ pub(super) struct Border {
     pub(super) inside: FacetId,
 }
 
-/// From the smallest on, in the same sense.
-fn turned([a, b, c]: [u32; 3]) -> [u32; 3] {
+/// Three from the smallest on, in the same sense.
+pub(super) fn turned<T: Copy + Ord>([a, b, c]: [T; 3]) -> [T; 3] {
     if a < b && a < c {
         [a, b, c]
     } else if b < c {

@@ -10,6 +10,7 @@
 //! number of threads. Cost: that of [`super::build`], divided by the threads, and once more for the points near the
 //! cuts, a twentieth at most.
 
+use super::super::hole::turned;
 use super::super::layer::{Layer, Limits};
 use super::part::{Done, Part};
 use super::{note_twins, room};
@@ -139,7 +140,8 @@ fn find_walls(fill: &mut Mesh3, vertices: &[Place], parts: &[Done]) -> Option<Ve
         for (to, p) in inside.iter_mut().zip(corners).filter(|(_, p)| !p.is_ghost()) {
             *to = fill.names.place(VertexId::new(vertices.binary_search(&p).ok()?))?;
         }
-        seam.push((from_smallest(inside), outside));
+        // The ghost is the largest.
+        seam.push((turned(inside), outside));
     }
     seam.sort_unstable();
     // For each place where those begin that have it for their smallest corner.
@@ -154,7 +156,7 @@ fn find_walls(fill: &mut Mesh3, vertices: &[Place], parts: &[Done]) -> Option<Ve
     for t in 0..fill.cells.len() {
         let t = TetrahedronId::new(t);
         for f in [0, 1, 2, 3].map(|k| t.facet(k)) {
-            let corners = from_smallest(fill.facet_places(f));
+            let corners = turned(fill.facet_places(f));
             if corners[0].is_ghost() {
                 continue;
             }
@@ -167,17 +169,6 @@ fn find_walls(fill: &mut Mesh3, vertices: &[Place], parts: &[Done]) -> Option<Ve
         }
     }
     (walls.len() == count).then_some(walls)
-}
-
-/// The same in the same sense, from the smallest on. The ghost is the largest.
-fn from_smallest([a, b, c]: [Place; 3]) -> [Place; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
 }
 
 /// The tetrahedra inside of walls; all if there are none.
