@@ -1,8 +1,12 @@
 //! A triangulation of the plane or of space, by its arrays and its queries.
+//!
+//! Whoever asks borrows it, and only changes borrow it alone: several threads of Python may ask at once.
+
+use std::sync::OnceLock;
 
 use delone::{Delaunay2, Delaunay3, Error, VertexId};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods, ToPyArray};
-use pyo3::exceptions::{PyIndexError, PyValueError};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyIndexError, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
@@ -19,7 +23,7 @@ type Rows<'py> = Bound<'py, PyArray2<i32>>;
 pub struct State<E, const D: usize, const C: usize> {
     pub engine: E,
     /// For each number of a simplex its row, once it was asked for; -1 for what is not finite.
-    rows: Option<Vec<i32>>,
+    rows: OnceLock<Vec<i32>>,
 }
 
 pub enum Core {
@@ -56,8 +60,8 @@ impl Triangulation {
     }
 
     /// Corners and neighbours of the finite simplices.
-    fn arrays<'py>(&mut self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        either!(&mut self.core, state => state.arrays(py))
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
+        either!(&self.core, state => state.arrays(py))
     }
 
     /// The circumcentres of the finite triangles of the plane, each the nearest number to the exact one.
@@ -96,10 +100,7 @@ impl Triangulation {
     }
 
     fn extend(&mut self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        match &mut self.core {
-            Core::Plane(state) => state.extend(py, coordinates(&points)?),
-            Core::Space(state) => state.extend(py, coordinates(&points)?),
-        }
+        either!(&mut self.core, state => state.extend(py, coordinates(&points)?))
     }
 
     fn remove(&mut self, py: Python<'_>, vertices: Vec<i64>) -> PyResult<()> {
@@ -113,14 +114,11 @@ impl Triangulation {
 
     /// The rows of simplices that hold points; -1 outside.
     fn find<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        match &mut self.core {
-            Core::Plane(state) => state.find(py, coordinates(&queries)?),
-            Core::Space(state) => state.find(py, coordinates(&queries)?),
-        }
+        either!(&self.core, state => state.find(py, coordinates(&queries)?))
     }
 
     /// The nearest vertices; -1 if there is none.
@@ -129,11 +127,8 @@ impl Triangulation {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let found = match &self.core {
-            Core::Plane(state) => state.nearest(py, coordinates(&queries)?),
-            Core::Space(state) => state.nearest(py, coordinates(&queries)?),
-        };
-        Ok(found?.to_pyarray(py))
+        let found = either!(&self.core, state => state.nearest(py, coordinates(&queries)?))?;
+        Ok(PyArray1::from_vec(py, found))
     }
 
     /// The k nearest vertices, nearest first; -1 where there are not so many.
@@ -144,26 +139,22 @@ impl Triangulation {
         k: usize,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
         let count = queries.shape()[0];
-        let found = match &self.core {
-            Core::Plane(state) => state.k_nearest(py, coordinates(&queries)?, k),
-            Core::Space(state) => state.k_nearest(py, coordinates(&queries)?, k),
-        };
-        found?.to_pyarray(py).reshape([count, k])
+        let found = either!(&self.core, state => state.k_nearest(py, coordinates(&queries)?, k))?;
+        PyArray1::from_vec(py, found).reshape([count, k])
     }
 
     fn copy(&self) -> Self {
-        Self {
-            core: match &self.core {
-                Core::Plane(state) => Core::Plane(State { engine: state.engine.clone(), rows: None }),
-                Core::Space(state) => Core::Space(State { engine: state.engine.clone(), rows: None }),
-            },
-        }
+        let core = match &self.core {
+            Core::Plane(state) => Core::Plane(State::of(state.engine.clone())),
+            Core::Space(state) => Core::Space(State::of(state.engine.clone())),
+        };
+        Self { core }
     }
 }
 
 impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     pub fn of(engine: E) -> Self {
-        Self { engine, rows: None }
+        Self { engine, rows: OnceLock::new() }
     }
 
     fn build(py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<Self> {
@@ -171,22 +162,28 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         Ok(Self::of(built.map_err(value_error)?))
     }
 
-    fn arrays<'py>(&mut self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        let engine = &self.engine;
-        let (rows, corners, neighbors) = py.detach(|| {
-            let mut rows = vec![-1; engine.slots()];
-            let (mut corners, mut across): (Vec<i32>, Vec<i32>) = (Vec::new(), Vec::new());
-            engine.visit(|simplex, vertices, beyond| {
-                rows[simplex] = (corners.len() / C) as i32;
-                corners.extend(vertices.map(|v| v.index() as i32));
-                across.extend(beyond.map(|simplex| simplex as i32));
+    /// For each number of a simplex its row.
+    fn rows(&self) -> &[i32] {
+        self.rows.get_or_init(|| {
+            let (mut rows, mut row) = (vec![-1; self.engine.slots()], 0);
+            self.engine.visit(|simplex, _, _| {
+                rows[simplex] = row;
+                row += 1;
             });
-            for simplex in &mut across {
-                *simplex = rows[*simplex as usize];
-            }
-            (rows, corners, across)
+            rows
+        })
+    }
+
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
+        let (corners, neighbors) = py.detach(|| {
+            let rows = self.rows();
+            let (mut corners, mut neighbors): (Vec<i32>, Vec<i32>) = (Vec::new(), Vec::new());
+            self.engine.visit(|_, vertices, across| {
+                corners.extend(vertices.map(|v| v.index() as i32));
+                neighbors.extend(across.map(|simplex| rows[simplex]));
+            });
+            (corners, neighbors)
         });
-        self.rows = Some(rows);
         let count = corners.len() / C;
         let array = |values: Vec<i32>| PyArray1::from_vec(py, values).reshape([count, C]);
         Ok((array(corners)?, array(neighbors)?))
@@ -218,7 +215,7 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     }
 
     fn extend(&mut self, py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<()> {
-        self.rows = None;
+        self.rows.take();
         py.detach(|| self.engine.extend(&points)).map_err(value_error)
     }
 
@@ -236,17 +233,17 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         if let Some(twice) = wanted.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(PyValueError::new_err(format!("point {} is to be removed twice", twice[0].index())));
         }
-        self.rows = None;
+        self.rows.take();
         py.detach(|| wanted.into_iter().try_for_each(|v| self.engine.remove(v))).map_err(value_error)
     }
 
-    fn find<'py>(&mut self, py: Python<'py>, queries: Vec<[f64; D]>) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        if self.rows.is_none() {
-            self.arrays(py)?;
-        }
-        let (engine, rows) = (&self.engine, self.rows.as_deref().unwrap_or(&[]));
-        let row = |q| engine.find(q).map(|found| found.and_then(|t| rows.get(t).copied()).unwrap_or(-1));
-        let found = py.detach(|| answers(&queries, row)).map_err(value_error)?;
+    fn find<'py>(&self, py: Python<'py>, queries: Vec<[f64; D]>) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        let found = py.detach(|| {
+            let rows = self.rows();
+            let row = |q| self.engine.find(q).map(|found| found.map_or(-1, |simplex| rows[simplex]));
+            answers(&queries, row)
+        });
+        let found = found.map_err(value_error)?;
         Ok(PyArray1::from_vec(py, found))
     }
 
@@ -256,12 +253,21 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     }
 
     fn k_nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>, k: usize) -> PyResult<Vec<i64>> {
-        let vertices = |q| self.engine.k_nearest(q, k);
-        let found = py.detach(|| answers(&queries, vertices)).map_err(value_error)?;
-        let padded = |found: Vec<VertexId>| {
-            found.into_iter().map(|v| v.index() as i64).chain(std::iter::repeat(-1)).take(k)
-        };
-        Ok(found.into_iter().flat_map(padded).collect())
+        // The answer may be larger than memory.
+        let mut padded = Vec::new();
+        let size = queries.len().checked_mul(k);
+        if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
+            return Err(PyMemoryError::new_err(format!("{} times {k} neighbours", queries.len())));
+        }
+        let most = k.min(self.engine.vertex_count());
+        let found =
+            py.detach(|| answers(&queries, |q| self.engine.k_nearest(q, most))).map_err(value_error)?;
+        for found in found {
+            let missing = k - found.len();
+            padded.extend(found.into_iter().map(|v| v.index() as i64));
+            padded.extend(std::iter::repeat_n(-1, missing));
+        }
+        Ok(padded)
     }
 }
 

@@ -191,7 +191,12 @@ def test_arrays_of_all_kinds(ndim):
         points.astype(">f8"),
         points.astype(np.float16),
     ]
+    # Doubles that do not begin at a multiple of eight.
+    odd = np.frombuffer(b"x" + points.astype(float).tobytes(), dtype=np.uint8)[1:].view(np.float64).reshape(60, ndim)
+    assert not odd.flags.aligned
+    kinds.append(odd)
     for given in kinds:
+        delone.Delaunay(points).find_simplex(given)
         assert as_set(delone.Delaunay(given).simplices) == expected
     mine = points.astype(float)
     tri = delone.Delaunay(mine)
@@ -312,3 +317,24 @@ def test_threads_do_not_show(monkeypatch):
         monkeypatch.setenv("RAYON_NUM_THREADS", threads)
         answers.add(subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout)
     assert len(answers) == 1
+
+
+def test_several_threads_may_ask_at_once():
+    from concurrent.futures import ThreadPoolExecutor
+
+    tri = delone.Delaunay(random_points(50_000, 2))
+    queries = random_points(50_000, 2, seed=1)
+    with ThreadPoolExecutor(8) as threads:
+        found = list(threads.map(lambda _: tri.find_simplex(queries), range(32)))
+    assert all((one == found[0]).all() for one in found)
+
+
+def test_numbers_near_the_largest():
+    most = np.finfo(float).max
+    points = [[-most, -most], [most, -most], [most, most], [-most, most], [0, 1]]
+    assert delone.Delaunay(points).nsimplex == 4
+    assert len(delone.Voronoi(points).cells()) == 5
+    with pytest.raises(MemoryError):
+        delone.Delaunay(points).k_nearest([0, 0], 2**62)
+    with pytest.raises(ValueError, match="xi: point 1 has the y coordinate inf"):
+        delone.Delaunay(points).nearest([[0, 0], [0, np.inf]])

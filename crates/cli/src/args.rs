@@ -17,7 +17,7 @@ pub(crate) struct Cli {
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
     /// Threads at most [default: RAYON_NUM_THREADS, or as many as there are cores]. Results do not depend on it;
-    /// construction in the plane by divide and conquer uses them.
+    /// the default constructions use them, in the plane and in space.
     #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
     #[command(subcommand)]

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def as_points(points: ArrayLike, what: str = "points", columns: int | None = None) -> NDArray[np.float64]:
-    """Coordinates as a C-contiguous float64 array of shape (n, 2) or (n, 3); the same array if it is one already.
+    """Coordinates as a C-contiguous and aligned float64 array of shape (n, 2) or (n, 3); the same array if it is one already.
 
     Raises TypeError for what holds no real numbers, ValueError for wrong shapes and for numbers that are not finite.
     """
@@ -27,15 +27,13 @@ def as_points(points: ArrayLike, what: str = "points", columns: int | None = Non
     if array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:
         largest = max(abs(int(array.min())), abs(int(array.max())))
         if largest > 2**53:
-            raise ValueError(f"{what} holds integers beyond 2**53, which float64 does not")
+            raise ValueError(f"{what} holds integers beyond 2**53, which float64 does not tell apart")
     with np.errstate(over="ignore"):
-        result: NDArray[np.float64] = np.ascontiguousarray(array, dtype=np.float64)
-    # One sum finds nearly all arrays in order; infinities and NaN survive every sum.
-    if result.size and not np.isfinite(result.sum()):
-        bad = np.argwhere(~np.isfinite(result))
-        if len(bad):
-            row, column = bad[0]
-            raise ValueError(f"{what}: point {row} has the {'xyz'[column]} coordinate {result[row, column]}, which is not finite")
+        result: NDArray[np.float64] = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
+    is_finite = np.isfinite(result)
+    if not is_finite.all():
+        row, column = np.argwhere(~is_finite)[0]
+        raise ValueError(f"{what}: point {row} has the {'xyz'[column]} coordinate {result[row, column]}, which is not finite")
     return result
 
 

@@ -78,8 +78,10 @@ class Voronoi:
             if not self.npoints:
                 return []
             low, high = self._tri.min_bound, self._tri.max_bound
-            margin = max(float((high - low).max()) / 20, float(np.abs(high).max()) * 1e-9, 1e-300)
-            (x0, y0), (x1, y1) = low - margin, high + margin
+            most = np.finfo(np.float64).max
+            with np.errstate(over="ignore"):
+                margin = max(float((high - low).max()) / 20, float(np.abs(high).max()) * 1e-9, 1e-300)
+                (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
             rings = [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
         else:
             given: list[Any] = list(region)  # type: ignore[arg-type]

@@ -31,6 +31,13 @@ impl Tetrahedron {
     pub(crate) const FREE: Self = Self { corners: [Place::GHOST; 4], across: [FacetId::NONE; 4] };
 }
 
+/// Glues two facets to each other.
+#[inline]
+pub(crate) fn link(cells: &mut [Tetrahedron], f: FacetId, g: FacetId) {
+    cells[f.tetrahedron().index()].across[f.corner()] = g;
+    cells[g.tetrahedron().index()].across[g.corner()] = f;
+}
+
 /// A triangulation's topology.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh3 {
@@ -195,8 +202,7 @@ impl Mesh3 {
     /// Glues two facets to each other.
     #[inline]
     pub(crate) fn link(&mut self, f: FacetId, g: FacetId) {
-        self.cells[f.tetrahedron().index()].across[f.corner()] = g;
-        self.cells[g.tetrahedron().index()].across[g.corner()] = f;
+        link(&mut self.cells, f, g);
     }
 
     /// The tetrahedra at a place, ghosts included, into a buffer. O(d log d) for d of them.

@@ -4,7 +4,7 @@
 //! runs the cut of the first bit in which their keys differ: its depth tells the size of the cell that it
 //! halves and, by its parity, the axis. The cuts alone are the tree, so no tree is stored.
 //!
-//! Keys have just enough bits, about three more than log2 n, for two or three radix passes. Skewed data
+//! Keys have just enough bits, about three more than log2 n, for two or three radix passes; a few points have none. Skewed data
 //! collapse into few cells; there a run of equal keys is sorted again in its own bounding box, recursively. A
 //! nested box is at least 2^5 times smaller than the one around it, so 2100 / 5 is a bound on the depth for
 //! any doubles. Equal points meet in the end, and all but the first given are set aside as duplicates.
@@ -202,8 +202,8 @@ impl<'a> Sorter<'a> {
         depth
     }
 
-    /// Writes points, indices and cuts of sorted entries from one of them on to some positions: three plain loops, because the points come
-    /// from everywhere in memory and nothing should stand in the way of fetching many at once.
+    /// Writes points, indices and cuts of sorted entries, from one of them on, to some positions: three plain loops,
+    /// because the points come from everywhere in memory and nothing should stand in the way of fetching many at once.
     fn place(
         &mut self,
         to: Range<usize>,

@@ -3,7 +3,7 @@
 
 use delone_predicates::Filter3;
 
-use crate::ids::{FacetId, Place, TetrahedronId};
+use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 
@@ -42,13 +42,6 @@ impl Memory<'_> {
     #[inline]
     pub(super) fn view(&self) -> View<'_> {
         View { cells: self.cells, points: self.points, filter: self.filter }
-    }
-
-    /// Glues two facets to each other.
-    #[inline]
-    pub(super) fn link(&mut self, f: FacetId, g: FacetId) {
-        self.cells[f.tetrahedron().index()].across[f.corner()] = g;
-        self.cells[g.tetrahedron().index()].across[g.corner()] = f;
     }
 }
 

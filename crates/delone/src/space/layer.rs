@@ -199,8 +199,7 @@ impl Layer {
     /// The vertex of a tetrahedron that a point equals.
     #[inline]
     pub(super) fn vertex_at(&self, t: TetrahedronId, q: [f64; 3]) -> Option<Place> {
-        let corners = self.mesh.cells[t.index()].corners;
-        corners.into_iter().find(|p| !p.is_ghost() && self.points[p.index()] == q && !self.is_scaffold(*p))
+        self.view().vertex_at(t, q).filter(|&p| !self.is_scaffold(p))
     }
 
     /// Makes the point at a place a vertex, from a tetrahedron in conflict with it.

@@ -100,8 +100,7 @@ impl Delaunay3 {
     /// [`MAX_POINTS_IN_SPACE`].
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         check_points(points)?;
-        let (base, duplicates) = build::triangulate(points, 0, &mut ());
-        Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, ..Self::default() })
+        Ok(Self::assemble(build::triangulate(points, 0, &mut ()), Work::default()))
     }
 
     /// The same for coordinates that need not be kept, which takes 24 bytes a point less.
@@ -110,8 +109,7 @@ impl Delaunay3 {
     /// As [`Self::from_points`].
     pub fn from_vec(points: Vec<[f64; 3]>) -> Result<Self, Error> {
         check_points(&points)?;
-        let (base, duplicates) = build::triangulate::<[f64; 3], _>(points, 0, &mut ());
-        Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, ..Self::default() })
+        Ok(Self::assemble(build::triangulate::<[f64; 3], _>(points, 0, &mut ()), Work::default()))
     }
 
     /// Triangulates points with an algorithm of choice, and counts what it does; see [`Self::work`].
@@ -123,8 +121,8 @@ impl Delaunay3 {
         let mut work = Work::default();
         match algorithm {
             Algorithm3::Spatial { seed } => {
-                let (base, duplicates) = build::triangulate(points, seed, &mut work);
-                Ok(Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() })
+                let built = build::triangulate(points, seed, &mut work);
+                Ok(Self::assemble(built, work))
             }
             Algorithm3::Located { locate, seed } => {
                 let mut d = Self::new();
@@ -134,6 +132,10 @@ impl Delaunay3 {
                 Ok(d)
             }
         }
+    }
+
+    fn assemble((base, duplicates): (Layer, Vec<Duplicate>), work: Work) -> Self {
+        Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() }
     }
 
     /// What [`Self::with_algorithm`] did.

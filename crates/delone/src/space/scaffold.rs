@@ -12,7 +12,7 @@ use super::build;
 use super::layer::Layer;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
-use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+use crate::mesh::tetrahedra::{FACETS, Tetrahedron, link};
 use crate::order::curve;
 
 impl Layer {
@@ -138,13 +138,13 @@ pub(super) fn first_cells(arena: &mut impl Arena, mut corners: [Place; 4]) -> Op
     for ghost in &mut ghosts {
         *ghost = arena.new_cell()?;
     }
-    let mut memory = arena.memory();
+    let memory = arena.memory();
     memory.cells[first.index()] = Tetrahedron { corners, ..Tetrahedron::FREE };
     for (k, t) in ghosts.into_iter().enumerate() {
         // Seen from the other side.
         let [a, b, c] = FACETS[k].map(|i| corners[i]);
         memory.cells[t.index()].corners = [a, c, b, Place::GHOST];
-        memory.link(first.facet(k), t.facet(3));
+        link(memory.cells, first.facet(k), t.facet(3));
         memory.incident[corners[k].index()] = first;
     }
     for (i, &t) in ghosts.iter().enumerate() {
@@ -154,7 +154,7 @@ pub(super) fn first_cells(arena: &mut impl Arena, mut corners: [Place; 4]) -> Op
                 memory.cells[t.index()].corners.iter().position(|&q| q == p).unwrap_or(3)
             };
             let (f, g) = (t.facet(corner(t, corners[j])), u.facet(corner(u, corners[i])));
-            memory.link(f, g);
+            link(memory.cells, f, g);
         }
     }
     Some(())

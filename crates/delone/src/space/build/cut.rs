@@ -44,6 +44,11 @@ pub(super) fn cut<P: Position3>(points: &[P]) -> Vec<Run> {
     divide(points, (0..points.len() as u32).collect(), cuts, Vec::new())
 }
 
+/// All points as one run.
+pub(super) fn uncut<P: Position3>(points: &[P]) -> Vec<Run> {
+    divide(points, (0..points.len() as u32).collect(), 0, Vec::new())
+}
+
 /// The share of points that are expected at the border of two halves: the larger of what thin samples of the whole and dense
 /// ones of places near the cut let expect.
 fn share_at_cut<P: Position3>(points: &[P]) -> f64 {

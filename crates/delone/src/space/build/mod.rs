@@ -10,7 +10,7 @@ mod apart;
 mod cut;
 mod part;
 
-use cut::cut;
+use cut::{Run, cut};
 
 use super::Position3;
 use super::arena::Arena;
@@ -35,6 +35,16 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     tally: &mut T,
 ) -> (Layer, Vec<Duplicate>) {
     let runs = cut(points.as_ref());
+    triangulate_runs(points, runs, seed, tally)
+}
+
+/// The same for points that are cut already.
+fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
+    points: impl AsRef<[P]>,
+    runs: Vec<Run>,
+    seed: u64,
+    tally: &mut T,
+) -> (Layer, Vec<Duplicate>) {
     let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
     let parts: Vec<(usize, Vec<Limits>)> =
         runs.into_iter().map(|run| (run.order.len(), run.others)).collect();

@@ -114,7 +114,6 @@ impl<'a> Part<'a> {
         let is_ghost = |cell: &Tetrahedron| cell.corners[3].is_ghost() && !cell.corners[0].is_ghost();
         let first = self.cells[..self.used].iter().position(is_ghost);
         let mut ghosts: Vec<TetrahedronId> = first.map(TetrahedronId::new).into_iter().collect();
-        let mut tested = Vec::new();
         // All ghosts: those that nothing is beyond are in the way to others.
         let mut done = 0;
         ghosts.iter().for_each(|t| self.marks[t.index()] = SURE);
@@ -134,7 +133,7 @@ impl<'a> Part<'a> {
             .filter(|&t| others.iter().any(|other| self.may_be_beyond(t, other)))
             .collect();
         border.iter().for_each(|t| self.marks[t.index()] = BORDER);
-        tested.append(&mut ghosts);
+        let mut tested = ghosts;
         let mut done = 0;
         while let Some(&t) = border.get(done) {
             done += 1;
