@@ -339,8 +339,15 @@ fn in_sphere_is_exact() {
             let filter = Filter3::for_box(extent, grid);
             assert_eq!(filter.in_sphere(a, b, c, d, e), sign(perturbed), "{name}: {five:?}, in a box");
             assert_eq!(filter.orient3d(a, b, c, d), orient3d(a, b, c, d), "{name}: {five:?}, in a box");
-            let both = filter.in_spheres([[a, b, c, d], [b, a, c, d]], e);
+            let both = filter.in_spheres([[&a, &b, &c, &d], [&b, &a, &c, &d]], &e);
             assert_eq!(both, [sign(perturbed), -sign(perturbed)], "{name}: {five:?}, two at once");
+            let [a, b] = if orient3d(a, b, c, d).is_positive() { [a, b] } else { [b, a] };
+            let is_beyond = [[b, d, c], [a, c, d], [a, d, b], [a, b, c]]
+                .map(|[u, v, w]| orient3d(u, v, w, e).is_negative());
+            match filter.facet_towards([&a, &b, &c, &d], &e) {
+                Some(k) => assert!(is_beyond[k], "{name}: {five:?}, facet {k}"),
+                None => assert_eq!(is_beyond, [false; 4], "{name}: {five:?}, no facet"),
+            }
         }
         for swapped in [in_sphere(b, a, c, d, e), in_sphere(a, c, b, d, e), in_sphere(a, b, d, c, e)] {
             assert_eq!(swapped, -sign(perturbed), "{name}: {five:?}, swapped");

@@ -14,8 +14,8 @@ use crate::parallel;
 const MOST_BITS: u32 = 10;
 /// Runs of equal keys up to this length keep the order of the input.
 const SHORT_RUN: usize = 32;
-/// Each round holds seven times as many points as all before it: of eight, two to this power.
-const GROWTH: u32 = 3;
+/// Each round holds three times as many points as all before it: of four, two to this power.
+const GROWTH: u32 = 2;
 /// The first round is not made smaller than this.
 const SMALLEST: usize = 64;
 
@@ -121,7 +121,7 @@ fn curve(mut x: [u32; 3], bits: u32) -> u64 {
 
 /// The numbers below `count`, dealt into rounds at random: increasing in each, the smallest round first.
 pub(crate) fn rounds(count: usize, seed: u64) -> Vec<u32> {
-    // Each number is in the last round but for a chance of one in eight, and so on.
+    // Each number is in the last round but for a chance of one in four, and so on.
     let most = (count / SMALLEST).max(1).ilog2() / GROWTH;
     let mut random = SplitMix(seed);
     let steps: Vec<u8> =
@@ -162,7 +162,7 @@ mod tests {
         assert!(order.into_iter().eq(0..5000));
         let mut order = rounds(5000, 3);
         assert_ne!(order, rounds(5000, 4));
-        assert!(order[4000..].is_sorted());
+        assert!(order[2000..].is_sorted());
         order.sort_unstable();
         assert!(order.into_iter().eq(0..5000));
         assert_eq!(rounds(0, 1), []);

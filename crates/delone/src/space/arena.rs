@@ -5,7 +5,7 @@ use delone_predicates::Filter3;
 
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
-use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+use crate::mesh::tetrahedra::Tetrahedron;
 
 /// What decisions look at.
 #[derive(Clone, Copy)]
@@ -52,31 +52,27 @@ impl View<'_> {
     }
 
     #[inline]
-    fn at(&self, p: Place) -> [f64; 3] {
-        self.points[p.index()]
+    fn at(&self, p: Place) -> &[f64; 3] {
+        &self.points[p.index()]
     }
 
     /// The coordinates of four corners, none of them the ghost.
     #[inline]
-    fn all(&self, &[a, b, c, d]: &[Place; 4]) -> [[f64; 3]; 4] {
+    fn all(&self, &[a, b, c, d]: &[Place; 4]) -> [&[f64; 3]; 4] {
         [self.at(a), self.at(b), self.at(c), self.at(d)]
     }
 
     /// Whether the sphere of a tetrahedron contains `q`. That of a ghost is the half-space beyond its hull facet, with
     /// the inside of the facet's circle.
     #[inline]
-    pub(super) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
+    pub(super) fn conflicts(&self, t: TetrahedronId, q: &[f64; 3]) -> bool {
         let corners = self.corners(t);
-        if corners[3].is_ghost() {
-            return self.is_beyond_hull(t, q);
-        }
-        let [a, b, c, d] = self.all(corners);
-        self.filter.in_sphere(a, b, c, d, q).is_positive()
+        if corners[3].is_ghost() { self.is_beyond_hull(t, q) } else { self.is_in_sphere(corners, q) }
     }
 
     /// The same for two.
     #[inline]
-    pub(super) fn both_conflict(&self, t: TetrahedronId, u: TetrahedronId, q: [f64; 3]) -> [bool; 2] {
+    pub(super) fn both_conflict(&self, t: TetrahedronId, u: TetrahedronId, q: &[f64; 3]) -> [bool; 2] {
         let (first, second) = (self.corners(t), self.corners(u));
         if first[3].is_ghost() || second[3].is_ghost() {
             return [self.conflicts(t, q), self.conflicts(u, q)];
@@ -85,17 +81,21 @@ impl View<'_> {
         [first.is_positive(), second.is_positive()]
     }
 
+    #[inline]
+    fn is_in_sphere(&self, corners: &[Place; 4], &q: &[f64; 3]) -> bool {
+        let [&a, &b, &c, &d] = self.all(corners);
+        self.filter.in_sphere(a, b, c, d, q).is_positive()
+    }
+
     /// The same for a ghost.
-    fn is_beyond_hull(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
-        let cell = &self.cells[t.index()];
-        let [a, b, c] = [0, 1, 2].map(|k| self.at(cell.corners[k]));
-        let side = self.filter.orient3d(a, b, c, q);
+    fn is_beyond_hull(&self, t: TetrahedronId, q: &[f64; 3]) -> bool {
+        let Tetrahedron { corners: [a, b, c, _], across } = self.cells[t.index()];
+        let side = self.filter.orient3d(*self.at(a), *self.at(b), *self.at(c), *q);
         if !side.is_zero() {
             return side.is_positive();
         }
         // In the plane of the facet the sphere of the tetrahedron inside cuts out its circle.
-        let [a, b, c, d] = self.all(self.corners(cell.across[3].tetrahedron()));
-        self.filter.in_sphere(a, b, c, d, q).is_positive()
+        self.is_in_sphere(self.corners(across[3].tetrahedron()), q)
     }
 
     /// Walks to `q` from a tetrahedron: to a finite one that contains it in its inside or on its border, or else to the
@@ -106,32 +106,23 @@ impl View<'_> {
         if self.corners(t)[3].is_ghost() {
             t = self.cells[t.index()].across[3].tetrahedron();
         }
-        let mut entered = 4;
-        'walk: loop {
+        loop {
             tally.visited();
             let cell = &self.cells[t.index()];
             if cell.corners[3].is_ghost() {
                 return t;
             }
-            let points = self.all(&cell.corners);
-            for (k, [i, j, l]) in FACETS.into_iter().enumerate() {
-                if k == entered {
-                    continue;
-                }
-                tally.orientation();
-                if self.filter.orient3d(points[i], points[j], points[l], q).is_negative() {
-                    let across = cell.across[k];
-                    (t, entered) = (across.tetrahedron(), across.corner());
-                    continue 'walk;
-                }
+            (0..4).for_each(|_| tally.orientation());
+            match self.filter.facet_towards(self.all(&cell.corners), &q) {
+                Some(k) => t = cell.across[k].tetrahedron(),
+                None => return t,
             }
-            return t;
         }
     }
 
     /// The corner of a tetrahedron that a point equals.
     #[inline]
     pub(super) fn vertex_at(&self, t: TetrahedronId, q: [f64; 3]) -> Option<Place> {
-        self.corners(t).iter().copied().find(|&p| !p.is_ghost() && self.at(p) == q)
+        self.corners(t).iter().copied().find(|&p| !p.is_ghost() && *self.at(p) == q)
     }
 }

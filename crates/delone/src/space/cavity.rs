@@ -5,10 +5,11 @@
 //!
 //! The new tetrahedra stand on the facets of the ball's border and are glued along its edges. Each border vertex gets a
 //! small number, and a table by pairs of numbers holds the facet above each directed edge; so nothing is searched. The
-//! numbers are found without marks: the slot where a vertex keeps its tetrahedron holds the number for the while.
+//! numbers are found without marks: the slot where a vertex keeps its tetrahedron holds the number for the while. The
+//! edges of large borders (of the centre of a sphere's surface) are sorted instead.
 //!
 //! Cost: O(k) for k tetrahedra, about twenty on average over random insertions; nothing is allocated once the buffers
-//! have grown.
+//! have grown. Sorting: O(k log k).
 
 use super::arena::{Arena, Memory};
 use crate::fetch::fetch;
@@ -20,6 +21,9 @@ use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 const INSIDE: u8 = 1;
 const OUTSIDE: u8 = 2;
 const WAITING: u8 = 3;
+
+/// Borders of more facets are glued by sorting: the table grows with the square of their number.
+const MANY: usize = 2000;
 
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
@@ -33,12 +37,10 @@ pub(super) struct Cavity {
     border: Vec<FacetId>,
     /// The border's vertices by their number, each with a new tetrahedron; the ghost has the first.
     vertices: Vec<(Place, TetrahedronId)>,
-    /// For each facet of the border the numbers of its corners.
-    numbers: Vec<(u32, u32, u32)>,
+    /// For each facet of the border where its edges are in the table, as seen from the other side.
+    edges: Vec<[u32; 3]>,
     /// By the numbers of its ends, the facet above each directed edge of the border.
     table: Vec<FacetId>,
-    /// The logarithm of the table's side.
-    width: u32,
 }
 
 impl Cavity {
@@ -73,7 +75,7 @@ impl Cavity {
         self.vertices[1..].iter().map(|vertex| vertex.0)
     }
 
-    /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what goes on the lists is decided
+    /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what waits to be tested is decided
     /// without branches, which would go the wrong way half of the time.
     fn find<T: Tally>(&mut self, memory: &mut Memory<'_>, v: Place, seed: TetrahedronId, tally: &mut T) {
         let q = memory.points[v.index()];
@@ -86,14 +88,14 @@ impl Cavity {
             tally.in_circle();
             if done + 1 == self.queued {
                 done += 1;
-                let inside = memory.view().conflicts(t, q);
+                let inside = memory.view().conflicts(t, &q);
                 self.judge(memory, t, inside);
                 continue;
             }
             let u = self.queue[done + 1];
             tally.in_circle();
             done += 2;
-            let [first, second] = memory.view().both_conflict(t, u, q);
+            let [first, second] = memory.view().both_conflict(t, u, &q);
             self.judge(memory, t, first);
             self.judge(memory, u, second);
         }
@@ -120,75 +122,116 @@ impl Cavity {
     }
 
     /// Takes a tetrahedron into the cavity, and asks for its neighbours.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "calls are a fortieth of all instructions of a construction")]
     fn enter(&mut self, memory: &mut Memory<'_>, t: TetrahedronId) {
         memory.marks[t.index()] = INSIDE;
         self.cells.push(t);
         if self.queue.len() < self.queued + 4 {
-            self.queue.resize(2 * self.queued + 64, TetrahedronId::NONE);
+            self.lengthen();
         }
         let across = memory.cells[t.index()].across;
+        let room = &mut self.queue[self.queued..self.queued + 4];
+        let mut entered = 0;
         for facet in across {
             let next = facet.tetrahedron();
             let mark = &mut memory.marks[next.index()];
             let fresh = *mark == 0;
             *mark = if fresh { WAITING } else { *mark };
             fetch(memory.cells, next.index());
-            self.queue[self.queued] = next;
-            self.queued += usize::from(fresh);
+            room[entered & 3] = next;
+            entered += usize::from(fresh);
         }
+        self.queued += entered;
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn lengthen(&mut self) {
+        self.queue.resize(2 * self.queued + 64, TetrahedronId::NONE);
     }
 
     /// Joins `v` to every facet of the border.
     fn refill(&mut self, memory: &mut Memory<'_>, v: Place) {
-        let count = self.border.len();
-        // A sphere of F triangles has F / 2 + 2 corners; the ghost has a number even if it is none of them.
-        self.widen(count / 2 + 3);
-        self.vertices.clear();
-        self.vertices.push((Place::GHOST, TetrahedronId::NONE));
-        self.numbers.clear();
         for (&g, &t) in self.border.iter().zip(&self.cells) {
             let outside = &mut memory.cells[g.tetrahedron().index()];
             outside.across[g.corner()] = t.facet(0);
-            let [i, j, k] = FACETS[g.corner()];
-            let (mut a, mut b, mut c) = (outside.corners[i], outside.corners[j], outside.corners[k]);
-            // The ghost is always the last corner.
-            if a.is_ghost() {
-                (a, b, c) = (b, c, a);
-            } else if b.is_ghost() {
-                (a, b, c) = (c, a, b);
-            }
+            let [a, b, c] = ghost_last(FACETS[g.corner()].map(|k| outside.corners[k]));
             memory.marks[g.tetrahedron().index()] = 0;
             memory.marks[t.index()] = 0;
             memory.cells[t.index()] = Tetrahedron { corners: [v, a, b, c], across: [g; 4] };
-            let i = number(&mut self.vertices, memory.incident, a, t);
-            let j = number(&mut self.vertices, memory.incident, b, t);
-            let k = if c.is_ghost() { 0 } else { number(&mut self.vertices, memory.incident, c, t) };
-            self.table[j << self.width | k] = t.facet(1);
-            self.table[k << self.width | i] = t.facet(2);
-            self.table[i << self.width | j] = t.facet(3);
-            self.numbers.push((i as u32, j as u32, k as u32));
         }
-        for (&t, &(i, j, k)) in self.cells.iter().zip(&self.numbers) {
-            let (i, j, k) = (i as usize, j as usize, k as usize);
-            let across = &mut memory.cells[t.index()].across;
-            across[1] = self.table[k << self.width | j];
-            across[2] = self.table[i << self.width | k];
-            across[3] = self.table[j << self.width | i];
+        if self.border.len() > MANY {
+            self.glue_by_sorting(memory);
+        } else {
+            self.glue_by_table(memory);
         }
-        for &(p, t) in &self.vertices[1..] {
-            memory.incident[p.index()] = t;
-        }
+        self.vertices[1..].iter().for_each(|&(p, t)| memory.incident[p.index()] = t);
         memory.incident[v.index()] = self.cells[0];
     }
 
-    /// Makes room for so many vertices in the table.
-    fn widen(&mut self, vertices: usize) {
-        let width = vertices.next_power_of_two().trailing_zeros().max(6);
-        if width > self.width {
-            self.width = width;
-            self.table = vec![FacetId::NONE; 1 << (2 * width)];
+    /// Glues the new tetrahedra to each other, and lists the vertices of the border.
+    fn glue_by_table(&mut self, memory: &mut Memory<'_>) {
+        // A sphere of F triangles has F / 2 + 2 corners; the ghost has a number even if it is none of them.
+        let side = (self.border.len() / 2 + 3).next_power_of_two();
+        let width = side.trailing_zeros();
+        if self.table.len() < side * side {
+            self.table.resize(side * side, FacetId::NONE);
         }
+        let table = &mut self.table[..side * side];
+        self.edges.clear();
+        self.vertices.clear();
+        self.vertices.push((Place::GHOST, TetrahedronId::NONE));
+        for &t in &self.cells {
+            let [_, a, b, c] = memory.cells[t.index()].corners;
+            let i = number(&mut self.vertices, memory.incident, a, t);
+            let j = number(&mut self.vertices, memory.incident, b, t);
+            let k = if c.is_ghost() { 0 } else { number(&mut self.vertices, memory.incident, c, t) };
+            table[j << width | k] = t.facet(1);
+            table[k << width | i] = t.facet(2);
+            table[i << width | j] = t.facet(3);
+            self.edges.push([k << width | j, i << width | k, j << width | i].map(|at| at as u32));
+        }
+        for (&t, edges) in self.cells.iter().zip(&self.edges) {
+            let across = &mut memory.cells[t.index()].across;
+            across[1] = table[edges[0] as usize];
+            across[2] = table[edges[1] as usize];
+            across[3] = table[edges[2] as usize];
+        }
+    }
+
+    /// The same for a border of any size.
+    #[cold]
+    fn glue_by_sorting(&mut self, memory: &mut Memory<'_>) {
+        let mut edges = Vec::with_capacity(3 * self.cells.len());
+        self.vertices.clear();
+        for &t in &self.cells {
+            let [_, a, b, c] = memory.cells[t.index()].corners;
+            edges.extend([(1, b, c), (2, c, a), (3, a, b)].map(|(k, p, q)| (p.min(q), p.max(q), t.facet(k))));
+            self.vertices.extend([(a, t), (b, t), (c, t)]);
+        }
+        edges.sort_unstable();
+        for pair in edges.chunks_exact(2) {
+            let [f, g] = [pair[0].2, pair[1].2];
+            memory.cells[f.tetrahedron().index()].across[f.corner()] = g;
+            memory.cells[g.tetrahedron().index()].across[g.corner()] = f;
+        }
+        self.vertices.retain(|vertex| !vertex.0.is_ghost());
+        self.vertices.sort_unstable();
+        self.vertices.dedup_by_key(|vertex| vertex.0);
+        self.vertices.insert(0, (Place::GHOST, TetrahedronId::NONE));
+    }
+}
+
+/// The corners of a facet, turned so that the ghost is the last.
+#[inline]
+fn ghost_last([a, b, c]: [Place; 3]) -> [Place; 3] {
+    if a.is_ghost() {
+        [b, c, a]
+    } else if b.is_ghost() {
+        [c, a, b]
+    } else {
+        [a, b, c]
     }
 }
 

@@ -164,7 +164,7 @@ impl Layer {
     /// [`View::conflicts`].
     #[inline]
     pub(super) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
-        self.view().conflicts(t, q)
+        self.view().conflicts(t, &q)
     }
 
     /// Whether the corners of a finite tetrahedron are in positive order.

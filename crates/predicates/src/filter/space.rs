@@ -5,6 +5,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use wide::f64x2;
+
 use super::{Grid, U, outside_of};
 use crate::{Point3, Sign};
 
@@ -126,39 +128,68 @@ impl Filter3 {
         }
     }
 
-    /// [`Self::in_sphere`] of two quadruples at once, which takes little longer than of one.
+    /// A facet of a positively oriented tetrahedron that `q` is strictly beyond, as the number of the corner opposite to it;
+    /// `None` if there is none, and `q` is inside or on the border. All points are in the box.
+    ///
+    /// Of several facets it is most often the one that spans the largest volume with `q`. The four orientations share
+    /// their minors, and cost as much as two.
     #[inline]
-    pub fn in_spheres(&self, quadruples: [[Point3; 4]; 2], e: Point3) -> [Sign; 2] {
-        let [p, q] = &quadruples;
-        let det = sphere_determinant(
-            Pair::vector(&p[0], &q[0], &e),
-            Pair::vector(&p[1], &q[1], &e),
-            Pair::vector(&p[2], &q[2], &e),
-            Pair::vector(&p[3], &q[3], &e),
-        );
-        let first = self.side_of_sphere(det.0[0], || quadruples[0], e);
-        [first, self.side_of_sphere(det.0[1], || quadruples[1], e)]
+    pub fn facet_towards(&self, corners: [&Point3; 4], q: &Point3) -> Option<usize> {
+        let from_q = |k: usize| [corners[k][0] - q[0], corners[k][1] - q[1], corners[k][2] - q[2]];
+        let [abc, bcd, cda, dab] = volumes(from_q(0), from_q(1), from_q(2), from_q(3));
+        let beyond = [-bcd, cda, -dab, abc];
+        let further = |i: usize, j: usize| if beyond[j] > beyond[i] { j } else { i };
+        let furthest = further(further(0, 1), further(2, 3));
+        if beyond[furthest] > self.orient {
+            Some(furthest)
+        } else if beyond[furthest] < -self.orient {
+            None
+        } else {
+            self.facet_near(corners, q)
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn facet_near(&self, [a, b, c, d]: [&Point3; 4], q: &Point3) -> Option<usize> {
+        let is_beyond = |&[u, v, w]: &[&Point3; 3]| self.orient3d(*u, *v, *w, *q).is_negative();
+        [[b, d, c], [a, c, d], [a, d, b], [a, b, c]].iter().position(is_beyond)
+    }
+
+    /// [`Self::in_sphere`] of two quadruples at once, which takes little longer than of one. By reference: copies of points
+    /// are written in other pieces than they are read, and reading waits for that.
+    #[inline]
+    pub fn in_spheres(&self, [p, q]: [[&Point3; 4]; 2], e: &Point3) -> [Sign; 2] {
+        let [ex, ey, ez] = e.map(f64x2::splat);
+        let from_e = |k: usize| {
+            let pair = |axis: usize| f64x2::new([p[k][axis], q[k][axis]]);
+            [pair(0) - ex, pair(1) - ey, pair(2) - ez]
+        };
+        let [first, second] = sphere_determinant(from_e(0), from_e(1), from_e(2), from_e(3)).to_array();
+        // One branch, which hardly ever goes the other way; which side it is is chance, and is not branched on.
+        if first.abs() > self.sphere && second.abs() > self.sphere {
+            [first, second].map(|det| if det < 0.0 { Sign::Positive } else { Sign::Negative })
+        } else {
+            self.in_spheres_near([p, q], e)
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn in_spheres_near(&self, quadruples: [[&Point3; 4]; 2], &e: &Point3) -> [Sign; 2] {
+        quadruples.map(|[&a, &b, &c, &d]| self.in_sphere(a, b, c, d, e))
     }
 
     /// Like [`crate::in_sphere`], for points in the box.
     #[inline]
     pub fn in_sphere(&self, a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
-        let from_e = |p: Point3| (p[0] - e[0], p[1] - e[1], p[2] - e[2]);
+        let from_e = |p: Point3| [p[0] - e[0], p[1] - e[1], p[2] - e[2]];
         let det = sphere_determinant(from_e(a), from_e(b), from_e(c), from_e(d));
-        self.side_of_sphere(det, || [a, b, c, d], e)
-    }
-
-    /// The side that a determinant tells, or the points where it does not.
-    #[inline]
-    fn side_of_sphere(&self, det: f64, points: impl Fn() -> [Point3; 4], e: Point3) -> Sign {
         if det < -self.sphere {
-            return Sign::Positive;
-        }
-        if det > self.sphere {
-            return Sign::Negative;
-        }
-        let [a, b, c, d] = points();
-        if self.exact {
+            Sign::Positive
+        } else if det > self.sphere {
+            Sign::Negative
+        } else if self.exact {
             crate::in_sphere::in_sphere_tie(a, b, c, d, e)
         } else {
             crate::in_sphere::in_sphere_near(a, b, c, d, e)
@@ -168,63 +199,36 @@ impl Filter3 {
 
 /// The in-sphere determinant of four vectors from the fifth point: negative inside.
 #[inline]
-fn sphere_determinant<T>(a: (T, T, T), b: (T, T, T), c: (T, T, T), d: (T, T, T)) -> T
+fn sphere_determinant<T>(a: [T; 3], b: [T; 3], c: [T; 3], d: [T; 3]) -> T
 where
     T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>,
 {
-    let ((ax, ay, az), (bx, by, bz), (cx, cy, cz), (dx, dy, dz)) = (a, b, c, d);
+    let [abc, bcd, cda, dab] = volumes(a, b, c, d);
+    let lift = |[x, y, z]: [T; 3]| x * x + y * y + z * z;
+    (lift(d) * abc - lift(c) * dab) + (lift(b) * cda - lift(a) * bcd)
+}
+
+/// The determinants of each three of four vectors: a, b, c; b, c, d; c, d, a; d, a, b.
+#[inline]
+fn volumes<T>(
+    [ax, ay, az]: [T; 3],
+    [bx, by, bz]: [T; 3],
+    [cx, cy, cz]: [T; 3],
+    [dx, dy, dz]: [T; 3],
+) -> [T; 4]
+where
+    T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>,
+{
     let ab = ax * by - bx * ay;
     let bc = bx * cy - cx * by;
     let cd = cx * dy - dx * cy;
     let da = dx * ay - ax * dy;
     let ac = ax * cy - cx * ay;
     let bd = bx * dy - dx * by;
-    let la = ax * ax + ay * ay + az * az;
-    let lb = bx * bx + by * by + bz * bz;
-    let lc = cx * cx + cy * cy + cz * cz;
-    let ld = dx * dx + dy * dy + dz * dz;
-    let abc = az * bc - bz * ac + cz * ab;
-    let bcd = bz * cd - cz * bd + dz * bc;
-    let cda = cz * da + dz * ac + az * cd;
-    let dab = dz * ab + az * bd + bz * da;
-    (ld * abc - lc * dab) + (lb * cda - la * bcd)
-}
-
-/// Two numbers that are computed with side by side, as every processor of today can.
-#[derive(Clone, Copy)]
-struct Pair([f64; 2]);
-
-impl Pair {
-    /// The vectors from `e` to two points.
-    #[inline]
-    fn vector(p: &Point3, q: &Point3, e: &Point3) -> (Self, Self, Self) {
-        (Self([p[0] - e[0], q[0] - e[0]]), Self([p[1] - e[1], q[1] - e[1]]), Self([p[2] - e[2], q[2] - e[2]]))
-    }
-}
-
-impl Add for Pair {
-    type Output = Self;
-
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self([self.0[0] + other.0[0], self.0[1] + other.0[1]])
-    }
-}
-
-impl Sub for Pair {
-    type Output = Self;
-
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        Self([self.0[0] - other.0[0], self.0[1] - other.0[1]])
-    }
-}
-
-impl Mul for Pair {
-    type Output = Self;
-
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        Self([self.0[0] * other.0[0], self.0[1] * other.0[1]])
-    }
+    [
+        az * bc - bz * ac + cz * ab,
+        bz * cd - cz * bd + dz * bc,
+        cz * da + dz * ac + az * cd,
+        dz * ab + az * bd + bz * da,
+    ]
 }
