@@ -19,8 +19,9 @@ pub(crate) fn threads() -> usize {
 /// Into how many parts to cut work on so many items: more than there are threads, so that none waits long; one if it is not
 /// worth it.
 pub(crate) fn parts(items: usize) -> usize {
-    let threads = threads();
-    if threads == 1 || items < MANY { 1 } else { (8 * threads).min(items / (MANY / 16)) }
+    // To ask for threads takes longer than to triangulate three points.
+    let threads = if items < MANY { 1 } else { threads() };
+    if threads == 1 { 1 } else { (8 * threads).min(items / (MANY / 16)) }
 }
 
 /// Does all tasks, and gives the results in their order.

@@ -295,7 +295,9 @@ impl<'a> Sorter<'a> {
         for (i, item) in run.iter_mut().enumerate() {
             *item = (self.points[start + i], self.indices[start + i]);
         }
-        run.sort_unstable_by(|a, b| a.partial_cmp(b).expect("finite"));
+        run.sort_unstable_by(|&(p, i), &(q, j)| {
+            (p[0], p[1], i).partial_cmp(&(q[0], q[1], j)).expect("finite")
+        });
         let (mut distinct, mut last) = (0, start);
         for (i, &(point, index)) in run.iter().enumerate() {
             let at = start + i;

@@ -113,43 +113,32 @@ impl Mesh {
     /// afterwards.
     fn number_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
         let n = self.vertex_count;
-        let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
-        let number = |edges: &mut [HalfEdge], positions: Range<usize>| {
-            let (mut ghost_edge, mut elsewhere) = (EdgeId::NONE, Vec::new());
-            for (slot, records) in edges.chunks_exact_mut(4).enumerate() {
-                for (k, record) in records[..3].iter_mut().enumerate() {
-                    let e = EdgeId::new(4 * (2 * positions.start + slot) + k);
-                    let position = record.origin;
-                    if position.is_ghost() {
-                        ghost_edge = e;
-                        continue;
-                    }
-                    record.origin = place(position);
-                    if positions.contains(&position.index()) {
-                        incident[record.origin.index()].store(e.bits(), Relaxed);
-                    } else {
-                        elsewhere.push((record.origin, e));
-                    }
-                }
-            }
-            (ghost_edge, elsewhere)
-        };
         let parts = parallel::parts(n);
-        let (mut single, mut found) = (None, Vec::new());
         if parts == 1 {
-            single = Some(number(&mut self.edges, 0..n));
-        } else {
-            let ends = parallel::even_ends(n, parts);
-            let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
-            let starts = std::iter::once(0).chain(ends.iter().copied());
-            let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end);
-            let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
-            found = parallel::map(tasks, |(edges, positions): (&mut [HalfEdge], Range<usize>)| {
-                number(edges, positions)
-            });
+            self.incident = parallel::filled(EdgeId::NONE, places);
+            let incident = &mut self.incident;
+            self.ghost_edge = number(&mut self.edges, 0, &place, |_, v, e| incident[v.index()] = e);
+            return;
         }
+        let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
+        let ends = parallel::even_ends(n, parts);
+        let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end);
+        let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
+        let found = parallel::map(tasks, |(edges, positions): (&mut [HalfEdge], Range<usize>)| {
+            let mut elsewhere = Vec::new();
+            let ghost_edge = number(edges, 2 * positions.start, &place, |position, v, e| {
+                if positions.contains(&position.index()) {
+                    incident[v.index()].store(e.bits(), Relaxed);
+                } else {
+                    elsewhere.push((v, e));
+                }
+            });
+            (ghost_edge, elsewhere)
+        });
         self.incident = incident.into_iter().map(|bits| EdgeId::from_bits(bits.into_inner())).collect();
-        for (ghost_edge, elsewhere) in single.into_iter().chain(found) {
+        for (ghost_edge, elsewhere) in found {
             if ghost_edge != EdgeId::NONE {
                 self.ghost_edge = ghost_edge;
             }
@@ -159,6 +148,30 @@ impl Mesh {
             }
         }
     }
+}
+
+/// Puts the vertices of triangles, the first of which has a number, from their positions to their places, and notes position,
+/// place and edge of each corner. Returns the last edge that starts at the ghost.
+fn number(
+    edges: &mut [HalfEdge],
+    first: usize,
+    place: impl Fn(Place) -> Place,
+    mut note: impl FnMut(Place, Place, EdgeId),
+) -> EdgeId {
+    let mut ghost_edge = EdgeId::NONE;
+    for (t, records) in edges.chunks_exact_mut(4).enumerate() {
+        for (k, record) in records[..3].iter_mut().enumerate() {
+            let e = TriangleId::new(first + t).edge(k);
+            let position = record.origin;
+            if position.is_ghost() {
+                ghost_edge = e;
+            } else {
+                record.origin = place(position);
+                note(position, record.origin, e);
+            }
+        }
+    }
+    ghost_edge
 }
 
 /// The tree that the cuts are, walked without being built.
