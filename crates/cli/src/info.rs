@@ -64,7 +64,7 @@ fn plane(d: &Delaunay2, line: &mut impl FnMut(&str, String), stats: &mut Stats) 
             }
         })
         .count();
-    line("triangles", d.triangles().count().to_string());
+    line("triangles", d.triangle_count().to_string());
     line("hull vertices", format!("{h}, {straight} of them inside a straight side"));
     line("cocircular neighbours", format!("{ties} pairs of triangles"));
     let mut lengths: Vec<f64> = d

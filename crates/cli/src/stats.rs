@@ -46,7 +46,7 @@ impl Stats {
         self.set("points", d.points().len());
         self.set("duplicates", d.duplicates().count());
         self.set("vertices", d.vertex_count());
-        self.set("simplices", d.triangles().count());
+        self.set("simplices", d.triangle_count());
         self.set("hull", d.hull().count());
         self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
         let counters = match d.counters() {

@@ -162,6 +162,7 @@ fn sets_of_lower_dimension() {
 fn counts_obey_euler() {
     for &kind in Kind::ALL {
         let d = build(&kind.points(500, 2), Algorithm::default());
+        assert_eq!(d.triangle_count(), d.triangles().count(), "{}", kind.name());
         if d.dimension() != Dimension::Plane {
             continue;
         }

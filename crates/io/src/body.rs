@@ -71,7 +71,7 @@ impl Shape for Body<'_> {
         self.points.iter().copied()
     }
 
-    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> {
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send {
         self.triangulation.hull().map(|corners| corners.map(VertexId::index))
     }
 
@@ -91,8 +91,7 @@ pub fn write_body(
     use crate::formats::{npy, triangle, vtu};
     match format {
         Format::Npy => {
-            let rows: Vec<i64> = body.tetrahedra().flatten().map(|i| i as i64).collect();
-            npy::write_indices(out, 4, &rows)?;
+            npy::write_simplices(out, body.triangulation.tetrahedra().count(), body.tetrahedra())?;
         }
         Format::Ele => triangle::write_ele(out, body.tetrahedra())?,
         Format::Neigh => write_neigh(out, body)?,

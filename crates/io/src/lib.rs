@@ -95,7 +95,7 @@ trait Shape {
     /// The coordinates of the points, zero where there is no height.
     fn positions(&self) -> impl Iterator<Item = [f64; 3]>;
     /// The triangles as indices of points.
-    fn triangles(&self) -> impl Iterator<Item = [usize; 3]>;
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send;
     /// A value for each point.
     fn heights(&self) -> Option<&[f64]>;
 }
@@ -107,7 +107,7 @@ impl Shape for Surface<'_> {
         self.triangulation.points().iter().enumerate().map(move |(i, &[x, y])| [x, y, z(i)])
     }
 
-    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> {
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send {
         self.triangulation.triangles().map(|corners| corners.map(delone::VertexId::index))
     }
 
@@ -121,7 +121,9 @@ impl Shape for Surface<'_> {
 pub fn write_surface(out: &mut dyn std::io::Write, format: Format, surface: &Surface) -> Result<(), Error> {
     use formats::{geojson, npy, obj, ply, stl, triangle, vtu};
     match format {
-        Format::Npy => npy::write_triangles(out, surface)?,
+        Format::Npy => {
+            npy::write_simplices(out, surface.triangulation.triangle_count(), surface.triangles())?;
+        }
         Format::Node => triangle::write_node(out, surface)?,
         Format::Ele => triangle::write_ele(out, surface.triangles())?,
         Format::Neigh => triangle::write_neigh(out, surface)?,

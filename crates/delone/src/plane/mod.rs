@@ -205,6 +205,14 @@ impl Delaunay2 {
         self.mesh().triangles().map(|t| self.mesh().corners(t))
     }
 
+    /// The number of finite triangles. O(h) for a hull of h vertices.
+    pub fn triangle_count(&self) -> usize {
+        match self.dimension() {
+            Dimension::Plane => self.mesh().triangle_count() - self.hull().count(),
+            _ => 0,
+        }
+    }
+
     /// The finite edges, each once.
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])

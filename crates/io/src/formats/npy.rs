@@ -1,10 +1,11 @@
 //! NumPy arrays: points are float64 of shape (n, 2) or (n, 3), triangles integers of shape (t, 3).
 
 use std::io::{self, BufReader, BufWriter, Write};
+use std::sync::mpsc::sync_channel;
 
 use npyz::{DType, NpyFile, Order, WriterBuilder};
 
-use crate::{Cloud, Error, Shape, Source, Surface};
+use crate::{Cloud, Error, Source};
 
 /// Numbers are read and written eight bytes at a time: from and to a buffer of a type that the compiler knows, which is ten
 /// times faster than from and to one behind a pointer.
@@ -97,19 +98,35 @@ fn integers<T: Into<i128>, E: std::fmt::Display>(
     Ok(values.map(|value| value.map(Into::into)).collect::<io::Result<_>>()?)
 }
 
-/// Writes the triangles: int64 of shape (t, 3), from 0, counter-clockwise.
-pub(crate) fn write_triangles(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(BUFFER, out);
-    let count = surface.triangles().count() as u64;
-    let mut writer =
-        npyz::WriteOptions::new().default_dtype().shape(&[count, 3]).writer(&mut out).begin_nd()?;
-    for triangle in surface.triangles() {
-        for index in triangle {
-            writer.push(&(index as i64))?;
+/// Writes so many rows of indices: int64 of shape (count, N), from 0.
+///
+/// Half of the time goes to the numbers and half to the system, so they are two threads' work where there are two.
+pub(crate) fn write_simplices<const N: usize>(
+    out: &mut dyn Write,
+    count: usize,
+    rows: impl Iterator<Item = [usize; N]> + Send,
+) -> io::Result<()> {
+    let mut header = Vec::new();
+    let options = npyz::WriteOptions::<i64>::new().default_dtype().shape(&[count as u64, N as u64]);
+    options.writer(&mut header).write_header_only()?;
+    out.write_all(&header)?;
+    let mut rows = rows.fuse();
+    let mut block = move || {
+        let mut block = Vec::with_capacity(BUFFER);
+        for row in rows.by_ref().take(BUFFER / (8 * N)) {
+            row.iter().for_each(|&i| block.extend_from_slice(&(i as i64).to_le_bytes()));
         }
+        (!block.is_empty()).then_some(block)
+    };
+    if count < BUFFER || rayon::current_num_threads() == 1 {
+        return std::iter::from_fn(block).try_for_each(|block| out.write_all(&block));
     }
-    writer.finish()?;
-    out.flush()
+    std::thread::scope(|scope| {
+        let (ready, blocks) = sync_channel::<Vec<u8>>(4);
+        // A writer that fails hangs up.
+        scope.spawn(move || std::iter::from_fn(&mut block).all(|block| ready.send(block).is_ok()));
+        blocks.iter().try_for_each(|block| out.write_all(&block))
+    })
 }
 
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
@@ -138,4 +155,49 @@ pub(crate) fn write_index_list(out: &mut dyn Write, values: &[i64]) -> io::Resul
     writer.extend(values.iter().copied())?;
     writer.finish()?;
     out.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{self, Write};
+
+    use super::{BUFFER, write_simplices};
+
+    /// Takes so many bytes.
+    struct Full(usize);
+
+    impl Write for Full {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    fn rows(count: usize) -> impl Iterator<Item = [usize; 3]> + Send {
+        (0..count).map(|i| [i, i + 1, 7 * i])
+    }
+
+    #[test]
+    fn rows_are_written_in_order_by_one_thread_or_two() {
+        for count in [0, 1, BUFFER / 24, BUFFER / 24 + 1, BUFFER - 1, BUFFER, 2 * BUFFER + 5] {
+            let mut bytes = Vec::new();
+            write_simplices(&mut bytes, count, rows(count)).expect("room");
+            let (header, data) = bytes.split_at(bytes.len() - 24 * count);
+            assert!(header.starts_with(b"\x93NUMPY") && header.len() % 64 == 0);
+            let numbers = data.as_chunks().0.iter().map(|&bytes| i64::from_le_bytes(bytes));
+            assert!(numbers.eq(rows(count).flatten().map(|i| i as i64)), "{count}");
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_an_error_soon() {
+        for room in [0, 100, 24 * BUFFER] {
+            let endless = write_simplices(&mut Full(room), 1 << 40, rows(usize::MAX / 8));
+            assert_eq!(endless.map_err(|error| error.kind()), Err(io::ErrorKind::StorageFull));
+        }
+    }
 }
