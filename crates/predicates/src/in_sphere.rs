@@ -2,7 +2,7 @@
 
 use crate::filter::in_sphere_filter;
 use crate::perturb::in_sphere_perturbed;
-use crate::{Point3, Sign, exact};
+use crate::{Point3, Sign, exact, orient3d};
 
 /// Whether `e` lies inside the sphere through `a`, `b`, `c`, `d`: positive when inside, negative when outside, for
 /// four points with positive [`crate::orient3d`] (the sign flips when it is negative).
@@ -28,24 +28,11 @@ pub fn in_sphere_with_ties(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3
     in_sphere_filter(a, b, c, d, e).unwrap_or_else(|| exact::in_sphere(a, b, c, d, e))
 }
 
-/// The same, out of line, for points of which a static filter could not tell.
-#[cold]
-#[inline(never)]
-pub(crate) fn in_sphere_near(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
-    in_sphere(a, b, c, d, e)
-}
-
 #[cold]
 #[inline(never)]
 fn in_sphere_exact(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
     match exact::in_sphere(a, b, c, d, e) {
-        Sign::Zero => in_sphere_perturbed(a, b, c, d, e),
+        Sign::Zero => in_sphere_perturbed([a, b, c, d, e], orient3d),
         sign => sign,
     }
-}
-
-/// The perturbed stage for five points known to be cospherical.
-#[inline(never)]
-pub(crate) fn in_sphere_tie(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
-    in_sphere_perturbed(a, b, c, d, e)
 }

@@ -9,7 +9,7 @@
 //! Four distinct cocircular points have no collinear triple, so the first coefficient always decides. In space four of
 //! five cospherical points may be coplanar: then the next one is asked.
 
-use crate::{Point2, Point3, Sign, lexicographic, lexicographic3, orient2d, orient3d};
+use crate::{Point2, Point3, Sign, lexicographic, orient2d};
 
 /// The sign of the perturbed in-circle determinant of four points whose determinant is zero.
 pub(crate) fn in_circle_perturbed(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
@@ -26,17 +26,34 @@ pub(crate) fn in_circle_perturbed(a: Point2, b: Point2, c: Point2, d: Point2) ->
     }
 }
 
-/// The sign of the perturbed in-sphere determinant of five points whose determinant is zero.
-pub(crate) fn in_sphere_perturbed(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
-    let points = [a, b, c, d, e];
-    let mut order = [0, 1, 2, 3, 4];
-    order.sort_unstable_by(|&i, &j| lexicographic3(points[j], points[i]));
-    let coefficient = |i: usize| match i {
-        4 => -orient3d(a, b, c, d), // e is raised: out of the sphere of the others
-        0 => orient3d(e, b, c, d),  // a is raised: e is inside exactly if it can take a's place
-        1 => orient3d(a, e, c, d),
-        2 => orient3d(a, b, e, d),
-        _ => orient3d(a, b, c, e),
+/// The sign of the perturbed in-sphere determinant of five points whose determinant is zero, by an orientation test that is
+/// exact for them.
+#[inline]
+pub(crate) fn in_sphere_perturbed(
+    points: [Point3; 5],
+    orient3d: impl Fn(Point3, Point3, Point3, Point3) -> Sign,
+) -> Sign {
+    let [a, b, c, d, e] = points;
+    #[expect(clippy::needless_bitwise_bool, reason = "on grids, where ties are, it is chance that decides")]
+    let before = |p: Point3, q: Point3| {
+        (p[0] < q[0]) | (p[0] == q[0]) & ((p[1] < q[1]) | (p[1] == q[1]) & (p[2] < q[2]))
     };
-    order.into_iter().map(coefficient).find(|sign| !sign.is_zero()).unwrap_or(Sign::Zero)
+    let mut raised = [false; 5];
+    for _ in 0..5 {
+        let higher =
+            |i: usize, j: usize| if !raised[j] & (raised[i] | before(points[i], points[j])) { j } else { i };
+        let highest = (1..5).fold(0, higher);
+        raised[highest] = true;
+        let coefficient = match highest {
+            4 => -orient3d(a, b, c, d), // e is raised: out of the sphere of the others
+            0 => orient3d(e, b, c, d),  // a is raised: e is inside exactly if it can take a's place
+            1 => orient3d(a, e, c, d),
+            2 => orient3d(a, b, e, d),
+            _ => orient3d(a, b, c, e),
+        };
+        if !coefficient.is_zero() {
+            return coefficient;
+        }
+    }
+    Sign::Zero
 }

@@ -8,6 +8,7 @@ use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
 
 use super::{Grid, U, outside_of};
+use crate::perturb::in_sphere_perturbed;
 use crate::{Point3, Sign};
 
 /// Orientation in space: 7u times its permanent.
@@ -170,14 +171,8 @@ impl Filter3 {
         if first.abs() > self.sphere && second.abs() > self.sphere {
             [first, second].map(|det| if det < 0.0 { Sign::Positive } else { Sign::Negative })
         } else {
-            self.in_spheres_near([p, q], e)
+            [self.side_of_sphere(first, p, e), self.side_of_sphere(second, q, e)]
         }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn in_spheres_near(&self, quadruples: [[&Point3; 4]; 2], &e: &Point3) -> [Sign; 2] {
-        quadruples.map(|[&a, &b, &c, &d]| self.in_sphere(a, b, c, d, e))
     }
 
     /// Like [`crate::in_sphere`], for points in the box.
@@ -185,14 +180,25 @@ impl Filter3 {
     pub fn in_sphere(&self, a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
         let from_e = |p: Point3| [p[0] - e[0], p[1] - e[1], p[2] - e[2]];
         let det = sphere_determinant(from_e(a), from_e(b), from_e(c), from_e(d));
+        if det.abs() > self.sphere {
+            if det < 0.0 { Sign::Positive } else { Sign::Negative }
+        } else {
+            self.side_of_sphere(det, [&a, &b, &c, &d], &e)
+        }
+    }
+
+    /// The side that a determinant tells, or the points where it does not.
+    #[cold]
+    #[inline(never)]
+    fn side_of_sphere(&self, det: f64, [a, b, c, d]: [&Point3; 4], e: &Point3) -> Sign {
         if det < -self.sphere {
             Sign::Positive
         } else if det > self.sphere {
             Sign::Negative
         } else if self.exact {
-            crate::in_sphere::in_sphere_tie(a, b, c, d, e)
+            in_sphere_perturbed([*a, *b, *c, *d, *e], |p, q, r, s| self.orient3d(p, q, r, s))
         } else {
-            crate::in_sphere::in_sphere_near(a, b, c, d, e)
+            crate::in_sphere(*a, *b, *c, *d, *e)
         }
     }
 }
