@@ -202,8 +202,8 @@ fn every_instance_in_space_is_the_canonical_triangulation() {
 }
 
 #[test]
-fn walks_in_space_are_as_short_as_in_the_paper() {
-    // §5: 5.2 to 5.3 visited in random order, 4.5 in spatial order.
+fn walks_in_space_are_shorter_than_in_the_paper() {
+    // §5: 5.2 to 5.3 visited in random order, 4.5 in spatial order. Ours cross the facet furthest from the goal.
     for order in ORDERS {
         for n in [1_000, 20_000] {
             let centres = Kind3::Balls.points(n, 5);
@@ -225,12 +225,12 @@ fn walks_in_space_are_as_short_as_in_the_paper() {
             let mut work = Work::default();
             hints.triangulate_counted(&instance, &mut work).expect("finite");
             let visited = work.visited as f64 / n as f64;
-            let expected = if matches!(order, HintOrder::Random { .. }) { 5.1..5.45 } else { 4.3..4.7 };
+            let expected = if matches!(order, HintOrder::Random { .. }) { 4.8..5.05 } else { 4.1..4.35 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
             // Spatial sort alone: 6.6.
             let d = Delaunay3::with_algorithm(&instance, Algorithm3::Spatial { seed: 1 }).expect("finite");
             let visited = d.work().visited as f64 / n as f64;
-            assert!((6.0..6.7).contains(&visited), "spatial sort {n}: {visited}");
+            assert!((5.4..6.0).contains(&visited), "spatial sort {n}: {visited}");
         }
     }
 }
