@@ -14,6 +14,21 @@ pub(crate) fn room_for<T>(count: usize) -> Vec<T> {
     items
 }
 
+/// Room for so many more items. A vector that grows by itself is moved page by page, and large pages fall apart.
+#[inline]
+pub(crate) fn make_room<T: Copy>(items: &mut Vec<T>, more: usize) {
+    if items.capacity() - items.len() < more {
+        grow(items, more);
+    }
+}
+
+#[cold]
+fn grow<T: Copy>(items: &mut Vec<T>, more: usize) {
+    let mut larger = room_for((items.len() + more).max(2 * items.len()).max(8));
+    larger.extend_from_slice(items);
+    *items = larger;
+}
+
 /// Asks for large pages where nothing has been written yet.
 fn advise<T>(items: &mut Vec<T>) {
     let spare = items.spare_capacity_mut();
@@ -39,7 +54,7 @@ fn advise<T>(items: &mut Vec<T>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{LARGE, room_for};
+    use super::{LARGE, make_room, room_for};
 
     #[test]
     fn advice_changes_nothing() {
@@ -49,7 +64,9 @@ mod tests {
             assert!(items.is_empty() && items.capacity() >= count);
             items.extend(0..count as u64);
             assert_eq!(items.as_ptr(), at);
-            assert_eq!(items.iter().sum::<u64>(), (0..count as u64).sum());
+            make_room(&mut items, 3);
+            assert!(items.capacity() >= count + 3);
+            assert!(items.iter().copied().eq(0..count as u64));
         }
     }
 }

@@ -66,7 +66,7 @@ pub(crate) trait Ground {
     /// A point that is looked for.
     type Point: Copy + PartialEq;
     /// Where a walk can start: an edge in the plane, a tetrahedron in space.
-    type Hint: Copy + PartialEq;
+    type Hint: Copy + PartialEq + Send + Sync;
     /// The number of coordinates.
     const DIMENSIONS: usize;
     /// No hint.

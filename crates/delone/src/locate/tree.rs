@@ -17,6 +17,7 @@
 use super::tally::Tally;
 use super::{Ground, Start, Strategy};
 use crate::ids::Place;
+use crate::parallel::filled;
 
 /// Vertices a leaf, of which one is looked at.
 const LEAF: usize = 2;
@@ -67,7 +68,7 @@ struct Node {
     axis: usize,
 }
 
-impl<H: Copy> Tree<H> {
+impl<H: Copy + Send + Sync> Tree<H> {
     /// Builds the tree.
     pub(crate) fn build<G: Ground<Hint = H>>(ground: &G) -> Self {
         let sample = ground.inhabited().step_by(LEAF);
@@ -82,9 +83,9 @@ impl<H: Copy> Tree<H> {
             upper: Vec::new(),
             height,
             root: levels - DEPTH * height.saturating_sub(1),
-            lowest: vec![lowest; 1 << levels],
+            lowest: filled(lowest, 1 << levels),
         };
-        tree.upper = vec![Upper::default(); tree.above(height)];
+        tree.upper = filled(Upper::default(), tree.above(height));
         tree.split::<G>(&mut sample, Node { level: 0, line: 0, inner: 1, axis: 0 });
         tree
     }

@@ -9,6 +9,8 @@
 use super::{HalfEdge, Mesh, Slots};
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::memory::room_for;
+use crate::parallel::filled;
 
 /// Places for each vertex.
 const ROOM: usize = 2;
@@ -18,6 +20,12 @@ const OWN: usize = 2 * ROOM;
 const AHEAD: usize = 8;
 /// Where a triangle goes that is free, or has no new slot yet; what comes to a slot that stays free.
 const NONE: u32 = u32::MAX;
+
+/// Slots are made anew where none nearby is free, up to one in eight (see `slots`): memory for these is set aside, and
+/// costs nothing until it is used.
+pub(crate) const fn with_spare(count: usize) -> usize {
+    count + count / 8
+}
 
 /// Which triangle goes where.
 struct Moves {
@@ -31,7 +39,7 @@ impl Mesh {
     /// Puts the vertex at place `order[i]` to place 2 i, for all vertices. Returns for each old place the new one,
     /// and the free places between.
     pub(crate) fn lay_out(&mut self, order: &[Place]) -> (Vec<Place>, Slots) {
-        let mut moved = vec![Place::GHOST; self.incident.len()];
+        let mut moved = filled(Place::GHOST, self.incident.len());
         for (i, place) in order.iter().enumerate() {
             moved[place.index()] = Place::new(ROOM * i);
         }
@@ -40,7 +48,7 @@ impl Mesh {
             EdgeId::NONE => e,
             e => TriangleId::new(moves.to[e.triangle().index()] as usize).edge(e.corner()),
         };
-        let mut edges = Vec::with_capacity(4 * moves.from.len());
+        let mut edges = room_for(with_spare(4 * moves.from.len()));
         for (slot, &t) in moves.from.iter().enumerate() {
             fetch(
                 &self.edges,
@@ -57,7 +65,9 @@ impl Mesh {
             edges.extend(records);
         }
         self.edges = edges;
-        self.incident = order.iter().flat_map(|p| [edge(self.incident[p.index()]), EdgeId::NONE]).collect();
+        let mut incident = room_for(with_spare(ROOM * order.len()));
+        incident.extend(order.iter().flat_map(|p| [edge(self.incident[p.index()]), EdgeId::NONE]));
+        self.incident = incident;
         self.ghost_edge = edge(self.ghost_edge);
         self.lone = self.lone.map(|p| moved[p.index()]);
         self.free = Slots::where_free(moves.from.len(), |slot| moves.from[slot] == NONE);
@@ -72,7 +82,7 @@ impl Moves {
     /// Each vertex takes triangles of its star that no vertex before it has taken; the few whose corners have
     /// all taken others (one in 30,000 of random points) get slots that are still free.
     fn new(mesh: &Mesh, order: &[Place]) -> Self {
-        let mut moves = Self { to: vec![NONE; mesh.slot_count()], from: vec![NONE; OWN * order.len()] };
+        let mut moves = Self { to: filled(NONE, mesh.slot_count()), from: filled(NONE, OWN * order.len()) };
         for (i, &place) in order.iter().enumerate() {
             if let Some(next) = order.get(i + AHEAD) {
                 fetch(&mesh.edges, mesh.incident[next.index()].index());

@@ -37,10 +37,12 @@ mod slots;
 pub mod tetrahedra;
 
 pub use iterate::{Hull, Star};
+pub(crate) use layout::with_spare;
 pub(crate) use names::Names;
 pub(crate) use slots::Slots;
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::memory::make_room;
 
 /// The dimension of a set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -272,6 +274,7 @@ impl Mesh {
         if let Some(slot) = self.free.take_near(near.index()) {
             return TriangleId::new(slot);
         }
+        make_room(&mut self.edges, 4);
         self.edges.extend([HalfEdge::UNUSED; 4]);
         TriangleId::new(self.slot_count() - 1)
     }

@@ -4,6 +4,7 @@
 //! memory and is used again. As long as a mesh was only built in bulk the two are equal, and there is no table.
 
 use crate::ids::{Duplicate, Place, VertexId};
+use crate::parallel::filled;
 
 /// Both ways: 4 bytes a name ever given, 4 bytes a place.
 #[derive(Debug, Default)]
@@ -108,7 +109,7 @@ impl Names {
 
     /// Every vertex moves to the place that `moved` gives for its old one.
     pub(crate) fn rearrange(&mut self, capacity: usize, moved: &[Place]) {
-        let mut of = vec![VertexId::GHOST; capacity];
+        let mut of = filled(VertexId::GHOST, capacity);
         for (old, &name) in self.of.iter().enumerate() {
             if !name.is_ghost() {
                 of[moved[old].index()] = name;

@@ -3,6 +3,8 @@
 //!
 //! Cost: O(1); one bit a slot.
 
+use crate::fetch::fetch;
+
 /// How many words of 64 slots to look at on either side.
 const REACH: usize = 4;
 
@@ -31,6 +33,12 @@ impl Slots {
     /// The number of free slots.
     pub(crate) fn free(&self) -> usize {
         self.free
+    }
+
+    /// Asks memory for what [`Self::take_near`] reads first.
+    #[inline]
+    pub(crate) fn fetch(&self, at: usize) {
+        fetch(&self.words, at / 64);
     }
 
     /// Takes a free slot near `at`; or, when one in eight is free, any. `None`: make a new one.

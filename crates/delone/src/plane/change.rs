@@ -201,14 +201,13 @@ impl Delaunay2 {
         Ok(VertexId::new(given))
     }
 
-    /// Makes a named point a vertex.
+    /// Makes a named point a vertex. Where it falls there is none.
     #[inline]
     fn place<T: Tally>(&mut self, v: VertexId, found: Found, q: [f64; 2], tally: &mut T) {
-        let Ok(place) = self.base.insert(found.spot, q, tally) else {
-            debug_assert!(false, "the spot is no vertex");
-            return;
-        };
+        let place = self.base.place_for(found.spot, q);
+        // First the name: memory takes it while the cavity is dug.
         self.base.mesh.names().bind(v, place);
+        self.base.insert_at(place, found.spot, tally);
         if let Some(locator) = self.locator.get_mut() {
             locator.inserted(&self.base, place, found.start);
         }

@@ -83,15 +83,22 @@ impl Layer {
         q: [f64; 2],
         tally: &mut T,
     ) -> Result<Place, Place> {
+        if let Spot::Vertex(v) = spot {
+            return Err(v);
+        }
+        let v = self.place_for(spot, q);
+        self.insert_at(v, spot, tally);
+        Ok(v)
+    }
+
+    /// A place for a point that falls where `spot` says, near its neighbours in memory.
+    #[inline]
+    pub(super) fn place_for(&mut self, spot: Spot, q: [f64; 2]) -> Place {
         let near = match spot {
-            Spot::Vertex(v) => return Err(v),
             Spot::Triangle(triangle) => self.mesh.tail(triangle.edge(0)),
             _ => Place::new(0),
         };
-        let near = if near.is_ghost() { 0 } else { near.index() };
-        let v = self.new_place(near, q);
-        self.insert_at(v, spot, tally);
-        Ok(v)
+        self.new_place(if near.is_ghost() { 0 } else { near.index() }, q)
     }
 
     /// Makes the point at a place a vertex. It falls where `spot` says, which is no vertex.

@@ -14,7 +14,8 @@ use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place};
 use crate::locate::tally::Tally;
 use crate::locate::{Ground, Level, Start, Surface, search};
-use crate::mesh::{Dimension, Mesh, Slots};
+use crate::memory::{make_room, room_for};
+use crate::mesh::{Dimension, Mesh, Slots, with_spare};
 use crate::order::morton::{self, Sorted};
 
 /// See the module.
@@ -71,7 +72,9 @@ impl Layer {
             self.points[slot] = q;
             return Place::new(slot);
         }
+        make_room(&mut self.points, 1);
         self.points.push(q);
+        make_room(&mut self.mesh.incident, 1);
         self.mesh.incident.push(EdgeId::NONE);
         Place::new(self.points.len() - 1)
     }
@@ -107,7 +110,8 @@ impl Layer {
         let Sorted { points, indices, .. } = morton::sort(&points);
         let order: Vec<Place> = indices.iter().map(|&i| places[i as usize]).collect();
         let (moved, free) = self.mesh.lay_out(&order);
-        self.points = points.iter().flat_map(|&p| [p, p]).collect();
+        self.points = room_for(with_spare(2 * points.len()));
+        self.points.extend(points.iter().flat_map(|&p| [p, p]));
         self.free = free;
         moved
     }
@@ -167,7 +171,10 @@ impl Ground for Layer {
 
     #[inline]
     fn fetch_around(&self, e: EdgeId) {
-        self.fetch_window::<6, 3>(e.triangle().index() / 2);
+        let slot = e.triangle().index();
+        self.fetch_window::<6, 3>(slot / 2);
+        self.free.fetch(slot / 2);
+        self.mesh.free.fetch(slot);
     }
 
     #[inline]
