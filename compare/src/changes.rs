@@ -16,14 +16,14 @@ type Points = [[f64; 2]];
 const OPERATIONS: [&str; 4] = ["insert", "locate", "nearest", "remove"];
 
 /// What an engine did.
-struct Run {
+pub struct Run {
     /// Seconds for each operation.
     seconds: [f64; 4],
     inside: Vec<bool>,
     nearest: Vec<[f64; 2]>,
 }
 
-type Engine = (&'static str, fn(&Points, &Points) -> Run);
+pub type Engine = (&'static str, fn(&Points, &Points) -> Run);
 
 const ENGINES: &[Engine] = &[
     ("delone", |points, queries| delone(points, queries, Locate::Tree)),
@@ -33,19 +33,25 @@ const ENGINES: &[Engine] = &[
     ("spade-hierarchy", spade),
 ];
 
+/// The engines of these names; all for none.
+pub fn chosen(names: &[String]) -> Vec<&'static Engine> {
+    let is_chosen = |engine: &&Engine| names.is_empty() || names.iter().any(|name| name == engine.0);
+    ENGINES.iter().filter(is_chosen).collect()
+}
+
 /// Times the four operations and prints the minimum over the runs. False if an engine of ours answers otherwise than
 /// the others.
-pub fn run(kind: Kind, size: usize, runs: usize) -> bool {
+pub fn run(engines: &[&Engine], kind: Kind, size: usize, runs: usize) -> bool {
     let mut random = Random::new(2);
     let mut points = kind.points(size, 1);
     random.shuffle(&mut points);
     let mut queries = kind.points(size, 3);
     random.shuffle(&mut queries);
-    let mut best = vec![[f64::INFINITY; 4]; ENGINES.len()];
+    let mut best = vec![[f64::INFINITY; 4]; engines.len()];
     let mut all_right = true;
     for round in 0..runs {
         let mut first: Option<Run> = None;
-        for (i, (name, engine)) in ENGINES.iter().enumerate() {
+        for (i, (name, engine)) in engines.iter().enumerate() {
             let run = engine(&points, &queries);
             for (least, seconds) in best[i].iter_mut().zip(run.seconds) {
                 *least = least.min(seconds);
@@ -60,17 +66,17 @@ pub fn run(kind: Kind, size: usize, runs: usize) -> bool {
     println!("\n{} {size}, one by one in random order, ns per operation", kind.name());
     println!("  {:20} {}", "", OPERATIONS.map(|name| format!("{name:>16}")).concat());
     let count = |k: usize| if k == 3 { size / 2 } else { size } as f64;
-    for ((name, _), seconds) in ENGINES.iter().zip(&best) {
+    for ((name, _), seconds) in engines.iter().zip(&best) {
         let cell =
             |k: usize| format!("{:>8.0} {:>6.2}x", seconds[k] * 1e9 / count(k), seconds[k] / best[0][k]);
         println!("  {name:20} {}", [0, 1, 2, 3].map(cell).concat());
     }
-    for ours in 0..2 {
-        let peers = 2..ENGINES.len();
-        let ratio =
-            |k: usize| peers.clone().map(|i| best[i][k] / best[ours][k]).fold(f64::INFINITY, f64::min);
+    let (ours, others): (Vec<_>, Vec<_>) =
+        engines.iter().zip(&best).partition(|((name, _), _)| name.starts_with("delone"));
+    for ((name, _), own) in ours.into_iter().filter(|_| !others.is_empty()) {
+        let ratio = |k: usize| others.iter().map(|(_, best)| best[k] / own[k]).fold(f64::INFINITY, f64::min);
         let ratios = [0, 1, 2, 3].map(|k| format!("{} {:.2} x", OPERATIONS[k], ratio(k)));
-        println!("  best of the others / {}: {}", ENGINES[ours].0, ratios.join(", "));
+        println!("  best of the others / {name}: {}", ratios.join(", "));
     }
     all_right
 }

@@ -90,7 +90,9 @@ fn compare(args: &Args) {
         .filter(|e| args.engines.is_empty() || args.engines.iter().any(|name| name == e.name))
         .collect();
     if args.changes {
-        std::process::exit(i32::from(!each_set(args, changes::run)));
+        let chosen = changes::chosen(&args.engines);
+        let run = |kind, size, runs| changes::run(&chosen, kind, size, runs);
+        std::process::exit(i32::from(!each_set(args, run)));
     }
     if args.hull {
         panic::set_hook(Box::new(|_| {}));
@@ -153,7 +155,7 @@ fn read(path: &str) -> Option<Vec<[f64; 2]>> {
 }
 
 /// Another comparison on each set.
-fn each_set(args: &Args, run: fn(Kind, usize, usize) -> bool) -> bool {
+fn each_set(args: &Args, run: impl Fn(Kind, usize, usize) -> bool) -> bool {
     println!("minimum of {} interleaved runs, one thread", args.runs);
     let mut all_right = true;
     for kind in args.kinds.iter().filter_map(|name| Kind::named(name)) {
