@@ -146,12 +146,15 @@ impl Cavity {
     }
 }
 
-/// The other side of an edge and the corner across it. Both are asked of memory as soon as the edge is known, and the
-/// corner's point too; when its turn comes, they are there.
+/// The other side of an edge and the corner across it. What the test and the triangle's removal will read is asked of
+/// memory as soon as it is known where it is: the corner's point and its edge, and the triangles further on.
 #[inline]
 fn look(mesh: &Mesh, points: &[[f64; 2]], e: EdgeId) -> (EdgeId, Place) {
     let outside = mesh.twin(e);
     let tip = mesh.tip(outside);
     fetch(points, tip.index());
+    fetch(&mesh.incident, tip.index());
+    fetch(&mesh.edges, mesh.twin(outside.next()).index());
+    fetch(&mesh.edges, mesh.twin(outside.previous()).index());
     (outside, tip)
 }

@@ -105,15 +105,21 @@ impl Layer {
     /// Lays everything out in memory as in the plane, with room between neighbours. Returns for each old place
     /// the new one.
     pub(super) fn lay_out(&mut self) -> Vec<Place> {
-        let places: Vec<Place> = self.mesh.inhabited().collect();
-        let points: Vec<[f64; 2]> = places.iter().map(|p| self.points[p.index()]).collect();
-        let Sorted { points, indices, .. } = morton::sort(&points);
-        let order: Vec<Place> = indices.iter().map(|&i| places[i as usize]).collect();
+        let order = self.sort();
         let (moved, free) = self.mesh.lay_out(&order);
-        self.points = room_for(with_spare(2 * points.len()));
-        self.points.extend(points.iter().flat_map(|&p| [p, p]));
         self.free = free;
         moved
+    }
+
+    /// Puts the points in the order of the new layout. Returns the old place of each.
+    fn sort(&mut self) -> Vec<Place> {
+        let places: Vec<Place> = self.mesh.inhabited().collect();
+        let points: Vec<[f64; 2]> = places.iter().map(|p| self.points[p.index()]).collect();
+        self.points = Vec::new();
+        let Sorted { points, indices, .. } = morton::sort(&points);
+        self.points = room_for(with_spare(2 * points.len()));
+        self.points.extend(points.iter().flat_map(|&p| [p, p]));
+        indices.iter().map(|&i| places[i as usize]).collect()
     }
 }
 
