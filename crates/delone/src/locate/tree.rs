@@ -6,16 +6,19 @@
 //! because the walk decides.
 //!
 //! What a query waits for is memory. Three levels of the tree share a cache line, the lowest three share it with
-//! their eight hints, and all lines above the lowest are a hundredth of the vertices' own memory: a query in a
-//! large set misses the cache once before the walk. The splits of the lowest lines are rounded, which a hint can
-//! bear.
+//! their eight hints, and all lines above the lowest are a hundredth of the vertices' own memory. The eight lines
+//! below a line are neighbours, and are asked for before the line itself has come: two levels arrive in the time of
+//! one. The splits of the lowest lines are rounded, which a hint can bear.
 //!
 //! Cost: a query O(log n) comparisons, then a walk of O(1) expected triangles; four bytes a vertex. Building O(n log
 //! n); the owner builds anew whenever the number of vertices has doubled or walks have become long, which is O(log
 //! n) amortized over insertions. Removal costs nothing: hints that point at nothing are passed over.
 
+use std::cmp::Ordering;
+
 use super::tally::Tally;
 use super::{Ground, Start, Strategy};
+use crate::fetch::fetch;
 use crate::ids::Place;
 use crate::parallel::filled;
 
@@ -25,6 +28,8 @@ const LEAF: usize = 2;
 const DEPTH: u32 = 3;
 /// Leaves below a line.
 const LEAVES: usize = 1 << DEPTH;
+/// From this many levels of lines the lines below are asked for ahead; those further up stay in the cache.
+const AHEAD: u32 = 3;
 
 /// A subtree of inner nodes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -121,7 +126,9 @@ impl<H: Copy + Send + Sync> Tree<H> {
             return;
         }
         let coordinate = |item: &(G::Point, H)| G::coordinate(item.0, node.axis);
-        sample.select_nth_unstable_by(middle, |a, b| coordinate(a).total_cmp(&coordinate(b)));
+        sample.select_nth_unstable_by(middle, |a, b| {
+            coordinate(a).partial_cmp(&coordinate(b)).unwrap_or(Ordering::Equal) // coordinates are finite
+        });
         let value = coordinate(&sample[middle]);
         if node.level == self.height {
             self.lowest[node.line].splits[node.inner - 1] = value as f32;
@@ -145,7 +152,13 @@ impl<H: Copy + Send + Sync> Tree<H> {
         let turn = |axis: usize| if axis + 1 == G::DIMENSIONS { 0 } else { axis + 1 };
         let (mut line, mut first, mut axis) = (0, 0, 0);
         let (mut depth, mut width) = (self.root, 1);
-        for _ in 0..self.height {
+        for level in 1..=self.height {
+            let below = line << depth..(line + 1) << depth;
+            if level == self.height {
+                below.for_each(|k| fetch(&self.lowest, k));
+            } else if level + AHEAD > self.height {
+                below.for_each(|k| fetch(&self.upper, first + width + k));
+            }
             let splits = &self.upper[first + line].splits;
             let mut inner = 1;
             for _ in 0..depth {
