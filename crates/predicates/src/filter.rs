@@ -70,6 +70,10 @@ fn outside_of(value: f64, bound: f64) -> Option<Sign> {
     }
 }
 
+/// In-circle determinants, in steps of a grid, up to which plain arithmetic is exact: less than 2^53, with room for the
+/// rounding of the bound itself.
+const EXACT_BELOW: f64 = 4e15;
+
 /// A lattice of the form 2^e Z x 2^e Z on which all points of a set lie. On a small enough box of it plain
 /// `f64` arithmetic is exact and no error bound is needed: grids, integers, 24-bit data.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,6 +86,13 @@ impl Grid {
     /// coordinate is larger than 2^53 steps, so that differences would round. O(n), and it gives up at once
     /// on coordinates that use their whole mantissa over differing exponents.
     pub fn of(coordinates: impl IntoIterator<Item = f64>) -> Option<Self> {
+        Self::coarser_than(0.0, coordinates)
+    }
+
+    /// The same, or `None` if it is finer than a step (rounded down to a power of two): the first coordinate may
+    /// tell.
+    pub fn coarser_than(least: f64, coordinates: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let least = ((least.to_bits() >> 52) as i32 - 1023).max(-200);
         let (mut lowest, mut largest) = (i32::MAX, 0.0_f64);
         for x in coordinates {
             if x == 0.0 {
@@ -92,7 +103,7 @@ impl Grid {
             let mantissa = bits & ((1 << 52) - 1) | u64::from(biased != 0) << 52;
             lowest = lowest.min(biased.max(1) - 1075 + mantissa.trailing_zeros() as i32);
             largest = largest.max(x.abs());
-            if lowest < -200 || largest > power_of_two(lowest.min(200) + 53) {
+            if lowest < least || largest > power_of_two(lowest.min(200) + 53) {
                 return None;
             }
         }
@@ -134,13 +145,18 @@ impl Filter {
         let square = width * width + height * height;
         if let Some(Grid { step }) = grid {
             let (w, h) = (width / step, height / step);
-            if 2.0 * w * h * (w * w + h * h) < 4e15 {
+            if 2.0 * w * h * (w * w + h * h) < EXACT_BELOW {
                 return Self { orient: 0.0, circle: 0.0, exact: true };
             }
         }
         let circle =
             if square < CIRCLE_CEILING { 32.0 * U * area * square + CIRCLE_FLOOR } else { f64::INFINITY };
         Self { orient: 9.0 * U * area + ORIENT_FLOOR, circle, exact: false }
+    }
+
+    /// The finest step of a grid on which arithmetic in such a box is exact, about.
+    pub fn finest_step(width: f64, height: f64) -> f64 {
+        (2.0 * width * height * (width * width + height * height) / EXACT_BELOW).sqrt().sqrt()
     }
 
     /// The sign of a computed orientation, or `None` where the exact stage must be asked.

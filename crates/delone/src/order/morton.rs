@@ -11,6 +11,7 @@
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::quantize::{Quantizer, bounds};
@@ -296,7 +297,11 @@ impl<'a> Sorter<'a> {
             *item = (self.points[start + i], self.indices[start + i]);
         }
         run.sort_unstable_by(|&(p, i), &(q, j)| {
-            (p[0], p[1], i).partial_cmp(&(q[0], q[1], j)).expect("finite")
+            // Mostly x tells.
+            if p[0] != q[0] {
+                return if p[0] < q[0] { Ordering::Less } else { Ordering::Greater };
+            }
+            (p[1], i).partial_cmp(&(q[1], j)).expect("finite")
         });
         let (mut distinct, mut last) = (0, start);
         for (i, &(point, index)) in run.iter().enumerate() {

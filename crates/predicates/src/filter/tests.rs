@@ -91,6 +91,21 @@ fn small_boxes_of_a_grid_are_exact() {
 }
 
 #[test]
+fn no_grid_is_missed_that_would_make_a_box_exact() {
+    for step in [1.0, 0.125, 1024.0] {
+        for (w, h) in [(1.0, 1.0), (3000.0, 5000.0), (6688.0, 6688.0), (1e6, 200.0), (1e9, 0.5), (1e9, 0.0)] {
+            let (w, h) = (w * step, h * step);
+            let grid = Grid::of([step, 3.0 * step]);
+            let coarse = Grid::coarser_than(Filter::finest_step(w, h), [step, 3.0 * step]);
+            assert_eq!(Filter::for_box(w, h, grid), Filter::for_box(w, h, coarse), "{step} {w} {h}");
+        }
+    }
+    assert_eq!(Grid::coarser_than(0.5, [1.0, 0.25]), None);
+    assert_eq!(Grid::coarser_than(0.5, [1.0, 0.5]), Grid::of([0.5]));
+    assert_eq!(Grid::coarser_than(f64::INFINITY, [0.0]), Grid::of([0.0]));
+}
+
+#[test]
 fn a_filter_without_room_decides_nothing() {
     let filter = Filter::for_box(1e300, 1e300, None);
     assert_eq!(filter.circle(f64::MAX), None);

@@ -98,7 +98,12 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
     let mut leaving = parallel::filled(TriangleId::new(0), n);
     let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
     if n > 0 {
-        let grid = Grid::of(ordered.iter().copied().flatten());
+        let finest = |b: &KeyBox| {
+            let [width, height] = b.cell(b.depths() - 1);
+            Filter::finest_step(width, height)
+        };
+        let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
+        let grid = Grid::coarser_than(finest, ordered.iter().copied().flatten());
         Tree { cuts, boxes, grid }.build(0, &mut builder);
     }
     let counters = builder.counters;
