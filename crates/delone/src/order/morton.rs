@@ -116,7 +116,10 @@ pub(crate) fn sort(points: &[[f64; 2]]) -> Sorted {
         duplicates: Vec::new(),
     };
     if n > 0 {
-        let mut sorter = Sorter::new(0, &mut sorted.points, &mut sorted.indices, &mut sorted.cuts);
+        let mut sorter = Sorter {
+            boxes: Vec::with_capacity(1),
+            ..Sorter::new(0, &mut sorted.points, &mut sorted.indices, &mut sorted.cuts)
+        };
         let depth = sorter.key_box(points, |i| i as u32, 0..n);
         sorter.runs(0..n, depth);
         let Sorter { boxes, removed, duplicates, .. } = sorter;

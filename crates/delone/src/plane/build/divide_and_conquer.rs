@@ -188,9 +188,9 @@ struct Tree<'a> {
 }
 
 /// A box, and the static filters of its depths.
-struct Cells {
+struct Cells<'a> {
     key_box: KeyBox,
-    filters: Vec<Filter>,
+    filters: &'a [Filter],
 }
 
 /// Parts that wait for their right neighbour, with the cuts behind them, deeper and deeper.
@@ -205,7 +205,16 @@ impl Tree<'_> {
             let [width, height] = key_box.cell(depth);
             Filter::for_box(width, height, self.grid)
         };
-        let cells = Cells { key_box, filters: (0..key_box.depths()).map(cell_filter).collect() };
+        // A few points have one depth, and need no memory for it.
+        let (one, many);
+        let filters: &[Filter] = if key_box.depths() == 1 {
+            one = [cell_filter(0)];
+            &one
+        } else {
+            many = (0..key_box.depths()).map(cell_filter).collect::<Vec<_>>();
+            &many
+        };
+        let cells = Cells { key_box, filters };
         let all = key_box.start..key_box.end;
         // Tasks divide the memory of a builder, which may have more than this box.
         let parts = if builder.positions() == all { parallel::parts(all.len()) } else { 1 };
@@ -327,7 +336,7 @@ impl Tree<'_> {
     }
 }
 
-impl Cells {
+impl Cells<'_> {
     /// Merges a part with those to its left, as long as the cuts between them are deeper than the one after it.
     fn join(&self, builder: &mut Builder, waiting: &mut Waiting, mut part: Part, after: Cut) -> Part {
         while let Some((left, cut)) = waiting.pop_if(|(_, cut)| *cut > after) {
