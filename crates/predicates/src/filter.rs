@@ -95,16 +95,16 @@ impl Grid {
         let least = ((least.to_bits() >> 52) as i32 - 1023).max(-200);
         let (mut lowest, mut largest) = (i32::MAX, 0.0_f64);
         for x in coordinates {
-            if x == 0.0 {
-                continue;
-            }
             let bits = x.to_bits();
             let biased = (bits >> 52) as i32 & 0x7ff;
             let mantissa = bits & ((1 << 52) - 1) | u64::from(biased != 0) << 52;
-            lowest = lowest.min(biased.max(1) - 1075 + mantissa.trailing_zeros() as i32);
-            largest = largest.max(x.abs());
-            if lowest < least || largest > power_of_two(lowest.min(200) + 53) {
-                return None;
+            let step = biased.max(1) - 1075 + mantissa.trailing_zeros() as i32;
+            if x != 0.0 && (step < lowest || x.abs() > largest) {
+                lowest = lowest.min(step);
+                largest = largest.max(x.abs());
+                if lowest < least || largest > power_of_two(lowest.min(200) + 53) {
+                    return None;
+                }
             }
         }
         (lowest <= 200 || largest == 0.0).then(|| Self { step: power_of_two(lowest.min(200)) })

@@ -180,10 +180,11 @@ impl<'a> Sorter<'a> {
         let quantizer = Quantizer::new(low, high, bits);
         self.boxes.push(KeyBox { start: self.start + to.start, end: self.start + to.end, quantizer, depth });
         if bits == 0 {
-            for (k, &p) in points.iter().enumerate() {
-                (self.points[to.start + k], self.indices[to.start + k]) = (p, index_of(k));
+            let mut run = [([0.0; 2], 0); FEW];
+            for (k, (item, &p)) in run.iter_mut().zip(points).enumerate() {
+                *item = (p, index_of(k));
             }
-            self.cuts[to][1..].fill(Cut::SAME_CELL);
+            self.short_run(to.start, &mut run[..n], depth);
             return depth;
         }
         // An entry holds a key above and a place in `points` below. Without a box all keys are equal.
@@ -270,7 +271,11 @@ impl<'a> Sorter<'a> {
             let run = first..first + 1 + same.count();
             at = run.end + 1;
             if run.len() <= SHORT_RUN {
-                self.short_run(run.start, run.len(), depth);
+                let mut items = [([0.0; 2], 0); SHORT_RUN];
+                for (item, at) in items.iter_mut().zip(run.clone()) {
+                    *item = (self.points[at], self.indices[at]);
+                }
+                self.short_run(run.start, &mut items[..run.len()], depth);
             } else {
                 self.nested_box(run);
             }
@@ -292,13 +297,9 @@ impl<'a> Sorter<'a> {
         self.runs(run, depth);
     }
 
-    /// Sorts points of one cell lexicographically, with the cuts of a balanced tree.
-    fn short_run(&mut self, start: usize, length: usize, depth: u32) {
-        let mut run = [([0.0; 2], 0); SHORT_RUN];
-        let run = &mut run[..length];
-        for (i, item) in run.iter_mut().enumerate() {
-            *item = (self.points[start + i], self.indices[start + i]);
-        }
+    /// Sorts the points of one cell, with their indices, lexicographically to where they belong, with the cuts of a
+    /// balanced tree.
+    fn short_run(&mut self, start: usize, run: &mut [([f64; 2], u32)], depth: u32) {
         run.sort_unstable_by(|&(p, i), &(q, j)| {
             // Mostly x tells.
             if p[0] != q[0] {

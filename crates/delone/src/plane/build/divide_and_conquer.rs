@@ -103,7 +103,7 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
             Filter::finest_step(width, height)
         };
         let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
-        let grid = Grid::coarser_than(finest, ordered.iter().copied().flatten());
+        let grid = Grid::coarser_than(finest, ordered.as_flattened().iter().copied());
         Tree { cuts, boxes, grid }.build(0, &mut builder);
     }
     let counters = builder.counters;
