@@ -16,7 +16,9 @@ type Points = [[f64; 3]];
 /// first tenth of the points.
 type Run = Option<(f64, usize, Option<f64>)>;
 
-const ENGINES: &[(&str, fn(&Points) -> Run)] = &[
+type Engine = (&'static str, fn(&Points) -> Run);
+
+const ENGINES: &[Engine] = &[
     ("delone", delone),
     ("delone-2-threads", delone_on_two_threads),
     #[cfg(cgal)]
