@@ -4,10 +4,10 @@
 //! runs the cut of the first bit in which their keys differ: its depth tells the size of the cell that it
 //! halves and, by its parity, the axis. The cuts alone are the tree, so no tree is stored.
 //!
-//! Keys have just enough bits, about three more than log2 n, for two or three radix passes; a few points have none. Skewed data
-//! collapse into few cells; there a run of equal keys is sorted again in its own bounding box, recursively. A
-//! nested box is at least 2^5 times smaller than the one around it, so 2100 / 5 is a bound on the depth for
-//! any doubles. Equal points meet in the end, and all but the first given are set aside as duplicates.
+//! Keys have three bits more than log2 n, and as many more as radix passes of the same number can take; a few points have
+//! none. Skewed data collapse into few cells; there a run of equal keys is sorted again in its own bounding box,
+//! recursively. A nested box is at least 2^5 times smaller than the one around it, so 2100 / 5 is a bound on the depth
+//! for any doubles. Equal points meet in the end, and all but the first given are set aside as duplicates.
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
@@ -23,6 +23,9 @@ const SHORT_RUN: usize = 32;
 
 /// Sets up to this size get no keys.
 const FEW: usize = 12;
+
+/// Larger sets get keys as long as the passes of the sort allow: points along a curve are still in cells of their own.
+const MANY: usize = 1 << 15;
 
 /// Points in Morton order, without duplicates.
 pub(crate) struct Sorted {
@@ -174,8 +177,7 @@ impl<'a> Sorter<'a> {
             let corners = parallel::map(chunks, bounds).into_iter().flat_map(|(low, high)| [low, high]);
             bounds(&corners.collect::<Vec<_>>())
         };
-        // A few points are one cell, sorted by comparison.
-        let bits = if n <= FEW { 0 } else { (n.next_power_of_two().ilog2() + 3).div_ceil(2) };
+        let bits = key_bits(n);
         let depth = 2 * bits;
         let quantizer = Quantizer::new(low, high, bits);
         self.boxes.push(KeyBox { start: self.start + to.start, end: self.start + to.end, quantizer, depth });
@@ -270,16 +272,22 @@ impl<'a> Sorter<'a> {
             let same = self.cuts[first + 1..within.end].iter().take_while(|&&cut| cut == Cut::SAME_CELL);
             let run = first..first + 1 + same.count();
             at = run.end + 1;
-            if run.len() <= SHORT_RUN {
-                let mut items = [([0.0; 2], 0); SHORT_RUN];
-                for (item, at) in items.iter_mut().zip(run.clone()) {
-                    *item = (self.points[at], self.indices[at]);
-                }
-                self.short_run(run.start, &mut items[..run.len()], depth);
-            } else {
-                self.nested_box(run);
+            // Most are very short.
+            match run.len() {
+                ..=4 => self.run_of_at_most::<4>(run, depth),
+                5..=SHORT_RUN => self.run_of_at_most::<SHORT_RUN>(run, depth),
+                _ => self.nested_box(run),
             }
         }
+    }
+
+    /// Sorts a short run of one cell.
+    fn run_of_at_most<const N: usize>(&mut self, run: Range<usize>, depth: u32) {
+        let mut items = [([0.0; 2], 0); N];
+        for (item, at) in items.iter_mut().zip(run.clone()) {
+            *item = (self.points[at], self.indices[at]);
+        }
+        self.short_run(run.start, &mut items[..run.len()], depth);
     }
 
     /// Sorts a long run of one cell by keys of its own.
@@ -353,6 +361,15 @@ impl Sorted {
             (key_box.start, key_box.end) = (moved(key_box.start), moved(key_box.end));
         }
     }
+}
+
+/// The bits an axis of the keys of so many points, at most sixteen.
+fn key_bits(n: usize) -> u32 {
+    if n <= FEW {
+        return 0; // one cell, sorted by comparison
+    }
+    let enough = (n.next_power_of_two().ilog2() + 3).div_ceil(2).min(16);
+    if n < MANY { enough } else { (radix::passes(2 * enough) * radix::DIGIT_BITS / 2).min(16) }
 }
 
 /// Moves bit i to bit 2i.

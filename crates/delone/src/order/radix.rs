@@ -11,6 +11,13 @@ use crate::parallel;
 const SHORT: usize = 512;
 /// Bits of the digit that buckets are made by.
 const BUCKET_BITS: u32 = 8;
+/// The most bits of a digit: as many places must stay in a fast cache.
+pub(super) const DIGIT_BITS: u32 = 11;
+
+/// The passes that keys take.
+pub(super) fn passes(key_bits: u32) -> u32 {
+    key_bits.div_ceil(DIGIT_BITS)
+}
 
 /// Sorts entries by `key_bits` bits from bit 32 up. Their lower halves must ascend.
 pub(super) fn sort(entries: &mut Vec<u64>, key_bits: u32) {
@@ -28,7 +35,7 @@ pub(super) fn by_digits(entries: &mut [u64], key_bits: u32) {
         entries.sort_unstable();
         return;
     }
-    let passes = key_bits.div_ceil(11);
+    let passes = passes(key_bits);
     let digit_bits = key_bits.div_ceil(passes);
     let mut spare = vec![0; entries.len()];
     let (mut from, mut to) = (&mut *entries, &mut *spare);
