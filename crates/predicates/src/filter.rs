@@ -85,25 +85,31 @@ impl Grid {
     /// The coarsest such lattice holding every coordinate, or `None` where it is finer than 2^-200 or a
     /// coordinate is larger than 2^53 steps, so that differences would round. O(n), and it gives up at once
     /// on coordinates that use their whole mantissa over differing exponents.
-    pub fn of(coordinates: impl IntoIterator<Item = f64>) -> Option<Self> {
+    pub fn of(coordinates: &[f64]) -> Option<Self> {
         Self::coarser_than(0.0, coordinates)
     }
 
     /// The same, or `None` if it is finer than a step (rounded down to a power of two): the first coordinate may
     /// tell.
-    pub fn coarser_than(least: f64, coordinates: impl IntoIterator<Item = f64>) -> Option<Self> {
+    pub fn coarser_than(least: f64, coordinates: &[f64]) -> Option<Self> {
         let least = ((least.to_bits() >> 52) as i32 - 1023).max(-200);
         let (mut lowest, mut largest) = (i32::MAX, 0.0_f64);
-        for x in coordinates {
-            let bits = x.to_bits();
-            let biased = (bits >> 52) as i32 & 0x7ff;
-            let mantissa = bits & ((1 << 52) - 1) | u64::from(biased != 0) << 52;
-            let step = biased.max(1) - 1075 + mantissa.trailing_zeros() as i32;
-            if x != 0.0 && (step < lowest || x.abs() > largest) {
-                lowest = lowest.min(step);
-                largest = largest.max(x.abs());
-                if lowest < least || largest > power_of_two(lowest.min(200) + 53) {
-                    return None;
+        // Mostly the lattice of the first few holds all others.
+        for some in coordinates.chunks(512) {
+            if lowest <= 200 && on_lattice(power_of_two(lowest), largest, some) {
+                continue;
+            }
+            for &x in some {
+                let bits = x.to_bits();
+                let biased = (bits >> 52) as i32 & 0x7ff;
+                let mantissa = bits & ((1 << 52) - 1) | u64::from(biased != 0) << 52;
+                let step = biased.max(1) - 1075 + mantissa.trailing_zeros() as i32;
+                if x != 0.0 && (step < lowest || x.abs() > largest) {
+                    lowest = lowest.min(step);
+                    largest = largest.max(x.abs());
+                    if lowest < least || largest > power_of_two(lowest.min(200) + 53) {
+                        return None;
+                    }
                 }
             }
         }
@@ -115,6 +121,15 @@ impl Grid {
         let steps = x / self.step;
         steps.abs() <= 9_007_199_254_740_992.0 && steps.fract() == 0.0
     }
+}
+
+/// Whether coordinates surely are multiples of a step and no larger than a limit, which may be too large to tell. Several at
+/// once: adding and subtracting 3/2 2^52 steps rounds to whole steps, as both sums are between 2^52 and 2^53 steps.
+fn on_lattice(step: f64, limit: f64, coordinates: &[f64]) -> bool {
+    const ROUNDING: f64 = 6_755_399_441_055_744.0;
+    let whole = |x: f64| (x + ROUNDING * step) - ROUNDING * step == x;
+    limit <= ROUNDING / 3.0 * step
+        && coordinates.iter().fold(true, |all, &x| all & (x.abs() <= limit) & whole(x))
 }
 
 fn power_of_two(exponent: i32) -> f64 {

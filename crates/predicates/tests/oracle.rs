@@ -154,7 +154,7 @@ fn pencils_with_static_filters_are_exact() {
             let high = points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
             (high - low) * (1.0 + f64::EPSILON)
         };
-        let filter = Filter::for_box(extent(0), extent(1), Grid::of(points.into_iter().flatten()));
+        let filter = Filter::for_box(extent(0), extent(1), Grid::of(points.as_flattened()));
         assert_eq!(filter.orient2d(l, r, p), sign(exact::orient2d(l, r, p)), "{name}: {points:?}");
         assert_eq!(filter.in_circle(l, r, p, q), sign(exact::in_circle(l, r, p, q)), "{name}: {points:?}");
         let pencil = Pencil::new(l, r);
@@ -334,7 +334,7 @@ fn in_sphere_is_exact() {
             let of = five.map(|p| p[k]);
             of.iter().fold(f64::MIN, |m, x| m.max(*x)) - of.iter().fold(f64::MAX, |m, x| m.min(*x))
         });
-        let grid = Grid::of(five.as_flattened().iter().copied());
+        let grid = Grid::of(five.as_flattened());
         for (extent, grid) in [(extent, None), (extent, grid), (extent.map(|side| side * 1e6), None)] {
             let filter = Filter3::for_box(extent, grid);
             assert_eq!(filter.in_sphere(a, b, c, d, e), sign(perturbed), "{name}: {five:?}, in a box");

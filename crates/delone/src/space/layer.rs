@@ -70,7 +70,7 @@ impl Layer {
     /// Points at their places, none a vertex yet.
     pub(super) fn new(points: Vec<[f64; 3]>) -> Self {
         let limits = Limits::around(points.iter().copied());
-        let grid = Grid::of(points.as_flattened().iter().copied());
+        let grid = Grid::of(points.as_flattened());
         let mesh = Mesh3 { incident: vec![TetrahedronId::NONE; points.len()], ..Mesh3::default() };
         let filter = Filter3::for_box(limits.extent(), grid);
         Self { mesh, points, limits, grid, filter, ..Self::default() }
@@ -91,7 +91,7 @@ impl Layer {
         self.points.clear();
         self.points.extend(points);
         self.limits = Limits::around(self.points.iter().copied());
-        self.grid = Grid::of(self.points.as_flattened().iter().copied());
+        self.grid = Grid::of(self.points.as_flattened());
         self.filter = Filter3::for_box(self.limits.extent(), self.grid);
     }
 
@@ -107,7 +107,7 @@ impl Layer {
     pub(super) fn keep(&mut self, q: [f64; 3]) -> Place {
         let fits = self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x)));
         if !fits || self.points.is_empty() {
-            self.grid = Grid::of(q).filter(|_| self.points.is_empty());
+            self.grid = Grid::of(&q).filter(|_| self.points.is_empty());
         }
         if self.limits.include(q) || !fits {
             self.filter = Filter3::for_box(self.limits.extent(), self.grid);

@@ -70,7 +70,7 @@ fn operand_bounds_cover_their_formulas() {
 
 #[test]
 fn grids_are_found() {
-    let grid = |x: &[f64]| Grid::of(x.iter().copied()).map(|g| g.step);
+    let grid = |x: &[f64]| Grid::of(x).map(|g| g.step);
     assert_eq!(grid(&[3.0, 5.0, -8.0]), Some(1.0));
     assert_eq!(grid(&[4.0, 12.0, 0.0]), Some(4.0));
     assert_eq!(grid(&[0.25, 7.0]), Some(0.25));
@@ -83,8 +83,31 @@ fn grids_are_found() {
 }
 
 #[test]
+fn what_comes_late_is_noticed() {
+    let integers: Vec<f64> = (0..3000).map(|i| f64::from(i % 17) - 8.0).collect();
+    assert_eq!(Grid::of(&integers).map(|g| g.step), Some(1.0));
+    for at in [0, 511, 512, 1700, 2999] {
+        let largest = 9_007_199_254_740_992.0;
+        for (late, step) in [
+            (0.5, Some(0.5)),
+            (-7.25, Some(0.25)),
+            (0.1, None),
+            (2f64.powi(-50), Some(2f64.powi(-50))),
+            (-largest, Some(1.0)),
+            (largest + 2.0, None),
+            (largest / 4.0 + 0.5, Some(0.5)),
+            (f64::from_bits(1), None),
+        ] {
+            let mut coordinates = integers.clone();
+            coordinates[at] = late;
+            assert_eq!(Grid::of(&coordinates).map(|g| g.step), step, "{late} at {at}");
+        }
+    }
+}
+
+#[test]
 fn small_boxes_of_a_grid_are_exact() {
-    let grid = Grid::of([1.0, 2.0]);
+    let grid = Grid::of(&[1.0, 2.0]);
     assert!(Filter::for_box(4000.0, 4000.0, grid).exact);
     assert!(!Filter::for_box(8000.0, 8000.0, grid).exact);
     assert!(!Filter::for_box(f64::INFINITY, 1.0, grid).exact);
@@ -95,14 +118,14 @@ fn no_grid_is_missed_that_would_make_a_box_exact() {
     for step in [1.0, 0.125, 1024.0] {
         for (w, h) in [(1.0, 1.0), (3000.0, 5000.0), (6688.0, 6688.0), (1e6, 200.0), (1e9, 0.5), (1e9, 0.0)] {
             let (w, h) = (w * step, h * step);
-            let grid = Grid::of([step, 3.0 * step]);
-            let coarse = Grid::coarser_than(Filter::finest_step(w, h), [step, 3.0 * step]);
+            let grid = Grid::of(&[step, 3.0 * step]);
+            let coarse = Grid::coarser_than(Filter::finest_step(w, h), &[step, 3.0 * step]);
             assert_eq!(Filter::for_box(w, h, grid), Filter::for_box(w, h, coarse), "{step} {w} {h}");
         }
     }
-    assert_eq!(Grid::coarser_than(0.5, [1.0, 0.25]), None);
-    assert_eq!(Grid::coarser_than(0.5, [1.0, 0.5]), Grid::of([0.5]));
-    assert_eq!(Grid::coarser_than(f64::INFINITY, [0.0]), Grid::of([0.0]));
+    assert_eq!(Grid::coarser_than(0.5, &[1.0, 0.25]), None);
+    assert_eq!(Grid::coarser_than(0.5, &[1.0, 0.5]), Grid::of(&[0.5]));
+    assert_eq!(Grid::coarser_than(f64::INFINITY, &[0.0]), Grid::of(&[0.0]));
 }
 
 #[test]
@@ -142,7 +165,7 @@ fn the_in_sphere_bound_covers_its_formula() {
 
 #[test]
 fn small_boxes_of_a_grid_in_space_are_exact() {
-    let grid = Grid::of([1.0, 2.0]);
+    let grid = Grid::of(&[1.0, 2.0]);
     let exact = |x: f64| Filter3::for_box([x, x, x], grid) == Filter3::for_box([1.0; 3], grid);
     assert!(exact(500.0));
     assert!(!exact(1000.0));

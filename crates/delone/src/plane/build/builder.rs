@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::divide_and_conquer::Counters;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::HalfEdge;
-use crate::parallel;
 
 /// The memory of the points at some positions. Vertices are positions in the order until the very end.
 pub(super) struct Builder<'a> {
@@ -35,16 +34,15 @@ impl<'a> Builder<'a> {
         self.start..self.start + self.leaving.len()
     }
 
-    /// Builders of runs of the positions, given by their ends. The two triangles between two runs are with the left one.
-    pub(super) fn split(&mut self, ends: &[usize]) -> Vec<Builder<'_>> {
-        let (points, start, records) = (self.points, self.start, self.edges.len());
-        let edges: Vec<usize> = ends.iter().map(|end| (8 * (end - start)).min(records)).collect();
-        let places: Vec<usize> = ends.iter().map(|end| end - start).collect();
-        let starts = std::iter::once(start).chain(ends.iter().copied());
-        let edges = parallel::split_at(self.edges, &edges);
-        let leaving = parallel::split_at(self.leaving, &places);
-        let parts = edges.into_iter().zip(leaving).zip(starts);
-        parts.map(|((edges, leaving), start)| Builder::new(points, start, edges, leaving)).collect()
+    /// Builders of the positions before another one and from it on. The two triangles between them are with the first.
+    pub(super) fn split(&mut self, middle: usize) -> [Builder<'_>; 2] {
+        let (points, start) = (self.points, self.start);
+        let (left_edges, right_edges) = self.edges.split_at_mut(8 * (middle - start));
+        let (left_leaving, right_leaving) = self.leaving.split_at_mut(middle - start);
+        [
+            Builder::new(points, start, left_edges, left_leaving),
+            Builder::new(points, middle, right_edges, right_leaving),
+        ]
     }
 
     #[inline]

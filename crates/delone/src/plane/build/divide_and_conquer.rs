@@ -103,7 +103,7 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
             Filter::finest_step(width, height)
         };
         let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
-        let grid = Grid::coarser_than(finest, ordered.as_flattened().iter().copied());
+        let grid = Grid::coarser_than(finest, ordered.as_flattened());
         Tree { cuts, boxes, grid }.build(0, &mut builder);
     }
     let counters = builder.counters;
@@ -216,49 +216,31 @@ impl Tree<'_> {
         };
         let cells = Cells { key_box, filters };
         let all = key_box.start..key_box.end;
-        // Tasks divide the memory of a builder, which may have more than this box.
+        // Threads divide the memory of a builder, which may have more than this box.
         let parts = if builder.positions() == all { parallel::parts(all.len()) } else { 1 };
-        if parts == 1 {
-            return self.run(index, &cells, all, builder);
-        }
-        let mut ends = Vec::new();
-        self.divide(index, all.clone(), all.len().div_ceil(parts), &mut ends);
-        if ends.len() == 1 {
-            return self.run(index, &cells, all, builder);
-        }
-        let tasks = builder.split(&ends);
-        let built = parallel::map(tasks, |mut task| {
-            let run = task.positions();
-            // A run that is a box of its own may be as large as all of this one.
-            let part = match self.box_of(index, &run) {
-                Some(nested) => self.build(nested, &mut task),
-                None => self.run(index, &cells, run, &mut task),
-            };
-            (part, task.counters)
-        });
-        let mut waiting = Waiting::new();
-        let mut whole = None;
-        for (part, counters) in built {
-            builder.counters.add(&counters);
-            let after = if part.end == key_box.end { Cut::OUTSIDE } else { self.cuts[part.end] };
-            let part = cells.join(builder, &mut waiting, part, after);
-            waiting.push((part, after));
-            whole = Some(part);
-        }
-        whole.unwrap_or_else(|| Part::single(key_box.start))
+        self.halve(index, &cells, all.clone(), all.len().div_ceil(parts), builder)
     }
 
-    /// Divides a run at its shallowest cut until no part has more than `most` points, or can be divided in this box; tells
-    /// where the parts end.
-    fn divide(&self, index: usize, run: Range<usize>, most: usize, ends: &mut Vec<usize>) {
+    /// Triangulates a run of points of a box that is a subtree. If it has more than `most`, both halves at its shallowest cut
+    /// at once, in memory of their own.
+    fn halve(&self, index: usize, cells: &Cells, run: Range<usize>, most: usize, builder: &mut Builder) -> Part {
         let shallowest = if run.len() > most { self.shallowest_cut(index, &run) } else { None };
-        match shallowest {
-            None => ends.push(run.end),
-            Some(at) => {
-                self.divide(index, run.start..at, most, ends);
-                self.divide(index, at..run.end, most, ends);
-            }
-        }
+        let Some(middle) = shallowest else {
+            // A run that is a box of its own may be as large as all of this one.
+            return match self.box_of(index, &run) {
+                Some(nested) => self.build(nested, builder),
+                None => self.run(index, cells, run, builder),
+            };
+        };
+        let [mut left, mut right] = builder.split(middle);
+        let (a, b) = parallel::join(
+            || self.halve(index, cells, run.start..middle, most, &mut left),
+            || self.halve(index, cells, middle..run.end, most, &mut right),
+        );
+        let counters = [left.counters, right.counters];
+        counters.iter().for_each(|of_half| builder.counters.add(of_half));
+        let (depth, by_x) = cells.key_box.split(self.cuts[middle]);
+        builder.merge(&a, &b, by_x, &cells.filters[depth])
     }
 
     /// The position before which a run has its shallowest cut, those inside of nested boxes not counted.

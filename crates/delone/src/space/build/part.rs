@@ -96,7 +96,7 @@ impl<'a> Part<'a> {
     /// Triangulates the points. `None` if they span less than space, or have more tetrahedra than there is room for.
     pub(super) fn build<T: Tally>(&mut self, seed: u64, tally: &mut T) -> Option<()> {
         let extent = Limits::around(self.points.iter().copied()).extent();
-        self.filter = Filter3::for_box(extent, Grid::of(self.points.as_flattened().iter().copied()));
+        self.filter = Filter3::for_box(extent, Grid::of(self.points.as_flattened()));
         let order = curve::rounds(self.points.len(), seed);
         let first = spanning(self.points, &order);
         let &[a, b, c, d] = &first[..] else { return None };
