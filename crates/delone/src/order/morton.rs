@@ -293,8 +293,8 @@ impl<'a> Sorter<'a> {
     /// Sorts a long run of one cell by keys of its own.
     fn nested_box(&mut self, run: Range<usize>) {
         // The copies are gone before anything is nested deeper.
-        let points = self.points[run.clone()].to_vec();
-        let indices = self.indices[run.clone()].to_vec();
+        let points = parallel::collect(run.len(), |i| self.points[run.start + i]);
+        let indices = parallel::collect(run.len(), |i| self.indices[run.start + i]);
         if points.iter().all(|p| *p == points[0]) {
             drop((points, indices));
             run.clone().skip(1).for_each(|at| self.remove(at, run.start));

@@ -2,6 +2,7 @@
 //!
 //! On one thread least significant digits first. On several, most significant digit first: each thread scatters its part
 //! of the input into buckets, whose places are known from counts, and then buckets are sorted by the rest of the bits.
+//! Where nearly all keys are equal, only the others are sorted.
 //!
 //! Cost: O(n) passes.
 
@@ -21,12 +22,59 @@ pub(super) fn passes(key_bits: u32) -> u32 {
 
 /// Sorts entries by `key_bits` bits from bit 32 up. Their lower halves must ascend.
 pub(super) fn sort(entries: &mut Vec<u64>, key_bits: u32) {
-    let parts = parallel::parts(entries.len()).min(2 * parallel::threads());
+    match crowded_key(entries) {
+        Some(key) => around(entries, key, key_bits),
+        None => by_any_digits(entries, key_bits),
+    }
+}
+
+/// The key that most entries seem to have, if there is one: outliers leave one cell to all others.
+fn crowded_key(entries: &[u64]) -> Option<u64> {
+    const SAMPLE: usize = 32;
+    if entries.len() < SHORT {
+        return None;
+    }
+    let mut keys: [u64; SAMPLE] = std::array::from_fn(|k| entries[entries.len() / SAMPLE * k] >> 32);
+    keys.sort_unstable();
+    // What most have, the middle one has.
+    let middle = keys[SAMPLE / 2];
+    (keys.iter().filter(|&&key| key == middle).count() >= SAMPLE * 3 / 4).then_some(middle)
+}
+
+/// Leaves entries of one key in their order, sorts all others, and puts them around.
+fn around(entries: &mut Vec<u64>, key: u64, key_bits: u32) {
+    let n = entries.len();
+    let mut others = Vec::new();
+    entries.retain(|&entry| {
+        let crowded = entry >> 32 == key;
+        if !crowded {
+            others.push(entry);
+        }
+        crowded
+    });
+    by_any_digits(&mut others, key_bits);
+    let (before, after) = others.split_at(others.partition_point(|entry| entry >> 32 < key));
+    let crowd = entries.len();
+    entries.resize(n, 0);
+    entries.copy_within(..crowd, before.len());
+    entries[..before.len()].copy_from_slice(before);
+    entries[before.len() + crowd..].copy_from_slice(after);
+}
+
+fn by_any_digits(entries: &mut Vec<u64>, key_bits: u32) {
+    let parts = parts(entries);
     if parts == 1 || key_bits <= BUCKET_BITS {
         by_digits(entries, key_bits);
     } else {
-        by_buckets(entries, key_bits, parts);
+        let mut sorted = parallel::filled(0, entries.len());
+        by_buckets(entries, &mut sorted, key_bits, parts);
+        *entries = sorted;
     }
+}
+
+/// Into how many parts threads cut entries to scatter them.
+fn parts(entries: &[u64]) -> usize {
+    parallel::parts(entries.len()).min(2 * parallel::threads())
 }
 
 /// Least significant digits first, on one thread.
@@ -63,9 +111,9 @@ pub(super) fn by_digits(entries: &mut [u64], key_bits: u32) {
     }
 }
 
-/// Most significant digit first, in parallel.
-fn by_buckets(entries: &mut Vec<u64>, key_bits: u32, parts: usize) {
-    let digit = |entry: u64| (entry >> (32 + key_bits - BUCKET_BITS)) as usize;
+/// Most significant digit first, in parallel, into memory of the same length.
+fn by_buckets(entries: &[u64], sorted: &mut [u64], key_bits: u32, parts: usize) {
+    let digit = |entry: u64| (entry >> (32 + key_bits - BUCKET_BITS)) as usize % (1 << BUCKET_BITS);
     let chunks: Vec<&[u64]> = entries.chunks(entries.len().div_ceil(parts)).collect();
     let counts = parallel::map(chunks.clone(), |chunk| {
         let mut counts = [0_usize; 1 << BUCKET_BITS];
@@ -83,9 +131,8 @@ fn by_buckets(entries: &mut Vec<u64>, key_bits: u32, parts: usize) {
         }
         buckets.push(total);
     }
-    let mut sorted = parallel::filled(0, entries.len());
     let mut places: Vec<Vec<&mut [u64]>> = chunks.iter().map(|_| Vec::new()).collect();
-    for (k, place) in parallel::split_at(&mut sorted, &ends).into_iter().enumerate() {
+    for (k, place) in parallel::split_at(sorted, &ends).into_iter().enumerate() {
         places[k % chunks.len()].push(place);
     }
     let tasks = chunks.into_iter().zip(places).collect();
@@ -97,15 +144,20 @@ fn by_buckets(entries: &mut Vec<u64>, key_bits: u32, parts: usize) {
             filled[bucket] += 1;
         }
     });
-    parallel::map(parallel::split_at(&mut sorted, &buckets), |bucket| {
-        by_digits(bucket, key_bits - BUCKET_BITS);
+    parallel::map(parallel::split_at(sorted, &buckets), |bucket| {
+        let (rest, parts) = (key_bits - BUCKET_BITS, self::parts(bucket));
+        // Where data are dense, a bucket may have most of them.
+        if parts == 1 || bucket.len() <= entries.len() / 8 || rest <= BUCKET_BITS {
+            by_digits(bucket, rest);
+        } else {
+            by_buckets(&bucket.to_vec(), bucket, rest, parts);
+        }
     });
-    *entries = sorted;
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{by_buckets, by_digits};
+    use super::{around, by_buckets, by_digits, crowded_key, sort};
 
     #[test]
     fn both_ways_sort_stably() {
@@ -120,12 +172,32 @@ mod tests {
         let mut expected = entries.clone();
         expected.sort_unstable();
         for parts in [1, 2, 5] {
-            let mut sorted = entries.clone();
-            by_buckets(&mut sorted, 20, parts);
+            let mut sorted = vec![0; entries.len()];
+            by_buckets(&entries, &mut sorted, 20, parts);
             assert!(sorted == expected, "{parts} parts");
         }
         let mut sorted = entries;
         by_digits(&mut sorted, 20);
         assert!(sorted == expected);
+    }
+
+    #[test]
+    fn a_crowd_is_left_where_it_is() {
+        for crowd in [0_u64, 5, 1023] {
+            let key = |i: u64| if i % 10 == 3 { i * 37 % 1024 } else { crowd };
+            let entries: Vec<u64> = (0..5000).map(|i| key(i) << 32 | i).collect();
+            assert_eq!(crowded_key(&entries), Some(crowd));
+            let mut expected = entries.clone();
+            expected.sort_unstable();
+            let mut sorted = entries.clone();
+            sort(&mut sorted, 10);
+            assert!(sorted == expected, "{crowd}");
+            // Of any key, had by many, few or none.
+            for key in [0, 1, 5, 700, 1024] {
+                let mut sorted = entries.clone();
+                around(&mut sorted, key, 10);
+                assert!(sorted == expected, "{crowd} {key}");
+            }
+        }
     }
 }
