@@ -49,8 +49,17 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
 /// Pools of one and of two threads; everybody else works on one.
 pub static POOLS: [LazyLock<ThreadPool>; 2] = [LazyLock::new(|| pool(1)), LazyLock::new(|| pool(2))];
 
+/// Each of several threads stays on a core of its own, if there are enough. A guest of a virtual machine wakes threads on the
+/// core that wakes them, because an idle one seems to be taken, and they share it for milliseconds: half of a short run.
 fn pool(threads: usize) -> ThreadPool {
-    ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
+    let cores = core_affinity::get_core_ids().unwrap_or_default();
+    let alone = threads > 1 && cores.len() >= threads;
+    let stay = move |thread: usize| {
+        if alone {
+            core_affinity::set_for_current(cores[thread]);
+        }
+    };
+    ThreadPoolBuilder::new().num_threads(threads).start_handler(stay).build().expect("threads")
 }
 
 fn delone(

@@ -150,7 +150,8 @@ fn by_buckets(entries: &[u64], sorted: &mut [u64], key_bits: u32, parts: usize) 
         if parts == 1 || bucket.len() <= entries.len() / 8 || rest <= BUCKET_BITS {
             by_digits(bucket, rest);
         } else {
-            by_buckets(&bucket.to_vec(), bucket, rest, parts);
+            let unsorted = bucket.to_vec();
+            by_buckets(&unsorted, bucket, rest, parts);
         }
     });
 }
