@@ -1,8 +1,8 @@
 //! Radix sort of 64-bit entries by the bits from 32 up, stably.
 //!
-//! On one thread least significant digits first. On several, most significant digit first: each thread scatters its part
-//! of the input into buckets, whose places are known from counts, and then buckets are sorted by the rest of the bits.
-//! Where nearly all keys are equal, only the others are sorted.
+//! What a cache holds is sorted least significant digits first. More, or on several threads, most significant digit first:
+//! each thread scatters its part of the input into buckets, whose places are known from counts, and then buckets are
+//! sorted by the rest of the bits. Where nearly all keys are equal, only the others are sorted.
 //!
 //! Cost: O(n) passes.
 
@@ -10,6 +10,8 @@ use crate::parallel;
 
 /// Below this length a comparison sort is faster; indices ascend, so it is stable too.
 const SHORT: usize = 512;
+/// More entries are not in a fast cache, and are put into buckets first.
+const CACHED: usize = 1 << 18;
 /// Bits of the digit that buckets are made by.
 const BUCKET_BITS: u32 = 8;
 /// The most bits of a digit: as many places must stay in a fast cache.
@@ -62,22 +64,22 @@ fn around(entries: &mut Vec<u64>, key: u64, key_bits: u32) {
 }
 
 fn by_any_digits(entries: &mut Vec<u64>, key_bits: u32) {
-    let parts = parts(entries);
-    if parts == 1 || key_bits <= BUCKET_BITS {
-        by_digits(entries, key_bits);
-    } else {
+    let parts = parts(entries.len());
+    if key_bits > BUCKET_BITS && (parts > 1 || entries.len() > CACHED) {
         let mut sorted = parallel::filled(0, entries.len());
         by_buckets(entries, &mut sorted, key_bits, parts);
         *entries = sorted;
+    } else {
+        by_digits(entries, key_bits);
     }
 }
 
 /// Into how many parts threads cut entries to scatter them.
-fn parts(entries: &[u64]) -> usize {
-    parallel::parts(entries.len()).min(2 * parallel::threads())
+fn parts(entries: usize) -> usize {
+    parallel::parts(entries).min(2 * parallel::threads())
 }
 
-/// Least significant digits first, on one thread.
+/// Least significant digits first.
 pub(super) fn by_digits(entries: &mut [u64], key_bits: u32) {
     if entries.len() < SHORT {
         entries.sort_unstable();
@@ -111,7 +113,7 @@ pub(super) fn by_digits(entries: &mut [u64], key_bits: u32) {
     }
 }
 
-/// Most significant digit first, in parallel, into memory of the same length.
+/// Most significant digit first, into memory of the same length.
 fn by_buckets(entries: &[u64], sorted: &mut [u64], key_bits: u32, parts: usize) {
     let digit = |entry: u64| (entry >> (32 + key_bits - BUCKET_BITS)) as usize % (1 << BUCKET_BITS);
     let chunks: Vec<&[u64]> = entries.chunks(entries.len().div_ceil(parts)).collect();
@@ -145,13 +147,13 @@ fn by_buckets(entries: &[u64], sorted: &mut [u64], key_bits: u32, parts: usize) 
         }
     });
     parallel::map(parallel::split_at(sorted, &buckets), |bucket| {
-        let (rest, parts) = (key_bits - BUCKET_BITS, self::parts(bucket));
+        let rest = key_bits - BUCKET_BITS;
         // Where data are dense, a bucket may have most of them.
-        if parts == 1 || bucket.len() <= entries.len() / 8 || rest <= BUCKET_BITS {
-            by_digits(bucket, rest);
-        } else {
+        if rest > BUCKET_BITS && bucket.len() > CACHED {
             let unsorted = bucket.to_vec();
             by_buckets(&unsorted, bucket, rest, parts);
+        } else {
+            by_digits(bucket, rest);
         }
     });
 }
