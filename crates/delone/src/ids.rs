@@ -6,6 +6,8 @@
 
 use std::fmt;
 
+use bytemuck::Zeroable;
+
 /// The largest number of points of one triangulation: 2^29 = 536,870,912.
 pub const MAX_POINTS: usize = 1 << 29;
 
@@ -99,7 +101,7 @@ impl Inserted {
 
 /// Where a vertex is kept: the index of its coordinates and of its star inside a mesh. It equals the vertex's
 /// index until a triangulation is changed; then it follows the memory, and the [`VertexId`] stays.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Zeroable)]
 pub(crate) struct Place(u32);
 
 impl Place {
@@ -136,7 +138,7 @@ impl fmt::Debug for Place {
 }
 
 /// A triangle, finite or ghost.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Zeroable)]
 pub struct TriangleId(u32);
 
 impl TriangleId {
@@ -167,7 +169,7 @@ impl fmt::Debug for TriangleId {
 }
 
 /// A directed edge of a triangle (a half-edge), the triangle on its left.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Zeroable)]
 pub struct EdgeId(u32);
 
 impl EdgeId {

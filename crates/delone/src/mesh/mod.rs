@@ -41,6 +41,8 @@ pub(crate) use layout::with_spare;
 pub(crate) use names::Names;
 pub(crate) use slots::Slots;
 
+use bytemuck::Zeroable;
+
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::memory::make_room;
 
@@ -60,7 +62,7 @@ pub enum Dimension {
 }
 
 /// A directed edge: where it starts, and the same edge the other way round.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Zeroable)]
 pub(crate) struct HalfEdge {
     pub(crate) origin: Place,
     pub(crate) twin: EdgeId,

@@ -14,8 +14,11 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use bytemuck::Zeroable;
+
 use super::quantize::{Quantizer, bounds};
 use super::radix;
+use crate::memory::zeroed;
 use crate::parallel;
 
 /// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
@@ -73,7 +76,7 @@ impl KeyBox {
 }
 
 /// The cut between two neighbours: larger is deeper. [`Cut::OUTSIDE`] is shallower than all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
 pub(crate) struct Cut(u8);
 
 impl Cut {
@@ -112,9 +115,9 @@ impl Cut {
 pub(crate) fn sort(points: &[[f64; 2]]) -> Sorted {
     let n = points.len();
     let mut sorted = Sorted {
-        points: parallel::filled([0.0; 2], n),
-        indices: parallel::filled(0, n),
-        cuts: parallel::filled(Cut::OUTSIDE, n),
+        points: zeroed(n),
+        indices: zeroed(n),
+        cuts: zeroed(n),
         boxes: Vec::new(),
         duplicates: Vec::new(),
     };

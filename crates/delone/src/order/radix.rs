@@ -6,6 +6,7 @@
 //!
 //! Cost: O(n) passes.
 
+use crate::memory::zeroed;
 use crate::parallel;
 
 /// Below this length a comparison sort is faster; indices ascend, so it is stable too.
@@ -66,7 +67,7 @@ fn around(entries: &mut Vec<u64>, key: u64, key_bits: u32) {
 fn by_any_digits(entries: &mut Vec<u64>, key_bits: u32) {
     let parts = parts(entries.len());
     if key_bits > BUCKET_BITS && (parts > 1 || entries.len() > CACHED) {
-        let mut sorted = parallel::filled(0, entries.len());
+        let mut sorted = zeroed(entries.len());
         by_buckets(entries, &mut sorted, key_bits, parts);
         *entries = sorted;
     } else {

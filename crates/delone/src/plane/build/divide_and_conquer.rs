@@ -30,6 +30,7 @@ use super::builder::Builder;
 use super::leaf::Leaf;
 use super::merge::Part;
 use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
+use crate::memory::zeroed;
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
 use crate::parallel;
@@ -94,8 +95,8 @@ fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
 
 fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {
     let n = ordered.len();
-    let mut edges = parallel::filled(HalfEdge::UNUSED, 8 * n.saturating_sub(1));
-    let mut leaving = parallel::filled(TriangleId::new(0), n);
+    let mut edges: Vec<HalfEdge> = zeroed(8 * n.saturating_sub(1));
+    let mut leaving: Vec<TriangleId> = zeroed(n);
     let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
     if n > 0 {
         let finest = |b: &KeyBox| {
@@ -165,6 +166,7 @@ fn number(
 ) -> EdgeId {
     let mut ghost_edge = EdgeId::NONE;
     for (t, records) in edges.chunks_exact_mut(4).enumerate() {
+        records[3] = HalfEdge::UNUSED;
         for (k, record) in records[..3].iter_mut().enumerate() {
             let e = TriangleId::new(first + t).edge(k);
             let position = record.origin;
@@ -223,7 +225,14 @@ impl Tree<'_> {
 
     /// Triangulates a run of points of a box that is a subtree. If it has more than `most`, both halves at its shallowest cut
     /// at once, in memory of their own.
-    fn halve(&self, index: usize, cells: &Cells, run: Range<usize>, most: usize, builder: &mut Builder) -> Part {
+    fn halve(
+        &self,
+        index: usize,
+        cells: &Cells,
+        run: Range<usize>,
+        most: usize,
+        builder: &mut Builder,
+    ) -> Part {
         let shallowest = if run.len() > most { self.shallowest_cut(index, &run) } else { None };
         let Some(middle) = shallowest else {
             // A run that is a box of its own may be as large as all of this one.
