@@ -116,6 +116,12 @@ impl Grid {
         (lowest <= 200 || largest == 0.0).then(|| Self { step: power_of_two(lowest.min(200)) })
     }
 
+    /// Whether all coordinates are on the lattice too.
+    pub fn holds_all(&self, coordinates: &[f64]) -> bool {
+        on_lattice(self.step, ROUNDING / 3.0 * self.step, coordinates)
+            || coordinates.iter().all(|&x| self.holds(x))
+    }
+
     /// Whether a coordinate is on the lattice too.
     pub fn holds(&self, x: f64) -> bool {
         let steps = x / self.step;
@@ -123,10 +129,12 @@ impl Grid {
     }
 }
 
+/// 3/2 2^52.
+const ROUNDING: f64 = 6_755_399_441_055_744.0;
+
 /// Whether coordinates surely are multiples of a step and no larger than a limit, which may be too large to tell. Several at
-/// once: adding and subtracting 3/2 2^52 steps rounds to whole steps, as both sums are between 2^52 and 2^53 steps.
+/// once: to add and subtract [`ROUNDING`] steps rounds to whole steps, because sums are between 2^52 and 2^53 steps.
 fn on_lattice(step: f64, limit: f64, coordinates: &[f64]) -> bool {
-    const ROUNDING: f64 = 6_755_399_441_055_744.0;
     let whole = |x: f64| (x + ROUNDING * step) - ROUNDING * step == x;
     limit <= ROUNDING / 3.0 * step
         && coordinates.iter().fold(true, |all, &x| all & (x.abs() <= limit) & whole(x))

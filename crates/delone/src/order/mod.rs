@@ -4,7 +4,7 @@ pub(crate) mod brio;
 pub(crate) mod curve;
 mod hilbert;
 pub(crate) mod morton;
-mod quantize;
+pub(crate) mod quantize;
 mod radix;
 pub(crate) mod random;
 

@@ -16,7 +16,7 @@ use std::ops::Range;
 
 use bytemuck::Zeroable;
 
-use super::quantize::{Quantizer, bounds};
+use super::quantize::{Bounds, Quantizer};
 use super::radix;
 use crate::memory::zeroed;
 use crate::parallel;
@@ -111,8 +111,8 @@ impl Cut {
     }
 }
 
-/// Sorts points, in parallel if they are many. All must be finite, and fewer than 2^32.
-pub(crate) fn sort(points: &[[f64; 2]]) -> Sorted {
+/// Sorts points within their bounds, in parallel if they are many. All must be finite, and fewer than 2^32.
+pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds) -> Sorted {
     let n = points.len();
     let mut sorted = Sorted {
         points: zeroed(n),
@@ -126,7 +126,7 @@ pub(crate) fn sort(points: &[[f64; 2]]) -> Sorted {
             boxes: Vec::with_capacity(1),
             ..Sorter::new(0, &mut sorted.points, &mut sorted.indices, &mut sorted.cuts)
         };
-        let depth = sorter.key_box(points, |i| i as u32, 0..n);
+        let depth = sorter.key_box(points, bounds, |i| i as u32, 0..n);
         sorter.runs(0..n, depth);
         let Sorter { boxes, removed, duplicates, .. } = sorter;
         (sorted.boxes, sorted.duplicates) = (boxes, duplicates);
@@ -168,21 +168,14 @@ impl<'a> Sorter<'a> {
     fn key_box(
         &mut self,
         points: &[[f64; 2]],
+        bounds: &Bounds,
         index_of: impl Fn(usize) -> u32 + Sync,
         to: Range<usize>,
     ) -> u32 {
         let n = points.len();
-        let parts = parallel::parts(n);
-        let (low, high) = if parts == 1 {
-            bounds(points)
-        } else {
-            let chunks = points.chunks(n.div_ceil(parts)).collect();
-            let corners = parallel::map(chunks, bounds).into_iter().flat_map(|(low, high)| [low, high]);
-            bounds(&corners.collect::<Vec<_>>())
-        };
         let bits = key_bits(n);
         let depth = 2 * bits;
-        let quantizer = Quantizer::new(low, high, bits);
+        let quantizer = Quantizer::new(bounds.low, bounds.high, bits);
         self.boxes.push(KeyBox { start: self.start + to.start, end: self.start + to.end, quantizer, depth });
         if bits == 0 {
             let mut run = [([0.0; 2], 0); FEW];
@@ -199,6 +192,7 @@ impl<'a> Sorter<'a> {
         };
         let mut entries = parallel::collect(n, |i| key(points[i]) << 32 | i as u64);
         radix::sort(&mut entries, depth);
+        let parts = parallel::parts(n);
         if parts == 1 {
             self.place(to, &entries, 0, points, &index_of, depth);
             return depth;
@@ -303,7 +297,7 @@ impl<'a> Sorter<'a> {
             run.clone().skip(1).for_each(|at| self.remove(at, run.start));
             return;
         }
-        let depth = self.key_box(&points, |i| indices[i], run.clone());
+        let depth = self.key_box(&points, &Bounds::of(&points), |i| indices[i], run.clone());
         drop((points, indices));
         self.runs(run, depth);
     }
@@ -385,8 +379,12 @@ fn spread(x: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cut, sort};
+    use super::{Bounds, Cut, Sorted};
     use delone_oracle::generate::Kind;
+
+    fn sort(points: &[[f64; 2]]) -> Sorted {
+        super::sort(points, &Bounds::of(points))
+    }
 
     #[test]
     fn sorts_every_point_once_and_keeps_the_first_of_equals() {

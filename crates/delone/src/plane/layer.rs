@@ -17,6 +17,7 @@ use crate::locate::{Ground, Level, Start, Surface, search};
 use crate::memory::{make_room, room_for};
 use crate::mesh::{Dimension, Mesh, Slots, with_spare};
 use crate::order::morton::{self, Sorted};
+use crate::order::quantize::Bounds;
 
 /// See the module.
 #[derive(Clone, Debug)]
@@ -115,8 +116,9 @@ impl Layer {
     fn sort(&mut self) -> Vec<Place> {
         let places: Vec<Place> = self.mesh.inhabited().collect();
         let points: Vec<[f64; 2]> = places.iter().map(|p| self.points[p.index()]).collect();
+        // Copied: what comes may use the memory.
         self.points = Vec::new();
-        let Sorted { points, indices, .. } = morton::sort(&points);
+        let Sorted { points, indices, .. } = morton::sort(&points, &Bounds::of(&points));
         self.points = room_for(with_spare(2 * points.len()));
         self.points.extend(points.iter().flat_map(|&p| [p, p]));
         indices.iter().map(|&i| places[i as usize]).collect()

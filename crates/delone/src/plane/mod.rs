@@ -126,9 +126,11 @@ impl Delaunay2 {
     /// The same for coordinates that can be kept, which saves a copy. Errors as [`Self::with_algorithm`].
     pub fn from_vec(points: Vec<[f64; 2]>, algorithm: Algorithm) -> Result<Self, Error> {
         check_count(points.len())?;
-        check_finite(points.iter().copied())?;
+        if algorithm != Algorithm::DivideAndConquer {
+            check_finite(points.iter().copied())?;
+        }
         Ok(Self::assemble(match algorithm {
-            Algorithm::DivideAndConquer => build::divide_and_conquer(points),
+            Algorithm::DivideAndConquer => build::divide_and_conquer(points)?,
             Algorithm::Incremental { seed } => build::incremental(points, seed),
             Algorithm::ConflictLists { seed } => build::conflict_lists(points, seed),
             Algorithm::Located { locate, seed } => return Self::located(&points, locate, seed),

@@ -101,6 +101,8 @@ fn what_comes_late_is_noticed() {
             let mut coordinates = integers.clone();
             coordinates[at] = late;
             assert_eq!(Grid::of(&coordinates).map(|g| g.step), step, "{late} at {at}");
+            let holds = Grid::of(&[1.0]).is_some_and(|grid| grid.holds_all(&coordinates));
+            assert_eq!(holds, step == Some(1.0), "{late} at {at}");
         }
     }
 }

@@ -33,6 +33,7 @@ use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
+use crate::order::quantize::Bounds;
 use crate::parallel;
 
 /// What was done, for those who measure.
@@ -49,10 +50,10 @@ pub struct Counters {
     pub removed: u64,
 }
 
-/// Triangulates points, all finite and at most [`crate::MAX_POINTS`]. Vertices are at the places of their
-/// indices.
-pub(super) fn triangulate(points: &[[f64; 2]]) -> (Mesh, Vec<Duplicate>, Counters) {
-    let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points);
+/// Triangulates points within their bounds, all finite and at most [`crate::MAX_POINTS`]. Vertices are at the places of
+/// their indices.
+pub(super) fn triangulate(points: &[[f64; 2]], bounds: &Bounds) -> (Mesh, Vec<Duplicate>, Counters) {
+    let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points, bounds);
     let (edges, counters) = build(&ordered, &cuts, &boxes);
     let n = ordered.len();
     drop((ordered, cuts));
@@ -74,7 +75,7 @@ pub(in crate::plane) struct InOrder {
 
 /// The same as `triangulate`, in the order of memory.
 pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
-    let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points);
+    let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points, &Bounds::of(points));
     let (edges, _) = build(&points, &cuts, &boxes);
     let n = points.len();
     let mut mesh = Mesh { edges, vertex_count: n, ..Mesh::empty(0) };
@@ -104,11 +105,24 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
             Filter::finest_step(width, height)
         };
         let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
-        let grid = Grid::coarser_than(finest, ordered.as_flattened());
+        let grid = grid_of(ordered.as_flattened(), finest);
         Tree { cuts, boxes, grid }.build(0, &mut builder);
     }
     let counters = builder.counters;
     (edges, counters)
+}
+
+/// The grid of coordinates if it is coarser than a step. In parallel: the grid of the first part is mostly that of all.
+fn grid_of(coordinates: &[f64], least: f64) -> Option<Grid> {
+    let parts = parallel::parts(coordinates.len() / 2);
+    if parts > 1 {
+        let mut parts = coordinates.chunks(coordinates.len().div_ceil(parts));
+        let first = Grid::coarser_than(least, parts.next()?)?;
+        if parallel::map(parts.collect(), |part| first.holds_all(part)).iter().all(|&holds| holds) {
+            return Some(first);
+        }
+    }
+    Grid::coarser_than(least, coordinates)
 }
 
 impl Mesh {

@@ -10,10 +10,12 @@ mod merge;
 pub use divide_and_conquer::Counters as DivideAndConquerCounters;
 pub(super) use divide_and_conquer::{InOrder, in_order};
 
+use crate::error::{Error, check_finite};
 use crate::ids::Duplicate;
 use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::Mesh;
+use crate::order::quantize::Bounds;
 
 /// How to build a triangulation. The result is the same set of triangles; only cost and numbering of the
 /// triangles differ.
@@ -69,9 +71,14 @@ pub(super) struct Built {
     pub(super) counters: Counters,
 }
 
-pub(super) fn divide_and_conquer(points: Vec<[f64; 2]>) -> Built {
-    let (mesh, duplicates, counters) = divide_and_conquer::triangulate(&points);
-    Built { points, mesh, duplicates, counters: Counters::DivideAndConquer(counters) }
+/// Looks for points that are not finite by itself, as it looks for the box around all.
+pub(super) fn divide_and_conquer(points: Vec<[f64; 2]>) -> Result<Built, Error> {
+    let bounds = Bounds::of(&points);
+    if !bounds.are_finite {
+        check_finite(points.iter().copied())?;
+    }
+    let (mesh, duplicates, counters) = divide_and_conquer::triangulate(&points, &bounds);
+    Ok(Built { points, mesh, duplicates, counters: Counters::DivideAndConquer(counters) })
 }
 
 pub(super) fn incremental(points: Vec<[f64; 2]>, seed: u64) -> Built {
