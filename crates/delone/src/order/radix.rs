@@ -64,6 +64,7 @@ fn around(entries: &mut Vec<u64>, key: u64, key_bits: u32) {
     entries[before.len() + crowd..].copy_from_slice(after);
 }
 
+/// Sorts by the digits that suit the number of entries and of threads.
 fn by_any_digits(entries: &mut Vec<u64>, key_bits: u32) {
     let parts = parts(entries.len());
     if key_bits > BUCKET_BITS && (parts > 1 || entries.len() > CACHED) {

@@ -6,6 +6,7 @@ mod divide_and_conquer;
 pub(super) mod incremental;
 mod leaf;
 mod merge;
+mod number;
 
 pub use divide_and_conquer::Counters as DivideAndConquerCounters;
 pub(super) use divide_and_conquer::{InOrder, in_order};
