@@ -90,15 +90,8 @@ pub(crate) fn finite<const D: usize>(q: [f64; D]) -> Result<[f64; D], Error> {
 }
 
 /// Whether all points are finite, or the first coordinate that is not.
-pub(crate) fn check_finite<const D: usize>(
-    points: impl IntoIterator<Item = [f64; D], IntoIter: Clone>,
-) -> Result<(), Error> {
-    let points = points.into_iter();
-    // Without a way out, so that several are looked at together.
-    if !points.clone().fold(false, |any, p| p.iter().fold(any, |any, x| any | !x.is_finite())) {
-        return Ok(());
-    }
-    for (index, p) in points.enumerate() {
+pub(crate) fn check_finite<const D: usize>(points: impl IntoIterator<Item = [f64; D]>) -> Result<(), Error> {
+    for (index, p) in points.into_iter().enumerate() {
         if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
             return Err(Error::NotFinite { index, axis, value: p[axis] });
         }

@@ -33,6 +33,23 @@ fn threads_never_show() {
     }
 }
 
+/// A crowd, and points at every power of two around it: thousands of cuts, one below the other, with all but a point on one
+/// side.
+#[test]
+fn deep_trees_fit_on_the_stack() {
+    let mut points = Kind::Uniform.points(100_000, 1);
+    points.iter_mut().flatten().for_each(|x| *x *= 2f64.powi(-1000));
+    for far in (-1000..1000).map(|e| 2f64.powi(e)) {
+        points.extend([[1.1 * far, 0.3 * far], [0.2 * far, 1.7 * far]]);
+    }
+    let on = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| bits(&Delaunay2::from_points(&points).expect("finite")))
+    };
+    let one = on(1);
+    assert!(on(2) == one && on(4) == one);
+}
+
 #[test]
 fn many_threads_give_the_canonical_triangulation() {
     let pool = ThreadPoolBuilder::new().num_threads(4).build().expect("threads");

@@ -104,7 +104,7 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
         };
         let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
         let grid = grid_of(ordered.as_flattened(), finest);
-        Tree { cuts, boxes, grid }.build(0, &mut builder);
+        Tree { cuts, boxes, grid }.build(0, LEVELS, &mut builder);
     }
     let counters = builder.counters;
     (edges, counters)
@@ -131,6 +131,17 @@ struct Tree<'a> {
     grid: Option<Grid>,
 }
 
+/// Halves of halves are on the stack, and far points can make thousands of them: deeper than this, one thread goes on.
+const LEVELS: u32 = 128;
+
+/// What threads share of a box.
+struct Work<'a> {
+    index: usize,
+    cells: &'a Cells<'a>,
+    /// A run of so many points is not worth another thread.
+    most: usize,
+}
+
 /// A box, and the static filters of its depths.
 struct Cells<'a> {
     key_box: KeyBox,
@@ -143,7 +154,7 @@ type Waiting = Vec<(Part, Cut)>;
 impl Tree<'_> {
     /// Triangulates the points of a box, in parallel if they are many: the tree is divided at its shallowest cuts into runs
     /// that are not too large, which tasks build in memory of their own.
-    fn build(&self, index: usize, builder: &mut Builder) -> Part {
+    fn build(&self, index: usize, levels: u32, builder: &mut Builder) -> Part {
         let key_box = self.boxes[index];
         let cell_filter = |depth| {
             let [width, height] = key_box.cell(depth);
@@ -162,31 +173,27 @@ impl Tree<'_> {
         let all = key_box.start..key_box.end;
         // Threads divide the memory of a builder, which may have more than this box.
         let parts = if builder.positions() == all { parallel::parts(all.len()) } else { 1 };
-        self.halve(index, &cells, all.clone(), all.len().div_ceil(parts), builder)
+        let most = all.len().div_ceil(parts);
+        self.halve(&Work { index, cells: &cells, most }, all, levels, builder)
     }
 
-    /// Triangulates a run of points of a box that is a subtree. If it has more than `most`, both halves at its shallowest cut
-    /// at once, in memory of their own.
-    fn halve(
-        &self,
-        index: usize,
-        cells: &Cells,
-        run: Range<usize>,
-        most: usize,
-        builder: &mut Builder,
-    ) -> Part {
-        let shallowest = if run.len() > most { self.shallowest_cut(index, &run) } else { None };
+    /// Triangulates a run of points of a box that is a subtree. If it has too many, both halves at its shallowest cut at once,
+    /// in memory of their own.
+    fn halve(&self, work: &Work, run: Range<usize>, levels: u32, builder: &mut Builder) -> Part {
+        let &Work { index, cells, most } = work;
+        let is_large = run.len() > most && levels > 0;
+        let shallowest = if is_large { self.shallowest_cut(index, &run) } else { None };
         let Some(middle) = shallowest else {
             // A run that is a box of its own may be as large as all of this one.
             return match self.box_of(index, &run) {
-                Some(nested) => self.build(nested, builder),
+                Some(nested) => self.build(nested, levels, builder),
                 None => self.run(index, cells, run, builder),
             };
         };
         let [mut left, mut right] = builder.split(middle);
         let (a, b) = parallel::join(
-            || self.halve(index, cells, run.start..middle, most, &mut left),
-            || self.halve(index, cells, middle..run.end, most, &mut right),
+            || self.halve(work, run.start..middle, levels - 1, &mut left),
+            || self.halve(work, middle..run.end, levels - 1, &mut right),
         );
         let counters = [left.counters, right.counters];
         counters.iter().for_each(|of_half| builder.counters.add(of_half));
@@ -232,7 +239,7 @@ impl Tree<'_> {
             let nested = self.boxes.get(next_box).filter(|b| b.start < run.end);
             let limit = nested.map_or(run.end, |b| b.start);
             let part = if at == limit {
-                let part = self.build(next_box, builder);
+                let part = self.build(next_box, 0, builder);
                 next_box = self.first_nested(next_box, part.end);
                 part
             } else {
