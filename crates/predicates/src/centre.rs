@@ -7,6 +7,9 @@ use crate::{Point2, Sign, exact};
 const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 /// Below this magnitude an underflow could be as large as the error bound.
 const SMALLEST: f64 = 1e-280;
+/// What an underflow in a product with `w` is multiplied by may be so many times the size of the terms: the product is
+/// off by at most 2^-1075, and 2^-1000 leaves it below 2^-20 of the error bound.
+const LOST: f64 = f64::from_bits((1023 - 1000) << 52);
 
 /// On which side of the line from `o` through the circumcentre of `o`, `a`, `b` the point `p` is: positive on its
 /// left. For `o`, `a`, `b` counter-clockwise. Zero if `p` is on the line, or the centre is `o`.
@@ -53,7 +56,9 @@ fn side(u: Point2, v: Point2, w: Point2) -> Option<Sign> {
     let ([ux, uy], [vx, vy]) = ([u[0] * w[0], u[1] * w[1]], [v[0] * w[0], v[1] * w[1]]);
     let value = uu * (vx + vy) - vv * (ux + uy);
     let size = uu * (vx.abs() + vy.abs()) + vv * (ux.abs() + uy.abs());
-    // Every product on the way must be normal, too.
-    let in_range = uu.min(vv) >= SMALLEST && size >= SMALLEST && size.is_finite();
+    // No product on the way may lose by underflow what counts. A sum of products loses nothing that counts if it is
+    // normal itself; a product with w is multiplied by a length that may be huge.
+    let kept = size >= SMALLEST && size >= LOST * (uu + vv);
+    let in_range = uu.min(vv) >= SMALLEST && kept && size.is_finite();
     (value.abs() > ERROR * size && in_range).then(|| Sign::of(&value, &0.0))
 }

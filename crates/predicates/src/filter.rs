@@ -122,10 +122,11 @@ impl Grid {
             || coordinates.iter().all(|&x| self.holds(x))
     }
 
-    /// Whether a coordinate is on the lattice too.
+    /// Whether a coordinate is on the lattice too, and not beyond 2^53 steps.
     pub fn holds(&self, x: f64) -> bool {
+        // What is smaller than a step is no multiple of it, but its number of steps may be rounded to zero.
         let steps = x / self.step;
-        steps.abs() <= 9_007_199_254_740_992.0 && steps.fract() == 0.0
+        x == 0.0 || (x.abs() >= self.step && steps.abs() <= 9_007_199_254_740_992.0 && steps.fract() == 0.0)
     }
 }
 

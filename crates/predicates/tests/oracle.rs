@@ -61,6 +61,15 @@ const FAMILIES: &[(&str, Family)] = &[
             if r.below(4) == 0 { nudged(r, [x, x]) } else { [x, x] }
         })
     }),
+    ("lengths that differ, products that underflow", |r| {
+        // A short vector, one at right angles to it, a long one, and any of them from anywhere in between.
+        let magnitude = |r: &mut Random| 2f64.powi(r.below(1400) as i32 - 1070) * r.between(0.5, 1.0);
+        let (p, q) = ([magnitude(r), magnitude(r)], magnitude(r));
+        let across = [-p[1] * q, p[0] * q];
+        let far = magnitude(r);
+        let odd = |r: &mut Random| [far * (r.unit() - 0.5), far * (r.unit() - 0.5)];
+        [[0.0, 0.0], p, odd(r), if r.below(2) == 0 { across } else { [magnitude(r), -magnitude(r)] }]
+    }),
     ("cm at a UTM offset", |r| {
         four(|| [500_000.0 + r.below(300) as f64 / 100.0, 5_400_000.0 + r.below(300) as f64 / 100.0])
     }),
@@ -240,6 +249,13 @@ fn sides_of_circumcentres_are_exact() {
         zero += usize::from(expected == 0);
     });
     assert!(zero > 1000, "only {zero} ties were met");
+}
+
+#[test]
+fn a_lost_product_decides_no_side() {
+    let (o, a, b) = ([0.0, 0.0], [1e18, -1e18 - 1e14], [1e9 + 0.3, -(1e9 + 0.4)]);
+    let p = [5e-324, 5e-324];
+    assert_eq!(centre_side(o, a, b, p), sign(exact::centre_side(o, a, b, p)));
 }
 
 #[test]

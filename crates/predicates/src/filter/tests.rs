@@ -107,6 +107,44 @@ fn what_comes_late_is_noticed() {
     }
 }
 
+/// All exponents with all kinds of mantissas, against the definition: a number is m 2^e with m odd, and on a lattice of
+/// step 2^s up to 2^53 steps if e >= s and |x| <= 2^(s + 53).
+#[test]
+fn a_grid_holds_its_own_points_and_no_others() {
+    let mantissas =
+        (0..=52).map(|k| 1_u64 << k >> 1).flat_map(|bit| [bit, bit | 1 << 51, bit | 1, !0 << 12 >> 12]);
+    let mantissas: Vec<u64> = mantissas.collect();
+    let all = (0..0x7ff_u64).flat_map(|e| mantissas.iter().map(move |m| f64::from_bits(e << 52 | m)));
+    let odd_exponent = |x: f64| {
+        let (biased, fraction) = ((x.to_bits() >> 52) as i32, x.to_bits() & ((1 << 52) - 1));
+        let mantissa = if biased == 0 { fraction } else { fraction | 1 << 52 };
+        biased.max(1) - 1075 + mantissa.trailing_zeros() as i32
+    };
+    let steps: Vec<i32> = (-200..=200).step_by(25).chain([-199, -1, 1, 199]).collect();
+    for x in all {
+        for &s in &steps {
+            let grid = Grid { step: super::power_of_two(s) };
+            let on = x == 0.0 || (odd_exponent(x) >= s && x <= super::power_of_two(s + 53));
+            for x in [x, -x] {
+                assert_eq!(grid.holds(x), on, "{x:e} on 2^{s}");
+                assert_eq!(grid.holds_all(&[x, 0.0, grid.step]), on, "{x:e} on 2^{s}");
+            }
+            // The lattice of the number itself and the step.
+            let exponent = odd_exponent(x).min(s);
+            let fits = exponent >= -200 && x.max(grid.step) <= super::power_of_two(exponent.max(-200) + 53);
+            let expected = if x == 0.0 { Some(s) } else { fits.then_some(exponent) };
+            assert_eq!(
+                Grid::of(&[x, grid.step]).map(|g| g.step),
+                expected.map(super::power_of_two),
+                "{x:e} 2^{s}"
+            );
+        }
+    }
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(!Grid { step: 1.0 }.holds(x) && !Grid { step: 1.0 }.holds_all(&[x]));
+    }
+}
+
 #[test]
 fn small_boxes_of_a_grid_are_exact() {
     let grid = Grid::of(&[1.0, 2.0]);
