@@ -26,11 +26,11 @@ impl VertexId {
     /// The vertex at infinity, which closes the surface: every hull edge has a ghost triangle with it.
     pub const GHOST: Self = Self(u32::MAX);
 
-    /// The vertex of the point with this index.
+    /// The vertex of the point with this index. From [`MAX_POINTS`] on there is no such point: the id is that of no vertex of
+    /// any triangulation.
     #[inline]
     pub fn new(index: usize) -> Self {
-        debug_assert!(index < MAX_POINTS, "vertex index {index} is out of range");
-        Self(index as u32)
+        Self(if index < MAX_POINTS { index as u32 } else { u32::MAX - 1 })
     }
 
     /// The place of this index, as long as places are indices.
@@ -189,7 +189,7 @@ impl EdgeId {
 
     #[inline]
     pub(crate) fn new(index: usize) -> Self {
-        debug_assert!(index < 8 * MAX_POINTS, "edge index {index} is out of range");
+        debug_assert!(index < Self::NONE.index(), "edge index {index} is out of range");
         Self(index as u32)
     }
 

@@ -25,10 +25,14 @@ use crate::error::Error;
 use crate::ids::Place;
 use crate::order::random::SplitMix;
 
+/// Levels that shrink less would be without number.
+const SMALLEST_RATIO: f64 = 1.25;
+
 /// Parameters of the hierarchy: those of §5.4 of the paper, with its defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hierarchy {
-    /// How many times smaller each level is than the one below; more than 1.
+    /// How many times smaller each level is than the one below; at least 1.25, so that all levels together have at most
+    /// five times the vertices.
     pub ratio: f64,
     /// The largest number of levels, the triangulation itself included; unlimited if `None`.
     pub levels: Option<usize>,
@@ -76,11 +80,11 @@ impl Hierarchy {
     }
 
     pub(super) fn validate(&self) -> Result<(), Error> {
-        if !(self.ratio > 1.0 && self.ratio.is_finite()) {
+        if !(self.ratio >= SMALLEST_RATIO && self.ratio.is_finite()) {
             return Err(Error::Parameter {
                 name: "ratio",
                 value: self.ratio,
-                range: "larger than 1 and finite",
+                range: "at least 1.25 and finite",
             });
         }
         if self.levels == Some(0) {

@@ -239,13 +239,24 @@ impl Delaunay2 {
         [self.mesh().origin(e), self.mesh().destination(e)].map(|v| self.point(v))
     }
 
-    /// The area of a finite triangle, zero for a ghost; positive up to rounding. In coordinate units squared.
+    /// The area of a finite triangle, zero for a ghost; positive up to rounding, infinite if it is too large for an `f64`,
+    /// and never NaN. In coordinate units squared.
     pub fn area(&self, t: TriangleId) -> f64 {
         if self.mesh().is_ghost(t) {
             return 0.0;
         }
-        let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
-        ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0
+        let corners = self.mesh().corners(t).map(|v| self.point(v));
+        let twice = |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let area = twice(corners) / 2.0;
+        if area.is_finite() {
+            return area;
+        }
+        // Products that overflow may cancel: large coordinates are made small, axis by axis, and the area large again.
+        let scale = [0, 1].map(|axis| {
+            let is_large = corners.iter().any(|p| p[axis].abs() > 2f64.powi(500));
+            if is_large { 2f64.powi(-520) } else { 1.0 }
+        });
+        twice(corners.map(|p| [p[0] * scale[0], p[1] * scale[1]])) / 2.0 / scale[0] / scale[1]
     }
 
     /// The centre of the circle through the corners of a finite triangle, rounded (see

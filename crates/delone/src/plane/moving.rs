@@ -21,6 +21,7 @@ use super::{Delaunay2, Position2, check};
 use crate::error::{Error, check_finite};
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::locate::tally::Tally;
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh;
 
@@ -113,6 +114,19 @@ impl Moving2 {
     /// [`Error::Length`] if there are more or fewer positions than points; [`Error::NotFinite`] names the first NaN or
     /// infinite coordinate. Nothing has changed then.
     pub fn step<P: Position2>(&mut self, positions: &[P]) -> Result<Step, Error> {
+        self.step_counted(positions, &mut ())
+    }
+
+    /// The same, and counts: as visited the triangles that are looked at beyond one pass over all, and as created and
+    /// destroyed those of the vertices that are removed and inserted again.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    pub fn step_counted<P: Position2, T: Tally>(
+        &mut self,
+        positions: &[P],
+        tally: &mut T,
+    ) -> Result<Step, Error> {
         let expected = self.current.points().len();
         if positions.len() != expected {
             return Err(Error::Length { expected, found: positions.len() });
@@ -124,7 +138,7 @@ impl Moving2 {
             self.spare = given;
             return Err(error);
         }
-        if let Some(step) = self.repair(&given) {
+        if let Some(step) = self.repair(&given, tally) {
             self.spare = self.current.named.replace(given).unwrap_or_default();
             self.current.locator.take();
             return Ok(step);
@@ -134,13 +148,13 @@ impl Moving2 {
     }
 
     /// Repairs the triangulation, or says that it cannot.
-    fn repair(&mut self, positions: &[[f64; 2]]) -> Option<Step> {
+    fn repair<T: Tally>(&mut self, positions: &[[f64; 2]], tally: &mut T) -> Option<Step> {
         self.removed.clear();
         if !self.current.base.spanned || !self.current.duplicates.is_empty() {
             return None;
         }
         let filter = self.set_goals(positions);
-        self.untangle(&filter)?;
+        self.untangle(&filter, tally)?;
 
         let layer = &mut self.current.base;
         std::mem::swap(&mut layer.points, &mut self.goals);
@@ -152,11 +166,11 @@ impl Moving2 {
             let near = layer.mesh.place(near);
             let start =
                 near.map_or(Start::Anywhere, |p| Start::At(layer.mesh.incident[p.index()], Walk::Visibility));
-            match layer.spot(start, q, &mut ()).0 {
+            match layer.spot(start, q, tally).0 {
                 // Two points in one place: a duplicate has no place of its own.
                 Spot::Vertex(_) => return None,
                 spot => {
-                    let place = layer.insert(spot, q, &mut ()).ok()?;
+                    let place = layer.insert(spot, q, tally).ok()?;
                     layer.mesh.names().bind(v, place);
                 }
             }
@@ -184,7 +198,7 @@ impl Moving2 {
     }
 
     /// Removes vertices until no triangle turns over on the way to the goals. None if they are too many.
-    fn untangle(&mut self, filter: &Filter) -> Option<()> {
+    fn untangle<T: Tally>(&mut self, filter: &Filter, tally: &mut T) -> Option<()> {
         let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, planned, removed, .. } =
             self;
         let most = layer.mesh.vertex_count / REMOVED + 8;
@@ -228,22 +242,20 @@ impl Moving2 {
                 (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2)
             };
             let v = layer.mesh.places(t).into_iter().reduce(|p, q| if way(q) > way(p) { q } else { p })?;
-            let around: Vec<Place> =
-                layer.mesh.spokes(v).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost()).collect();
+            // The nearest neighbour: a hub that all others are joined to is a bad start.
+            let near = nearest_neighbor(layer, v)?;
             let name = layer.mesh.name(v);
-            removed.push((name, layer.mesh.name(around[0])));
+            removed.push((name, layer.mesh.name(near)));
             layer.mesh.names().release(name);
-            layer.remove(v, &mut ());
+            layer.remove(v, tally);
             if removed.len() > most || !layer.spanned {
                 return None;
             }
-            for w in around {
-                for e in layer.mesh.spokes(w) {
-                    if turns_over(&layer.mesh, e.triangle()) {
-                        doubtful.push(e.triangle());
-                    }
-                }
-            }
+            // Those that are new, and those that have lost the other triangle of their plan.
+            let (filling, border) = layer.hole.last();
+            let beside = border.iter().map(|(_, outside)| outside.triangle());
+            (0..filling.len() + border.len()).for_each(|_| tally.visited());
+            doubtful.extend(filling.iter().copied().chain(beside).filter(|&t| turns_over(&layer.mesh, t)));
         }
         for plan in &*plans {
             if plan.is_good(&layer.mesh) {
@@ -255,6 +267,17 @@ impl Moving2 {
         let good = |&t: &TriangleId| !layer.mesh.is_triangle(t) || !turns_over(&layer.mesh, t);
         plans.iter().flat_map(|plan| plan.triangles()).all(|t| good(&t)).then_some(())
     }
+}
+
+/// The neighbour of a vertex that is nearest to it, as far as rounding tells.
+fn nearest_neighbor(layer: &Layer, v: Place) -> Option<Place> {
+    let from = layer.points[v.index()];
+    let distance = |w: Place| {
+        let to = layer.points[w.index()];
+        (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2)
+    };
+    let around = layer.mesh.spokes(v).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
+    around.min_by(|&w, &x| distance(w).total_cmp(&distance(x)))
 }
 
 impl Plan {

@@ -30,6 +30,8 @@ pub(super) struct Hole {
     /// The points where they start; that of the ghost means nothing.
     points: Vec<[f64; 2]>,
     triangles: Vec<TriangleId>,
+    /// How many of these, the first ones, are not used yet.
+    unused: usize,
     spokes: Vec<EdgeId>,
     /// Parts of the hole still to be filled: first and last vertex of a run of the border, and the edge that
     /// closes it, seen from outside.
@@ -58,6 +60,7 @@ impl Layer {
         tally.destroyed(degree);
         if let Some(chain) = self.line_without(&hole) {
             tally.created(2 * chain.len() - 2);
+            hole.triangles.clear();
             for place in self.mesh.inhabited().collect::<Vec<_>>() {
                 self.mesh.incident[place.index()] = EdgeId::NONE;
             }
@@ -77,7 +80,7 @@ impl Layer {
             } else {
                 hole.fill_large(&mut self.mesh, &self.points);
             }
-            hole.triangles.drain(..).for_each(|t| self.mesh.free_triangle(t));
+            hole.triangles.drain(..hole.unused).for_each(|t| self.mesh.free_triangle(t));
             self.mesh.vertex_count -= 1;
         }
         self.hole = hole;
@@ -97,6 +100,18 @@ impl Layer {
 }
 
 impl Hole {
+    /// What the last removal from the plane did: the triangles that fill the hole, and for each edge of its border where it
+    /// starts, and its twin outside.
+    pub(super) fn last(&self) -> (&[TriangleId], &[(Place, EdgeId)]) {
+        (&self.triangles, &self.border)
+    }
+
+    /// A triangle of the star that was, to be used again.
+    fn take(&mut self) -> Option<TriangleId> {
+        self.unused = self.unused.checked_sub(1)?;
+        Some(self.triangles[self.unused])
+    }
+
     /// Collects the star of a vertex, in both directions at once: the next triangle on one side is fetched from
     /// memory while that on the other is waited for.
     fn dig(&mut self, mesh: &Mesh, v: Place) {
@@ -123,6 +138,7 @@ impl Hole {
             self.border.push((mesh.tail(side), mesh.twin(side)));
             self.triangles.push(spoke.triangle());
         }
+        self.unused = self.triangles.len();
     }
 
     /// Fills the hole side by side. The apex of a side is the vertex whose circle with it contains no other: a
@@ -137,7 +153,7 @@ impl Hole {
                 continue;
             }
             let k = self.apex(first, last, tally);
-            let t = self.triangles.pop().expect("a hole of degree d takes d - 2 triangles");
+            let t = self.take().expect("a hole of degree d takes d - 2 triangles");
             let [a, b, c] = [last, first, k].map(|i| self.border[i].0);
             mesh.set_corners(t, [a, b, c]);
             mesh.link(t.edge(0), outside);
@@ -193,10 +209,6 @@ impl Hole {
         for (position, &index) in indices.iter().enumerate() {
             place[finite[index as usize]] = Place::new(position);
         }
-        let border_of = |p: Place| match p {
-            Place::GHOST => Place::GHOST,
-            p => self.border[finite[indices[p.index()] as usize]].0,
-        };
         // For each edge of the patch that is a side of the hole, which one.
         let mut side = vec![usize::MAX; patch.edges.len()];
         for i in 0..degree {
@@ -211,7 +223,7 @@ impl Hole {
         let root = side.iter().position(|&i| i != usize::MAX).expect("a hole has sides");
         let mut image = vec![None; patch.slot_count()];
         let mut found = vec![EdgeId::new(root).triangle()];
-        image[found[0].index()] = self.triangles.pop();
+        image[found[0].index()] = self.take();
         let mut next = 0;
         while next < found.len() {
             let t = found[next];
@@ -219,11 +231,15 @@ impl Hole {
             for e in [0, 1, 2].map(|k| t.edge(k)) {
                 let across = patch.twin(e).triangle();
                 if side[e.index()] == usize::MAX && image[across.index()].is_none() {
-                    image[across.index()] = self.triangles.pop();
+                    image[across.index()] = self.take();
                     found.push(across);
                 }
             }
         }
+        let border_of = |p: Place| match p {
+            Place::GHOST => Place::GHOST,
+            p => self.border[finite[indices[p.index()] as usize]].0,
+        };
         let image = |t: TriangleId| image[t.index()].expect("inside the hole");
         for &t in &found {
             let new = image(t);

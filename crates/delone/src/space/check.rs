@@ -141,6 +141,10 @@ pub(super) fn check_winding(layer: &Layer) -> Result<(), Flaw3> {
                 if t == ghost {
                     break;
                 }
+                // In a mesh that is none the way around may lead elsewhere, and never back.
+                if cell.corners[i] != v || !mesh.is_ghost(t) || link.len() > mesh.cells.len() {
+                    return Err(Flaw3::Winding(last));
+                }
             }
             corners_met += link.len();
             if !goes_once(point(v), &link) {

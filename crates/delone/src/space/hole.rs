@@ -120,7 +120,8 @@ impl Hole {
     }
 
     /// Finds the tetrahedra of the filling that are inside of the hole: from one at a facet of the border, across
-    /// facets that are none of the border. False if they do not meet all of the border.
+    /// facets that are none of the border. False if they do not meet all of the border, each facet from inside alone; those
+    /// that they do not meet so have no inside then.
     pub(super) fn find_inside(&mut self, fill: &mut Layer) -> bool {
         self.inside.clear();
         let mut star = std::mem::take(&mut self.star);
@@ -150,7 +151,21 @@ impl Hole {
                 }
             }
         }
-        met == self.border.len()
+        // The border of a mesh that has folded over itself need not part the filling in two: what was found came around to
+        // the other side.
+        let mut fits = met == self.border.len();
+        for k in 0..self.border.len() {
+            let inside = self.border[k].inside;
+            if inside == FacetId::NONE {
+                continue;
+            }
+            let beyond = fill.mesh.twin(inside);
+            if fill.mesh.marks[beyond.tetrahedron().index()] != 0 && self.on_border(fill, beyond).is_none() {
+                self.border[k].inside = FacetId::NONE;
+                fits = false;
+            }
+        }
+        fits
     }
 
     /// Puts what was found inside in the place of what goes.

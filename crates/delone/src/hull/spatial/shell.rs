@@ -26,9 +26,11 @@ pub(super) struct Facet {
 }
 
 impl Facet {
-    /// Proportional to the distance of a point from the facet's plane, rounded.
+    /// Proportional to the distance of a point from the facet's plane, rounded; infinite where products overflow, so that
+    /// heights can be compared.
     pub(super) fn height(&self, p: [f64; 3]) -> f64 {
-        self.plane.height(p)
+        let height = self.plane.height(p);
+        if height.is_nan() { f64::INFINITY } else { height }
     }
 }
 

@@ -1,0 +1,128 @@
+//! Inputs that broke a promise once, each as small as it could be made, and the promise.
+
+use delone::hull::spatial::{Hull3, HullHistory};
+use delone::{Delaunay2, Delaunay3, Error, Hierarchy, Locate, Moving2, Moving3, Step, VertexId, Work};
+use delone_oracle::generate::Random;
+
+const LEAST: f64 = f64::from_bits(1);
+
+/// Points on a sphere and its centre, some of which change places: the border of what was to be mended did not part the
+/// filling in two, and the mesh led nowhere.
+#[test]
+fn points_that_change_places_on_a_sphere_come_to_an_end() {
+    let on_sphere = |random: &mut Random| {
+        let p = [(); 3].map(|()| random.between(-1.0, 1.0));
+        let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+        p.map(|x| x / length)
+    };
+    let mut repaired = 0;
+    for seed in 0..1500 {
+        let mut random = Random::new(seed);
+        let n = 10 + random.below(30);
+        let mut points: Vec<[f64; 3]> = (0..n).map(|_| on_sphere(&mut random)).collect();
+        points.push([0.0; 3]);
+        let mut moving = Moving3::new(&points).expect("finite");
+        for _ in 0..2 {
+            for _ in 0..1 + random.below(3) {
+                let (i, j) = (random.below(n), random.below(n));
+                if random.below(2) == 0 { points.swap(i, j) } else { points[i] = on_sphere(&mut random) }
+            }
+            let step = moving.step(&points).expect("finite");
+            repaired += usize::from(matches!(step, delone::Step3::Repaired { .. }));
+            moving.triangulation().check().unwrap_or_else(|flaw| panic!("seed {seed}: {flaw}"));
+            let anew = Delaunay3::from_points(&points).expect("finite");
+            assert_eq!(moving.triangulation().tetrahedra().count(), anew.tetrahedra().count(), "seed {seed}");
+        }
+    }
+    assert!(repaired > 100, "only {repaired} were repaired");
+}
+
+/// What a step looks at grows as the number of vertices that are removed, not as that times the degree of a hub.
+#[test]
+fn a_hub_does_not_slow_motion_down() {
+    for n in [2000, 8000, 32_000] {
+        let mut random = Random::new(1);
+        let mut around = |noise: f64| {
+            let mut at = |i: usize| (i as f64 + noise * random.unit()) * std::f64::consts::TAU / n as f64;
+            let angles: Vec<f64> = (0..n).map(&mut at).collect();
+            angles.iter().map(|a| [a.cos(), a.sin()]).chain([[0.0, 0.0]]).collect::<Vec<_>>()
+        };
+        let (before, after) = (around(0.5), around(1.5));
+        let mut moving = Moving2::new(&before).expect("finite");
+        let mut work = Work::default();
+        let step = moving.step_counted(&after, &mut work).expect("finite");
+        let Step::Repaired { reinserted, .. } = step else { panic!("{n}: {step:?}") };
+        assert!(reinserted > n / 40, "only {reinserted} of {n} were removed");
+        assert!(work.visited < 40 * reinserted as u64, "{} visits for {reinserted}", work.visited);
+        moving.triangulation().check().expect("canonical");
+    }
+}
+
+/// Numbers far below the step of a lattice are not on it, though their number of steps is rounded to zero.
+#[test]
+fn tiny_numbers_beside_a_lattice_are_not_on_it() {
+    let mut d = Delaunay3::new();
+    for p in [[2., 2., 4.], [6., 4., 2.], [2., 6., 2.], [4., 6., 4.], [4., 4., -LEAST]] {
+        d.insert(p).expect("finite");
+        d.check().expect("canonical");
+    }
+    let mut points: Vec<[f64; 2]> =
+        (0..40_000).map(|i| [i % 200, i / 200].map(|x| f64::from(2 * x))).collect();
+    let mut random = Random::new(1);
+    points.extend(
+        (0..100).map(|k| {
+            [if k % 2 == 0 { LEAST } else { -LEAST }, f64::from(200 + 2 * random.below(100) as u32)]
+        }),
+    );
+    for threads in [1, 2, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Delaunay2::from_points(&points).expect("finite").check().expect("canonical"));
+    }
+}
+
+/// Heights above facets overflow, and cannot be compared.
+#[test]
+fn the_first_of_equal_points_is_the_corner_at_any_scale() {
+    for scale in [1.0, 1e100, 1e149, 1e200, 1e300, 1e-100, 1e-300] {
+        let mut random = Random::new(3);
+        let distinct: Vec<[f64; 3]> =
+            (0..60).map(|_| [(); 3].map(|()| (random.unit() - 0.5) * scale)).collect();
+        let points: Vec<[f64; 3]> = distinct.iter().cycle().take(180).copied().collect();
+        let hull = Hull3::of(&points).expect("finite");
+        assert!(hull.corners().iter().all(|&i| i < 60), "{scale:e}: {:?}", hull.corners());
+        assert_eq!(&hull, HullHistory::build(&points, 1).expect("finite").hull(), "{scale:e}");
+    }
+}
+
+#[test]
+fn levels_that_hardly_shrink_are_refused() {
+    for ratio in [1.0 + 1e-12, 1.2] {
+        let mut d = Delaunay2::new();
+        let wrong = d.set_strategy(Locate::Hierarchy(Hierarchy { ratio, ..Hierarchy::default() }));
+        assert!(matches!(wrong, Err(Error::Parameter { name: "ratio", .. })), "{ratio}");
+    }
+}
+
+#[test]
+fn ids_beyond_all_points_are_no_vertices() {
+    let mut d = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]).expect("finite");
+    for index in [3, delone::MAX_POINTS, u32::MAX as usize, 1 << 32, (1 << 32) + 1, usize::MAX] {
+        let v = VertexId::new(index);
+        assert!(!d.mesh().contains(v) && !v.is_ghost(), "{index}");
+        assert_eq!(d.remove(v), Err(Error::NoSuchVertex { vertex: v }), "{index}");
+    }
+}
+
+#[test]
+fn areas_are_numbers() {
+    let h = 1e308;
+    for (corners, area) in [
+        ([[-h, -h], [h, -h], [0.0, h]], f64::INFINITY),
+        ([[-h, 0.0], [h, 1e-300], [0.0, 1e-290]], 1e18),
+        ([[0.0, 0.0], [1e200, 1e200], [-1.0, 1.0]], 1e200),
+    ] {
+        let d = Delaunay2::from_points(&corners).expect("finite");
+        let found: f64 = d.mesh().triangles().map(|t| d.area(t)).sum();
+        assert!(found == area || (found / area - 1.0).abs() < 1e-9, "{corners:?}: {found}");
+    }
+}
