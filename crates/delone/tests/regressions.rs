@@ -126,3 +126,66 @@ fn areas_are_numbers() {
         assert!(found == area || (found / area - 1.0).abs() < 1e-9, "{corners:?}: {found}");
     }
 }
+
+/// The middle of a rectangle of subnormal numbers is outside of it.
+#[test]
+fn rectangles_of_the_smallest_numbers_hold_their_vertices() {
+    let mut random = Random::new(2);
+    let mut found = 0;
+    for _ in 0..400 {
+        let tiny = |random: &mut Random| (random.below(7) as f64 - 3.0) * LEAST;
+        let points: Vec<[f64; 2]> =
+            (0..3 + random.below(12)).map(|_| [(); 2].map(|()| tiny(&mut random))).collect();
+        let d = Delaunay2::from_points(&points).expect("finite");
+        for _ in 0..20 {
+            let [p, q] = [(); 2].map(|()| [(); 2].map(|()| tiny(&mut random)));
+            let (low, high) = ([0, 1].map(|k| p[k].min(q[k])), [0, 1].map(|k| p[k].max(q[k])));
+            let mut inside: Vec<_> = d.vertices().collect();
+            inside.retain(|&v| (0..2).all(|k| low[k] <= d.point(v)[k] && d.point(v)[k] <= high[k]));
+            assert_eq!(d.in_rectangle(low, high).expect("finite"), inside, "{points:?} {low:?} {high:?}");
+            found += inside.len();
+        }
+    }
+    assert!(found > 1000, "{found}");
+}
+
+/// Rectangles beside a hull of many corners are seen to be outside from near.
+#[test]
+fn rectangles_outside_of_large_hulls_are_cheap() {
+    let n = 100_000;
+    let at = |i: u32| (f64::from(i) * std::f64::consts::TAU / f64::from(n)).sin_cos();
+    let points: Vec<[f64; 2]> = (0..n).map(|i| at(i).into()).collect();
+    let d = Delaunay2::from_points(&points).expect("finite");
+    let mut random = Random::new(5);
+    let mut most = 0;
+    for _ in 0..2000 {
+        let (size, reach) = (4.0 * random.unit().powi(4), 2.0 + random.normal().abs());
+        let low = [(); 2].map(|()| random.between(-reach, reach));
+        let high = low.map(|x| x + size * random.unit());
+        let mut work = Work::default();
+        let found = d.in_rectangle_counted(low, high, &mut work).expect("finite");
+        let inside = points.iter().filter(|p| (0..2).all(|k| low[k] <= p[k] && p[k] <= high[k])).count();
+        assert_eq!(found.len(), inside);
+        let corners = [low, [low[0], high[1]], high, [high[0], low[1]]];
+        let nearest = [0, 1].map(|k| 0.0_f64.clamp(low[k], high[k]));
+        if nearest[0].hypot(nearest[1]) > 1.0 && corners.iter().all(|c| c[0].hypot(c[1]) > 1.0) {
+            assert!(found.is_empty());
+            most = most.max(work.visited);
+        }
+    }
+    assert!(most > 0 && most < 1000, "{most} visited");
+}
+
+/// A flat set is projected to find its corners, whose order along one axis less is another.
+#[test]
+fn the_face_of_a_flat_set_starts_at_its_smallest_corner() {
+    for points in [
+        [[1.5, 1.5, 0.0], [-8.0, 8.0, 8.0], [8.0, -8.0, 8.0]],
+        [[-8.0, 8.0, -8.0], [-8.0, 8.0, 8.0], [8.0, -8.0, 8.0]],
+    ] {
+        let hull = Hull3::of(&points).expect("finite");
+        let smallest = (0..3).min_by(|&i, &j| points[i].partial_cmp(&points[j]).expect("finite"));
+        assert_eq!(Some(hull.faces()[0][0]), smallest);
+        assert_eq!(hull.corners(), hull.faces()[0]);
+    }
+}

@@ -40,7 +40,11 @@ pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     // near zero also those of two.
     let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc) && size > 1e-280;
     if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
-        return Some([a[0] + x / (2.0 * area), a[1] + y / (2.0 * area)]);
+        let centre = [a[0] + x / (2.0 * area), a[1] + y / (2.0 * area)];
+        // A quotient of numbers in range may be too large; only the exact centre tells.
+        if centre[0].is_finite() && centre[1].is_finite() {
+            return Some(centre);
+        }
     }
     rounded_once(a, b, c)
 }
@@ -61,6 +65,13 @@ fn rounded_once(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 mod tests {
     use super::{circumcentre, rounded_once};
     use delone_oracle::generate::Kind;
+
+    #[test]
+    fn a_centre_too_far_away_is_none() {
+        let [a, b, c] =
+            [[9e-310, 0.0], [0.0, -9.006_755_220_184_234e30], [3e-310, -1.801_351_044_036_846_7e31]];
+        assert_eq!(circumcentre(a, b, c), None);
+    }
 
     #[test]
     fn the_fast_way_is_near_the_exact_one() {

@@ -17,6 +17,7 @@ mod moving;
 mod nearest;
 mod position;
 mod radial;
+mod rectangle;
 mod remove;
 pub mod verify;
 mod voronoi;

@@ -1,21 +1,21 @@
-//! Vertices by distance and by region: nearest, k nearest, within a circle, within a rectangle.
+//! Vertices by distance: nearest, k nearest, within a circle.
 //!
-//! The first three follow edges (`locate/nearest.rs`). Vertices in a rectangle need not be connected by edges; there the
-//! triangles that meet it are visited. Equal distances are ordered by the points, so answers are functions of the set.
+//! All follow edges (`locate/nearest.rs`). Equal distances are ordered by the points, so answers are functions of the set.
 //!
 //! Cost: location, and O(1) expected for the nearest, O(k log k) for k of them, and the size of the answer for
-//! regions (up to logarithmic factors, on evenly spread points).
+//! circles (up to logarithmic factors, on evenly spread points). Where the nearest vertex, or one on the way to it, has
+//! many neighbours all of them are looked at: O(d) for degree d. Where that hurts,
+//! [`NearestSites`](super::NearestSites) answers in O(log^2 n) expected for any set.
 
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
 
-use delone_predicates::{compare_distances, compare_with_radius, lexicographic, orient2d};
+use delone_predicates::{compare_distances, compare_with_radius, lexicographic};
 
 use super::insert::Spot;
 use super::layer::Layer;
 use super::{Delaunay2, Position2, finite};
 use crate::error::Error;
-use crate::ids::{EdgeId, Place, VertexId};
+use crate::ids::{Place, VertexId};
 use crate::locate::nearest::{self, Metric};
 use crate::locate::tally::Tally;
 
@@ -108,37 +108,6 @@ impl Delaunay2 {
         Ok(self.sorted_names(nearest::within(&self.base, self.nearest_place(q, &mut ()), q, radius)))
     }
 
-    /// The vertices in a rectangle given by its lower left and upper right corners, its border included, by
-    /// increasing id. None if the corners are the other way round.
-    ///
-    /// # Errors
-    /// [`Error::Coordinate`] for NaN and infinities.
-    pub fn in_rectangle<P: Position2>(&self, low: P, high: P) -> Result<Vec<VertexId>, Error> {
-        let rectangle = Rectangle { low: finite(&low)?, high: finite(&high)? };
-        if (0..2).any(|k| rectangle.low[k] > rectangle.high[k]) {
-            return Ok(Vec::new());
-        }
-        let inside = |v: &Place| !v.is_ghost() && rectangle.contains(self.base.points[v.index()]);
-        if !self.base.spanned {
-            return Ok(self.sorted_names(self.base.mesh.inhabited().filter(inside)));
-        }
-        let mesh = &self.base.mesh;
-        let Some(start) = self.entrance(&rectangle) else { return Ok(Vec::new()) };
-        let mut found = BTreeSet::new();
-        let mut seen = BTreeSet::from([start.triangle()]);
-        let mut pending = vec![start.triangle()];
-        while let Some(t) = pending.pop() {
-            found.extend(mesh.places(t).into_iter().filter(inside));
-            for e in [0, 1, 2].map(|k| t.edge(k)) {
-                let across = mesh.twin(e).triangle();
-                if self.meets(&rectangle, e) && seen.insert(across) {
-                    pending.push(across);
-                }
-            }
-        }
-        Ok(self.sorted_names(found))
-    }
-
     /// The place of the nearest vertex: down along edges from the triangle that contains the point.
     fn nearest_place<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Option<Place> {
         let mesh = &self.base.mesh;
@@ -156,63 +125,9 @@ impl Delaunay2 {
         Some(nearest::descend(&self.base, start, q, tally))
     }
 
-    fn sorted_names(&self, places: impl IntoIterator<Item = Place>) -> Vec<VertexId> {
+    pub(super) fn sorted_names(&self, places: impl IntoIterator<Item = Place>) -> Vec<VertexId> {
         let mut names: Vec<_> = places.into_iter().map(|v| self.base.mesh.name(v)).collect();
         names.sort_unstable();
         names
-    }
-
-    /// An edge of a finite triangle that meets a rectangle. The hull is convex, so if the middle of the
-    /// rectangle is outside of it and no hull edge meets the rectangle, nothing does.
-    fn entrance(&self, rectangle: &Rectangle) -> Option<EdgeId> {
-        let mesh = &self.base.mesh;
-        let middle = [0, 1].map(|k| rectangle.low[k] / 2.0 + rectangle.high[k] / 2.0);
-        match self.spot(middle, &mut ()).spot {
-            Spot::Triangle(t) if !mesh.is_ghost(t) => Some(t.edge(0)),
-            Spot::Vertex(v) => mesh.spokes(v).find(|e| !mesh.is_ghost(e.triangle())),
-            _ => {
-                let mut ghost = mesh.ghost_edge;
-                loop {
-                    let hull_edge = mesh.twin(ghost.next());
-                    if self.meets(rectangle, hull_edge) {
-                        return Some(hull_edge);
-                    }
-                    ghost = mesh.spin(ghost);
-                    if ghost == mesh.ghost_edge {
-                        return None;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Whether a finite edge and a rectangle have a point in common: no axis and no side of the edge separates
-    /// them.
-    fn meets(&self, rectangle: &Rectangle, e: EdgeId) -> bool {
-        let mesh = &self.base.mesh;
-        let (tail, head) = (mesh.tail(e), mesh.head(e));
-        if tail.is_ghost() || head.is_ghost() {
-            return false;
-        }
-        let (a, b) = (self.base.points[tail.index()], self.base.points[head.index()]);
-        let Rectangle { low, high } = *rectangle;
-        let apart = |k: usize| a[k].max(b[k]) < low[k] || a[k].min(b[k]) > high[k];
-        if apart(0) || apart(1) {
-            return false;
-        }
-        let sides = [low, [high[0], low[1]], high, [low[0], high[1]]].map(|corner| orient2d(a, b, corner));
-        sides.iter().any(|side| !side.is_positive()) && sides.iter().any(|side| !side.is_negative())
-    }
-}
-
-/// A closed rectangle along the axes.
-struct Rectangle {
-    low: [f64; 2],
-    high: [f64; 2],
-}
-
-impl Rectangle {
-    fn contains(&self, p: [f64; 2]) -> bool {
-        (0..2).all(|k| self.low[k] <= p[k] && p[k] <= self.high[k])
     }
 }

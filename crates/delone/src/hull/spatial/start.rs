@@ -75,7 +75,10 @@ impl Start {
                 // Seen along an axis in which it does not vanish, a flat set keeps its corners.
                 let axis = (0..3).find(|&axis| !turn(points, [a, b, c], axis).is_eq()).unwrap_or(2);
                 let seen: Vec<[f64; 2]> = points.iter().map(|&p| without(p, axis)).collect();
-                Self::Flat(planar::corners(&seen))
+                let mut corners = planar::corners(&seen);
+                let first = (0..corners.len()).min_by(|&i, &j| order(&corners[i], &corners[j]));
+                corners.rotate_left(first.unwrap_or(0));
+                Self::Flat(corners)
             }
         }
     }
