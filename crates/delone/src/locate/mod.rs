@@ -6,7 +6,7 @@
 //!
 //! | strategy | source | expected cost of a query | choose it |
 //! | --- | --- | --- | --- |
-//! | [`Locate::Tree`] | Bentley 1975 | O(log n) | always, unless there is a reason |
+//! | [`Locate::Tree`] | Bentley 1975, Devillers 1998 | O(log n) | always, unless there is a reason |
 //! | [`Locate::Walk`] | Devillers, Pion & Teillaud 2002 | O(sqrt n), O(1) from nearby | queries follow each other in space |
 //! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
 //! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n) for any data | adversarial data that change a lot |
@@ -37,7 +37,8 @@ use tally::Tally;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Locate {
-    /// A k-d tree of hints, rebuilt when the number of points doubles.
+    /// A k-d tree of hints, rebuilt when the number of points doubles. In the plane a walk that its hint sends too far is
+    /// given up for the levels of a hierarchy, which are made then: where triangles are long and thin, near is not close by.
     #[default]
     Tree,
     /// No structure: a walk from the vertex inserted last.

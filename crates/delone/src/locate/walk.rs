@@ -49,19 +49,33 @@ pub(crate) struct Goal {
 /// Walks to `q`. The triangulation must span the plane.
 #[inline]
 pub(crate) fn walk<G: Surface, T: Tally>(ground: &G, start: Start, q: G::Point, tally: &mut T) -> Goal {
+    walk_within(ground, start, q, usize::MAX, tally)
+}
+
+/// The same, but a visibility walk ends, anywhere, after more steps than `most`, which is at least 2.
+#[inline]
+pub(crate) fn walk_within<G: Surface, T: Tally>(
+    ground: &G,
+    start: Start,
+    q: G::Point,
+    most: usize,
+    tally: &mut T,
+) -> Goal {
     let mesh = ground.mesh();
     match start {
-        Start::At(e, Walk::Visibility) | Start::Hint(e, _) => visibility(ground, e, q, |_| false, tally),
+        Start::At(e, Walk::Visibility) | Start::Hint(e, _) => {
+            visibility(ground, e, q, most, |_| false, tally)
+        }
         Start::At(e, Walk::Stochastic { seed }) => {
             let mut random = SplitMix(seed);
-            visibility(ground, e, q, move |_| random.next() & 1 == 1, tally)
+            visibility(ground, e, q, most, move |_| random.next() & 1 == 1, tally)
         }
         Start::At(e, Walk::Straight) => match mesh.tail(finite_side(mesh, e)) {
-            Place::GHOST => visibility(ground, e, q, |_| false, tally),
+            Place::GHOST => visibility(ground, e, q, most, |_| false, tally),
             v => straight(ground, v, q, tally),
         },
         Start::Vertex(v) => straight(ground, v, q, tally),
-        Start::Anywhere => visibility(ground, mesh.ghost_edge, q, |_| false, tally),
+        Start::Anywhere => visibility(ground, mesh.ghost_edge, q, most, |_| false, tally),
     }
 }
 
@@ -80,6 +94,7 @@ fn visibility<G: Surface, T: Tally>(
     ground: &G,
     start: EdgeId,
     q: G::Point,
+    most: usize,
     mut turned: impl FnMut(TriangleId) -> bool,
     tally: &mut T,
 ) -> Goal {
@@ -117,7 +132,7 @@ fn visibility<G: Surface, T: Tally>(
         from = mesh.twin(crossed);
         steps += 1;
         tally.visited();
-        if mesh.tip(from).is_ghost() {
+        if mesh.tip(from).is_ghost() || steps > most {
             return Goal { triangle: from.triangle(), steps };
         }
     }
@@ -145,7 +160,7 @@ fn straight<G: Surface, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut
         let head = mesh.head(next);
         steps += 1;
         if next == first || head.is_ghost() || mesh.head(spoke).is_ghost() {
-            return visibility(ground, spoke, q, |_| false, tally);
+            return visibility(ground, spoke, q, usize::MAX, |_| false, tally);
         }
         if is_left(head) == turns_left {
             break if turns_left { spoke.next() } else { next.next() };

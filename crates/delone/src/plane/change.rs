@@ -251,8 +251,8 @@ impl Delaunay2 {
             if let Some(locator) = self.locator.get_mut() {
                 locator.rearranged(&self.base, &moved);
             }
-        } else if let Some(locator @ Locator::Tree(_)) = self.locator.get_mut() {
-            *locator = Locator::Tree(Tree::build(&self.base));
+        } else if let Some(Locator::Tree(hints)) = self.locator.get_mut() {
+            hints.tree = Tree::build(&self.base);
         }
     }
 }

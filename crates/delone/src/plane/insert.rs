@@ -9,7 +9,7 @@ use super::line::{self, OnLine};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::Start;
 use crate::locate::tally::Tally;
-use crate::locate::walk::walk;
+use crate::locate::walk::{walk, walk_within};
 use crate::mesh::Dimension;
 
 /// Where a point falls, as insertion sees it.
@@ -39,10 +39,32 @@ impl Layer {
             return self.spot_below_plane(start, q);
         }
         let goal = walk(self, start, q, tally);
+        (self.spot_in(goal.triangle, q), goal.steps)
+    }
+
+    /// The same, unless the walk from a hint takes more steps than `most`.
+    #[inline]
+    pub(super) fn spot_within<T: Tally>(
+        &self,
+        start: Start,
+        q: [f64; 2],
+        most: usize,
+        tally: &mut T,
+    ) -> Option<(Spot, usize)> {
+        if !self.spanned {
+            return Some(self.spot_below_plane(start, q));
+        }
+        let goal = walk_within(self, start, q, most, tally);
+        (goal.steps <= most).then(|| (self.spot_in(goal.triangle, q), goal.steps))
+    }
+
+    /// What falls into a triangle or beyond it may be one of its corners.
+    #[inline]
+    fn spot_in(&self, triangle: TriangleId, q: [f64; 2]) -> Spot {
         let equal = |v: &Place| !v.is_ghost() && self.points[v.index()] == q;
-        match self.mesh.places(goal.triangle).into_iter().find(equal) {
-            Some(v) => (Spot::Vertex(v), goal.steps),
-            None => (Spot::Triangle(goal.triangle), goal.steps),
+        match self.mesh.places(triangle).into_iter().find(equal) {
+            Some(v) => Spot::Vertex(v),
+            None => Spot::Triangle(triangle),
         }
     }
 

@@ -1,7 +1,10 @@
 //! The strategies of location at work in the plane.
 
+use std::sync::OnceLock;
+
 use super::Delaunay2;
 use super::flips::{DUMMIES, Flips};
+use super::insert::Spot;
 use super::layer::Layer;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::hierarchy::Levels;
@@ -9,13 +12,13 @@ use crate::locate::history::History;
 use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
 use crate::locate::walk::FromLast;
-use crate::locate::{Ground, JumpAndWalk, Locate, Start, Strategy, Walk};
+use crate::locate::{Ground, Hierarchy, JumpAndWalk, Locate, Start, Strategy, Walk};
 use crate::order::random::SplitMix;
 
 /// The structure behind a [`Locate`].
 #[derive(Clone, Debug)]
 pub(super) enum Locator {
-    Tree(Tree<EdgeId>),
+    Tree(Hints),
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
@@ -26,7 +29,7 @@ impl Locator {
     /// The structure for the vertices that there are.
     pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
         match locate {
-            Locate::Tree => Self::Tree(Tree::build(layer)),
+            Locate::Tree => Self::Tree(Hints { tree: Tree::build(layer), levels: OnceLock::new() }),
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
@@ -64,6 +67,58 @@ impl Strategy<Layer> for Locator {
 
     fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
         each!(self, strategy => strategy.rearranged(layer, moved));
+    }
+}
+
+/// A tree of hints and, from the first walk on that it sends too far, the levels of a hierarchy.
+///
+/// A hint is near the goal, but where triangles are long and thin, as between two curves with many points, there may be any
+/// number of them between two points that are near each other. The levels do not care.
+#[derive(Clone, Debug)]
+pub(super) struct Hints {
+    pub(super) tree: Tree<EdgeId>,
+    levels: OnceLock<Box<Levels<Layer>>>,
+}
+
+impl Hints {
+    /// A walk from a hint that takes more steps is given up. On evenly spread points it takes four on average, and forty
+    /// hardly ever.
+    pub(super) const MOST: usize = 64;
+
+    /// Finds a point that the tree's hint is far from.
+    #[cold]
+    pub(super) fn rescue<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
+        let levels = self.levels.get_or_init(|| Box::new(Levels::build(Hierarchy::default(), layer)));
+        let (spot, steps) = layer.spot(levels.start(layer, q, tally), q, tally);
+        (spot, steps + Self::MOST)
+    }
+}
+
+impl Strategy<Layer> for Hints {
+    #[inline]
+    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
+        self.tree.start(layer, q, tally)
+    }
+
+    #[inline]
+    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
+        self.tree.inserted(layer, v, start);
+        if let Some(levels) = self.levels.get_mut() {
+            levels.inserted(layer, v, start);
+        }
+    }
+
+    fn removing(&mut self, layer: &Layer, v: Place) {
+        if let Some(levels) = self.levels.get_mut() {
+            levels.removing(layer, v);
+        }
+    }
+
+    fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
+        self.tree = Tree::build(layer);
+        if let Some(levels) = self.levels.get_mut() {
+            levels.rearranged(layer, moved);
+        }
     }
 }
 
@@ -112,7 +167,13 @@ impl Delaunay2 {
     pub fn footprint(&self) -> Footprint {
         let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
         match self.locator() {
-            Locator::Tree(tree) => footprint.strategy = tree.bytes(),
+            Locator::Tree(Hints { tree, levels }) => {
+                footprint.strategy = tree.bytes();
+                if let Some(levels) = levels.get() {
+                    footprint.levels = levels.sizes();
+                    footprint.strategy += levels.bytes(Layer::bytes);
+                }
+            }
             Locator::FromLast(_) | Locator::JumpAndWalk(_) => {}
             Locator::Hierarchy(levels) => {
                 footprint.levels = levels.sizes();

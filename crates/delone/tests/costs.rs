@@ -1,0 +1,125 @@
+//! Steps, counted: what a query and a change cost on every kind of points, by the default strategy. Counters are functions
+//! of the input, so that bounds can be asserted; each is about twice what is counted today.
+
+use delone::{Delaunay2, VertexId, Work};
+use delone_oracle::generate::{Kind, Random};
+
+/// Sets between whose points triangles are long and thin, by name.
+fn shapes(n: usize) -> Vec<(String, Vec<[f64; 2]>)> {
+    let mut random = Random::new(7);
+    // Multiples of 2^-20, so that points are on their lines exactly.
+    let mut share = || random.below(1 << 20) as f64 / f64::from(1 << 20);
+    let mut make = |name: &str, shape: &dyn Fn(f64, f64) -> [f64; 2]| {
+        let points = (0..n).map(|i| shape(share(), (i % 2) as f64)).collect();
+        (name.to_owned(), points)
+    };
+    let angle = |x: f64| (std::f64::consts::TAU * x).sin_cos();
+    vec![
+        make("two sloped lines", &|x, k| [x, k + x / 4.0]),
+        make("two vertical lines", &|x, k| [k, x]),
+        make("cross", &|x, k| if k == 0.0 { [x - 0.5, x - 0.5] } else { [x - 0.5, 0.5 - x] }),
+        make("parabola", &|x, _| [x - 0.5, (x - 0.5) * (x - 0.5)]),
+        make("two circles", &|x, k| <[f64; 2]>::from(angle(x)).map(|c| c * (1.0 + k / 4.0))),
+        make("two parabolas", &|x, k| [x, (2.0 * k - 1.0) * (x * x + 0.1)]),
+    ]
+}
+
+fn all(n: usize) -> Vec<(String, Vec<[f64; 2]>)> {
+    let kinds = Kind::ALL.iter().map(|kind| (kind.name().to_owned(), kind.points(n, 3)));
+    kinds.chain(shapes(n)).collect()
+}
+
+/// Averages and the largest of counts.
+#[derive(Default)]
+struct Counts {
+    sum: u64,
+    most: u64,
+    count: u64,
+}
+
+impl Counts {
+    fn add(&mut self, count: u64) {
+        self.sum += count;
+        self.most = self.most.max(count);
+        self.count += 1;
+    }
+
+    /// Holds them to bounds.
+    fn hold(&self, what: &str, average: f64, most: u64) {
+        let found = self.sum as f64 / self.count.max(1) as f64;
+        println!("{what}: {found:.1} on average, {} at most", self.most);
+        assert!(
+            found <= average && self.most <= most,
+            "{what}: {found:.1} on average, {} at most",
+            self.most
+        );
+    }
+}
+
+/// What is next to points that are nearly on a line, and far from them along it, has nothing but slivers between: there a
+/// query may visit many, if seldom.
+fn beside_a_line(name: &str, n: usize) -> u64 {
+    if ["near-line", "two parabolas"].contains(&name) { n as u64 } else { 0 }
+}
+
+/// Counts of one operation.
+fn counted(operation: impl FnOnce(&mut Work)) -> Work {
+    let mut work = Work::default();
+    operation(&mut work);
+    work
+}
+
+#[test]
+fn queries_visit_few_triangles_on_any_points() {
+    for n in [20_000, 100_000] {
+        for (name, points) in all(n) {
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let mut random = Random::new(1);
+            let (mut visited, mut compared) = (Counts::default(), Counts::default());
+            for _ in 0..2000 {
+                let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
+                let middle = [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0);
+                visited.add(counted(|work| _ = d.locate_counted(middle, work).expect("finite")).visited);
+                compared.add(counted(|work| _ = d.nearest_counted(middle, work).expect("finite")).compared);
+            }
+            let calm = ["uniform", "grid"].contains(&&*name);
+            let average = if calm { 6.0 } else { 400.0_f64.max(beside_a_line(&name, n) as f64 / 20.0) };
+            let most = if calm { 40 } else { 1000 };
+            visited.hold(
+                &format!("{name}, {n} points: triangles of a query"),
+                average,
+                most.max(beside_a_line(&name, n)),
+            );
+            compared.hold(
+                &format!("{name}, {n} points: comparisons for the nearest"),
+                if calm { 12.0 } else { n as f64 },
+                u64::MAX,
+            );
+        }
+    }
+}
+
+#[test]
+fn changes_visit_few_triangles_on_any_points() {
+    for (name, points) in all(20_000) {
+        let mut d = Delaunay2::new();
+        let (mut visited, mut created) = (Counts::default(), Counts::default());
+        for &p in &points {
+            let work = counted(|work| _ = d.insert_counted(p, work).expect("finite"));
+            visited.add(work.visited);
+            created.add(work.created);
+        }
+        let most = 2000.max(beside_a_line(&name, points.len()));
+        visited.hold(&format!("{name}: triangles of an insertion"), 200.0, most);
+        created.hold(&format!("{name}: new triangles of an insertion"), 20.0, u64::MAX);
+        let mut tests = Counts::default();
+        for i in (0..points.len()).step_by(7) {
+            let v = VertexId::new(i);
+            if d.mesh().contains(v) {
+                let work = counted(|work| d.remove_counted(v, work).expect("a vertex"));
+                tests.add(work.in_circles + work.orientations + work.created);
+            }
+        }
+        tests.hold(&format!("{name}: tests and triangles of a removal"), 60.0, u64::MAX);
+    }
+}
