@@ -84,7 +84,14 @@ fn queries_visit_few_triangles_on_any_points() {
             }
             let calm = ["uniform", "grid"].contains(&&*name);
             let average = if calm { 6.0 } else { 400.0_f64.max(beside_a_line(&name, n) as f64 / 20.0) };
-            let most = if calm { 40 } else { 1000 };
+            let straight = ["two sloped lines", "two vertical lines", "cross", "parabola", "two circles"];
+            let most = if calm {
+                40
+            } else if straight.contains(&&*name) {
+                600
+            } else {
+                4000
+            };
             visited.hold(
                 &format!("{name}, {n} points: triangles of a query"),
                 average,
