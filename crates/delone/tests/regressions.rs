@@ -2,7 +2,7 @@
 
 use delone::hull::spatial::{Hull3, HullHistory};
 use delone::{Delaunay2, Delaunay3, Error, Hierarchy, Locate, Moving2, Moving3, Step, VertexId, Work};
-use delone_oracle::generate::Random;
+use delone_oracle::generate::{Kind, Kind3, Random};
 
 const LEAST: f64 = f64::from_bits(1);
 
@@ -187,5 +187,66 @@ fn the_face_of_a_flat_set_starts_at_its_smallest_corner() {
         let smallest = (0..3).min_by(|&i, &j| points[i].partial_cmp(&points[j]).expect("finite"));
         assert_eq!(Some(hull.faces()[0][0]), smallest);
         assert_eq!(hull.corners(), hull.faces()[0]);
+    }
+}
+
+/// Coordinates are scaled by powers of two where the filters could not bear them, which must not show.
+#[test]
+fn every_scale_has_the_same_triangulation() {
+    for kind in [Kind::Uniform, Kind::Grid, Kind::Clusters, Kind::UnitCircle] {
+        let points = kind.points(600, 1);
+        let mut expected: Vec<_> = Delaunay2::from_points(&points).expect("finite").triangles().collect();
+        expected.sort_unstable();
+        for exponent in [-1000, -500, -100, -81, 199, 201, 500, 1000] {
+            for far in [false, true] {
+                let scale = 2f64.powi(exponent);
+                let mut scaled: Vec<_> = points.iter().map(|p| p.map(|x| x * scale)).collect();
+                if far {
+                    scaled.extend([[1e308, 0.0], [1e-320, LEAST], [0.0, -1e300]]);
+                }
+                let d = Delaunay2::from_points(&scaled).expect("finite");
+                d.check().unwrap_or_else(|flaw| panic!("{} 2^{exponent} {far}: {flaw}", kind.name()));
+                let mut found: Vec<_> = d.triangles().collect();
+                found.sort_unstable();
+                assert!(far || found == expected, "{} 2^{exponent}", kind.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn every_scale_has_the_same_triangulation_in_space() {
+    for kind in Kind3::ALL {
+        let points = kind.points(200, 1);
+        let cells = |d: &Delaunay3| {
+            let mut cells: Vec<_> = d
+                .tetrahedra()
+                .map(|mut t| {
+                    t.sort_unstable();
+                    t
+                })
+                .collect();
+            cells.sort_unstable();
+            cells
+        };
+        let expected = cells(&Delaunay3::from_points(&points).expect("finite"));
+        for exponent in [-900, -200, -131, 91, 200, 900] {
+            let scaled: Vec<_> = points.iter().map(|p| p.map(|x| x * 2f64.powi(exponent))).collect();
+            let same = |(p, q): (&[f64; 3], &[f64; 3])| p.map(|x| x * 2f64.powi(-exponent)) == *q;
+            if !scaled.iter().zip(&points).all(same) {
+                continue;
+            }
+            let mut d = Delaunay3::from_points(&scaled).expect("finite");
+            d.check().unwrap_or_else(|flaw| panic!("{} 2^{exponent}: {flaw}", kind.name()));
+            assert_eq!(cells(&d), expected, "{} 2^{exponent}", kind.name());
+            // It is as it was given, and changes like any other.
+            assert!(d.vertices().all(|v| d.point(v) == scaled[v.index()]), "{} 2^{exponent}", kind.name());
+            let first = d.vertices().next();
+            if let Some(v) = first {
+                d.remove(v).expect("a vertex");
+                d.insert(scaled[v.index()]).expect("finite");
+                d.check().unwrap_or_else(|flaw| panic!("{} 2^{exponent}, changed: {flaw}", kind.name()));
+            }
+        }
     }
 }

@@ -21,6 +21,8 @@ pub enum Stage {
     Integers,
     /// Floating-point expansions (the `robust` crate).
     Expansions,
+    /// Floating point once more, each row of the determinant scaled by itself.
+    Scaled,
     /// Arbitrary precision.
     Big,
     /// The canonical perturbation; the exact stage before it is counted too.
@@ -29,7 +31,7 @@ pub enum Stage {
 
 /// Counts by predicate and stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts([[u64; 5]; 2]);
+pub struct Counts([[u64; 6]; 2]);
 
 impl Counts {
     /// The number of decisions of `predicate` at `stage`.
@@ -43,7 +45,7 @@ mod on {
     use super::{Counts, Predicate, Stage};
     use std::sync::atomic::{AtomicU64, Ordering};
 
-    static COUNTS: [[AtomicU64; 5]; 2] = [const { [const { AtomicU64::new(0) }; 5] }; 2];
+    static COUNTS: [[AtomicU64; 6]; 2] = [const { [const { AtomicU64::new(0) }; 6] }; 2];
 
     #[inline]
     pub(crate) fn count(predicate: Predicate, stage: Stage) {

@@ -8,8 +8,10 @@
 //! underflow, and a ceiling on the operands that makes the floor valid. Overflow gives an infinite or NaN
 //! comparison, which no bound passes: the exact stage decides.
 
+mod scaled;
 mod space;
 
+pub(crate) use scaled::{in_circle_scaled, in_sphere_scaled, orient2d_scaled, orient3d_scaled};
 pub use space::Filter3;
 pub(crate) use space::{in_sphere_filter, orient3d_filter};
 
@@ -33,29 +35,39 @@ const CIRCLE_FLOOR: f64 = f64::from_bits((1023 - 560) << 52);
 /// Orientation of three points if floating point can tell.
 #[inline]
 pub(crate) fn orient2d_filter(a: Point2, b: Point2, c: Point2) -> Option<Sign> {
-    let left = (a[0] - c[0]) * (b[1] - c[1]);
-    let right = (a[1] - c[1]) * (b[0] - c[0]);
-    let bound = ORIENT_BOUND * (left.abs() + right.abs()) + ORIENT_FLOOR;
-    outside_of(left - right, bound)
+    let (det, permanent) = orient_terms([a[0] - c[0], a[1] - c[1]], [b[0] - c[0], b[1] - c[1]]);
+    outside_of(det, ORIENT_BOUND * permanent + ORIENT_FLOOR)
 }
 
 /// In-circle test of four points if floating point can tell.
 #[inline]
 pub(crate) fn in_circle_filter(a: Point2, b: Point2, c: Point2, d: Point2) -> Option<Sign> {
-    let (ax, ay) = (a[0] - d[0], a[1] - d[1]);
-    let (bx, by) = (b[0] - d[0], b[1] - d[1]);
-    let (cx, cy) = (c[0] - d[0], c[1] - d[1]);
-    let (bc, cb) = (bx * cy, cx * by);
-    let (ca, ac) = (cx * ay, ax * cy);
-    let (ab, ba) = (ax * by, bx * ay);
-    let (la, lb, lc) = (ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy);
-    let det = la * (bc - cb) + lb * (ca - ac) + lc * (ab - ba);
-    let permanent = la * (bc.abs() + cb.abs()) + lb * (ca.abs() + ac.abs()) + lc * (ab.abs() + ba.abs());
+    let rows = [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1]]);
+    let lifts @ [la, lb, lc] = rows.map(|[x, y]| x * x + y * y);
+    let (det, permanent) = circle_terms(rows, lifts);
     if la + lb + lc < CIRCLE_CEILING {
         outside_of(det, IN_CIRCLE_BOUND * permanent + CIRCLE_FLOOR)
     } else {
         None
     }
+}
+
+/// A determinant of two rows, and its permanent.
+#[inline]
+fn orient_terms(a: Point2, b: Point2) -> (f64, f64) {
+    let (left, right) = (a[0] * b[1], a[1] * b[0]);
+    (left - right, left.abs() + right.abs())
+}
+
+/// The in-circle determinant of three rows and their squared lengths, and its permanent.
+#[inline]
+fn circle_terms([[ax, ay], [bx, by], [cx, cy]]: [Point2; 3], [la, lb, lc]: [f64; 3]) -> (f64, f64) {
+    let (bc, cb) = (bx * cy, cx * by);
+    let (ca, ac) = (cx * ay, ax * cy);
+    let (ab, ba) = (ax * by, bx * ay);
+    let det = la * (bc - cb) + lb * (ca - ac) + lc * (ab - ba);
+    let permanent = la * (bc.abs() + cb.abs()) + lb * (ca.abs() + ac.abs()) + lc * (ab.abs() + ba.abs());
+    (det, permanent)
 }
 
 /// The sign of a value known up to `bound`, unless the bound covers zero (or anything is NaN).

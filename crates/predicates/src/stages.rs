@@ -14,8 +14,9 @@ fn counted(points: &[Point2]) -> Counts {
 }
 
 fn share(counts: &Counts, predicate: Predicate, stage: Stage) -> f64 {
-    use Stage::{Big, Expansions, Filter, Integers};
-    let all: u64 = [Filter, Integers, Expansions, Big].map(|stage| counts.get(predicate, stage)).iter().sum();
+    use Stage::{Big, Expansions, Filter, Integers, Scaled};
+    let all: u64 =
+        [Filter, Integers, Expansions, Scaled, Big].map(|stage| counts.get(predicate, stage)).iter().sum();
     counts.get(predicate, stage) as f64 / all as f64
 }
 
@@ -36,7 +37,8 @@ fn shares_of_the_stages() {
     assert_eq!(share(&near_line, Orient2d, Stage::Big), 0.0);
 
     let huge = counted(&Kind::HugeSpan.points(2_000, 1));
-    assert!(share(&huge, InCircle, Stage::Big) > 0.5);
+    assert!(share(&huge, InCircle, Stage::Scaled) > 0.5);
+    assert!(share(&huge, InCircle, Stage::Big) < 0.1);
 
     let spokes = counted(&Kind::Spokes.points(20_000, 1));
     assert!(spokes.get(InCircle, Stage::Perturb) > 0);

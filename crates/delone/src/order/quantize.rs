@@ -3,6 +3,8 @@
 //! Monotone rounding is all that the orders need: a cut between two cells then separates the points
 //! strictly, whatever the rounding did to the cells' borders.
 
+use std::ops::Range;
+
 use crate::parallel;
 
 /// A square of 2^bits x 2^bits cells around some points.
@@ -52,6 +54,30 @@ impl Quantizer {
         let side = self.side / self.half * 1.001;
         [0, 1].map(|k| (side / f64::from(1 << halvings[k])).min(self.extent[k]))
     }
+}
+
+/// The size of what most points are in: of a sample the middle half, along the axis where it is the longest. A few far points
+/// change nothing.
+pub(crate) fn usual_size<const D: usize>(count: usize, point: impl Fn(usize) -> [f64; D]) -> f64 {
+    const SAMPLE: usize = 64;
+    let taken = count.min(SAMPLE);
+    let sample: Vec<[f64; D]> = (0..taken).map(|k| point(k * count / taken)).collect();
+    let middle = (0..D).map(|axis| {
+        let mut along: Vec<f64> = sample.iter().map(|p| p[axis]).collect();
+        along.sort_unstable_by(f64::total_cmp);
+        match taken {
+            0 => 0.0,
+            _ => along[(3 * taken / 4).min(taken - 1)] - along[taken / 4],
+        }
+    });
+    middle.fold(0.0, f64::max)
+}
+
+/// The power of two that brings a size outside of some range near to 1. `None` within the range, and for no size.
+pub(crate) fn power_to_one(size: f64, range: &Range<f64>) -> Option<f64> {
+    let exponent = ((size.to_bits() >> 52) as i32 - 1023).clamp(-1000, 1000);
+    let outside = size > 0.0 && !range.contains(&size);
+    outside.then(|| f64::from_bits(((1023 - exponent) as u64) << 52))
 }
 
 /// What one pass over points tells.

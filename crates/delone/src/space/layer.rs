@@ -95,6 +95,14 @@ impl Layer {
         self.filter = Filter3::for_box(self.limits.extent(), self.grid);
     }
 
+    /// Multiplies all coordinates with a power of two. None may lose bits by that.
+    pub(super) fn scale(&mut self, power: f64) {
+        self.points.as_flattened_mut().iter_mut().for_each(|x| *x *= power);
+        self.limits = Limits::around(self.points.iter().copied());
+        self.grid = Grid::of(self.points.as_flattened());
+        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+    }
+
     pub(super) fn clear_mesh(&mut self) {
         self.scaffold.clear();
         self.mesh.cells.clear();

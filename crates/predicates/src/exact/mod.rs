@@ -6,6 +6,8 @@
 //!
 //! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones.
 //!
+//! Before big integers, floating point is asked once more, scaled so that nothing leaves the range (`filter/scaled.rs`).
+//!
 //! In the plane all three evaluate the base-and-apex form (see `pencil`): with l = a, r = b, the orientation of a, b, c is
 //! `(c - a) x (c - b)`, and the in-circle determinant of a, b, c, d is `dot_c cross_d - dot_d cross_c`.
 
@@ -17,6 +19,7 @@ mod wide;
 use std::cmp::Ordering;
 
 use crate::counters::{Predicate, Stage, count};
+use crate::filter::{in_circle_scaled, in_sphere_scaled, orient2d_scaled, orient3d_scaled};
 use crate::{Point2, Point3, Sign};
 
 pub(crate) fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
@@ -28,6 +31,10 @@ pub(crate) fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
     if expansions_hold(&coordinates) {
         count(Predicate::Orient2d, Stage::Expansions);
         return Sign::of(&robust::orient2d(coord(a), coord(b), coord(c)), &0.0);
+    }
+    if let Some(sign) = orient2d_scaled(a, b, c) {
+        count(Predicate::Orient2d, Stage::Scaled);
+        return sign;
     }
     count(Predicate::Orient2d, Stage::Big);
     big::orient2d(&coordinates)
@@ -42,6 +49,10 @@ pub(crate) fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
     if expansions_hold(&coordinates) {
         count(Predicate::InCircle, Stage::Expansions);
         return Sign::of(&robust::incircle(coord(a), coord(b), coord(c), coord(d)), &0.0);
+    }
+    if let Some(sign) = in_circle_scaled(a, b, c, d) {
+        count(Predicate::InCircle, Stage::Scaled);
+        return sign;
     }
     count(Predicate::InCircle, Stage::Big);
     big::in_circle(&coordinates)
@@ -97,14 +108,16 @@ pub(crate) fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     let mut coordinates = [0.0; 12];
     coordinates.copy_from_slice([a, b, c, d].as_flattened());
     let integers = || space::orient3d(&coordinates).or_else(|| wide::orient3d(&coordinates));
-    integers().unwrap_or_else(|| big::orient3d(&coordinates))
+    let scaled = || orient3d_scaled(a, b, c, d);
+    integers().or_else(scaled).unwrap_or_else(|| big::orient3d(&coordinates))
 }
 
 pub(crate) fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
     let mut coordinates = [0.0; 15];
     coordinates.copy_from_slice([a, b, c, d, e].as_flattened());
     let integers = || space::in_sphere(&coordinates).or_else(|| wide::in_sphere(&coordinates));
-    integers().unwrap_or_else(|| big::in_sphere(&coordinates))
+    let scaled = || in_sphere_scaled(a, b, c, d, e);
+    integers().or_else(scaled).unwrap_or_else(|| big::in_sphere(&coordinates))
 }
 
 fn coord(p: Point2) -> robust::Coord<f64> {

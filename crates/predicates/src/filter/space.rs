@@ -30,16 +30,9 @@ const SPHERE_FLOOR: f64 = f64::from_bits((1023 - 760) << 52);
 /// Orientation of four points in space if floating point can tell.
 #[inline]
 pub(crate) fn orient3d_filter(a: Point3, b: Point3, c: Point3, d: Point3) -> Option<Sign> {
-    let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] =
-        [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1], p[2] - d[2]]);
-    let (bc, cb) = (bx * cy, cx * by);
-    let (ca, ac) = (cx * ay, ax * cy);
-    let (ab, ba) = (ax * by, bx * ay);
-    let det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
-    let permanent = az.abs() * (bc.abs() + cb.abs())
-        + bz.abs() * (ca.abs() + ac.abs())
-        + cz.abs() * (ab.abs() + ba.abs());
-    if az.abs() + bz.abs() + cz.abs() < ORIENT3D_CEILING {
+    let rows = [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1], p[2] - d[2]]);
+    let (det, permanent) = orient3d_terms(rows);
+    if rows[0][2].abs() + rows[1][2].abs() + rows[2][2].abs() < ORIENT3D_CEILING {
         // Positive where d is below a, b, c.
         outside_of(-det, ORIENT3D_BOUND * permanent + ORIENT3D_FLOOR)
     } else {
@@ -47,16 +40,40 @@ pub(crate) fn orient3d_filter(a: Point3, b: Point3, c: Point3, d: Point3) -> Opt
     }
 }
 
+/// A determinant of three rows, and its permanent.
+#[inline]
+pub(super) fn orient3d_terms([[ax, ay, az], [bx, by, bz], [cx, cy, cz]]: [Point3; 3]) -> (f64, f64) {
+    let (bc, cb) = (bx * cy, cx * by);
+    let (ca, ac) = (cx * ay, ax * cy);
+    let (ab, ba) = (ax * by, bx * ay);
+    let det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
+    let permanent = az.abs() * (bc.abs() + cb.abs())
+        + bz.abs() * (ca.abs() + ac.abs())
+        + cz.abs() * (ab.abs() + ba.abs());
+    (det, permanent)
+}
+
 /// In-sphere test of five points if floating point can tell.
 pub(crate) fn in_sphere_filter(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Option<Sign> {
-    let [a, b, c, d] = [a, b, c, d].map(|p| [p[0] - e[0], p[1] - e[1], p[2] - e[2]]);
+    let rows = [a, b, c, d].map(|p| [p[0] - e[0], p[1] - e[1], p[2] - e[2]]);
+    let lifts @ [la, lb, lc, ld] = rows.map(|[x, y, z]| x * x + y * y + z * z);
+    let (det, permanent) = sphere_terms(rows, lifts);
+    if la + lb + lc + ld < SPHERE_CEILING {
+        // Positive where e is outside.
+        outside_of(-det, IN_SPHERE_BOUND * permanent + SPHERE_FLOOR)
+    } else {
+        None
+    }
+}
+
+/// The in-sphere determinant of four rows and their squared lengths, and its permanent.
+#[inline]
+pub(super) fn sphere_terms([a, b, c, d]: [Point3; 4], [la, lb, lc, ld]: [f64; 4]) -> (f64, f64) {
     let minor = |u: Point3, v: Point3| {
         let (p, q) = (u[0] * v[1], v[0] * u[1]);
         (p - q, p.abs() + q.abs())
     };
     let [ab, bc, cd, da, ac, bd] = [(a, b), (b, c), (c, d), (d, a), (a, c), (b, d)].map(|(u, v)| minor(u, v));
-    let lift = |[x, y, z]: Point3| x * x + y * y + z * z;
-    let [la, lb, lc, ld] = [a, b, c, d].map(lift);
     let abc = a[2] * bc.0 - b[2] * ac.0 + c[2] * ab.0;
     let bcd = b[2] * cd.0 - c[2] * bd.0 + d[2] * bc.0;
     let cda = c[2] * da.0 + d[2] * ac.0 + a[2] * cd.0;
@@ -67,12 +84,7 @@ pub(crate) fn in_sphere_filter(a: Point3, b: Point3, c: Point3, d: Point3, e: Po
         + lc * (dz * ab.1 + az * bd.1 + bz * da.1)
         + lb * (cz * da.1 + dz * ac.1 + az * cd.1)
         + la * (bz * cd.1 + cz * bd.1 + dz * bc.1);
-    if la + lb + lc + ld < SPHERE_CEILING {
-        // Positive where e is outside.
-        outside_of(-det, IN_SPHERE_BOUND * permanent + SPHERE_FLOOR)
-    } else {
-        None
-    }
+    (det, permanent)
 }
 
 /// A static filter in space: error bounds that hold for all points of one box, computed once.

@@ -31,7 +31,7 @@ use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
-use crate::order::quantize::Bounds;
+use crate::order::quantize::{Bounds, power_to_one, usual_size};
 use crate::parallel;
 
 /// What was done, for those who measure.
@@ -94,20 +94,35 @@ fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
 
 fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {
     let n = ordered.len();
+    let scaled = scaled(ordered);
+    let (ordered, scale) = scaled.as_ref().map_or((ordered, 1.0), |(points, scale)| (&points[..], *scale));
     let mut edges: Vec<HalfEdge> = zeroed(8 * n.saturating_sub(1));
     let mut leaving: Vec<TriangleId> = zeroed(n);
     let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
     if n > 0 {
         let finest = |b: &KeyBox| {
             let [width, height] = b.cell(b.depths() - 1);
-            Filter::finest_step(width, height)
+            Filter::finest_step(width * scale, height * scale)
         };
         let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
         let grid = grid_of(ordered.as_flattened(), finest);
-        Tree { cuts, boxes, grid }.build(0, LEVELS, &mut builder);
+        Tree { cuts, boxes, scale, grid }.build(0, LEVELS, &mut builder);
     }
     let counters = builder.counters;
     (edges, counters)
+}
+
+/// Sizes of sets whose products are in the range of the filters, also those of small cells: 2^-80 to 2^200.
+const SIZES: Range<f64> = 8.3e-25..1.6e60;
+
+/// Points that are too far apart or too near to each other for the filters, scaled by a power of two, and the power: decisions
+/// do not change. `None` if there is no need to, or a coordinate would lose bits.
+fn scaled(points: &[[f64; 2]]) -> Option<(Vec<[f64; 2]>, f64)> {
+    let scale = power_to_one(usual_size(points.len(), |i| points[i]), &SIZES)?;
+    let back = 1.0 / scale;
+    let scaled: Vec<[f64; 2]> = parallel::collect(points.len(), |i| points[i].map(|x| x * scale));
+    let same = |(p, q): (&[f64; 2], &[f64; 2])| (0..2).all(|k| p[k] * back == q[k]);
+    scaled.iter().zip(points).all(same).then_some((scaled, scale))
 }
 
 /// The grid of coordinates if it is coarser than a step. In parallel: the grid of the first part is mostly that of all.
@@ -128,6 +143,8 @@ fn grid_of(coordinates: &[f64], least: f64) -> Option<Grid> {
 struct Tree<'a> {
     cuts: &'a [Cut],
     boxes: &'a [KeyBox],
+    /// What coordinates have been multiplied with since the boxes were made.
+    scale: f64,
     grid: Option<Grid>,
 }
 
@@ -158,7 +175,7 @@ impl Tree<'_> {
         let key_box = self.boxes[index];
         let cell_filter = |depth| {
             let [width, height] = key_box.cell(depth);
-            Filter::for_box(width, height, self.grid)
+            Filter::for_box(width * self.scale, height * self.scale, self.grid)
         };
         // A few points have one depth, and need no memory for it.
         let (one, many);
