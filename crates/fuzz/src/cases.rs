@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use delone_oracle::generate::Random;
 
 use crate::args::Mode;
-use crate::modes::{broken, plane, space};
+use crate::modes::{broken, hulls, lives, motion, plane, space};
 
 /// Nothing, or what is wrong.
 pub(crate) type Judgement = Result<(), String>;
@@ -76,6 +76,12 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
     match (mode, seed & 1) {
         (Mode::Plane, _) => made::<plane::Plane>(seed),
         (Mode::Space, _) => made::<space::Space>(seed),
+        (Mode::Lives, 0) => made::<lives::Lives<delone::Delaunay2, 2>>(seed),
+        (Mode::Lives, _) => made::<lives::Lives<delone::Delaunay3, 3>>(seed),
+        (Mode::Motion, 0) => made::<motion::Motion<2>>(seed),
+        (Mode::Motion, _) => made::<motion::Motion<3>>(seed),
+        (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
+        (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
         (Mode::BrokenAnswer, _) => made::<broken::Answer>(seed),
         (Mode::BrokenPanic, _) => made::<broken::Panic>(seed),
         (Mode::BrokenHang, _) => made::<broken::Hang>(seed),

@@ -2,5 +2,9 @@
 
 pub(crate) mod broken;
 pub(crate) mod builds;
+pub(crate) mod hulls;
+pub(crate) mod lives;
+pub(crate) mod motion;
 pub(crate) mod plane;
+pub(crate) mod queries;
 pub(crate) mod space;
