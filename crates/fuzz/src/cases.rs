@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use delone_oracle::generate::Random;
 
 use crate::args::Mode;
-use crate::modes::{broken, hulls, lives, motion, plane, space};
+use crate::modes::{broken, hulls, lives, mixtures, motion, plane, predicates, space};
 
 /// Nothing, or what is wrong.
 pub(crate) type Judgement = Result<(), String>;
@@ -82,6 +82,9 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Motion, _) => made::<motion::Motion<3>>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
+        (Mode::Predicates, _) => made::<predicates::Predicates>(seed),
+        (Mode::Mixtures, 0) => made::<mixtures::Mixtures<delone::Delaunay2, 2>>(seed),
+        (Mode::Mixtures, _) => made::<mixtures::Mixtures<delone::Delaunay3, 3>>(seed),
         (Mode::BrokenAnswer, _) => made::<broken::Answer>(seed),
         (Mode::BrokenPanic, _) => made::<broken::Panic>(seed),
         (Mode::BrokenHang, _) => made::<broken::Hang>(seed),
