@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use delone_oracle::generate::Random;
 
 use crate::args::Mode;
-use crate::modes::{broken, hulls, lives, mixtures, motion, plane, predicates, space};
+use crate::modes::{broken, cells, hulls, lives, mixtures, motion, plane, predicates, space};
 
 /// Nothing, or what is wrong.
 pub(crate) type Judgement = Result<(), String>;
@@ -80,6 +80,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Lives, _) => made::<lives::Lives<delone::Delaunay3, 3>>(seed),
         (Mode::Motion, 0) => made::<motion::Motion<2>>(seed),
         (Mode::Motion, _) => made::<motion::Motion<3>>(seed),
+        (Mode::Cells, _) => made::<cells::Cells>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
         (Mode::Predicates, _) => made::<predicates::Predicates>(seed),
@@ -90,6 +91,6 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::BrokenHang, _) => made::<broken::Hang>(seed),
         (Mode::BrokenMemory, _) => made::<broken::Memory>(seed),
         (Mode::BrokenStack, _) => made::<broken::Stack>(seed),
-        _ => made::<broken::Sound>(seed),
+        (Mode::Sound | Mode::All, _) => made::<broken::Sound>(seed),
     }
 }

@@ -189,6 +189,10 @@ fn centre([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
         }
         return;
     };
+    if !found.iter().all(|x| x.is_finite()) {
+        judge.equal("circumcentre", Some(found), None);
+        return;
+    }
     let exact = integers(&[a, b, c, found]);
     let [u, v, at] = [1, 2, 3].map(|i| minus(&exact[i], &exact[0]));
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
