@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use delone_oracle::generate::Random;
 
 /// How much work exact arithmetic has with a set.
-const EXTREME: usize = 3;
+const EXTREME: usize = 2;
 
 /// The least positive number.
 const TINIEST: f64 = 5e-324;
@@ -78,7 +78,8 @@ fn family<const D: usize>(random: &mut Random, which: usize) -> Family<D> {
         }),
         // An integer lattice with the least numbers mixed in.
         2 => {
-            let (scale, rare) = (pick(random, &[1.0, 2.0, 4.0, 1024.0, 1e100]), 3 + random.below(20));
+            let scale = pick(random, &[1.0, 2.0, 4.0, 1024.0, 1e100]);
+            let (range, rare) = (1 + random.below(3), 3 + random.below(20));
             Box::new(move |r| {
                 [(); D].map(|()| {
                     if once_in(r, rare) {
@@ -108,6 +109,13 @@ fn family<const D: usize>(random: &mut Random, which: usize) -> Family<D> {
                 signed(r, x)
             })
         }),
+        _ => shaped(random, which, range, step),
+    }
+}
+
+/// The families with a shape.
+fn shaped<const D: usize>(random: &mut Random, which: usize, range: usize, step: f64) -> Family<D> {
+    match which {
         // Regular polygons; in space on parallel circles.
         8 => {
             let (corners, turn) = (3 + random.below(12), random.unit());
@@ -182,9 +190,12 @@ fn family<const D: usize>(random: &mut Random, which: usize) -> Family<D> {
 
 const FAMILIES: usize = 17;
 
+/// The family that static filters on lattices have most to fear from.
+const TINY_BESIDE_LATTICE: usize = 2;
+
 /// A small set for the oracle: up to `most` points, fewer where arithmetic is slow.
 pub(crate) fn points<const D: usize>(random: &mut Random, most: usize) -> Vec<[f64; D]> {
-    let which = random.below(FAMILIES);
+    let which = if once_in(random, 6) { TINY_BESIDE_LATTICE } else { random.below(FAMILIES) };
     let slow = if which < EXTREME { most / 3 } else { most };
     // Small sets most of the time: they are quick, and all the shapes are there.
     let most = if once_in(random, 3) { slow } else { slow.min(10) };

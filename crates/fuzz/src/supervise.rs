@@ -40,16 +40,12 @@ pub(crate) fn run(options: &Options) -> ExitCode {
 /// One case once more. Says whether all is well.
 fn again(options: &Options, seed: u64) -> bool {
     let outcome = watch(options);
-    match outcome.finding {
-        Some(message) => {
-            report(options, seed, &message, "");
-            false
-        }
-        None => {
-            println!("{}: case {seed:#018x}, no finding", options.mode.name());
-            true
-        }
+    if let Some(message) = outcome.finding {
+        report(options, seed, &message, "");
+        return false;
     }
+    println!("{}: case {seed:#018x}, no finding", options.mode.name());
+    true
 }
 
 /// Cases until the time is over or something was found. Says whether nothing was.
@@ -94,29 +90,8 @@ fn report(options: &Options, seed: u64, message: &str, number: &str) {
     let input = case(options.mode, seed);
     let keep = match options.keep.as_deref().map(indices) {
         Some(Ok(keep)) => keep,
-        _ => {
-            let end = Instant::now() + SHRINKING;
-            let limit = options.limit * IMPATIENCE;
-            let fails = |keep: &[usize]| {
-                let part = Some(written(keep));
-                watch(&Options { case: Some(seed), keep: part, limit, ..options.clone() }).finding
-            };
-            let mut last = None;
-            let keep = shrink::smallest(
-                input.len(),
-                || Instant::now() > end,
-                |keep| {
-                    let finding = fails(keep);
-                    let found = finding.is_some();
-                    last = finding.or(last.take());
-                    found
-                },
-            );
-            if let Some(last) = last.filter(|last| last != message) {
-                println!("the smaller input: {last}");
-            }
-            keep
-        }
+        Some(Err(_)) => return,
+        None => shrunk(options, seed, message, input.len()),
     };
     println!("{} of {} items:\n{}", keep.len(), input.len(), input.show(&keep));
     let short = |list: String| if list.is_empty() { "''".to_owned() } else { list };
@@ -124,6 +99,28 @@ fn report(options: &Options, seed: u64, message: &str, number: &str) {
         "again: cargo run -p delone-fuzz -- {name} --case {seed:#018x} --keep {}",
         short(written(&keep))
     );
+}
+
+/// The items of a case that are enough to find something.
+fn shrunk(options: &Options, seed: u64, message: &str, count: usize) -> Vec<usize> {
+    let end = Instant::now() + SHRINKING;
+    let limit = options.limit * IMPATIENCE;
+    let mut last = None;
+    let keep = shrink::smallest(
+        count,
+        || Instant::now() > end,
+        |keep| {
+            let part = Some(written(keep));
+            let finding = watch(&Options { case: Some(seed), keep: part, limit, ..options.clone() }).finding;
+            let found = finding.is_some();
+            last = finding.or(last.take());
+            found
+        },
+    );
+    if let Some(last) = last.filter(|last| last != message) {
+        println!("the smaller input: {last}");
+    }
+    keep
 }
 
 /// Runs a worker to its end.

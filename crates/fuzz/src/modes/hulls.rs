@@ -190,5 +190,5 @@ fn judge_hull(points: &[[f64; 3]], hull: &Hull3) -> Judgement {
     corners.dedup();
     let mut named = hull.corners().to_vec();
     named.sort_unstable();
-    if named != corners { Err(format!("the corners are {named:?} instead of {corners:?}")) } else { Ok(()) }
+    if named == corners { Ok(()) } else { Err(format!("the corners are {named:?} instead of {corners:?}")) }
 }

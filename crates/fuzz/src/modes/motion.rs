@@ -55,7 +55,7 @@ fn moved<const D: usize>(random: &mut Random, now: &[[f64; D]], first: &[[f64; D
             next.iter_mut().for_each(|p| p[..axes].fill(value));
         }
         2..5 => {
-            for _ in 0..1 + random.below(4) {
+            for _ in 0..=random.below(4) {
                 next.swap(random.below(n), random.below(n));
             }
         }
@@ -66,7 +66,7 @@ fn moved<const D: usize>(random: &mut Random, now: &[[f64; D]], first: &[[f64; D
             }
         }
         6 => {
-            for _ in 0..1 + random.below(3) {
+            for _ in 0..=random.below(3) {
                 next[random.below(n)] = nasty::query(random, now);
             }
         }
@@ -80,7 +80,7 @@ fn moved<const D: usize>(random: &mut Random, now: &[[f64; D]], first: &[[f64; D
 fn paths<const D: usize>(random: &mut Random) -> Vec<Path<D>> {
     let first = start::<D>(random);
     let mut frames = vec![first.clone()];
-    for _ in 0..1 + random.below(6) {
+    for _ in 0..=random.below(6) {
         let next = moved(random, &frames[frames.len() - 1], &first);
         frames.push(next);
         if once_in(random, 5) {

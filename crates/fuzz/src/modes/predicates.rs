@@ -203,8 +203,7 @@ fn centre([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
     let radius = dot(&centre, &centre);
     let place: BigInt = (0..2).map(|k| (&exact[0][k] * &area + &centre[k]).pow(2)).sum();
     // One unit in which the least number is 1 at least, for what is subnormal.
-    let least =
-        area.pow(2) * BigInt::from(2) << (2 * (-1074 - scale([a, b, c, found].as_flattened()))).max(0);
+    let least = (area.pow(2) * 2_u32) << (2 * (-1074 - scale([a, b, c, found].as_flattened()))).max(0);
     // (x + y + z)^2 <= 3 (x^2 + y^2 + z^2).
     let bound: BigInt = ((radius >> 80_u32) + (place >> 102_u32) + least) * 3;
     if error > bound {
