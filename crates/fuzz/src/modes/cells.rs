@@ -150,7 +150,13 @@ impl Attack for Cells {
             None => Region::polygon(&rings),
         };
         let d = Delaunay2::from_points(&sites).map_err(|error| error.to_string())?;
-        let Ok(region) = region else { return Ok(()) };
+        let region = match region {
+            Ok(region) => region,
+            Err(error) if rectangle.is_none() && is_proper(&rings) => {
+                return Err(format!("a region is refused, but nothing meets in it: {error}"));
+            }
+            Err(_) => return Ok(()),
+        };
         if d.vertex_count() == 0 {
             return Ok(());
         }
@@ -158,6 +164,17 @@ impl Attack for Cells {
         crossing(&rings)?;
         judge_cells(&d, &region, &rings, &sites, seed)
     }
+}
+
+/// Whether rings surely are a region: all corners are different, and no side meets another one beside its corners.
+fn is_proper(rings: &[Vec<[f64; 2]>]) -> bool {
+    let mut corners = rings.concat();
+    corners.sort_by(|p, q| p.partial_cmp(q).unwrap_or(std::cmp::Ordering::Equal));
+    !rings.is_empty()
+        && rings.iter().all(|ring| ring.len() > 2)
+        && corners.iter().flatten().all(|x| x.is_finite())
+        && corners.windows(2).all(|pair| pair[0] != pair[1])
+        && crossing(rings).is_ok()
 }
 
 /// No two sides of a region have more than corners in common.
@@ -344,7 +361,7 @@ fn from_bisectors(sites: &[[f64; 2]], nearest: usize, q: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{crossing, even_odd, exact_area, from_border};
+    use super::{crossing, even_odd, exact_area, from_border, is_proper};
 
     #[test]
     fn areas_and_insides_of_rings() {
@@ -365,7 +382,9 @@ mod tests {
         let touching = vec![[4.0, 2.0], [5.0, 1.0], [5.0, 3.0]];
         let bow_tie = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
         assert!(crossing(&[square.clone(), corner_to_corner]).is_ok());
+        assert!(is_proper(std::slice::from_ref(&square)));
         assert!(crossing(&[square, touching]).is_err());
-        assert!(crossing(&[bow_tie]).is_err());
+        assert!(crossing(std::slice::from_ref(&bow_tie)).is_err());
+        assert!(!is_proper(&[bow_tie]) && !is_proper(&[]));
     }
 }

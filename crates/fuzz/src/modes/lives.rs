@@ -25,6 +25,7 @@ pub(crate) enum Event<const D: usize> {
     Remove(usize),
     Move(usize, [f64; D]),
     Extend(Vec<[f64; D]>),
+    Strategy(usize),
     Ask { q: [f64; D], other: [f64; D], radius: f64, k: usize },
 }
 
@@ -96,6 +97,10 @@ impl<const D: usize> Model<D> {
                     self.places.push(place);
                 }
             }
+            Event::Strategy(k) => {
+                let locate = strategies(seed)[k % E::STRATEGIES];
+                return engine.use_strategy(locate).map_err(|error| format!("set_strategy: {error}"));
+            }
             Event::Ask { q, other, radius, k } => {
                 let sites: Vec<(VertexId, [f64; D])> =
                     alive.iter().filter_map(|&i| Some((VertexId::new(i), self.places[i]?))).collect();
@@ -135,10 +140,11 @@ impl<E: Engine<D>, const D: usize> Attack for Lives<E, D> {
         let count = 1 + random.below(60);
         let event = |r: &mut Random| {
             let p = if once_in(r, 4) { nasty::query(r, &places) } else { places[r.below(places.len())] };
-            match r.below(12) {
+            match r.below(13) {
                 0..4 => Event::Insert(p),
                 4 | 5 => Event::Remove(r.below(1000)),
                 6 | 7 => Event::Move(r.below(1000), p),
+                9 if once_in(r, 4) => Event::Strategy(r.below(100)),
                 8 => Event::Extend((0..r.below(12)).map(|_| places[r.below(places.len())]).collect()),
                 _ => {
                     let (q, other) = (nasty::query(r, &places), nasty::query(r, &places));

@@ -74,12 +74,16 @@ fn shape<const D: usize>(random: &mut Random, count: usize) -> Vec<[f64; D]> {
                 p
             })
             .collect(),
-        // A tenth of a lattice with the least numbers mixed in.
-        _ => (0..count)
-            .map(|_| {
-                [(); D].map(|()| if once_in(random, 50) { 5e-324 } else { random.below(40) as f64 * 2.0 })
-            })
-            .collect(),
+        // A lattice with the least numbers mixed in; so few that most parts of the set have none.
+        _ => {
+            let rare = pick(random, &[50, count, 3 * count]);
+            let tiny = pick(random, &[5e-324, 1e-310]);
+            (0..count)
+                .map(|_| {
+                    [(); D].map(|()| if once_in(random, rare) { tiny } else { random.below(40) as f64 * 2.0 })
+                })
+                .collect()
+        }
     }
 }
 
