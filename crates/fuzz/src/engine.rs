@@ -60,7 +60,7 @@ pub(crate) trait Engine<const D: usize>: Clone + Sized {
     fn span(&self) -> isize;
     /// As the oracle has them.
     fn simplices(&self) -> Simplices<D>;
-    /// The facets of the hull, each with its orientation where that means something.
+    /// What the engine's own check says.
     fn is_sound(&self) -> Result<(), String>;
     fn twins(&self) -> Vec<(usize, usize)>;
     fn alive(&self) -> Vec<VertexId>;

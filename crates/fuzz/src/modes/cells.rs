@@ -17,7 +17,7 @@ const SAMPLES: usize = 30;
 /// See the module.
 pub(crate) struct Cells;
 
-/// A site, or a ring of the region's border. A region without rings is the rectangle of the last two sites.
+/// A site, a ring of the region's border, or a rectangle, which is the region instead of all rings.
 #[derive(Clone, Debug)]
 pub(crate) enum Item {
     Site([f64; 2]),
@@ -197,7 +197,7 @@ fn crossing(rings: &[Vec<[f64; 2]>]) -> Judgement {
     Ok(())
 }
 
-/// Twice the area, exactly; then rounded to a share of a unit that is given.
+/// The area, exact until it is rounded at the end.
 fn exact_area(rings: &[Vec<[f64; 2]>]) -> f64 {
     let scale = scale(rings.iter().flatten().flatten());
     let twice: BigInt = rings
