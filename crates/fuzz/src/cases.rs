@@ -1,0 +1,96 @@
+//! A case: a list of items and a seed for the rest. Judges work on any part of the list, so that it can be shrunk.
+
+use std::fmt::Debug;
+use std::marker::PhantomData;
+
+use delone_oracle::generate::Random;
+
+use crate::args::Mode;
+use crate::modes::{broken, cells, hulls, lives, mixtures, motion, plane, predicates, space};
+
+/// Nothing, or what is wrong.
+pub(crate) type Judgement = Result<(), String>;
+
+/// A way to attack.
+pub(crate) trait Attack {
+    /// What the input is a list of.
+    type Item: Clone + Debug;
+
+    /// A random input. It must not call the engine: the supervisor makes the input of a crash, too.
+    fn make(random: &mut Random) -> Vec<Self::Item>;
+
+    /// Runs the engine on an input and compares it with the definition. Whatever else is random comes from the seed.
+    fn judge(items: &[Self::Item], seed: u64) -> Judgement;
+}
+
+/// An input of some attack.
+pub(crate) trait Case {
+    /// How many items it has.
+    fn len(&self) -> usize;
+    /// Judges the items with these indices.
+    fn judge(&self, keep: &[usize]) -> Judgement;
+    /// These items as text, one a line.
+    fn show(&self, keep: &[usize]) -> String;
+}
+
+struct Made<A: Attack> {
+    items: Vec<A::Item>,
+    seed: u64,
+    attack: PhantomData<A>,
+}
+
+impl<A: Attack> Made<A> {
+    fn kept(&self, keep: &[usize]) -> Vec<A::Item> {
+        keep.iter().filter_map(|&i| self.items.get(i).cloned()).collect()
+    }
+}
+
+impl<A: Attack> Case for Made<A> {
+    fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    fn judge(&self, keep: &[usize]) -> Judgement {
+        A::judge(&self.kept(keep), self.seed)
+    }
+
+    fn show(&self, keep: &[usize]) -> String {
+        self.kept(keep).iter().map(|item| format!("    {item:?},\n")).collect()
+    }
+}
+
+fn made<A: Attack + 'static>(case: u64) -> Box<dyn Case> {
+    let mut random = Random::new(case);
+    let items = A::make(&mut random);
+    Box::new(Made::<A> { items, seed: random.bits(), attack: PhantomData })
+}
+
+/// The seed of a case.
+pub(crate) fn seed_of(seed: u64, number: u64) -> u64 {
+    Random::new(seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(32)).bits()
+}
+
+/// The case with a seed of its own.
+pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
+    // Of the modes for both dimensions a bit of the seed decides which.
+    match (mode, seed & 1) {
+        (Mode::Plane, _) => made::<plane::Plane>(seed),
+        (Mode::Space, _) => made::<space::Space>(seed),
+        (Mode::Lives, 0) => made::<lives::Lives<delone::Delaunay2, 2>>(seed),
+        (Mode::Lives, _) => made::<lives::Lives<delone::Delaunay3, 3>>(seed),
+        (Mode::Motion, 0) => made::<motion::Motion<2>>(seed),
+        (Mode::Motion, _) => made::<motion::Motion<3>>(seed),
+        (Mode::Cells, _) => made::<cells::Cells>(seed),
+        (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
+        (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
+        (Mode::Predicates, _) => made::<predicates::Predicates>(seed),
+        (Mode::Mixtures, 0) => made::<mixtures::Mixtures<delone::Delaunay2, 2>>(seed),
+        (Mode::Mixtures, _) => made::<mixtures::Mixtures<delone::Delaunay3, 3>>(seed),
+        (Mode::BrokenAnswer, _) => made::<broken::Answer>(seed),
+        (Mode::BrokenPanic, _) => made::<broken::Panic>(seed),
+        (Mode::BrokenHang, _) => made::<broken::Hang>(seed),
+        (Mode::BrokenMemory, _) => made::<broken::Memory>(seed),
+        (Mode::BrokenStack, _) => made::<broken::Stack>(seed),
+        (Mode::Sound | Mode::All, _) => made::<broken::Sound>(seed),
+    }
+}

@@ -1,0 +1,14 @@
+//! The attacks, a file each.
+
+pub(crate) mod broken;
+pub(crate) mod builds;
+pub(crate) mod cells;
+pub(crate) mod hulls;
+pub(crate) mod lives;
+pub(crate) mod mixtures;
+pub(crate) mod motion;
+pub(crate) mod plane;
+pub(crate) mod predicates;
+pub(crate) mod queries;
+pub(crate) mod space;
+pub(crate) mod spheres;
