@@ -24,6 +24,12 @@ pub enum Error {
         /// The largest number.
         most: usize,
     },
+    /// More tetrahedra than 32-bit facet indices can serve, which take 32 gigabytes.
+    #[error("there would be more than {most} tetrahedra, ghosts included")]
+    TooManyTetrahedra {
+        /// The largest number.
+        most: usize,
+    },
     /// A coordinate of a point given alone is NaN or infinite.
     #[error("the {} coordinate {value} is not finite", ["x", "y", "z"][*.axis])]
     Coordinate {

@@ -295,3 +295,40 @@ proptest! {
         prop_assert_eq!(triangles(&twin.d), brute::delaunay(&points));
     }
 }
+
+/// A sliding window: the youngest points are there, and memory is that of the window, not of all that ever were.
+#[test]
+fn a_window_that_slides_for_ever_stays_small() {
+    let window = 500;
+    let mut random = Random::new(4);
+    let mut d = Delaunay2::new();
+    d.set_strategy(Locate::Hierarchy(Hierarchy::default())).expect("valid");
+    let mut alive = std::collections::VecDeque::new();
+    let mut most = 0;
+    for k in 0..6000 {
+        // Some equal others, which takes an id as well.
+        let p = if k % 10 == 3 { [0.5, 0.5] } else { [random.unit(), random.unit()] };
+        if let Inserted::New(v) = d.insert(p).expect("finite") {
+            alive.push_back((v, p));
+        }
+        if alive.len() > window {
+            let (v, _) = alive.pop_front().expect("there are some");
+            d.remove(v).expect("a vertex");
+        }
+        if d.points().len() > 2 * window {
+            let ids = d.compact();
+            assert_eq!(ids.iter().flatten().count(), alive.len());
+            for (v, p) in &mut alive {
+                *v = ids[v.index()].expect("it is there");
+                assert_eq!(d.point(*v), *p);
+            }
+            d.check().expect("canonical");
+        }
+        most = most.max(d.footprint().base);
+    }
+    assert_eq!(d.strategy(), Locate::Hierarchy(Hierarchy::default()));
+    assert!(most < 400 * window, "{most} bytes for {window} points");
+    let points: Vec<_> = alive.iter().map(|(_, p)| *p).collect();
+    assert_eq!(d.triangle_count(), Delaunay2::from_points(&points).expect("finite").triangle_count());
+    assert!(Delaunay2::new().compact().is_empty());
+}

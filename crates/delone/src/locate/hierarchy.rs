@@ -200,7 +200,7 @@ impl<L: Level> Levels<L> {
             }
             let start = self.start_at(level, q);
             let sample = &mut self.samples[level];
-            let place = sample.ground.add(q, start);
+            let Some(place) = sample.ground.add(q, start) else { break };
             if sample.down.len() <= place.index() {
                 sample.down.resize(place.index() + 1, Place::GHOST);
             }
@@ -240,12 +240,18 @@ impl<L: Level, G: Ground<Point = L::Point, Hint = L::Hint>> Strategy<G> for Leve
 
     fn removing(&mut self, ground: &G, v: Place) {
         let mut below = v;
-        for sample in &mut self.samples {
+        let mut full = None;
+        for (level, sample) in self.samples.iter_mut().enumerate() {
             let Some(place) = sample.up.remove(&below) else { break };
-            sample.ground.take(place);
+            if sample.ground.take(place).is_none() {
+                // A level without room is better none, nor those above it.
+                full = Some(level);
+                break;
+            }
             sample.down[place.index()] = Place::GHOST;
             below = place;
         }
+        self.samples.truncate(full.unwrap_or(usize::MAX));
         while self.samples.pop_if(|sample| sample.ground.vertex_count() == 0).is_some() {}
         if self.last == Some(v) {
             self.last = ground.neighbor(v);

@@ -134,11 +134,11 @@ pub(crate) trait Surface: Ground<Hint = EdgeId> {
 
 /// A triangulation that changes: what a level of the hierarchy must be able to do.
 pub(crate) trait Level: Ground + Default {
-    /// Makes a point a vertex, and returns its place; `start` is near it. The point is not a vertex yet.
-    fn add(&mut self, q: Self::Point, start: Start<Self::Hint>) -> Place;
+    /// Makes a point a vertex, and returns its place, if there is room; `start` is near it. The point is not a vertex yet.
+    fn add(&mut self, q: Self::Point, start: Start<Self::Hint>) -> Option<Place>;
 
-    /// Removes the vertex at a place.
-    fn take(&mut self, v: Place);
+    /// Removes the vertex at a place, if there is room for what takes its place.
+    fn take(&mut self, v: Place) -> Option<()>;
 }
 
 /// Where a walk starts, and which walk.

@@ -38,6 +38,17 @@ pub(crate) fn link(cells: &mut [Tetrahedron], f: FacetId, g: FacetId) {
     cells[g.tetrahedron().index()].across[g.corner()] = f;
 }
 
+/// How many tetrahedra there may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Most(pub(crate) usize);
+
+impl Default for Most {
+    /// Whose facets have indices.
+    fn default() -> Self {
+        Self(MAX_TETRAHEDRA)
+    }
+}
+
 /// A triangulation's topology.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh3 {
@@ -52,6 +63,7 @@ pub struct Mesh3 {
     pub(crate) names: Names,
     /// The number of vertices, scaffold not counted.
     pub(crate) vertex_count: usize,
+    pub(crate) most: Most,
 }
 
 /// What is wrong with a mesh of tetrahedra, one sentence each.
@@ -162,16 +174,19 @@ impl Mesh3 {
         (0..self.incident.len()).map(Place::new).filter(used)
     }
 
-    /// A tetrahedron to be filled in.
-    ///
-    /// # Panics
-    /// Beyond 2^30 of them, 32 gigabytes: indices would no longer be true.
-    pub(crate) fn new_cell(&mut self) -> TetrahedronId {
-        self.free.pop().unwrap_or_else(|| {
-            assert!(self.cells.len() < MAX_TETRAHEDRA, "too many tetrahedra for 32-bit indices");
-            self.cells.push(Tetrahedron::FREE);
-            self.marks.push(0);
-            TetrahedronId::new(self.cells.len() - 1)
+    /// How many more tetrahedra there may be.
+    pub(crate) fn room(&self) -> usize {
+        self.free.len() + self.most.0.saturating_sub(self.cells.len())
+    }
+
+    /// A tetrahedron to be filled in, if there is room.
+    pub(crate) fn new_cell(&mut self) -> Option<TetrahedronId> {
+        self.free.pop().or_else(|| {
+            (self.cells.len() < self.most.0).then(|| {
+                self.cells.push(Tetrahedron::FREE);
+                self.marks.push(0);
+                TetrahedronId::new(self.cells.len() - 1)
+            })
         })
     }
 

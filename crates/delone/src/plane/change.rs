@@ -1,7 +1,7 @@
 //! Insertion, removal and motion of vertices, with their names.
 //!
-//! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again. What is
-//! inserted is laid out near its neighbours in memory; when the number of vertices has doubled, or hints have
+//! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again, until
+//! [`Delaunay2::compact`] gives new ones. What is inserted is laid out near its neighbours in memory; when the number of vertices has doubled, or hints have
 //! grown old, everything is laid out in memory as in the plane again, which costs O(log n) amortized.
 
 use super::insert::Spot;
@@ -73,6 +73,9 @@ impl Delaunay2 {
 
     /// Removes a vertex. Points that were reported as its duplicates go with it.
     ///
+    /// Its id and its coordinates are remembered, 20 bytes: where vertices come and go for ever, as in a sliding window, call
+    /// [`Self::compact`] now and then.
+    ///
     /// Cost for degree d: O(d^2) tests up to degree 24, O(d log d) above; the average degree is six. Removing down to
     /// a line or to nothing is fine.
     ///
@@ -123,6 +126,32 @@ impl Delaunay2 {
             }
         }
         Ok(())
+    }
+
+    /// Forgets the ids and the coordinates of all points that are no vertices: those removed, and duplicates. The vertices get
+    /// new ids, from 0 on in the order of the old ones. Returns the new id for each old one, `None` for what is no vertex.
+    /// Triangles have new ids too.
+    ///
+    /// Cost: that of a construction. Called when half of all ids are gone it is a small part of what removing them took.
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let mut d = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])?;
+    /// let [a, b] = [0, 1].map(delone::VertexId::new);
+    /// d.remove(a)?;
+    /// let ids = d.compact();
+    /// assert_eq!((ids[a.index()], d.points().len()), (None, 3));
+    /// assert_eq!(ids[b.index()].map(|v| d.point(v)), Some([1.0, 0.0]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn compact(&mut self) -> Vec<Option<VertexId>> {
+        let mut ids = vec![None; self.points().len()];
+        let kept: Vec<[f64; 2]> = self.vertices().map(|v| self.point(v)).collect();
+        self.vertices().enumerate().for_each(|(k, v)| ids[v.index()] = Some(VertexId::new(k)));
+        // It is a function of its points.
+        self.rebuild(kept);
+        ids
     }
 
     /// Inserts many points, in a biased randomized order along a curve that the seed decides, each located from

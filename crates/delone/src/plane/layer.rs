@@ -228,14 +228,15 @@ impl Surface for Layer {
 }
 
 impl Level for Layer {
-    fn add(&mut self, q: [f64; 2], start: Start) -> Place {
+    fn add(&mut self, q: [f64; 2], start: Start) -> Option<Place> {
         let (spot, _) = self.spot(start, q, &mut ());
         match self.insert(spot, q, &mut ()) {
-            Ok(place) | Err(place) => place,
+            Ok(place) | Err(place) => Some(place),
         }
     }
 
-    fn take(&mut self, v: Place) {
+    fn take(&mut self, v: Place) -> Option<()> {
         self.remove(v, &mut ());
+        Some(())
     }
 }

@@ -32,6 +32,8 @@ pub(super) struct Memory<'a> {
 pub(super) trait Arena {
     fn view(&self) -> View<'_>;
     fn memory(&mut self) -> Memory<'_>;
+    /// How many more tetrahedra there is room for.
+    fn room(&self) -> usize;
     /// A tetrahedron to be filled in, if there is room.
     fn new_cell(&mut self) -> Option<TetrahedronId>;
     /// Gives one back.

@@ -47,7 +47,7 @@ impl Cavity {
     /// Makes the point at `v` a vertex: removes the tetrahedra in conflict with it, starting from `seed`, one of them,
     /// and joins it to their border.
     ///
-    /// `None` if there is no room; then the memory is good for nothing more.
+    /// `None`, and nothing has changed, if there is no room.
     pub(super) fn insert<A: Arena, T: Tally>(
         &mut self,
         arena: &mut A,
@@ -56,6 +56,11 @@ impl Cavity {
         tally: &mut T,
     ) -> Option<()> {
         self.find(&mut arena.memory(), v, seed, tally);
+        if self.border.len() > self.cells.len() + arena.room() {
+            let marks = arena.memory().marks;
+            self.cells.iter().chain(&self.queue[..self.queued]).for_each(|t| marks[t.index()] = 0);
+            return None;
+        }
         tally.destroyed(self.cells.len());
         tally.created(self.border.len());
         while self.cells.len() < self.border.len() {

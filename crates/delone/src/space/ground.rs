@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use delone_predicates::compare_distances3;
 
-use super::layer::Layer;
+use super::layer::{Layer, Refusal};
 use crate::fetch::fetch;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
@@ -111,14 +111,15 @@ impl Ground for Layer {
 }
 
 impl Level for Layer {
-    fn add(&mut self, q: [f64; 3], start: Start<TetrahedronId>) -> Place {
+    fn add(&mut self, q: [f64; 3], start: Start<TetrahedronId>) -> Option<Place> {
         let from = self.start_cell(start);
         match self.add_point(from, q, &mut ()) {
-            Ok(place) | Err(place) => place,
+            Ok(place) | Err(Refusal::Vertex(place)) => Some(place),
+            Err(Refusal::Full) => None,
         }
     }
 
-    fn take(&mut self, v: Place) {
-        self.remove(v, &mut ());
+    fn take(&mut self, v: Place) -> Option<()> {
+        self.remove(v, &mut ())
     }
 }

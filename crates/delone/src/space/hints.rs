@@ -203,7 +203,7 @@ impl Hints3 {
         let most = STEPS * self.order.len() + SOME;
         let mut steps = Steps { visited: 0, tally };
         let Delaunay3 { base: layer, duplicates, .. } = &mut self.current;
-        let first = layer.begin(&self.order);
+        let Some(first) = layer.begin(&self.order) else { return false };
         let Some(&a) = first.first() else { return true };
         let mut last = layer.mesh.incident[a.index()];
         for (&place, hint) in self.order.iter().zip(&mut self.hints) {
@@ -228,7 +228,9 @@ impl Hints3 {
                 }
                 continue;
             }
-            layer.insert(v, last, steps.tally);
+            if layer.insert(v, last, steps.tally).is_none() {
+                return false;
+            }
             last = layer.mesh.incident[v.index()];
             if RENEW {
                 *hint = nearest(layer, v).map_or(*hint, |w| w.index() as u32);

@@ -91,7 +91,9 @@ impl Hole {
             let rounds = curve::rounds(self.vertices.len(), 0);
             self.order.extend(rounds.into_iter().map(|i| along[i as usize]));
         }
-        build::build(fill, &self.order, &mut Vec::new(), &mut ());
+        // As few as they are, they have room.
+        let built = build::build(fill, &self.order, &mut Vec::new(), &mut ());
+        debug_assert!(built.is_some(), "a filling has room");
     }
 
     /// Takes the facets around the hole, as its tetrahedra see them. All their corners must be vertices.
@@ -168,14 +170,17 @@ impl Hole {
         fits
     }
 
-    /// Puts what was found inside in the place of what goes.
-    pub(super) fn copy(&mut self, layer: &mut Layer, fill: &Layer) {
+    /// Puts what was found inside in the place of what goes. `None`, and nothing has changed, if there is no room.
+    pub(super) fn copy(&mut self, layer: &mut Layer, fill: &Layer) -> Option<()> {
         let mesh = &mut layer.mesh;
+        if self.inside.len() > self.cells.len() + mesh.room() {
+            return None;
+        }
         for &t in &self.cells {
             mesh.free_cell(t);
         }
         for (_, to) in &mut self.inside {
-            *to = mesh.new_cell();
+            *to = mesh.new_cell()?;
         }
         self.inside.sort_unstable();
         let place = |p: Place| if p.is_ghost() { p } else { self.vertices[p.index()] };
@@ -197,5 +202,6 @@ impl Hole {
                 mesh.incident[place(p).index()] = to;
             }
         }
+        Some(())
     }
 }

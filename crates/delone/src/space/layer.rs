@@ -30,6 +30,15 @@ pub(super) struct Layer {
     pub(super) fill: Option<Box<Layer>>,
 }
 
+/// Why a point does not become a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Refusal {
+    /// It equals this one.
+    Vertex(Place),
+    /// There would be too many tetrahedra.
+    Full,
+}
+
 /// The box around points, axis by axis.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
@@ -136,25 +145,31 @@ impl Layer {
         self.free.push(v);
     }
 
-    /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or the place of the vertex
-    /// that it equals.
+    /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or says why not, and nothing has
+    /// changed.
     pub(super) fn add_point<T: Tally>(
         &mut self,
         from: TetrahedronId,
         q: [f64; 3],
         tally: &mut T,
-    ) -> Result<Place, Place> {
+    ) -> Result<Place, Refusal> {
         if !self.is_in_span(q) {
             let v = self.keep(q);
-            self.rebuild(Some(v));
+            if self.rebuild(Some(v)).is_none() {
+                self.free_place(v);
+                return Err(Refusal::Full);
+            }
             return Ok(v);
         }
         let t = self.walk(from, q, tally);
         if let Some(w) = self.vertex_at(t, q) {
-            return Err(w);
+            return Err(Refusal::Vertex(w));
         }
         let v = self.keep(q);
-        self.insert(v, t, tally);
+        if self.insert(v, t, tally).is_none() {
+            self.free_place(v);
+            return Err(Refusal::Full);
+        }
         Ok(v)
     }
 
@@ -210,14 +225,16 @@ impl Layer {
         self.view().vertex_at(t, q).filter(|&p| !self.is_scaffold(p))
     }
 
-    /// Makes the point at a place a vertex, from a tetrahedron in conflict with it.
+    /// Makes the point at a place a vertex, from a tetrahedron in conflict with it. `None`, and nothing has changed, if there
+    /// is no room.
     #[inline]
-    pub(super) fn insert<T: Tally>(&mut self, v: Place, seed: TetrahedronId, tally: &mut T) {
+    pub(super) fn insert<T: Tally>(&mut self, v: Place, seed: TetrahedronId, tally: &mut T) -> Option<()> {
         let mut cavity = std::mem::take(&mut self.cavity);
         let inserted = cavity.insert(self, v, seed, tally);
-        debug_assert!(inserted.is_some(), "a layer has room");
         self.cavity = cavity;
+        inserted?;
         self.mesh.vertex_count += 1;
+        Some(())
     }
 }
 
@@ -233,9 +250,13 @@ impl Arena for Layer {
         Memory { cells, marks, incident, points: &self.points, filter: &self.filter }
     }
 
+    fn room(&self) -> usize {
+        self.mesh.room()
+    }
+
     #[inline]
     fn new_cell(&mut self) -> Option<TetrahedronId> {
-        Some(self.mesh.new_cell())
+        self.mesh.new_cell()
     }
 
     #[inline]

@@ -27,7 +27,7 @@ use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use crate::error::{self, Error};
-use crate::ids::{Duplicate, FacetId, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
+use crate::ids::{Duplicate, FacetId, MAX_POINTS_IN_SPACE, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
 use crate::locate::Locate;
 use crate::locate::tally::Work;
 use crate::mesh::Dimension;
@@ -97,10 +97,10 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
-    /// [`MAX_POINTS_IN_SPACE`].
+    /// [`MAX_POINTS_IN_SPACE`], [`Error::TooManyTetrahedra`] beyond 2^30 of these, which some sets of 66,000 points have.
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         check_points(points)?;
-        Ok(Self::assemble(build::triangulate(points, 0, &mut ()), Work::default()))
+        Ok(Self::assemble(with_room(build::triangulate(points, 0, &mut ()))?, Work::default()))
     }
 
     /// The same for coordinates that need not be kept, which takes 24 bytes a point less.
@@ -109,7 +109,8 @@ impl Delaunay3 {
     /// As [`Self::from_points`].
     pub fn from_vec(points: Vec<[f64; 3]>) -> Result<Self, Error> {
         check_points(&points)?;
-        Ok(Self::assemble(build::triangulate::<[f64; 3], _>(points, 0, &mut ()), Work::default()))
+        let built = build::triangulate::<[f64; 3], _>(points, 0, &mut ());
+        Ok(Self::assemble(with_room(built)?, Work::default()))
     }
 
     /// Triangulates points with an algorithm of choice, and counts what it does; see [`Self::work`].
@@ -122,12 +123,12 @@ impl Delaunay3 {
         match algorithm {
             Algorithm3::Spatial { seed } => {
                 let built = build::triangulate(points, seed, &mut work);
-                Ok(Self::assemble(built, work))
+                Ok(Self::assemble(with_room(built)?, work))
             }
             Algorithm3::Located { locate, seed } => {
                 let mut d = Self::new();
                 d.set_strategy(locate)?;
-                d.extend_shuffled(points, seed, &mut work);
+                d.extend_shuffled(points, seed, &mut work)?;
                 d.work = work;
                 Ok(d)
             }
@@ -255,6 +256,11 @@ impl Delaunay3 {
         }
         joined
     }
+}
+
+/// What was built, or that there would be too many tetrahedra.
+fn with_room<T>(built: Option<T>) -> Result<T, Error> {
+    built.ok_or(Error::TooManyTetrahedra { most: MAX_TETRAHEDRA })
 }
 
 fn check_points<P: Position3>(points: &[P]) -> Result<(), Error> {

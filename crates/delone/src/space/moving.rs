@@ -137,7 +137,7 @@ impl Moving3 {
             if layer.vertex_at(t, q).is_some() {
                 return None;
             }
-            layer.insert(v, t, &mut ());
+            layer.insert(v, t, &mut ())?;
         }
         Some(Step3::Repaired { holes, reinserted: self.lost.len() })
     }
@@ -237,8 +237,7 @@ impl Mend<'_> {
                 self.take(t)?;
             }
         }
-        self.close();
-        Some(())
+        self.close()
     }
 
     /// Takes a tetrahedron and all bad ones that hang together with it into the hole. None if there is no more room. What
@@ -301,13 +300,13 @@ impl Mend<'_> {
         (!more.is_empty()).then_some(more)
     }
 
-    /// Puts the filling in its place.
-    fn close(&mut self) {
+    /// Puts the filling in its place. None if there is no room.
+    fn close(&mut self) -> Option<()> {
         let Self { layer, hole, fill, .. } = self;
         for t in &hole.cells {
             layer.mesh.marks[t.index()] = 0;
         }
-        hole.copy(layer, fill);
+        hole.copy(layer, fill)?;
         let mut used = vec![false; hole.vertices.len()];
         for (t, _) in &hole.inside {
             let corners = fill.mesh.cells[t.index()].corners;
@@ -319,5 +318,6 @@ impl Mend<'_> {
             layer.mesh.vertex_count -= 1;
             self.lost.push((v, near));
         }
+        Some(())
     }
 }

@@ -10,33 +10,48 @@ use crate::ids::{Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::Dimension;
 
+/// What became of the hole that a star left.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Filled {
+    All,
+    /// The other vertices span less than before.
+    SpansLess,
+    /// There would be too many tetrahedra.
+    NoRoom,
+}
+
 impl Layer {
-    /// Removes the vertex at a place, which is free then.
-    pub(super) fn remove<T: Tally>(&mut self, v: Place, tally: &mut T) {
+    /// Removes the vertex at a place, which is free then. `None`, and nothing has changed, if there is no room for what takes
+    /// the place of its star.
+    pub(super) fn remove<T: Tally>(&mut self, v: Place, tally: &mut T) -> Option<()> {
         if self.mesh.vertex_count == 1 {
             self.free_place(v);
-            self.rebuild(None);
-            return;
+            return self.rebuild(None);
         }
         let mut hole = std::mem::take(&mut self.hole);
         let mut fill = self.fill.take().unwrap_or_default();
-        let there = self.fill_star(v, &mut hole, &mut fill);
-        if there {
+        let filled = self.fill_star(v, &mut hole, &mut fill);
+        if filled == Filled::All {
             tally.destroyed(hole.cells.len());
             tally.created(hole.inside.len());
         }
         (self.hole, self.fill) = (hole, Some(fill));
-        self.free_place(v);
-        if there {
-            self.mesh.vertex_count -= 1;
-        } else {
-            self.rebuild(None);
+        match filled {
+            Filled::NoRoom => None,
+            Filled::All => {
+                self.free_place(v);
+                self.mesh.vertex_count -= 1;
+                Some(())
+            }
+            Filled::SpansLess => {
+                self.free_place(v);
+                self.rebuild(None)
+            }
         }
     }
 
-    /// Removes the star of a vertex and fills the hole. False, and nothing has changed, if the other vertices span
-    /// less.
-    fn fill_star(&mut self, v: Place, hole: &mut Hole, fill: &mut Layer) -> bool {
+    /// Removes the star of a vertex and fills the hole. Nothing has changed if it is not filled.
+    fn fill_star(&mut self, v: Place, hole: &mut Hole, fill: &mut Layer) -> Filled {
         let mesh = &self.mesh;
         mesh.star(v, &mut hole.cells);
         hole.set_vertices(self, Some(v), None);
@@ -54,7 +69,7 @@ impl Layer {
                 let apex = mesh.cells[g.tetrahedron().index()].corners[g.corner()];
                 (!apex.is_ghost() && !mesh.is_ghost(*t)).then_some(apex)
             };
-            let Some(apex) = hole.cells.iter().find_map(beyond) else { return false };
+            let Some(apex) = hole.cells.iter().find_map(beyond) else { return Filled::SpansLess };
             hole.set_vertices(self, Some(v), Some(apex));
             hole.triangulate(self, fill);
         }
@@ -62,7 +77,6 @@ impl Layer {
         hole.set_border(self, &facets);
         let fits = hole.find_inside(fill);
         debug_assert!(fits, "the filling has the border's facets");
-        hole.copy(self, fill);
-        true
+        if hole.copy(self, fill).is_some() { Filled::All } else { Filled::NoRoom }
     }
 }

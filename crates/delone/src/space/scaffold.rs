@@ -32,19 +32,18 @@ impl Layer {
     }
 
     /// Begins with the first of some places whose points span as much as all of them do; returns those that are
-    /// vertices now. The mesh must be empty.
-    pub(super) fn begin(&mut self, order: &[u32]) -> Vec<Place> {
+    /// vertices now. The mesh must be empty. `None` if there is no room.
+    pub(super) fn begin(&mut self, order: &[u32]) -> Option<Vec<Place>> {
         let vertices = spanning(&self.points, order);
         if vertices.is_empty() {
-            return vertices;
+            return Some(vertices);
         }
         let scaffold: Vec<[f64; 3]> = self.off_span(&vertices);
         self.scaffold = scaffold.into_iter().map(|p| self.keep(p)).collect();
         let four: Vec<Place> = vertices.iter().chain(&self.scaffold).copied().collect();
         self.mesh.vertex_count = vertices.len();
-        let begun = first_cells(self, [four[0], four[1], four[2], four[3]]);
-        debug_assert!(begun.is_some(), "a layer has room");
-        vertices
+        first_cells(self, [four[0], four[1], four[2], four[3]])?;
+        Some(vertices)
     }
 
     /// Points that make four with one to three others, which span one dimension less than they are.
@@ -95,11 +94,23 @@ impl Layer {
         }
     }
 
-    /// Triangulates all vertices, and the point at one more place, anew: they span more or less than before.
-    pub(super) fn rebuild(&mut self, more: Option<Place>) {
+    /// Triangulates all vertices, and the point at one more place, anew: they span more or less than before. `None` if there
+    /// is no room; then all is as before, but for the order of tetrahedra.
+    pub(super) fn rebuild(&mut self, more: Option<Place>) -> Option<()> {
         let scaffold = std::mem::take(&mut self.scaffold);
         scaffold.into_iter().for_each(|p| self.free_place(p));
-        let vertices: Vec<Place> = self.mesh.inhabited().chain(more).collect();
+        let mut vertices: Vec<Place> = self.mesh.inhabited().collect();
+        let before = vertices.len();
+        vertices.extend(more);
+        self.build_anew(&vertices).or_else(|| {
+            let restored = self.build_anew(&vertices[..before]);
+            debug_assert!(restored.is_some(), "what was there has room");
+            None
+        })
+    }
+
+    fn build_anew(&mut self, vertices: &[Place]) -> Option<()> {
+        std::mem::take(&mut self.scaffold).into_iter().for_each(|p| self.free_place(p));
         vertices.iter().for_each(|p| self.mesh.incident[p.index()] = TetrahedronId::NONE);
         self.clear_mesh();
         let at = |i: u32| self.points[vertices[i as usize].index()];
@@ -107,7 +118,7 @@ impl Layer {
         let rounds = curve::rounds(vertices.len(), 0);
         let order: Vec<u32> =
             rounds.into_iter().map(|i| vertices[along[i as usize] as usize].index() as u32).collect();
-        build::build(self, &order, &mut Vec::new(), &mut ());
+        build::build(self, &order, &mut Vec::new(), &mut ())
     }
 }
 

@@ -94,7 +94,7 @@ fn join<T: Tally + Default + Send>(
     let at: Vec<[f64; 3]> = vertices.iter().map(|p| layer.points[p.index()]).collect();
     // Cut again only if they are fewer by half, so that this has an end whatever samples foretold.
     let runs = if 2 * at.len() < layer.points.len() { cut(&at) } else { uncut(&at) };
-    let (mut fill, _) = triangulate_runs(at, runs, seed, tally);
+    let (mut fill, _) = triangulate_runs(at, runs, seed, tally)?;
     if fill.dimension() != Dimension::Space {
         return None;
     }

@@ -31,21 +31,21 @@ const fn room(points: usize) -> usize {
 }
 
 /// Triangulates finite points, at most [`crate::MAX_POINTS_IN_SPACE`] of them. They are kept in another order; what is
-/// given is dropped as soon as that is done.
+/// given is dropped as soon as that is done. `None` if there would be too many tetrahedra.
 pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     points: impl AsRef<[P]>,
     seed: u64,
     tally: &mut T,
-) -> (Layer, Vec<Duplicate>) {
+) -> Option<(Layer, Vec<Duplicate>)> {
     let Some((scaled, scale)) = scaled(points.as_ref()) else {
         let runs = cut(points.as_ref());
         return triangulate_runs(points, runs, seed, tally);
     };
     drop(points);
     let runs = cut(&scaled);
-    let (mut layer, duplicates) = triangulate_runs(scaled, runs, seed, tally);
+    let (mut layer, duplicates) = triangulate_runs(scaled, runs, seed, tally)?;
     layer.scale(1.0 / scale);
-    (layer, duplicates)
+    Some((layer, duplicates))
 }
 
 /// Sizes of sets whose products are in the range of the filters: 2^-130 to 2^90.
@@ -72,7 +72,7 @@ fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
     runs: Vec<Run>,
     seed: u64,
     tally: &mut T,
-) -> (Layer, Vec<Duplicate>) {
+) -> Option<(Layer, Vec<Duplicate>)> {
     let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
     let parts: Vec<(usize, Vec<Limits>)> =
         runs.into_iter().map(|run| (run.order.len(), run.others)).collect();
@@ -83,41 +83,48 @@ fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
     drop(order);
     let mut duplicates = Vec::new();
     if parts.len() == 1 || apart::triangulate(&mut layer, &parts, seed, &mut duplicates, tally).is_none() {
-        triangulate_whole(&mut layer, seed, &mut duplicates, tally);
+        duplicates.clear();
+        triangulate_whole(&mut layer, seed, &mut duplicates, tally)?;
     }
     Duplicate::settle(&mut duplicates);
-    (layer, duplicates)
+    Some((layer, duplicates))
 }
 
-/// Makes all points vertices, which must be in an order that is short in space.
-fn triangulate_whole<T: Tally>(layer: &mut Layer, seed: u64, duplicates: &mut Vec<Duplicate>, tally: &mut T) {
+/// Makes all points vertices, which must be in an order that is short in space. `None` if there is no room.
+fn triangulate_whole<T: Tally>(
+    layer: &mut Layer,
+    seed: u64,
+    duplicates: &mut Vec<Duplicate>,
+    tally: &mut T,
+) -> Option<()> {
     let count = layer.points.len();
     layer.clear_mesh();
     layer.mesh.incident.fill(TetrahedronId::NONE);
     layer.mesh.cells.reserve_exact(room(count));
     layer.mesh.marks.reserve_exact(room(count));
-    build(layer, &curve::rounds(count, seed), duplicates, tally);
+    build(layer, &curve::rounds(count, seed), duplicates, tally)
 }
 
 /// Makes the points at some places vertices, in this order, in an empty mesh. Those that equal others become
-/// duplicates.
+/// duplicates. `None` if there is no room.
 pub(super) fn build<T: Tally>(
     layer: &mut Layer,
     order: &[u32],
     duplicates: &mut Vec<Duplicate>,
     tally: &mut T,
-) {
-    let first = layer.begin(order);
-    let Some(&a) = first.first() else { return };
+) -> Option<()> {
+    let first = layer.begin(order)?;
+    let Some(&a) = first.first() else { return Some(()) };
     let start = layer.mesh.incident[a.index()];
     let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
     let mut cavity = std::mem::take(&mut layer.cavity);
     let mut twins = Vec::new();
     let all = insert_all(layer, &mut cavity, start, others, &mut twins, tally);
-    debug_assert!(all.is_some(), "a layer has room");
     layer.cavity = cavity;
+    all?;
     layer.mesh.vertex_count = order.len() - twins.len();
     note_twins(layer, &twins, duplicates);
+    Some(())
 }
 
 /// Points that equal vertices are duplicates of them.

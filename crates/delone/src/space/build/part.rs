@@ -63,6 +63,10 @@ impl Arena for Part<'_> {
         Memory { cells, marks, incident, points, filter }
     }
 
+    fn room(&self) -> usize {
+        self.free.len() + self.cells.len() - self.used
+    }
+
     #[inline]
     fn new_cell(&mut self) -> Option<TetrahedronId> {
         self.free.pop().or_else(|| {
