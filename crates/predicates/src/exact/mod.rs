@@ -4,17 +4,21 @@
 //! (nearly all real data: grids, centimetres, coordinates of similar size), expansions of the `robust` crate
 //! when no product can leave the exponent range, [`big`] integers for the rest.
 //!
-//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones.
+//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones. Lines of the plane and where they meet
+//! have a file of their own ([`lines`]).
 //!
 //! In the plane all three evaluate the base-and-apex form (see `pencil`): with l = a, r = b, the orientation of a, b, c is
 //! `(c - a) x (c - b)`, and the in-circle determinant of a, b, c, d is `dot_c cross_d - dot_d cross_c`.
 
 mod big;
 mod integers;
+mod lines;
 mod space;
 mod wide;
 
 use std::cmp::Ordering;
+
+pub(crate) use lines::{meeting, side_of_meeting, turn};
 
 use crate::counters::{Predicate, Stage, count};
 use crate::{Point2, Point3, Sign};
