@@ -26,7 +26,7 @@ fn clash([p, q]: [[f64; 2]; 2], [s, t]: [[f64; 2]; 2]) -> bool {
 fn cross_at(at: [f64; 2], [a, b]: [[f64; 2]; 2], others: [[f64; 2]; 2]) -> bool {
     let angle = |p: [f64; 2]| (p[1] - at[1]).atan2(p[0] - at[0]);
     let (low, high) = (angle(a).min(angle(b)), angle(a).max(angle(b)));
-    let inside = |p: [f64; 2]| (low..high).contains(&angle(p));
+    let inside = |p: [f64; 2]| low < angle(p) && angle(p) < high;
     inside(others[0]) != inside(others[1])
 }
 
@@ -72,7 +72,7 @@ fn rings_are_accepted_as_the_definition_says() {
     let (mut valid, mut touching, mut nested) = (0, 0, 0);
     for _ in 0..100_000 {
         let extent = 4 + random.below(4);
-        let mut rings: Rings = (0..1 + random.below(4))
+        let mut rings: Rings = (0..=random.below(4))
             .map(|_| {
                 let (x, y, size) = (random.below(extent), random.below(extent), 2 + random.below(extent));
                 let corner = |r: &mut Random| [(x + r.below(size)) as f64, (y + r.below(size)) as f64];

@@ -1,7 +1,7 @@
 //! All cells of a diagram, clipped to a region.
 //!
-//! Most cells lie inside of the region, and their corners are circumcentres, each computed once. The others are cut
-//! out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
+//! Most cells lie inside of the region or outside, and their corners are circumcentres, each computed once. The others are
+//! cut out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
 //! corners far away; then, if the region is no box, from the part of it that is near.
 //!
 //! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
@@ -9,7 +9,7 @@
 use super::Voronoi2;
 use super::clip::{self, clip};
 use super::measure;
-use super::region::Region;
+use super::region::{Region, Relation, enlarged};
 use delone_predicates::{Line, circumcentre};
 
 use crate::fetch::fetch;
@@ -61,7 +61,7 @@ impl Voronoi2<'_> {
         let mut done = 0;
         let mut add = |cells: &mut Cells, place: Place, e: EdgeId| {
             let first = cells.starts.len() - 1;
-            if !cells.push_inner(mesh.star_from(e), region) {
+            if !cells.push_whole(mesh.star_from(e), region) {
                 for ring in rounded(&self.cut_out(region, place), region) {
                     cells.push(&ring);
                 }
@@ -164,9 +164,9 @@ fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region) -> impl Iterator<Ite
 }
 
 impl Cells {
-    /// Adds a cell whose corners are all inside of the region. Says whether it is one.
+    /// Adds a cell that is surely inside of the region. Says whether that is all: nothing is added of a cell surely outside.
     #[inline]
-    fn push_inner(&mut self, star: Star, region: &Region) -> bool {
+    fn push_whole(&mut self, star: Star, region: &Region) -> bool {
         let start = self.corners.len();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut last = [f64::NAN; 2];
@@ -181,13 +181,13 @@ impl Cells {
             }
             last = corner;
         }
-        // The corners are rounded: the cell is surely inside if it still is when it is enlarged by their errors.
-        let inside = self.corners.len() > start
-            && enlarged(low, high)
-                .is_some_and(|[low, high]| region.around(low, high).is_some_and(|part| part.full));
-        if !inside {
+        // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, so
+        // no radius is larger than both extents together.
+        let extents = (high[0] - low[0]) + (high[1] - low[1]);
+        let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
+        if self.corners.len() == start || relation.is_none_or(|relation| relation != Relation::Inside) {
             self.corners.truncate(start);
-            return false;
+            return relation == Some(Relation::Outside);
         }
         let first = self.vertices[self.corners[start] as usize];
         if self.corners.len() > start + 1 && first == last {
@@ -256,18 +256,4 @@ impl<'a> Ring<'a> {
     pub fn area(self) -> f64 {
         measure::area(std::iter::once(self.points()))
     }
-}
-
-/// A box around rounded circumcentres, the corners of one cell, so enlarged that the exact ones are in it. `None` if it is
-/// too large for that.
-///
-/// Each is off by at most 2^-40 of its radius and a rounding of its coordinates. The site is inside of the cell, so no
-/// radius is larger than the extents of the cell together.
-#[inline]
-fn enlarged(low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
-    const OF_EXTENT: f64 = 1.0 / (1_u64 << 38) as f64;
-    let extent = (high[0] - low[0]) + (high[1] - low[1]);
-    let largest = low.iter().chain(&high).fold(0.0_f64, |max, x| max.max(x.abs()));
-    let margin = OF_EXTENT * extent + 4.0 * f64::EPSILON * largest + f64::MIN_POSITIVE;
-    margin.is_finite().then(|| [low.map(|x| x - margin), high.map(|x| x + margin)])
 }

@@ -18,17 +18,17 @@ pub(super) struct Corner {
     pub(super) spot: Spot,
     /// What the edge lies on, the polygon on its left.
     pub(super) line: Line,
-    /// Whether the edge is on the border of the region.
-    pub(super) is_side: bool,
+    /// Which side of the region the edge is on, if it is on the border.
+    pub(super) side: Option<usize>,
 }
 
 /// Corners of a closed line, the polygon on its left. Edges may be points.
 pub(super) type Ring = Vec<Corner>;
 
-/// A ring with its own edges as sides, each on an axis-parallel line if it can be.
-pub(super) fn sides(corners: &[[f64; 2]]) -> Ring {
+/// A ring with its own edges as sides, numbered from `first`, each on an axis-parallel line if it can be.
+pub(super) fn sides(corners: &[[f64; 2]], first: usize) -> Ring {
     let next = corners.iter().cycle().skip(1);
-    let side = |(&p, &q): (&[f64; 2], &[f64; 2])| {
+    let side = |(i, (&p, &q)): (usize, (&[f64; 2], &[f64; 2]))| {
         let line = match (p[0] == q[0], p[1] == q[1]) {
             (true, _) if p[1] < q[1] => Line::Below(0, p[0]),
             (true, _) => Line::Above(0, p[0]),
@@ -36,9 +36,9 @@ pub(super) fn sides(corners: &[[f64; 2]]) -> Ring {
             (_, true) => Line::Below(1, p[1]),
             _ => Line::Through(p, q),
         };
-        Corner { spot: Spot::Point(p), line, is_side: true }
+        Corner { spot: Spot::Point(p), line, side: Some(first + i) }
     };
-    corners.iter().zip(next).map(side).collect()
+    corners.iter().zip(next).enumerate().map(side).collect()
 }
 
 /// The part of a polygon on the left of a line.
@@ -122,7 +122,7 @@ impl Cut<'_> {
             chain.push(self.ring[i]);
             i = self.after(i);
         }
-        let leave = |spot: Spot| Corner { spot, line: self.half, is_side: false };
+        let leave = |spot: Spot| Corner { spot, line: self.half, side: None };
         if self.signs[i].is_negative() {
             chain.push(leave(meeting(self.before(i))));
         } else if to.first != to.last && self.signs[self.after(i)].is_negative() && self.is_vertex(i) {
@@ -140,7 +140,7 @@ impl Cut<'_> {
         for (i, &corner) in self.ring.iter().enumerate() {
             if self.signs[i].is_zero() && self.is_vertex(i) {
                 let before = self.ring[self.before(i)].line;
-                ring.push(Corner { spot: Spot::Meeting(before, self.half), line: self.half, is_side: false });
+                ring.push(Corner { spot: Spot::Meeting(before, self.half), line: self.half, side: None });
                 ring.push(Corner { spot: Spot::Meeting(self.half, corner.line), ..corner });
             } else {
                 ring.push(corner);

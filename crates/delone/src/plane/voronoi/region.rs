@@ -18,7 +18,18 @@ pub struct Region {
     low: [f64; 2],
     high: [f64; 2],
     rings: Vec<Vec<[f64; 2]>>,
+    /// All sides, ring by ring.
+    sides: Vec<[[f64; 2]; 2]>,
     tree: Node,
+}
+
+/// How a box lies to a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Relation {
+    Inside,
+    Outside,
+    /// Or too near to a side to tell.
+    Across,
 }
 
 impl Region {
@@ -44,8 +55,8 @@ impl Region {
         if x0 >= x1 || y0 >= y1 {
             return Err(problem(RegionProblem::Empty));
         }
-        let tree = Node::whole(sides(&corners));
-        Ok(Self { low: [x0, y0], high: [x1, y1], rings: vec![corners.to_vec()], tree })
+        let tree = Node::whole(sides(&corners, 0));
+        Ok(Self { low: [x0, y0], high: [x1, y1], rings: vec![corners.to_vec()], sides: Vec::new(), tree })
     }
 
     /// A polygon: rings of corners, each closed by its first corner, in any direction. A ring inside of another one
@@ -106,8 +117,13 @@ impl Region {
                 high[axis] = high[axis].max(corner[axis]);
             }
         }
-        let tree = Node::new(rings.iter().map(|ring| sides(ring)).collect());
-        Ok(Self { low, high, rings, tree })
+        let (mut all, mut numbered) = (Vec::new(), Vec::new());
+        for ring in &rings {
+            numbered.push(sides(ring, all.len()));
+            let next = ring.iter().cycle().skip(1);
+            all.extend(ring.iter().zip(next).map(|(&p, &q)| [p, q]));
+        }
+        Ok(Self { low, high, rings, sides: all, tree: Node::new(numbered) })
     }
 
     /// The area, in coordinate units squared; infinite if it is beyond the range of `f64`. O(m).
@@ -125,31 +141,64 @@ impl Region {
         [self.low, self.high]
     }
 
-    /// The smallest box of the tree that contains one. `None` if that is not inside of the region's own box.
+    /// How a box lies to the region.
     #[inline]
-    pub(super) fn around(&self, low: [f64; 2], high: [f64; 2]) -> Option<&Node> {
+    pub(super) fn relation(&self, low: [f64; 2], high: [f64; 2]) -> Relation {
         let within = |axis: usize| self.low[axis] <= low[axis] && high[axis] <= self.high[axis];
-        (within(0) && within(1)).then(|| self.tree.around(low, high))
+        let beside = |axis: usize| self.high[axis] < low[axis] || high[axis] < self.low[axis];
+        if within(0) && within(1) {
+            self.tree.around(low, high).relation(&self.sides, low, high)
+        } else if beside(0) || beside(1) {
+            Relation::Outside
+        } else {
+            Relation::Across
+        }
     }
 
     /// The smallest box of the tree that contains parts of the region's own box.
     pub(super) fn around_rings(&self, rings: &[Ring]) -> &Node {
-        self.tree.around_rings(rings)
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for p in rings.iter().flatten().filter_map(|corner| self.round(&corner.spot)) {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(p[axis]);
+                high[axis] = high[axis].max(p[axis]);
+            }
+        }
+        let [low, high] = enlarged(low, high, self.size()).unwrap_or([self.low, self.high]);
+        self.tree.around_rings(rings, low, high)
+    }
+
+    /// No two points of it are further apart.
+    fn size(&self) -> f64 {
+        (self.high[0] - self.low[0]).hypot(self.high[1] - self.low[1])
     }
 
     /// The region's own box as a ring.
     pub(super) fn frame(&self) -> Ring {
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
-        sides(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
+        sides(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], 0)
     }
 
     /// A corner of a clipped cell in coordinate units: it is inside of the region's own box, so it is not rounded out
     /// of that. `None` never happens to a corner.
     pub(super) fn round(&self, spot: &Spot) -> Option<[f64; 2]> {
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
-        let [x, y] = spot.rounded((x1 - x0).hypot(y1 - y0))?;
+        let [x, y] = spot.rounded(self.size())?;
         Some([x.clamp(x0, x1), y.clamp(y0, y1)])
     }
+}
+
+/// A box around rounded meetings and circumcentres, so enlarged that the exact ones are in it. `None` if it is too large for
+/// that.
+///
+/// Each is off by at most 2^-40 of its radius, or of the region, and a rounding of its coordinates; `size` is as large as
+/// that.
+#[inline]
+pub(super) fn enlarged(low: [f64; 2], high: [f64; 2], size: f64) -> Option<[[f64; 2]; 2]> {
+    const OF_SIZE: f64 = 1.0 / (1_u64 << 38) as f64;
+    let largest = low.iter().chain(&high).fold(0.0_f64, |max, x| max.max(x.abs()));
+    let margin = OF_SIZE * size + 4.0 * f64::EPSILON * largest + f64::MIN_POSITIVE;
+    margin.is_finite().then(|| [low.map(|x| x - margin), high.map(|x| x + margin)])
 }
 
 fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {

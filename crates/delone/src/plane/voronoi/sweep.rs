@@ -120,12 +120,12 @@ impl Sweep<'_> {
         }
         for side in &ending {
             self.line.remove(side);
-            self.compare(self.below(side), self.above(side))?;
+            compare(self.below(side), self.above(side))?;
         }
         self.line.extend(beginning.iter().copied());
         for side in &beginning {
-            self.compare(self.below(side), Some(*side))?;
-            self.compare(Some(*side), self.above(side))?;
+            compare(self.below(side), Some(*side))?;
+            compare(Some(*side), self.above(side))?;
         }
         beginning.sort();
         if at_one.len() > 2 {
@@ -153,16 +153,6 @@ impl Sweep<'_> {
         self.line.range((Excluded(*side), Unbounded)).next().copied()
     }
 
-    fn compare(&self, below: Option<Side>, above: Option<Side>) -> Result<(), Error> {
-        match below.zip(above) {
-            Some((p, q)) if are_in_conflict(&p, &q) => {
-                let (ring, corner) = (p.ring, p.corner).max((q.ring, q.corner));
-                Err(Error::Region { ring, corner, problem: RegionProblem::Crossing })
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// Whether rings that share a corner only touch there: around it, sides of one ring are in pairs like brackets.
     fn check_around(&self, beginning: &[Side], ending: &[Side]) -> Result<(), Error> {
         let mut open: Vec<&Side> = Vec::new();
@@ -178,6 +168,17 @@ impl Sweep<'_> {
         let count = self.rings[side.ring].len();
         let corner = if is_start { side.corner } else { (side.corner + 1) % count };
         Err(Error::Region { ring: side.ring, corner, problem: RegionProblem::Crossing })
+    }
+}
+
+/// Whether neighbours on the line are apart but for corners.
+fn compare(below: Option<Side>, above: Option<Side>) -> Result<(), Error> {
+    match below.zip(above) {
+        Some((p, q)) if are_in_conflict(&p, &q) => {
+            let (ring, corner) = (p.ring, p.corner).max((q.ring, q.corner));
+            Err(Error::Region { ring, corner, problem: RegionProblem::Crossing })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -4,9 +4,10 @@
 //!
 //! Cost: O(m log m) typical for m sides.
 
-use delone_predicates::Line;
+use delone_predicates::{Line, Spot, orient2d};
 
 use super::clip::{Corner, Ring, clip};
+use super::region::Relation;
 
 /// Up to this number of sides a box is not cut further.
 const FEW: usize = 8;
@@ -35,7 +36,7 @@ impl Node {
     }
 
     fn at_depth(rings: Vec<Ring>, depth: u32) -> Self {
-        let is_side = |corner: &&Corner| corner.is_side;
+        let is_side = |corner: &&Corner| corner.side.is_some();
         let count = |rings: &[Ring]| rings.iter().flatten().filter(is_side).count();
         let side_count = count(&rings);
         if side_count <= FEW || depth == DEEPEST {
@@ -79,9 +80,9 @@ impl Node {
         node
     }
 
-    /// The smallest box of the tree that contains rings, which are inside of the whole. Exact.
-    pub(super) fn around_rings(&self, rings: &[Ring]) -> &Self {
-        let mut node = self;
+    /// The smallest box of the tree that contains rings, which are inside of a box of numbers. Exact.
+    pub(super) fn around_rings(&self, rings: &[Ring], low: [f64; 2], high: [f64; 2]) -> &Self {
+        let mut node = self.around(low, high);
         while let Some((axis, at, halves)) = &node.halves {
             let within = |half: Line| rings.iter().flatten().all(|c| !half.side(&c.spot).is_negative());
             if within(Line::Below(*axis, *at)) {
@@ -94,4 +95,47 @@ impl Node {
         }
         node
     }
+
+    /// How what is in a box lies to the part of the polygon, if no side comes near. `sides` are those of the region.
+    pub(super) fn relation(&self, sides: &[[[f64; 2]; 2]], low: [f64; 2], high: [f64; 2]) -> Relation {
+        if self.full {
+            return Relation::Inside;
+        }
+        let own = self.rings.iter().flatten().filter_map(|corner| sides.get(corner.side?));
+        if own.into_iter().any(|&side| !keeps_off(side, low, high)) {
+            return Relation::Across;
+        }
+        // All or nothing of the box: as its middle, which is on no edge of the part.
+        let middle = [0, 1].map(|axis| low[axis] / 2.0 + high[axis] / 2.0);
+        if self.contains(middle) { Relation::Inside } else { Relation::Outside }
+    }
+
+    /// Whether a point that is on no edge is in the part. Exact.
+    fn contains(&self, p: [f64; 2]) -> bool {
+        let mut inside = false;
+        for ring in &self.rings {
+            let is_above = |corner: &Corner| Line::Above(1, p[1]).side(&corner.spot).is_positive();
+            let Some(mut from) = ring.first().map(is_above) else { continue };
+            for (i, edge) in ring.iter().enumerate() {
+                let to = is_above(ring.get(i + 1).unwrap_or(&ring[0]));
+                if to != from {
+                    let side = edge.line.side(&Spot::Point(p));
+                    inside ^= if to { side.is_positive() } else { side.is_negative() };
+                }
+                from = to;
+            }
+        }
+        inside
+    }
+}
+
+/// Whether a side surely shares no point with a box.
+fn keeps_off([p, q]: [[f64; 2]; 2], low: [f64; 2], high: [f64; 2]) -> bool {
+    let beside = |k: usize| p[k].max(q[k]) < low[k] || high[k] < p[k].min(q[k]);
+    if beside(0) || beside(1) {
+        return true;
+    }
+    let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
+    let first = orient2d(p, q, low);
+    !first.is_zero() && corners.iter().all(|&corner| orient2d(p, q, corner) == first)
 }
