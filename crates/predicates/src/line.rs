@@ -99,8 +99,11 @@ impl Line {
     fn across(&self, spot: &Spot) -> Option<Self> {
         match *spot {
             Spot::Point(_) => None,
-            Spot::Meeting(first, second) => Some(if first.turn(self).is_zero() { second } else { first })
-                .filter(|l| !l.turn(self).is_zero()),
+            Spot::Meeting(first, second) => {
+                // Mostly one of them is this line.
+                let is_parallel = first == *self || (second != *self && first.turn(self).is_zero());
+                Some(if is_parallel { second } else { first })
+            }
         }
     }
 

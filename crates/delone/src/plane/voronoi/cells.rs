@@ -144,8 +144,10 @@ impl Voronoi2<'_> {
         if framed.is_empty() {
             return framed;
         }
-        let part = region.around_rings(&framed);
-        if part.full { framed } else { cut(part.rings.clone()) }
+        match region.around(&framed) {
+            None => framed,
+            Some(part) => cut(part),
+        }
     }
 }
 

@@ -3,14 +3,17 @@
 //! Cost: a rectangle O(1); a polygon of m sides O(m log m) typical, at worst O(m log m) to validate and O(m^2) to cut into
 //! boxes (`tree.rs`).
 
-use delone_predicates::Spot;
+use delone_predicates::{Line, Spot};
 
-use super::clip::{Ring, sides};
+use super::clip::{Ring, clip, sides};
 use super::measure;
 use super::sweep::nesting;
 use super::tree::Node;
 use crate::error::{Error, RegionProblem};
 use crate::plane::{Delaunay2, Position2};
+
+/// Parts with more corners than this are first cut to the box around a cell.
+const MANY: usize = 16;
 
 /// A region of the plane with a border of straight sides.
 #[derive(Clone, Debug)]
@@ -155,8 +158,8 @@ impl Region {
         }
     }
 
-    /// The smallest box of the tree that contains parts of the region's own box.
-    pub(super) fn around_rings(&self, rings: &[Ring]) -> &Node {
+    /// The polygon as far as it is near parts of the region's own box. `None` if these are all inside of it.
+    pub(super) fn around(&self, rings: &[Ring]) -> Option<Vec<Ring>> {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for p in rings.iter().flatten().filter_map(|corner| self.round(&corner.spot)) {
             for axis in 0..2 {
@@ -165,7 +168,25 @@ impl Region {
             }
         }
         let [low, high] = enlarged(low, high, self.size()).unwrap_or([self.low, self.high]);
-        self.tree.around_rings(rings, low, high)
+        let node = self.tree.around_rings(rings, low, high);
+        if node.full {
+            return None;
+        }
+        let mut part = node.rings.clone();
+        // Parts across an early cut of the tree have a long border around them, most of it not near. To compare with
+        // numbers is cheaper than with bisectors.
+        let lines = [
+            Line::Above(0, low[0]),
+            Line::Below(0, high[0]),
+            Line::Above(1, low[1]),
+            Line::Below(1, high[1]),
+        ];
+        for line in lines {
+            if part.iter().map(Vec::len).sum::<usize>() > MANY {
+                part = clip(part, line);
+            }
+        }
+        Some(part)
     }
 
     /// No two points of it are further apart.
