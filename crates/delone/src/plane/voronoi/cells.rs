@@ -9,7 +9,8 @@
 use super::Voronoi2;
 use super::clip::{self, clip};
 use super::measure;
-use super::region::{Region, Relation, enlarged};
+use super::region::{Region, enlarged};
+use super::tree::Relation;
 use delone_predicates::{Line, circumcentre};
 
 use crate::fetch::fetch;

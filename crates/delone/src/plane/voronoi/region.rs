@@ -8,7 +8,7 @@ use delone_predicates::{Line, Spot};
 use super::clip::{Ring, clip, sides};
 use super::measure;
 use super::sweep::nesting;
-use super::tree::Node;
+use super::tree::{Node, Relation};
 use crate::error::{Error, RegionProblem};
 use crate::plane::{Delaunay2, Position2};
 
@@ -24,15 +24,6 @@ pub struct Region {
     /// All sides, ring by ring.
     sides: Vec<[[f64; 2]; 2]>,
     tree: Node,
-}
-
-/// How a box lies to a region.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Relation {
-    Inside,
-    Outside,
-    /// Or too near to a side to tell.
-    Across,
 }
 
 impl Region {

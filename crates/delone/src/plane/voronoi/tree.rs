@@ -7,7 +7,6 @@
 use delone_predicates::{Line, Spot, orient2d};
 
 use super::clip::{Corner, Ring, clip};
-use super::region::Relation;
 
 /// Up to this number of sides a box is not cut further.
 const FEW: usize = 8;
@@ -22,6 +21,15 @@ pub(super) struct Node {
     pub(super) full: bool,
     /// The axis and the coordinate of the cut, and what is below and above.
     halves: Option<(usize, f64, Box<[Node; 2]>)>,
+}
+
+/// How a box lies to a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Relation {
+    Inside,
+    Outside,
+    /// Or too near to a side to tell.
+    Across,
 }
 
 impl Node {
