@@ -123,7 +123,7 @@ pub enum RegionProblem {
     /// A ring comes to the same corner twice.
     #[error("the ring comes here a second time")]
     VisitedTwice,
-    /// A side crosses, touches or overlaps another one.
+    /// A side crosses, touches or overlaps another one, or rings cross at a corner of both.
     #[error("the side from here crosses or touches another one")]
     Crossing,
 }

@@ -47,7 +47,6 @@ impl Counts {
     /// Holds them to bounds.
     fn hold(&self, what: &str, average: f64, most: u64) {
         let found = self.sum as f64 / self.count.max(1) as f64;
-        println!("{what}: {found:.1} on average, {} at most", self.most);
         assert!(
             found <= average && self.most <= most,
             "{what}: {found:.1} on average, {} at most",

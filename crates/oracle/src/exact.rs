@@ -11,7 +11,7 @@ pub type Point2 = [f64; 2];
 pub type Point3 = [f64; 3];
 
 /// Coordinates as integers: every `f64` of the tuple divided by one common power of two.
-fn integers<const D: usize>(points: &[[f64; D]]) -> Vec<[BigInt; D]> {
+pub(crate) fn integers<const D: usize>(points: &[[f64; D]]) -> Vec<[BigInt; D]> {
     let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff).max(1) as i64;
     let scale = points.iter().flatten().filter(|x| **x != 0.0).map(|x| exponent(*x)).min().unwrap_or(0);
     let integer = |x: f64| {
@@ -45,7 +45,7 @@ fn minor(rows: &[Vec<BigInt>], row: usize, column: usize) -> Vec<Vec<BigInt>> {
     rows.iter().enumerate().filter(|(i, _)| *i != row).map(|(_, r)| keep(r)).collect()
 }
 
-fn sign(value: &BigInt) -> i8 {
+pub(crate) fn sign(value: &BigInt) -> i8 {
     match value.cmp(&BigInt::ZERO) {
         Ordering::Less => -1,
         Ordering::Equal => 0,

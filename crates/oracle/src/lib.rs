@@ -6,8 +6,10 @@
 //! - [`exact`]: orientation and lifted determinants over the integers, by Laplace expansion;
 //! - [`brute`]: the canonical triangulation of up to 64 points and of all their subsets, by trying all
 //!   triples against all points;
+//! - [`lines`]: where lines meet, as fractions;
 //! - [`generate`]: named, seeded point sets, the same bits on every machine.
 
 pub mod brute;
 pub mod exact;
 pub mod generate;
+pub mod lines;

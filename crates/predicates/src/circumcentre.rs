@@ -24,6 +24,13 @@ const CANCELLED: f64 = 1.0 / 256.0;
 /// ```
 #[inline]
 pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
+    circumcentre_within(a, b, c, f64::INFINITY)
+}
+
+/// The same, rounded once from the exact centre too where the centre is further away than a reach: then the error is
+/// 2^-40 of that reach at most, and a rounding.
+#[inline]
+pub(crate) fn circumcentre_within(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Point2> {
     // From the smallest point: of the other two either may be first, which changes two signs that cancel. Without
     // branches, because nothing predicts them.
     let points = [a, b, c];
@@ -40,9 +47,10 @@ pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     // near zero also those of two.
     let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc) && size > 1e-280;
     if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
-        let centre = [a[0] + x / (2.0 * area), a[1] + y / (2.0 * area)];
+        let (x, y) = (x / (2.0 * area), y / (2.0 * area));
+        let centre = [a[0] + x, a[1] + y];
         // A quotient of numbers in range may be too large; only the exact centre tells.
-        if centre[0].is_finite() && centre[1].is_finite() {
+        if x.abs().max(y.abs()) <= reach && centre[0].is_finite() && centre[1].is_finite() {
             return Some(centre);
         }
     }

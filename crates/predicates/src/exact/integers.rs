@@ -10,10 +10,16 @@ use crate::Sign;
 
 /// The coordinates as integers on their common scale, if they fit 61 bits.
 fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
-    let parts = coordinates.map(decode);
-    let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
     let mut aligned = [0; N];
-    for (out, (mantissa, exponent)) in aligned.iter_mut().zip(parts) {
+    align_into(coordinates, &mut aligned)?;
+    Some(aligned)
+}
+
+/// The same for any number of them; what is zero is left as it is.
+pub(super) fn align_into(coordinates: &[f64], aligned: &mut [i64]) -> Option<()> {
+    let scale = coordinates.iter().map(|&x| decode(x).1).min().unwrap_or(0);
+    for (out, &x) in aligned.iter_mut().zip(coordinates) {
+        let (mantissa, exponent) = decode(x);
         if mantissa == 0 {
             continue;
         }
@@ -24,7 +30,7 @@ fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
         }
         *out = mantissa << shift;
     }
-    Some(aligned)
+    Some(())
 }
 
 /// Dot and cross product of q - l and q - r.

@@ -4,7 +4,8 @@
 //! (nearly all real data: grids, centimetres, coordinates of similar size), expansions of the `robust` crate
 //! when no product can leave the exponent range, [`big`] integers for the rest.
 //!
-//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones.
+//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones. Lines of the plane and where they meet
+//! have a file of their own ([`lines`]).
 //!
 //! Before big integers, floating point is asked once more, scaled so that nothing leaves the range (`filter/scaled.rs`).
 //!
@@ -13,10 +14,13 @@
 
 mod big;
 mod integers;
+mod lines;
 mod space;
 mod wide;
 
 use std::cmp::Ordering;
+
+pub(crate) use lines::{meeting, side_of_meeting, turn};
 
 use crate::counters::{Predicate, Stage, count};
 use crate::filter::{in_circle_scaled, in_sphere_scaled, orient2d_scaled, orient3d_scaled};

@@ -8,10 +8,10 @@ use crate::Sign;
 
 /// A number of N words, two's complement, the lowest first.
 #[derive(Clone, Copy)]
-struct Wide<const N: usize>([u64; N]);
+pub(super) struct Wide<const N: usize>([u64; N]);
 
 impl<const N: usize> Wide<N> {
-    fn plus(self, other: Self) -> Self {
+    pub(super) fn plus(self, other: Self) -> Self {
         let (mut sum, mut carry) = (self.0, 0);
         for (word, more) in sum.iter_mut().zip(other.0) {
             let part = u128::from(*word) + u128::from(more) + carry;
@@ -28,7 +28,7 @@ impl<const N: usize> Wide<N> {
         Self(result)
     }
 
-    fn minus(self, other: Self) -> Self {
+    pub(super) fn minus(self, other: Self) -> Self {
         self.plus(other.negative())
     }
 
@@ -40,7 +40,7 @@ impl<const N: usize> Wide<N> {
         if self.is_negative() { self.negative() } else { self }
     }
 
-    fn sign(self) -> Sign {
+    pub(super) fn sign(self) -> Sign {
         if self.is_negative() {
             Sign::Negative
         } else if self.0.iter().all(|&word| word == 0) {
@@ -51,7 +51,7 @@ impl<const N: usize> Wide<N> {
     }
 
     /// The product, in as many words as both have together.
-    fn times<const M: usize, const P: usize>(self, other: Wide<M>) -> Wide<P> {
+    pub(super) fn times<const M: usize, const P: usize>(self, other: Wide<M>) -> Wide<P> {
         debug_assert_eq!(P, N + M, "a product has room");
         let (x, y) = (self.magnitude(), other.magnitude());
         let mut product = [0; P];
@@ -65,6 +65,12 @@ impl<const N: usize> Wide<N> {
         }
         let product = Wide(product);
         if self.is_negative() == other.is_negative() { product } else { product.negative() }
+    }
+}
+
+impl From<i128> for Wide<2> {
+    fn from(number: i128) -> Self {
+        Self([number as u64, (number >> 64) as u64])
     }
 }
 
@@ -91,11 +97,7 @@ fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i128; N]> {
 type Vector = [Wide<2>; 3];
 
 fn between(p: &[i128], from: usize, to: usize) -> Vector {
-    let word = |k: usize| {
-        let difference = p[3 * to + k] - p[3 * from + k];
-        Wide([difference as u64, (difference >> 64) as u64])
-    };
-    [word(0), word(1), word(2)]
+    [0, 1, 2].map(|k| Wide::from(p[3 * to + k] - p[3 * from + k]))
 }
 
 fn minor(u: &Vector, v: &Vector) -> Wide<4> {

@@ -211,3 +211,24 @@ fn small_boxes_of_a_grid_in_space_are_exact() {
     assert!(!exact(1000.0));
     assert!(!exact(f64::INFINITY));
 }
+
+/// The terms of the determinant of three lines, and of the coordinates of a meeting: coefficients a and b with one rounding,
+/// c with five of its size, all of size 1.
+#[test]
+fn the_bounds_of_lines_cover_their_formulas() {
+    use crate::line::{MEETING_BOUND, SIDE_BOUND, TURN_BOUND};
+    let d = Bounded::difference(1.0);
+    // A bisector: a difference times a sum of two differences, twice; of size 2 altogether.
+    let half = Bounded::difference(0.5);
+    let product = d.times(half.plus(half));
+    let c = product.plus(product);
+    assert!(c.error <= 5.0 * U * 2.0 * (1.0 + 8.0 * U), "{} u", c.error / U / 2.0);
+    let c = Bounded { max: 1.0, error: 5.0 * U * (1.0 + 8.0 * U) };
+    let turn = d.times(d).plus(d.times(d));
+    assert!(turn.error <= TURN_BOUND * 2.0 * (1.0 - 8.0 * U), "{} u", turn.error / U / 2.0);
+    let mixed = d.times(c).plus(d.times(c));
+    assert!(mixed.error <= MEETING_BOUND * 2.0 * (1.0 - 8.0 * U), "{} u", mixed.error / U / 2.0);
+    let value = d.times(mixed).plus(d.times(mixed)).plus(c.times(turn));
+    assert!(value.error <= SIDE_BOUND * 6.0 * (1.0 - 16.0 * U), "{} u", value.error / U / 6.0);
+    assert!(value.error >= SIDE_BOUND * 6.0 * 0.7, "the bound is far too large: {} u", value.error / U / 6.0);
+}

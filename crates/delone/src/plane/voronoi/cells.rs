@@ -1,15 +1,17 @@
 //! All cells of a diagram, clipped to a region.
 //!
-//! Most cells lie inside of the region, and their corners are circumcentres, each computed once. The others are cut
-//! out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
+//! Most cells lie inside of the region or outside, and their corners are circumcentres, each computed once. The others are
+//! cut out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
 //! corners far away; then, if the region is no box, from the part of it that is near.
 //!
 //! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
 
 use super::Voronoi2;
-use super::clip::{self, HalfPlane, clip};
-use super::region::{Region, twice_area};
-use delone_predicates::circumcentre;
+use super::clip::{self, clip};
+use super::measure;
+use super::region::{Region, enlarged};
+use super::tree::Relation;
+use delone_predicates::{Line, circumcentre};
 
 use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
@@ -60,9 +62,9 @@ impl Voronoi2<'_> {
         let mut done = 0;
         let mut add = |cells: &mut Cells, place: Place, e: EdgeId| {
             let first = cells.starts.len() - 1;
-            if !cells.push_inner(mesh.star_from(e), region) {
-                for ring in self.cut_out(region, place) {
-                    cells.push(ring.iter().map(|corner| corner.at));
+            if !cells.push_whole(mesh.star_from(e), region) {
+                for ring in rounded(&self.cut_out(region, place), region) {
+                    cells.push(&ring);
                 }
             }
             let count = cells.starts.len() - 1 - first;
@@ -123,8 +125,7 @@ impl Voronoi2<'_> {
     /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
     pub fn cell(self, site: VertexId, region: &Region) -> Vec<Vec<[f64; 2]>> {
         let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
-        let rings = self.cut_out(region, place);
-        rings.iter().map(|ring| ring.iter().map(|corner| corner.at).collect()).collect()
+        rounded(&self.cut_out(region, place), region).collect()
     }
 
     /// A cell cut out of the region by its bisectors.
@@ -136,26 +137,39 @@ impl Voronoi2<'_> {
                 if rings.is_empty() {
                     break;
                 }
-                rings = clip(&rings, HalfPlane::Nearer { site, other: layer.point(w) });
+                rings = clip(rings, Line::Bisector(site, layer.point(w)));
             }
             rings
         };
         let framed = cut(vec![region.frame()]);
-        let Some([low, high]) = bounds(framed.iter().flatten().map(|corner| corner.at)) else {
-            return Vec::new();
-        };
-        match region.around(low, high) {
-            Some(part) if part.full => framed,
-            Some(part) => cut(part.rings.clone()),
-            None => Vec::new(),
+        if framed.is_empty() {
+            return framed;
+        }
+        match region.around(&framed) {
+            None => framed,
+            Some(part) => cut(part),
         }
     }
 }
 
+/// Rings in coordinate units, without those of which nothing is left.
+fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region) -> impl Iterator<Item = Vec<[f64; 2]>> + 'a {
+    let round = |ring: &'a clip::Ring| {
+        let mut corners: Vec<[f64; 2]> =
+            ring.iter().filter_map(|corner| region.round(&corner.spot)).collect();
+        corners.dedup();
+        while corners.len() > 1 && corners.first() == corners.last() {
+            corners.pop();
+        }
+        corners
+    };
+    rings.iter().map(round).filter(|corners| corners.len() > 2)
+}
+
 impl Cells {
-    /// Adds a cell whose corners are all inside of the region. Says whether it is one.
+    /// Adds a cell that is surely inside of the region. Says whether that is all: nothing is added of a cell surely outside.
     #[inline]
-    fn push_inner(&mut self, star: Star, region: &Region) -> bool {
+    fn push_whole(&mut self, star: Star, region: &Region) -> bool {
         let start = self.corners.len();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut last = [f64::NAN; 2];
@@ -170,10 +184,13 @@ impl Cells {
             }
             last = corner;
         }
-        let inside = self.corners.len() > start && region.around(low, high).is_some_and(|part| part.full);
-        if !inside {
+        // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, so
+        // no radius is larger than both extents together.
+        let extents = (high[0] - low[0]) + (high[1] - low[1]);
+        let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
+        if self.corners.len() == start || relation.is_none_or(|relation| relation != Relation::Inside) {
             self.corners.truncate(start);
-            return false;
+            return relation == Some(Relation::Outside);
         }
         let first = self.vertices[self.corners[start] as usize];
         if self.corners.len() > start + 1 && first == last {
@@ -183,8 +200,8 @@ impl Cells {
         true
     }
 
-    fn push(&mut self, ring: impl Iterator<Item = [f64; 2]>) {
-        for corner in ring {
+    fn push(&mut self, ring: &[[f64; 2]]) {
+        for &corner in ring {
             self.corners.push(self.vertices.len() as u32);
             self.vertices.push(corner);
         }
@@ -192,7 +209,7 @@ impl Cells {
     }
 
     /// The rings of a cell: none for an id that is no vertex, and for a cell outside of the region.
-    pub fn rings(&self, site: VertexId) -> impl Iterator<Item = Ring<'_>> {
+    pub fn rings(&self, site: VertexId) -> impl Iterator<Item = Ring<'_>> + Clone {
         let (first, count) = self.sites.get(site.index()).copied().unwrap_or_default();
         let ends = &self.starts[first as usize..][..count as usize + usize::from(count > 0)];
         let corners = ends.windows(2).map(|ends| &self.corners[ends[0] as usize..ends[1] as usize]);
@@ -204,9 +221,10 @@ impl Cells {
         &self.vertices
     }
 
-    /// The area of a cell, in coordinate units squared.
+    /// The area of a cell, in coordinate units squared. Never negative: less than nothing is rounding. Infinite if it is beyond
+    /// the range of `f64`. O(k) for k corners.
     pub fn area(&self, site: VertexId) -> f64 {
-        self.rings(site).map(Ring::area).sum()
+        measure::area(self.rings(site).map(Ring::points)).max(0.0)
     }
 
     /// The length of the border of a cell, holes included, in coordinate units.
@@ -214,18 +232,9 @@ impl Cells {
         self.rings(site).flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
     }
 
-    /// The centre of mass of a cell. `None` if it is empty.
+    /// The centre of mass of a cell. `None` if it is empty, or so small that its rounded corners have no area.
     pub fn centroid(&self, site: VertexId) -> Option<[f64; 2]> {
-        let [x, y] = self.rings(site).next()?.points().next()?;
-        let (mut area, mut sum) = (0.0, [0.0, 0.0]);
-        for [p, q] in self.rings(site).flat_map(Ring::sides) {
-            let (p, q) = ([p[0] - x, p[1] - y], [q[0] - x, q[1] - y]);
-            let cross = p[0] * q[1] - p[1] * q[0];
-            area += cross;
-            sum = [sum[0] + cross * (p[0] + q[0]), sum[1] + cross * (p[1] + q[1])];
-        }
-        let centroid = [x + sum[0] / (3.0 * area), y + sum[1] / (3.0 * area)];
-        (area > 0.0 && centroid.iter().all(|x| x.is_finite())).then_some(centroid)
+        measure::centroid(self.rings(site).map(Ring::points))
     }
 }
 
@@ -246,16 +255,8 @@ impl<'a> Ring<'a> {
         self.points().zip(next).map(|(p, q)| [p, q])
     }
 
-    /// The area inside, in coordinate units squared; negative for a hole.
+    /// The area inside, in coordinate units squared; negative for a hole. Infinite beyond the range of `f64`.
     pub fn area(self) -> f64 {
-        twice_area(self.points()) / 2.0
+        measure::area(std::iter::once(self.points()))
     }
-}
-
-/// The corners of the smallest rectangle around points.
-fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Option<[[f64; 2]; 2]> {
-    points.fold(None, |bounds, p| {
-        let [low, high] = bounds.unwrap_or([p, p]);
-        Some([[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]])
-    })
 }

@@ -1,165 +1,174 @@
 //! Rings of a polygon cut by a half-plane.
 //!
-//! Every edge of a ring knows the line that it lies on, and every corner is computed from what was given: two lines
-//! of the input meet there, never two rounded corners. So two cells that share a corner share its bits, and clipped
-//! cells tile without gaps.
+//! Every edge of a ring knows the line that it lies on, and every corner is a point of the input or the meeting of two
+//! such lines, and stays that until the end: what is decided about it is decided exactly. So the parts of a polygon are
+//! what they should be, whatever is equal, parallel or on a border, and parts on both sides of a line tile. What is
+//! left of a polygon is the closure of what is inside: nothing that only touches.
 //!
 //! Source: Sutherland & Hodgman, "Reentrant polygon clipping", CACM 1974, with the pieces joined along the line in
-//! pairs, so that a polygon falls apart into as many rings as it should. Whatever the pairs, the area is right,
-//! because all of them are on one line.
+//! pairs, so that a polygon falls apart into as many rings as it should.
 //!
 //! Cost: O(k log k) for k corners, O(k) for a convex ring.
 
-use delone_predicates::circumcentre;
+use delone_predicates::{Line, Sign, Spot};
 
-/// A corner that is off its edge by more than this share of its coordinates is not just rounded.
-const ROUNDED: f64 = 1.0 / (1 << 30) as f64;
-
-/// What an edge lies on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Line {
-    /// A side of the region, from corner to corner.
-    Side([[f64; 2]; 2]),
-    /// The border of a box that the region was cut into; on no result.
-    Cut,
-    /// The bisector of the site and another one.
-    Bisector([f64; 2]),
-}
-
-/// A corner of a ring, and the line of the edge that leaves it.
+/// A corner of a ring, and the edge that leaves it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
-    pub(super) at: [f64; 2],
+    pub(super) spot: Spot,
+    /// What the edge lies on, the polygon on its left.
     pub(super) line: Line,
+    /// Which side of the region the edge is on, if it is on the border.
+    pub(super) side: Option<usize>,
 }
 
-/// Corners of a closed line, the polygon on its left.
+/// Corners of a closed line, the polygon on its left. Edges may be points.
 pub(super) type Ring = Vec<Corner>;
 
-/// What is kept.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum HalfPlane {
-    /// Points at least as near to the site as to the other one.
-    Nearer {
-        /// The site.
-        site: [f64; 2],
-        /// The other site.
-        other: [f64; 2],
-    },
-    /// Points whose coordinate on an axis is at most this.
-    Below(usize, f64),
-    /// Points whose coordinate on an axis is at least this.
-    Above(usize, f64),
+/// A ring with its own edges as sides, numbered from `first`, each on an axis-parallel line if it can be.
+pub(super) fn sides(corners: &[[f64; 2]], first: usize) -> Ring {
+    let next = corners.iter().cycle().skip(1);
+    let side = |(i, (&p, &q)): (usize, (&[f64; 2], &[f64; 2]))| {
+        let line = match (p[0] == q[0], p[1] == q[1]) {
+            (true, _) if p[1] < q[1] => Line::Below(0, p[0]),
+            (true, _) => Line::Above(0, p[0]),
+            (_, true) if p[0] < q[0] => Line::Above(1, p[1]),
+            (_, true) => Line::Below(1, p[1]),
+            _ => Line::Through(p, q),
+        };
+        Corner { spot: Spot::Point(p), line, side: Some(first + i) }
+    };
+    corners.iter().zip(next).enumerate().map(side).collect()
 }
 
-impl HalfPlane {
-    /// Non-negative where it is kept, and proportional to the distance from the line.
-    fn value(self, p: [f64; 2]) -> f64 {
-        match self {
-            Self::Nearer { site, other } => {
-                let [nx, ny] = normal(site, other);
-                let beyond =
-                    |axis: usize| (p[axis] / 2.0 - site[axis] / 2.0) + (p[axis] / 2.0 - other[axis] / 2.0);
-                nx * beyond(0) + ny * beyond(1)
-            }
-            Self::Below(axis, at) => at - p[axis],
-            Self::Above(axis, at) => p[axis] - at,
-        }
-    }
-
-    /// Increases along the line, with what is kept on the left.
-    fn along(self, p: [f64; 2]) -> f64 {
-        let [nx, ny] = match self {
-            Self::Nearer { site, other } => normal(site, other),
-            Self::Below(axis, _) => [0.0 - f64::from(axis == 0), 0.0 - f64::from(axis == 1)],
-            Self::Above(axis, _) => [f64::from(axis == 0), f64::from(axis == 1)],
-        };
-        ny * (p[0] / 2.0) - nx * (p[1] / 2.0)
-    }
-
-    fn line(self) -> Line {
-        match self {
-            Self::Nearer { other, .. } => Line::Bisector(other),
-            _ => Line::Cut,
-        }
-    }
-
-    /// Where the edge between two corners on different sides meets the line.
-    fn meet(self, from: &Corner, to: &Corner) -> [f64; 2] {
-        let between = |p: [f64; 2], q: [f64; 2]| {
-            let (at_p, at_q) = (self.value(p), self.value(q));
-            let t = at_p / (at_p - at_q);
-            let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.5 };
-            [0, 1].map(|axis| {
-                let (a, b) = (p[axis], q[axis]);
-                (a * (1.0 - t) + b * t).clamp(a.min(b), a.max(b))
-            })
-        };
-        let meeting = match (self, from.line) {
-            (_, Line::Side([p, q])) => Some(between(p, q)),
-            (Self::Nearer { site, other }, Line::Bisector(third)) => circumcentre(site, other, third),
-            _ => None,
-        };
-        // Lines that are the same up to rounding may meet anywhere; where does not matter then, but it must be
-        // on the edge.
-        let on_edge = |p: &[f64; 2]| {
-            [0, 1].into_iter().all(|axis| {
-                let (a, b) = (from.at[axis], to.at[axis]);
-                let slack = a.abs().max(b.abs()) * ROUNDED;
-                (a.min(b) - slack..=a.max(b) + slack).contains(&p[axis])
-            })
-        };
-        meeting.filter(on_edge).unwrap_or_else(|| between(from.at, to.at))
-    }
-}
-
-/// From the other site to the site, the larger component 1.
-fn normal(site: [f64; 2], other: [f64; 2]) -> [f64; 2] {
-    let [x, y] = [0, 1].map(|axis| site[axis] / 2.0 - other[axis] / 2.0);
-    let size = x.abs().max(y.abs());
-    if size > 0.0 { [x / size, y / size] } else { [0.0, 0.0] }
-}
-
-/// The part of a polygon in a half-plane.
-pub(super) fn clip(rings: &[Ring], half: HalfPlane) -> Vec<Ring> {
+/// The part of a polygon on the left of a line.
+pub(super) fn clip(rings: Vec<Ring>, half: Line) -> Vec<Ring> {
     let mut kept = Vec::with_capacity(rings.len());
     let mut chains = Vec::new();
     for ring in rings {
-        let inside: Vec<bool> = ring.iter().map(|corner| half.value(corner.at) >= 0.0).collect();
-        if inside.iter().all(|&inside| inside) {
-            kept.push(ring.clone());
-        } else if inside.contains(&true) {
-            cut(ring, &inside, half, &mut chains);
+        let signs: Vec<Sign> = ring.iter().map(|corner| half.side(&corner.spot)).collect();
+        if signs.iter().all(|sign| sign.is_positive()) {
+            kept.push(ring);
+        } else if signs.iter().any(|sign| sign.is_positive()) {
+            let cut = Cut { ring: &ring, signs: &signs, half };
+            let gaps = cut.gaps();
+            if gaps.is_empty() {
+                kept.push(cut.touched());
+            } else {
+                let next = gaps.iter().cycle().skip(1);
+                chains.extend(gaps.iter().zip(next).map(|(from, to)| cut.chain(*from, *to)));
+            }
         }
     }
     join(chains, half, &mut kept);
     kept
 }
 
-/// Cuts a ring into chains, each from where it comes in to where it goes out.
-fn cut(ring: &Ring, inside: &[bool], half: HalfPlane, chains: &mut Vec<Ring>) {
-    let n = ring.len();
-    for first in (0..n).filter(|&i| !inside[i] && inside[(i + 1) % n]) {
-        let mut chain =
-            vec![Corner { at: half.meet(&ring[first], &ring[(first + 1) % n]), line: ring[first].line }];
-        let mut i = (first + 1) % n;
-        while inside[i] {
-            chain.push(ring[i]);
-            i = (i + 1) % n;
+/// Corners from one to another, around the ring, that are not inside.
+#[derive(Clone, Copy)]
+struct Gap {
+    first: usize,
+    last: usize,
+}
+
+/// A ring, on which side of the line its corners are, and the line.
+struct Cut<'a> {
+    ring: &'a Ring,
+    signs: &'a [Sign],
+    half: Line,
+}
+
+impl Cut<'_> {
+    fn after(&self, i: usize) -> usize {
+        if i + 1 == self.ring.len() { 0 } else { i + 1 }
+    }
+
+    fn before(&self, i: usize) -> usize {
+        (if i == 0 { self.ring.len() } else { i }) - 1
+    }
+
+    /// The gaps, in order. One corner on the line between two inside is none: the ring only touches.
+    fn gaps(&self) -> Vec<Gap> {
+        let enters = |&i: &usize| !self.signs[i].is_positive() && self.signs[self.before(i)].is_positive();
+        let gap = |first: usize| {
+            let mut last = first;
+            while !self.signs[self.after(last)].is_positive() {
+                last = self.after(last);
+            }
+            Gap { first, last }
+        };
+        let gaps = (0..self.ring.len()).filter(enters).map(gap);
+        gaps.filter(|gap| gap.first != gap.last || self.signs[gap.first].is_negative()).collect()
+    }
+
+    /// The corners from one gap to the next, each end on the line.
+    fn chain(&self, from: Gap, to: Gap) -> Ring {
+        let mut chain = Ring::new();
+        let meeting = |i: usize| Spot::Meeting(self.ring[i].line, self.half);
+        let before = self.ring[self.before(from.last)];
+        if self.signs[from.last].is_negative() {
+            chain.push(Corner { spot: meeting(from.last), ..self.ring[from.last] });
+        } else {
+            if from.first != from.last
+                && self.signs[self.before(from.last)].is_negative()
+                && self.is_vertex(from.last)
+            {
+                chain.push(Corner { spot: Spot::Meeting(before.line, self.half), ..before });
+            }
+            chain.push(self.ring[from.last]);
         }
-        let last = (i + n - 1) % n;
-        chain.push(Corner { at: half.meet(&ring[last], &ring[i]), line: half.line() });
-        chains.push(chain);
+        let mut i = self.after(from.last);
+        while i != to.first {
+            chain.push(self.ring[i]);
+            i = self.after(i);
+        }
+        let leave = |spot: Spot| Corner { spot, line: self.half, side: None };
+        if self.signs[i].is_negative() {
+            chain.push(leave(meeting(self.before(i))));
+        } else if to.first != to.last && self.signs[self.after(i)].is_negative() && self.is_vertex(i) {
+            chain.push(self.ring[i]);
+            chain.push(leave(meeting(i)));
+        } else {
+            chain.push(leave(self.ring[i].spot));
+        }
+        chain
+    }
+
+    /// The ring with an edge on the line at each corner that it touches, if these are Voronoi vertices.
+    fn touched(&self) -> Ring {
+        let mut ring = Ring::with_capacity(self.ring.len() + 1);
+        for (i, &corner) in self.ring.iter().enumerate() {
+            if self.signs[i].is_zero() && self.is_vertex(i) {
+                let before = self.ring[self.before(i)].line;
+                ring.push(Corner { spot: Spot::Meeting(before, self.half), line: self.half, side: None });
+                ring.push(Corner { spot: Spot::Meeting(self.half, corner.line), ..corner });
+            } else {
+                ring.push(corner);
+            }
+        }
+        ring
+    }
+
+    /// Whether four sites on one circle have their centre at a corner on the line. Its edge on the line is a point then, and
+    /// is made nonetheless: so the corner is the centre of the triangles that neighbours have it from.
+    fn is_vertex(&self, i: usize) -> bool {
+        let lines = [self.ring[i].line, self.ring[self.before(i)].line, self.half];
+        lines.iter().all(|line| matches!(line, Line::Bisector(..)))
     }
 }
 
 /// Joins chains to rings: from where one goes out, along the line to where the next one comes in.
-fn join(chains: Vec<Ring>, half: HalfPlane, kept: &mut Vec<Ring>) {
-    let position = |corner: Option<&Corner>| corner.map_or(0.0, |corner| half.along(corner.at));
+fn join(mut chains: Vec<Ring>, half: Line, kept: &mut Vec<Ring>) {
+    if chains.len() < 2 {
+        kept.append(&mut chains);
+        return;
+    }
+    let first = |i: usize| chains[i].first().map_or(Spot::Point([0.0; 2]), |corner| corner.spot);
+    let last = |i: usize| chains[i].last().map_or(Spot::Point([0.0; 2]), |corner| corner.spot);
     let mut ins: Vec<usize> = (0..chains.len()).collect();
     let mut outs = ins.clone();
-    ins.sort_by(|&i, &j| position(chains[i].first()).total_cmp(&position(chains[j].first())));
-    outs.sort_by(|&i, &j| position(chains[i].last()).total_cmp(&position(chains[j].last())));
+    ins.sort_by(|&i, &j| half.compare(&first(i), &first(j)));
+    outs.sort_by(|&i, &j| half.compare(&last(i), &last(j)));
     let mut next = vec![0; chains.len()];
     for (&out, &to) in outs.iter().zip(&ins) {
         next[out] = to;
@@ -170,19 +179,10 @@ fn join(chains: Vec<Ring>, half: HalfPlane, kept: &mut Vec<Ring>) {
         let mut i = first;
         while !used[i] {
             used[i] = true;
-            for &corner in &chains[i] {
-                // A corner on the line is met twice; the edge that leaves it is that of the second.
-                match ring.last_mut() {
-                    Some(last) if last.at == corner.at => *last = corner,
-                    _ => ring.push(corner),
-                }
-            }
+            ring.append(&mut chains[i]);
             i = next[i];
         }
-        while ring.len() > 1 && ring.first().map(|c| c.at) == ring.last().map(|c| c.at) {
-            ring.pop();
-        }
-        if ring.len() > 2 {
+        if !ring.is_empty() {
             kept.push(ring);
         }
     }

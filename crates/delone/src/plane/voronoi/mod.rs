@@ -10,8 +10,11 @@
 
 mod cells;
 mod clip;
+mod measure;
 mod region;
 mod relax;
+mod sweep;
+mod tree;
 
 pub use cells::{Cells, Ring};
 pub use region::Region;

@@ -1,21 +1,19 @@
 //! Regions that cells are clipped to: a rectangle, the convex hull of the sites, a polygon with holes.
 //!
-//! A polygon of many sides is cut into a tree of boxes, each with its part of the polygon, so that a cell looks at
-//! what is near it.
-//!
-//! Cost: a rectangle O(1); a polygon of m sides O(m log m) typical, and its validation O(m^2) at worst (sides that
-//! all overlap in x).
+//! Cost: a rectangle O(1); a polygon of m sides O(m log m) typical, at worst O(m log m) to validate and O(m^2) to cut into
+//! boxes (`tree.rs`).
 
-use delone_predicates::{orient2d, strictly_between};
+use delone_predicates::{Line, Spot};
 
-use super::clip::{Corner, HalfPlane, Line, Ring, clip};
+use super::clip::{Ring, clip, sides};
+use super::measure;
+use super::sweep::nesting;
+use super::tree::{Node, Relation};
 use crate::error::{Error, RegionProblem};
 use crate::plane::{Delaunay2, Position2};
 
-/// Up to this number of sides a box is not cut further.
-const FEW: usize = 8;
-/// The deepest box.
-const DEEPEST: u32 = 48;
+/// Parts with more corners than this are first cut to the box around a cell.
+const MANY: usize = 16;
 
 /// A region of the plane with a border of straight sides.
 #[derive(Clone, Debug)]
@@ -23,17 +21,9 @@ pub struct Region {
     low: [f64; 2],
     high: [f64; 2],
     rings: Vec<Vec<[f64; 2]>>,
+    /// All sides, ring by ring.
+    sides: Vec<[[f64; 2]; 2]>,
     tree: Node,
-}
-
-/// A box with its part of the polygon.
-#[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub(super) rings: Vec<Ring>,
-    /// Whether the part is all of the box.
-    pub(super) full: bool,
-    /// The axis and the coordinate of the cut, and what is below and above.
-    halves: Option<(usize, f64, Box<[Node; 2]>)>,
 }
 
 impl Region {
@@ -59,16 +49,17 @@ impl Region {
         if x0 >= x1 || y0 >= y1 {
             return Err(problem(RegionProblem::Empty));
         }
-        let tree = Node { rings: vec![sides(&corners)], full: true, halves: None };
-        Ok(Self { low: [x0, y0], high: [x1, y1], rings: vec![corners.to_vec()], tree })
+        let tree = Node::whole(sides(&corners, 0));
+        Ok(Self { low: [x0, y0], high: [x1, y1], rings: vec![corners.to_vec()], sides: Vec::new(), tree })
     }
 
     /// A polygon: rings of corners, each closed by its first corner, in any direction. A ring inside of another one
-    /// is a hole, one inside of a hole an island, and so on. Rings may touch at corners and no other way.
+    /// is a hole, one inside of a hole an island, and so on. Rings may touch at corners that both have, without crossing
+    /// there, and no other way. O(m log m) for m sides, typical.
     ///
     /// # Errors
     /// [`Error::Region`] names ring, corner and problem: a side that crosses or overlaps another one, a corner
-    /// visited twice, fewer than three corners, no area, a coordinate that is not finite.
+    /// where rings cross, a corner visited twice, fewer than three corners, no area, a coordinate that is not finite.
     ///
     /// ```
     /// use delone::Region;
@@ -88,10 +79,9 @@ impl Region {
             }
             validate_corners(i, ring)?;
         }
-        validate_sides(&rings)?;
-        let depths: Vec<usize> = (0..rings.len()).map(|i| depth(&rings, i)).collect();
-        for (ring, depth) in rings.iter_mut().zip(depths) {
-            if (twice_area(ring.iter().copied()) > 0.0) != (depth % 2 == 0) {
+        let nesting = nesting(&rings)?;
+        for (ring, nesting) in rings.iter_mut().zip(nesting) {
+            if nesting.is_counter_clockwise != (nesting.depth % 2 == 0) {
                 ring.reverse();
             }
         }
@@ -121,13 +111,18 @@ impl Region {
                 high[axis] = high[axis].max(corner[axis]);
             }
         }
-        let tree = Node::new(rings.iter().map(|ring| sides(ring)).collect(), 0);
-        Ok(Self { low, high, rings, tree })
+        let (mut all, mut numbered) = (Vec::new(), Vec::new());
+        for ring in &rings {
+            numbered.push(sides(ring, all.len()));
+            let next = ring.iter().cycle().skip(1);
+            all.extend(ring.iter().zip(next).map(|(&p, &q)| [p, q]));
+        }
+        Ok(Self { low, high, rings, sides: all, tree: Node::new(numbered) })
     }
 
-    /// The area, in coordinate units squared.
+    /// The area, in coordinate units squared; infinite if it is beyond the range of `f64`. O(m).
     pub fn area(&self) -> f64 {
-        self.rings.iter().map(|ring| twice_area(ring.iter().copied()) / 2.0).sum()
+        measure::area(self.rings.iter().map(|ring| ring.iter().copied()))
     }
 
     /// The rings: outer ones counter-clockwise, holes clockwise.
@@ -140,81 +135,82 @@ impl Region {
         [self.low, self.high]
     }
 
-    /// The smallest box of the tree that contains one. `None` if that is not inside of the region's own box.
+    /// How a box lies to the region.
     #[inline]
-    pub(super) fn around(&self, low: [f64; 2], high: [f64; 2]) -> Option<&Node> {
+    pub(super) fn relation(&self, low: [f64; 2], high: [f64; 2]) -> Relation {
         let within = |axis: usize| self.low[axis] <= low[axis] && high[axis] <= self.high[axis];
-        if !(within(0) && within(1)) {
-            return None;
+        let beside = |axis: usize| self.high[axis] < low[axis] || high[axis] < self.low[axis];
+        if within(0) && within(1) {
+            self.tree.around(low, high).relation(&self.sides, low, high)
+        } else if beside(0) || beside(1) {
+            Relation::Outside
+        } else {
+            Relation::Across
         }
-        let mut node = &self.tree;
-        while let Some((axis, at, halves)) = &node.halves {
-            if high[*axis] <= *at {
-                node = &halves[0];
-            } else if low[*axis] >= *at {
-                node = &halves[1];
-            } else {
-                break;
+    }
+
+    /// The polygon as far as it is near parts of the region's own box. `None` if these are all inside of it.
+    pub(super) fn around(&self, rings: &[Ring]) -> Option<Vec<Ring>> {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for p in rings.iter().flatten().filter_map(|corner| self.round(&corner.spot)) {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(p[axis]);
+                high[axis] = high[axis].max(p[axis]);
             }
         }
-        Some(node)
+        let [low, high] = enlarged(low, high, self.size()).unwrap_or([self.low, self.high]);
+        let node = self.tree.around_rings(rings, low, high);
+        if node.full {
+            return None;
+        }
+        let mut part = node.rings.clone();
+        // Parts across an early cut of the tree have a long border around them, most of it not near. To compare with
+        // numbers is cheaper than with bisectors.
+        let lines = [
+            Line::Above(0, low[0]),
+            Line::Below(0, high[0]),
+            Line::Above(1, low[1]),
+            Line::Below(1, high[1]),
+        ];
+        for line in lines {
+            if part.iter().map(Vec::len).sum::<usize>() > MANY {
+                part = clip(part, line);
+            }
+        }
+        Some(part)
     }
 
-    /// The region's own box as a ring; its sides count as sides if the region is no more than that.
+    /// No two points of it are further apart.
+    fn size(&self) -> f64 {
+        (self.high[0] - self.low[0]).hypot(self.high[1] - self.low[1])
+    }
+
+    /// The region's own box as a ring.
     pub(super) fn frame(&self) -> Ring {
-        if self.tree.full {
-            return self.tree.rings[0].clone();
-        }
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
-        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(|at| Corner { at, line: Line::Cut }).to_vec()
+        sides(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], 0)
+    }
+
+    /// A corner of a clipped cell in coordinate units: it is inside of the region's own box, so it is not rounded out
+    /// of that. `None` never happens to a corner.
+    pub(super) fn round(&self, spot: &Spot) -> Option<[f64; 2]> {
+        let ([x0, y0], [x1, y1]) = (self.low, self.high);
+        let [x, y] = spot.rounded(self.size())?;
+        Some([x.clamp(x0, x1), y.clamp(y0, y1)])
     }
 }
 
-impl Node {
-    fn new(rings: Vec<Ring>, depth: u32) -> Self {
-        let is_side = |corner: &&Corner| matches!(corner.line, Line::Side(_));
-        let count = |rings: &[Ring]| rings.iter().flatten().filter(is_side).count();
-        let side_count = count(&rings);
-        if side_count <= FEW || depth == DEEPEST {
-            return Self { full: side_count == 0 && !rings.is_empty(), rings, halves: None };
-        }
-        // At the median corner of the sides, across the longer extent.
-        let corners: Vec<[f64; 2]> = rings.iter().flatten().filter(is_side).map(|corner| corner.at).collect();
-        let extent = |axis: usize| {
-            let coordinates = corners.iter().map(|c| c[axis]);
-            coordinates.clone().fold(f64::MIN, f64::max) / 2.0 - coordinates.fold(f64::MAX, f64::min) / 2.0
-        };
-        let axis = usize::from(extent(1) > extent(0));
-        let mut coordinates: Vec<f64> = corners.iter().map(|corner| corner[axis]).collect();
-        let middle = coordinates.len() / 2;
-        let at = *coordinates.select_nth_unstable_by(middle, f64::total_cmp).1;
-        let halves = [HalfPlane::Below(axis, at), HalfPlane::Above(axis, at)].map(|half| clip(&rings, half));
-        if halves.iter().any(|half| count(half) >= side_count) {
-            return Self { rings, full: false, halves: None };
-        }
-        let halves = halves.map(|half| Self::new(half, depth + 1));
-        Self { rings, full: false, halves: Some((axis, at, Box::new(halves))) }
-    }
-}
-
-/// A ring with its own edges as sides.
-fn sides(corners: &[[f64; 2]]) -> Ring {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|(&at, &to)| Corner { at, line: Line::Side([at, to]) }).collect()
-}
-
-/// Twice the area inside of a ring, positive if it is counter-clockwise. Taken from the first corner, so that far
-/// from the origin nothing is lost.
-pub(super) fn twice_area(mut ring: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let Some([x, y]) = ring.next() else { return 0.0 };
-    let mut last = [0.0, 0.0];
-    let mut sum = 0.0;
-    for p in ring {
-        let p = [p[0] - x, p[1] - y];
-        sum += last[0] * p[1] - last[1] * p[0];
-        last = p;
-    }
-    sum
+/// A box around rounded meetings and circumcentres, so enlarged that the exact ones are in it. `None` if it is too large for
+/// that.
+///
+/// Each is off by at most 2^-40 of its radius, or of the region, and a rounding of its coordinates; `size` is as large as
+/// that.
+#[inline]
+pub(super) fn enlarged(low: [f64; 2], high: [f64; 2], size: f64) -> Option<[[f64; 2]; 2]> {
+    const OF_SIZE: f64 = 1.0 / (1_u64 << 38) as f64;
+    let largest = low.iter().chain(&high).fold(0.0_f64, |max, x| max.max(x.abs()));
+    let margin = OF_SIZE * size + 4.0 * f64::EPSILON * largest + f64::MIN_POSITIVE;
+    margin.is_finite().then(|| [low.map(|x| x - margin), high.map(|x| x + margin)])
 }
 
 fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
@@ -231,68 +227,4 @@ fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
         Some(pair) => problem(pair[1], RegionProblem::VisitedTwice),
         None => Ok(()),
     }
-}
-
-/// No two sides share more than a corner.
-fn validate_sides(rings: &[Vec<[f64; 2]>]) -> Result<(), Error> {
-    let mut all = Vec::new();
-    for (r, ring) in rings.iter().enumerate() {
-        for (i, &p) in ring.iter().enumerate() {
-            all.push((p, ring[(i + 1) % ring.len()], r, i));
-        }
-    }
-    let low = |p: [f64; 2], q: [f64; 2], axis: usize| p[axis].min(q[axis]);
-    let high = |p: [f64; 2], q: [f64; 2], axis: usize| p[axis].max(q[axis]);
-    all.sort_by(|a, b| low(a.0, a.1, 0).total_cmp(&low(b.0, b.1, 0)));
-    for (k, &(p, q, ..)) in all.iter().enumerate() {
-        for &(s, t, ring, corner) in &all[k + 1..] {
-            if low(s, t, 0) > high(p, q, 0) {
-                break;
-            }
-            let apart = low(s, t, 1) > high(p, q, 1) || low(p, q, 1) > high(s, t, 1);
-            if !apart && are_in_conflict(p, q, s, t) {
-                return Err(Error::Region { ring, corner, problem: RegionProblem::Crossing });
-            }
-        }
-    }
-    Ok(())
-}
-
-/// Whether two segments share a point that is not a corner of both. Exact.
-fn are_in_conflict(p: [f64; 2], q: [f64; 2], s: [f64; 2], t: [f64; 2]) -> bool {
-    let (at_s, at_t) = (orient2d(p, q, s), orient2d(p, q, t));
-    let (at_p, at_q) = (orient2d(s, t, p), orient2d(s, t, q));
-    let touches = (at_s.is_zero() && strictly_between(p, q, s))
-        || (at_t.is_zero() && strictly_between(p, q, t))
-        || (at_p.is_zero() && strictly_between(s, t, p))
-        || (at_q.is_zero() && strictly_between(s, t, q));
-    let opposite = |a: delone_predicates::Sign, b: delone_predicates::Sign| {
-        (a.is_positive() && b.is_negative()) || (a.is_negative() && b.is_positive())
-    };
-    let same = (p == s && q == t) || (p == t && q == s);
-    touches || same || (opposite(at_s, at_t) && opposite(at_p, at_q))
-}
-
-/// How many other rings are around a ring.
-fn depth(rings: &[Vec<[f64; 2]>], of: usize) -> usize {
-    let around = |other: &Vec<[f64; 2]>| {
-        let ring = &rings[of];
-        let middle = || [0, 1].map(|axis| ring[0][axis] / 2.0 + ring[1][axis] / 2.0);
-        let point = ring.iter().find(|p| !other.contains(p)).copied().unwrap_or_else(middle);
-        contains(other, point)
-    };
-    (0..rings.len()).filter(|&i| i != of && around(&rings[i])).count()
-}
-
-/// Whether a ring goes around a point that is not on it. Exact.
-fn contains(ring: &[[f64; 2]], p: [f64; 2]) -> bool {
-    let mut inside = false;
-    for (i, &a) in ring.iter().enumerate() {
-        let b = ring[(i + 1) % ring.len()];
-        if (a[1] > p[1]) != (b[1] > p[1]) {
-            let (low, high) = if a[1] < b[1] { (a, b) } else { (b, a) };
-            inside ^= orient2d(low, high, p).is_positive();
-        }
-    }
-    inside
 }

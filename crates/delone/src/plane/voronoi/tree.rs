@@ -1,0 +1,149 @@
+//! A polygon cut into a tree of boxes, each with its part, so that a cell looks at what is near it.
+//!
+//! Boxes are cut at the median corner of their sides, across the longer extent. Parts are exact.
+//!
+//! Cost: O(m log m) typical for m sides.
+
+use delone_predicates::{Line, Spot, orient2d};
+
+use super::clip::{Corner, Ring, clip};
+
+/// Up to this number of sides a box is not cut further.
+const FEW: usize = 8;
+/// The deepest box.
+const DEEPEST: u32 = 48;
+
+/// A box with its part of the polygon.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) rings: Vec<Ring>,
+    /// Whether the part is all of the box.
+    pub(super) full: bool,
+    /// The axis and the coordinate of the cut, and what is below and above.
+    halves: Option<(usize, f64, Box<[Node; 2]>)>,
+}
+
+/// How a box lies to a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Relation {
+    Inside,
+    Outside,
+    /// Or too near to a side to tell.
+    Across,
+}
+
+impl Node {
+    /// The tree of a polygon.
+    pub(super) fn new(rings: Vec<Ring>) -> Self {
+        Self::at_depth(rings, 0)
+    }
+
+    /// A box that is all of the region.
+    pub(super) fn whole(ring: Ring) -> Self {
+        Self { rings: vec![ring], full: true, halves: None }
+    }
+
+    fn at_depth(rings: Vec<Ring>, depth: u32) -> Self {
+        let is_side = |corner: &&Corner| corner.side.is_some();
+        let count = |rings: &[Ring]| rings.iter().flatten().filter(is_side).count();
+        let side_count = count(&rings);
+        if side_count <= FEW || depth == DEEPEST {
+            return Self { full: side_count == 0 && !rings.is_empty(), rings, halves: None };
+        }
+        // Where to cut is no decision about the polygon, so roughly is enough.
+        let sides = rings.iter().flatten().filter(is_side);
+        let corners: Vec<[f64; 2]> = sides.filter_map(|corner| corner.spot.rounded(f64::INFINITY)).collect();
+        let extent = |axis: usize| {
+            let coordinates = corners.iter().map(|c| c[axis]);
+            coordinates.clone().fold(f64::MIN, f64::max) / 2.0 - coordinates.fold(f64::MAX, f64::min) / 2.0
+        };
+        let axis = usize::from(extent(1) > extent(0));
+        let mut coordinates: Vec<f64> = corners.iter().map(|corner| corner[axis]).collect();
+        let middle = coordinates.len() / 2;
+        if coordinates.is_empty() {
+            return Self { rings, full: false, halves: None };
+        }
+        let at = *coordinates.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let halves = [Line::Below(axis, at), Line::Above(axis, at)].map(|half| clip(rings.clone(), half));
+        if halves.iter().any(|half| count(half) >= side_count) {
+            return Self { rings, full: false, halves: None };
+        }
+        let halves = halves.map(|half| Self::at_depth(half, depth + 1));
+        Self { rings, full: false, halves: Some((axis, at, Box::new(halves))) }
+    }
+
+    /// The smallest box of the tree that contains one, which is inside of the whole.
+    #[inline]
+    pub(super) fn around(&self, low: [f64; 2], high: [f64; 2]) -> &Self {
+        let mut node = self;
+        while let Some((axis, at, halves)) = &node.halves {
+            if high[*axis] <= *at {
+                node = &halves[0];
+            } else if low[*axis] >= *at {
+                node = &halves[1];
+            } else {
+                break;
+            }
+        }
+        node
+    }
+
+    /// The smallest box of the tree that contains rings, which are inside of a box of numbers. Exact.
+    pub(super) fn around_rings(&self, rings: &[Ring], low: [f64; 2], high: [f64; 2]) -> &Self {
+        let mut node = self.around(low, high);
+        while let Some((axis, at, halves)) = &node.halves {
+            let within = |half: Line| rings.iter().flatten().all(|c| !half.side(&c.spot).is_negative());
+            if within(Line::Below(*axis, *at)) {
+                node = &halves[0];
+            } else if within(Line::Above(*axis, *at)) {
+                node = &halves[1];
+            } else {
+                break;
+            }
+        }
+        node
+    }
+
+    /// How what is in a box lies to the part of the polygon, if no side comes near. `sides` are those of the region.
+    pub(super) fn relation(&self, sides: &[[[f64; 2]; 2]], low: [f64; 2], high: [f64; 2]) -> Relation {
+        if self.full {
+            return Relation::Inside;
+        }
+        let own = self.rings.iter().flatten().filter_map(|corner| sides.get(corner.side?));
+        if own.into_iter().any(|&side| !keeps_off(side, low, high)) {
+            return Relation::Across;
+        }
+        // All or nothing of the box: as its middle, which is on no edge of the part.
+        let middle = [0, 1].map(|axis| low[axis] / 2.0 + high[axis] / 2.0);
+        if self.contains(middle) { Relation::Inside } else { Relation::Outside }
+    }
+
+    /// Whether a point that is on no edge is in the part. Exact.
+    fn contains(&self, p: [f64; 2]) -> bool {
+        let mut inside = false;
+        for ring in &self.rings {
+            let is_above = |corner: &Corner| Line::Above(1, p[1]).side(&corner.spot).is_positive();
+            let Some(mut from) = ring.first().map(is_above) else { continue };
+            for (i, edge) in ring.iter().enumerate() {
+                let to = is_above(ring.get(i + 1).unwrap_or(&ring[0]));
+                if to != from {
+                    let side = edge.line.side(&Spot::Point(p));
+                    inside ^= if to { side.is_positive() } else { side.is_negative() };
+                }
+                from = to;
+            }
+        }
+        inside
+    }
+}
+
+/// Whether a side surely shares no point with a box.
+fn keeps_off([p, q]: [[f64; 2]; 2], low: [f64; 2], high: [f64; 2]) -> bool {
+    let beside = |k: usize| p[k].max(q[k]) < low[k] || high[k] < p[k].min(q[k]);
+    if beside(0) || beside(1) {
+        return true;
+    }
+    let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
+    let first = orient2d(p, q, low);
+    !first.is_zero() && corners.iter().all(|&corner| orient2d(p, q, corner) == first)
+}
