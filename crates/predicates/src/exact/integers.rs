@@ -126,6 +126,19 @@ mod tests {
     }
 
     #[test]
+    fn products_of_all_factors_where_carries_are() {
+        use num_bigint::BigUint;
+        let edges = (0..128).flat_map(|k| [1_u128 << k, (1 << k) - 1, !0 << k, (!0 << k) ^ 1 << 63]);
+        let factors: Vec<u128> = edges.chain([u128::MAX / 3, u128::MAX / 5]).collect();
+        for &x in &factors {
+            for &y in &factors {
+                let (high, low) = wide_product(x, y);
+                assert_eq!((BigUint::from(high) << 128) + low, BigUint::from(x) * y, "{x} {y}");
+            }
+        }
+    }
+
+    #[test]
     fn aligning_refuses_more_than_61_bits() {
         assert_eq!(align(&[1.0, 2f64.powi(60)]), Some([1, 1 << 60]));
         assert_eq!(align(&[1.0, 2f64.powi(61)]), None);
