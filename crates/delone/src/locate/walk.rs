@@ -49,34 +49,32 @@ pub(crate) struct Goal {
 /// Walks to `q`. The triangulation must span the plane.
 #[inline]
 pub(crate) fn walk<G: Surface, T: Tally>(ground: &G, start: Start, q: G::Point, tally: &mut T) -> Goal {
-    walk_within(ground, start, q, usize::MAX, tally)
+    let mesh = ground.mesh();
+    match start {
+        Start::At(e, Walk::Visibility) | Start::Hint(e, _) => walk_within(ground, e, q, usize::MAX, tally),
+        Start::At(e, Walk::Stochastic { seed }) => {
+            let mut random = SplitMix(seed);
+            visibility(ground, e, q, usize::MAX, move |_| random.next() & 1 == 1, tally)
+        }
+        Start::At(e, Walk::Straight) => match mesh.tail(finite_side(mesh, e)) {
+            Place::GHOST => walk_within(ground, e, q, usize::MAX, tally),
+            v => straight(ground, v, q, tally),
+        },
+        Start::Vertex(v) => straight(ground, v, q, tally),
+        Start::Anywhere => walk_within(ground, mesh.ghost_edge, q, usize::MAX, tally),
+    }
 }
 
-/// The same, but a visibility walk ends, anywhere, after more steps than `most`, which is at least 2.
+/// A visibility walk, which ends, anywhere, after more steps than `most`, at least 2.
 #[inline]
 pub(crate) fn walk_within<G: Surface, T: Tally>(
     ground: &G,
-    start: Start,
+    start: EdgeId,
     q: G::Point,
     most: usize,
     tally: &mut T,
 ) -> Goal {
-    let mesh = ground.mesh();
-    match start {
-        Start::At(e, Walk::Visibility) | Start::Hint(e, _) => {
-            visibility(ground, e, q, most, |_| false, tally)
-        }
-        Start::At(e, Walk::Stochastic { seed }) => {
-            let mut random = SplitMix(seed);
-            visibility(ground, e, q, most, move |_| random.next() & 1 == 1, tally)
-        }
-        Start::At(e, Walk::Straight) => match mesh.tail(finite_side(mesh, e)) {
-            Place::GHOST => visibility(ground, e, q, most, |_| false, tally),
-            v => straight(ground, v, q, tally),
-        },
-        Start::Vertex(v) => straight(ground, v, q, tally),
-        Start::Anywhere => visibility(ground, mesh.ghost_edge, q, most, |_| false, tally),
-    }
+    visibility(ground, start, q, most, |_| false, tally)
 }
 
 /// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
@@ -160,7 +158,7 @@ fn straight<G: Surface, T: Tally>(ground: &G, v: Place, q: G::Point, tally: &mut
         let head = mesh.head(next);
         steps += 1;
         if next == first || head.is_ghost() || mesh.head(spoke).is_ghost() {
-            return visibility(ground, spoke, q, usize::MAX, |_| false, tally);
+            return walk_within(ground, spoke, q, usize::MAX, tally);
         }
         if is_left(head) == turns_left {
             break if turns_left { spoke.next() } else { next.next() };

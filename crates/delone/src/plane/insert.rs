@@ -42,7 +42,7 @@ impl Layer {
         (self.spot_in(goal.triangle, q), goal.steps)
     }
 
-    /// The same, unless the walk from a hint takes more steps than `most`.
+    /// The same by a visibility walk from a hint or anywhere, unless that takes more steps than `most`.
     #[inline]
     pub(super) fn spot_within<T: Tally>(
         &self,
@@ -54,7 +54,8 @@ impl Layer {
         if !self.spanned {
             return Some(self.spot_below_plane(start, q));
         }
-        let goal = walk_within(self, start, q, most, tally);
+        let from = if let Start::Hint(e, _) = start { e } else { self.mesh.ghost_edge };
+        let goal = walk_within(self, from, q, most, tally);
         (goal.steps <= most).then(|| (self.spot_in(goal.triangle, q), goal.steps))
     }
 

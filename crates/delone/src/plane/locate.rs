@@ -3,7 +3,7 @@
 use delone_predicates::orient2d;
 
 use super::insert::Spot;
-use super::locator::{Hints, Locator};
+use super::locator::Locator;
 use super::{Delaunay2, Position2, finite};
 use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId, VertexId};
@@ -111,13 +111,14 @@ impl Delaunay2 {
     #[inline]
     pub(super) fn spot<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Found {
         let locator = self.locator();
-        let start = locator.start(&self.base, q, tally);
-        let Locator::Tree(hints) = locator else {
-            let (spot, steps) = self.base.spot(start, q, tally);
+        if let Locator::Tree(hints) = locator {
+            let start = hints.start(&self.base, q, tally);
+            let found = self.base.spot_within(start, q, hints.most(), tally);
+            let (spot, steps) = found.unwrap_or_else(|| hints.rescue(&self.base, q, tally));
             return Found { spot, steps, start };
-        };
-        let found = self.base.spot_within(start, q, Hints::MOST, tally);
-        let (spot, steps) = found.unwrap_or_else(|| hints.rescue(&self.base, q, tally));
+        }
+        let start = locator.start(&self.base, q, tally);
+        let (spot, steps) = self.base.spot(start, q, tally);
         Found { spot, steps, start }
     }
 

@@ -81,16 +81,25 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// A walk from a hint that takes more steps is given up. On evenly spread points it takes four on average, and forty
-    /// hardly ever.
-    pub(super) const MOST: usize = 64;
+    /// A walk from a hint that takes more steps is given up, if there are levels. On evenly spread points it takes four on
+    /// average.
+    const MOST: usize = 64;
+    /// The same as long as there are none. Just beyond the hull of evenly spread points a walk may take a hundred.
+    const MOST_WITHOUT: usize = 300;
+
+    /// So many steps a walk from a hint may take.
+    #[inline]
+    pub(super) fn most(&self) -> usize {
+        if self.levels.get().is_some() { Self::MOST } else { Self::MOST_WITHOUT }
+    }
 
     /// Finds a point that the tree's hint is far from.
     #[cold]
     pub(super) fn rescue<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
+        let given_up = self.most();
         let levels = self.levels.get_or_init(|| Box::new(Levels::build(Hierarchy::default(), layer)));
         let (spot, steps) = layer.spot(levels.start(layer, q, tally), q, tally);
-        (spot, steps + Self::MOST)
+        (spot, steps + given_up)
     }
 }
 
