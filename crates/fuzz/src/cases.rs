@@ -1,27 +1,12 @@
 //! A case: a list of items and a seed for the rest. Judges work on any part of the list, so that it can be shrunk.
 
-use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use delone_oracle::generate::Random;
 
 use crate::args::Mode;
+use crate::attack::{Attack, Judgement};
 use crate::modes::{broken, cells, hulls, lives, mixtures, motion, plane, predicates, space};
-
-/// Nothing, or what is wrong.
-pub(crate) type Judgement = Result<(), String>;
-
-/// A way to attack.
-pub(crate) trait Attack {
-    /// What the input is a list of.
-    type Item: Clone + Debug;
-
-    /// A random input. It must not call the engine: the supervisor makes the input of a crash, too.
-    fn make(random: &mut Random) -> Vec<Self::Item>;
-
-    /// Runs the engine on an input and compares it with the definition. Whatever else is random comes from the seed.
-    fn judge(items: &[Self::Item], seed: u64) -> Judgement;
-}
 
 /// An input of some attack.
 pub(crate) trait Case {

@@ -5,6 +5,7 @@
 //! list. So a crash, a hang and a runaway of memory are findings like a wrong answer.
 
 mod args;
+mod attack;
 mod cases;
 mod engine;
 mod modes;

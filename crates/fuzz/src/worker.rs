@@ -10,7 +10,8 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::args::{Options, indices};
-use crate::cases::{Case, Judgement, case, seed_of};
+use crate::attack::Judgement;
+use crate::cases::{Case, case, seed_of};
 
 /// When the case at hand began, in milliseconds after the start, plus one; zero between cases.
 static BEGAN: AtomicU64 = AtomicU64::new(0);

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use delone_oracle::generate::Random;
 
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 
 const BAD: usize = 13;
 

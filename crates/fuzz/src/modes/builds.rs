@@ -3,7 +3,7 @@
 use delone::Delaunay2;
 use delone_oracle::generate::Random;
 
-use crate::cases::Judgement;
+use crate::attack::Judgement;
 use crate::engine::{Engine, THREADS, pools, strategies};
 use crate::oracle::delaunay::{Simplices, delaunay, span};
 use crate::oracle::exact::{integers, orientation};

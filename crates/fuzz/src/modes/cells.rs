@@ -6,7 +6,7 @@ use delone::{Delaunay2, Region, VertexId};
 use delone_oracle::generate::Random;
 use num_bigint::BigInt;
 
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, integer, once_in, pick};
 use crate::oracle::exact::{Vector, integers, is_inside, orientation, scale};
 use crate::oracle::hull::by_distance;

@@ -4,7 +4,7 @@ use delone::hull::spatial::{Hull3, HullHistory};
 use delone::{Delaunay2, Dimension, NearestSites, convex_hull};
 use delone_oracle::generate::Random;
 
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::nasty;
 use crate::oracle::delaunay::distinct;
 use crate::oracle::exact::{determinant, dot, integers, minus, orientation, sign};

@@ -7,7 +7,7 @@ use delone_oracle::generate::Random;
 
 use super::builds::compare;
 use super::queries;
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::engine::{Engine, strategies};
 use crate::nasty::{self, once_in, pick};
 use crate::oracle::delaunay::{delaunay, span};

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use delone::Inserted;
 use delone_oracle::generate::{Kind, Kind3, Random};
 
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::engine::{Engine, THREADS, pools, strategies};
 use crate::nasty::{once_in, pick, power};
 

@@ -4,7 +4,7 @@ use delone::{Delaunay2, Delaunay3, HintOrder, Hints2, Hints3, Moving2, Moving3};
 use delone_oracle::generate::Random;
 
 use super::builds::compare;
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::engine::Engine;
 use crate::nasty::{self, nudged, once_in, pick};
 use crate::oracle::delaunay::{delaunay, span};

@@ -10,7 +10,7 @@ use delone_predicates::{
 use num_bigint::BigInt;
 
 use super::spheres;
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, any_bits, integer as small, nudged, once_in, pick, power};
 use crate::oracle::delaunay::lifted_side;
 use crate::oracle::exact::{

@@ -3,7 +3,7 @@
 use delone::VertexId;
 use num_bigint::BigInt;
 
-use crate::cases::Judgement;
+use crate::attack::Judgement;
 use crate::engine::{Engine, Place};
 use crate::oracle::exact::{Vector, along, axes, integer, integers, is_inside, orientation, scale, squared};
 

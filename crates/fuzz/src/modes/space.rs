@@ -4,7 +4,7 @@ use delone::Delaunay3;
 use delone_oracle::generate::Random;
 
 use super::builds;
-use crate::cases::{Attack, Judgement};
+use crate::attack::{Attack, Judgement};
 use crate::nasty;
 
 /// See the module.
