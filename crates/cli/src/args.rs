@@ -342,8 +342,8 @@ pub(crate) struct FurthestArgs {
   delone voronoi shops.csv --clip border.geojson -o cells.geojson
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
 
-GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`; a cell
-outside of the clip region has no geometry. Of equal points the first is the site.")]
+GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
+beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site.")]
 pub(crate) struct VoronoiArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,

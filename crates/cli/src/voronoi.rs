@@ -38,7 +38,8 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("build");
     let region = if polygon {
         Region::polygon(&rings).map_err(|error| {
-            let help = "clip to a polygon whose rings do not cross, and touch at corners alone";
+            let help =
+                "clip to a polygon whose rings cross nowhere and touch each other only at corners of both";
             Failure::new(format!("{}: {error}", args.clip.display()), help)
         })?
     } else {

@@ -39,6 +39,21 @@ fn cells_are_written_in_the_order_of_sites() {
     assert!((sum - 16.0).abs() < 1e-12, "{sum}");
 }
 
+/// JSON has no number for an infinite area.
+#[test]
+fn areas_beyond_the_range_are_written_as_null() {
+    let place = Place::new();
+    place.file("huge.csv", "1e300,0\n0,1e300\n-1e300,-1e300\n");
+    place.succeed("voronoi huge.csv -o huge.geojson -q");
+    let bytes = std::fs::read(place.path("huge.geojson")).expect("cells");
+    let json: Value = serde_json::from_slice(&bytes).expect("JSON");
+    let features = json["features"].as_array().expect("features");
+    assert_eq!(features.len(), 3);
+    for feature in features {
+        assert!(feature["properties"]["area"].is_null() && feature["geometry"]["type"] == "Polygon");
+    }
+}
+
 #[test]
 fn cells_are_clipped_to_polygons() {
     let place = Place::new();

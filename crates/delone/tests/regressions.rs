@@ -149,31 +149,35 @@ fn rectangles_of_the_smallest_numbers_hold_their_vertices() {
     assert!(found > 1000, "{found}");
 }
 
-/// Rectangles beside a hull of many corners are seen to be outside from near.
+/// Rectangles beside a hull of many corners are seen to be outside from near, at any scale.
 #[test]
 fn rectangles_outside_of_large_hulls_are_cheap() {
     let n = 100_000;
     let at = |i: u32| (f64::from(i) * std::f64::consts::TAU / f64::from(n)).sin_cos();
-    let points: Vec<[f64; 2]> = (0..n).map(|i| at(i).into()).collect();
-    let d = Delaunay2::from_points(&points).expect("finite");
-    let mut random = Random::new(5);
-    let mut most = 0;
-    for _ in 0..2000 {
-        let (size, reach) = (4.0 * random.unit().powi(4), 2.0 + random.normal().abs());
-        let low = [(); 2].map(|()| random.between(-reach, reach));
-        let high = low.map(|x| x + size * random.unit());
-        let mut work = Work::default();
-        let found = d.in_rectangle_counted(low, high, &mut work).expect("finite");
-        let inside = points.iter().filter(|p| (0..2).all(|k| low[k] <= p[k] && p[k] <= high[k])).count();
-        assert_eq!(found.len(), inside);
-        let corners = [low, [low[0], high[1]], high, [high[0], low[1]]];
-        let nearest = [0, 1].map(|k| 0.0_f64.clamp(low[k], high[k]));
-        if nearest[0].hypot(nearest[1]) > 1.0 && corners.iter().all(|c| c[0].hypot(c[1]) > 1.0) {
-            assert!(found.is_empty());
-            most = most.max(work.visited);
+    for scale in [1.0, 2.0_f64.powi(1000), 2.0_f64.powi(-900)] {
+        let scaled = |p: [f64; 2]| p.map(|x| x * scale);
+        let points: Vec<[f64; 2]> = (0..n).map(|i| scaled(at(i).into())).collect();
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let mut random = Random::new(5);
+        let mut most = 0;
+        for _ in 0..1000 {
+            let (size, reach) = (4.0 * random.unit().powi(4), 2.0 + random.normal().abs());
+            let low = [(); 2].map(|()| random.between(-reach, reach));
+            let high = low.map(|x| x + size * random.unit());
+            let mut work = Work::default();
+            let [lowest, highest] = [low, high].map(scaled);
+            let found = d.in_rectangle_counted(lowest, highest, &mut work).expect("finite");
+            let is_inside = |p: &&[f64; 2]| (0..2).all(|k| lowest[k] <= p[k] && p[k] <= highest[k]);
+            assert_eq!(found.len(), points.iter().filter(is_inside).count());
+            let corners = [low, [low[0], high[1]], high, [high[0], low[1]]];
+            let nearest = [0, 1].map(|k| 0.0_f64.clamp(low[k], high[k]));
+            if nearest[0].hypot(nearest[1]) > 1.0 && corners.iter().all(|c| c[0].hypot(c[1]) > 1.0) {
+                assert!(found.is_empty());
+                most = most.max(work.visited);
+            }
         }
+        assert!(most > 0 && most < 1000, "{most} visited at {scale:e}");
     }
-    assert!(most > 0 && most < 1000, "{most} visited");
 }
 
 /// A flat set is projected to find its corners, whose order along one axis less is another.

@@ -213,9 +213,14 @@ struct Cut {
 
 /// The part of a convex polygon to the left of a line, rounded.
 fn left_of([a, b]: [[f64; 2]; 2], polygon: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    // The direction is of size one and coordinates are eighths, so that at any scale nothing overflows and little vanishes.
+    let from_a = |p: [f64; 2]| [0, 1].map(|k| p[k] / 8.0 - a[k] / 8.0);
+    let [x, y] = from_a(b);
+    let size = x.abs().max(y.abs()).max(f64::MIN_POSITIVE);
+    let [x, y] = [x / size, y / size];
     let height = |p: [f64; 2]| {
-        let [x, y] = [0, 1].map(|k| b[k] / 2.0 - a[k] / 2.0);
-        x * (p[1] / 2.0 - a[1] / 2.0) - y * (p[0] / 2.0 - a[0] / 2.0)
+        let [to_x, to_y] = from_a(p);
+        x * to_y - y * to_x
     };
     let mut part = Vec::with_capacity(polygon.len() + 1);
     for (i, &p) in polygon.iter().enumerate() {

@@ -61,9 +61,11 @@ pub(crate) fn write_cells(out: &mut dyn Write, diagram: &Diagram) -> io::Result<
     write!(out, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
     for (i, v) in diagram.triangulation.vertices().enumerate() {
         let (separator, site, area) = (if i == 0 { "" } else { "," }, v.index(), diagram.cells.area(v));
+        // Beyond the range it is infinite, which JSON has no number for.
+        let area = if area.is_finite() { format!("{area:?}") } else { "null".to_owned() };
         write!(
             out,
-            "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"site\":{site},\"area\":{area:?}}},"
+            "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"site\":{site},\"area\":{area}}},"
         )?;
         let polygons = diagram.polygons(v);
         match &polygons[..] {

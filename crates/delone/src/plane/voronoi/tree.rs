@@ -1,6 +1,7 @@
 //! A polygon cut into a tree of boxes, each with its part, so that a cell looks at what is near it.
 //!
-//! Boxes are cut at the median corner of their sides, across the longer extent. Parts are exact.
+//! Boxes are cut at the median corner of their sides, across the longer extent or, where that does not part the sides, across
+//! the other one. Parts are exact.
 //!
 //! Cost: O(m log m) typical for m sides.
 
@@ -57,19 +58,24 @@ impl Node {
             let coordinates = corners.iter().map(|c| c[axis]);
             coordinates.clone().fold(f64::MIN, f64::max) / 2.0 - coordinates.fold(f64::MAX, f64::min) / 2.0
         };
-        let axis = usize::from(extent(1) > extent(0));
-        let mut coordinates: Vec<f64> = corners.iter().map(|corner| corner[axis]).collect();
-        let middle = coordinates.len() / 2;
-        if coordinates.is_empty() {
-            return Self { rings, full: false, halves: None };
+        let longer = usize::from(extent(1) > extent(0));
+        for axis in [longer, 1 - longer] {
+            let mut coordinates: Vec<f64> = corners.iter().map(|corner| corner[axis]).collect();
+            let middle = coordinates.len() / 2;
+            if coordinates.is_empty() {
+                break;
+            }
+            let at = *coordinates.select_nth_unstable_by(middle, f64::total_cmp).1;
+            let halves = [Line::Below(axis, at), Line::Above(axis, at)].map(|half| clip(rings.clone(), half));
+            let counts = halves.each_ref().map(|half| count(half));
+            // Sides that all go across, like the teeth of a comb, may be apart along the other axis, unless they are aslant.
+            let are_apart = axis == longer || 2 * (counts[0] + counts[1]) <= 3 * side_count;
+            if are_apart && counts.iter().all(|&count| count < side_count) {
+                let halves = halves.map(|half| Self::at_depth(half, depth + 1));
+                return Self { rings, full: false, halves: Some((axis, at, Box::new(halves))) };
+            }
         }
-        let at = *coordinates.select_nth_unstable_by(middle, f64::total_cmp).1;
-        let halves = [Line::Below(axis, at), Line::Above(axis, at)].map(|half| clip(rings.clone(), half));
-        if halves.iter().any(|half| count(half) >= side_count) {
-            return Self { rings, full: false, halves: None };
-        }
-        let halves = halves.map(|half| Self::at_depth(half, depth + 1));
-        Self { rings, full: false, halves: Some((axis, at, Box::new(halves))) }
+        Self { rings, full: false, halves: None }
     }
 
     /// The smallest box of the tree that contains one, which is inside of the whole.
@@ -146,4 +152,31 @@ fn keeps_off([p, q]: [[f64; 2]; 2], low: [f64; 2], high: [f64; 2]) -> bool {
     let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
     let first = orient2d(p, q, low);
     !first.is_zero() && corners.iter().all(|&corner| orient2d(p, q, corner) == first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FEW, Node};
+    use crate::plane::voronoi::clip::{Corner, sides};
+
+    /// The most sides that a smallest box has.
+    fn most(node: &Node) -> usize {
+        let own = || node.rings.iter().flatten().filter(|corner: &&Corner| corner.side.is_some()).count();
+        node.halves.as_ref().map_or_else(own, |(_, _, halves)| halves.iter().map(most).max().unwrap_or(0))
+    }
+
+    /// The teeth of a comb all go across the longer extent, with corners at both ends of it.
+    #[test]
+    fn combs_are_cut_between_their_teeth() {
+        for teeth in [10, 100, 500] {
+            let tooth = |i: u32| [[0.0, f64::from(i)], [1000.0, f64::from(i) + 0.5]];
+            let mut comb: Vec<[f64; 2]> = (0..teeth).flat_map(tooth).collect();
+            comb.extend([[-1.0, f64::from(teeth)], [-1.0, 0.0]]);
+            let upright: Vec<[f64; 2]> = comb.iter().rev().map(|&[x, y]| [y, x]).collect();
+            for ring in [comb, upright] {
+                let found = most(&Node::new(vec![sides(&ring, 0)]));
+                assert!(found <= FEW, "{found} sides in a box, {teeth} teeth");
+            }
+        }
+    }
 }
