@@ -4,7 +4,7 @@ use crate::{Point2, Sign, exact};
 
 /// Relative error of a product of two sums of two products of rounded differences, and of the difference of two
 /// such products, doubled for safety: ten roundings.
-const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
+pub(crate) const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 /// Below this magnitude an underflow could be as large as the error bound.
 const SMALLEST: f64 = 1e-280;
 /// What an underflow in a product with `w` is multiplied by may be so many times the size of the terms: the product is
@@ -51,7 +51,7 @@ pub fn centre_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
 
 /// The filter, on differences.
 #[inline]
-fn side(u: Point2, v: Point2, w: Point2) -> Option<Sign> {
+pub(crate) fn side(u: Point2, v: Point2, w: Point2) -> Option<Sign> {
     let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
     let ([ux, uy], [vx, vy]) = ([u[0] * w[0], u[1] * w[1]], [v[0] * w[0], v[1] * w[1]]);
     let value = uu * (vx + vy) - vv * (ux + uy);
