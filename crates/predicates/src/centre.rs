@@ -9,7 +9,7 @@ pub(crate) const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 const SMALLEST: f64 = 1e-280;
 /// What an underflow in a product with `w` is multiplied by may be so many times the size of the terms: the product is
 /// off by at most 2^-1075, and 2^-1000 leaves it below 2^-20 of the error bound.
-const LOST: f64 = f64::from_bits((1023 - 1000) << 52);
+pub(crate) const LOST: f64 = f64::from_bits((1023 - 1000) << 52);
 
 /// On which side of the line from `o` through the circumcentre of `o`, `a`, `b` the point `p` is: positive on its
 /// left. For `o`, `a`, `b` counter-clockwise. Zero if `p` is on the line, or the centre is `o`.

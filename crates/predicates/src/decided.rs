@@ -3,6 +3,9 @@
 
 use std::cmp::Ordering;
 
+use delone_oracle::exact as oracle;
+use delone_oracle::generate::Random;
+
 use crate::filter::{
     Grid, in_circle_filter, in_circle_scaled, in_sphere_filter, in_sphere_scaled, orient2d_filter,
     orient2d_scaled, orient3d_filter, orient3d_scaled,
@@ -117,12 +120,12 @@ fn distances_that_are_nearly_equal_are_left_to_the_exact_stage() {
         for k in 1..200 {
             let t = f64::from(k) / 7.0;
             let [a, b] = [[q[0] + 3.0 * t * size, q[1] + 4.0 * t * size], [q[0] - 5.0 * t * size, q[1]]];
-            let expected = delone_oracle::exact::compare_distances(q, a, b);
+            let expected = oracle::compare_distances(q, a, b);
             assert_eq!(crate::compare_distances(q, a, b), expected.cmp(&0), "{size} {t}");
             let (q, a, b) = ([q[0], q[1], q[0]], [a[0], a[1], q[0]], [b[0], b[1], q[0]]);
             assert_eq!(crate::compare_distances3(q, a, b), expected.cmp(&0), "{size} {t}");
             let w = [[a[0], a[1]], [2.0 * q[0] - (a[1] - q[1]), q[1] + (a[0] - q[0])]];
-            let right = delone_oracle::exact::angle([q[0], q[1]], w[0], w[1]);
+            let right = oracle::angle([q[0], q[1]], w[0], w[1]);
             assert_eq!(crate::angle([q[0], q[1]], w[0], w[1]), Sign::of(&right, &0), "{size} {t}");
         }
     }
@@ -172,6 +175,51 @@ fn scaled_filters_tell_what_spans_the_range() {
     assert_eq!(orient2d_scaled([tiny(0.1), tiny(0.1)], [tiny(0.7), tiny(0.7)], [tiny(0.3), tiny(0.3)]), None);
 }
 
+/// Nearly on one line, circle, plane and sphere, at a scale where only these filters are asked: they may say nothing, but
+/// nothing wrong.
+#[test]
+fn scaled_filters_never_say_more_than_is_true() {
+    let mut random = Random::new(21);
+    let mut told = [0; 4];
+    for round in 0..4000 {
+        let scale = 2f64.powi([-700, 600, -300][round % 3]);
+        let mut near =
+            |x: f64| f64::from_bits(x.to_bits().wrapping_add(random.below(1 << (round % 8)) as u64)) * scale;
+        let t = |k: i32| f64::from(k * 37 + round as i32 % 101) / 17.0;
+        let line = [t(1), t(3), t(-2)].map(|x| [near(x), near(x / 3.0)]);
+        let circle = [1, 3, 4, 6].map(|k| t(k).sin_cos()).map(|(s, c)| [near(2.0 * s), near(2.0 * c)]);
+        let plane =
+            [1, 3, 4, 6].map(|k| (t(k).sin(), t(k).cos())).map(|(s, c)| [near(s), near(c), near(s + c)]);
+        let sphere = [1, 2, 4, 5, 7].map(|k| {
+            let ((s, c), (up, out)) = (t(k).sin_cos(), t(k * k).sin_cos());
+            [near(out * s), near(out * c), near(up)]
+        });
+        let [a, b, c] = line;
+        let answers = [
+            (orient2d_scaled(a, b, c), oracle::orient2d(a, b, c)),
+            {
+                let [a, b, c, d] = circle;
+                (in_circle_scaled(a, b, c, d), oracle::in_circle_unperturbed(a, b, c, d))
+            },
+            {
+                let [a, b, c, d] = plane;
+                (orient3d_scaled(a, b, c, d), oracle::orient3d(a, b, c, d))
+            },
+            {
+                let [a, b, c, d, e] = sphere;
+                (in_sphere_scaled(a, b, c, d, e), oracle::in_sphere_unperturbed(a, b, c, d, e))
+            },
+        ];
+        for (k, (answer, expected)) in answers.into_iter().enumerate() {
+            if let Some(sign) = answer {
+                assert_eq!(sign, Sign::of(&expected, &0), "{k}, round {round}");
+                told[k] += 1;
+            }
+        }
+    }
+    assert!(told.iter().all(|&n| n > 40 && n < 3990), "{told:?}");
+}
+
 #[test]
 fn planes_tell_what_is_not_near() {
     for size in SIZES {
@@ -187,7 +235,9 @@ fn planes_tell_what_is_not_near() {
 fn bounds_are_those_of_their_derivations() {
     let u = 2f64.powi(-53);
     assert_eq!(distance::ERROR, 8.0 * u);
-    assert_eq!(centre::ERROR, 20.0 * u);
+    assert_eq!((centre::ERROR, centre::LOST), (20.0 * u, 2f64.powi(-1000)));
+    assert_eq!(crate::plane::BOUND, 10.0 * u);
+    assert_eq!((crate::clear::UNIT, crate::clear::FLAT), (u, 2f64.powi(-30)));
 }
 
 #[test]
@@ -215,4 +265,22 @@ fn points_are_collinear_only_if_they_are_along_every_axis() {
     }
     assert!(!crate::are_collinear3(origin, [1.0, 2.0, 4.0], [2.0, 4.0, 9.0]));
     assert!(crate::are_collinear3(origin, [1.0, 2.0, 4.0], [2.0, 4.0, 8.0]));
+}
+
+/// Of two spheres at once one is told by floating point, and the other is not.
+#[test]
+fn of_two_spheres_each_is_told_by_itself() {
+    let (filter, origin) = (Filter3::for_box([8.0; 3], None), [0.0; 3]);
+    let tie = [[1.0, 1.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let plain = [[5.0, 5.0, 5.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]];
+    let orders = |[a, b, c, d]: [Point3; 4]| [[a, b, c, d], [b, a, c, d]];
+    for tie in orders(tie) {
+        for plain in orders(plain) {
+            let sign = |[a, b, c, d]: [Point3; 4]| crate::in_sphere(a, b, c, d, origin);
+            let both = filter.in_spheres([tie.each_ref(), plain.each_ref()], &origin);
+            assert_eq!(both, [sign(tie), sign(plain)]);
+            let both = filter.in_spheres([plain.each_ref(), tie.each_ref()], &origin);
+            assert_eq!(both, [sign(plain), sign(tie)]);
+        }
+    }
 }
