@@ -170,7 +170,7 @@ fn edges_are_where_two_sites_are_furthest() {
                 };
                 for q in met {
                     let distance = |p: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
-                    let (far, error) = (distance(d.point(v)), 1e-9 * (1.0 + q[0].abs() + q[1].abs()));
+                    let (far, error) = (distance(d.point(v)), 1e-9 * (1.0 + distance(d.point(v))));
                     assert!((far - distance(d.point(w))).abs() < error, "{kind:?} {n} {edge:?}");
                     assert!(points.iter().all(|&p| distance(p) < far + error), "{kind:?} {n} {edge:?}");
                 }

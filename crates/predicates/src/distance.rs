@@ -84,7 +84,7 @@ pub fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
 
 /// The order of two squared distances, if floating point can tell.
 #[inline]
-fn compared(left: f64, right: f64) -> Option<Ordering> {
+pub(crate) fn compared(left: f64, right: f64) -> Option<Ordering> {
     told(left - right, left + right).map(|sign| sign.cmp(&Sign::Zero))
 }
 

@@ -234,7 +234,7 @@ fn left_of([a, b]: [[f64; 2]; 2], polygon: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::Rectangle;
+    use super::{Rectangle, left_of};
 
     const R: Rectangle = Rectangle { low: [1.0, 2.0], high: [4.0, 8.0] };
 
@@ -294,5 +294,25 @@ mod tests {
     fn the_middle_of_a_part_is_in_the_rectangle() {
         assert_eq!(R.middle_of(&[[2.0, 3.0], [3.0, 7.0]]), [2.5, 5.0]);
         assert_eq!(R.middle_of(&[[0.0, 0.0], [1.0, 1.0]]), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn lines_cut_polygons() {
+        let square = [[1.0, 3.0], [5.0, 3.0], [5.0, 11.0], [1.0, 11.0]];
+        // Down through x = 2, up through it, slanted through two sides, along a side, and beside all of it.
+        assert_eq!(
+            left_of([[2.0, 9.0], [2.0, 5.0]], &square),
+            [[2.0, 3.0], [5.0, 3.0], [5.0, 11.0], [2.0, 11.0]]
+        );
+        assert_eq!(
+            left_of([[2.0, 5.0], [2.0, 9.0]], &square),
+            [[1.0, 3.0], [2.0, 3.0], [2.0, 11.0], [1.0, 11.0]]
+        );
+        assert_eq!(
+            left_of([[0.0, 1.0], [4.0, 5.0]], &square),
+            [[1.0, 3.0], [2.0, 3.0], [5.0, 6.0], [5.0, 11.0], [1.0, 11.0]]
+        );
+        assert_eq!(left_of([[0.0, 3.0], [9.0, 3.0]], &square), square);
+        assert_eq!(left_of([[0.0, 12.0], [9.0, 12.0]], &square), [[0.0; 2]; 0]);
     }
 }
