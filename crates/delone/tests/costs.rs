@@ -129,3 +129,26 @@ fn changes_visit_few_triangles_on_any_points() {
         tests.hold(&format!("{name}: tests and triangles of a removal"), 60.0, u64::MAX);
     }
 }
+
+/// A star of d triangles becomes a hole, which takes two less; what is left of a triangle is a line of two ghosts.
+#[test]
+fn removals_count_what_they_take_and_make() {
+    for degree in [3, 6, 24, 25, 40] {
+        let mut points = vec![[0.1, 0.05]];
+        points.extend((0..degree).map(|i| {
+            let (y, x) = (f64::from(i) * std::f64::consts::TAU / f64::from(degree)).sin_cos();
+            [x, y]
+        }));
+        let mut d = Delaunay2::from_points(&points).expect("finite");
+        let work = counted(|work| d.remove_counted(VertexId::new(0), work).expect("a vertex"));
+        let degree = degree as u64;
+        assert_eq!((work.destroyed, work.created), (degree, degree - 2));
+    }
+    for n in [3, 7] {
+        let mut points = vec![[1.0, 1.0]];
+        points.extend((0..n).map(|i| [f64::from(i), 0.0]));
+        let mut d = Delaunay2::from_points(&points).expect("finite");
+        let work = counted(|work| d.remove_counted(VertexId::new(0), work).expect("a vertex"));
+        assert_eq!(work.created, 2 * n as u64 - 2);
+    }
+}

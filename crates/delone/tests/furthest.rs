@@ -1,6 +1,6 @@
 //! Furthest sites against their definitions, by brute force over exact arithmetic.
 
-use delone::{Delaunay2, VertexId};
+use delone::{Delaunay2, VertexId, VoronoiEdge};
 use delone_oracle::exact;
 use delone_oracle::generate::Kind;
 
@@ -136,4 +136,68 @@ fn the_hull_is_the_same_either_way() {
         }
     }
     assert!(delone::convex_hull(&[[0.0, f64::NAN]]).is_err());
+}
+
+/// A point of each edge of the diagram is as far from its two sites as from each other, and from no site further.
+#[test]
+fn edges_are_where_two_sites_are_furthest() {
+    for kind in [Kind::Uniform, Kind::Circle, Kind::Grid, Kind::Clusters] {
+        for n in [2, 3, 5, 40] {
+            let points = kind.points(n, 17);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let furthest = d.furthest();
+            let corners = furthest.corners().len();
+            let (mut segments, mut rays, mut lines) = (0, 0, 0);
+            for ([v, w], edge) in furthest.edges() {
+                let along = |from: [f64; 2], direction: [f64; 2]| {
+                    [0.0, 1.0, 10.0]
+                        .map(|t| [from[0] + t * direction[0], from[1] + t * direction[1]])
+                        .to_vec()
+                };
+                let met = match edge {
+                    VoronoiEdge::Segment([from, to]) => {
+                        segments += 1;
+                        vec![from, to, [0, 1].map(|k| from[k] / 2.0 + to[k] / 2.0)]
+                    }
+                    VoronoiEdge::Ray { from, direction } => {
+                        rays += 1;
+                        along(from, direction)
+                    }
+                    VoronoiEdge::Line { through, direction } => {
+                        lines += 1;
+                        [along(through, direction), along(through, direction.map(|x| -x))].concat()
+                    }
+                };
+                for q in met {
+                    let distance = |p: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+                    let (far, error) = (distance(d.point(v)), 1e-9 * (1.0 + distance(d.point(v))));
+                    assert!((far - distance(d.point(w))).abs() < error, "{kind:?} {n} {edge:?}");
+                    assert!(points.iter().all(|&p| distance(p) < far + error), "{kind:?} {n} {edge:?}");
+                }
+            }
+            let expected = match corners {
+                0 | 1 => (0, 0, 0),
+                2 => (0, 0, 1),
+                h => (h - 3, h, 0),
+            };
+            assert_eq!((segments, rays, lines), expected, "{kind:?} {n}");
+        }
+    }
+}
+
+#[test]
+fn the_support_of_an_enclosing_circle_is_on_it() {
+    for kind in [Kind::Uniform, Kind::Circle, Kind::Grid, Kind::Clusters] {
+        for n in [1, 2, 3, 4, 12, 40] {
+            let points: Vec<[f64; 2]> =
+                kind.points(n, 19).into_iter().map(|[x, y]| [x + 3.0, y - 2.0]).collect();
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let circle = d.furthest().enclosing_circle().expect("there are points");
+            for v in circle.support {
+                let [x, y] = d.point(v);
+                let distance = (x - circle.centre[0]).hypot(y - circle.centre[1]);
+                assert!((distance - circle.radius).abs() < 1e-9 * (1.0 + circle.radius), "{kind:?} {n}");
+            }
+        }
+    }
 }

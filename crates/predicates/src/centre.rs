@@ -4,12 +4,12 @@ use crate::{Point2, Sign, exact};
 
 /// Relative error of a product of two sums of two products of rounded differences, and of the difference of two
 /// such products, doubled for safety: ten roundings.
-const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
+pub(crate) const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 /// Below this magnitude an underflow could be as large as the error bound.
 const SMALLEST: f64 = 1e-280;
 /// What an underflow in a product with `w` is multiplied by may be so many times the size of the terms: the product is
 /// off by at most 2^-1075, and 2^-1000 leaves it below 2^-20 of the error bound.
-const LOST: f64 = f64::from_bits((1023 - 1000) << 52);
+pub(crate) const LOST: f64 = f64::from_bits((1023 - 1000) << 52);
 
 /// On which side of the line from `o` through the circumcentre of `o`, `a`, `b` the point `p` is: positive on its
 /// left. For `o`, `a`, `b` counter-clockwise. Zero if `p` is on the line, or the centre is `o`.
@@ -51,7 +51,7 @@ pub fn centre_direction(o: Point2, a: Point2, b: Point2) -> [Sign; 2] {
 
 /// The filter, on differences.
 #[inline]
-fn side(u: Point2, v: Point2, w: Point2) -> Option<Sign> {
+pub(crate) fn side(u: Point2, v: Point2, w: Point2) -> Option<Sign> {
     let (uu, vv) = (u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1]);
     let ([ux, uy], [vx, vy]) = ([u[0] * w[0], u[1] * w[1]], [v[0] * w[0], v[1] * w[1]]);
     let value = uu * (vx + vy) - vv * (ux + uy);

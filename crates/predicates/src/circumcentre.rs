@@ -31,6 +31,12 @@ pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 /// 2^-40 of that reach at most, and a rounding.
 #[inline]
 pub(crate) fn circumcentre_within(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Point2> {
+    in_floating_point(a, b, c, reach).or_else(|| rounded_once(a, b, c))
+}
+
+/// The fast way, if it is good enough.
+#[inline]
+fn in_floating_point(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Point2> {
     // From the smallest point: of the other two either may be first, which changes two signs that cancel. Without
     // branches, because nothing predicts them.
     let points = [a, b, c];
@@ -54,7 +60,7 @@ pub(crate) fn circumcentre_within(a: Point2, b: Point2, c: Point2, reach: f64) -
             return Some(centre);
         }
     }
-    rounded_once(a, b, c)
+    None
 }
 
 #[inline]
@@ -72,7 +78,12 @@ fn rounded_once(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 #[cfg(test)]
 mod tests {
     use super::{circumcentre, rounded_once};
+    use crate::Point2;
     use delone_oracle::generate::Kind;
+
+    fn in_floating_point(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
+        super::in_floating_point(a, b, c, f64::INFINITY)
+    }
 
     #[test]
     fn a_centre_too_far_away_is_none() {
@@ -99,6 +110,37 @@ mod tests {
             }
         }
         assert!(fast > 100, "only {fast} centres came from floating point");
+    }
+
+    #[test]
+    fn the_fast_way_is_taken_where_nothing_cancels() {
+        let triangle = |size: f64| [[0.0, 0.0], [2.0 * size, 0.5 * size], [0.5 * size, 2.0 * size]];
+        for size in [1.0, 1e-30, 1e30] {
+            let [a, b, c] = triangle(size);
+            assert!(in_floating_point(a, b, c).is_some(), "{size}");
+            // An eighth of a sum is left, which is enough; a thousandth is not.
+            assert!(in_floating_point(a, b, [1.75 * size, 0.5625 * size]).is_some(), "{size}");
+            assert_eq!(in_floating_point(a, b, [1.75 * size, 0.438 * size]), None, "{size}");
+        }
+        // One side alone leaves the range, and then the other.
+        for size in [1e-36, 1e36] {
+            assert_eq!(
+                in_floating_point([-1.0, -1.0], [size, 2.0 * size], [2.0, 0.25]).is_some(),
+                size < 1.0
+            );
+            let [a, b, c] = triangle(size);
+            assert_eq!(in_floating_point(a, b, c), None);
+            let other = size.recip();
+            assert_eq!(in_floating_point([0.0, 0.0], [size, 0.0], [size, other]), None);
+        }
+        // The points are taken in the same order, whatever their x coordinates have in common.
+        let points = [[0.1, 0.7], [0.1, 0.3], [0.9, 0.2]];
+        let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+        let centres = orders.map(|order| {
+            let [a, b, c] = order.map(|i| points[i]);
+            in_floating_point(a, b, c).expect("an even triangle")
+        });
+        assert_eq!(centres, [centres[0]; 6]);
     }
 
     #[test]

@@ -10,9 +10,9 @@
 
 use crate::Point3;
 
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(crate) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Flatter tetrahedra, with this share of their size to the third, have spheres that nobody knows.
-const FLAT: f64 = 1.0 / (1 << 30) as f64;
+pub(crate) const FLAT: f64 = 1.0 / (1 << 30) as f64;
 /// No product overflows or loses bits by being small for differences from 2^-200 to 2^200.
 const SIZES: std::ops::Range<f64> = 6.2e-61..1.6e60;
 

@@ -6,7 +6,7 @@ use crate::{Point2, Point3, Sign, exact};
 
 /// Relative error of a squared distance or a scalar product of two rounded differences, doubled for safety:
 /// two roundings of differences, one of a product, one of a sum.
-const ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
+pub(crate) const ERROR: f64 = 8.0 * (f64::EPSILON / 2.0);
 /// Below this magnitude an underflow could be as large as the error bound.
 const SMALLEST: f64 = 1e-290;
 
@@ -23,11 +23,7 @@ const SMALLEST: f64 = 1e-290;
 #[inline]
 pub fn compare_distances(q: Point2, a: Point2, b: Point2) -> Ordering {
     let (to_a, to_b) = (squared(q, a), squared(q, b));
-    let (difference, sum) = (to_a - to_b, to_a + to_b);
-    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
-        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
-    }
-    exact_comparison(q, a, b)
+    compared(to_a, to_b).unwrap_or_else(|| exact_comparison(q, a, b))
 }
 
 #[cold]
@@ -51,23 +47,14 @@ pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering {
     if radius < 0.0 {
         return Ordering::Greater;
     }
-    let (distance, limit) = (squared(q, a), radius * radius);
-    let (difference, sum) = (distance - limit, distance + limit);
-    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
-        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
-    }
-    exact::compare_with_radius(q, a, radius)
+    compared(squared(q, a), radius * radius).unwrap_or_else(|| exact::compare_with_radius(q, a, radius))
 }
 
 /// [`compare_distances`] in space.
 #[inline]
 pub fn compare_distances3(q: Point3, a: Point3, b: Point3) -> Ordering {
     let (to_a, to_b) = (squared3(q, a), squared3(q, b));
-    let (difference, sum) = (to_a - to_b, to_a + to_b);
-    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
-        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
-    }
-    exact::compare_distances3(q, a, b)
+    compared(to_a, to_b).unwrap_or_else(|| exact::compare_distances3(q, a, b))
 }
 
 /// [`compare_with_radius`] in space.
@@ -76,13 +63,7 @@ pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> Ordering {
     if radius < 0.0 {
         return Ordering::Greater;
     }
-    let (distance, limit) = (squared3(q, a), radius * radius);
-    let (difference, sum) = (distance - limit, distance + limit);
-    if difference.abs() > ERROR * sum && sum >= SMALLEST && sum.is_finite() {
-        return if difference < 0.0 { Ordering::Less } else { Ordering::Greater };
-    }
-    // The radius is the distance of (radius, 0, 0) from the origin.
-    exact::compare_with_radius3(q, a, radius)
+    compared(squared3(q, a), radius * radius).unwrap_or_else(|| exact::compare_with_radius3(q, a, radius))
 }
 
 /// The sign of the scalar product (a - o) . (b - o): positive if the angle at `o` is acute, zero if it is right.
@@ -98,11 +79,20 @@ pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> Ordering {
 pub fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     let x = (a[0] - o[0]) * (b[0] - o[0]);
     let y = (a[1] - o[1]) * (b[1] - o[1]);
-    let (dot, size) = (x + y, x.abs() + y.abs());
-    if dot.abs() > ERROR * size && size >= SMALLEST && size.is_finite() {
-        return Sign::of(&dot, &0.0);
-    }
-    exact::angle(o, a, b)
+    told(x + y, x.abs() + y.abs()).unwrap_or_else(|| exact::angle(o, a, b))
+}
+
+/// The order of two squared distances, if floating point can tell.
+#[inline]
+pub(crate) fn compared(left: f64, right: f64) -> Option<Ordering> {
+    told(left - right, left + right).map(|sign| sign.cmp(&Sign::Zero))
+}
+
+/// The sign of a sum of two or three products of rounded differences, if floating point can tell. `size` is the sum of
+/// their magnitudes.
+#[inline]
+pub(crate) fn told(value: f64, size: f64) -> Option<Sign> {
+    (value.abs() > ERROR * size && size >= SMALLEST && size.is_finite()).then(|| Sign::of(&value, &0.0))
 }
 
 #[inline]

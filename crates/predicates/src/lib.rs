@@ -26,6 +26,8 @@ mod centre;
 mod circumcentre;
 mod clear;
 pub mod counters;
+#[cfg(test)]
+mod decided;
 mod distance;
 mod exact;
 mod filter;

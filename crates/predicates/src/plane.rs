@@ -5,7 +5,7 @@ use crate::{Point3, Sign};
 const U: f64 = f64::EPSILON / 2.0;
 /// Each term of the sum: four roundings in the normal, one of a difference, one of a product, two of sums, and room
 /// for the higher orders.
-const BOUND: f64 = 10.0 * U;
+pub(crate) const BOUND: f64 = 10.0 * U;
 
 /// The plane through three points, for points in a box.
 ///

@@ -236,3 +236,88 @@ fn left_of([a, b]: [[f64; 2]; 2], polygon: &[[f64; 2]]) -> Vec<[f64; 2]> {
     }
     part
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Rectangle, left_of};
+
+    const R: Rectangle = Rectangle { low: [1.0, 2.0], high: [4.0, 8.0] };
+
+    #[test]
+    fn segments_meet_a_rectangle_or_not() {
+        let both = |a: [f64; 2], b: [f64; 2]| {
+            assert_eq!(R.meets([a, b]), R.meets([b, a]), "{a:?} {b:?}");
+            R.meets([a, b])
+        };
+        // Inside, across, touching a side and a corner.
+        assert!(both([2.0, 3.0], [3.0, 4.0]) && both([0.0, 3.0], [9.0, 5.0]) && both([2.0, 0.0], [2.0, 9.0]));
+        assert!(both([0.0, 2.0], [9.0, 2.0]) && both([4.0, 0.0], [4.0, 3.0]) && both([0.0, 3.0], [2.0, 1.0]));
+        // Apart along an axis, on each of four sides; and along none, past each corner.
+        assert!(!both([0.0, 0.0], [0.9, 9.0]) && !both([4.1, 0.0], [9.0, 9.0]));
+        assert!(!both([0.0, 1.9], [9.0, 0.0]) && !both([0.0, 8.1], [9.0, 9.0]));
+        assert!(!both([0.0, 2.9], [1.9, 1.0]) && !both([3.1, 1.0], [5.0, 2.9]));
+        assert!(!both([0.0, 7.1], [1.9, 9.0]) && !both([3.1, 9.0], [5.0, 7.1]));
+    }
+
+    /// For corners that are the last of their polygon along an axis, or share that place with one of their neighbours.
+    #[test]
+    fn polygons_end_before_a_rectangle_begins() {
+        let turned = |p: [f64; 2]| [5.0 - p[0], 10.0 - p[1]]; // the rectangle stays where it is
+        for (before, corner, after, expected) in [
+            ([0.0, 3.0], [0.5, 4.0], [0.0, 5.0], true),
+            ([0.0, 3.0], [1.0, 4.0], [0.0, 5.0], false), // on its border
+            ([0.5, 3.0], [0.5, 4.0], [0.0, 5.0], true),
+            ([0.0, 3.0], [0.5, 4.0], [0.5, 5.0], true),
+            ([0.5, 3.0], [0.5, 4.0], [0.5, 5.0], false), // nothing is known of the others
+            ([0.7, 3.0], [0.5, 4.0], [0.0, 5.0], false),
+            ([0.0, 3.0], [0.5, 4.0], [0.7, 5.0], false),
+            ([2.0, 1.0], [3.0, 1.5], [4.0, 1.0], true),
+            ([2.0, 1.0], [3.0, 2.0], [4.0, 1.0], false),
+            ([2.0, 1.5], [3.0, 1.5], [4.0, 1.0], true),
+            ([2.0, 1.7], [3.0, 1.5], [4.0, 1.0], false),
+        ] {
+            assert_eq!(R.is_past(before, corner, after), expected, "{before:?} {corner:?} {after:?}");
+            assert_eq!(R.is_past(after, corner, before), expected, "{after:?} {corner:?} {before:?}");
+            let [p, q, r] = [before, corner, after].map(turned);
+            assert_eq!(R.is_past(p, q, r), expected, "{p:?} {q:?} {r:?}");
+        }
+    }
+
+    #[test]
+    fn a_rectangle_is_beyond_a_line_with_all_of_its_corners() {
+        assert!(R.is_beyond([[0.0, 0.0], [0.0, 1.0]]) && !R.is_beyond([[0.0, 1.0], [0.0, 0.0]]));
+        assert!(!R.is_beyond([[1.0, 0.0], [1.0, 1.0]]) && !R.is_beyond([[2.0, 0.0], [2.0, 1.0]]));
+        assert!(
+            R.contains([1.0, 2.0])
+                && R.contains([4.0, 8.0])
+                && !R.contains([0.9, 3.0])
+                && !R.contains([2.0, 8.1])
+        );
+    }
+
+    #[test]
+    fn the_middle_of_a_part_is_in_the_rectangle() {
+        assert_eq!(R.middle_of(&[[2.0, 3.0], [3.0, 7.0]]), [2.5, 5.0]);
+        assert_eq!(R.middle_of(&[[0.0, 0.0], [1.0, 1.0]]), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn lines_cut_polygons() {
+        let square = [[1.0, 3.0], [5.0, 3.0], [5.0, 11.0], [1.0, 11.0]];
+        // Down through x = 2, up through it, slanted through two sides, along a side, and beside all of it.
+        assert_eq!(
+            left_of([[2.0, 9.0], [2.0, 5.0]], &square),
+            [[2.0, 3.0], [5.0, 3.0], [5.0, 11.0], [2.0, 11.0]]
+        );
+        assert_eq!(
+            left_of([[2.0, 5.0], [2.0, 9.0]], &square),
+            [[1.0, 3.0], [2.0, 3.0], [2.0, 11.0], [1.0, 11.0]]
+        );
+        assert_eq!(
+            left_of([[0.0, 1.0], [4.0, 5.0]], &square),
+            [[1.0, 3.0], [2.0, 3.0], [5.0, 6.0], [5.0, 11.0], [1.0, 11.0]]
+        );
+        assert_eq!(left_of([[0.0, 3.0], [9.0, 3.0]], &square), square);
+        assert_eq!(left_of([[0.0, 12.0], [9.0, 12.0]], &square), [[0.0; 2]; 0]);
+    }
+}

@@ -170,3 +170,23 @@ pub(super) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> 
     // No negative zero.
     value + 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    use num_bigint::BigInt;
+
+    use super::quotient;
+
+    /// 81 bits that are half a step of a number and one more, and then a remainder: up, and not to the even one.
+    #[test]
+    fn quotients_are_rounded_once() {
+        let whole = (BigInt::from(1) << 80) + BigInt::from(1 << 27);
+        for (more, expected) in [(0, 2f64.powi(80)), (1, 2f64.powi(80) + 2f64.powi(28))] {
+            let numerator = (&whole + BigInt::from(more)) * BigInt::from(3);
+            assert_eq!(quotient(&numerator, &BigInt::from(3), 0), expected);
+            let above = 2f64.powi(80) + 2f64.powi(28);
+            assert_eq!(quotient(&(&numerator + BigInt::from(1)), &BigInt::from(3), 0), above);
+            assert_eq!(quotient(&-(numerator + BigInt::from(1)), &BigInt::from(3), 0), -above);
+        }
+    }
+}

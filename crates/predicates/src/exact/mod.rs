@@ -153,7 +153,35 @@ fn decode(x: f64) -> (i64, i32) {
 
 #[cfg(test)]
 mod tests {
-    use super::decode;
+    use super::{decode, expansions_hold, integers, space, wide};
+
+    /// What fits is not handed on to slower arithmetic.
+    #[test]
+    fn integers_take_what_fits() {
+        let flat = [1.0, 2.0, 7.0, 3.0, 4.0, 9.0, 5.0, 8.0];
+        let six = [1.0, 2.0, 7.0, 3.0, 4.0, 9.0];
+        assert!(integers::orient2d(&six).is_some() && integers::in_circle(&flat).is_some());
+        assert!(integers::compare_distances(&six).is_some() && integers::compare_with_radius(&six).is_some());
+        assert!(integers::angle(&six).is_some() && integers::centre_side(&flat).is_some());
+        assert!(integers::centre_direction(&six).is_some());
+        let solid: [f64; 15] = std::array::from_fn(|i| ((i * i * i) % 17) as f64);
+        let (nine, twelve) = (solid.first_chunk().expect("9 of 15"), solid.first_chunk().expect("12 of 15"));
+        assert!(space::orient3d(twelve).is_some() && space::in_sphere(&solid).is_some());
+        assert!(space::compare_distances(nine).is_some() && space::compare_with_radius(nine).is_some());
+        let mut spread = solid;
+        spread[1] = 2f64.powi(100);
+        assert!(space::in_sphere(&spread).is_none() && wide::in_sphere(&spread).is_some());
+        assert!(wide::orient3d(spread.first_chunk().expect("12 of 15")).is_some());
+    }
+
+    #[test]
+    fn expansions_hold_within_their_range() {
+        let (low, high) = (2f64.powi(-142), 2f64.powi(200));
+        assert!(expansions_hold(&[0.0, -0.0, low, -low, 1.0, high, -high]));
+        for x in [low / 2.0, -low / 2.0, 2.0 * high, -2.0 * high, 5e-324] {
+            assert!(!expansions_hold(&[1.0, x]), "{x:e}");
+        }
+    }
 
     #[test]
     fn decoding_is_exact() {

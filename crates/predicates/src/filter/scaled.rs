@@ -15,7 +15,7 @@ use crate::{Point2, Point3, Sign};
 
 /// All errors by underflow: fewer than 128 roundings, each off by at most 2^-1075, multiplied by less than 2^20. A row's
 /// power may be rounded to zero, below 2^-1000.
-const FLOOR: f64 = f64::from_bits((1023 - 960) << 52);
+pub(super) const FLOOR: f64 = f64::from_bits((1023 - 960) << 52);
 
 /// Orientation of three points, if it can be told.
 pub(crate) fn orient2d_scaled(a: Point2, b: Point2, c: Point2) -> Option<Sign> {

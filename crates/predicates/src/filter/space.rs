@@ -16,16 +16,16 @@ pub(super) const ORIENT3D_BOUND: f64 = (7.0 + 56.0 * U) * U;
 /// The in-sphere determinant: 16u times its permanent.
 pub(super) const IN_SPHERE_BOUND: f64 = (16.0 + 224.0 * U) * U;
 /// The largest sum of differences in z for which [`ORIENT3D_FLOOR`] is valid: 2^500.
-const ORIENT3D_CEILING: f64 = f64::from_bits((1023 + 500) << 52);
+pub(super) const ORIENT3D_CEILING: f64 = f64::from_bits((1023 + 500) << 52);
 /// All errors by underflow in an orientation in space whose differences in z stay below 2^500: each of fewer than 16
 /// roundings is off by at most 2^-1075 and is multiplied by at most 2^501.
-const ORIENT3D_FLOOR: f64 = f64::from_bits((1023 - 569) << 52);
+pub(super) const ORIENT3D_FLOOR: f64 = f64::from_bits((1023 - 569) << 52);
 /// The largest sum of squared differences for which [`SPHERE_FLOOR`] is valid: 2^200.
-const SPHERE_CEILING: f64 = f64::from_bits((1023 + 200) << 52);
+pub(super) const SPHERE_CEILING: f64 = f64::from_bits((1023 + 200) << 52);
 /// All errors by underflow in an in-sphere test whose squared differences stay below 2^200: each of fewer than 128
 /// roundings is off by at most 2^-1075, and is multiplied by at most 2^303, by a minor of three columns or by a
 /// squared length and a difference.
-const SPHERE_FLOOR: f64 = f64::from_bits((1023 - 760) << 52);
+pub(super) const SPHERE_FLOOR: f64 = f64::from_bits((1023 - 760) << 52);
 
 /// Orientation of four points in space if floating point can tell.
 #[inline]

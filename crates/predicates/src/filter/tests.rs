@@ -1,6 +1,8 @@
 //! Every constant of the filters, derived again by running the formulas on bounds instead of numbers.
 
-use super::space::{Filter3, IN_SPHERE_BOUND, ORIENT3D_BOUND};
+use super::space::{
+    Filter3, IN_SPHERE_BOUND, ORIENT3D_BOUND, ORIENT3D_CEILING, ORIENT3D_FLOOR, SPHERE_CEILING, SPHERE_FLOOR,
+};
 use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, U};
 
 /// A computed quantity: a bound on its magnitude and a bound on its error.
@@ -210,6 +212,111 @@ fn small_boxes_of_a_grid_in_space_are_exact() {
     assert!(exact(500.0));
     assert!(!exact(1000.0));
     assert!(!exact(f64::INFINITY));
+    // 24 x y z (x^2 + y^2 + z^2) below 4e15 steps, in boxes of any shape.
+    for step in [0.25, 1.0, 8.0] {
+        let grid = Grid::of(&[step]);
+        let exact = |sides: [f64; 3]| {
+            Filter3::for_box(sides.map(|x| x * step), grid) == Filter3::for_box([step; 3], grid)
+        };
+        assert!(exact([550.0; 3]) && !exact([570.0; 3]), "{step}");
+        for k in 0..3 {
+            let long = |x: f64, other: f64| std::array::from_fn(|i| if i == k { x } else { other });
+            for thin in [0.0, 1.0] {
+                assert!(exact(long(55_000.0, thin)) && !exact(long(55_100.0, thin)), "{step} {k} {thin}");
+            }
+            assert!(exact(long(1.0, 2800.0)) && !exact(long(1.0, 3100.0)), "{step} {k}");
+        }
+    }
+}
+
+/// The bounds above are relative to the unit roundoff, which is told here, with the powers of two in the comments.
+#[test]
+fn constants_are_what_they_are_said_to_be() {
+    let u = 2f64.powi(-53);
+    assert_eq!(U, u);
+    assert_eq!((ORIENT_BOUND, IN_CIRCLE_BOUND), (3.0 * u + 16.0 * u * u, 10.0 * u + 96.0 * u * u));
+    assert_eq!((ORIENT3D_BOUND, IN_SPHERE_BOUND), (7.0 * u + 56.0 * u * u, 16.0 * u + 224.0 * u * u));
+    assert_eq!((super::CIRCLE_CEILING, super::CIRCLE_FLOOR), (2f64.powi(500), 2f64.powi(-560)));
+    assert_eq!((ORIENT3D_CEILING, ORIENT3D_FLOOR), (2f64.powi(500), 2f64.powi(-569)));
+    assert_eq!((SPHERE_CEILING, SPHERE_FLOOR), (2f64.powi(200), 2f64.powi(-760)));
+    assert_eq!(super::scaled::FLOOR, 2f64.powi(-960));
+}
+
+/// Sums over all permutations, with signs and without.
+fn expanded<const N: usize>(rows: [[f64; N]; N]) -> (f64, f64) {
+    fn sum(rows: &[Vec<f64>], used: &mut Vec<usize>) -> (f64, f64) {
+        let (mut det, mut permanent) = (0.0, 0.0);
+        if used.len() == rows.len() {
+            return (1.0, 1.0);
+        }
+        for column in (0..rows.len()).filter(|c| !used.contains(c)).collect::<Vec<_>>() {
+            let x = rows[used.len()][column];
+            let sign = if used.iter().filter(|&&c| c > column).count() % 2 == 0 { 1.0 } else { -1.0 };
+            used.push(column);
+            let (inner, all) = sum(rows, used);
+            used.pop();
+            det += sign * x * inner;
+            permanent += x.abs() * all;
+        }
+        (det, permanent)
+    }
+    sum(&rows.map(|row| row.to_vec()), &mut Vec::new())
+}
+
+/// On small integers and their quarters nothing rounds.
+#[test]
+fn determinants_come_with_their_permanents() {
+    for scale in [1.0, 0.25] {
+        let rows = [[2.0, -3.0, 5.0], [-7.0, 11.0, 13.0], [17.0, 19.0, -23.0], [29.0, -31.0, 37.0]];
+        let rows = rows.map(|row| row.map(|x: f64| x * scale));
+        let lifts = [41.0, 43.0, 47.0, 53.0].map(|x| x * scale);
+        let flat = [0, 1, 2].map(|i| [rows[i][0], rows[i][1]]);
+        assert_eq!(super::orient_terms(flat[0], flat[1]), expanded([flat[0], flat[1]]));
+        let lifted = [0, 1, 2].map(|i| [flat[i][0], flat[i][1], lifts[i]]);
+        assert_eq!(super::circle_terms(flat, [lifts[0], lifts[1], lifts[2]]), expanded(lifted));
+        let three = [rows[0], rows[1], rows[2]];
+        assert_eq!(super::space::orient3d_terms(three), expanded(three));
+        let lifted = [0, 1, 2, 3].map(|i| [rows[i][0], rows[i][1], rows[i][2], lifts[i]]);
+        assert_eq!(super::space::sphere_terms(rows, lifts), expanded(lifted));
+    }
+}
+
+/// One difference that is too large for the floors, whichever it is, is enough to decide nothing.
+#[test]
+fn beyond_their_ceilings_filters_decide_nothing() {
+    let large = |e: i32, f: i32, k: usize, i: usize| 2f64.powi(if i == k { e } else { f });
+    for k in 0..3 {
+        let points = [[1.0, 0.25], [-0.5, 1.0], [-0.25, -1.0]];
+        let at = |i: usize| points[i].map(|x| x * large(251, -100, k, i));
+        assert_eq!(super::in_circle_filter(at(0), at(1), at(2), [0.0, 0.0]), None, "{k}");
+        let at = |i: usize| [points[i][0], points[i][1], large(501, -300, k, i)];
+        assert_eq!(super::orient3d_filter(at(0), at(1), at(2), [0.0; 3]), None, "{k}");
+        let below = |i: usize| [points[i][0], points[i][1], large(499, -300, k, i)];
+        assert!(super::orient3d_filter(below(0), below(1), below(2), [0.0; 3]).is_some(), "{k}");
+    }
+    for k in 0..4 {
+        let points = [[1.0, 0.25, 0.5], [-0.5, 1.0, 0.25], [-0.25, -1.0, 0.5], [0.125, 0.25, -1.0]];
+        let at = |i: usize| points[i].map(|x| x * large(101, -40, k, i));
+        assert_eq!(super::in_sphere_filter(at(0), at(1), at(2), at(3), [0.0; 3]), None, "{k}");
+        let below = |i: usize| points[i].map(|x| x * large(98, -40, k, i));
+        assert!(super::in_sphere_filter(below(0), below(1), below(2), below(3), [0.0; 3]).is_some(), "{k}");
+    }
+}
+
+/// Most coordinates of a lattice need no look at their bits.
+#[test]
+fn the_lattice_test_knows_multiples() {
+    for step in [1.0, 0.125, 1024.0] {
+        let limit = super::ROUNDING / 3.0 * step;
+        let multiples = [0.0, step, -step, 3.0 * step, -1001.0 * step, limit, -limit];
+        assert!(super::on_lattice(step, limit, &multiples), "{step}");
+        assert!(super::on_lattice(step, 5.0 * step, &[5.0 * step]), "{step}");
+        assert!(!super::on_lattice(step, 5.0 * step, &[6.0 * step]), "{step}");
+        assert!(!super::on_lattice(step, 2.0 * limit, &[step]), "{step}");
+        for x in [step / 2.0, step / 1024.0, -1.5 * step, limit / 1024.0 - step / 4.0] {
+            assert!(!super::on_lattice(step, limit, &[step, x, step]), "{step} {x}");
+        }
+    }
 }
 
 /// The terms of the determinant of three lines, and of the coordinates of a meeting: coefficients a and b with one rounding,
