@@ -122,7 +122,7 @@ impl Hints3 {
     ///
     /// # Errors
     /// [`Error::Length`] if there are more or fewer points than centres; [`Error::NotFinite`] names the first NaN or
-    /// infinite coordinate. The last instance is still there then.
+    /// infinite coordinate. The last instance is still there then. [`Error::TooManyTetrahedra`] leaves none.
     pub fn triangulate<P: Position3>(&mut self, instance: &[P]) -> Result<&Delaunay3, Error> {
         self.triangulate_counted(instance, &mut ())
     }
@@ -176,6 +176,7 @@ impl Hints3 {
     fn settle<P: Position3>(&mut self, arrived: bool, instance: &[P]) -> Result<&Delaunay3, Error> {
         self.gave_up = !arrived;
         if !arrived {
+            self.current = Delaunay3::new();
             self.current = Delaunay3::from_points(instance)?;
         }
         Ok(&self.current)

@@ -88,7 +88,8 @@ impl Moving3 {
     ///
     /// # Errors
     /// [`Error::Length`] if there are more or fewer positions than points; [`Error::NotFinite`] names the first NaN or
-    /// infinite coordinate. Nothing has changed then.
+    /// infinite coordinate. Nothing has changed then. [`Error::TooManyTetrahedra`] leaves no triangulation, until the next
+    /// step.
     pub fn step<P: Position3>(&mut self, positions: &[P]) -> Result<Step3, Error> {
         let expected = self.hints.order().len();
         if positions.len() != expected {
