@@ -4,6 +4,9 @@
 //! answer. What location needs to know of a triangulation is the port [`Ground`], which each dimension
 //! implements with its predicates.
 //!
+//! Costs are for queries that are spread as the points are; one beside two curves, in a triangle that would have much of the
+//! set for neighbours, may visit any number on the way.
+//!
 //! | strategy | source | expected cost of a query | choose it |
 //! | --- | --- | --- | --- |
 //! | [`Locate::Tree`] | Bentley 1975, Devillers 1998 | O(log n) | always, unless there is a reason |
