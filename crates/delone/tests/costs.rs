@@ -152,3 +152,21 @@ fn removals_count_what_they_take_and_make() {
         assert_eq!(work.created, 2 * n as u64 - 2);
     }
 }
+
+/// Hints are as good at any scale.
+#[test]
+fn queries_at_any_scale_visit_as_many() {
+    let points = Kind::Uniform.points(20_000, 1);
+    for exponent in [-900, -400, -160, 0, 160, 400, 900] {
+        let scaled = |p: [f64; 2]| p.map(|x| x * 2f64.powi(exponent));
+        let d =
+            Delaunay2::from_points(&points.iter().map(|&p| scaled(p)).collect::<Vec<_>>()).expect("finite");
+        let mut random = Random::new(1);
+        let mut visited = Counts::default();
+        for _ in 0..2000 {
+            let q = scaled([random.unit(), random.unit()]);
+            visited.add(counted(|work| _ = d.locate_counted(q, work).expect("finite")).visited);
+        }
+        visited.hold(&format!("2^{exponent}: triangles of a query"), 6.0, 300);
+    }
+}

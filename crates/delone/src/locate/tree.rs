@@ -20,6 +20,7 @@ use super::tally::Tally;
 use super::{Ground, Start, Strategy};
 use crate::fetch::fetch;
 use crate::ids::Place;
+use crate::order::quantize::power_to_one;
 use crate::parallel::filled;
 
 /// Vertices a leaf, of which one is looked at.
@@ -59,6 +60,8 @@ pub(crate) struct Tree<H> {
     /// How many levels of the tree are in the line of the root: what is left when the others have three.
     root: u32,
     lowest: Vec<Lowest<H>>,
+    /// A power of two that brings all coordinates into the range of `f32`.
+    scale: f64,
 }
 
 /// A node on the way down.
@@ -73,13 +76,20 @@ struct Node {
     axis: usize,
 }
 
+/// The largest magnitude of a coordinate.
+fn size<G: Ground>(sample: &[(G::Point, G::Hint)]) -> f64 {
+    let coordinates =
+        sample.iter().flat_map(|item| (0..G::DIMENSIONS).map(|axis| G::coordinate(item.0, axis)));
+    coordinates.fold(0.0, |most, x| most.max(x.abs()))
+}
+
 impl<H: Copy + Send + Sync> Tree<H> {
     /// Builds the tree.
     pub(crate) fn build<G: Ground<Hint = H>>(ground: &G) -> Self {
         let sample = ground.inhabited().step_by(LEAF);
         let mut sample: Vec<_> = sample.map(|p| (ground.point(p), ground.hint(p))).collect();
         if sample.len() < LEAVES {
-            return Self { upper: Vec::new(), height: 0, root: 0, lowest: Vec::new() };
+            return Self { upper: Vec::new(), height: 0, root: 0, lowest: Vec::new(), scale: 1.0 };
         }
         let levels = (sample.len() / LEAVES).ilog2();
         let height = levels.div_ceil(DEPTH);
@@ -89,6 +99,7 @@ impl<H: Copy + Send + Sync> Tree<H> {
             height,
             root: levels - DEPTH * height.saturating_sub(1),
             lowest: filled(lowest, 1 << levels),
+            scale: power_to_one(size::<G>(&sample), &(1e-30..1e30)).unwrap_or(1.0),
         };
         tree.upper = filled(Upper::default(), tree.above(height));
         tree.split::<G>(&mut sample, Node { level: 0, line: 0, inner: 1, axis: 0 });
@@ -131,7 +142,7 @@ impl<H: Copy + Send + Sync> Tree<H> {
         });
         let value = coordinate(&sample[middle]);
         if node.level == self.height {
-            self.lowest[node.line].splits[node.inner - 1] = value as f32;
+            self.lowest[node.line].splits[node.inner - 1] = (value * self.scale) as f32;
         } else {
             let line = self.above(node.level) + node.line;
             self.upper[line].splits[node.inner - 1] = value;
@@ -173,7 +184,8 @@ impl<H: Copy + Send + Sync> Tree<H> {
         let splits = &self.lowest[line].splits;
         let mut inner = 1;
         for _ in 0..DEPTH {
-            inner = 2 * inner + usize::from(G::coordinate(q, axis) as f32 >= splits[inner - 1]);
+            inner =
+                2 * inner + usize::from((G::coordinate(q, axis) * self.scale) as f32 >= splits[inner - 1]);
             axis = turn(axis);
         }
         (line, inner - LEAVES)
