@@ -23,7 +23,7 @@ fn points_that_change_places_on_a_sphere_come_to_an_end() {
         points.push([0.0; 3]);
         let mut moving = Moving3::new(&points).expect("finite");
         for _ in 0..2 {
-            for _ in 0..1 + random.below(3) {
+            for _ in 0..=random.below(3) {
                 let (i, j) = (random.below(n), random.below(n));
                 if random.below(2) == 0 { points.swap(i, j) } else { points[i] = on_sphere(&mut random) }
             }
