@@ -129,7 +129,7 @@ fn distances_that_are_nearly_equal_are_left_to_the_exact_stage() {
             assert_eq!(crate::compare_distances(q, a, b), expected.cmp(&0), "{size} {t}");
             let (q, a, b) = ([q[0], q[1], q[0]], [a[0], a[1], q[0]], [b[0], b[1], q[0]]);
             assert_eq!(crate::compare_distances3(q, a, b), expected.cmp(&0), "{size} {t}");
-            let w = [[a[0], a[1]], [2.0 * q[0] - (a[1] - q[1]), q[1] + (a[0] - q[0])]];
+            let w = [[a[0], a[1]], [q[0] - 0.3 * (a[1] - q[1]), q[1] + 0.3 * (a[0] - q[0])]];
             let right = oracle::angle([q[0], q[1]], w[0], w[1]);
             assert_eq!(crate::angle([q[0], q[1]], w[0], w[1]), Sign::of(&right, &0), "{size} {t}");
         }
