@@ -45,7 +45,6 @@ impl Counts {
     }
 
     /// Holds them to bounds.
-    #[expect(clippy::disallowed_macros, reason = "what a test that fails has found so far")]
     fn hold(&self, what: &str, average: f64, most: u64) {
         let found = self.sum as f64 / self.count.max(1) as f64;
         assert!(
