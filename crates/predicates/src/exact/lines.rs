@@ -104,3 +104,22 @@ pub(crate) fn meeting(first: &Line, second: &Line) -> Option<Point2> {
             .map(|numerator| big::quotient(&numerator, &denominator, scale))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::small;
+    use crate::Line;
+
+    /// What fits 61 bits does not need big integers, and what does not is not cut off.
+    #[test]
+    fn lines_that_fit_are_small() {
+        let (p, q) = ([1.0, 2.0], [0.25, 1e15]);
+        let lines = [&Line::Through(p, q), &Line::Bisector(p, q), &Line::Below(1, 0.5)];
+        let large = 4e15 as i128; // in quarters
+        assert_eq!(
+            small(lines).map(|all| all.map(|[a, b, _]| [a, b])),
+            Some([[8 - large, -3], [6, 2 * (8 - large)], [0, -1],])
+        );
+        assert_eq!(small([&Line::Above(0, 1e300), &Line::Above(1, 1.0)]), None);
+    }
+}
