@@ -112,6 +112,7 @@ fn bad_instances_leave_the_last_one() {
     let centres = Kind::Uniform.points(50, 1);
     let mut hints = Hints2::preprocess(&centres, HintOrder::default()).expect("finite");
     hints.triangulate(&centres).expect("finite");
+    same(hints.current(), &centres, "current");
     let before = triangles(hints.current());
     let error = hints.triangulate(&centres[1..]).err();
     assert_eq!(error, Some(Error::Length { expected: 50, found: 49 }));
@@ -290,6 +291,18 @@ fn small_motions_are_repaired() {
         );
         same(moving.triangulation(), &points, &format!("{round}"));
     }
+}
+
+/// A vertex goes through the edge in front of it, which is turned; nothing needs to be removed for that.
+#[test]
+fn a_flip_mends_what_turns_over() {
+    let box_around = [[-50.0, -50.0], [50.0, -50.0], [50.0, 50.0], [-50.0, 50.0]];
+    let with = |x: [f64; 2]| [&[[0.0, 0.0], [2.0, 0.0], [1.0, -3.0], x][..], &box_around].concat();
+    let mut moving = Moving2::new(&with([1.0, 3.0])).expect("finite");
+    let points = with([1.0, -0.125]);
+    let step = moving.step(&points).expect("finite");
+    assert!(matches!(step, Step::Repaired { reinserted: 0, .. }), "{step:?}");
+    same(moving.triangulation(), &points, "turned");
 }
 
 #[test]

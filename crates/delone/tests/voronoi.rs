@@ -216,3 +216,83 @@ fn relaxation_evens_out() {
     assert!(moves.len() == 30 && moves[29] < moves[0] / 4.0);
     assert!(Relaxation { steps: 1, tolerance: -1.0 }.run(&d, &region, |_, _| {}).is_err());
 }
+
+/// Each from both of its sides: what is unbounded goes away from the site that is on the other side, at a right angle.
+#[test]
+fn edges_go_between_their_sites() {
+    let sites = [[1.0, 2.0], [5.0, 4.0], [2.0, 7.0]];
+    let d = Delaunay2::from_points(&sites).expect("finite");
+    let centre = d.voronoi().vertices().next().flatten().expect("a triangle");
+    for e in d.mesh().undirected_edges().flat_map(|e| [e, d.mesh().twin(e)]) {
+        let [a, b] = d.segment(e);
+        let apart = [b[0] - a[0], b[1] - a[1]];
+        let third = sites.iter().find(|p| **p != a && **p != b).expect("three");
+        let VoronoiEdge::Ray { from, direction: [x, y] } = d.voronoi().edge(e) else { panic!("{a:?} {b:?}") };
+        assert_eq!(from, centre);
+        // Half as long as the edge.
+        assert_eq!([x.abs(), y.abs()], [apart[1].abs() / 2.0, apart[0].abs() / 2.0], "{a:?} {b:?}");
+        assert_eq!(x * apart[0] + y * apart[1], 0.0, "{a:?} {b:?}");
+        assert!(x * (third[0] - a[0]) + y * (third[1] - a[1]) < 0.0, "{a:?} {b:?}");
+    }
+    let d = Delaunay2::from_points(&sites[..2]).expect("finite");
+    for e in d.mesh().undirected_edges().flat_map(|e| [e, d.mesh().twin(e)]) {
+        let is_forward = d.segment(e)[0] == sites[0];
+        let direction = if is_forward { [1.0, -2.0] } else { [-1.0, 2.0] };
+        assert_eq!(d.voronoi().edge(e), VoronoiEdge::Line { through: [3.0, 3.0], direction });
+    }
+}
+
+#[test]
+fn rings_are_measured() {
+    let ring = |low: f64, high: f64| {
+        vec![[low, low + 4.0], [high, low + 4.0], [high, high + 4.0], [low, high + 4.0]]
+    };
+    let region = Region::polygon(&[ring(1.0, 5.0), ring(2.0, 3.0)]).expect("a frame");
+    let d = Delaunay2::from_points(&[[4.5, 8.5]]).expect("finite");
+    let (v, cells) = (VertexId::new(0), d.voronoi().clip(&region));
+    assert_eq!((cells.perimeter(v), cells.area(v)), (20.0, 15.0));
+    let mut areas: Vec<f64> = cells.rings(v).map(|ring| ring.area()).collect();
+    areas.sort_by(f64::total_cmp);
+    assert_eq!(areas, [-1.0, 16.0]);
+    for ring in cells.rings(v) {
+        let corners = ring.indices().iter().map(|&i| cells.vertices()[i as usize]);
+        assert!(corners.eq(ring.points()) && ring.indices().len() == 4);
+    }
+    // An id that is no vertex has none, and neither has a cell that is elsewhere.
+    assert_eq!(cells.rings(VertexId::new(1)).count(), 0);
+    let d = Delaunay2::from_points(&[[4.5, 8.5], [100.0, 8.0], [101.0, 9.0], [102.0, 7.0]]).expect("finite");
+    let cells = d.voronoi().clip(&region);
+    assert_eq!([0, 2].map(|i| cells.rings(VertexId::new(i)).count()), [2, 0]);
+}
+
+/// In any unit, and whatever the corner that is first.
+#[test]
+fn centres_of_mass_are_where_they_are_at_any_scale() {
+    let mut corners = [[1.0, 2.0], [7.0, 2.0], [7.0, 5.0], [1.0, 11.0]];
+    let d = Delaunay2::from_points(&[[3.0, 4.0]]).expect("finite");
+    for exponent in [0, -400, -200, 300, 600, 1000] {
+        let scale = 2f64.powi(exponent);
+        for _ in 0..corners.len() {
+            corners.rotate_left(1);
+            let scaled: Vec<[f64; 2]> = corners.iter().map(|p| p.map(|x| x * scale)).collect();
+            let region = Region::polygon(&[scaled]).expect("simple");
+            let cells = d.voronoi().clip(&region);
+            // A rectangle of 18 around (4, 3.5), and a triangle of 18 on it around (3, 7).
+            let found = cells.centroid(VertexId::new(0)).expect("an area");
+            for (found, expected) in found.iter().zip([3.5, 5.25]) {
+                assert!((found / scale - expected).abs() < 1e-12, "2^{exponent}: {}", found / scale);
+            }
+        }
+    }
+}
+
+#[test]
+fn progress_is_told_now_and_then() {
+    let points: Vec<[f64; 2]> = (0..66_000).map(|i| [f64::from(i % 256), f64::from(i / 256)]).collect();
+    let d = Delaunay2::from_points(&points).expect("finite");
+    let region = Region::rectangle([-1.0, -1.0], [256.0, 258.0]).expect("a rectangle");
+    let mut told = Vec::new();
+    let cells = d.voronoi().clip_with(&region, |done| told.push(done));
+    assert_eq!(told, [65_536]);
+    assert!(d.vertices().all(|v| cells.rings(v).count() == 1));
+}
