@@ -254,3 +254,22 @@ fn every_scale_has_the_same_triangulation_in_space() {
         }
     }
 }
+
+/// Flat sets near the largest numbers: what is made up beside them is finite, too.
+#[test]
+fn flat_sets_of_the_largest_numbers_have_a_scaffold() {
+    let mut random = Random::new(8);
+    for dimensions in 1..=2 {
+        let points: Vec<[f64; 3]> = (0..40)
+            .map(|_| {
+                [0, 1, 2]
+                    .map(|axis| if axis < dimensions { random.between(1.3e308, 1.7e308) } else { 1.7e308 })
+            })
+            .collect();
+        let mut d = Delaunay3::from_points(&points).expect("finite");
+        d.check().expect("canonical");
+        d.insert([1.4e308, 1.5e308, 1.6e308]).expect("finite");
+        d.insert([1.5e308, 1.4e308, 1.5e308]).expect("finite");
+        d.check().expect("canonical");
+    }
+}

@@ -58,7 +58,7 @@ impl Quantizer {
 
 /// The size of what most points are in: of a sample the middle half, along the axis where it is the longest. A few far points
 /// change nothing.
-pub(crate) fn usual_size<const D: usize>(count: usize, point: impl Fn(usize) -> [f64; D]) -> f64 {
+fn usual_size<const D: usize>(count: usize, point: impl Fn(usize) -> [f64; D]) -> f64 {
     const SAMPLE: usize = 64;
     let taken = count.min(SAMPLE);
     let sample: Vec<[f64; D]> = (0..taken).map(|k| point(k * count / taken)).collect();
@@ -78,6 +78,20 @@ pub(crate) fn power_to_one(size: f64, range: &Range<f64>) -> Option<f64> {
     let exponent = ((size.to_bits() >> 52) as i32 - 1023).clamp(-1000, 1000);
     let outside = size > 0.0 && !range.contains(&size);
     outside.then(|| f64::from_bits(((1023 - exponent) as u64) << 52))
+}
+
+/// Points that are too far apart or too near to each other for filters that want sets of some sizes, multiplied by a power of two,
+/// and the power: decisions do not change. `None` if there is no need to, or a coordinate would lose bits.
+pub(crate) fn scaled<const D: usize>(
+    count: usize,
+    point: impl Fn(usize) -> [f64; D] + Sync,
+    sizes: &Range<f64>,
+) -> Option<(Vec<[f64; D]>, f64)> {
+    let scale = power_to_one(usual_size(count, &point), sizes)?;
+    let back = 1.0 / scale;
+    let scaled: Vec<[f64; D]> = parallel::collect(count, |i| point(i).map(|x| x * scale));
+    let same = |i: usize| scaled[i].map(|x| x * back) == point(i);
+    (0..count).all(same).then_some((scaled, scale))
 }
 
 /// What one pass over points tells.

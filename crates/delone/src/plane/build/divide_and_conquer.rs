@@ -31,7 +31,7 @@ use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::{HalfEdge, Mesh};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
-use crate::order::quantize::{Bounds, power_to_one, usual_size};
+use crate::order::quantize::{Bounds, scaled};
 use crate::parallel;
 
 /// What was done, for those who measure.
@@ -94,7 +94,7 @@ fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
 
 fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Counters) {
     let n = ordered.len();
-    let scaled = scaled(ordered);
+    let scaled = scaled(n, |i| ordered[i], &SIZES);
     let (ordered, scale) = scaled.as_ref().map_or((ordered, 1.0), |(points, scale)| (&points[..], *scale));
     let mut edges: Vec<HalfEdge> = zeroed(8 * n.saturating_sub(1));
     let mut leaving: Vec<TriangleId> = zeroed(n);
@@ -114,16 +114,6 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
 
 /// Sizes of sets whose products are in the range of the filters, also those of small cells: 2^-80 to 2^200.
 const SIZES: Range<f64> = 8.3e-25..1.6e60;
-
-/// Points that are too far apart or too near to each other for the filters, scaled by a power of two, and the power: decisions
-/// do not change. `None` if there is no need to, or a coordinate would lose bits.
-fn scaled(points: &[[f64; 2]]) -> Option<(Vec<[f64; 2]>, f64)> {
-    let scale = power_to_one(usual_size(points.len(), |i| points[i]), &SIZES)?;
-    let back = 1.0 / scale;
-    let scaled: Vec<[f64; 2]> = parallel::collect(points.len(), |i| points[i].map(|x| x * scale));
-    let same = |(p, q): (&[f64; 2], &[f64; 2])| (0..2).all(|k| p[k] * back == q[k]);
-    scaled.iter().zip(points).all(same).then_some((scaled, scale))
-}
 
 /// The grid of coordinates if it is coarser than a step. In parallel: the grid of the first part is mostly that of all.
 fn grid_of(coordinates: &[f64], least: f64) -> Option<Grid> {

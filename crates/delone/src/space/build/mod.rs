@@ -22,7 +22,7 @@ use crate::ids::{Duplicate, Place, TetrahedronId};
 use crate::locate::tally::Tally;
 use crate::mesh::Names;
 use crate::order::curve;
-use crate::order::quantize::{power_to_one, usual_size};
+use crate::order::quantize::scaled;
 use crate::parallel;
 
 /// Tetrahedra that room is made for at once: evenly spread points have 6.77 each.
@@ -37,7 +37,7 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     seed: u64,
     tally: &mut T,
 ) -> Option<(Layer, Vec<Duplicate>)> {
-    let Some((scaled, scale)) = scaled(points.as_ref()) else {
+    let Some((scaled, scale)) = scaled_points(points.as_ref()) else {
         let runs = cut(points.as_ref());
         return triangulate_runs(points, runs, seed, tally);
     };
@@ -51,19 +51,11 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
 /// Sizes of sets whose products are in the range of the filters: 2^-130 to 2^90.
 const SIZES: Range<f64> = 7.4e-40..1.2e27;
 
-/// Points that are too far apart or too near to each other for the filters, scaled by a power of two, and the power: decisions
-/// do not change. `None` if there is no need to, or a coordinate would lose bits, or what is made up beside the points might
-/// be too large when it is scaled back.
-fn scaled<P: Position3>(points: &[P]) -> Option<(Vec<[f64; 3]>, f64)> {
-    let scale = power_to_one(usual_size(points.len(), |i| points[i].xyz()), &SIZES)?;
-    let extent = Limits::around(points.iter().map(Position3::xyz)).extent();
-    if extent.iter().any(|side| !(4.0 * side).is_finite()) {
-        return None;
-    }
-    let back = 1.0 / scale;
-    let scaled: Vec<[f64; 3]> = parallel::collect(points.len(), |i| points[i].xyz().map(|x| x * scale));
-    let same = |(p, q): (&[f64; 3], &P)| (0..3).all(|k| p[k] * back == q.xyz()[k]);
-    scaled.iter().zip(points).all(same).then_some((scaled, scale))
+/// The points scaled into that range, if they are out of it. `None` also where what is made up beside points of less than space
+/// might be too large when it is scaled back.
+fn scaled_points<P: Position3>(points: &[P]) -> Option<(Vec<[f64; 3]>, f64)> {
+    let scaled = scaled(points.len(), |i| points[i].xyz(), &SIZES)?;
+    points.iter().all(|p| p.xyz().iter().all(|x| (4.0 * x).is_finite())).then_some(scaled)
 }
 
 /// The same for points that are cut already.
