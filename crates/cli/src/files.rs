@@ -118,7 +118,7 @@ pub(crate) fn points_in_space(args: &InputArgs, quiet: bool) -> Result<Vec<[f64;
 }
 
 fn in_space(cloud: Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
-    let Cloud { xy, z } = cloud;
+    let Cloud { xy, z, .. } = cloud;
     match z {
         Some(z) => Ok(xy.iter().zip(z).map(|(&[x, y], z)| [x, y, z]).collect()),
         None if xy.is_empty() => Ok(Vec::new()),

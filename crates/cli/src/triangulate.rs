@@ -36,7 +36,7 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
     check_formats(&outputs)?;
     let mut stats = Stats::start();
-    let Cloud { xy, z } = files::points(&args.input, 2, quiet)?;
+    let Cloud { xy, z, .. } = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
     let algorithm = match name {
         AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,

@@ -1,12 +1,21 @@
 //! Points as they come from a file.
 
-/// Points in the order of their file: the coordinates that are triangulated, and the heights beside them.
+use crate::{Crs, Error};
+
+/// Points in the order of their file: the coordinates that are triangulated, the heights beside them, and what else
+/// the file tells.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cloud {
     /// x and y.
     pub xy: Vec<[f64; 2]>,
     /// z, where the file has it: one a point.
     pub z: Option<Vec<f64>>,
+    /// What the coordinates mean, where the file tells.
+    pub crs: Option<Crs>,
+    /// LAS classes and how many points of the file have them, those left out included.
+    pub classes: Vec<(u8, u64)>,
+    /// What a user might want to know of how the file was read: which columns were taken, what was left out.
+    pub remarks: Vec<String>,
 }
 
 impl Cloud {
@@ -14,7 +23,8 @@ impl Cloud {
     pub(crate) fn with_capacity(n: usize, with_heights: bool) -> Self {
         // What a file claims is not believed beyond a point: memory grows with what is really there.
         let n = n.min(1 << 24);
-        Self { xy: Vec::with_capacity(n), z: with_heights.then(|| Vec::with_capacity(n)) }
+        let z = with_heights.then(|| Vec::with_capacity(n));
+        Self { xy: Vec::with_capacity(n), z, ..Self::default() }
     }
 
     /// Appends a point; `z` is ignored by a cloud without heights.
@@ -23,5 +33,74 @@ impl Cloud {
         if let Some(heights) = &mut self.z {
             heights.push(z);
         }
+    }
+
+    /// Appends the points of another cloud of the same kind.
+    pub(crate) fn append(&mut self, mut other: Self) {
+        self.xy.append(&mut other.xy);
+        if let (Some(heights), Some(more)) = (&mut self.z, &mut other.z) {
+            heights.append(more);
+        }
+    }
+
+    /// Makes one set of two files. Heights stay where both have them; systems of coordinates must agree where both
+    /// name one.
+    pub fn join(&mut self, other: Self) -> Result<(), Error> {
+        if let (Some(ours), Some(theirs)) = (&self.crs, &other.crs) {
+            let differ = match (ours.epsg, theirs.epsg) {
+                (Some(a), Some(b)) => a != b,
+                _ => ours != theirs,
+            };
+            if differ {
+                return Err(Error::content(format!("its coordinates are {theirs}, those before it {ours}")));
+            }
+        }
+        self.crs = self.crs.take().or_else(|| other.crs.clone());
+        for &(class, count) in &other.classes {
+            match self.classes.binary_search_by_key(&class, |entry| entry.0) {
+                Ok(i) => self.classes[i].1 += count,
+                Err(i) => self.classes.insert(i, (class, count)),
+            }
+        }
+        self.remarks.extend(other.remarks.iter().cloned());
+        if self.xy.is_empty() {
+            (self.xy, self.z) = (other.xy, other.z);
+        } else if !other.xy.is_empty() {
+            if self.z.is_some() != other.z.is_some() {
+                self.remarks.push("heights are left out: not all files have them".to_owned());
+                self.z = None;
+            }
+            self.append(other);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cloud;
+    use crate::Crs;
+
+    fn cloud(n: usize, z: bool, epsg: Option<u32>) -> Cloud {
+        let mut cloud = Cloud::with_capacity(n, z);
+        (0..n).for_each(|i| cloud.push([i as f64, 1.0], 2.0));
+        cloud.crs = epsg.map(Crs::of_epsg);
+        cloud
+    }
+
+    #[test]
+    fn files_join() {
+        let mut both = cloud(2, true, Some(25832));
+        both.classes = vec![(2, 2)];
+        let mut second = cloud(3, true, None);
+        second.classes = vec![(1, 1), (2, 2)];
+        both.join(second).expect("one system");
+        assert_eq!((both.xy.len(), both.z.as_ref().map(Vec::len)), (5, Some(5)));
+        assert_eq!(both.classes, [(1, 1), (2, 4)]);
+        assert!(both.join(cloud(1, true, Some(25833))).is_err());
+        both.join(cloud(0, false, None)).expect("empty files change nothing");
+        assert!(both.z.is_some() && both.remarks.is_empty());
+        both.join(cloud(1, false, None)).expect("no heights");
+        assert_eq!((both.xy.len(), both.z, both.remarks.len()), (6, None, 1));
     }
 }

@@ -6,16 +6,19 @@
 
 mod body;
 mod cloud;
+mod crs;
 mod diagram;
 mod error;
 mod format;
 mod formats;
+mod guard;
 mod output;
 pub mod picture;
 mod solid;
 
 pub use body::{Body, Cut, write_body};
 pub use cloud::Cloud;
+pub use crs::Crs;
 pub use diagram::Diagram;
 pub use error::Error;
 pub use format::Format;

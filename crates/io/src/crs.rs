@@ -1,0 +1,128 @@
+//! Coordinate reference systems: what a file says its coordinates mean. They are passed on, not transformed.
+
+use std::fmt;
+
+/// A coordinate reference system, as far as a file names it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Crs {
+    /// Its number in the EPSG registry.
+    pub epsg: Option<u32>,
+    /// Its name.
+    pub name: Option<String>,
+    /// Its definition as well-known text.
+    pub wkt: Option<String>,
+}
+
+/// How well-known text begins the systems that have two horizontal axes.
+const HORIZONTAL: [&str; 6] = ["PROJCS[", "PROJCRS[", "GEOGCS[", "GEOGCRS[", "GEODCRS[", "LOCAL_CS["];
+
+impl Crs {
+    /// A system by its number.
+    pub fn of_epsg(epsg: u32) -> Self {
+        Self { epsg: Some(epsg), ..Self::default() }
+    }
+
+    /// A system by well-known text, version 1 or 2; of a compound system the name and number of the horizontal part.
+    pub fn of_wkt(text: &str) -> Option<Self> {
+        let text = text.trim_matches(|c: char| c == '\0' || c.is_whitespace());
+        let start = HORIZONTAL.iter().filter_map(|name| text.find(name)).min()?;
+        let part = bracketed(&text[start..]);
+        let name = part.split('"').nth(1).filter(|name| !name.is_empty()).map(str::to_owned);
+        Some(Self { epsg: own_number(part), name, wkt: Some(text.to_owned()) })
+    }
+
+    /// The system that a name such as `EPSG:25832` or `urn:ogc:def:crs:EPSG::25832` stands for.
+    pub fn of_name(name: &str) -> Option<Self> {
+        let name = name.trim();
+        if name.is_empty() {
+            return None;
+        }
+        if name.to_ascii_uppercase().contains("EPSG") {
+            let number = name.rsplit([':', '/']).next().unwrap_or_default();
+            return number.parse().ok().map(Self::of_epsg);
+        }
+        match name.rsplit(':').next() {
+            Some("CRS84") => Some(Self { name: Some("OGC:CRS84".to_owned()), ..Self::default() }),
+            _ => Some(Self { name: Some(name.to_owned()), ..Self::default() }),
+        }
+    }
+
+    /// The name that other programs understand, if there is a number.
+    pub(crate) fn urn(&self) -> Option<String> {
+        self.epsg.map(|number| format!("urn:ogc:def:crs:EPSG::{number}"))
+    }
+}
+
+impl fmt::Display for Crs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.epsg, &self.name) {
+            (Some(number), Some(name)) => write!(f, "EPSG:{number} ({name})"),
+            (Some(number), None) => write!(f, "EPSG:{number}"),
+            (None, Some(name)) => f.write_str(name),
+            (None, None) => f.write_str("not named"),
+        }
+    }
+}
+
+/// The beginning of a text up to the bracket that closes its first one.
+fn bracketed(text: &str) -> &str {
+    let mut depth = 0;
+    let mut quoted = false;
+    for (at, c) in text.char_indices() {
+        match c {
+            '"' => quoted = !quoted,
+            '[' if !quoted => depth += 1,
+            ']' if !quoted => {
+                depth -= 1;
+                if depth == 0 {
+                    return &text[..=at];
+                }
+            }
+            _ => {}
+        }
+    }
+    text
+}
+
+/// The EPSG number of the system itself: its last one that is not inside of a part.
+fn own_number(part: &str) -> Option<u32> {
+    let places = ["AUTHORITY[", "ID["].iter().flat_map(|name| part.match_indices(name));
+    let own = places.filter(|&(at, _)| {
+        let before = &part[..at];
+        before.matches('[').count() == before.matches(']').count() + 1
+    });
+    let (at, _) = own.max_by_key(|place| place.0)?;
+    let mut fields = bracketed(&part[at..]).split(['[', ']', ',']).skip(1);
+    let authority = fields.next()?.trim_matches([' ', '"']);
+    let number = fields.next()?.trim_matches([' ', '"']);
+    authority.eq_ignore_ascii_case("EPSG").then(|| number.parse().ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Crs;
+
+    #[test]
+    fn numbers_of_well_known_text() {
+        let oregon = r#"COMPD_CS["NAD83 / Oregon + NAVD88",PROJCS["NAD83 / Oregon GIC Lambert (ft)",GEOGCS["NAD83",
+            AUTHORITY["EPSG","4269"]],UNIT["foot",0.3048,AUTHORITY["EPSG","9002"]],AUTHORITY["EPSG","2992"]],
+            VERT_CS["NAVD88",AUTHORITY["EPSG","6360"]]]"#;
+        let crs = Crs::of_wkt(oregon).expect("a system");
+        assert_eq!(crs.to_string(), "EPSG:2992 (NAD83 / Oregon GIC Lambert (ft))");
+        let second = Crs::of_wkt(r#"GEOGCRS["WGS 84",DATUM["x",ID["EPSG",6326]],ID["EPSG",4326]]"#).expect("one");
+        assert_eq!(second.epsg, Some(4326));
+        let local = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]\0\0").expect("one");
+        assert_eq!((local.epsg, local.name.as_deref()), (None, Some("ours")));
+        assert_eq!(Crs::of_wkt("PROJCS[").expect("one").name, None);
+        assert_eq!(Crs::of_wkt(""), None);
+    }
+
+    #[test]
+    fn numbers_of_names() {
+        for name in ["EPSG:25832", "urn:ogc:def:crs:EPSG::25832", "http://www.opengis.net/def/crs/EPSG/0/25832"] {
+            assert_eq!(Crs::of_name(name), Some(Crs::of_epsg(25832)), "{name}");
+        }
+        assert_eq!(Crs::of_name("urn:ogc:def:crs:OGC:1.3:CRS84").expect("one").to_string(), "OGC:CRS84");
+        assert_eq!(Crs::of_name("EPSG:"), None);
+    }
+}

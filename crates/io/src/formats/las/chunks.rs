@@ -1,0 +1,270 @@
+//! The compressed points of LAZ files: chunks that do not depend on each other, decoded on all cores.
+//!
+//! A table at the end says how long each chunk is. Files whose writer was interrupted have none; their chunks are
+//! found one after the other, or decoded in one go.
+
+use std::io::{Cursor, Read, Seek, SeekFrom};
+
+use las::PointData;
+use laz::laszip::{ChunkTable, CompressorType, LazVlr};
+use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor};
+use laz::{DecompressionSelection, LazItem, LazItemType};
+use rayon::prelude::*;
+
+use super::{CHUNK, Kept, Tile, broken};
+use crate::{Cloud, Error, guard};
+
+/// Bytes before the first chunk: where the table is.
+const OFFSET: u64 = ChunkTable::OFFSET_SIZE as u64;
+
+/// Bytes that are read ahead of the decoders.
+const AHEAD: u64 = 1 << 24;
+
+/// One chunk: where it is and how many points it has.
+#[derive(Clone, Copy)]
+struct Chunk {
+    start: u64,
+    length: u64,
+    points: u64,
+}
+
+/// Reads all points of a compressed file.
+pub(super) fn read(tile: &mut Tile, kept: &mut Kept) -> Result<(), Error> {
+    let compressed = laszip_record(tile)?;
+    let vlr = LazVlr::from_buffer(&compressed).map_err(broken)?;
+    // The kind is the record's first number; the crate does not tell it.
+    let kind = u16::from_le_bytes([compressed[0], compressed[1]]);
+    let layered = kind == CompressorType::LayeredChunked as u16;
+    let version = if layered { 3..=4 } else { 1..=2 };
+    let items = vlr.items();
+    let size: usize = items.iter().map(|item| usize::from(item.size())).sum();
+    if items.is_empty() || size != tile.record || !items.iter().all(|item| version.contains(&item.version())) {
+        return Err(broken("its compressed fields are not those of its points"));
+    }
+    if kind == CompressorType::PointWise as u16 {
+        return decode_on(tile, items, tile.start, u64::MAX, kept);
+    }
+    if kind != CompressorType::PointWiseChunked as u16 && !layered {
+        return Err(broken(format!("compression of kind {kind} is not known")));
+    }
+    let chunks = match table(tile, &vlr)? {
+        Some(chunks) => chunks,
+        None if layered => walk(tile, items)?,
+        None if vlr.uses_variable_size_chunks() => {
+            return Err(broken("it has no table of chunks, which its variable chunks need"));
+        }
+        None => return decode_on(tile, items, tile.start + OFFSET, vlr.chunk_size().into(), kept),
+    };
+    decode_all(tile, items, layered, &chunks, kept)
+}
+
+/// The record about compression.
+fn laszip_record(tile: &Tile) -> Result<Vec<u8>, Error> {
+    let mut records = tile.about.vlrs.iter();
+    let record = records.find(|r| r.user_id == LazVlr::USER_ID && r.record_id == LazVlr::RECORD_ID);
+    record
+        .map(|record| record.data.clone())
+        .filter(|data| data.len() >= 2)
+        .ok_or_else(|| broken("it is compressed, but its record about compression is missing"))
+}
+
+/// The chunks by their table, if the file has one.
+fn table(tile: &mut Tile, vlr: &LazVlr) -> Result<Option<Vec<Chunk>>, Error> {
+    let data = tile.start + OFFSET;
+    let mut place = number(tile, tile.start)?;
+    if (place as i64) < data as i64 {
+        // A writer that could not go back notes the place at the end.
+        place = number(tile, tile.length.saturating_sub(8))?;
+    }
+    if place < data || place.checked_add(8).is_none_or(|end| end > tile.length) {
+        return Ok(None);
+    }
+    // After a version of four bytes.
+    let count = number(tile, place)? >> 32;
+    // Each chunk begins with a point as it is.
+    if count > (place - data) / tile.record as u64 {
+        return Ok(None);
+    }
+    let variable = vlr.uses_variable_size_chunks();
+    tile.source.seek(SeekFrom::Start(place))?;
+    let Ok(entries) = ChunkTable::read(&mut tile.source, variable) else { return Ok(None) };
+    let mut chunks = Vec::with_capacity(entries.len());
+    let mut start = data;
+    for entry in &entries {
+        let points = if variable { entry.point_count } else { vlr.chunk_size().into() };
+        let end = start.checked_add(entry.byte_count).filter(|&end| end <= place);
+        let Some(end) = end else {
+            return Err(broken(format!("chunk {} reaches beyond the points", chunks.len())));
+        };
+        chunks.push(Chunk { start, length: entry.byte_count, points });
+        start = end;
+    }
+    Ok(Some(chunks))
+}
+
+/// Eight bytes as a number; zero beyond the end.
+fn number(tile: &mut Tile, at: u64) -> Result<u64, Error> {
+    if at + 8 > tile.length {
+        return Ok(0);
+    }
+    tile.source.seek(SeekFrom::Start(at))?;
+    let mut bytes = [0; 8];
+    tile.source.read_exact(&mut bytes)?;
+    Ok(u64::from_le_bytes(bytes))
+}
+
+/// The chunks of a layered file without a table: each says how many points it has and how long its layers are.
+fn walk(tile: &mut Tile, items: &[LazItem]) -> Result<Vec<Chunk>, Error> {
+    let mut chunks = Vec::new();
+    let mut start = tile.start + OFFSET;
+    let mut found = 0;
+    let head = tile.record + 4 + 4 * layers(items);
+    let mut bytes = vec![0; head];
+    while found < tile.total {
+        if start + head as u64 > tile.length {
+            return Err(Error::Truncated(format!("after {found} of {} points", tile.total)));
+        }
+        tile.source.seek(SeekFrom::Start(start))?;
+        tile.source.read_exact(&mut bytes)?;
+        let (points, length) = head_of(&bytes[tile.record..]);
+        if points == 0 {
+            return Err(broken(format!("chunk {} has no points", chunks.len())));
+        }
+        chunks.push(Chunk { start, length: head as u64 + length, points });
+        start += head as u64 + length;
+        found += points;
+    }
+    Ok(chunks)
+}
+
+/// The number of points of a layered chunk, and the bytes of all its layers.
+fn head_of(bytes: &[u8]) -> (u64, u64) {
+    let mut numbers = bytes.as_chunks().0.iter().map(|&word| u64::from(u32::from_le_bytes(word)));
+    (numbers.next().unwrap_or(0), numbers.sum())
+}
+
+/// How many layers the fields of a point are stored in.
+fn layers(items: &[LazItem]) -> usize {
+    let of = |item: &LazItem| match item.item_type() {
+        LazItemType::Point14 => 9,
+        LazItemType::RGBNIR14 => 2,
+        LazItemType::Byte14(count) => usize::from(count),
+        _ => 1,
+    };
+    items.iter().map(of).sum()
+}
+
+/// Decodes chunks on all cores, as many at a time as are read ahead, and takes their points in order.
+fn decode_all(
+    tile: &mut Tile,
+    items: &[LazItem],
+    layered: bool,
+    chunks: &[Chunk],
+    kept: &mut Kept,
+) -> Result<(), Error> {
+    let mut rest = tile.total;
+    let mut waiting = chunks.iter().copied().filter(|chunk| chunk.points > 0).peekable();
+    while rest > 0 {
+        let mut batch = Vec::new();
+        let (mut bytes, mut points) = (0, 0);
+        while let Some(mut chunk) = waiting.next_if(|chunk| batch.is_empty() || bytes + chunk.length <= AHEAD) {
+            chunk.points = chunk.points.min(rest);
+            let mut compressed = vec![0; chunk.length as usize];
+            tile.source.seek(SeekFrom::Start(chunk.start))?;
+            tile.source.read_exact(&mut compressed)?;
+            batch.push((chunk.points, compressed));
+            bytes += chunk.length;
+            points += chunk.points;
+            rest -= chunk.points;
+            if rest == 0 || points >= 16 * CHUNK {
+                break;
+            }
+        }
+        if batch.is_empty() {
+            return Err(Error::Truncated(format!("after {} of {} points", tile.total - rest, tile.total)));
+        }
+        let (record, buffer) = (tile.record, tile.buffer());
+        let decoded: Vec<Result<Kept, Error>> = batch
+            .into_par_iter()
+            .map(|(points, bytes)| {
+                guard::decode("LAS", || decode(bytes, points, items, layered, record, buffer.clone(), kept.classes))
+            })
+            .collect();
+        for part in decoded {
+            kept.append(part?);
+        }
+    }
+    Ok(())
+}
+
+impl Kept<'_> {
+    /// Appends what was kept of a chunk.
+    fn append(&mut self, part: Kept) {
+        self.cloud.append(part.cloud);
+        self.counts.iter_mut().zip(part.counts).for_each(|(sum, count)| *sum += count);
+    }
+}
+
+/// Decodes so many points of one chunk.
+fn decode<'a>(
+    bytes: Vec<u8>,
+    points: u64,
+    items: &[LazItem],
+    layered: bool,
+    record: usize,
+    mut data: PointData,
+    classes: &'a [u8],
+) -> Result<Kept<'a>, Error> {
+    let items = items.to_vec();
+    let mut part = Kept { cloud: Cloud::with_capacity(0, true), classes, counts: [0; 256] };
+    let mut decoder: Box<dyn RecordDecompressor<Cursor<Vec<u8>>>> = if layered {
+        let head = record + 4 + 4 * layers(&items);
+        let (_, length) = bytes.get(record..head).map(head_of).ok_or_else(|| broken("a chunk is too short"))?;
+        if head as u64 + length > bytes.len() as u64 {
+            return Err(broken("the layers of a chunk are longer than the chunk"));
+        }
+        Box::new(LayeredPointRecordDecompressor::new(Cursor::new(bytes)))
+    } else {
+        Box::new(SequentialPointRecordDecompressor::new(Cursor::new(bytes)))
+    };
+    decoder.set_fields_from(&items).map_err(broken)?;
+    decoder.set_selection(DecompressionSelection::base().decompress_z().decompress_classification());
+    let mut rest = points;
+    while rest > 0 {
+        let count = CHUNK.min(rest);
+        for point in data.resize_for(count as usize).chunks_exact_mut(record) {
+            decoder.decompress_next(point).map_err(early)?;
+        }
+        part.take(&data);
+        rest -= count;
+    }
+    Ok(part)
+}
+
+/// Decodes from the source itself, from `start` on: chunks of so many points follow each other.
+fn decode_on(tile: &mut Tile, items: &[LazItem], start: u64, size: u64, kept: &mut Kept) -> Result<(), Error> {
+    let (mut data, items) = (tile.buffer(), items.to_vec());
+    tile.source.seek(SeekFrom::Start(start))?;
+    let mut decoder = SequentialPointRecordDecompressor::new(&mut tile.source);
+    let mut seen = 0;
+    while seen < tile.total {
+        let count = CHUNK.min(tile.total - seen);
+        for point in data.resize_for(count as usize).chunks_exact_mut(tile.record) {
+            if seen % size == 0 {
+                decoder.reset();
+                decoder.set_fields_from(&items).map_err(broken)?;
+            }
+            decoder.decompress_next(point).map_err(early)?;
+            seen += 1;
+        }
+        kept.take(&data);
+    }
+    Ok(())
+}
+
+fn early(error: std::io::Error) -> Error {
+    match error.kind() {
+        std::io::ErrorKind::UnexpectedEof => Error::Truncated("inside a chunk of compressed points".to_owned()),
+        _ => error.into(),
+    }
+}
