@@ -18,7 +18,7 @@ const NUMBER: &str = "{}";
 pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
     let is_series = args.output.to_string_lossy().contains(NUMBER);
     let stats_path = args.input.stats.as_deref();
-    let outputs = files::outputs(&names(args, is_series), args.to, stats_path, &[&args.input.input])?;
+    let outputs = files::outputs(&names(args, is_series), args.to, stats_path, &args.input.paths())?;
     let shows = |format: Format| format == Format::Png || (is_series && format == Format::Svg);
     if let Some((path, format)) = outputs.iter().find(|(_, format)| !shows(*format)) {
         return Err(Failure::usage(
@@ -41,7 +41,7 @@ pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
         let phase = Phase::count(quiet, "drawing", u64::from(args.steps) + 1);
         let draw = |triangulation: &Delaunay2, on: &mut dyn FnMut(&Surface) -> Result<(), Error>| {
             phase.advance();
-            on(&Surface { triangulation, heights: None })
+            on(&Surface::new(triangulation))
         };
         if is_series {
             for (step, (path, format)) in outputs.iter().enumerate() {
@@ -90,7 +90,8 @@ struct Film {
 
 impl Film {
     fn new(positions: Vec<[f64; 2]>, args: &AnimateArgs) -> Result<Self, Failure> {
-        let moving = Moving2::new(&positions).map_err(|error| Failure::points(&args.input.input, &error))?;
+        let moving =
+            Moving2::new(&positions).map_err(|error| Failure::points(&args.input.label(), &error))?;
         let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
         for p in &positions {
             low = [0, 1].map(|k| low[k].min(p[k]));

@@ -1,11 +1,12 @@
 //! What can be said on the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use delone::{Hierarchy, JumpAndWalk, Locate, Walk};
-use delone_io::Format;
 use delone_io::picture::Camera;
+use delone_io::{Format, LAS_CLASSES};
 
 use crate::message::Failure;
 
@@ -55,19 +56,37 @@ pub(crate) enum Command {
     Reduce(ReduceArgs),
     /// Repeat the experiments of the papers, with the papers' figures beside.
     Experiment(ExperimentArgs),
+    /// Print the version.
+    Version,
+    /// Print a script that completes commands and options in a shell.
+    #[command(after_help = "Examples:
+  delone completions bash > ~/.local/share/bash-completion/completions/delone
+  delone completions zsh > ~/.zfunc/_delone
+  delone completions fish > ~/.config/fish/completions/delone.fish")]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Print the manual page, or write those of all commands into a folder.
+    Man {
+        /// Folder for the pages.
+        #[arg(long, short, value_name = "FOLDER")]
+        output: Option<PathBuf>,
+    },
 }
 
 /// How points are read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
-    /// File of points, or - for standard input: csv xyz txt npy bin node las laz ply obj geojson.
-    #[arg(value_name = "IN")]
-    pub(crate) input: PathBuf,
+    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl
+    /// geojson, each also with .gz. Several files are one set.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) from: Option<Format>,
-    /// LAS classes to keep (2 is ground), separated by commas.
-    #[arg(long, value_name = "CLASS", value_delimiter = ',')]
+    /// LAS classes to keep, by number or name (ground, building, water, ...), separated by commas.
+    #[arg(long, value_name = "CLASS", value_delimiter = ',', value_parser = class)]
     pub(crate) class: Vec<u8>,
     /// Columns of text that are x, y and perhaps z: names or numbers from 1, separated by commas.
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
@@ -75,6 +94,52 @@ pub(crate) struct InputArgs {
     /// Write what was counted and timed to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
+}
+
+impl InputArgs {
+    /// The files that are read.
+    pub(crate) fn paths(&self) -> Vec<&Path> {
+        self.input.iter().map(PathBuf::as_path).collect()
+    }
+
+    /// The files that are read, and another one.
+    pub(crate) fn paths_and<'a>(&'a self, other: &'a Path) -> Vec<&'a Path> {
+        self.paths().into_iter().chain([other]).collect()
+    }
+
+    /// What messages call the set.
+    pub(crate) fn label(&self) -> PathBuf {
+        match &self.input[..] {
+            [one] => one.clone(),
+            [first, rest @ ..] => format!("{} and {} more", first.display(), rest.len()).into(),
+            [] => PathBuf::new(),
+        }
+    }
+}
+
+/// A LAS class by its number or its name.
+fn class(text: &str) -> Result<u8, String> {
+    let named = LAS_CLASSES.iter().find(|(name, _)| text.eq_ignore_ascii_case(name)).map(|class| class.1);
+    named.or_else(|| text.parse().ok()).ok_or_else(|| {
+        let names: Vec<&str> = LAS_CLASSES.iter().map(|class| class.0).collect();
+        format!("a class is a number up to 255 or one of {}", names.join(", "))
+    })
+}
+
+/// A length in coordinate units.
+fn length(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| *x >= 0.0).ok_or_else(|| "it is no length".to_owned())
+}
+
+/// A number of things, 1e6 as well as 1000000.
+fn count(text: &str) -> Result<usize, String> {
+    let plain = text.replace('_', "");
+    let scientific = || plain.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..9e15).contains(n));
+    plain
+        .parse()
+        .ok()
+        .or_else(|| scientific().map(|n| n as usize))
+        .ok_or_else(|| "it is no whole number".to_owned())
 }
 
 /// The plane or space.
@@ -95,7 +160,8 @@ impl DimArgs {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   delone triangulate points.csv -o mesh.ply -o picture.png
-  delone triangulate tile.laz --class 2 -o terrain.ply -o terrain.png
+  delone triangulate tile.laz --class ground --max-edge 50 -o terrain.ply -o terrain.png
+  delone triangulate north.laz south.laz -o both.ply
   delone triangulate points.npy -o triangles.npy --check --stats stats.json
   delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
   delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
@@ -109,9 +175,6 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// With --hints, more instances of the same points.
-    #[arg(value_name = "IN")]
-    pub(crate) more: Vec<PathBuf>,
     /// Output file (npy node ele neigh edge ply obj stl vtu geojson svg png), or - for standard output; may be
     /// repeated. For several instances {} stands for the name of each.
     #[arg(long, short, value_name = "OUT", required = true)]
@@ -134,6 +197,10 @@ pub(crate) struct TriangulateArgs {
     /// Seed of randomized algorithms; it changes their course, not their result.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
+    /// In the plane, leave out triangles with an edge longer than this, from the hull inwards: what bridges bays and
+    /// gaps at the border of the data.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) max_edge: Option<f64>,
     /// Prove the result with exact arithmetic before writing it.
     #[arg(long)]
     pub(crate) check: bool,
@@ -441,7 +508,7 @@ pub(crate) struct ExperimentArgs {
     #[arg(long, short, value_name = "FOLDER")]
     pub(crate) output: Option<PathBuf>,
     /// The largest set.
-    #[arg(long, value_name = "N", default_value_t = 500_000)]
+    #[arg(long, value_name = "N", default_value = "500000", value_parser = count)]
     pub(crate) largest: usize,
     /// Seed of points and orders.
     #[arg(long, value_name = "S", default_value_t = 1)]
@@ -502,8 +569,8 @@ pub(crate) struct GenerateArgs {
     /// Name of the set, or `list` to see them all.
     #[arg(value_name = "KIND")]
     pub(crate) kind: String,
-    /// Number of points.
-    #[arg(short, value_name = "N", default_value_t = 1000)]
+    /// Number of points, as in 5000 or 1e6.
+    #[arg(short, value_name = "N", default_value = "1000", value_parser = count)]
     pub(crate) n: usize,
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 0)]
@@ -557,6 +624,9 @@ pub(crate) struct DrawArgs {
     /// Fill triangles by height or density.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
     pub(crate) fill: Option<Choice>,
+    /// In the plane, leave out triangles with an edge longer than this, from the hull inwards.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) max_edge: Option<f64>,
     /// In the plane, draw a disk of this radius around each point: how imprecise it is.
     #[arg(long, value_name = "RADIUS")]
     pub(crate) disks: Option<f64>,

@@ -9,7 +9,7 @@ use crate::stats::Stats;
 use crate::{files, space};
 
 pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
-    files::keep_apart(&[&args.input.input, &args.mesh], args.input.stats.as_deref())?;
+    files::keep_apart(&args.input.paths_and(&args.mesh), args.input.stats.as_deref())?;
     if args.dim.is_space() {
         return space::check(args, quiet);
     }
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(args.input.stats.as_deref())?;
     let verdict = match verdict {
         Ok(verdict) => verdict,
-        Err(Objection::Points(error)) => return Err(Failure::points(&args.input.input, &error)),
+        Err(Objection::Points(error)) => return Err(Failure::points(&args.input.label(), &error)),
         Err(objection) => {
             return Err(Failure::new(
                 format!("{}: not Delaunay: {objection}", args.mesh.display()),

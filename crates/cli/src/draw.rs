@@ -1,7 +1,7 @@
 //! `delone draw`: pictures.
 
 use delone::{Algorithm, HintOrder, Hints2};
-use delone_io::{Format, Surface, picture};
+use delone_io::{Format, picture};
 
 use crate::args::{Choice, DrawArgs};
 use crate::message::Failure;
@@ -10,7 +10,7 @@ use crate::stats::Stats;
 use crate::{files, space, triangulate};
 
 pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
-    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &[&args.input.input])?;
+    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &args.input.paths())?;
     if let Some((path, format)) =
         outputs.iter().find(|(_, format)| !matches!(format, Format::Svg | Format::Png))
     {
@@ -23,20 +23,28 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::usage("--disks takes a radius", "as in --disks 0.5, in coordinate units"));
     }
     if args.dim.is_space() {
-        if args.disks.is_some() || args.hints {
-            return Err(Failure::usage("--disks and --hints are for the plane", "leave them or --dim 3 out"));
+        if args.disks.is_some() || args.hints || args.max_edge.is_some() {
+            return Err(Failure::usage(
+                "--disks, --hints and --max-edge are for the plane",
+                "leave them or --dim 3 out",
+            ));
         }
         return space::draw(args, &outputs, quiet);
     }
+    if !args.cut.is_empty() || args.wireframe {
+        return Err(Failure::usage("--cut and --wireframe are for space", "add --dim 3, or leave them out"));
+    }
     let mut stats = Stats::start();
-    let cloud = files::points(&args.input, 2, quiet)?;
+    let mut cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
     let links = if args.hints { links(&cloud.xy, args)? } else { Vec::new() };
-    let triangulation = triangulate::build(cloud.xy, Algorithm::default(), &args.input.input, quiet)?;
+    let xy = std::mem::take(&mut cloud.xy);
+    let triangulation = triangulate::build(xy, Algorithm::default(), &args.input.label(), quiet)?;
     triangulate::remark(&triangulation, quiet);
     stats.phase("build");
     stats.triangulation(&triangulation);
-    let surface = Surface { triangulation: &triangulation, heights: cloud.z.as_deref() };
+    let trim = triangulate::trim(&triangulation, args.max_edge, &mut stats);
+    let surface = triangulate::surface(&triangulation, &cloud, trim.as_ref());
     let yes = |choice: Option<Choice>| choice.map(|choice| choice == Choice::Yes);
     let options = picture::Options {
         size: args.camera.size,
@@ -58,6 +66,6 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
 /// From each point to its hint.
 fn links(points: &[[f64; 2]], args: &DrawArgs) -> Result<Vec<[[f64; 2]; 2]>, Failure> {
     let hints = Hints2::preprocess(points, HintOrder::Random { seed: args.seed })
-        .map_err(|error| Failure::points(&args.input.input, &error))?;
+        .map_err(|error| Failure::points(&args.input.label(), &error))?;
     Ok(hints.order().zip(hints.hints()).skip(1).map(|(i, j)| [points[i], points[j]]).collect())
 }

@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, Output, ReadOptions, Source};
+use delone_io::{Cloud, Format, Output, ReadOptions, Remark, Source, decompressed};
 
 use crate::args::InputArgs;
-use crate::message::Failure;
+use crate::message::{Failure, note};
 use crate::progress::Phase;
 
 /// The format of a file: as said, or by its extension.
@@ -41,9 +41,14 @@ pub(crate) fn keep_apart<'a>(
         _ => None,
     };
     let mut places: Vec<PathBuf> = inputs.iter().filter_map(|path| place(path)).collect();
+    let mut files: Vec<_> = inputs.iter().filter_map(|path| identity(path)).collect();
     for path in outputs {
         let Some(here) = place(path) else { continue };
-        if places.contains(&here) {
+        // Another name of the same file is noticed too.
+        let file = identity(path);
+        let known = file.is_some_and(|file| files.contains(&file));
+        files.extend(file);
+        if known || (places.contains(&here) && !is_special(path)) {
             return Err(Failure::usage(
                 format!("{} would overwrite another file of this command", path.display()),
                 "choose another name for the output",
@@ -52,6 +57,24 @@ pub(crate) fn keep_apart<'a>(
         places.push(here);
     }
     Ok(())
+}
+
+/// Whether a path is there but no file: a device or a pipe, which may be named twice.
+fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|about| !about.is_file())
+}
+
+/// What is the same for all names of a file.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    let about = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
+    Some((about.dev(), about.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok()
 }
 
 /// Outputs with their formats, kept apart from the inputs, from each other and from the statistics.
@@ -79,8 +102,14 @@ pub(crate) fn index_format(path: &Path, said: Option<Format>) -> Result<Format, 
     }
 }
 
-/// Opens a file, or takes all of standard input into memory.
-fn open(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
+/// Opens a file, or takes all of standard input, or of what is no file, into memory; decompresses.
+fn open(path: &Path, format: Format, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
+    let (source, phase) = open_raw(path, quiet)?;
+    let source = decompressed(source, format).map_err(|error| Failure::file(path, &error))?;
+    Ok((source, phase))
+}
+
+fn open_raw(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
     let failed = |error: std::io::Error| Failure::file(path, &error.into());
     if is_standard(path) {
         let phase = Phase::start(quiet, "reading");
@@ -88,10 +117,17 @@ fn open(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
         std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
         return Ok((Box::new(Cursor::new(bytes)), phase));
     }
-    let file = File::open(path).map_err(failed)?;
+    let mut file = File::open(path).map_err(failed)?;
     let about = file.metadata().map_err(failed)?;
     if about.is_dir() {
         return Err(Failure::new(format!("{} is a folder", path.display()), "name a file in it"));
+    }
+    if !about.is_file() {
+        // Nobody can go back in a pipe.
+        let phase = Phase::start(quiet, "reading");
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(failed)?;
+        return Ok((Box::new(Cursor::new(bytes)), phase));
     }
     let phase = Phase::bytes(quiet, "reading", about.len());
     let reader = phase.watch(BufReader::with_capacity(1 << 16, file));
@@ -100,26 +136,42 @@ fn open(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
 
 /// Reads the points of a command.
 pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
-    let format = format(&args.input, args.from, "--from")?;
-    if !args.class.is_empty() && format != Format::Las {
+    let mut formats = Vec::new();
+    for path in &args.input {
+        formats.push(format(path, args.from, "--from")?);
+    }
+    if !args.class.is_empty() && !formats.contains(&Format::Las) {
         return Err(Failure::usage("--class is for LAS and LAZ files", "leave --class out"));
     }
-    if !args.columns.is_empty() && format != Format::Text {
+    if !args.columns.is_empty() && !formats.contains(&Format::Text) {
         return Err(Failure::usage("--columns is for text files", "leave --columns out"));
     }
     let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension };
-    let (source, _phase) = open(&args.input, quiet)?;
-    delone_io::read_points(source, format, &options).map_err(|error| Failure::file(&args.input, &error))
+    let mut all = Cloud::default();
+    for (path, format) in args.input.iter().zip(formats) {
+        let failed = |error| Failure::file(path, &error);
+        let (source, _phase) = open(path, format, quiet)?;
+        let cloud = delone_io::read_points(source, format, &options).map_err(failed)?;
+        for remark in &cloud.remarks {
+            note(quiet, format_args!("{}: {remark}", path.display()));
+        }
+        let told = all.remarks.len() + cloud.remarks.len();
+        all.join(cloud).map_err(failed)?;
+        all.remarks[told..].iter().for_each(|remark| note(quiet, remark));
+    }
+    Ok(all)
 }
 
-/// Reads the points of a command, which must have three coordinates.
-pub(crate) fn points_in_space(args: &InputArgs, quiet: bool) -> Result<Vec<[f64; 3]>, Failure> {
-    in_space(points(args, 3, quiet)?, &args.input)
+/// Reads the points of a command, which must have three coordinates, and what else their files tell.
+pub(crate) fn points_in_space(args: &InputArgs, quiet: bool) -> Result<(Vec<[f64; 3]>, Cloud), Failure> {
+    let mut cloud = points(args, 3, quiet)?;
+    let points = in_space(&mut cloud, &args.label())?;
+    Ok((points, cloud))
 }
 
-fn in_space(cloud: Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
-    let Cloud { xy, z, .. } = cloud;
-    match z {
+fn in_space(cloud: &mut Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
+    let xy = std::mem::take(&mut cloud.xy);
+    match cloud.z.take() {
         Some(z) => Ok(xy.iter().zip(z).map(|(&[x, y], z)| [x, y, z]).collect()),
         None if xy.is_empty() => Ok(Vec::new()),
         None => Err(Failure::new(
@@ -131,7 +183,7 @@ fn in_space(cloud: Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
 
 /// Reads points of space that are asked for.
 pub(crate) fn queries_in_space(path: &Path, quiet: bool) -> Result<Vec<[f64; 3]>, Failure> {
-    in_space(asked(path, 3, quiet)?, path)
+    in_space(&mut asked(path, 3, quiet)?, path)
 }
 
 /// Reads points that are asked for.
@@ -142,20 +194,25 @@ pub(crate) fn queries(path: &Path, quiet: bool) -> Result<Vec<[f64; 2]>, Failure
 fn asked(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
     let format = format(path, None, "the extension")?;
     let options = ReadOptions { dimension, ..ReadOptions::default() };
-    let (source, _phase) = open(path, quiet)?;
-    delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))
+    let (source, _phase) = open(path, format, quiet)?;
+    let cloud =
+        delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))?;
+    for remark in &cloud.remarks {
+        note(quiet, format_args!("{}: {remark}", path.display()));
+    }
+    Ok(cloud)
 }
 
 /// Reads the rings of polygons.
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     let format = format(path, None, "the extension")?;
-    let (source, _phase) = open(path, quiet)?;
+    let (source, _phase) = open(path, format, quiet)?;
     delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))
 }
 
 /// Reads a text.
 pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
-    let (mut source, _phase) = open(path, quiet)?;
+    let (mut source, _phase) = open(path, Format::Text, quiet)?;
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(|error| Failure::file(path, &error.into()))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -186,24 +243,39 @@ fn simplices<T>(
         ));
     }
     let format = format(path, None, "the extension")?;
-    let (source, _phase) = open(path, quiet)?;
+    let (source, _phase) = open(path, format, quiet)?;
     read(source, format).map_err(|error| Failure::file(path, &error))
 }
 
-/// Writes a file whole, or leaves what was there.
-pub(crate) fn write(
+/// Writes a mesh, and says what a user should know of it.
+pub(crate) fn write_mesh(
     path: &Path,
-    content: impl FnOnce(&mut Output) -> Result<(), delone_io::Error>,
+    quiet: bool,
+    content: impl FnOnce(&mut Output) -> Result<Remark, delone_io::Error>,
 ) -> Result<(), Failure> {
+    if let Some(remark) = write(path, content)? {
+        note(quiet, format_args!("{}: {remark}", path.display()));
+    }
+    Ok(())
+}
+
+/// Writes a file whole, or leaves what was there. What the writer returns is there unless nobody reads on.
+pub(crate) fn write<T: Default>(
+    path: &Path,
+    content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
+) -> Result<T, Failure> {
     let attempt = || {
         let mut output = Output::create(path)?;
-        content(&mut output)?;
-        Ok(output.commit()?)
+        let outcome = content(&mut output)?;
+        output.commit()?;
+        Ok(outcome)
     };
     let outcome = match attempt() {
         // A reader that has seen enough (`| head`) is no failure.
-        Err(delone_io::Error::Io(error)) if is_standard(path) && error.kind() == ErrorKind::BrokenPipe => {
-            Ok(())
+        Err(delone_io::Error::Io(error))
+            if error.kind() == ErrorKind::BrokenPipe && (is_standard(path) || is_special(path)) =>
+        {
+            Ok(T::default())
         }
         outcome => outcome,
     };

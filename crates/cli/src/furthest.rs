@@ -13,13 +13,13 @@ use crate::triangulate::{build, remark};
 pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
     let outputs = std::iter::once(args.output.as_path()).chain(stats_path);
-    files::keep_apart(&[&args.input.input, &args.queries], outputs)?;
+    files::keep_apart(&args.input.paths_and(&args.queries), outputs)?;
     let format = files::index_format(&args.output, args.to)?;
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     let queries = files::queries(&args.queries, quiet)?;
     stats.phase("read");
-    let triangulation = build(cloud.xy, Algorithm::default(), &args.input.input, quiet)?;
+    let triangulation = build(cloud.xy, Algorithm::default(), &args.input.label(), quiet)?;
     remark(&triangulation, quiet);
     let furthest = triangulation.furthest();
     stats.phase("build");

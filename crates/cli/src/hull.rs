@@ -14,7 +14,7 @@ use crate::stats::{Stats, work_done};
 
 pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
-    let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
+    let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
     let mut stats = Stats::start();
     if args.dim.is_space() {
         space(args, &outputs, &mut stats, quiet)?;
@@ -45,7 +45,8 @@ fn plane(
     stats.phase("read");
     stats.set("points", cloud.xy.len());
     let phase = Phase::start(quiet, "building");
-    let hull = delone::convex_hull(&cloud.xy).map_err(|error| Failure::points(&args.input.input, &error))?;
+    let hull =
+        delone::convex_hull(&cloud.xy).map_err(|error| Failure::points(&args.input.label(), &error))?;
     drop(phase);
     stats.phase("build");
     stats.set("hull", hull.len());
@@ -71,7 +72,7 @@ fn space(
         ));
     }
     let camera = args.camera.camera()?;
-    let points = files::points_in_space(&args.input, quiet)?;
+    let (points, _) = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
     stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
@@ -84,7 +85,7 @@ fn space(
             history.map(|history| history.hull().clone())
         }
     }
-    .map_err(|error| Failure::points(&args.input.input, &error))?;
+    .map_err(|error| Failure::points(&args.input.label(), &error))?;
     drop(phase);
     stats.phase("build");
     let span = format!("{:?}", hull.span()).to_lowercase();
@@ -102,7 +103,7 @@ fn space(
             let facets: Vec<i64> = hull.facets().flatten().map(|i| i as i64).collect();
             files::write(path, |out| delone_io::write_indices(out, *format, 3, &facets))?;
         } else {
-            files::write(path, |out| delone_io::write_solid(out, *format, &solid, &camera))?;
+            files::write_mesh(path, quiet, |out| delone_io::write_solid(out, *format, &solid, &camera))?;
         }
     }
     Ok(())

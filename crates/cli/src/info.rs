@@ -1,7 +1,9 @@
 //! `delone info`: what is in a file of points.
 
 use delone::{Algorithm, Delaunay2, Dimension};
+use delone_io::{Cloud, LAS_CLASSES};
 use delone_predicates::{in_circle_with_ties, orient2d};
+use serde_json::{Map, Value};
 
 use crate::args::InfoArgs;
 use crate::message::{Failure, answer};
@@ -12,12 +14,13 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     if args.dim.is_space() {
         return space::info(args, quiet);
     }
-    files::keep_apart(&[&args.input.input], args.input.stats.as_deref())?;
+    files::keep_apart(&args.input.paths(), args.input.stats.as_deref())?;
     let mut stats = Stats::start();
-    let cloud = files::points(&args.input, 2, quiet)?;
+    let mut cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
-    let heights = cloud.z;
-    let d = triangulate::build(cloud.xy, Algorithm::default(), &args.input.input, quiet)?;
+    let heights = cloud.z.take();
+    let xy = std::mem::take(&mut cloud.xy);
+    let d = triangulate::build(xy, Algorithm::default(), &args.input.label(), quiet)?;
     stats.phase("build");
     stats.triangulation(&d);
     let mut text = String::new();
@@ -39,12 +42,33 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(range) = heights.and_then(|z| range(z.into_iter())) {
         line("z", range);
     }
+    file(&cloud, &mut line, &mut stats);
     if d.dimension() == Dimension::Plane {
         plane(&d, &mut line, &mut stats);
     }
     stats.phase("count");
     stats.write(args.input.stats.as_deref())?;
     answer(&text)
+}
+
+/// What the file tells besides its points.
+pub(crate) fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
+    if let Some(crs) = &cloud.crs {
+        line("coordinates", crs.to_string());
+        stats.set("crs", crs.to_string());
+    }
+    if !cloud.classes.is_empty() {
+        let name = |class: u8| {
+            let known = LAS_CLASSES.iter().find(|entry| entry.1 == class).map(|entry| entry.0);
+            known.map_or_else(|| class.to_string(), |name| format!("{class} {name}"))
+        };
+        for &(class, count) in &cloud.classes {
+            line(&format!("class {}", name(class)), count.to_string());
+        }
+        let counts: Map<String, Value> =
+            cloud.classes.iter().map(|&(class, count)| (class.to_string(), count.into())).collect();
+        stats.set("classes", counts);
+    }
 }
 
 fn plane(d: &Delaunay2, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
@@ -65,6 +89,11 @@ fn plane(d: &Delaunay2, line: &mut impl FnMut(&str, String), stats: &mut Stats) 
         })
         .count();
     line("triangles", d.triangle_count().to_string());
+    let area: f64 = mesh.triangles().map(|t| d.area(t)).sum();
+    let density = d.points().len() as f64 / area;
+    line("area of the hull", format!("{area:.6}, {density:.6} points on a unit"));
+    stats.set("area", area);
+    stats.set("density", density);
     line("hull vertices", format!("{h}, {straight} of them inside a straight side"));
     line("cocircular neighbours", format!("{ties} pairs of triangles"));
     let mut lengths: Vec<f64> = d

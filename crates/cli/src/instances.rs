@@ -64,7 +64,7 @@ impl Room for Hints2 {
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<(), Failure> {
-        triangulate::finish(args, outputs, self.current(), points.z.as_deref(), stats, quiet)
+        triangulate::finish(args, outputs, self.current(), points, stats, quiet)
     }
 }
 
@@ -78,7 +78,7 @@ impl Room for Hints3 {
     }
 
     fn read(input: &InputArgs, quiet: bool) -> Result<Vec<[f64; 3]>, Failure> {
-        files::points_in_space(input, quiet)
+        Ok(files::points_in_space(input, quiet)?.0)
     }
 
     fn triangulate(&mut self, points: &Vec<[f64; 3]>, work: &mut Work) -> Result<(), delone::Error> {
@@ -97,7 +97,7 @@ impl Room for Hints3 {
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<(), Failure> {
-        space::finish(args, outputs, self.current(), points, stats, quiet)
+        space::finish(args, outputs, self.current(), points, &Cloud::default(), stats, quiet)
     }
 }
 
@@ -116,8 +116,7 @@ fn run_in<R: Room>(
     check_formats: &impl Fn(&[(PathBuf, Format)]) -> Result<(), Failure>,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let inputs: Vec<&Path> =
-        std::iter::once(&args.input.input).chain(&args.more).map(PathBuf::as_path).collect();
+    let inputs = args.input.paths();
     let stats_path = args.input.stats.as_deref();
     let (all, each) = outputs(args, centres, &inputs)?;
     check_formats(&all)?;
@@ -127,7 +126,7 @@ fn run_in<R: Room>(
     let mut visited = 0;
     let mut records = Vec::new();
     for (input, outputs) in inputs.iter().zip(all.chunks(each)) {
-        let one = InputArgs { input: input.to_path_buf(), ..args.input.clone() };
+        let one = InputArgs { input: vec![input.to_path_buf()], ..args.input.clone() };
         let points = R::read(&one, quiet)?;
         stats.phase("read");
         let mut work = Work::default();

@@ -33,14 +33,14 @@ pub(crate) fn answer(
     let strategy = strategy(query)?;
     let format = files::index_format(&query.output, query.to)?;
     files::keep_apart(
-        &[&input.input, &query.queries],
+        &input.paths_and(&query.queries),
         std::iter::once(query.output.as_path()).chain(input.stats.as_deref()),
     )?;
     let mut stats = Stats::start();
     let cloud = files::points(input, 2, quiet)?;
     let queries = files::queries(&query.queries, quiet)?;
     stats.phase("read");
-    let mut triangulation = build(cloud.xy, Algorithm::default(), &input.input, quiet)?;
+    let mut triangulation = build(cloud.xy, Algorithm::default(), &input.label(), quiet)?;
     triangulation.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
     stats.phase("build");
     remark(&triangulation, quiet);

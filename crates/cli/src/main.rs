@@ -1,5 +1,6 @@
 //! The `delone` program: one file a command.
 
+mod about;
 mod animate;
 mod args;
 mod check;
@@ -12,16 +13,19 @@ mod hull;
 mod info;
 mod instances;
 mod locate;
+mod memory;
 mod message;
 mod nearest;
 mod progress;
 mod reduce;
 mod replay;
+mod signals;
 mod space;
 mod stats;
 mod triangulate;
 mod voronoi;
 
+use std::num::NonZero;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -34,10 +38,8 @@ fn main() -> ExitCode {
         Err(error) => return message::usage(&error),
     };
     let quiet = cli.quiet;
-    if let Some(threads) = cli.threads {
-        // It fails only if there is a pool already, and there is none yet.
-        _ = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-    }
+    signals::clean_up();
+    start_threads(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => triangulate::run(&args, quiet),
         Command::Check(args) => check::run(&args, quiet),
@@ -53,9 +55,28 @@ fn main() -> ExitCode {
         Command::Voronoi(args) => voronoi::run(&args, quiet),
         Command::Replay(args) => replay::run(&args, quiet),
         Command::Experiment(args) => experiment::run(&args, quiet),
+        Command::Version => about::version(),
+        Command::Completions { shell } => about::completions(shell),
+        Command::Man { output } => about::man(output.as_deref(), quiet),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
+    }
+}
+
+/// Starts the threads that work. Many more than there are cores would only wait for each other.
+fn start_threads(asked: Option<u16>, quiet: bool) {
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let most = (4 * cores).max(16);
+    let mut threads = asked.map_or(0, usize::from);
+    if threads > most {
+        message::note(quiet, format_args!("{most} threads are used, not {threads}: there are {cores} cores"));
+        threads = most;
+    }
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads);
+    // Where the system gives no threads, this one does the work.
+    if pool(threads).build_global().is_err() {
+        _ = pool(1).use_current_thread().build_global();
     }
 }

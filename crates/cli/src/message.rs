@@ -68,8 +68,16 @@ impl Failure {
     }
 }
 
+/// A message in one line, which may hold what a file holds: without what moves the cursor, and not longer than a
+/// screen.
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    const LONGEST: usize = 600;
+    let text = text.replace(|c: char| c.is_control() && !c.is_whitespace(), "\u{fffd}");
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &line[..end]),
+        None => line,
+    }
 }
 
 /// Prints help and version where they were asked for, and a usage error in one line otherwise.
@@ -97,6 +105,13 @@ pub(crate) fn usage(error: &clap::Error) -> ExitCode {
         None => "see delone --help, or delone COMMAND --help".to_owned(),
     };
     Failure::usage(message, help).report()
+}
+
+/// What was done, on standard error.
+pub(crate) fn say(quiet: bool, text: impl Display) {
+    if !quiet {
+        eprintln!("{text}");
+    }
 }
 
 /// A remark on standard error.

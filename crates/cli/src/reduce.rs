@@ -22,7 +22,7 @@ type Points = [[f64; 2]];
 
 pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     let outputs =
-        files::outputs(args.output.as_slice(), None, args.input.stats.as_deref(), &[&args.input.input])?;
+        files::outputs(args.output.as_slice(), None, args.input.stats.as_deref(), &args.input.paths())?;
     let mut stats = Stats::start();
     let points = files::points(&args.input, 2, quiet)?.xy;
     stats.phase("read");
@@ -30,9 +30,9 @@ pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     let folder = tempfile::tempdir().map_err(|error| Failure::new(error, "check the temporary folder"))?;
     let reason = |points: &Points| match &args.against {
         Some(command) => failure_of_command(command, points, folder.path()),
-        None => failure_of_delone(points),
+        None => Ok(failure_of_delone(points)),
     };
-    let Some(first) = reason(&points) else {
+    let Some(first) = reason(&points)? else {
         answer("nothing to reduce: these points do not fail\n")?;
         stats.set("fails", false);
         return stats.write(args.input.stats.as_deref());
@@ -40,10 +40,10 @@ pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     note(quiet, format_args!("{} points fail: {first}", points.len()));
     let small = {
         let _phase = Phase::start(quiet, "reducing");
-        reduce(points, |points| reason(points).is_some())
+        reduce(points, |points| reason(points).is_ok_and(|why| why.is_some()))
     };
     stats.phase("build");
-    let why = reason(&small).unwrap_or(first);
+    let why = reason(&small)?.unwrap_or(first);
     let rows: String = small.iter().map(|[x, y]| format!("        [{x:?}, {y:?}],\n")).collect();
     answer(&format!(
         "// {} points: {why}
@@ -107,31 +107,35 @@ fn failure_of_delone(points: &Points) -> Option<String> {
     }
 }
 
-/// Why another program fails on some points, if it does.
-fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Option<String> {
+/// Why another program fails on some points, if it does; an error if it cannot be run at all.
+fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Result<Option<String>, Failure> {
+    /// What a shell answers for a program that is not there, or that it may not run.
+    const NO_PROGRAM: [Option<i32>; 2] = [Some(127), Some(126)];
     let (input, output) = (folder.join("points.npy"), folder.join("triangles.npy"));
     _ = std::fs::remove_file(&output);
-    if let Err(failure) = files::write(&input, |out| delone_io::write_points(out, Format::Npy, points)) {
-        return Some(format!("{failure:?}"));
-    }
-    let command = command
+    files::write(&input, |out| delone_io::write_points(out, Format::Npy, points))?;
+    let not_run = |why: String| {
+        Failure::new(format!("the command {command:?} cannot be run: {why}"), "check the name of the program")
+    };
+    let text = command
         .replace("{points}", &input.display().to_string())
         .replace("{triangles}", &output.display().to_string());
     let status = Command::new("sh")
-        .args(["-c", &command])
+        .args(["-c", &text])
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .status();
     match status {
-        Err(error) => return Some(format!("the command cannot be run: {error}")),
-        Ok(status) if !status.success() => return Some(format!("the command fails ({status})")),
+        Err(error) => return Err(not_run(error.to_string())),
+        Ok(status) if NO_PROGRAM.contains(&status.code()) => return Err(not_run(status.to_string())),
+        Ok(status) if !status.success() => return Ok(Some(format!("the command fails ({status})"))),
         Ok(_) => {}
     }
-    match files::triangles(&output, true) {
+    Ok(match files::triangles(&output, true) {
         Err(_) => Some("the command writes no triangles".to_owned()),
         Ok(triangles) => verify(points, &triangles).err().map(|objection| objection.to_string()),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -157,12 +161,10 @@ mod tests {
     fn a_command_that_fails_is_seen() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let points = Kind::Uniform.points(5, 1);
-        assert!(
-            failure_of_command("exit 3", &points, folder.path()).is_some_and(|why| why.contains("fails"))
-        );
-        assert!(
-            failure_of_command("true", &points, folder.path())
-                .is_some_and(|why| why.contains("no triangles"))
-        );
+        for (command, expected) in [("exit 3", "fails"), ("true", "no triangles")] {
+            let why = failure_of_command(command, &points, folder.path()).expect("it runs");
+            assert!(why.is_some_and(|why| why.contains(expected)), "{command}");
+        }
+        assert!(failure_of_command("no-such-program-anywhere", &points, folder.path()).is_err());
     }
 }

@@ -63,7 +63,7 @@ pub(crate) fn run(args: &ReplayArgs, quiet: bool) -> Result<(), Failure> {
         let replayed = replay(args, &mut d, &mut stats, quiet)?;
         stats.space(&d, replayed.points.len());
         stats.set("counters", work_done(&replayed.work));
-        let body = Body { triangulation: &d, points: &replayed.points };
+        let body = Body { triangulation: &d, points: &replayed.points, crs: None, base: 0 };
         for (path, format) in &outputs {
             let camera = picture::Camera::default();
             files::write(path, |out| delone_io::write_body(out, *format, &body, &camera))?;
@@ -73,7 +73,7 @@ pub(crate) fn run(args: &ReplayArgs, quiet: bool) -> Result<(), Failure> {
         let replayed = replay(args, &mut d, &mut stats, quiet)?;
         stats.triangulation(&d);
         stats.set("counters", work_done(&replayed.work));
-        let surface = Surface { triangulation: &d, heights: None };
+        let surface = Surface::new(&d);
         for (path, format) in &outputs {
             files::write(path, |out| delone_io::write_surface(out, *format, &surface))?;
         }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use delone::space::verify::{Objection3, verify};
 use delone::{Algorithm3, Delaunay3, Dimension, Location3, TetrahedronId, VertexId, Work};
-use delone_io::{Body, Cut, Format, picture};
+use delone_io::{Body, Cloud, Cut, Format, picture};
 use delone_predicates::in_sphere_with_ties;
 
 use crate::args::{
@@ -19,6 +19,9 @@ use crate::stats::{Stats, work_done};
 
 /// `delone triangulate --dim 3`.
 pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    if args.max_edge.is_some() {
+        return Err(Failure::usage("--max-edge is for the plane", "leave it or --dim 3 out"));
+    }
     if args.algorithm == Some(AlgorithmName::DivideConquer) {
         return Err(Failure::usage(
             "divide and conquer is for the plane",
@@ -37,16 +40,16 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
         (_, Some(locate)) => Algorithm3::Located { locate, seed: args.seed },
     };
     let stats_path = args.input.stats.as_deref();
-    let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
+    let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
     check_formats(&outputs)?;
     let mut stats = Stats::start();
-    let points = files::points_in_space(&args.input, quiet)?;
+    let (points, about) = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
-    let d = build(&points, algorithm, &args.input.input, quiet)?;
+    let d = build(&points, algorithm, &args.input.label(), quiet)?;
     stats.phase("build");
     stats.set("algorithm", "incremental");
     stats.set("locate", locate.to_possible_value().map(|value| value.get_name().to_owned()));
-    finish(args, &outputs, &d, &points, &mut stats, quiet)?;
+    finish(args, &outputs, &d, &points, &about, &mut stats, quiet)?;
     stats.write(stats_path)
 }
 
@@ -64,6 +67,7 @@ pub(crate) fn finish(
     outputs: &[(PathBuf, Format)],
     d: &Delaunay3,
     points: &[[f64; 3]],
+    about: &Cloud,
     stats: &mut Stats,
     quiet: bool,
 ) -> Result<(), Failure> {
@@ -81,12 +85,16 @@ pub(crate) fn finish(
         note(quiet, "checked: this is the canonical Delaunay triangulation");
     }
     stats.space(d, points.len());
-    let body = Body { triangulation: d, points };
-    let _phase = Phase::start(quiet, "writing");
+    let body = Body { triangulation: d, points, crs: about.crs.as_ref(), base: about.base };
+    let phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
-        files::write(path, |out| delone_io::write_body(out, *format, &body, &picture::Camera::default()))?;
+        files::write_mesh(path, quiet, |out| {
+            delone_io::write_body(out, *format, &body, &picture::Camera::default())
+        })?;
     }
+    drop(phase);
     stats.phase("write");
+    stats.tell(quiet, ["tetrahedron", "tetrahedra"]);
     Ok(())
 }
 
@@ -140,14 +148,14 @@ pub(crate) fn draw(args: &DrawArgs, outputs: &[(PathBuf, Format)], quiet: bool) 
         }
     };
     let mut stats = Stats::start();
-    let points = files::points_in_space(&args.input, quiet)?;
+    let (points, _) = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
-    let d = build(&points, Algorithm3::Spatial { seed: 0 }, &args.input.input, quiet)?;
+    let d = build(&points, Algorithm3::Spatial { seed: 0 }, &args.input.label(), quiet)?;
     remark(&d, points.len(), quiet);
     stats.phase("build");
     stats.space(&d, points.len());
     let _phase = Phase::start(quiet, "drawing");
-    let body = Body { triangulation: &d, points: &points };
+    let body = Body { triangulation: &d, points: &points, crs: None, base: 0 };
     let solid = cut.map_or_else(|| body.hull(), |cut| body.cut(&cut));
     for (path, format) in outputs {
         files::write(path, |out| delone_io::write_solid(out, *format, &solid, &camera))?;
@@ -192,14 +200,14 @@ fn ask(
     let strategy = strategy(query)?;
     let format = files::index_format(&query.output, query.to)?;
     files::keep_apart(
-        &[&input.input, &query.queries],
+        &input.paths_and(&query.queries),
         std::iter::once(query.output.as_path()).chain(input.stats.as_deref()),
     )?;
     let mut stats = Stats::start();
-    let points = files::points_in_space(input, quiet)?;
+    let (points, _) = files::points_in_space(input, quiet)?;
     let queries = files::queries_in_space(&query.queries, quiet)?;
     stats.phase("read");
-    let mut d = build(&points, Algorithm3::Spatial { seed: 0 }, &input.input, quiet)?;
+    let mut d = build(&points, Algorithm3::Spatial { seed: 0 }, &input.label(), quiet)?;
     d.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
     stats.phase("build");
     remark(&d, points.len(), quiet);
@@ -257,11 +265,11 @@ pub(crate) fn positive(mut corners: [usize; 4]) -> [usize; 4] {
 
 /// `delone info --dim 3`.
 pub(crate) fn info(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
-    files::keep_apart(&[&args.input.input], args.input.stats.as_deref())?;
+    files::keep_apart(&args.input.paths(), args.input.stats.as_deref())?;
     let mut stats = Stats::start();
-    let points = files::points_in_space(&args.input, quiet)?;
+    let (points, about) = files::points_in_space(&args.input, quiet)?;
     stats.phase("read");
-    let d = build(&points, Algorithm3::Spatial { seed: 0 }, &args.input.input, quiet)?;
+    let d = build(&points, Algorithm3::Spatial { seed: 0 }, &args.input.label(), quiet)?;
     stats.phase("build");
     stats.space(&d, points.len());
     let mut text = String::new();
@@ -281,6 +289,7 @@ pub(crate) fn info(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
             line(axis, range);
         }
     }
+    crate::info::file(&about, &mut line, &mut stats);
     if d.dimension() == Dimension::Space {
         let mesh = d.mesh();
         let ties = d
@@ -310,7 +319,7 @@ pub(crate) fn info(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
 /// `delone check --dim 3`.
 pub(crate) fn check(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
-    let points = files::points_in_space(&args.input, quiet)?;
+    let (points, _) = files::points_in_space(&args.input, quiet)?;
     let tetrahedra = files::tetrahedra(&args.mesh, quiet)?;
     stats.phase("read");
     let verdict = {
@@ -331,7 +340,7 @@ pub(crate) fn check(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(args.input.stats.as_deref())?;
     let verdict = match verdict {
         Ok(verdict) => verdict,
-        Err(Objection3::Points(error)) => return Err(Failure::points(&args.input.input, &error)),
+        Err(Objection3::Points(error)) => return Err(Failure::points(&args.input.label(), &error)),
         Err(objection) => {
             return Err(Failure::new(
                 format!("{}: not Delaunay: {objection}", args.mesh.display()),

@@ -8,7 +8,7 @@ use delone::{Counters, Delaunay2, Delaunay3, Work};
 use serde_json::{Map, Value, json};
 
 use crate::files;
-use crate::message::Failure;
+use crate::message::{Failure, say};
 
 /// Collects numbers while a command works.
 pub(crate) struct Stats {
@@ -75,6 +75,22 @@ impl Stats {
         self.set("counters", work_done(&d.work()));
     }
 
+    /// Says in one line what was done; `simplices` are called so, one and many.
+    pub(crate) fn tell(&self, quiet: bool, simplices: [&str; 2]) {
+        let names = [
+            ("points", ["point", "points"]),
+            ("simplices", simplices),
+            ("left_out", ["left out", "left out"]),
+            ("hull", ["on the hull", "on the hull"]),
+        ];
+        let counts = names.iter().filter_map(|(name, [one, many])| {
+            let count = self.get(name).as_u64()?;
+            Some(format!("{} {}", grouped(count), if count == 1 { one } else { many }))
+        });
+        let seconds: f64 = self.seconds.values().filter_map(Value::as_f64).sum();
+        say(quiet, format_args!("{} ({seconds:.2} s)", counts.collect::<Vec<_>>().join(", ")));
+    }
+
     /// Writes all of it, if a file was named.
     pub(crate) fn write(mut self, path: Option<&Path>) -> Result<(), Failure> {
         let Some(path) = path else { return Ok(()) };
@@ -90,6 +106,14 @@ impl Stats {
         let text = format!("{:#}\n", Value::Object(self.facts));
         files::write(path, |out| Ok(out.write_all(text.as_bytes())?))
     }
+}
+
+/// A number in groups of three digits.
+fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let groups: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
+    groups.join(",")
 }
 
 /// Work by name.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use delone::{Algorithm, Delaunay2, Dimension};
-use delone_io::{Cloud, Format, Surface};
+use delone_io::{Cloud, Format, Surface, Trim};
 
 use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
 use crate::message::{Failure, note};
@@ -15,12 +15,6 @@ use crate::{files, instances, space};
 pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(centres) = &args.hints {
         return instances::run(args, centres, quiet);
-    }
-    if let Some(more) = args.more.first() {
-        return Err(Failure::usage(
-            format!("{}: several inputs are instances of imprecise points", more.display()),
-            "name their centres with --hints, or give one input",
-        ));
     }
     if args.dim.is_space() {
         return space::triangulate(args, quiet);
@@ -33,16 +27,17 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         ));
     }
     let stats_path = args.input.stats.as_deref();
-    let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input.input])?;
+    let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
     check_formats(&outputs)?;
     let mut stats = Stats::start();
-    let Cloud { xy, z, .. } = files::points(&args.input, 2, quiet)?;
+    let mut cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
     let algorithm = match name {
         AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
         AlgorithmName::Incremental => incremental(args.locate.unwrap_or(LocateName::Spatial), args.seed),
     };
-    let triangulation = build(xy, algorithm, &args.input.input, quiet)?;
+    let xy = std::mem::take(&mut cloud.xy);
+    let triangulation = build(xy, algorithm, &args.input.label(), quiet)?;
     stats.phase("build");
     stats.set(
         "algorithm",
@@ -52,7 +47,7 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
         let locate = args.locate.unwrap_or(LocateName::Spatial).to_possible_value();
         stats.set("locate", locate.map(|value| value.get_name().to_owned()));
     }
-    finish(args, &outputs, &triangulation, z.as_deref(), &mut stats, quiet)?;
+    finish(args, &outputs, &triangulation, &cloud, &mut stats, quiet)?;
     if algorithm == Algorithm::DivideAndConquer {
         stats.set("threads", rayon::current_num_threads());
     }
@@ -72,7 +67,7 @@ pub(crate) fn finish(
     args: &TriangulateArgs,
     outputs: &[(PathBuf, Format)],
     triangulation: &Delaunay2,
-    heights: Option<&[f64]>,
+    cloud: &Cloud,
     stats: &mut Stats,
     quiet: bool,
 ) -> Result<(), Failure> {
@@ -90,13 +85,34 @@ pub(crate) fn finish(
         note(quiet, "checked: this is the canonical Delaunay triangulation");
     }
     stats.triangulation(triangulation);
-    let surface = Surface { triangulation, heights };
-    let _phase = Phase::start(quiet, "writing");
+    let trim = trim(triangulation, args.max_edge, stats);
+    let surface = surface(triangulation, cloud, trim.as_ref());
+    let phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
-        files::write(path, |out| delone_io::write_surface(out, *format, &surface))?;
+        files::write_mesh(path, quiet, |out| delone_io::write_surface(out, *format, &surface))?;
     }
+    drop(phase);
     stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
     Ok(())
+}
+
+/// What is left out for its length.
+pub(crate) fn trim(d: &Delaunay2, longest: Option<f64>, stats: &mut Stats) -> Option<Trim> {
+    let trim = Trim::long_edges(d, longest?);
+    stats.set("left_out", trim.count());
+    Some(trim)
+}
+
+/// What is written of a triangulation.
+pub(crate) fn surface<'a>(d: &'a Delaunay2, cloud: &'a Cloud, trim: Option<&'a Trim>) -> Surface<'a> {
+    Surface {
+        heights: cloud.z.as_deref(),
+        crs: cloud.crs.as_ref(),
+        base: cloud.base,
+        trim,
+        ..Surface::new(d)
+    }
 }
 
 /// The incremental algorithm with a way to locate points.

@@ -13,7 +13,7 @@ use crate::{files, triangulate};
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let polygon = !["box", "hull"].map(Path::new).contains(&args.clip.as_path());
-    let mut inputs = vec![args.input.input.as_path()];
+    let mut inputs = args.input.paths();
     if polygon {
         inputs.push(&args.clip);
     }
@@ -30,10 +30,11 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
     }
     let mut stats = Stats::start();
-    let xy = files::points(&args.input, 2, quiet)?.xy;
+    let mut cloud = files::points(&args.input, 2, quiet)?;
+    let xy = std::mem::take(&mut cloud.xy);
     let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
     stats.phase("read");
-    let mut triangulation = triangulate::build(xy, Algorithm::default(), &args.input.input, quiet)?;
+    let mut triangulation = triangulate::build(xy, Algorithm::default(), &args.input.label(), quiet)?;
     triangulate::remark(&triangulation, quiet);
     stats.phase("build");
     let region = if polygon {
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
         let points =
             relaxation.run(&triangulation, &region, |step, moved| last = (step, moved)).map_err(failed)?;
-        triangulation = triangulate::build(points, Algorithm::default(), &args.input.input, quiet)?;
+        triangulation = triangulate::build(points, Algorithm::default(), &args.input.label(), quiet)?;
         stats.set("relaxed", last.0);
         stats.set("moved", last.1);
         stats.phase("relax");
@@ -66,7 +67,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("cells", triangulation.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
     stats.set("area", region.area());
     let _phase = Phase::start(quiet, "writing");
-    let diagram = Diagram { triangulation: &triangulation, cells: &cells };
+    let diagram = Diagram { triangulation: &triangulation, cells: &cells, crs: cloud.crs.as_ref() };
     for (path, format) in &outputs {
         files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
     }

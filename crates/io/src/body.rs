@@ -4,7 +4,7 @@ use std::io::Write;
 
 use delone::{Delaunay3, TetrahedronId, VertexId};
 
-use crate::{Error, Format, Shape, Solid, picture, write_solid};
+use crate::{Crs, Error, Format, Remark, Shape, Solid, picture, write_solid};
 
 /// A triangulation of space to be written, with all points of its input.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +13,10 @@ pub struct Body<'a> {
     pub triangulation: &'a Delaunay3,
     /// The points by id.
     pub points: &'a [[f64; 3]],
+    /// What the coordinates mean; formats that can say it do.
+    pub crs: Option<&'a Crs>,
+    /// What the first point is called in Triangle's formats, 0 or 1.
+    pub base: usize,
 }
 
 /// A plane that takes away the tetrahedra whose middle is beyond it.
@@ -78,6 +82,10 @@ impl Shape for Body<'_> {
     fn heights(&self) -> Option<&[f64]> {
         None
     }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.crs
+    }
 }
 
 /// Writes a triangulation of space: tetrahedra in the indices of the points, from 0; or, where the format holds
@@ -87,22 +95,22 @@ pub fn write_body(
     format: Format,
     body: &Body,
     camera: &picture::Camera,
-) -> Result<(), Error> {
+) -> Result<Remark, Error> {
     use crate::formats::{npy, triangle, vtu};
     match format {
         Format::Npy => {
             npy::write_simplices(out, body.triangulation.tetrahedra().count(), body.tetrahedra())?;
         }
-        Format::Ele => triangle::write_ele(out, body.tetrahedra())?,
+        Format::Ele => triangle::write_ele(out, body.base, body.tetrahedra())?,
         Format::Neigh => write_neigh(out, body)?,
-        Format::Node => triangle::write_points(out, body.points)?,
+        Format::Node => triangle::write_points(out, body.base, body.points)?,
         Format::Vtu => vtu::write_cells(out, body, body.tetrahedra())?,
         Format::Ply | Format::Obj | Format::Stl | Format::Svg | Format::Png => {
-            write_solid(out, format, &body.hull(), camera)?;
+            return write_solid(out, format, &body.hull(), camera);
         }
         _ => return Err(Error::NotABody(format)),
     }
-    Ok(())
+    Ok(None)
 }
 
 /// Neighbours opposite corners 0 to 3, numbered as in the `.ele` file; -1 across the hull.
@@ -111,12 +119,12 @@ fn write_neigh(out: &mut dyn Write, body: &Body) -> std::io::Result<()> {
     let cells: Vec<TetrahedronId> = body.triangulation.cells().collect();
     let mut numbers = vec![-1_i64; mesh.slot_count()];
     for (i, t) in cells.iter().enumerate() {
-        numbers[t.index()] = i as i64;
+        numbers[t.index()] = (body.base + i) as i64;
     }
     writeln!(out, "{} 4", cells.len())?;
     for (i, &t) in cells.iter().enumerate() {
         let [a, b, c, d] = mesh.adjacent(t).map(|next| numbers[next.index()]);
-        writeln!(out, "{i} {a} {b} {c} {d}")?;
+        writeln!(out, "{} {a} {b} {c} {d}", body.base + i)?;
     }
     Ok(())
 }

@@ -12,6 +12,8 @@ pub struct Cloud {
     pub z: Option<Vec<f64>>,
     /// What the coordinates mean, where the file tells.
     pub crs: Option<Crs>,
+    /// What the file calls the first point where it numbers them: 0 or 1.
+    pub base: usize,
     /// LAS classes and how many points of the file have them, those left out included.
     pub classes: Vec<(u8, u64)>,
     /// What a user might want to know of how the file was read: which columns were taken, what was left out.
@@ -64,7 +66,7 @@ impl Cloud {
         }
         self.remarks.extend(other.remarks.iter().cloned());
         if self.xy.is_empty() {
-            (self.xy, self.z) = (other.xy, other.z);
+            (self.xy, self.z, self.base) = (other.xy, other.z, other.base);
         } else if !other.xy.is_empty() {
             if self.z.is_some() != other.z.is_some() {
                 self.remarks.push("heights are left out: not all files have them".to_owned());

@@ -109,7 +109,8 @@ mod tests {
             VERT_CS["NAVD88",AUTHORITY["EPSG","6360"]]]"#;
         let crs = Crs::of_wkt(oregon).expect("a system");
         assert_eq!(crs.to_string(), "EPSG:2992 (NAD83 / Oregon GIC Lambert (ft))");
-        let second = Crs::of_wkt(r#"GEOGCRS["WGS 84",DATUM["x",ID["EPSG",6326]],ID["EPSG",4326]]"#).expect("one");
+        let second =
+            Crs::of_wkt(r#"GEOGCRS["WGS 84",DATUM["x",ID["EPSG",6326]],ID["EPSG",4326]]"#).expect("one");
         assert_eq!(second.epsg, Some(4326));
         let local = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]\0\0").expect("one");
         assert_eq!((local.epsg, local.name.as_deref()), (None, Some("ours")));
@@ -119,7 +120,9 @@ mod tests {
 
     #[test]
     fn numbers_of_names() {
-        for name in ["EPSG:25832", "urn:ogc:def:crs:EPSG::25832", "http://www.opengis.net/def/crs/EPSG/0/25832"] {
+        for name in
+            ["EPSG:25832", "urn:ogc:def:crs:EPSG::25832", "http://www.opengis.net/def/crs/EPSG/0/25832"]
+        {
             assert_eq!(Crs::of_name(name), Some(Crs::of_epsg(25832)), "{name}");
         }
         assert_eq!(Crs::of_name("urn:ogc:def:crs:OGC:1.3:CRS84").expect("one").to_string(), "OGC:CRS84");

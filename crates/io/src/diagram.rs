@@ -2,6 +2,8 @@
 
 use delone::{Cells, Delaunay2, Ring, VertexId};
 
+use crate::Crs;
+
 /// Clipped cells, with the triangulation of their sites.
 #[derive(Clone, Copy, Debug)]
 pub struct Diagram<'a> {
@@ -9,6 +11,8 @@ pub struct Diagram<'a> {
     pub triangulation: &'a Delaunay2,
     /// Their cells.
     pub cells: &'a Cells,
+    /// What the coordinates mean; formats that can say it do.
+    pub crs: Option<&'a Crs>,
 }
 
 impl Diagram<'_> {

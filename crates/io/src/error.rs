@@ -76,3 +76,11 @@ impl Error {
         }
     }
 }
+
+/// The beginning of a text that a message quotes.
+pub(crate) fn excerpt(text: &str) -> &str {
+    match text.char_indices().nth(40) {
+        Some((end, _)) => &text[..end],
+        None => text,
+    }
+}

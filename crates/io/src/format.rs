@@ -12,8 +12,12 @@ use crate::Error;
 pub enum Format {
     /// Columns of numbers: csv, xyz, txt, tsv.
     Text,
+    /// Counted lists of points with other numbers: pts.
+    Pts,
     /// NumPy arrays.
     Npy,
+    /// NumPy archives.
+    Npz,
     /// Raw little-endian f64.
     Raw,
     /// Triangle's points.
@@ -26,10 +30,14 @@ pub enum Format {
     Edge,
     /// LAS and LAZ point clouds.
     Las,
+    /// E57 scans.
+    E57,
     /// Stanford polygons.
     Ply,
     /// Wavefront.
     Obj,
+    /// Geomview.
+    Off,
     /// Stereolithography.
     Stl,
     /// VTK unstructured grids.
@@ -48,7 +56,10 @@ const NAMES: &[(&str, Format)] = &[
     ("xyz", Format::Text),
     ("txt", Format::Text),
     ("tsv", Format::Text),
+    ("dat", Format::Text),
+    ("pts", Format::Pts),
     ("npy", Format::Npy),
+    ("npz", Format::Npz),
     ("bin", Format::Raw),
     ("node", Format::Node),
     ("ele", Format::Ele),
@@ -56,20 +67,26 @@ const NAMES: &[(&str, Format)] = &[
     ("edge", Format::Edge),
     ("las", Format::Las),
     ("laz", Format::Las),
+    ("e57", Format::E57),
     ("ply", Format::Ply),
     ("obj", Format::Obj),
+    ("off", Format::Off),
     ("stl", Format::Stl),
     ("vtu", Format::Vtu),
     ("geojson", Format::GeoJson),
     ("json", Format::GeoJson),
+    ("geojsonl", Format::GeoJson),
+    ("geojsons", Format::GeoJson),
+    ("ndjson", Format::GeoJson),
     ("svg", Format::Svg),
     ("png", Format::Png),
 ];
 
 impl Format {
-    /// The format that a file's extension names.
+    /// The format that a file's extension names; `.gz` after it says that the file is compressed.
     pub fn of(path: &Path) -> Result<Self, Error> {
-        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
+        let inner = if is_gzip(path) { path.with_extension("") } else { path.to_owned() };
+        let extension = inner.extension().and_then(|e| e.to_str()).unwrap_or_default();
         extension.parse().map_err(|_| Error::UnknownExtension(path.display().to_string()))
     }
 }
@@ -77,8 +94,14 @@ impl Format {
 impl Format {
     /// Whether a triangulation can be written in it.
     pub fn holds_meshes(self) -> bool {
-        !matches!(self, Self::Text | Self::Raw | Self::Las)
+        use Format::{Edge, Ele, GeoJson, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
+        matches!(self, Npy | Node | Ele | Neigh | Edge | Ply | Obj | Stl | Vtu | GeoJson | Svg | Png)
     }
+}
+
+/// Whether a file is compressed, by its name.
+pub(crate) fn is_gzip(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
 }
 
 impl FromStr for Format {

@@ -12,9 +12,11 @@ mod error;
 mod format;
 mod formats;
 mod guard;
+mod input;
 mod output;
 pub mod picture;
 mod solid;
+mod surface;
 
 pub use body::{Body, Cut, write_body};
 pub use cloud::Cloud;
@@ -22,12 +24,16 @@ pub use crs::Crs;
 pub use diagram::Diagram;
 pub use error::Error;
 pub use format::Format;
-pub use output::Output;
+pub use formats::las::LAS_CLASSES;
+pub use input::decompressed;
+pub use output::{Output, remove_unfinished};
 pub use solid::{Solid, write_solid};
+pub use surface::{Surface, Trim};
 
 use std::io::{BufRead, Seek};
 
-use delone::Delaunay2;
+/// What a user should know of a file that was written.
+pub type Remark = Option<String>;
 
 /// What a format may be read from: files, and standard input once it is in memory.
 pub trait Source: BufRead + Seek + Send + Sync {}
@@ -49,15 +55,20 @@ pub struct ReadOptions {
 ///
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
-    use formats::{geojson, las, npy, obj, ply, raw, text, triangle};
+    use formats::{e57, geojson, las, npy, obj, off, ply, raw, stl, text, triangle};
     match format {
         Format::Text => text::read(source, &options.columns),
+        Format::Pts => text::read_pts(source),
         Format::Npy => npy::read_points(source),
+        Format::Npz => npy::read_archive(source),
         Format::Raw => raw::read(source, options.dimension),
         Format::Node => triangle::read_node(source),
         Format::Las => las::read(source, &options.classes),
+        Format::E57 => e57::read(source),
         Format::Ply => ply::read_points(source),
         Format::Obj => obj::read_points(source),
+        Format::Off => off::read_points(source),
+        Format::Stl => stl::read_points(source),
         Format::GeoJson => geojson::read(source),
         _ => Err(Error::NotPoints(format)),
     }
@@ -65,8 +76,9 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
 
 /// Reads the triangles of a mesh file as indices into its points, from 0.
 pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 3]>, Error> {
-    use formats::{npy, obj, ply, triangle};
+    use formats::{npy, obj, off, ply, triangle};
     match format {
+        Format::Off => off::read_triangles(source),
         Format::Npy => npy::read_simplices(source),
         Format::Ele => triangle::read_ele(source),
         Format::Ply => ply::read_triangles(source),
@@ -84,15 +96,6 @@ pub fn read_tetrahedra(source: Box<dyn Source>, format: Format) -> Result<Vec<[u
     }
 }
 
-/// A triangulation to be written, with what lies beside it.
-#[derive(Clone, Copy, Debug)]
-pub struct Surface<'a> {
-    /// The triangulation of x and y.
-    pub triangulation: &'a Delaunay2,
-    /// The height of each input point.
-    pub heights: Option<&'a [f64]>,
-}
-
 /// What formats of triangles in space ask for.
 trait Shape {
     /// The coordinates of the points, zero where there is no height.
@@ -101,45 +104,37 @@ trait Shape {
     fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send;
     /// A value for each point.
     fn heights(&self) -> Option<&[f64]>;
-}
-
-impl Shape for Surface<'_> {
-    fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
-        let heights = self.heights.unwrap_or_default();
-        let z = |i: usize| heights.get(i).copied().unwrap_or_default();
-        self.triangulation.points().iter().enumerate().map(move |(i, &[x, y])| [x, y, z(i)])
-    }
-
-    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send {
-        self.triangulation.triangles().map(|corners| corners.map(delone::VertexId::index))
-    }
-
-    fn heights(&self) -> Option<&[f64]> {
-        self.heights
+    /// What the coordinates mean.
+    fn crs(&self) -> Option<&Crs> {
+        None
     }
 }
 
 /// Writes a triangulation. Indices in the file are those of the input points (duplicates are written as points
 /// that no triangle uses), from 0 unless the format counts from 1.
-pub fn write_surface(out: &mut dyn std::io::Write, format: Format, surface: &Surface) -> Result<(), Error> {
+pub fn write_surface(
+    out: &mut dyn std::io::Write,
+    format: Format,
+    surface: &Surface,
+) -> Result<Remark, Error> {
     use formats::{geojson, npy, obj, ply, stl, triangle, vtu};
     match format {
         Format::Npy => {
-            npy::write_simplices(out, surface.triangulation.triangle_count(), surface.triangles())?;
+            npy::write_simplices(out, surface.triangle_count(), surface.triangles())?;
         }
         Format::Node => triangle::write_node(out, surface)?,
-        Format::Ele => triangle::write_ele(out, surface.triangles())?,
+        Format::Ele => triangle::write_ele(out, surface.base, surface.triangles())?,
         Format::Neigh => triangle::write_neigh(out, surface)?,
         Format::Edge => triangle::write_edge(out, surface)?,
         Format::Ply => ply::write(out, surface)?,
         Format::Obj => obj::write(out, surface)?,
-        Format::Stl => stl::write(out, surface)?,
+        Format::Stl => return Ok(stl::write(out, surface)?),
         Format::Vtu => vtu::write(out, surface)?,
         Format::GeoJson => geojson::write(out, surface)?,
         Format::Svg | Format::Png => picture::write(out, format, surface, &picture::Options::default())?,
-        Format::Text | Format::Raw | Format::Las => return Err(Error::NotAMesh(format)),
+        _ => return Err(Error::NotAMesh(format)),
     }
-    Ok(())
+    Ok(None)
 }
 
 /// Reads the rings of polygons: those of GeoJSON polygons, or all points of another format as one ring.
@@ -179,7 +174,7 @@ pub fn write_points<const D: usize>(
         Format::Text => text::write(out, points)?,
         Format::Npy => npy::write_points(out, points)?,
         Format::Raw => raw::write(out, points)?,
-        Format::Node => triangle::write_points(out, points)?,
+        Format::Node => triangle::write_points(out, 0, points)?,
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,

@@ -5,7 +5,7 @@ use std::io::Write;
 use delone::Dimension;
 use delone::hull::spatial::Hull3;
 
-use crate::{Error, Format, Shape, picture};
+use crate::{Error, Format, Remark, Shape, picture};
 
 /// Flat convex faces around a body.
 #[derive(Clone, Debug, Default)]
@@ -51,15 +51,15 @@ pub fn write_solid(
     format: Format,
     solid: &Solid,
     camera: &picture::Camera,
-) -> Result<(), Error> {
+) -> Result<Remark, Error> {
     use crate::formats::{obj, ply, stl, vtu};
     match format {
         Format::Ply => ply::write(out, solid)?,
         Format::Obj => obj::write(out, solid)?,
-        Format::Stl => stl::write(out, solid)?,
+        Format::Stl => return Ok(stl::write(out, solid)?),
         Format::Vtu => vtu::write(out, solid)?,
         Format::Svg | Format::Png => picture::write_solid(out, format, solid, camera)?,
         _ => return Err(Error::NotASolid(format)),
     }
-    Ok(())
+    Ok(None)
 }

@@ -1,17 +1,20 @@
-//! GeoJSON: points are read by the `geojson` crate, triangles written as polygons.
+//! GeoJSON, one document or many: points are read by the `geojson` crate, triangles written as polygons.
 
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 
 use delone::Ring;
 use geojson::{GeoJson, Geometry, GeometryValue};
 
-use crate::{Cloud, Diagram, Error, Shape, Source, Surface};
+use crate::{Cloud, Crs, Diagram, Error, Shape, Source, Surface};
 
-/// Reads the positions of all Point and MultiPoint geometries, in their order.
+/// Reads the positions of all geometries, in their order; the last of a ring, which is the first again, is left out.
+/// Several documents may follow each other, as in text sequences and lines of GeoJSON.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let content = parse(source)?;
-    let mut positions = Vec::new();
-    geometries(&content).into_iter().for_each(|geometry| collect(geometry, &mut positions));
+    let documents = parse(source)?;
+    let mut found = Found::default();
+    let all = documents.iter().flat_map(geometries);
+    all.for_each(|geometry| found.collect(geometry));
+    let positions = found.positions;
     let with_heights = !positions.is_empty() && positions.iter().all(|p| p.len() > 2);
     let mut cloud = Cloud::with_capacity(positions.len(), with_heights);
     for (i, position) in positions.into_iter().enumerate() {
@@ -20,11 +23,51 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
         };
         cloud.push([x, y], position.get(2).copied().unwrap_or_default());
     }
+    if found.shapes > 0 {
+        cloud
+            .remarks
+            .push(format!("the corners of {} lines and polygons were taken as points", found.shapes));
+    }
+    cloud.crs = documents.iter().find_map(system);
     Ok(cloud)
 }
 
-fn parse(source: Box<dyn Source>) -> Result<GeoJson, Error> {
-    GeoJson::from_reader(source).map_err(|error| Error::content(format!("GeoJSON: {error}")))
+/// All documents of a file.
+fn parse(source: Box<dyn Source>) -> Result<Vec<GeoJson>, Error> {
+    let documents = serde_json::Deserializer::from_reader(Sequence(source)).into_iter();
+    let documents: Result<Vec<GeoJson>, _> = documents.collect();
+    let documents = documents.map_err(|error| Error::content(format!("GeoJSON: {error}")))?;
+    if documents.is_empty() { Err(Error::content("GeoJSON: the file is empty")) } else { Ok(documents) }
+}
+
+/// A text sequence (RFC 8142) without the signs that begin its records.
+struct Sequence(Box<dyn Source>);
+
+impl Read for Sequence {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        const RECORD: u8 = 0x1e;
+        let count = self.0.read(buffer)?;
+        buffer[..count].iter_mut().filter(|byte| **byte == RECORD).for_each(|byte| *byte = b' ');
+        Ok(count)
+    }
+}
+
+/// The system that a document names, as it was usual before RFC 7946 and still is.
+fn system(document: &GeoJson) -> Option<Crs> {
+    let members = match document {
+        GeoJson::Geometry(geometry) => &geometry.foreign_members,
+        GeoJson::Feature(feature) => &feature.foreign_members,
+        GeoJson::FeatureCollection(collection) => &collection.foreign_members,
+    };
+    Crs::of_name(members.as_ref()?.get("crs")?.get("properties")?.get("name")?.as_str()?)
+}
+
+/// The member that names a system.
+fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result<()> {
+    match crs.and_then(Crs::urn) {
+        Some(name) => write!(out, r#""crs":{{"type":"name","properties":{{"name":"{name}"}}}},"#),
+        None => Ok(()),
+    }
 }
 
 fn geometries(content: &GeoJson) -> Vec<&Geometry> {
@@ -37,11 +80,56 @@ fn geometries(content: &GeoJson) -> Vec<&Geometry> {
     }
 }
 
+/// Positions, and how many lines and polygons they are the corners of.
+#[derive(Default)]
+struct Found<'a> {
+    positions: Vec<&'a [f64]>,
+    shapes: usize,
+}
+
+impl<'a> Found<'a> {
+    fn collect(&mut self, geometry: &'a Geometry) {
+        match &geometry.value {
+            GeometryValue::Point { coordinates } => self.positions.push(coordinates.as_slice()),
+            GeometryValue::MultiPoint { coordinates } => self.line(coordinates),
+            GeometryValue::LineString { coordinates } => {
+                self.shapes += 1;
+                self.line(coordinates);
+            }
+            GeometryValue::MultiLineString { coordinates } => {
+                self.shapes += coordinates.len();
+                coordinates.iter().for_each(|line| self.line(line));
+            }
+            GeometryValue::Polygon { coordinates } => self.polygon(coordinates),
+            GeometryValue::MultiPolygon { coordinates } => {
+                coordinates.iter().for_each(|polygon| self.polygon(polygon));
+            }
+            GeometryValue::GeometryCollection { geometries } => {
+                geometries.iter().for_each(|g| self.collect(g))
+            }
+        }
+    }
+
+    fn line(&mut self, positions: &'a [geojson::Position]) {
+        self.positions.extend(positions.iter().map(|p| p.as_slice()));
+    }
+
+    fn polygon(&mut self, rings: &'a [Vec<geojson::Position>]) {
+        self.shapes += 1;
+        for ring in rings {
+            match ring.split_last() {
+                Some((last, rest)) if rest.first() == Some(last) => self.line(rest),
+                _ => self.line(ring),
+            }
+        }
+    }
+}
+
 /// Reads the rings of all Polygon and MultiPolygon geometries.
 pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    let content = parse(source)?;
+    let documents = parse(source)?;
     let mut rings = Vec::new();
-    for geometry in geometries(&content) {
+    for geometry in documents.iter().flat_map(geometries) {
         match &geometry.value {
             GeometryValue::Polygon { coordinates } => rings.extend(coordinates),
             GeometryValue::MultiPolygon { coordinates } => rings.extend(coordinates.iter().flatten()),
@@ -58,7 +146,9 @@ pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, 
 /// Writes a feature for each site, with its index and the area of its cell; without geometry where the cell is
 /// empty.
 pub(crate) fn write_cells(out: &mut dyn Write, diagram: &Diagram) -> io::Result<()> {
-    write!(out, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
+    write!(out, "{{\"type\":\"FeatureCollection\",")?;
+    write_system(out, diagram.crs)?;
+    write!(out, "\"features\":[")?;
     for (i, v) in diagram.triangulation.vertices().enumerate() {
         let (separator, site, area) = (if i == 0 { "" } else { "," }, v.index(), diagram.cells.area(v));
         // Beyond the range it is infinite, which JSON has no number for.
@@ -99,22 +189,11 @@ fn write_polygon(out: &mut dyn Write, rings: &[Ring]) -> io::Result<()> {
     write!(out, "]")
 }
 
-fn collect<'a>(geometry: &'a Geometry, positions: &mut Vec<&'a [f64]>) {
-    match &geometry.value {
-        GeometryValue::Point { coordinates } => positions.push(coordinates.as_slice()),
-        GeometryValue::MultiPoint { coordinates } => {
-            positions.extend(coordinates.iter().map(|p| p.as_slice()));
-        }
-        GeometryValue::GeometryCollection { geometries } => {
-            geometries.iter().for_each(|g| collect(g, positions));
-        }
-        _ => {}
-    }
-}
-
 /// Writes a feature for each triangle, with the indices of its corners.
 pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    write!(out, "{{\"type\":\"FeatureCollection\",\"features\":[")?;
+    write!(out, "{{\"type\":\"FeatureCollection\",")?;
+    write_system(out, surface.crs)?;
+    write!(out, "\"features\":[")?;
     let positions: Vec<_> = surface.positions().collect();
     for (i, triangle) in surface.triangles().enumerate() {
         let separator = if i == 0 { "" } else { "," };

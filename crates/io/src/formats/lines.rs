@@ -1,46 +1,120 @@
-//! Lines of text formats: numbered, without comments, one buffer for all.
+//! Lines of text formats: numbered, without comments, one buffer for all. Lines end with LF, CR LF or CR alone.
 
+use std::borrow::Cow;
+use std::io;
+
+use crate::error::excerpt;
 use crate::{Error, Source};
+
+/// No line of a text format is longer; what is longer is no text.
+const LONGEST: usize = 1 << 26;
 
 /// Reads lines; what follows `#` is left out, and so are lines that are empty then.
 pub(super) struct Lines {
     source: Box<dyn Source>,
-    buffer: String,
+    bytes: Vec<u8>,
+    text: String,
     number: usize,
 }
 
 impl Lines {
     pub(super) fn new(source: Box<dyn Source>) -> Self {
-        Self { source, buffer: String::new(), number: 0 }
+        Self { source, bytes: Vec::new(), text: String::new(), number: 0 }
     }
 
-    /// The next line with something on it.
+    /// The next line with something on it besides a comment.
     pub(super) fn next(&mut self) -> Result<Option<Line<'_>>, Error> {
-        loop {
-            self.buffer.clear();
-            let length = self.source.read_line(&mut self.buffer).map_err(|error| {
-                if error.kind() == std::io::ErrorKind::InvalidData {
-                    Error::Line { line: self.number + 1, what: "it is not text".to_owned() }
-                } else {
-                    error.into()
-                }
-            })?;
-            if length == 0 {
-                return Ok(None);
-            }
-            self.number += 1;
-            if !content(&self.buffer).is_empty() {
-                break;
+        while self.advance()? {
+            if !content(&self.text).is_empty() {
+                return Ok(Some(Line { text: content(&self.text), number: self.number }));
             }
         }
-        let text = content(&self.buffer);
-        Ok(Some(Line { text, number: self.number }))
+        Ok(None)
+    }
+
+    /// The next line with something on it that is no comment as a whole.
+    pub(super) fn next_whole(&mut self) -> Result<Option<Line<'_>>, Error> {
+        while self.advance()? {
+            let text = self.text.trim();
+            if !text.is_empty() && !text.starts_with('#') {
+                return Ok(Some(Line { text: self.text.trim(), number: self.number }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Reads the next line; false at the end of the file.
+    fn advance(&mut self) -> Result<bool, Error> {
+        if !self.read_line()? {
+            return Ok(false);
+        }
+        self.number += 1;
+        let bytes = match self.number {
+            1 => self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes),
+            _ => &self.bytes,
+        };
+        if self.number == 1 && (bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")) {
+            return Err(self.error("it is UTF-16: save it as UTF-8"));
+        }
+        if bytes.contains(&0) {
+            return Err(self.error("it is not text"));
+        }
+        self.text.clear();
+        self.text.push_str(&decoded(bytes));
+        Ok(true)
+    }
+
+    fn error(&self, what: &str) -> Error {
+        Error::Line { line: self.number, what: what.to_owned() }
+    }
+
+    /// Reads the bytes up to the end of a line.
+    fn read_line(&mut self) -> Result<bool, Error> {
+        self.bytes.clear();
+        let mut any = false;
+        loop {
+            let ahead = match self.source.fill_buf() {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+                ahead => ahead?,
+            };
+            if ahead.is_empty() {
+                return Ok(any);
+            }
+            any = true;
+            let end = ahead.iter().position(|&byte| byte == b'\n' || byte == b'\r');
+            let taken = end.unwrap_or(ahead.len());
+            self.bytes.extend_from_slice(&ahead[..taken]);
+            let Some(end) = end else {
+                self.source.consume(taken);
+                if self.bytes.len() > LONGEST {
+                    return Err(Error::Line {
+                        line: self.number + 1,
+                        what: "it is too long for text".to_owned(),
+                    });
+                }
+                continue;
+            };
+            let returned = ahead[end] == b'\r';
+            self.source.consume(taken + 1);
+            if returned && self.source.fill_buf()?.first() == Some(&b'\n') {
+                self.source.consume(1);
+            }
+            return Ok(true);
+        }
     }
 }
 
-/// A line without comment and surrounding white space (and byte order mark).
+/// Text as UTF-8, or else as Latin-1, where every byte is a letter.
+fn decoded(bytes: &[u8]) -> Cow<'_, str> {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().copied().map(char::from).collect()),
+    }
+}
+
+/// A line without comment and surrounding white space.
 fn content(line: &str) -> &str {
-    line.split('#').next().unwrap_or_default().trim_start_matches('\u{feff}').trim()
+    line.split('#').next().unwrap_or_default().trim()
 }
 
 /// A line of text and its number from 1.
@@ -58,7 +132,8 @@ impl Line<'_> {
     /// The next word as a number.
     pub(super) fn number<T: std::str::FromStr>(&self, word: Option<&str>, meaning: &str) -> Result<T, Error> {
         let word = word.ok_or_else(|| self.error(format!("{meaning} is missing")))?;
-        word.parse()
-            .map_err(|_| self.error(format!("{meaning} is {word:?}, not a number of the kind expected")))
+        word.parse().map_err(|_| {
+            self.error(format!("{meaning} is {:?}, not a number of the kind expected", excerpt(word)))
+        })
     }
 }

@@ -1,10 +1,12 @@
 //! The formats, one file each.
 
+pub(crate) mod e57;
 pub(crate) mod geojson;
 pub(crate) mod las;
 mod lines;
 pub(crate) mod npy;
 pub(crate) mod obj;
+pub(crate) mod off;
 pub(crate) mod ply;
 pub(crate) mod raw;
 pub(crate) mod stl;

@@ -1,9 +1,10 @@
-//! NumPy arrays: points are float64 of shape (n, 2) or (n, 3), triangles integers of shape (t, 3).
+//! NumPy arrays and archives of them: points are numbers of shape (n, 2) or (n, 3), triangles integers of shape (t, 3).
 
-use std::io::{self, BufReader, BufWriter, Write};
+use std::io::{self, BufReader, BufWriter, Cursor, Read, Seek, SeekFrom, Write};
 use std::sync::mpsc::sync_channel;
 
 use npyz::{DType, NpyFile, Order, WriterBuilder};
+use zip::ZipArchive;
 
 use crate::{Cloud, Error, Source};
 
@@ -11,60 +12,180 @@ use crate::{Cloud, Error, Source};
 /// times faster than from and to one behind a pointer.
 const BUFFER: usize = 1 << 18;
 
-type File = NpyFile<BufReader<Box<dyn Source>>>;
+type File<R> = NpyFile<BufReader<R>>;
 
-fn open(source: Box<dyn Source>) -> Result<File, Error> {
-    NpyFile::new(BufReader::with_capacity(BUFFER, source)).map_err(|error| match error.kind() {
-        io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
-        _ => Error::content(format!("no NumPy array: {error}")),
-    })
-}
-
-/// The rows and columns of a two-dimensional array in C order; NumPy writes Fortran order for transposed ones.
-fn shape(file: &File, columns: &[u64], what: &str) -> Result<[usize; 2], Error> {
-    match *file.shape() {
-        [rows, width] if columns.contains(&width) => Ok([rows as usize, width as usize]),
-        ref other => Err(Error::content(format!("the array has the shape {other:?}, not {what}"))),
+/// Reads the header, after a look at how long it claims to be.
+fn open<R: Read + Seek>(mut source: R) -> Result<File<R>, Error> {
+    const MAGIC: &[u8] = b"\x93NUMPY";
+    let early = |_| Error::Truncated("inside the array's header".to_owned());
+    let length = source.seek(SeekFrom::End(0))?;
+    source.rewind()?;
+    let mut start = [0; 12];
+    let magic = source.read_exact(&mut start[..MAGIC.len()]);
+    if magic.is_err() || !start.starts_with(MAGIC) {
+        return Err(Error::content("no NumPy array: it does not begin as one"));
     }
+    source.read_exact(&mut start[MAGIC.len()..10]).map_err(early)?;
+    let mut header = 10 + u64::from(u16::from_le_bytes([start[8], start[9]]));
+    if start[6] > 1 {
+        source.read_exact(&mut start[10..]).map_err(early)?;
+        header = 12 + u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]]));
+    }
+    if header > length {
+        return Err(Error::Truncated("inside the array's header".to_owned()));
+    }
+    source.rewind()?;
+    let file =
+        NpyFile::new(BufReader::with_capacity(BUFFER, source)).map_err(|error| match error.kind() {
+            io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
+            _ => Error::content(format!("no NumPy array: {error}")),
+        })?;
+    if let ([rows, columns], Some(size)) = (file.shape(), file.dtype().num_bytes()) {
+        let row = columns.saturating_mul(size as u64).max(1);
+        let complete = (length - header) / row;
+        if complete < *rows && *columns > 0 {
+            return Err(Error::Truncated(format!("inside row {complete} of {rows}")));
+        }
+    }
+    Ok(file)
 }
 
-fn type_name(file: &File) -> String {
+fn type_name<R: Read>(file: &File<R>) -> String {
     match file.dtype() {
         DType::Plain(plain) => plain.to_string(),
         other => other.descr(),
     }
 }
 
-pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let file = open(source)?;
-    let [rows, columns] = shape(&file, &[2, 3], "(n, 2) or (n, 3)")?;
-    let (found, order) = (type_name(&file), file.order());
-    let wrong = |_| Error::content(format!("the array is of type {found}, not float64"));
-    let mut values = file.data::<f64>().map_err(wrong)?;
-    let mut next = |row: usize| match values.next() {
-        Some(Err(error)) if error.kind() != io::ErrorKind::UnexpectedEof => Err(error.into()),
-        Some(Ok(value)) => Ok(value),
-        _ => Err(Error::Truncated(format!("inside row {row} of {rows}"))),
-    };
-    let mut cloud = Cloud::with_capacity(rows, columns == 3);
-    if order == Order::Fortran {
-        // Column after column: all x, all y, all z.
-        for row in 0..rows {
-            cloud.xy.push([next(row)?, 0.0]);
+/// Calls `$take` with the numbers of an array, whatever their type, each made another by `$convert`.
+macro_rules! numbers {
+    ($file:expr, $found:expr, $take:expr, $convert:expr, $($name:literal $from:ty),+) => {
+        match $found.trim_start_matches(['<', '>', '|', '=']) {
+            $($name => {
+                let data = $file.data::<$from>().map_err(|error| Error::content(error.to_string()))?;
+                let mut place = 0;
+                $take(&mut data.map(|value| {
+                    let value = value.map_err(|error| ended(error, place))?;
+                    place += 1;
+                    $convert(value)
+                }))
+            })+
+            found => Err(Error::content(format!("the array is of type {found}, which is not read here"))),
         }
-        for (row, point) in cloud.xy.iter_mut().enumerate() {
-            point[1] = next(row)?;
+    };
+}
+
+fn ended(error: io::Error, at: usize) -> Error {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => Error::Truncated(format!("after {at} numbers")),
+        _ => error.into(),
+    }
+}
+
+/// A whole number that a coordinate cannot be is refused: beyond 2^53 they are not all among the coordinates.
+fn exact(value: i128) -> Result<f64, Error> {
+    let near = value as f64;
+    if near as i128 == value {
+        Ok(near)
+    } else {
+        Err(Error::content(format!("{value} is no coordinate: it has more digits than float64")))
+    }
+}
+
+/// Reads points of shape (n, 2) or (n, 3), or transposed, of floating point or whole numbers.
+pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
+    let file = open(source)?;
+    let shape = file.shape().to_vec();
+    let (rows, columns, transposed) = match shape[..] {
+        [rows, columns @ (2 | 3)] => (rows as usize, columns as usize, false),
+        [columns @ (2 | 3), rows] => (rows as usize, columns as usize, true),
+        _ => return Err(Error::content(format!("the array has the shape {shape:?}, not (n, 2) or (n, 3)"))),
+    };
+    // Point after point, or column after column: all x, all y, all z.
+    let by_columns = (file.order() == Order::Fortran) != transposed;
+    let found = type_name(&file);
+    // The same words serve single and double precision.
+    #[allow(clippy::useless_conversion)]
+    let mut cloud = if found.contains('f') {
+        let take = |values: &mut dyn Iterator<Item = _>| fill(values, rows, columns, by_columns);
+        match found.as_str() {
+            // The usual type, for which the compiler sees all of the loop.
+            "<f8" => {
+                let values = file.data::<f64>().map_err(|error| Error::content(error.to_string()))?;
+                fill(values.map(|value| value.map_err(|error| ended(error, 0))), rows, columns, by_columns)
+            }
+            _ => numbers!(file, found, take, |value| Ok(f64::from(value)), "f8" f64, "f4" f32),
+        }
+    } else {
+        let take = |values: &mut dyn Iterator<Item = _>| fill(values, rows, columns, by_columns);
+        numbers!(file, found, take, |value| exact(i128::from(value)),
+            "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)
+    }?;
+    if transposed {
+        cloud.remarks.push(format!("the array of shape ({columns}, {rows}) was taken as {rows} points"));
+    }
+    Ok(cloud)
+}
+
+/// Points from the numbers of an array.
+fn fill(
+    mut values: impl Iterator<Item = Result<f64, Error>>,
+    rows: usize,
+    columns: usize,
+    by_columns: bool,
+) -> Result<Cloud, Error> {
+    let mut next = || values.next().unwrap_or_else(|| Err(Error::Truncated("inside the numbers".to_owned())));
+    let mut cloud = Cloud::with_capacity(rows, columns == 3);
+    if by_columns {
+        for _ in 0..rows {
+            cloud.xy.push([next()?, 0.0]);
+        }
+        for point in &mut cloud.xy {
+            point[1] = next()?;
         }
         if let Some(heights) = &mut cloud.z {
-            for row in 0..rows {
-                heights.push(next(row)?);
+            for _ in 0..rows {
+                heights.push(next()?);
             }
         }
     } else {
-        for row in 0..rows {
-            let xy = [next(row)?, next(row)?];
-            cloud.push(xy, if columns == 3 { next(row)? } else { 0.0 });
+        for _ in 0..rows {
+            let xy = [next()?, next()?];
+            cloud.push(xy, if columns == 3 { next()? } else { 0.0 });
         }
+    }
+    Ok(cloud)
+}
+
+/// Reads the array of points of an archive: the one that is called so, or the only one that has the shape of points.
+pub(crate) fn read_archive(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    const NAMES: [&str; 7] = ["points", "pts", "xy", "xyz", "coords", "coordinates", "vertices"];
+    let broken = |error: zip::result::ZipError| Error::content(format!("no NumPy archive: {error}"));
+    let mut archive = ZipArchive::new(source).map_err(broken)?;
+    let mut arrays = Vec::new();
+    let mut names = Vec::new();
+    for i in 0..archive.len() {
+        let mut entry = archive.by_index(i).map_err(broken)?;
+        let name = entry.name().map_err(broken)?.trim_end_matches(".npy").to_owned();
+        let mut bytes = Vec::new();
+        entry.read_to_end(&mut bytes)?;
+        if let Ok(cloud) = read_points(Cursor::new(bytes)) {
+            arrays.push((name.clone(), cloud));
+        }
+        names.push(name);
+    }
+    let called = NAMES.iter().find_map(|name| arrays.iter().position(|(called, _)| called == name));
+    let chosen = called.or_else(|| (arrays.len() == 1).then_some(0));
+    let Some(chosen) = chosen else {
+        return Err(Error::content(format!(
+            "of its arrays {} {} points: call one of them points",
+            names.join(", "),
+            if arrays.is_empty() { "none has the shape of" } else { "several could be the" }
+        )));
+    };
+    let (name, mut cloud) = arrays.swap_remove(chosen);
+    if names.len() > 1 {
+        cloud.remarks.push(format!("the array {name} of {} was taken", names.join(", ")));
     }
     Ok(cloud)
 }
@@ -72,30 +193,25 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
 /// Reads rows of N indices.
 pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
     let file = open(source)?;
-    let [rows, _] = shape(&file, &[N as u64], &format!("(t, {N})"))?;
-    let (found, order) = (type_name(&file), file.order());
-    let values: Vec<i128> = match found.trim_start_matches(['<', '>', '|', '=']) {
-        "i4" => integers(file.data::<i32>())?,
-        "u4" => integers(file.data::<u32>())?,
-        "i8" => integers(file.data::<i64>())?,
-        "u8" => integers(file.data::<u64>())?,
-        _ => return Err(Error::content(format!("the array is of type {found}, not an integer type"))),
+    let [rows, width] = file.shape()[..] else {
+        return Err(Error::content(format!("the array has the shape {:?}, not (t, {N})", file.shape())));
     };
-    if let Some(&negative) = values.iter().find(|&&i| i < 0) {
-        return Err(Error::content(format!("the array has the negative index {negative}")));
+    if width != N as u64 {
+        return Err(Error::content(format!("the array has the shape [{rows}, {width}], not (t, {N})")));
     }
+    let (rows, order) = (rows as usize, file.order());
+    let index = |value: i128| {
+        u64::try_from(value).map_err(|_| Error::content(format!("the array has the negative index {value}")))
+    };
+    let found = type_name(&file);
+    let collect = |values: &mut dyn Iterator<Item = _>| values.collect::<Result<Vec<u64>, Error>>();
+    let values = numbers!(file, found, collect, |value| index(i128::from(value)),
+        "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)?;
     let at = |row: usize, k: usize| match order {
-        Order::C => values[N * row + k] as u64,
-        Order::Fortran => values[k * rows + row] as u64,
+        Order::C => values[N * row + k],
+        Order::Fortran => values[k * rows + row],
     };
     Ok((0..rows).map(|row| std::array::from_fn(|k| at(row, k))).collect())
-}
-
-fn integers<T: Into<i128>, E: std::fmt::Display>(
-    values: Result<impl Iterator<Item = io::Result<T>>, E>,
-) -> Result<Vec<i128>, Error> {
-    let values = values.map_err(|error| Error::content(error.to_string()))?;
-    Ok(values.map(|value| value.map(Into::into)).collect::<io::Result<_>>()?)
 }
 
 /// Writes so many rows of indices: int64 of shape (count, N), from 0.

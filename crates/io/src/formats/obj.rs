@@ -50,6 +50,9 @@ fn corner(line: &Line, word: &str, vertices: i64) -> Result<u64, Error> {
 }
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    if let Some(number) = shape.crs().and_then(|crs| crs.epsg) {
+        writeln!(out, "# crs EPSG:{number}")?;
+    }
     for [x, y, z] in shape.positions() {
         writeln!(out, "v {x:?} {y:?} {z:?}")?;
     }

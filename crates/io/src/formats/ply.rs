@@ -3,10 +3,13 @@
 use std::io::{self, BufRead, Write};
 
 use ply_rs_bw::parser::{Parser, Reader};
-use ply_rs_bw::ply::{DefaultElement, ElementDef, Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{
+    DefaultElement, ElementDef, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
+};
 
 use super::in_space;
-use crate::{Cloud, Error, Shape, Source};
+use crate::error::excerpt;
+use crate::{Cloud, Crs, Error, Shape, Source};
 
 struct Vertex([f64; 3]);
 
@@ -26,6 +29,9 @@ impl PropertyAccess for Vertex {
             Property::UInt(x) => x.into(),
             Property::Short(x) => x.into(),
             Property::UShort(x) => x.into(),
+            Property::Char(x) => x.into(),
+            Property::UChar(x) => x.into(),
+            // Lists are refused by the header.
             _ => return PropertyAccessResult::Ignored,
         };
         PropertyAccessResult::Set
@@ -51,6 +57,7 @@ impl PropertyAccess for Face {
             Property::ListShort(list) => list.into_iter().map(|i| index(i.into())).collect(),
             Property::ListUShort(list) => list.into_iter().map(u64::from).collect(),
             Property::ListUChar(list) => list.into_iter().map(u64::from).collect(),
+            Property::ListChar(list) => list.into_iter().map(|i| index(i.into())).collect(),
             _ => return PropertyAccessResult::Ignored,
         };
         PropertyAccessResult::Set
@@ -58,27 +65,37 @@ impl PropertyAccess for Face {
 }
 
 fn broken(error: impl std::fmt::Display) -> Error {
-    Error::content(format!("PLY: {error}"))
+    let text = error.to_string();
+    Error::content(format!("PLY: {}", text.lines().next().unwrap_or_default()))
 }
 
 /// Elements parsed at a time: bounded memory beside the result.
 const CHUNK: usize = 50_000;
 
-/// Hands the elements of one name to `take`, chunk by chunk, and skips those before it.
+/// Hands the elements of one name to `take`, chunk by chunk, and skips those before it. `expect` judges their
+/// definition. Returns the header.
 fn elements<E: PropertyAccess>(
     source: impl BufRead,
     name: &str,
+    expect: impl Fn(&ElementDef) -> Result<(), Error>,
     mut take: impl FnMut(&ElementDef, Vec<E>) -> Result<(), Error>,
-) -> Result<(), Error> {
+) -> Result<Header, Error> {
     let mut reader = Reader::new(source);
     let header = Parser::<DefaultElement>::new().read_header(&mut reader).map_err(broken)?;
     for element in header.elements.values() {
+        let wanted = element.name == name;
+        if element.properties.is_empty() && element.count > 0 {
+            return Err(broken(format!("the elements {:?} have no properties", excerpt(&element.name))));
+        }
+        if wanted {
+            expect(element)?;
+        }
         let mut part = element.clone();
         let mut rest = element.count;
         while rest > 0 {
             part.count = rest.min(CHUNK);
             rest -= part.count;
-            if element.name == name {
+            if wanted {
                 let parser = Parser::<E>::new();
                 take(element, parser.read_payload_for_element(&mut reader, &part, &header).map_err(broken)?)?;
             } else {
@@ -86,45 +103,62 @@ fn elements<E: PropertyAccess>(
                 parser.read_payload_for_element(&mut reader, &part, &header).map_err(broken)?;
             }
         }
-        if element.name == name {
+        if wanted {
             break;
+        }
+    }
+    Ok(header)
+}
+
+/// The coordinates must be single numbers.
+fn has_coordinates(element: &ElementDef) -> Result<(), Error> {
+    for axis in ["x", "y", "z"] {
+        match element.properties.get(axis).map(|property| &property.data_type) {
+            Some(PropertyType::List(..)) => return Err(broken(format!("{axis} is a list, not a number"))),
+            None if axis != "z" => return Err(broken("the vertices have no properties x and y")),
+            _ => {}
         }
     }
     Ok(())
 }
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let mut cloud = None;
-    elements::<Vertex>(source, "vertex", |element, vertices| {
-        let has = |axis: &str| element.properties.contains_key(axis);
-        if !has("x") || !has("y") {
-            return Err(Error::content("PLY: the vertices have no properties x and y"));
-        }
-        let cloud = cloud.get_or_insert_with(|| Cloud::with_capacity(element.count, has("z")));
+    let mut points = None;
+    let header = elements::<Vertex>(source, "vertex", has_coordinates, |element, vertices| {
+        let with_heights = element.properties.contains_key("z");
+        let cloud =
+            points.get_or_insert_with(|| Cloud::with_capacity(element.count.min(CHUNK), with_heights));
         vertices.iter().for_each(|&Vertex([x, y, z])| cloud.push([x, y], z));
         Ok(())
     })?;
-    Ok(cloud.unwrap_or_default())
+    let mut cloud = points.unwrap_or_default();
+    cloud.crs = header.comments.iter().find_map(|comment| Crs::of_name(comment.strip_prefix("crs ")?));
+    Ok(cloud)
 }
 
 pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, Error> {
     let mut triangles = Vec::new();
-    elements::<Face>(source, "face", |_, faces| {
-        for face in faces {
-            let i = triangles.len();
-            let corners: Result<[u64; 3], _> = face.0.try_into();
-            triangles.push(corners.map_err(|list: Vec<u64>| {
-                Error::content(format!("PLY: face {i} has {} corners, not 3", list.len()))
-            })?);
-        }
-        Ok(())
-    })?;
+    elements::<Face>(
+        source,
+        "face",
+        |_| Ok(()),
+        |_, faces| {
+            for face in faces {
+                let i = triangles.len();
+                let corners: Result<[u64; 3], _> = face.0.try_into();
+                triangles.push(corners.map_err(|list: Vec<u64>| {
+                    Error::content(format!("PLY: face {i} has {} corners, not 3", list.len()))
+                })?);
+            }
+            Ok(())
+        },
+    )?;
     Ok(triangles)
 }
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let (points, faces) = (shape.positions().count(), shape.triangles().count());
-    header(out, points, Some(faces))?;
+    header(out, points, Some(faces), shape.crs())?;
     for position in shape.positions() {
         write_position(out, position)?;
     }
@@ -138,12 +172,16 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
 }
 
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
-    header(out, points.len(), None)?;
+    header(out, points.len(), None, None)?;
     points.iter().try_for_each(|p| write_position(out, in_space(p)))
 }
 
-fn header(out: &mut dyn Write, points: usize, faces: Option<usize>) -> io::Result<()> {
-    write!(out, "ply\nformat binary_little_endian 1.0\nelement vertex {points}\n")?;
+fn header(out: &mut dyn Write, points: usize, faces: Option<usize>, crs: Option<&Crs>) -> io::Result<()> {
+    write!(out, "ply\nformat binary_little_endian 1.0\n")?;
+    if let Some(number) = crs.and_then(|crs| crs.epsg) {
+        writeln!(out, "comment crs EPSG:{number}")?;
+    }
+    writeln!(out, "element vertex {points}")?;
     write!(out, "property double x\nproperty double y\nproperty double z\n")?;
     if let Some(faces) = faces {
         write!(out, "element face {faces}\nproperty list uchar uint vertex_indices\n")?;

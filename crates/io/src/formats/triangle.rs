@@ -1,12 +1,15 @@
 //! The files of Shewchuk's Triangle: `.node`, `.ele`, `.neigh`, `.edge`. Read with indices from 0 or from 1,
-//! written from 0.
+//! written with the base of the points that were read.
 
 use std::io::{self, Write};
 
-use delone::{Delaunay2, TriangleId};
+use delone::TriangleId;
 
 use super::lines::Lines;
 use crate::{Cloud, Error, Shape, Source, Surface};
+
+/// Points there is room for before they are read: what a header claims is not believed beyond.
+const AHEAD: usize = 1 << 16;
 
 /// Points: `count dimension attributes markers`, then `index x y ...` each. A dimension of 3 (as TetGen has it)
 /// or else the first attribute gives the height.
@@ -24,13 +27,22 @@ pub(crate) fn read_node(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let attributes: usize =
         words.next().map_or(Ok(0), |word| line.number(Some(word), "the number of attributes"))?;
     let with_heights = dimension == 3 || attributes > 0;
-    let mut cloud = Cloud::with_capacity(count, with_heights);
+    let mut cloud = Cloud::with_capacity(count.min(AHEAD), with_heights);
+    if dimension == 2 && attributes > 0 {
+        cloud.remarks.push(format!("the first of {attributes} attributes was taken as height"));
+    }
     for i in 0..count {
         let Some(line) = lines.next()? else {
             return Err(Error::Truncated(format!("after {i} of {count} points")));
         };
         let mut words = line.text.split_whitespace();
-        let _: u64 = line.number(words.next(), "the index")?;
+        let index: usize = line.number(words.next(), "the index")?;
+        if i == 0 {
+            cloud.base = index.min(1);
+        }
+        if index != cloud.base + i {
+            return Err(line.error(format!("the index is {index} where {} follows", cloud.base + i)));
+        }
         let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
         cloud.push(xy, if with_heights { line.number(words.next(), "z")? } else { 0.0 });
     }
@@ -78,7 +90,7 @@ pub(crate) fn write_node(out: &mut dyn Write, surface: &Surface) -> io::Result<(
     let attributes = usize::from(surface.heights.is_some());
     writeln!(out, "{} 2 {attributes} 0", surface.triangulation.points().len())?;
     for (i, [x, y, z]) in surface.positions().enumerate() {
-        write!(out, "{i} {x:?} {y:?}")?;
+        write!(out, "{} {x:?} {y:?}", surface.base + i)?;
         if attributes == 1 {
             write!(out, " {z:?}")?;
         }
@@ -87,61 +99,58 @@ pub(crate) fn write_node(out: &mut dyn Write, surface: &Surface) -> io::Result<(
     Ok(())
 }
 
-pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+pub(crate) fn write_points<const D: usize>(
+    out: &mut dyn Write,
+    base: usize,
+    points: &[[f64; D]],
+) -> io::Result<()> {
     writeln!(out, "{} {D} 0 0", points.len())?;
     for (i, p) in points.iter().enumerate() {
-        write!(out, "{i}")?;
+        write!(out, "{}", base + i)?;
         p.iter().try_for_each(|x| write!(out, " {x:?}"))?;
         writeln!(out)?;
     }
     Ok(())
 }
 
-/// Writes simplices of N corners, numbered.
+/// Writes simplices of N corners; they and the points count from `base`.
 pub(crate) fn write_ele<const N: usize>(
     out: &mut dyn Write,
+    base: usize,
     simplices: impl Iterator<Item = [usize; N]>,
 ) -> io::Result<()> {
     let simplices: Vec<[usize; N]> = simplices.collect();
     writeln!(out, "{} {N} 0", simplices.len())?;
     for (i, corners) in simplices.iter().enumerate() {
-        write!(out, "{i}")?;
-        corners.iter().try_for_each(|corner| write!(out, " {corner}"))?;
+        write!(out, "{}", base + i)?;
+        corners.iter().try_for_each(|corner| write!(out, " {}", base + corner))?;
         writeln!(out)?;
     }
     Ok(())
 }
 
-/// Neighbours opposite corners 0, 1 and 2, numbered as in the `.ele` file; -1 across the hull.
+/// Neighbours opposite corners 0, 1 and 2, numbered as in the `.ele` file; -1 across the border.
 pub(crate) fn write_neigh(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
     let mesh = surface.triangulation.mesh();
     let mut numbers = vec![-1_i64; mesh.slot_count()];
-    for (i, t) in mesh.triangles().enumerate() {
-        numbers[t.index()] = i as i64;
+    for (i, t) in surface.cells().enumerate() {
+        numbers[t.index()] = (surface.base + i) as i64;
     }
-    writeln!(out, "{} 3", mesh.triangles().count())?;
-    for (i, t) in mesh.triangles().enumerate() {
+    writeln!(out, "{} 3", surface.triangle_count())?;
+    for (i, t) in surface.cells().enumerate() {
         // The neighbour opposite corner k is across the edge that leaves the next corner.
         let [across_0, across_1, across_2] = mesh.adjacent(t).map(|t: TriangleId| numbers[t.index()]);
-        writeln!(out, "{i} {across_1} {across_2} {across_0}")?;
+        writeln!(out, "{} {across_1} {across_2} {across_0}", surface.base + i)?;
     }
     Ok(())
 }
 
-/// Edges with a marker that is 1 on the hull.
+/// Edges with a marker that is 1 on the border.
 pub(crate) fn write_edge(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    let triangulation: &Delaunay2 = surface.triangulation;
-    let mesh = triangulation.mesh();
-    writeln!(out, "{} 1", triangulation.edges().count())?;
-    for (i, e) in mesh.undirected_edges().enumerate() {
-        let on_hull = mesh.apex(e).is_ghost() || mesh.apex(mesh.twin(e)).is_ghost();
-        writeln!(
-            out,
-            "{i} {} {} {}",
-            mesh.origin(e).index(),
-            mesh.destination(e).index(),
-            u8::from(on_hull)
-        )?;
+    writeln!(out, "{} 1", surface.edges().count())?;
+    for (i, e) in surface.edges().enumerate() {
+        let [from, to] = surface.ends(e).map(|v| surface.base + v.index());
+        writeln!(out, "{} {from} {to} {}", surface.base + i, u8::from(surface.is_border(e)))?;
     }
     Ok(())
 }

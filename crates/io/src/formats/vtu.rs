@@ -20,11 +20,21 @@ pub(crate) fn write_cells<const N: usize>(
     let simplices: Vec<[usize; N]> = simplices.collect();
     let (points, cells) = (shape.positions().count(), simplices.len());
     let kind = KINDS.into_iter().find(|kind| kind.0 == N).map_or(0, |kind| kind.1);
-    let sizes =
-        [24 * points, 8 * points * usize::from(shape.heights().is_some()), 8 * N * cells, 8 * cells, cells];
     // Each array is preceded by its length in eight bytes.
-    let offsets: Vec<usize> =
-        sizes.iter().scan(0, |offset, size| Some(std::mem::replace(offset, *offset + size + 8))).collect();
+    let mut end = 0;
+    let mut place = |size: usize| {
+        let start = end;
+        end += size + 8;
+        start
+    };
+    let heights = shape.heights();
+    let offsets = [
+        place(24 * points),
+        heights.map_or(0, |heights| place(8 * heights.len())),
+        place(8 * N * cells),
+        place(8 * cells),
+        place(cells),
+    ];
     writeln!(
         out,
         r#"<?xml version="1.0"?>
@@ -33,7 +43,7 @@ pub(crate) fn write_cells<const N: usize>(
 <Points><DataArray type="Float64" NumberOfComponents="3" format="appended" offset="{}"/></Points>"#,
         offsets[0]
     )?;
-    if shape.heights().is_some() {
+    if heights.is_some() {
         let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
         writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
     }
@@ -46,26 +56,22 @@ pub(crate) fn write_cells<const N: usize>(
         offsets[2], offsets[3], offsets[4]
     )?;
     write!(out, "<AppendedData encoding=\"raw\">\n_")?;
-    let length = |out: &mut dyn Write, k: usize| out.write_all(&(sizes[k] as u64).to_le_bytes());
-    length(out, 0)?;
-    for x in shape.positions().flatten() {
-        out.write_all(&x.to_le_bytes())?;
+    array(out, 3 * points, shape.positions().flatten().map(f64::to_le_bytes))?;
+    if let Some(heights) = heights {
+        array(out, heights.len(), heights.iter().map(|z| z.to_le_bytes()))?;
     }
-    length(out, 1)?;
-    for z in shape.heights().unwrap_or_default() {
-        out.write_all(&z.to_le_bytes())?;
-    }
-    length(out, 2)?;
-    for index in simplices.iter().flatten() {
-        out.write_all(&(*index as i64).to_le_bytes())?;
-    }
-    length(out, 3)?;
-    for end in 1..=cells {
-        out.write_all(&((N * end) as i64).to_le_bytes())?;
-    }
-    length(out, 4)?;
-    for _ in 0..cells {
-        out.write_all(&[kind])?;
-    }
+    array(out, N * cells, simplices.iter().flatten().map(|&index| (index as i64).to_le_bytes()))?;
+    array(out, cells, (1..=cells).map(|end| ((N * end) as i64).to_le_bytes()))?;
+    array(out, cells, (0..cells).map(|_| [kind]))?;
     writeln!(out, "\n</AppendedData>\n</VTKFile>")
+}
+
+/// Writes an array of so many values, its length first.
+fn array<const B: usize>(
+    out: &mut dyn Write,
+    count: usize,
+    mut values: impl Iterator<Item = [u8; B]>,
+) -> io::Result<()> {
+    out.write_all(&((B * count) as u64).to_le_bytes())?;
+    values.try_for_each(|bytes| out.write_all(&bytes))
 }

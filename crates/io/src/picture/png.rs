@@ -40,7 +40,7 @@ pub(super) fn draw(
     }
     let links = options.links.iter().map(|link| link.map(|p| view.place(p)));
     canvas.lines(links, LINK, 255, 2.0 * layers.line_width());
-    canvas.hull(surface, view, layers.line_width() * 1.5);
+    canvas.border(surface, view, layers.line_width() * 1.5);
     if layers.points || d.vertex_count() < 3 {
         canvas.dots(vertices(), layers.point_radius(), POINT, 255);
     }
@@ -50,7 +50,7 @@ pub(super) fn draw(
 
 fn fill(raster: &mut Raster, surface: &Surface, view: &View, paint: &Paint) {
     let d = surface.triangulation;
-    for t in d.mesh().triangles() {
+    for t in surface.cells() {
         let triangle = d.mesh().corners(t).map(delone::VertexId::index);
         let corners = triangle.map(|i| view.place(d.points()[i]));
         let values = paint.corners(triangle, d.area(t));
@@ -115,16 +115,15 @@ impl Canvas {
 
     fn edges(&mut self, surface: &Surface, view: &View, width: f64, alpha: u8) {
         let d = surface.triangulation;
-        let ends = d.edges().map(|edge| edge.map(|v| view.place(d.point(v))));
+        let ends = surface.edges().map(|e| surface.ends(e).map(|v| view.place(d.point(v))));
         self.lines(ends, EDGE, alpha, width);
     }
 
-    fn hull(&mut self, surface: &Surface, view: &View, width: f64) {
-        let hull: Vec<_> =
-            surface.triangulation.hull().map(|v| view.place(surface.triangulation.point(v))).collect();
-        let n = hull.len();
-        let sides = if n < 2 { 0 } else { n };
-        self.lines((0..sides).map(|i| [hull[i], hull[(i + 1) % n]]), HULL, 255, width);
+    fn border(&mut self, surface: &Surface, view: &View, width: f64) {
+        let d = surface.triangulation;
+        let border = surface.edges().filter(|&e| surface.is_border(e));
+        let sides = border.map(|e| surface.ends(e).map(|v| view.place(d.point(v))));
+        self.lines(sides, HULL, 255, width);
     }
 
     /// A dot at each position.

@@ -35,8 +35,7 @@ impl<'a> Paint<'a> {
 
     fn density(surface: &Surface) -> Self {
         let d = surface.triangulation;
-        let mut areas: Vec<f64> =
-            d.mesh().triangles().map(|t| d.area(t).ln()).filter(|a| a.is_finite()).collect();
+        let mut areas: Vec<f64> = surface.cells().map(|t| d.area(t).ln()).filter(|a| a.is_finite()).collect();
         let (low, high) = spread(&mut areas);
         Self::Density { low, high }
     }

@@ -20,7 +20,7 @@ pub(super) fn write(
     if layers.fill {
         let paint = Paint::of(surface);
         writeln!(out, r#"<g stroke-width="0.6" stroke-linejoin="round">"#)?;
-        for t in d.mesh().triangles() {
+        for t in surface.cells() {
             let triangle = d.mesh().corners(t).map(delone::VertexId::index);
             let values = paint.corners(triangle, d.area(t));
             let mean = [0, 1].map(|k| values.iter().map(|value| value[k]).sum::<f64>() / 3.0);
@@ -35,22 +35,15 @@ pub(super) fn write(
         circles(out, view, d.vertices().map(|v| (d.point(v), v.index())), view.length(radius))?;
     }
     if layers.edges {
-        let edges = d.edges().map(|edge| edge.map(|v| d.point(v)));
+        let edges = surface.edges().map(|e| surface.ends(e).map(|v| d.point(v)));
         segments(out, view, edges, EDGE, layers.line_width())?;
     }
     if !options.links.is_empty() {
         segments(out, view, options.links.iter().copied(), LINK, 2.0 * layers.line_width())?;
     }
-    write!(
-        out,
-        r#"<path fill="none" stroke="{}" stroke-width="{:.2}" d=""#,
-        hex(HULL),
-        1.5 * layers.line_width()
-    )?;
-    for (i, v) in d.hull().enumerate() {
-        write!(out, "{}{}", if i == 0 { 'M' } else { 'L' }, place(view, d.point(v)))?;
-    }
-    writeln!(out, r#"{}"/>"#, if d.vertex_count() > 2 { "Z" } else { "" })?;
+    let border = surface.edges().filter(|&e| surface.is_border(e));
+    let sides = border.map(|e| surface.ends(e).map(|v| d.point(v)));
+    segments(out, view, sides, HULL, 1.5 * layers.line_width())?;
     if layers.points || d.vertex_count() < 3 {
         writeln!(out, r#"<g fill="{}">"#, hex(POINT))?;
         circles(out, view, d.vertices().map(|v| (d.point(v), v.index())), layers.point_radius())?;

@@ -38,7 +38,8 @@ pub(super) fn read(tile: &mut Tile, kept: &mut Kept) -> Result<(), Error> {
     let version = if layered { 3..=4 } else { 1..=2 };
     let items = vlr.items();
     let size: usize = items.iter().map(|item| usize::from(item.size())).sum();
-    if items.is_empty() || size != tile.record || !items.iter().all(|item| version.contains(&item.version())) {
+    if items.is_empty() || size != tile.record || !items.iter().all(|item| version.contains(&item.version()))
+    {
         return Err(broken("its compressed fields are not those of its points"));
     }
     if kind == CompressorType::PointWise as u16 {
@@ -167,7 +168,8 @@ fn decode_all(
     while rest > 0 {
         let mut batch = Vec::new();
         let (mut bytes, mut points) = (0, 0);
-        while let Some(mut chunk) = waiting.next_if(|chunk| batch.is_empty() || bytes + chunk.length <= AHEAD) {
+        while let Some(mut chunk) = waiting.next_if(|chunk| batch.is_empty() || bytes + chunk.length <= AHEAD)
+        {
             chunk.points = chunk.points.min(rest);
             let mut compressed = vec![0; chunk.length as usize];
             tile.source.seek(SeekFrom::Start(chunk.start))?;
@@ -187,7 +189,9 @@ fn decode_all(
         let decoded: Vec<Result<Kept, Error>> = batch
             .into_par_iter()
             .map(|(points, bytes)| {
-                guard::decode("LAS", || decode(bytes, points, items, layered, record, buffer.clone(), kept.classes))
+                guard::decode("LAS", || {
+                    decode(bytes, points, items, layered, record, buffer.clone(), kept.classes)
+                })
             })
             .collect();
         for part in decoded {
@@ -219,7 +223,8 @@ fn decode<'a>(
     let mut part = Kept { cloud: Cloud::with_capacity(0, true), classes, counts: [0; 256] };
     let mut decoder: Box<dyn RecordDecompressor<Cursor<Vec<u8>>>> = if layered {
         let head = record + 4 + 4 * layers(&items);
-        let (_, length) = bytes.get(record..head).map(head_of).ok_or_else(|| broken("a chunk is too short"))?;
+        let (_, length) =
+            bytes.get(record..head).map(head_of).ok_or_else(|| broken("a chunk is too short"))?;
         if head as u64 + length > bytes.len() as u64 {
             return Err(broken("the layers of a chunk are longer than the chunk"));
         }
@@ -242,7 +247,13 @@ fn decode<'a>(
 }
 
 /// Decodes from the source itself, from `start` on: chunks of so many points follow each other.
-fn decode_on(tile: &mut Tile, items: &[LazItem], start: u64, size: u64, kept: &mut Kept) -> Result<(), Error> {
+fn decode_on(
+    tile: &mut Tile,
+    items: &[LazItem],
+    start: u64,
+    size: u64,
+    kept: &mut Kept,
+) -> Result<(), Error> {
     let (mut data, items) = (tile.buffer(), items.to_vec());
     tile.source.seek(SeekFrom::Start(start))?;
     let mut decoder = SequentialPointRecordDecompressor::new(&mut tile.source);
@@ -264,7 +275,9 @@ fn decode_on(tile: &mut Tile, items: &[LazItem], start: u64, size: u64, kept: &m
 
 fn early(error: std::io::Error) -> Error {
     match error.kind() {
-        std::io::ErrorKind::UnexpectedEof => Error::Truncated("inside a chunk of compressed points".to_owned()),
+        std::io::ErrorKind::UnexpectedEof => {
+            Error::Truncated("inside a chunk of compressed points".to_owned())
+        }
         _ => error.into(),
     }
 }

@@ -66,14 +66,17 @@ impl Tile {
         let header = raw::Header::read_from(&mut source).map_err(early("inside the header"))?;
         let (first_record, start) = (u64::from(header.header_size), u64::from(header.offset_to_point_data));
         if start > length {
-            return Err(Error::Truncated(format!("at byte {length}, before the points, which begin at byte {start}")));
+            return Err(Error::Truncated(format!(
+                "at byte {length}, before the points, which begin at byte {start}"
+            )));
         }
         let (records, extended) = (header.number_of_variable_length_records, header.evlr);
         let mut about = Builder::new(header.clone()).map_err(broken)?;
         source.seek(SeekFrom::Start(first_record))?;
         let mut position = first_record;
         for i in 0..records {
-            let record = raw::Vlr::read_from(&mut source, false).map(Vlr::new).map_err(early("inside its records"))?;
+            let record =
+                raw::Vlr::read_from(&mut source, false).map(Vlr::new).map_err(early("inside its records"))?;
             position += record.len(false) as u64;
             if position > start {
                 return Err(broken(format!("record {i} of {records} reaches into the points")));
@@ -140,3 +143,23 @@ fn early(place: &'static str) -> impl Fn(las::Error) -> Error {
         other => broken(other),
     }
 }
+
+/// The names of LAS classes (ASPRS LAS 1.4 R15, table 17), without blanks.
+pub const LAS_CLASSES: &[(&str, u8)] = &[
+    ("never-classified", 0),
+    ("unclassified", 1),
+    ("ground", 2),
+    ("low-vegetation", 3),
+    ("medium-vegetation", 4),
+    ("high-vegetation", 5),
+    ("building", 6),
+    ("low-noise", 7),
+    ("water", 9),
+    ("rail", 10),
+    ("road", 11),
+    ("wire-guard", 13),
+    ("wire-conductor", 14),
+    ("transmission-tower", 15),
+    ("bridge", 17),
+    ("high-noise", 18),
+];

@@ -59,7 +59,8 @@ pub(super) fn find(records: &[Vlr]) -> Option<Crs> {
         ours.find(|record| record.record_id == id).map(|record| record.data.as_slice())
     };
     let text = content(WELL_KNOWN_TEXT).map(String::from_utf8_lossy);
-    text.and_then(|text| Crs::of_wkt(&text)).or_else(|| of_keys(content(KEYS)?, content(TEXTS).unwrap_or_default()))
+    text.and_then(|text| Crs::of_wkt(&text))
+        .or_else(|| of_keys(content(KEYS)?, content(TEXTS).unwrap_or_default()))
 }
 
 /// The system that GeoTIFF keys name: entries of four numbers after a head of four.
@@ -70,7 +71,8 @@ fn of_keys(keys: &[u8], texts: &[u8]) -> Option<Crs> {
         entries.as_chunks::<4>().0.iter().find(|entry| entry[0] == key).copied()
     };
     // 32,767 stands for a system that has no number.
-    let number = |key| entry(key).filter(|e| e[1] == 0 && e[3] != 0 && e[3] != 32_767).map(|e| u32::from(e[3]));
+    let number =
+        |key| entry(key).filter(|e| e[1] == 0 && e[3] != 0 && e[3] != 32_767).map(|e| u32::from(e[3]));
     let name = |key| {
         let [_, _, count, at] = entry(key).filter(|e| e[1] == TEXTS)?;
         let text = texts.get(usize::from(at)..)?.get(..usize::from(count))?;

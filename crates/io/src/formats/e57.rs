@@ -1,0 +1,27 @@
+//! E57 scans, by the `e57` crate: the points of all scans of a file, in the coordinates they share.
+
+use e57::{CartesianCoordinate, E57Reader};
+
+use crate::{Cloud, Error, Source, guard};
+
+/// Reads the valid points.
+pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    let broken = |error: e57::Error| Error::content(format!("E57: {error}"));
+    guard::decode("E57", || {
+        let mut reader = E57Reader::new(source).map_err(broken)?;
+        let mut cloud = Cloud::with_capacity(0, true);
+        let mut invalid = 0_usize;
+        for scan in reader.pointclouds() {
+            for point in reader.pointcloud_simple(&scan).map_err(broken)? {
+                match point.map_err(broken)?.cartesian {
+                    CartesianCoordinate::Valid { x, y, z } => cloud.push([x, y], z),
+                    _ => invalid += 1,
+                }
+            }
+        }
+        if invalid > 0 {
+            cloud.remarks.push(format!("{invalid} measurements without a position were left out"));
+        }
+        Ok(cloud)
+    })
+}
