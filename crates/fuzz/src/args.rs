@@ -56,6 +56,20 @@ pub(crate) enum Mode {
     Predicates,
     /// Sets of thousands of points: all algorithms, orders and threads alike.
     Mixtures,
+    /// Readers: columns of text.
+    ReadText,
+    /// Readers: GeoJSON.
+    ReadGeojson,
+    /// Readers: NumPy arrays and archives.
+    ReadArrays,
+    /// Readers: LAS and LAZ tiles.
+    ReadLas,
+    /// Readers: PLY.
+    ReadPly,
+    /// Readers: OBJ, OFF, STL, Triangle's files.
+    ReadMeshes,
+    /// Readers: E57 scans.
+    ReadE57,
     /// All of these.
     All,
     /// A wrong answer on purpose, which tests of the supervision need.
@@ -80,7 +94,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 8] = [
+    pub(crate) const REAL: [Self; 15] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
@@ -89,6 +103,13 @@ impl Mode {
         Self::Hulls,
         Self::Predicates,
         Self::Mixtures,
+        Self::ReadText,
+        Self::ReadGeojson,
+        Self::ReadArrays,
+        Self::ReadLas,
+        Self::ReadPly,
+        Self::ReadMeshes,
+        Self::ReadE57,
     ];
 
     /// As it is written on the command line.

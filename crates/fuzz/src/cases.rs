@@ -6,7 +6,7 @@ use delone_oracle::generate::Random;
 
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
-use crate::modes::{broken, cells, hulls, lives, mixtures, motion, plane, predicates, space};
+use crate::modes::{broken, cells, files, hulls, lives, mixtures, motion, plane, predicates, space};
 
 /// An input of some attack.
 pub(crate) trait Case {
@@ -71,6 +71,13 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Predicates, _) => made::<predicates::Predicates>(seed),
         (Mode::Mixtures, 0) => made::<mixtures::Mixtures<delone::Delaunay2, 2>>(seed),
         (Mode::Mixtures, _) => made::<mixtures::Mixtures<delone::Delaunay3, 3>>(seed),
+        (Mode::ReadText, _) => made::<files::Files<{ files::TEXT }>>(seed),
+        (Mode::ReadGeojson, _) => made::<files::Files<{ files::JSON }>>(seed),
+        (Mode::ReadArrays, _) => made::<files::Files<{ files::ARRAYS }>>(seed),
+        (Mode::ReadLas, _) => made::<files::Files<{ files::LAS }>>(seed),
+        (Mode::ReadPly, _) => made::<files::Files<{ files::PLY }>>(seed),
+        (Mode::ReadMeshes, _) => made::<files::Files<{ files::MESHES }>>(seed),
+        (Mode::ReadE57, _) => made::<files::Files<{ files::E57 }>>(seed),
         (Mode::BrokenAnswer, _) => made::<broken::Answer>(seed),
         (Mode::BrokenPanic, _) => made::<broken::Panic>(seed),
         (Mode::BrokenHang, _) => made::<broken::Hang>(seed),

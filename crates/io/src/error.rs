@@ -10,7 +10,7 @@ pub enum Error {
     #[error(transparent)]
     Io(#[from] std::io::Error),
     /// A line of a text format is wrong.
-    #[error("line {line}: {what}")]
+    #[error("line {line}: {}", clipped(what))]
     Line {
         /// Counted from 1.
         line: usize,
@@ -18,10 +18,10 @@ pub enum Error {
         what: String,
     },
     /// The file ends too early.
-    #[error("the file ends {0}")]
+    #[error("the file ends {}", clipped(.0))]
     Truncated(String),
     /// The content contradicts the format.
-    #[error("{0}")]
+    #[error("{}", clipped(.0))]
     Content(String),
     /// No format has this extension.
     #[error("{0}: no format has this extension")]
@@ -74,6 +74,14 @@ impl Error {
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
             Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",
         }
+    }
+}
+
+/// A message that may quote what others wrote, at most as long as is read.
+fn clipped(text: &str) -> String {
+    match text.char_indices().nth(300) {
+        Some((end, _)) => format!("{} ...", &text[..end]),
+        None => text.to_owned(),
     }
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod broken;
 pub(crate) mod builds;
 pub(crate) mod cells;
+pub(crate) mod files;
 pub(crate) mod hulls;
 pub(crate) mod lives;
 pub(crate) mod mixtures;

@@ -105,7 +105,7 @@ impl<'a> Found<'a> {
                 coordinates.iter().for_each(|polygon| self.polygon(polygon));
             }
             GeometryValue::GeometryCollection { geometries } => {
-                geometries.iter().for_each(|g| self.collect(g))
+                geometries.iter().for_each(|g| self.collect(g));
             }
         }
     }

@@ -12,6 +12,9 @@ use crate::{Cloud, Error, Source};
 /// times faster than from and to one behind a pointer.
 const BUFFER: usize = 1 << 18;
 
+/// NumPy itself reads no longer headers.
+const LONGEST_HEADER: u64 = 10_000;
+
 type File<R> = NpyFile<BufReader<R>>;
 
 /// Reads the header, after a look at how long it claims to be.
@@ -33,6 +36,13 @@ fn open<R: Read + Seek>(mut source: R) -> Result<File<R>, Error> {
     }
     if header > length {
         return Err(Error::Truncated("inside the array's header".to_owned()));
+    }
+    // What is longer or deeper describes no numbers, and keeps the parser busy for ever.
+    let mut text = vec![0; header.min(LONGEST_HEADER) as usize];
+    source.rewind()?;
+    source.read_exact(&mut text).map_err(early)?;
+    if header > LONGEST_HEADER || text.iter().filter(|byte| b"([{".contains(byte)).count() > 8 {
+        return Err(Error::content("no NumPy array of numbers: its header is too long or too deep"));
     }
     source.rewind()?;
     let file =

@@ -122,8 +122,9 @@ fn walk(tile: &mut Tile, items: &[LazItem]) -> Result<Vec<Chunk>, Error> {
     let head = tile.record + 4 + 4 * layers(items);
     let mut bytes = vec![0; head];
     while found < tile.total {
+        let ends = || Error::Truncated(format!("after {found} of {} points", tile.total));
         if start + head as u64 > tile.length {
-            return Err(Error::Truncated(format!("after {found} of {} points", tile.total)));
+            return Err(ends());
         }
         tile.source.seek(SeekFrom::Start(start))?;
         tile.source.read_exact(&mut bytes)?;
@@ -131,8 +132,12 @@ fn walk(tile: &mut Tile, items: &[LazItem]) -> Result<Vec<Chunk>, Error> {
         if points == 0 {
             return Err(broken(format!("chunk {} has no points", chunks.len())));
         }
-        chunks.push(Chunk { start, length: head as u64 + length, points });
-        start += head as u64 + length;
+        let length = head as u64 + length;
+        if start + length > tile.length {
+            return Err(ends());
+        }
+        chunks.push(Chunk { start, length, points });
+        start += length;
         found += points;
     }
     Ok(chunks)

@@ -78,7 +78,9 @@ impl Columns {
 
     /// What to tell the user, if it is not plain.
     pub(super) fn remark(&self, fields: &[String], header: bool) -> Option<String> {
-        let name = |&k: &usize| if header { fields[k].clone() } else { (k + 1).to_string() };
+        let name = |&k: &usize| {
+            if header { crate::error::excerpt(&fields[k]).to_owned() } else { (k + 1).to_string() }
+        };
         match self {
             Self::Geometry(k) => Some(format!("column {} was taken as well-known text", name(k))),
             Self::Numbers(numbers) => {

@@ -1,0 +1,225 @@
+//! Files to begin with: one of each kind that readers know, and those that broke readers once.
+
+use std::io::{Cursor, Write};
+use std::sync::OnceLock;
+
+use delone::Delaunay2;
+use delone_io::{Crs, Format, Surface};
+use delone_oracle::generate::Kind;
+
+use super::{ARRAYS, E57, JSON, LAS, MESHES, PLY, TEXT};
+
+type Seeds = Vec<(Format, Vec<u8>)>;
+
+/// Points of a file.
+const POINTS: usize = 40;
+
+/// Files that broke readers once.
+const HOSTILE: [(Format, &[u8]); 11] = [
+    (Format::Las, include_bytes!("../../../../../data/hostile/f_3000000_0_3000007.laz")),
+    (Format::Las, include_bytes!("../../../../../data/hostile/f_3000000_1_3000051.laz")),
+    (Format::Las, include_bytes!("../../../../../data/hostile/f_3000000_2_3000064.las")),
+    (Format::Las, include_bytes!("../../../../../data/hostile/f_3000000_3_3000152.las")),
+    (Format::Las, include_bytes!("../../../../../data/hostile/f_3000000_4_3000206.laz")),
+    (Format::Las, include_bytes!("../../../../../data/hostile/f_3000000_5_3002539.laz")),
+    (Format::Ply, include_bytes!("../../../../../data/hostile/hang_before40.ply")),
+    (Format::Ply, include_bytes!("../../../../../data/hostile/xlist.ply")),
+    (Format::Ply, include_bytes!("../../../../../data/hostile/xuchar.ply")),
+    (Format::Npy, include_bytes!("../../../../../data/hostile/hdrlen.npy")),
+    (Format::Text, include_bytes!("../../../../../data/hostile/cr.csv")),
+];
+
+/// The files of a group.
+pub(super) fn of(group: usize) -> &'static Seeds {
+    static ALL: [OnceLock<Seeds>; 7] = [const { OnceLock::new() }; 7];
+    ALL[group].get_or_init(|| {
+        let mut seeds = match group {
+            TEXT => texts(),
+            JSON => documents(),
+            ARRAYS => arrays(),
+            LAS => tiles(),
+            PLY => polygons(),
+            MESHES => meshes(),
+            _ => scans(),
+        };
+        let formats: Vec<Format> = seeds.iter().map(|seed| seed.0).collect();
+        let broken = HOSTILE.iter().filter(|seed| formats.contains(&seed.0));
+        seeds.extend(broken.map(|&(format, bytes)| (format, bytes.to_vec())));
+        seeds
+    })
+}
+
+fn points() -> Vec<[f64; 2]> {
+    Kind::Uniform.points(POINTS, 1)
+}
+
+fn in_space() -> Vec<[f64; 3]> {
+    points().iter().map(|&[x, y]| [1000.0 * x, 1000.0 * y, 100.0 * x * y]).collect()
+}
+
+/// What a writer of ours makes of some points.
+fn written(format: Format) -> (Format, Vec<u8>) {
+    let mut bytes = Vec::new();
+    let outcome = delone_io::write_points(&mut bytes, format, &in_space());
+    assert!(outcome.is_ok(), "{format} is written");
+    (format, bytes)
+}
+
+/// What a writer of ours makes of a triangulation.
+fn mesh(format: Format) -> (Format, Vec<u8>) {
+    let crs = Crs::of_epsg(25_832);
+    let mut bytes = Vec::new();
+    let triangulation = Delaunay2::from_points(&points()).unwrap_or_default();
+    let surface = Surface { crs: Some(&crs), base: 1, ..Surface::new(&triangulation) };
+    let outcome = delone_io::write_surface(&mut bytes, format, &surface);
+    assert!(outcome.is_ok(), "{format} is written");
+    (format, bytes)
+}
+
+fn gzip(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+    _ = encoder.write_all(bytes);
+    encoder.finish().unwrap_or_default()
+}
+
+fn texts() -> Seeds {
+    let plain = written(Format::Text);
+    let texts = [
+        "id,X_COORD,Y_COORD,Z_VAL\n1,1.5,2,3\n2,4,5.25,6\n3,7,8,9e3\n",
+        "# by hand\n1 2 3\n4 5 6\n7 8 10 # the last\n",
+        "name;x;y\n\"a; b\";1,5;2\n\"c \"\"d\"\"\";3;4,25\n\"two\nlines\";5;6\n",
+        "id,wkt\n1,POINT (1 2)\n2,\"MULTIPOINT ((3 4), (5 6))\"\n3,\"POLYGON ((0 0, 1 0, 0 1, 0 0))\"\n",
+        "lat\tlon\televation\r\n1\t2\t3\r\n4\t5\t6\r\n",
+        "\u{feff}x,y\n1,2\n3,4\n",
+    ];
+    let mut seeds: Seeds = texts.iter().map(|text| (Format::Text, text.as_bytes().to_vec())).collect();
+    seeds.push((Format::Text, gzip(&plain.1)));
+    seeds.push(plain);
+    seeds.push((Format::Pts, b"3\n1 2 3 -5 0 0 0\n4 5 6 -5 0 0 0\n7 8 10 -5 1 2 3\n".to_vec()));
+    seeds.push(written(Format::Raw));
+    seeds
+}
+
+fn documents() -> Seeds {
+    let all = r#"{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},
+"features":[{"type":"Feature","properties":{"a":[1,{"b":null}]},"geometry":{"type":"Polygon","coordinates":
+[[[0,0],[4,0],[0,4],[0,0]],[[1,1],[1,2],[2,1],[1,1]]]}},{"type":"Feature","properties":null,"geometry":null},
+{"type":"Feature","properties":{},"geometry":{"type":"GeometryCollection","geometries":[{"type":"Point","coordinates":
+[1.5,2,3]},{"type":"MultiLineString","coordinates":[[[1,2],[3,4]],[[5,6],[7,8]]]},{"type":"MultiPolygon","coordinates":
+[[[[0,0],[1,0],[0,1],[0,0]]]]}]}}]}"#;
+    let sequence = "\u{1e}{\"type\":\"Point\",\"coordinates\":[1,2]}\n\u{1e}{\"type\":\"Point\",\"coordinates\":[3,4]}\n";
+    let mut seeds = vec![written(Format::GeoJson), mesh(Format::GeoJson)];
+    seeds.extend([all, sequence].map(|text| (Format::GeoJson, text.as_bytes().to_vec())));
+    seeds.push((Format::GeoJson, gzip(all.as_bytes())));
+    seeds
+}
+
+fn arrays() -> Seeds {
+    let plain = written(Format::Npy);
+    let mut columns = plain.1.clone();
+    if let Some(at) = columns.windows(5).position(|word| word == b"False") {
+        columns[at..at + 5].copy_from_slice(b"True ");
+    }
+    let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for name in ["points.npy", "ids.npy"] {
+        _ = archive.start_file(name, zip::write::SimpleFileOptions::default());
+        _ = archive.write_all(&plain.1);
+    }
+    let archive = archive.finish().map(Cursor::into_inner).unwrap_or_default();
+    vec![
+        (Format::Npy, columns),
+        (Format::Npz, archive),
+        (Format::Npy, gzip(&plain.1)),
+        plain,
+        mesh(Format::Npy),
+    ]
+}
+
+/// Tiles of all point formats, plain and compressed.
+fn tiles() -> Seeds {
+    let mut seeds = Vec::new();
+    for (number, compressed) in (0..=10).flat_map(|number| [(number, false), (number, true)]) {
+        // Waveforms are not compressed by the crate that writes here.
+        if compressed && [4, 5, 9, 10].contains(&number) {
+            continue;
+        }
+        let tile = tile(number, compressed);
+        assert!(tile.is_ok(), "a tile of format {number} is written: {:?}", tile.err());
+        seeds.extend(tile.into_iter().map(|bytes| (Format::Las, bytes)));
+    }
+    seeds
+}
+
+fn tile(number: u8, compressed: bool) -> Result<Vec<u8>, las::Error> {
+    let mut about = las::Builder::from((1, 4));
+    about.point_format = las::point::Format::new(number)?;
+    about.point_format.is_compressed = compressed;
+    about.point_format.extra_bytes = u16::from(number % 3);
+    let format = about.point_format;
+    let mut header = about.into_header()?;
+    header.set_wkt_crs(b"PROJCS[\"ours\",AUTHORITY[\"EPSG\",\"25832\"]]".to_vec())?;
+    let mut writer = las::Writer::new(Cursor::new(Vec::new()), header)?;
+    for (i, [x, y, z]) in in_space().into_iter().enumerate() {
+        writer.write_point(las::Point {
+            x,
+            y,
+            z,
+            return_number: 1,
+            number_of_returns: 1,
+            gps_time: format.has_gps_time.then_some(i as f64),
+            color: format.has_color.then(las::Color::default),
+            nir: format.has_nir.then_some(7),
+            waveform: format.has_waveform.then(Default::default),
+            extra_bytes: vec![1; usize::from(format.extra_bytes)],
+            ..las::Point::default()
+        })?;
+    }
+    Ok(writer.into_inner()?.into_inner())
+}
+
+fn polygons() -> Seeds {
+    let ascii = "ply\nformat ascii 1.0\ncomment crs EPSG:25832\nelement camera 1\nproperty float f\nelement vertex 3\n\
+        property double x\nproperty float y\nproperty uchar z\nproperty list uchar int more\nelement face 1\n\
+        property list uchar uint vertex_indices\nend_header\n1.5\n0 0 0 0\n1 0 1 2 7 8\n0 1 2 0\n3 0 1 2\n";
+    let mut big = b"ply\nformat binary_big_endian 1.0\nelement vertex 2\nproperty short x\nproperty int y\nend_header\n".to_vec();
+    big.extend([0, 1, 0, 0, 0, 2, 0, 3, 0, 0, 0, 4]);
+    let mut seeds = vec![written(Format::Ply), mesh(Format::Ply)];
+    seeds.extend([
+        (Format::Ply, ascii.as_bytes().to_vec()),
+        (Format::Ply, big),
+        (Format::Ply, gzip(ascii.as_bytes())),
+    ]);
+    seeds
+}
+
+fn meshes() -> Seeds {
+    let solid = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+    let off = "OFF\n# by hand\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    let mut seeds: Seeds = [Format::Obj, Format::Stl, Format::Node, Format::Ele].map(mesh).into();
+    seeds.push((Format::Stl, solid.as_bytes().to_vec()));
+    seeds.push((Format::Off, off.as_bytes().to_vec()));
+    seeds.push(written(Format::Node));
+    seeds
+}
+
+fn scans() -> Seeds {
+    debug_assert_eq!(E57, 6);
+    let scan = scan();
+    assert!(scan.is_ok(), "a scan is written: {:?}", scan.err());
+    scan.into_iter().map(|bytes| (Format::E57, bytes)).collect()
+}
+
+fn scan() -> e57::Result<Vec<u8>> {
+    use e57::{E57Writer, Record, RecordValue};
+    let mut file = Cursor::new(Vec::new());
+    let mut writer = E57Writer::new(&mut file, "file")?;
+    let fields = vec![Record::CARTESIAN_X_F64, Record::CARTESIAN_Y_F64, Record::CARTESIAN_Z_F32];
+    let mut scan = writer.add_pointcloud("scan", fields)?;
+    for [x, y, z] in in_space() {
+        scan.add_point(vec![RecordValue::Double(x), RecordValue::Double(y), RecordValue::Single(z as f32)])?;
+    }
+    scan.finalize()?;
+    writer.finalize()?;
+    drop(writer);
+    Ok(file.into_inner())
+}

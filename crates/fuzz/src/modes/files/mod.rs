@@ -1,0 +1,88 @@
+//! Readers of files: mutations of good files and of those that broke readers once. A reader may refuse what it cannot read,
+//! in a sentence; it may not panic, hang, or take memory that the file does not justify.
+
+mod corpus;
+mod mutation;
+
+use std::fs;
+use std::io::Cursor;
+
+use delone_io::{Format, ReadOptions, Source, decompressed};
+use delone_oracle::generate::Random;
+
+use self::mutation::Mutation;
+use crate::attack::{Attack, Judgement};
+
+/// Groups of formats that are attacked together.
+pub(crate) const TEXT: usize = 0;
+pub(crate) const JSON: usize = 1;
+pub(crate) const ARRAYS: usize = 2;
+pub(crate) const LAS: usize = 3;
+pub(crate) const PLY: usize = 4;
+pub(crate) const MESHES: usize = 5;
+pub(crate) const E57: usize = 6;
+
+/// Memory that a reader may take: for its buffers and threads, and for each byte of the file.
+const ROOM: u64 = 256 << 20;
+const ROOM_A_BYTE: u64 = 100;
+
+/// No message is longer: users read them.
+const LONGEST_MESSAGE: usize = 600;
+
+/// The readers of a group.
+pub(crate) struct Files<const GROUP: usize>;
+
+impl<const GROUP: usize> Attack for Files<GROUP> {
+    type Item = Mutation;
+
+    fn make(random: &mut Random) -> Vec<Mutation> {
+        mutation::some(random)
+    }
+
+    fn judge(mutations: &[Mutation], seed: u64) -> Judgement {
+        let seeds = corpus::of(GROUP);
+        let (format, mut bytes) = seeds[Random::new(seed).below(seeds.len())].clone();
+        let others = seeds.iter().map(|(_, other)| other.as_slice()).collect::<Vec<_>>();
+        mutations.iter().for_each(|mutation| mutation.apply(&mut bytes, &others));
+        let room = ROOM + ROOM_A_BYTE * bytes.len() as u64;
+        within(room, || read(format, &bytes)).map_err(|what| format!("{format}: {what}"))
+    }
+}
+
+/// Reads a file in all ways that its format has.
+fn read(format: Format, bytes: &[u8]) -> Judgement {
+    let source = || decompressed(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Source>, format);
+    let options = |dimension, classes| ReadOptions { dimension, classes, ..ReadOptions::default() };
+    let mut said = Vec::new();
+    for (dimension, classes) in [(2, vec![]), (3, vec![2])] {
+        match source().and_then(|source| delone_io::read_points(source, format, &options(dimension, classes)))
+        {
+            Ok(cloud) if cloud.z.as_ref().is_some_and(|z| z.len() != cloud.xy.len()) => {
+                return Err(format!("{} points and {:?} heights", cloud.xy.len(), cloud.z.map(|z| z.len())));
+            }
+            Ok(cloud) => said.extend(cloud.remarks),
+            Err(error) => said.push(error.to_string()),
+        }
+    }
+    let message = |outcome: Result<(), delone_io::Error>| outcome.err().map(|error| error.to_string());
+    said.extend(message(source().and_then(|source| delone_io::read_triangles(source, format).map(|_| ()))));
+    said.extend(message(source().and_then(|source| delone_io::read_tetrahedra(source, format).map(|_| ()))));
+    said.extend(message(source().and_then(|source| delone_io::read_rings(source, format).map(|_| ()))));
+    match said.iter().find(|text| text.len() > LONGEST_MESSAGE) {
+        Some(text) => Err(format!("a message of {} bytes", text.len())),
+        None => Ok(()),
+    }
+}
+
+/// Does work with so much more memory than there is already; more ends the process, which is a finding.
+fn within(room: u64, work: impl FnOnce() -> Judgement) -> Judgement {
+    let (_, hard) = rlimit::getrlimit(rlimit::Resource::AS).map_err(|error| error.to_string())?;
+    let statm = fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let pages: Option<u64> = statm.split(' ').next().and_then(|pages| pages.parse().ok());
+    // Where the system does not tell, the limit of the whole process stays.
+    let soft = pages.map_or(hard, |pages| (4096 * pages + room).min(hard));
+    rlimit::setrlimit(rlimit::Resource::AS, soft, hard).map_err(|error| error.to_string())?;
+    let judgement = work();
+    rlimit::setrlimit(rlimit::Resource::AS, hard, hard).map_err(|error| error.to_string())?;
+    judgement
+}
