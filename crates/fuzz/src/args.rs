@@ -23,6 +23,9 @@ pub(crate) struct Options {
     /// Go on after a finding until the time is over.
     #[arg(long)]
     pub(crate) go_on: bool,
+    /// Modes of `all` that run at the same time.
+    #[arg(long, default_value_t = 1)]
+    pub(crate) jobs: usize,
     /// Seconds after which a case hangs.
     #[arg(long, default_value_t = 20.0)]
     pub(crate) limit: f64,

@@ -3,6 +3,7 @@
 use std::env;
 use std::io::{BufRead, BufReader, IsTerminal, Read};
 use std::process::{Command, ExitCode, Stdio};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -27,14 +28,19 @@ struct Outcome {
 pub(crate) fn run(options: &Options) -> ExitCode {
     let one = [options.mode];
     let modes: &[Mode] = if options.mode == Mode::All { &Mode::REAL } else { &one };
-    let mut sound = true;
-    for &mode in modes {
-        sound &= match options.case {
-            Some(seed) => again(&Options { mode, ..options.clone() }, seed),
-            None => attack(&Options { mode, ..options.clone() }),
-        };
-    }
-    if sound { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    let (next, sound) = (AtomicUsize::new(0), AtomicBool::new(true));
+    let work = || {
+        while let Some(&mode) = modes.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let options = Options { mode, ..options.clone() };
+            let found_nothing = match options.case {
+                Some(seed) => again(&options, seed),
+                None => attack(&options),
+            };
+            sound.fetch_and(found_nothing, Ordering::Relaxed);
+        }
+    };
+    thread::scope(|scope| (0..options.jobs.max(1)).for_each(|_| drop(scope.spawn(work))));
+    if sound.into_inner() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// One case once more. Says whether all is well.
@@ -86,17 +92,18 @@ fn attack(options: &Options) -> bool {
 /// Prints a finding with its input, as small as it gets, and how to see it again.
 fn report(options: &Options, seed: u64, message: &str, number: &str) {
     let name = options.mode.name();
-    println!("{name}: FINDING in case {seed:#018x}{number}: {message}");
+    let finding = format!("{name}: FINDING in case {seed:#018x}{number}: {message}");
     let input = case(options.mode, seed);
     let keep = match options.keep.as_deref().map(indices) {
         Some(Ok(keep)) => keep,
-        Some(Err(_)) => return,
+        Some(Err(_)) => return println!("{finding}"),
         None => shrunk(options, seed, message, input.len()),
     };
-    println!("{} of {} items:\n{}", keep.len(), input.len(), input.show(&keep));
+    let items = format!("{} of {} items:\n{}", keep.len(), input.len(), input.show(&keep));
     let short = |list: String| if list.is_empty() { "''".to_owned() } else { list };
+    // At once, so that other modes do not come between.
     println!(
-        "again: cargo run -p delone-fuzz -- {name} --case {seed:#018x} --keep {}",
+        "{finding}\n{items}\nagain: cargo run -p delone-fuzz -- {name} --case {seed:#018x} --keep {}",
         short(written(&keep))
     );
 }
