@@ -1,0 +1,101 @@
+"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas, Pillow.
+
+Usage: python read_back.py DELONE FOLDER: the program, and a folder to work in. Every format is written from the same points,
+and every reader must see the same triangles.
+"""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import geopandas
+import meshio
+import numpy as np
+import pyvista
+import trimesh
+from PIL import Image
+
+delone, folder = sys.argv[1], Path(sys.argv[2])
+folder.mkdir(parents=True, exist_ok=True)
+
+
+def run(*words):
+    subprocess.run([delone, "-q", *map(str, words)], check=True, cwd=folder)
+
+
+def same(triangles, points, expected):
+    """Whether triangles, by the coordinates of their corners, are those expected."""
+
+    def normal(corners):
+        corners = np.round(np.asarray(corners, dtype=float)[..., :2], 4)
+        return sorted(sorted(map(tuple, triangle)) for triangle in corners.tolist())
+
+    assert normal(np.asarray(points)[np.asarray(triangles)]) == expected, "other triangles"
+
+
+# Terrain in projected coordinates, far from the origin, and the same without heights.
+rng = np.random.default_rng(1)
+points = rng.uniform((637_000.0, 849_000.0, 400.0), (637_900.0, 849_700.0, 520.0), (500, 3)).round(3)
+np.save(folder / "points.npy", points)
+np.save(folder / "flat.npy", points[:, :2])
+run("triangulate", "points.npy", "-o", "mesh.npy")
+triangles = np.load(folder / "mesh.npy")
+assert triangles.dtype == np.int64 and triangles.shape[1] == 3
+corners = np.round(points[triangles][..., :2], 4)
+expected = sorted(sorted(map(tuple, triangle)) for triangle in corners.tolist())
+
+for source in ["points", "flat"]:
+    for kind in ["ply", "obj", "stl", "vtu", "geojson", "svg", "png", "node", "ele"]:
+        run("triangulate", f"{source}.npy", "-o", f"{source}.{kind}")
+    heights = points[:, 2] if source == "points" else np.zeros(len(points))
+    for kind in ["ply", "obj", "vtu"]:
+        mesh = meshio.read(folder / f"{source}.{kind}")
+        same(mesh.cells_dict["triangle"], mesh.points, expected)
+        assert np.array_equal(mesh.points[:, 2], heights), f"meshio: heights of {kind}"
+        print(f"meshio reads {source}.{kind}")
+    for kind in ["ply", "obj", "stl"]:
+        mesh = trimesh.load(folder / f"{source}.{kind}", process=False)
+        assert len(mesh.faces) == len(triangles), f"trimesh: {kind}"
+        assert abs(mesh.area - trimesh.Trimesh(np.c_[points[:, :2], heights], triangles).area) < 1.0
+        print(f"trimesh reads {source}.{kind}")
+    for kind in ["ply", "obj", "stl", "vtu"]:
+        mesh = pyvista.read(folder / f"{source}.{kind}")
+        assert mesh.n_cells == len(triangles), f"pyvista: {kind}"
+        print(f"pyvista reads {source}.{kind}")
+    frame = geopandas.read_file(folder / f"{source}.geojson")
+    rings = [np.array(polygon.exterior.coords)[:3] for polygon in frame.geometry]
+    same(np.arange(3 * len(rings)).reshape(-1, 3), np.concatenate(rings), expected)
+    print(f"geopandas reads {source}.geojson")
+    with Image.open(folder / f"{source}.png") as picture:
+        picture.verify()
+    print(f"Pillow reads {source}.png")
+
+# STL has single precision: the mesh is moved to where that is enough, and the title tells by how much.
+title = (folder / "points.stl").read_bytes()[:80].decode().split()
+moved = np.array([float(x) for x in title[-3:]])
+stl = trimesh.load(folder / "points.stl", process=False)
+worst = np.abs(stl.vertices - moved - points[triangles].reshape(-1, 3)).max()
+assert worst < 1e-3, f"STL is {worst} off"
+
+# Tetrahedra, hulls and cells.
+run("generate", "ball", "-n", 300, "-o", "ball.npy")
+run("triangulate", "ball.npy", "--dim", 3, "-o", "ball.vtu", "-o", "ball.npy.npy")
+cells = np.load(folder / "ball.npy.npy")
+assert np.array_equal(meshio.read(folder / "ball.vtu").cells_dict["tetra"], cells)
+assert pyvista.read(folder / "ball.vtu").n_cells == len(cells)
+run("hull", "ball.npy", "--dim", 3, "-o", "hull.stl", "-o", "hull.ply")
+for kind in ["stl", "ply"]:
+    assert trimesh.load(folder / f"hull.{kind}").is_watertight, f"the hull in {kind} has holes"
+run("voronoi", "flat.npy", "-o", "cells.geojson")
+frame = geopandas.read_file(folder / "cells.geojson")
+low, high = points[:, :2].min(0), points[:, :2].max(0)
+assert frame.geometry.is_valid.all() and abs(frame.area.sum() / np.prod(high - low) - 1) < 1e-9
+
+# The system of coordinates goes through.
+feature = json.loads((folder / "flat.geojson").read_text())
+feature["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
+(folder / "known.geojson").write_text(json.dumps(feature))
+run("triangulate", "known.geojson", "-o", "passed.geojson")
+assert geopandas.read_file(folder / "passed.geojson").crs.to_epsg() == 25832
+print("all formats are read by others")
