@@ -10,8 +10,10 @@ import sys
 from pathlib import Path
 
 import geopandas
+import laspy
 import meshio
 import numpy as np
+import pandas
 import pyvista
 import trimesh
 from PIL import Image
@@ -99,3 +101,38 @@ feature["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::
 run("triangulate", "known.geojson", "-o", "passed.geojson")
 assert geopandas.read_file(folder / "passed.geojson").crs.to_epsg() == 25832
 print("all formats are read by others")
+
+# And what others write is read here.
+cloud = pyvista.PolyData(points)
+grid = pyvista.UnstructuredGrid({pyvista.CellType.VERTEX: np.arange(len(points)).reshape(-1, 1)}, points)
+surface = pyvista.PolyData.from_regular_faces(points, triangles)
+cloud.save(folder / "other.vtp")
+grid.save(folder / "other.vtu")
+grid.save(folder / "other-legacy.vtk")
+grid.save(folder / "other-text.vtk", binary=False)
+surface.save(folder / "other.ply")
+meshio.write(folder / "other.off", meshio.Mesh(points, [("triangle", triangles)]))
+meshio.write(folder / "meshio.vtu", meshio.Mesh(points, [("triangle", triangles)]))
+np.savez(folder / "other.npz", ids=np.arange(5), points=points)
+np.savez_compressed(folder / "packed.npz", points=points)
+np.save(folder / "columns.npy", points.T)
+np.save(folder / "fortran.npy", np.asfortranarray(points))
+table = pandas.DataFrame({"id": np.arange(len(points)), "X_COORD": points[:, 0], "Y_COORD": points[:, 1], "Z_VAL": points[:, 2]})
+table.to_csv(folder / "other.csv.gz", index=False, quoting=2)
+table.to_csv(folder / "decimal.csv", sep=";", decimal=",", encoding="utf-8-sig")
+known = geopandas.GeoDataFrame(geometry=geopandas.points_from_xy(*points.T), crs=25832)
+known.to_file(folder / "other.geojson", driver="GeoJSON")
+known.to_wkt().to_csv(folder / "wkt.csv")
+las = laspy.create(point_format=6, file_version="1.4")
+las.header.offsets, las.header.scales = points.min(0), [0.001] * 3
+las.xyz = points
+las.write(folder / "other.las")
+las.write(folder / "other.laz")
+names = "other.vtp other.vtu other-legacy.vtk other-text.vtk other.ply other.off meshio.vtu other.npz packed.npz columns.npy"
+for name in [*names.split(), *"fortran.npy other.csv.gz decimal.csv other.geojson wkt.csv other.las other.laz".split()]:
+    run("triangulate", name, "-o", "again.ply")
+    read = meshio.read(folder / "again.ply").points
+    # This writer of PLY has single precision, tiles have steps.
+    precision = {"other.ply": 0.1, "other.las": 0.01, "other.laz": 0.01}.get(name, 1e-6)
+    assert read.shape == points.shape and np.abs(read - points).max() <= precision, name
+    print(f"delone reads {name}")

@@ -79,7 +79,7 @@ pub(crate) enum Command {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
     /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl
-    /// geojson, each also with .gz. Several files are one set.
+    /// vtk vtu pcd geojson, each also with .gz. Several files are one set.
     #[arg(value_name = "IN", required = true)]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.

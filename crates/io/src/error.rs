@@ -64,8 +64,10 @@ impl Error {
                 "check that the file is what its extension says, or name the format with --from"
             }
             Self::UnknownExtension(_) => "name the format with --from or --to",
-            Self::NotPoints(_) => "points: csv xyz txt npy bin node las laz ply obj geojson",
-            Self::NotTriangles(_) => "triangles are read from: npy ele ply obj",
+            Self::NotPoints(_) => {
+                "points: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl vtk vtu pcd geojson"
+            }
+            Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off",
             Self::NotCells(_) => "cells: geojson svg png",
             Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele",
             Self::NotABody(_) => {

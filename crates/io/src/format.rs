@@ -40,8 +40,12 @@ pub enum Format {
     Off,
     /// Stereolithography.
     Stl,
-    /// VTK unstructured grids.
+    /// VTK unstructured grids; points are read of other XML files of VTK too.
     Vtu,
+    /// VTK's legacy format.
+    Vtk,
+    /// Clouds of the Point Cloud Library.
+    Pcd,
     /// GeoJSON.
     GeoJson,
     /// Vector pictures.
@@ -73,6 +77,9 @@ const NAMES: &[(&str, Format)] = &[
     ("off", Format::Off),
     ("stl", Format::Stl),
     ("vtu", Format::Vtu),
+    ("vtp", Format::Vtu),
+    ("vtk", Format::Vtk),
+    ("pcd", Format::Pcd),
     ("geojson", Format::GeoJson),
     ("json", Format::GeoJson),
     ("geojsonl", Format::GeoJson),

@@ -55,7 +55,7 @@ pub struct ReadOptions {
 ///
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
-    use formats::{e57, geojson, las, npy, obj, off, ply, raw, stl, text, triangle};
+    use formats::{e57, geojson, las, npy, obj, off, pcd, ply, raw, stl, text, triangle, vtk};
     match format {
         Format::Text => text::read(source, &options.columns),
         Format::Pts => text::read_pts(source),
@@ -70,6 +70,9 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Off => off::read_points(source),
         Format::Stl => stl::read_points(source),
         Format::GeoJson => geojson::read(source),
+        Format::Vtu => vtk::read_xml(source),
+        Format::Vtk => vtk::read_legacy(source),
+        Format::Pcd => pcd::read(source),
         _ => Err(Error::NotPoints(format)),
     }
 }

@@ -5,13 +5,16 @@ pub(crate) mod geojson;
 pub(crate) mod las;
 mod lines;
 pub(crate) mod npy;
+mod numbers;
 pub(crate) mod obj;
 pub(crate) mod off;
+pub(crate) mod pcd;
 pub(crate) mod ply;
 pub(crate) mod raw;
 pub(crate) mod stl;
 pub(crate) mod text;
 pub(crate) mod triangle;
+pub(crate) mod vtk;
 pub(crate) mod vtu;
 
 /// A point of the plane or of space, in space.

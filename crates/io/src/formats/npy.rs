@@ -6,7 +6,7 @@ use std::sync::mpsc::sync_channel;
 use npyz::{DType, NpyFile, Order, WriterBuilder};
 use zip::ZipArchive;
 
-use crate::{Cloud, Error, Source};
+use crate::{Cloud, Error, Source, guard};
 
 /// Numbers are read and written eight bytes at a time: from and to a buffer of a type that the compiler knows, which is ten
 /// times faster than from and to one behind a pointer.
@@ -45,11 +45,13 @@ fn open<R: Read + Seek>(mut source: R) -> Result<File<R>, Error> {
         return Err(Error::content("no NumPy array of numbers: its header is too long or too deep"));
     }
     source.rewind()?;
+    let wrong = |error: io::Error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
+        _ => Error::content(format!("no NumPy array: {error}")),
+    };
+    // It multiplies the numbers of a shape without a look at their size.
     let file =
-        NpyFile::new(BufReader::with_capacity(BUFFER, source)).map_err(|error| match error.kind() {
-            io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
-            _ => Error::content(format!("no NumPy array: {error}")),
-        })?;
+        guard::decode("npy", || NpyFile::new(BufReader::with_capacity(BUFFER, source)).map_err(wrong))?;
     if let ([rows, columns], Some(size)) = (file.shape(), file.dtype().num_bytes()) {
         let row = columns.saturating_mul(size as u64).max(1);
         let complete = (length - header) / row;

@@ -199,6 +199,18 @@ fn meshes() -> Seeds {
     seeds.push((Format::Stl, solid.as_bytes().to_vec()));
     seeds.push((Format::Off, off.as_bytes().to_vec()));
     seeds.push(written(Format::Node));
+    seeds.push(mesh(Format::Vtu));
+    let legacy = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 3 4\n5 6\n";
+    seeds.push((Format::Vtk, legacy.as_bytes().to_vec()));
+    let xml = "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece><Points>\
+        <DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"binary\">AQAAAAAAAAAYAAAAAAAAABgAAAAAAAAAHwAAAAAAAAA=\
+        eJxjYGiwZ2BgcABhIHYAYkcgdgJiZyB2AWJXAEGnBCM=</DataArray></Points></Piece></PolyData></VTKFile>";
+    seeds.push((Format::Vtu, xml.as_bytes().to_vec()));
+    let cloud = "VERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
+    seeds.push((Format::Pcd, format!("{cloud}DATA ascii\n1 2 3 0\n4 5 6 0\n").into_bytes()));
+    seeds.push((Format::Pcd, [format!("{cloud}DATA binary\n").as_bytes(), &[7; 32]].concat()));
+    let packed = [&[5, 0, 0, 0, 32, 0, 0, 0, 0, 7, 7 << 5, 22, 0], &[0; 4][..]].concat();
+    seeds.push((Format::Pcd, [format!("{cloud}DATA binary_compressed\n").as_bytes(), &packed].concat()));
     seeds
 }
 
