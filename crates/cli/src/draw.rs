@@ -60,6 +60,7 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
         files::write(path, |out| picture::write(out, *format, &surface, &options))?;
     }
     stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.input.stats.as_deref())
 }
 

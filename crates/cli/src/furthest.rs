@@ -46,5 +46,6 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("enclosing_circle", circle);
     files::write(&args.output, |out| delone_io::write_index_list(out, format, &answers))?;
     stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(stats_path)
 }

@@ -45,6 +45,7 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
         make(|| kind.points(args.n, args.seed), &outputs, &mut stats, quiet)?;
     }
     stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.stats.as_deref())
 }
 

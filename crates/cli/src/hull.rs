@@ -22,6 +22,7 @@ pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
         plane(args, &outputs, &mut stats, quiet)?;
     }
     stats.phase("write");
+    stats.tell(quiet, ["facet", "facets"]);
     stats.write(stats_path)
 }
 

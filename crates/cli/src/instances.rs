@@ -13,7 +13,7 @@ use crate::stats::Stats;
 use crate::{files, space, triangulate};
 
 /// What stands for the name of an instance in the name of an output.
-const NAME: &str = "{}";
+pub(crate) const NAME: &str = "{}";
 /// What is told of each instance, and added up.
 const COUNTS: [&str; 5] = ["points", "duplicates", "vertices", "simplices", "hull"];
 

@@ -63,6 +63,7 @@ pub(crate) fn answer(
     stats.set("counters", work_done(&work));
     files::write(&query.output, |out| delone_io::write_indices(out, format, columns, &rows))?;
     stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(input.stats.as_deref())
 }
 

@@ -161,6 +161,7 @@ pub(crate) fn draw(args: &DrawArgs, outputs: &[(PathBuf, Format)], quiet: bool) 
         files::write(path, |out| delone_io::write_solid(out, *format, &solid, &camera))?;
     }
     stats.phase("write");
+    stats.tell(quiet, ["tetrahedron", "tetrahedra"]);
     stats.write(args.input.stats.as_deref())
 }
 
@@ -230,6 +231,7 @@ fn ask(
     stats.set("counters", work_done(&work));
     files::write(&query.output, |out| delone_io::write_indices(out, format, columns, &rows))?;
     stats.phase("write");
+    stats.tell(quiet, ["tetrahedron", "tetrahedra"]);
     stats.write(input.stats.as_deref())
 }
 

@@ -82,6 +82,8 @@ impl Stats {
             ("simplices", simplices),
             ("left_out", ["left out", "left out"]),
             ("hull", ["on the hull", "on the hull"]),
+            ("cells", ["cell", "cells"]),
+            ("queries", ["query", "queries"]),
         ];
         let counts = names.iter().filter_map(|(name, [one, many])| {
             let count = self.get(name).as_u64()?;

@@ -16,6 +16,12 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(centres) = &args.hints {
         return instances::run(args, centres, quiet);
     }
+    if let Some(path) = args.output.iter().find(|path| path.to_string_lossy().contains(instances::NAME)) {
+        return Err(Failure::usage(
+            format!("{}: {{}} in the name of an output is for instances of imprecise points", path.display()),
+            "name their centres with --hints, or choose another name: several inputs are one set",
+        ));
+    }
     if args.dim.is_space() {
         return space::triangulate(args, quiet);
     }

@@ -75,6 +75,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         files::write(path, |out| delone_io::write_points(out, format, triangulation.points()))?;
     }
     stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.input.stats.as_deref())
 }
 

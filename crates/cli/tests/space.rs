@@ -82,7 +82,11 @@ fn instances_are_triangulated_by_hints() {
         place.fail(&format!("{several} -o x.ply --dim {dim}"), 2, "one output for 2 instances");
         place.fail(&format!("{several} -o {{}}.csv --dim {dim}"), 2, "csv");
     }
-    place.fail("triangulate centres.npy other.npy -o x.npy", 2, "several inputs are instances");
+    place.fail(
+        "triangulate centres.npy other.npy -o x-{}.npy",
+        2,
+        "{} in the name of an output is for instances",
+    );
     place.fail("triangulate centres.npy centres.npy --hints other.npy -o {}-x.npy", 2, "would overwrite");
     place.file("few.csv", "0,0\n1,1\n");
     place.fail("triangulate few.csv --hints centres.npy -o x.npy", 1, "2 points for 400 centres");
