@@ -56,7 +56,7 @@ impl Lines {
         if self.number == 1 && (bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")) {
             return Err(self.error("it is UTF-16: save it as UTF-8"));
         }
-        if bytes.contains(&0) {
+        if memchr::memchr(0, bytes).is_some() {
             return Err(self.error("it is not text"));
         }
         self.text.clear();
@@ -81,7 +81,7 @@ impl Lines {
                 return Ok(any);
             }
             any = true;
-            let end = ahead.iter().position(|&byte| byte == b'\n' || byte == b'\r');
+            let end = memchr::memchr2(b'\n', b'\r', ahead);
             let taken = end.unwrap_or(ahead.len());
             self.bytes.extend_from_slice(&ahead[..taken]);
             let Some(end) = end else {

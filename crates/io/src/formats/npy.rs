@@ -119,17 +119,19 @@ pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
     // The same words serve single and double precision.
     #[allow(clippy::useless_conversion)]
     let mut cloud = if found.contains('f') {
-        let take = |values: &mut dyn Iterator<Item = _>| fill(values, rows, columns, by_columns);
+        let take =
+            |values: &mut dyn Iterator<Item = Result<f64, Error>>| fill(values, rows, columns, by_columns);
         match found.as_str() {
             // The usual type, for which the compiler sees all of the loop.
             "<f8" => {
                 let values = file.data::<f64>().map_err(|error| Error::content(error.to_string()))?;
-                fill(values.map(|value| value.map_err(|error| ended(error, 0))), rows, columns, by_columns)
+                fill(values, rows, columns, by_columns)
             }
             _ => numbers!(file, found, take, |value| Ok(f64::from(value)), "f8" f64, "f4" f32),
         }
     } else {
-        let take = |values: &mut dyn Iterator<Item = _>| fill(values, rows, columns, by_columns);
+        let take =
+            |values: &mut dyn Iterator<Item = Result<f64, Error>>| fill(values, rows, columns, by_columns);
         numbers!(file, found, take, |value| exact(i128::from(value)),
             "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)
     }?;
@@ -140,13 +142,16 @@ pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
 }
 
 /// Points from the numbers of an array.
-fn fill(
-    mut values: impl Iterator<Item = Result<f64, Error>>,
+fn fill<E: Into<Error>>(
+    mut values: impl Iterator<Item = Result<f64, E>>,
     rows: usize,
     columns: usize,
     by_columns: bool,
 ) -> Result<Cloud, Error> {
-    let mut next = || values.next().unwrap_or_else(|| Err(Error::Truncated("inside the numbers".to_owned())));
+    let mut next = || match values.next() {
+        Some(value) => value.map_err(Into::into),
+        None => Err(Error::Truncated("inside the numbers".to_owned())),
+    };
     let mut cloud = Cloud::with_capacity(rows, columns == 3);
     if by_columns {
         for _ in 0..rows {
