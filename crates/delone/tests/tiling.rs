@@ -22,9 +22,12 @@ fn judge(name: &str, sites: &[[f64; 2]], region: &Region) -> Vec<f64> {
     let [low, high] = region.bounds();
     let areas: Vec<f64> = d.vertices().map(|v| cells.area(v)).collect();
     assert!(areas.iter().all(|&area| area >= 0.0), "{name}: {areas:?} of {sites:?}");
-    for p in d.vertices().flat_map(|v| cells.rings(v)).flat_map(|ring| ring.points()) {
-        let inside = (0..2).all(|axis| (low[axis]..=high[axis]).contains(&p[axis]));
-        assert!(inside, "{name}: {p:?} of {sites:?}");
+    for ring in d.vertices().flat_map(|v| cells.rings(v)) {
+        assert!(ring.indices().len() > 2, "{name}: {:?} of {sites:?}", ring.indices());
+        for [p, q] in ring.sides() {
+            let inside = (0..2).all(|axis| (low[axis]..=high[axis]).contains(&p[axis]));
+            assert!(inside && p != q, "{name}: {p:?} of {sites:?}");
+        }
     }
     let (sum, all) = (areas.iter().sum::<f64>(), region.area());
     // Rings are rounded to the last place of their coordinates: far from the origin that is more than 1e-9 of a small region.
