@@ -157,6 +157,10 @@ fn sites_a_few_units_in_the_last_place_apart() {
         let kite = vec![[0.0, 0.0], [5.0, 0.0], [1.0, 1.0], [0.0, 5.0]];
         judge("close", sites, &Region::polygon(&[kite]).expect("a kite"));
     }
+    // Corners halfway between numbers: some cells are nothing but a line when these are rounded.
+    let at = |i: u64| f64::from_bits(1.0_f64.to_bits() + i);
+    let sites: Points = (0..36).map(|i| [at(i / 6), at(i % 6)]).collect();
+    judge("halves", &sites, &rectangle(0.0, 0.0, 4.0, 4.0));
 }
 
 #[test]
