@@ -18,7 +18,7 @@ const DEEPEST: u32 = 48;
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) rings: Vec<Ring>,
-    /// Whether the part is all of the box.
+    /// Whether the part is all of the box, as of a rectangle. What a polygon is cut into has sides.
     pub(super) full: bool,
     /// The axis and the coordinate of the cut, and what is below and above.
     halves: Option<(usize, f64, Box<[Node; 2]>)>,
@@ -49,7 +49,7 @@ impl Node {
         let count = |rings: &[Ring]| rings.iter().flatten().filter(is_side).count();
         let side_count = count(&rings);
         if side_count <= FEW || depth == DEEPEST {
-            return Self { full: side_count == 0 && !rings.is_empty(), rings, halves: None };
+            return Self { rings, full: false, halves: None };
         }
         // Where to cut is no decision about the polygon, so roughly is enough.
         let sides = rings.iter().flatten().filter(is_side);
@@ -186,12 +186,12 @@ mod tests {
         assert!(Node::new(vec![sides(&ellipse(FEW as u32 + 1, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_some());
     }
 
-    /// The teeth of a comb aslant are on both sides of every cut: it is left as it is.
+    /// Most teeth of a comb aslant are on both sides of every cut: it is left as it is.
     #[test]
     fn sides_aslant_do_not_multiply() {
-        let tooth = |y: f64| [[0.0, y], [1000.0, y + 400.0], [1000.0, y + 400.1], [0.0, y + 0.1]];
-        let mut comb: Vec<[f64; 2]> = (0..300).flat_map(|i| tooth(0.25 * f64::from(i))).collect();
-        comb.extend([[-1.0, 75.0], [-1.0, 0.0]]);
+        let tooth = |y: f64| [[0.0, y], [1000.0, y + 200.0], [1000.0, y + 200.4], [0.0, y + 0.4]];
+        let mut comb: Vec<[f64; 2]> = (0..300).flat_map(|i| tooth(f64::from(i))).collect();
+        comb.extend([[-1.0, 300.0], [-1.0, 0.0]]);
         let upright: Vec<[f64; 2]> = comb.iter().rev().map(|&[x, y]| [y, x]).collect();
         for ring in [comb, upright] {
             let found = all(&Node::new(vec![sides(&ring, 0)]));
