@@ -1,7 +1,8 @@
 //! Insertions, removals and moves in any order: what is left is the triangulation of what is left.
 
 use delone::{
-    Algorithm, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk,
+    Algorithm, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location, VertexId,
+    Walk,
 };
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};
@@ -331,4 +332,35 @@ fn a_window_that_slides_for_ever_stays_small() {
     let points: Vec<_> = alive.iter().map(|(_, p)| *p).collect();
     assert_eq!(d.triangle_count(), Delaunay2::from_points(&points).expect("finite").triangle_count());
     assert!(Delaunay2::new().compact().is_empty());
+}
+
+/// A duplicate is one as long as its vertex is there.
+#[test]
+fn duplicates_end_with_their_vertex() {
+    let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0, 0.0]];
+    let count = |d: &Delaunay2| d.duplicates().map(|d| (d.point, d.vertex.index())).collect::<Vec<_>>();
+    let mut d = Delaunay2::from_points(&points).expect("finite");
+    assert_eq!(count(&d), [(3, 0), (4, 1)]);
+    d.move_to(VertexId::new(0), [-1.0, 0.0]).expect("free");
+    assert_eq!(count(&d), [(4, 1)]);
+    d.remove(VertexId::new(1)).expect("a vertex");
+    assert_eq!(count(&d), []);
+}
+
+/// The first layout comes beyond the size of a cache, and moves what a strategy knows.
+#[test]
+fn strategies_follow_a_layout() {
+    let points = Kind::Uniform.points(34_000, 1);
+    for locate in [Locate::History, Locate::Hierarchy(Hierarchy::default())] {
+        let mut d = Delaunay2::with_strategy(locate).expect("in range");
+        d.locate([0.5, 0.5]).expect("finite");
+        d.extend(&points, 1).expect("finite");
+        let mut work = delone::Work::default();
+        for (i, &p) in points.iter().enumerate().step_by(97) {
+            let location = d.locate_counted(p, &mut work).expect("finite");
+            assert_eq!(location, Location::Vertex(VertexId::new(i)), "{locate:?}");
+        }
+        let mean = work.visited as f64 / (points.len() / 97) as f64;
+        assert!(mean < 100.0, "{locate:?}: {mean} triangles a query");
+    }
 }

@@ -4,8 +4,8 @@ use delone::{
     Algorithm, Algorithm3, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2,
     Moving3, Step, Step3, VertexId, Work,
 };
-use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_oracle::{brute, exact};
 
 const ORDERS: [HintOrder; 2] = [HintOrder::Random { seed: 3 }, HintOrder::Spatial { seed: 4 }];
 
@@ -45,6 +45,23 @@ fn every_instance_is_the_canonical_triangulation() {
                     same(hints.follow(&instance).expect("finite"), &instance, &what);
                 }
             }
+        }
+    }
+}
+
+/// Of each point the nearest of those that come before it.
+#[test]
+fn hints_are_the_nearest_before() {
+    for (order, kind) in ORDERS.into_iter().flat_map(|order| [Kind::Uniform, Kind::Line].map(|k| (order, k)))
+    {
+        let centres = kind.points(300, 1);
+        let hints = Hints2::preprocess(&centres, order).expect("finite");
+        let (order, found): (Vec<usize>, Vec<usize>) = hints.order().zip(hints.hints()).unzip();
+        assert_eq!(found[0], order[0]);
+        for k in 1..300 {
+            let distance =
+                |i: usize| exact::compare_distances(centres[order[k]], centres[found[k]], centres[i]);
+            assert!(order[..k].contains(&found[k]) && order[..k].iter().all(|&i| distance(i) <= 0), "{k}");
         }
     }
 }
@@ -303,6 +320,34 @@ fn a_flip_mends_what_turns_over() {
     let step = moving.step(&points).expect("finite");
     assert!(matches!(step, Step::Repaired { reinserted: 0, .. }), "{step:?}");
     same(moving.triangulation(), &points, "turned");
+    // Where a removal would leave a line, all is built anew.
+    let mut moving = Moving2::new(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.0]]).expect("finite");
+    let mirrored = [[0.0, 0.0], [2.0, 0.0], [1.0, -1.0]];
+    assert_eq!(moving.step(&mirrored), Ok(Step::Rebuilt));
+    same(moving.triangulation(), &mirrored, "mirrored");
+}
+
+/// Beyond one vertex in twelve, and some, repairing takes longer than building.
+#[test]
+fn where_too_much_turns_over_all_is_built_anew() {
+    let points = Kind::Uniform.points(2000, 1);
+    let mut moving = Moving2::new(&points).expect("finite");
+    let mut random = Random::new(5);
+    let (mut repaired, mut rebuilt, mut most) = (0, 0, 0);
+    for round in 0..60 {
+        let share = f64::from(round % 20) * 0.03 / 2000f64.sqrt();
+        let there: Vec<[f64; 2]> =
+            points.iter().map(|p| p.map(|x| x + share * random.between(-1.0, 1.0))).collect();
+        match moving.step(&there).expect("finite") {
+            Step::Repaired { reinserted, .. } => {
+                repaired += 1;
+                most = most.max(reinserted);
+            }
+            Step::Rebuilt => rebuilt += 1,
+        }
+        same(moving.triangulation(), &there, "moved");
+    }
+    assert!(repaired > 5 && rebuilt > 5 && most <= 2000 / 12 + 8, "{repaired} {rebuilt} {most}");
 }
 
 #[test]

@@ -72,6 +72,10 @@ proptest! {
             let error = Delaunay2::from_points(&points).unwrap_err();
             let named = format!("point {at} has the {} coordinate", ["x", "y"][axis]);
             prop_assert!(error.to_string().starts_with(&named), "{}", error);
+            for algorithm in [Algorithm::Incremental { seed: 1 }, Algorithm::ConflictLists { seed: 1 }] {
+                let error = Delaunay2::with_algorithm(&points, algorithm).unwrap_err();
+                prop_assert!(error.to_string().starts_with(&named), "{:?} {}", algorithm, error);
+            }
         }
     }
 }

@@ -133,7 +133,30 @@ fn rings_that_cross_at_shared_corners_are_named() {
     let second = vec![[1.0, 1.0], [2.0, 1.0], [3.0, 1.0], [3.0, 3.0], [1.0, 3.0], [1.0, 2.0]];
     let crossing = |ring, corner| Some((ring, corner, RegionProblem::Crossing));
     assert_eq!(problem(&[first.clone(), second.clone()]), crossing(1, 5));
-    assert_eq!(problem(&[second, first]), crossing(1, 4));
+    assert_eq!(problem(&[second.clone(), first.clone()]), crossing(1, 4));
+    // The first one from the left, wherever rings start and whichever way they go.
+    for (k, l) in (0..12).flat_map(|k| (0..12).map(move |l| (k, l))) {
+        let mut rings = [first.clone(), second.clone()];
+        for (ring, k) in rings.iter_mut().zip([k, l]) {
+            ring.rotate_left(k % 6);
+            if k > 5 {
+                ring.reverse();
+            }
+        }
+        let at = rings[1].iter().position(|p| *p == [1.0, 2.0]).expect("a corner");
+        assert_eq!(problem(&rings), crossing(1, at), "{k} {l}");
+    }
+    // Between the two sides of the other one.
+    for k in 0..6 {
+        let mut wide = [[0.0, 0.0], [2.0, -2.0], [2.0, 2.0]];
+        wide.rotate_left(k % 3);
+        if k > 2 {
+            wide.reverse();
+        }
+        let at = wide.iter().position(|p| *p == [0.0, 0.0]).expect("a corner");
+        let through = vec![[0.0, 0.0], [4.0, 0.5], [-4.0, 8.0]];
+        assert_eq!(problem(&[through, wide.to_vec()]), crossing(1, at), "{k}");
+    }
     // Touching is fine: beside each other, one in the other, four at one corner.
     let wedge = |from: [f64; 2], to: [f64; 2]| vec![[0.0, 0.0], from, to];
     let beside = [wedge([2.0, 0.0], [2.0, 1.0]), wedge([1.0, 2.0], [0.0, 2.0])];

@@ -120,6 +120,7 @@ fn areas_are_numbers() {
         ([[-h, -h], [h, -h], [0.0, h]], f64::INFINITY),
         ([[-h, 0.0], [h, 1e-300], [0.0, 1e-290]], 1e18),
         ([[0.0, 0.0], [1e200, 1e200], [-1.0, 1.0]], 1e200),
+        ([[0.0, 0.0], [2f64.powi(512), 0.0], [0.0, 2f64.powi(512)]], 2f64.powi(1023)),
     ] {
         let d = Delaunay2::from_points(&corners).expect("finite");
         let found: f64 = d.mesh().triangles().map(|t| d.area(t)).sum();

@@ -1,6 +1,6 @@
 //! Voronoi cells against their definition: what is nearest to a site; and clipped cells tile.
 
-use delone::{Delaunay2, Error, Region, RegionProblem, Relaxation, VertexId, VoronoiEdge};
+use delone::{Cells, Delaunay2, Error, Region, RegionProblem, Relaxation, VertexId, VoronoiEdge};
 use delone_oracle::generate::Kind;
 
 /// A rectangle that holds most of the points, one that cuts through, and polygons, all scaled to the points.
@@ -141,6 +141,9 @@ fn low_dimensions_have_cells() {
     let unit = Region::rectangle([-1.0, -1.0], [3.0, 1.0]).expect("a rectangle");
     let none = Delaunay2::new();
     assert_eq!(none.voronoi().edges().count(), 0);
+    assert!(std::ptr::eq(none.voronoi().triangulation(), &raw const none));
+    assert_eq!(none.voronoi().clip(&unit).rings(VertexId::new(0)).count(), 0);
+    assert_eq!(Cells::default().rings(VertexId::new(0)).count(), 0);
     let one = Delaunay2::from_points(&[[0.0, 0.0]]).expect("finite");
     assert_eq!(one.voronoi().clip(&unit).area(VertexId::new(0)), 8.0);
     let line = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]).expect("finite");
@@ -180,6 +183,7 @@ fn bad_regions_are_named() {
     let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     assert_eq!(problem(&[]), Some((0, 0, RegionProblem::Empty)));
     assert_eq!(problem(&[square[..2].to_vec()]), Some((0, 0, RegionProblem::Empty)));
+    assert_eq!(problem(&[vec![[1.0, f64::INFINITY]]]), Some((0, 0, RegionProblem::NotFinite)));
     assert!(matches!(
         problem(&[vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]]),
         Some((.., RegionProblem::Crossing))
@@ -214,6 +218,12 @@ fn relaxation_evens_out() {
     let relaxed = Delaunay2::from_points(&relaxed).expect("finite");
     assert!(spread(&relaxed) < 3.0 && spread(&d) > 10.0, "{} {}", spread(&relaxed), spread(&d));
     assert!(moves.len() == 30 && moves[29] < moves[0] / 4.0);
+    // Of one site, to the middle.
+    let one = Delaunay2::from_points(&[[0.25, 0.125]]).expect("finite");
+    let middle = Relaxation { steps: 1, tolerance: 0.0 }
+        .run(&one, &region, |_, moved| assert_eq!(moved, 0.25_f64.hypot(0.375)))
+        .expect("fine");
+    assert_eq!(middle, [[0.5, 0.5]]);
     assert!(Relaxation { steps: 1, tolerance: -1.0 }.run(&d, &region, |_, _| {}).is_err());
 }
 
@@ -295,4 +305,38 @@ fn progress_is_told_now_and_then() {
     let cells = d.voronoi().clip_with(&region, |done| told.push(done));
     assert_eq!(told, [65_536]);
     assert!(d.vertices().all(|v| cells.rings(v).count() == 1));
+}
+
+/// Cells of one lattice beside a border: made of the centres of triangles, which they share, or cut out.
+#[test]
+fn cells_that_roundings_could_take_across_are_cut_out() {
+    // A cell of this size around the middle, its box ending at half of it, and the border a bit further on.
+    let is_whole = |size: [f64; 2], middle: [f64; 2], axis: usize, sign: f64, bit: f64| {
+        let at = |k: usize, i: usize| middle[k] + size[k] * (i as f64 - 2.0);
+        let sites: Vec<[f64; 2]> = (0..25).map(|i| [at(0, i % 5), at(1, i / 5)]).collect();
+        let d = Delaunay2::from_points(&sites).expect("finite");
+        let (mut low, mut high) = ([0, 1].map(|k| at(k, 0)), [0, 1].map(|k| at(k, 4)));
+        let border = if sign > 0.0 { &mut high[axis] } else { &mut low[axis] };
+        *border = middle[axis] + sign * (size[axis] / 2.0 + bit);
+        let cells = d.voronoi().clip(&Region::rectangle(low, high).expect("a rectangle"));
+        let v = VertexId::new(12);
+        assert_eq!(cells.area(v), size[0] * size[1]);
+        let is_shared = |i: &u32| (*i as usize) < d.mesh().slot_count();
+        let shared: Vec<bool> = cells.rings(v).flat_map(|ring| ring.indices()).map(is_shared).collect();
+        assert!(shared.iter().all(|is| *is == shared[0]) && shared.len() == 4);
+        shared[0]
+    };
+    let two = |exponent: i32| 2f64.powi(exponent);
+    for size in [[1.0, 1.0], [1024.0, 1.0], [1.0, 1024.0], [1024.0, 1024.0]] {
+        for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
+            // Centres of circles of this radius are off by 2^-40 of it.
+            let radius = f64::max(size[0], size[1]) / 2.0;
+            assert!(!is_whole(size, [0.0, 0.0], axis, sign, radius * two(-40)), "{size:?} {axis} {sign}");
+            assert!(!is_whole(size, [0.0, 0.0], axis, sign, 0.0), "{size:?} {axis} {sign}");
+            assert!(is_whole(size, [0.0, 0.0], axis, sign, radius * two(-34)), "{size:?} {axis} {sign}");
+            // Far away that is as small.
+            let far = [two(22), two(22)];
+            assert!(is_whole(size, far, axis, sign, radius * two(-18)), "{size:?} {axis} {sign}");
+        }
+    }
 }

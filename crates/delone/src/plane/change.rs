@@ -325,7 +325,70 @@ impl Upkeep {
 mod tests {
     use delone_oracle::generate::Kind;
 
+    use super::{IN_CACHE, SLACK, Upkeep};
     use crate::Delaunay2;
+
+    #[test]
+    fn hints_are_old_when_vertices_have_doubled_or_walks_are_long() {
+        let mut upkeep = Upkeep { laid_out: 7, ..Upkeep::default() };
+        upkeep.renew(100);
+        assert_eq!((upkeep.then, upkeep.debt, upkeep.laid_out), (100, 0, 7));
+        assert!(!upkeep.is_old(200) && upkeep.is_old(201));
+        // A walk of usual length costs one step, any other what it takes longer.
+        upkeep.walked(Upkeep::USUAL);
+        upkeep.walked(0);
+        assert_eq!(upkeep.debt, 2);
+        upkeep.walked(Upkeep::USUAL + 797);
+        assert_eq!(upkeep.debt, 800);
+        assert!(!upkeep.is_old(100));
+        upkeep.walked(1);
+        assert!(upkeep.is_old(100) && !upkeep.is_old(Upkeep::SMALL));
+        upkeep.renew(0);
+        assert!(!upkeep.is_old(2 * Upkeep::SMALL) && upkeep.is_old(2 * Upkeep::SMALL + 1));
+    }
+
+    /// Hints each time that vertices have doubled; layouts too, but none for what stays in the cache.
+    #[test]
+    fn hints_and_layouts_are_renewed_as_vertices_come() {
+        let mut d = Delaunay2::new();
+        d.extend(&Kind::Uniform.points(IN_CACHE / 2, 1), 1).expect("finite");
+        let upkeep = &d.upkeep;
+        assert!(2 * upkeep.then >= IN_CACHE / 2 && upkeep.laid_out == 0, "{upkeep:?}");
+        d.extend(&Kind::Uniform.points(IN_CACHE, 2), 1).expect("finite");
+        let laid_out = d.upkeep.laid_out;
+        assert!(2 * laid_out >= d.vertex_count() && laid_out > IN_CACHE, "{:?}", d.upkeep);
+        // Hints that are old for another reason need no layout.
+        d.upkeep.debt = usize::MAX / 2;
+        d.insert([0.5, 0.25]).expect("finite");
+        assert_eq!((d.upkeep.laid_out, d.upkeep.then, d.upkeep.debt), (laid_out, d.vertex_count(), 0));
+        d.check().expect("canonical");
+    }
+
+    /// Of many vertices that go, nearly all memory is given back, in a few steps.
+    #[test]
+    fn memory_of_what_was_removed_is_given_back() {
+        let mut d = Delaunay2::from_points(&Kind::Uniform.points(20_001, 1)).expect("finite");
+        let (mut renewed, mut then) = (0, d.upkeep.then);
+        let ids: Vec<_> = d.vertices().collect();
+        for v in &ids[100..] {
+            d.remove(*v).expect("a vertex");
+            renewed += usize::from(d.upkeep.then != then);
+            then = d.upkeep.then;
+            let places = d.base.points.len();
+            assert!(places <= SLACK * d.vertex_count() + 1024, "{places} places");
+        }
+        assert!((1..8).contains(&renewed), "{renewed} layouts");
+        d.check().expect("canonical");
+    }
+
+    #[test]
+    fn a_vertex_may_move_to_where_it_is() {
+        let mut d = Delaunay2::from_points(&Kind::Uniform.points(10, 1)).expect("finite");
+        let [v, w] = [3, 4].map(crate::VertexId::new);
+        assert_eq!(d.move_to(v, d.point(v)), Ok(()));
+        assert_eq!(d.move_to(v, d.point(w)), Err(crate::Error::Occupied { vertex: w }));
+        d.check().expect("canonical");
+    }
 
     #[test]
     fn a_layout_changes_nothing_that_can_be_seen() {

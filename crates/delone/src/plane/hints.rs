@@ -244,7 +244,7 @@ fn insert_all<T: Tally, const RENEW: bool>(
             }
             spot => {
                 layer.insert_at(v, spot, tally);
-                if RENEW && k > 0 {
+                if RENEW {
                     let joined = layer.mesh.spokes(v).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
                     let nearest = joined.reduce(|a, b| if layer.nearer(q, b, a).is_lt() { b } else { a });
                     *hint = nearest.map_or(*hint, |w| w.index() as u32);

@@ -344,3 +344,30 @@ fn remember(current: &mut Vec<u32>, e: EdgeId, node: u32) {
     }
     current[e.index()] = node;
 }
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+    use delone_predicates::compare_distances;
+
+    use super::NearestSites;
+
+    /// By the history alone: not one step along edges is needed at the end, but for ties.
+    #[test]
+    fn the_history_leads_to_a_nearest_site() {
+        for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid, Kind::Circle, Kind::UnitCircle] {
+            for n in [5, 40, 200] {
+                let points = kind.points(n, 1);
+                let sites = NearestSites::build(&points, 2).expect("finite");
+                let mut queries = kind.points(200, 9);
+                queries.extend(points.iter().copied());
+                queries.extend([[1e3, 1.0], [-1e3, 0.25], [0.5, 1e3], [0.25, -1e3]]);
+                for q in queries.into_iter().flat_map(|q| [q, q.map(|x| 0.5 * x), [2.0 * q[0], -q[1]]]) {
+                    let found = points[sites.trace(q, &mut ()).index()];
+                    let is_nearest = points.iter().all(|&p| compare_distances(q, found, p).is_le());
+                    assert!(is_nearest, "{kind:?} {n} {q:?}");
+                }
+            }
+        }
+    }
+}

@@ -206,9 +206,11 @@ fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -
     }
     let follow = |v: usize| next.binary_search_by_key(&v, |edge| edge.0).ok().map(|i| next[i].1);
     let Some(&(start, _)) = next.first() else { return Err(Objection::Cover) };
-    let (mut at, mut length, mut minima) = (start, 0, 0);
+    let (mut at, mut minima, mut passed) = (start, 0, Vec::new());
     loop {
-        let (Some(b), true) = (follow(at), length <= next.len()) else { return Err(Objection::Border(at)) };
+        let (Some(b), true) = (follow(at), passed.len() <= next.len()) else {
+            return Err(Objection::Border(at));
+        };
         let Some(c) = follow(b) else { return Err(Objection::Border(b)) };
         let [pa, pb, pc] = [at, b, c].map(|v| points[v]);
         let turn = orient2d(pa, pb, pc);
@@ -216,14 +218,15 @@ fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -
             return Err(Objection::Dent(b));
         }
         minima += usize::from(lexicographic(pb, pa).is_lt() && lexicographic(pb, pc).is_lt());
-        (at, length) = (b, length + 1);
+        passed.push(at);
+        at = b;
         if at == start {
             break;
         }
     }
-    if length != next.len() {
-        let outside = next.iter().find(|edge| edge.0 != start).map_or(start, |edge| edge.0);
-        return Err(Objection::Border(outside));
+    passed.sort_unstable();
+    if let Some(&(left_out, _)) = next.iter().find(|edge| passed.binary_search(&edge.0).is_err()) {
+        return Err(Objection::Border(left_out));
     }
-    if minima == 1 { Ok(length) } else { Err(Objection::Cover) }
+    if minima == 1 { Ok(passed.len()) } else { Err(Objection::Cover) }
 }

@@ -83,16 +83,19 @@ fn a_moved_point() {
 
 #[test]
 fn a_dent_in_the_hull() {
-    assert!(matches!(
-        flaw(|d| {
+    let count = sample().hull().count();
+    for dented in 0..count {
+        let mut v = VertexId::GHOST;
+        let found = flaw(|d| {
             let hull: Vec<_> = d.hull().collect();
-            let [a, b] = [0, 2].map(|i| d.base.points[hull[i].index()]);
+            v = hull[dented];
+            let [a, b] = [count - 1, 1].map(|i| d.base.points[hull[(dented + i) % count].index()]);
             let inside = [0.7 * a[0] + 0.3 * b[0] + 0.0, 0.7 * a[1] + 0.3 * b[1]];
             let centre = [0.5, 0.5];
-            d.base.points[hull[1].index()] = [0, 1].map(|k| inside[k] + 0.01 * (centre[k] - inside[k]));
-        }),
-        Flaw::Hull(_)
-    ));
+            d.base.points[v.index()] = [0, 1].map(|k| inside[k] + 0.01 * (centre[k] - inside[k]));
+        });
+        assert_eq!(found, Flaw::Hull(v));
+    }
 }
 
 #[test]
@@ -163,6 +166,48 @@ fn a_lost_point() {
 fn a_false_duplicate() {
     let wrong = Duplicate { point: 40, vertex: VertexId::new(4) };
     assert_eq!(flaw(|d| d.duplicates[0] = wrong), Flaw::Duplicate(wrong));
+    // There is no point 41.
+    let wrong = Duplicate { point: 41, vertex: VertexId::new(3) };
+    assert_eq!(flaw(|d| d.duplicates.push(wrong)), Flaw::Duplicate(wrong));
+    // Of a point that is a duplicate itself.
+    let wrong = Duplicate { point: 2, vertex: VertexId::new(1) };
+    let mut d = Delaunay2::from_points(&[[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+        .expect("finite");
+    assert_eq!(d.check(), Ok(()));
+    d.duplicates[1] = wrong;
+    assert_eq!(d.check(), Err(Flaw::Duplicate(wrong)));
+}
+
+#[test]
+fn false_names() {
+    let (v, w) = (VertexId::new(20), VertexId::new(7));
+    let mut named = sample();
+    named.remove(w).expect("a vertex");
+    assert_eq!(named.check(), Ok(()));
+    let place = |d: &Delaunay2, v: VertexId| d.base.mesh.place(v).expect("a vertex");
+    let flaw = |corrupt: &dyn Fn(&mut Delaunay2)| {
+        let mut d = named.clone();
+        corrupt(&mut d);
+        d.check().expect_err("the corruption must be seen")
+    };
+    // Other coordinates than those that are kept.
+    assert_eq!(flaw(&|d| d.named.as_mut().expect("changed")[v.index()][0] += 0.5), Flaw::Name(v));
+    // Where another vertex is.
+    let (low, high) = (VertexId::new(5), v);
+    let there = place(&named, high);
+    assert_eq!(flaw(&|d| d.base.mesh.names().bind(low, there)), Flaw::Name(low));
+    let there = place(&named, low);
+    let taken = flaw(&|d| {
+        d.base.mesh.names().bind(high, there);
+        d.base.mesh.names().bind(low, there);
+    });
+    assert_eq!(taken, Flaw::Name(high));
+    // Where there is no vertex, with the right coordinates all the same.
+    let left = Place::new(w.index());
+    assert_eq!(named.base.points[left.index()], named.named.as_ref().expect("changed")[w.index()]);
+    assert_eq!(flaw(&|d| d.base.mesh.names().bind(w, left)), Flaw::Name(w));
+    // A vertex without a name.
+    assert!(matches!(flaw(&|d| d.base.mesh.names().release(v)), Flaw::Name(_)));
 }
 
 #[test]

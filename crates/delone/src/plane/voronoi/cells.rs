@@ -74,8 +74,8 @@ impl Voronoi2<'_> {
                 progress(done);
             }
         };
-        if mesh.lone.is_some() || !layer.is_spanned() {
-            mesh.inhabited().for_each(|place| add(&mut cells, place, EdgeId::NONE));
+        if let Some(place) = mesh.lone {
+            add(&mut cells, place, EdgeId::NONE);
             return cells;
         }
         // In the order of triangles, which lie in memory as in the plane: each vertex with the first of its edges.
@@ -158,7 +158,7 @@ fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region) -> impl Iterator<Ite
         let mut corners: Vec<[f64; 2]> =
             ring.iter().filter_map(|corner| region.round(&corner.spot)).collect();
         corners.dedup();
-        while corners.len() > 1 && corners.first() == corners.last() {
+        if corners.first() == corners.last() {
             corners.pop();
         }
         corners
@@ -188,15 +188,19 @@ impl Cells {
         // no radius is larger than both extents together.
         let extents = (high[0] - low[0]) + (high[1] - low[1]);
         let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
-        if self.corners.len() == start || relation.is_none_or(|relation| relation != Relation::Inside) {
+        if relation.is_none_or(|relation| relation != Relation::Inside) {
             self.corners.truncate(start);
             return relation == Some(Relation::Outside);
         }
-        let first = self.vertices[self.corners[start] as usize];
-        if self.corners.len() > start + 1 && first == last {
+        if self.vertices[self.corners[start] as usize] == last {
             self.corners.pop();
         }
-        self.starts.push(self.corners.len() as u32);
+        // Of a cell of two roundings nothing is left.
+        if self.corners.len() > start + 2 {
+            self.starts.push(self.corners.len() as u32);
+        } else {
+            self.corners.truncate(start);
+        }
         true
     }
 

@@ -109,10 +109,7 @@ impl Cut<'_> {
         if self.signs[from.last].is_negative() {
             chain.push(Corner { spot: meeting(from.last), ..self.ring[from.last] });
         } else {
-            if from.first != from.last
-                && self.signs[self.before(from.last)].is_negative()
-                && self.is_vertex(from.last)
-            {
+            if self.signs[self.before(from.last)].is_negative() && self.is_vertex(from.last) {
                 chain.push(Corner { spot: Spot::Meeting(before.line, self.half), ..before });
             }
             chain.push(self.ring[from.last]);
@@ -125,7 +122,7 @@ impl Cut<'_> {
         let leave = |spot: Spot| Corner { spot, line: self.half, side: None };
         if self.signs[i].is_negative() {
             chain.push(leave(meeting(self.before(i))));
-        } else if to.first != to.last && self.signs[self.after(i)].is_negative() && self.is_vertex(i) {
+        } else if self.signs[self.after(i)].is_negative() && self.is_vertex(i) {
             chain.push(self.ring[i]);
             chain.push(leave(meeting(i)));
         } else {
@@ -184,6 +181,59 @@ fn join(mut chains: Vec<Ring>, half: Line, kept: &mut Vec<Ring>) {
         }
         if !ring.is_empty() {
             kept.push(ring);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_predicates::{Line, Spot};
+
+    use super::{clip, sides};
+
+    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+
+    #[test]
+    fn sides_have_the_polygon_on_their_left() {
+        let kite = [[3.0, 0.0], [5.0, 1.0], [5.0, 4.0], [2.0, 4.0], [2.0, 1.0]];
+        for (corners, aslant) in [(SQUARE.as_slice(), 0), (&kite, 2)] {
+            let centre = [0, 1].map(|k| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64);
+            let ring = sides(corners, 10);
+            assert!(
+                ring.iter().all(|corner| corner.line.side(&Spot::Point(centre)).is_positive()),
+                "{ring:?}"
+            );
+            assert!(ring.iter().enumerate().all(|(i, corner)| corner.side == Some(10 + i)));
+            assert_eq!(ring.iter().filter(|c| matches!(c.line, Line::Through(..))).count(), aslant);
+            for (i, corner) in ring.iter().enumerate() {
+                for k in [i, (i + 1) % ring.len()] {
+                    assert!(corner.line.side(&Spot::Point(corners[k])).is_zero());
+                }
+            }
+        }
+    }
+
+    /// What is left of a square, as it is: not as the meeting of lines that go through its corners.
+    #[test]
+    fn corners_on_a_cut_stay_corners() {
+        let spots = |half: Line| {
+            let parts = clip(vec![sides(&SQUARE, 0)], half);
+            assert_eq!(parts.len(), 1);
+            parts[0].iter().map(|corner| corner.spot).collect::<Vec<_>>()
+        };
+        // Through two corners; and touching one, from inside.
+        let diagonal = Line::Bisector([2.0, 0.0], [0.0, 2.0]);
+        assert_eq!(spots(diagonal), [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]].map(Spot::Point));
+        assert_eq!(spots(Line::Bisector([0.0, 0.0], [4.0, 4.0])), SQUARE.map(Spot::Point));
+    }
+
+    /// What was cut once stays the same.
+    #[test]
+    fn a_second_cut_changes_nothing() {
+        let (site, mut cell) = ([1.0, 1.0], vec![sides(&SQUARE, 0)]);
+        for w in [[2.5, 1.0], [1.0, 2.5], [-0.5, 1.0], [1.0, -0.5]].repeat(2) {
+            cell = clip(cell, Line::Bisector(site, w));
+            assert_eq!((cell.len(), cell[0].len()), (1, 4), "{w:?}");
         }
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn centroid<R: Iterator<Item = [f64; 2]>>(
 ) -> Option<[f64; 2]> {
     let corners = || rings.clone().flatten();
     let [x, y] = corners().next()?;
-    let moments = |scale: f64| {
+    let moments = |[along, up]: [f64; 2]| {
         let (mut area, mut sum) = (0.0, [0.0, 0.0]);
         for ring in rings.clone() {
             let (mut first, mut last) = (None, [0.0; 2]);
@@ -45,7 +45,7 @@ pub(super) fn centroid<R: Iterator<Item = [f64; 2]>>(
                 sum = [sum[0] + cross * (p[0] + q[0]), sum[1] + cross * (p[1] + q[1])];
             };
             for p in ring {
-                let p = [p[0] * scale - x * scale, p[1] * scale - y * scale];
+                let p = [p[0] * along - x * along, p[1] * up - y * up];
                 match first {
                     None => first = Some(p),
                     Some(_) => add(last, p),
@@ -58,22 +58,60 @@ pub(super) fn centroid<R: Iterator<Item = [f64; 2]>>(
         }
         (area, sum)
     };
-    let (mut scale, (mut area, mut sum)) = (1.0, moments(1.0));
-    if !(1e-100..1e100).contains(&area) {
-        // Products of three may leave the range of f64: in units of about the extent they do not.
-        let extent = corners()
-            .fold(0.0_f64, |max, p| max.max((p[0] / 2.0 - x / 2.0).abs()).max((p[1] / 2.0 - y / 2.0).abs()));
+    // Products of three may leave the range of f64: in units of about the extent they do not.
+    let scale = [0, 1].map(|axis| {
+        let extent = corners().fold(0.0_f64, |max, p| max.max((p[axis] - [x, y][axis]).abs()));
         let exponent = ((extent.to_bits() >> 52) as i32 - 1023).clamp(-1000, 1000);
-        scale = f64::from_bits(((1023 - exponent) as u64) << 52);
-        (area, sum) = moments(scale);
-    }
+        f64::from_bits(((1023 - exponent) as u64) << 52)
+    });
+    let (area, sum) = moments(scale);
     if area.is_nan() || area <= 0.0 {
         return None;
     }
     // A sliver has an area of roundings: its centre is among its corners all the same.
-    let centroid = [x + sum[0] / (3.0 * area) / scale, y + sum[1] / (3.0 * area) / scale];
+    let centroid = [x + sum[0] / (3.0 * area) / scale[0], y + sum[1] / (3.0 * area) / scale[1]];
     let [low, high] = corners().fold([[x, y]; 2], |[low, high], p| {
         [[low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])]]
     });
     Some([0, 1].map(|axis| centroid[axis].clamp(low[axis], high[axis])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::centroid;
+
+    /// Of a triangle the mean of its corners, whatever the units of the two axes and whichever corner is first.
+    #[test]
+    fn centres_do_not_depend_on_the_units() {
+        let corners = [[0.0, 0.0], [3.0, 0.0], [-1.5, 6.0]];
+        for (i, j) in [-1000, -600, -300, 0, 300, 600, 1000]
+            .into_iter()
+            .flat_map(|i| [-1000, -500, -100, 0, 200, 700, 1000].map(|j| (i, j)))
+        {
+            let unit = [2f64.powi(i), 2f64.powi(j)];
+            for (first, at) in (0..9).map(|k| (k % 3, [[0.0, 0.0], [-3.0, 0.0], [1.0, -5.0]][k / 3])) {
+                let mut moved = corners.map(|p| [0, 1].map(|k| (p[k] + at[k]) * unit[k]));
+                moved.rotate_left(first);
+                let found = centroid(std::iter::once(moved.iter().copied())).expect("an area");
+                for k in [0, 1] {
+                    let error = found[k] / unit[k] - ([0.5, 2.0][k] + at[k]);
+                    assert!(error.abs() < 1e-14, "2^{i} 2^{j} {first} {at:?}: {found:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_area_has_no_centre() {
+        let flat: [&[[f64; 2]]; 5] = [
+            &[],
+            &[[1.0, 2.0]],
+            &[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]],
+            &[[1.0, 0.0], [1.0, 1e300], [1.0, -1e300]],
+            &[[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]], // clockwise
+        ];
+        for ring in flat {
+            assert_eq!(centroid(std::iter::once(ring.iter().copied())), None, "{ring:?}");
+        }
+    }
 }

@@ -228,3 +228,101 @@ fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{MANY, Region, enlarged};
+    use crate::plane::voronoi::clip::sides;
+    use crate::plane::voronoi::tree::Relation;
+
+    fn polygon(n: u32, radius: f64) -> Vec<[f64; 2]> {
+        let angle = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
+        (0..n).map(|k| [radius * angle(k).cos(), radius * angle(k).sin()]).collect()
+    }
+
+    #[test]
+    fn boxes_are_inside_or_outside_or_near_a_side() {
+        let square = Region::rectangle([0.0, 0.0], [4.0, 4.0]).expect("a rectangle");
+        let relation = |low, high| square.relation(low, high);
+        assert_eq!(relation([0.0, 0.0], [4.0, 4.0]), Relation::Inside);
+        assert_eq!(relation([1.0, 1.0], [2.0, 2.0]), Relation::Inside);
+        for (low, high) in [
+            ([5.0, 1.0], [6.0, 2.0]),
+            ([-2.0, 1.0], [-1.0, 2.0]),
+            ([1.0, 5.0], [2.0, 6.0]),
+            ([1.0, -2.0], [2.0, -1.0]),
+        ] {
+            assert_eq!(relation(low, high), Relation::Outside, "{low:?} {high:?}");
+        }
+        // Across one side, two of them, or touching from outside.
+        for (low, high) in [
+            ([3.0, 1.0], [5.0, 2.0]),
+            ([3.0, 3.0], [5.0, 5.0]),
+            ([-1.0, 1.0], [5.0, 2.0]),
+            ([4.0, 1.0], [6.0, 2.0]),
+            ([-1.0, 1.0], [0.0, 2.0]),
+            ([1.0, 4.0], [2.0, 6.0]),
+        ] {
+            assert_eq!(relation(low, high), Relation::Across, "{low:?} {high:?}");
+        }
+        let annulus = Region::polygon(&[polygon(100, 10.0), polygon(100, 5.0)]).expect("a region");
+        for i in 0..2500 {
+            let [x, y] = [i % 50, i / 50].map(|k| f64::from(k) * 0.43 - 10.7);
+            let radius = x.hypot(y);
+            let found = annulus.relation([x - 1e-3, y - 1e-3], [x + 1e-3, y + 1e-3]);
+            if (5.01..9.98).contains(&radius) {
+                assert_eq!(found, Relation::Inside, "{x} {y}");
+            } else if !(4.98..10.01).contains(&radius) {
+                assert_eq!(found, Relation::Outside, "{x} {y}");
+            }
+        }
+        let far = annulus.relation([4.0, -1.0], [6.0, 1.0]);
+        assert_eq!(far, Relation::Across);
+    }
+
+    /// Parts with a long border are cut to what is near, others are left alone.
+    #[test]
+    fn long_borders_are_cut_to_what_is_near() {
+        // At the top, across the first cut of the tree, which is at the median corner.
+        let near = |n: u32| {
+            let region = Region::polygon(&[polygon(n, 10.0)]).expect("a polygon");
+            let cell = sides(&[[-0.25, 9.5], [0.25, 9.5], [0.25, 10.0], [-0.25, 10.0]], 0);
+            let part = region.around(&[cell]).expect("not inside");
+            part.iter().map(Vec::len).sum::<usize>()
+        };
+        assert_eq!([near(12), near(MANY as u32)], [12, MANY]);
+        assert!(near(400) <= MANY, "{}", near(400));
+    }
+
+    #[test]
+    fn the_size_is_the_diagonal() {
+        let size = |low: [f64; 2], high: [f64; 2]| Region::rectangle(low, high).expect("a rectangle").size();
+        assert_eq!(size([3.0, 4.0], [6.0, 8.0]), 5.0);
+        assert_eq!(size([-3.0, -4.0], [0.0, 8.0]), 3f64.hypot(12.0));
+        let flat = |x: f64, y: f64| Region::rectangle([0.0; 2], [x, y]).is_err();
+        assert!(flat(1.0, 0.0) && flat(0.0, 1.0) && flat(-1.0, 1.0) && flat(1.0, -1.0) && !flat(1.0, 1.0));
+    }
+
+    /// By all that rounding can do, and by little more: 2^-40 of the size, and a rounding of the coordinates.
+    #[test]
+    fn boxes_are_enlarged_by_roundings() {
+        let margins = |low: f64, high: f64, size: f64| {
+            let [[x, _], [_, y]] = enlarged([low, low], [high, high], size).expect("finite");
+            [low - x, y - high]
+        };
+        let two = |exponent: i32| 2f64.powi(exponent);
+        for (low, high, size, least, most) in [
+            (0.0, 1.0, two(50), two(10), two(14)),
+            (0.0, 0.0, two(-100), two(-140), two(-136)),
+            (two(60), two(60), 1.0, two(9), two(12)),
+            (-two(60), 0.0, 1.0, two(8), two(12)),
+            (0.0, 0.0, 0.0, f64::MIN_POSITIVE, 1e-300),
+        ] {
+            for margin in margins(low, high, size) {
+                assert!((least..=most).contains(&margin), "{low} {high} {size}: {margin:e}");
+            }
+        }
+        assert_eq!(enlarged([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 1.0), None);
+        assert_eq!(enlarged([0.0; 2], [1.0; 2], f64::INFINITY), None);
+    }
+}

@@ -18,7 +18,7 @@ const DEEPEST: u32 = 48;
 #[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) rings: Vec<Ring>,
-    /// Whether the part is all of the box.
+    /// Whether the part is all of the box, as of a rectangle. What a polygon is cut into has sides.
     pub(super) full: bool,
     /// The axis and the coordinate of the cut, and what is below and above.
     halves: Option<(usize, f64, Box<[Node; 2]>)>,
@@ -49,14 +49,14 @@ impl Node {
         let count = |rings: &[Ring]| rings.iter().flatten().filter(is_side).count();
         let side_count = count(&rings);
         if side_count <= FEW || depth == DEEPEST {
-            return Self { full: side_count == 0 && !rings.is_empty(), rings, halves: None };
+            return Self { rings, full: false, halves: None };
         }
         // Where to cut is no decision about the polygon, so roughly is enough.
         let sides = rings.iter().flatten().filter(is_side);
         let corners: Vec<[f64; 2]> = sides.filter_map(|corner| corner.spot.rounded(f64::INFINITY)).collect();
         let extent = |axis: usize| {
             let coordinates = corners.iter().map(|c| c[axis]);
-            coordinates.clone().fold(f64::MIN, f64::max) / 2.0 - coordinates.fold(f64::MAX, f64::min) / 2.0
+            coordinates.clone().fold(f64::MIN, f64::max) - coordinates.fold(f64::MAX, f64::min)
         };
         let longer = usize::from(extent(1) > extent(0));
         for axis in [longer, 1 - longer] {
@@ -156,8 +156,86 @@ fn keeps_off([p, q]: [[f64; 2]; 2], low: [f64; 2], high: [f64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{FEW, Node};
+    use super::{FEW, Node, keeps_off};
     use crate::plane::voronoi::clip::{Corner, sides};
+
+    /// The sides of all smallest boxes.
+    fn all(node: &Node) -> usize {
+        let own = || node.rings.iter().flatten().filter(|corner: &&Corner| corner.side.is_some()).count();
+        node.halves.as_ref().map_or_else(own, |(_, _, halves)| halves.iter().map(all).sum())
+    }
+
+    fn ellipse(n: u32, at: [f64; 2], [width, height]: [f64; 2]) -> Vec<[f64; 2]> {
+        let angle = |k: u32| std::f64::consts::TAU * (f64::from(k) + 0.3) / f64::from(n);
+        (0..n).map(|k| [at[0] + width * angle(k).cos(), at[1] + height * angle(k).sin()]).collect()
+    }
+
+    #[test]
+    fn boxes_are_cut_across_their_longer_extent() {
+        for at in [[0.0, 0.0], [1000.0, 0.0], [-20.0, 1000.0], [1000.0, -1000.0], [77.0, 77.0]] {
+            for (size, axis) in [([7.0, 5.0], 0), ([5.0, 7.0], 1), ([5.0, 1.0], 0), ([1.0, 5.0], 1)] {
+                let node = Node::new(vec![sides(&ellipse(40, at, size), 0)]);
+                assert_eq!(node.halves.map(|(axis, ..)| axis), Some(axis), "{at:?} {size:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_few_sides_are_not_cut() {
+        assert!(Node::new(vec![sides(&ellipse(FEW as u32, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_none());
+        assert!(Node::new(vec![sides(&ellipse(FEW as u32 + 1, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_some());
+    }
+
+    /// Most teeth of a comb aslant are on both sides of every cut: it is left as it is.
+    #[test]
+    fn sides_aslant_do_not_multiply() {
+        let tooth = |y: f64| [[0.0, y], [1000.0, y + 200.0], [1000.0, y + 200.4], [0.0, y + 0.4]];
+        let mut comb: Vec<[f64; 2]> = (0..300).flat_map(|i| tooth(f64::from(i))).collect();
+        comb.extend([[-1.0, 300.0], [-1.0, 0.0]]);
+        let upright: Vec<[f64; 2]> = comb.iter().rev().map(|&[x, y]| [y, x]).collect();
+        for ring in [comb, upright] {
+            let found = all(&Node::new(vec![sides(&ring, 0)]));
+            assert!(found < 2 * ring.len(), "{found} sides of {}", ring.len());
+        }
+    }
+
+    /// The smallest box around rings is found from any box around them.
+    #[test]
+    fn rings_are_in_the_smallest_box_around_them() {
+        let whole = Node::new(vec![sides(&ellipse(400, [0.0; 2], [5.0, 3.0]), 0)]);
+        let mut parts = 0;
+        for i in 0..400 {
+            let [x, y] = [0.5 * f64::from(i % 20) - 5.0, 0.3 * f64::from(i / 20) - 3.0];
+            let (low, high) = ([x, y], [x + 0.01, y + 0.01]);
+            let ring = sides(&[low, [high[0], low[1]], high, [low[0], high[1]]], 0);
+            let expected = whole.around(low, high);
+            let found = whole.around_rings(&[ring], [-5.0, -3.0], [5.0, 3.0]);
+            assert!(std::ptr::eq(found, expected), "{x} {y}");
+            parts += usize::from(found.halves.is_none());
+        }
+        assert!(parts > 300, "{parts}");
+    }
+
+    #[test]
+    fn sides_keep_off_a_box_or_not() {
+        let off = |p: [f64; 2], q: [f64; 2]| {
+            let found = keeps_off([p, q], [1.0, 2.0], [4.0, 8.0]);
+            assert_eq!(found, keeps_off([q, p], [1.0, 2.0], [4.0, 8.0]), "{p:?} {q:?}");
+            found
+        };
+        // Beside it, to the left, the right, below, above, on a line through it or not; and past each corner.
+        assert!(off([0.0, 3.0], [0.5, 4.0]) && off([5.0, 3.0], [9.0, 4.0]));
+        assert!(off([2.0, 0.0], [3.0, 1.0]) && off([2.0, 9.0], [3.0, 10.0]));
+        assert!(off([0.0, 4.0], [0.9, 1.0]) && off([0.0, 9.0], [9.0, 8.1]));
+        assert!(off([0.0, 2.9], [1.9, 1.0]) && off([3.1, 1.0], [5.0, 2.9]));
+        assert!(off([0.0, 7.1], [1.9, 9.0]) && off([3.1, 9.0], [5.0, 7.1]));
+        // Across, inside, and touching a side or a corner.
+        assert!(!off([0.0, 3.0], [9.0, 5.0]) && !off([2.0, 3.0], [3.0, 4.0]));
+        assert!(!off([0.0, 3.0], [1.0, 4.0]) && !off([4.0, 3.0], [9.0, 4.0]));
+        assert!(!off([2.0, 0.0], [3.0, 2.0]) && !off([2.0, 8.0], [3.0, 10.0]));
+        assert!(!off([0.0, 3.0], [2.0, 1.0]) && !off([3.0, 1.0], [5.0, 3.0]));
+        assert!(!off([0.0, 7.0], [2.0, 9.0]) && !off([3.0, 9.0], [5.0, 7.0]));
+    }
 
     /// The most sides that a smallest box has.
     fn most(node: &Node) -> usize {
