@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 
 use crate::engine::Imprecise;
 use crate::interrupt::interruptible;
+use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, State, Triangulation, coordinates};
 use crate::value_error;
 
@@ -43,11 +44,15 @@ impl Hints {
         let core = match &mut self.0 {
             Either::Plane(hints) => {
                 let points = coordinates(&points)?;
-                Core::Plane(State::of(py.detach(|| hints.instance(&points)).map_err(value_error)?))
+                Core::Plane(State::of(
+                    detached(py, points.len() >= FEW, || hints.instance(&points))?.map_err(value_error)?,
+                ))
             }
             Either::Space(hints) => {
                 let points = coordinates(&points)?;
-                Core::Space(State::of(py.detach(|| hints.instance(&points)).map_err(value_error)?))
+                Core::Space(State::of(
+                    detached(py, points.len() >= FEW, || hints.instance(&points))?.map_err(value_error)?,
+                ))
             }
         };
         Ok(Triangulation { core })

@@ -1,6 +1,7 @@
 //! Convex hulls.
 
 use delone::hull::spatial::Hull3;
+use delone_predicates::{Sign, orient2d, orient3d};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -38,4 +39,32 @@ pub fn convex_hull<'py>(
         }
         columns => Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
     }
+}
+
+/// On which side of facets points are, a row for each point: 1 outside, 0 in its line or plane, -1 inside. Facets are
+/// given by coordinates, the corners of each one after the other.
+#[pyfunction]
+pub fn sides<'py>(
+    py: Python<'py>,
+    facets: PyReadonlyArray2<'py, f64>,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<i8>>> {
+    let (rows, columns) = (points.shape()[0], facets.shape()[0] / points.shape()[1].max(1));
+    let sides = if points.shape()[1] == 2 {
+        let (facets, points) = (coordinates(&facets)?, coordinates(&points)?);
+        py.detach(|| table(&points, facets.as_chunks().0, |p, [a, b]| -orient2d(*a, *b, *p)))
+    } else {
+        let (facets, points) = (coordinates(&facets)?, coordinates(&points)?);
+        py.detach(|| table(&points, facets.as_chunks().0, |p, [a, b, c]| orient3d(*a, *b, *c, *p)))
+    };
+    PyArray1::from_vec(py, sides).reshape([rows, columns])
+}
+
+/// Signs of points and facets, as numbers.
+fn table<const D: usize>(
+    points: &[[f64; D]],
+    facets: &[[[f64; D]; D]],
+    side: impl Fn(&[f64; D], &[[f64; D]; D]) -> Sign,
+) -> Vec<i8> {
+    points.iter().flat_map(|p| facets.iter().map(|f| side(p, f) as i8).collect::<Vec<_>>()).collect()
 }

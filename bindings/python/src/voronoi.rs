@@ -5,6 +5,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArra
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, Triangulation, coordinates};
 use crate::value_error;
 
@@ -24,7 +25,7 @@ pub fn clipped_cells<'py>(
     };
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
     let engine = &state.engine;
-    let (corners, ring_starts, starts) = py.detach(|| {
+    let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
         let region = Region::polygon(&rings).map_err(value_error)?;
         let cells = engine.voronoi().clip(&region);
         let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
@@ -36,7 +37,7 @@ pub fn clipped_cells<'py>(
             starts.push(ring_starts.len() as i64 - 1);
         }
         Ok::<_, PyErr>((corners, ring_starts, starts))
-    })?;
+    })??;
     let count = corners.len();
     let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
     Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))

@@ -5,7 +5,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Hints", "Triangulation", "clipped_cells", "convex_hull", "ridges"]
+__all__ = ["Hints", "Triangulation", "after_fork", "clipped_cells", "convex_hull", "ridges", "sides"]
 
 @final
 class Triangulation:
@@ -32,6 +32,8 @@ class Hints:
     def __new__(cls, centres: NDArray[np.float64]) -> Hints: ...
     def triangulate(self, points: NDArray[np.float64]) -> Triangulation: ...
 
+def after_fork() -> None: ...
+def sides(facets: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.int8]: ...
 def convex_hull(points: NDArray[np.float64]) -> NDArray[np.int32]: ...
 def clipped_cells(
     triangulation: Triangulation, points: int, rings: list[NDArray[np.float64]]
