@@ -7,6 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::interrupt::interruptible;
+use crate::memory::HULL;
 use crate::triangulation::coordinates;
 use crate::value_error;
 
@@ -19,6 +20,7 @@ pub fn convex_hull<'py>(
     match points.shape()[1] {
         2 => {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
+            HULL.check::<2>(points.len())?;
             let hull = interruptible(py, points.len(), move || delone::convex_hull(&points))?;
             let corners = hull.map_err(value_error)?;
             // On a line both ends are corners, and no edge has an inside.
@@ -30,6 +32,7 @@ pub fn convex_hull<'py>(
         }
         3 => {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
+            HULL.check::<3>(points.len())?;
             let hull = interruptible(py, points.len(), move || Hull3::of(&points))?.map_err(value_error)?;
             let is_body = hull.span() == delone::Dimension::Space;
             let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);

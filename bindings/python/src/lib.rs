@@ -8,6 +8,7 @@ mod engine;
 mod hints;
 mod hull;
 mod interrupt;
+mod memory;
 mod pool;
 mod triangulation;
 mod voronoi;
@@ -28,5 +29,6 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(hull::convex_hull, m)?)?;
     m.add_function(wrap_pyfunction!(hull::sides, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::clipped_cells, m)?)?;
+    m.add_function(wrap_pyfunction!(voronoi::furthest, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::ridges, m)?)
 }

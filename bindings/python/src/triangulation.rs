@@ -13,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::engine::Engine;
 use crate::interrupt::interruptible;
+use crate::memory::TRIANGULATION;
 use crate::pool::{FEW, detached};
 use crate::value_error;
 
@@ -162,6 +163,7 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     }
 
     fn build(py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<Self> {
+        TRIANGULATION.check::<D>(points.len())?;
         let built = interruptible(py, points.len(), move || E::build(points))?;
         Ok(Self::of(built.map_err(value_error)?))
     }
@@ -253,6 +255,7 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     }
 
     fn extend(&mut self, py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<()> {
+        TRIANGULATION.check::<D>(points.len())?;
         let is_long = self.change(points.len());
         detached(py, is_long, || self.engine.extend(&points))?.map_err(value_error)
     }
@@ -313,8 +316,13 @@ pub fn coordinates<const D: usize>(points: &PyReadonlyArray2<'_, f64>) -> PyResu
             "points of {columns} coordinates where there must be {D}"
         )));
     }
-    let values = points.as_slice()?;
-    Ok(values.as_chunks().0.to_vec())
+    let (rows, _) = points.as_slice()?.as_chunks();
+    let mut copy = Vec::new();
+    if copy.try_reserve_exact(rows.len()).is_err() {
+        return Err(PyMemoryError::new_err(format!("a copy of {} points", rows.len())));
+    }
+    copy.extend_from_slice(rows);
+    Ok(copy)
 }
 
 /// Vertices as rows of numbers.

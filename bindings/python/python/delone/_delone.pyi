@@ -5,7 +5,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Hints", "Triangulation", "after_fork", "clipped_cells", "convex_hull", "ridges", "sides"]
+__all__ = ["Hints", "Triangulation", "after_fork", "clipped_cells", "convex_hull", "furthest", "ridges", "sides"]
 
 @final
 class Triangulation:
@@ -38,6 +38,7 @@ def convex_hull(points: NDArray[np.float64]) -> NDArray[np.int32]: ...
 def clipped_cells(
     triangulation: Triangulation, points: int, rings: list[NDArray[np.float64]]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
+def furthest(triangulation: Triangulation) -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...
 def ridges(
     simplices: NDArray[np.int32], neighbors: NDArray[np.int32], vertices: NDArray[np.int64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
