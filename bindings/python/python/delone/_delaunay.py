@@ -270,7 +270,8 @@ class Delaunay:
 
     @staticmethod
     def _lift(x: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
+        with np.errstate(over="ignore", under="ignore"):
+            return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
 
     def lift_points(self, x: ArrayLike) -> NDArray[np.float64]:
         """Points on the paraboloid: one more coordinate, the square of the distance from the origin."""
@@ -284,12 +285,11 @@ class Delaunay:
 
         def make() -> NDArray[np.float64]:
             lifted = self._lift(self._points)[self.simplices]
-            sides = lifted[:, 1:] - lifted[:, :1]
-            count = self.ndim + 1
-            minors = [np.delete(sides, k, axis=2) for k in range(count)]
-            normals = np.stack([(-1) ** k * np.linalg.det(minor) for k, minor in enumerate(minors)], axis=1)
-            normals *= np.sign(normals[:, -1:]) * (1 if self._furthest else -1)
             with np.errstate(all="ignore"):
+                sides = lifted[:, 1:] - lifted[:, :1]
+                minors = [np.delete(sides, k, axis=2) for k in range(self.ndim + 1)]
+                normals = np.stack([(-1) ** k * np.linalg.det(minor) for k, minor in enumerate(minors)], axis=1)
+                normals *= np.sign(normals[:, -1:]) * (1 if self._furthest else -1)
                 normals /= np.linalg.norm(normals, axis=1, keepdims=True)
                 offsets = -(normals * lifted[:, 0]).sum(axis=1)
             return np.concatenate([normals, offsets[:, None]], axis=1)
@@ -300,7 +300,8 @@ class Delaunay:
         """Distances of lifted points from the planes of all simplices, (..., nsimplex): positive for those whose
         circumscribed circle or sphere holds the point; of furthest sites, for those whose circle does not."""
         lifted = self.lift_points(xi)
-        return np.asarray(lifted @ self.equations[:, :-1].T + self.equations[:, -1])
+        with np.errstate(all="ignore"):
+            return np.asarray(lifted @ self.equations[:, :-1].T + self.equations[:, -1])
 
     # Questions.
 

@@ -123,12 +123,9 @@ class ConvexHull:
 
     def _scaled(self) -> tuple[NDArray[np.float64], int]:
         """Corners of facets seen from one of them, divided by a power of two so that no product leaves the range."""
-        with np.errstate(all="ignore"):
-            half = self.points[self.simplices] / 2
-            half -= half[:1, :1].copy() if len(half) else 0.0
-        size = float(np.abs(half).max(initial=0.0))
-        power = int(np.frexp(size)[1])
-        return np.ldexp(half, -power), power + 1
+        corners, far = _shrunk(self.points[self.simplices])
+        corners, near = _shrunk(corners - corners[:1, :1])
+        return corners, far + near
 
     @cached_property
     def equations(self) -> NDArray[np.float64]:
@@ -168,6 +165,12 @@ def _times(value: float, power: int) -> NDArray[np.float64]:
     """A number times a power of two; infinite beyond the range."""
     with np.errstate(all="ignore"):
         return np.asarray(np.ldexp(value, power))
+
+
+def _shrunk(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], int]:
+    """Numbers divided by the power of two that makes the largest about one; and this power."""
+    power = int(np.frexp(np.abs(values).max(initial=0.0))[1])
+    return np.ldexp(values, -power), power
 
 
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

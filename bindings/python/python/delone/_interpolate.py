@@ -73,17 +73,18 @@ class LinearInterpolator:
         if array.ndim == 0 or len(array) != self.tri.npoints:
             raise ValueError(f"{self.tri.npoints} points need as many values; they have the shape {array.shape}")
         self.values = array.astype(np.result_type(array.dtype, np.float64))
-        if not np.can_cast(np.result_type(np.asarray(fill_value)), self.values.dtype):
-            raise TypeError(f"fill_value {fill_value!r} is none of {self.values.dtype}")
+        fill = np.asarray(fill_value)
+        if fill.ndim or fill.dtype.kind not in "fiubc" or not np.can_cast(fill.dtype, self.values.dtype):
+            raise TypeError(f"fill_value must be a number of {self.values.dtype}, not {fill_value!r}")
         self.fill_value, self.outside = fill_value, outside
 
     def __call__(self, *xi: ArrayLike) -> NDArray[Any]:
         """Values at points: an array whose last axis has the coordinates, or an array for each coordinate."""
         ndim = self.tri.ndim
         if len(xi) == 1:
-            at = as_numbers(xi[0], "xi").astype(np.float64)
+            at = _rounded(xi[0])
         elif len(xi) == ndim:
-            at = np.stack(np.broadcast_arrays(*(as_numbers(x, "xi").astype(np.float64) for x in xi)), axis=-1)
+            at = np.stack(np.broadcast_arrays(*(_rounded(x) for x in xi)), axis=-1)
         else:
             raise ValueError(f"one array of points or {ndim} of coordinates, not {len(xi)}")
         if at.ndim == 0 or at.shape[-1] != ndim:
@@ -120,6 +121,11 @@ class LinearInterpolator:
         shares[:, -1] = 1.0 - shares[:, :-1].sum(axis=1)
         values = self.values[corners]
         return np.asarray(np.einsum("nk,nk...->n...", shares, values))
+
+
+def _rounded(xi: ArrayLike) -> NDArray[np.float64]:
+    with np.errstate(all="ignore"):
+        return as_numbers(xi, "xi").astype(np.float64)
 
 
 def _det(m: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _delone
 from ._delaunay import Delaunay
 from ._options import parse
-from ._points import as_flag, as_points
+from ._points import as_flag, as_numbers, as_points
 
 
 class Voronoi:
@@ -114,9 +114,9 @@ class Voronoi:
                 (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
             rings = [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
         else:
-            given: list[Any] = list(region)  # type: ignore[arg-type]
-            is_one = bool(given) and np.ndim(given[0]) == 1
-            parts: list[Any] = [region] if is_one else given
+            given: Any = region if isinstance(region, (list, tuple)) else as_numbers(region, "region")
+            is_one = given.ndim != 3 if isinstance(given, np.ndarray) else len(given) > 0 and np.ndim(given[0]) < 2
+            parts: list[Any] = [given] if is_one else list(given)
             rings = [as_points(ring, "region", 2) for ring in parts]
         corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings)
         pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
