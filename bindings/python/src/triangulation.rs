@@ -3,22 +3,24 @@
 //! Whoever asks borrows it, and only changes borrow it alone: several threads of Python may ask at once.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use delone::{Delaunay2, Delaunay3, Error, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyIndexError, PyMemoryError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::engine::Engine;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
-use crate::pool::{FEW, detached};
+use crate::pool::{FEW, detached, generation};
 use crate::value_error;
 
 /// Queries that one task answers.
 const QUERIES: usize = 1024;
+/// Of so many points a sample, which a question may ask for at any time, is large enough for threads.
+const MANY: usize = 500_000;
 
 type Rows<'py> = Bound<'py, PyArray2<i32>>;
 
@@ -29,6 +31,8 @@ pub struct State<E, const D: usize, const C: usize> {
     rows: OnceLock<Vec<i32>>,
     /// Whether the engine has all that it makes for its first question.
     is_asked: AtomicBool,
+    /// One more than the generation of the process that asks this; 0 if none does.
+    first_asked_by: AtomicUsize,
 }
 
 pub enum Core {
@@ -159,7 +163,8 @@ impl Triangulation {
 
 impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     pub fn of(engine: E) -> Self {
-        Self { engine, rows: OnceLock::new(), is_asked: AtomicBool::new(false) }
+        let (is_asked, first_asked_by) = (AtomicBool::new(false), AtomicUsize::new(0));
+        Self { engine, rows: OnceLock::new(), is_asked, first_asked_by }
     }
 
     fn build(py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<Self> {
@@ -182,12 +187,6 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         self.rows.get_or_init(|| rows)
     }
 
-    /// Whether so many questions are worth threads. The first one is if there are many points: it makes what finds answers.
-    fn is_long(&self, queries: usize) -> bool {
-        queries >= 2 * QUERIES
-            || (!self.is_asked.load(Ordering::Acquire) && self.engine.vertex_count() >= FEW)
-    }
-
     /// The answers to queries, in their order. The first error that any query has.
     fn answers<A: Send>(
         &self,
@@ -195,8 +194,21 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         queries: &[[f64; D]],
         answer: impl Fn([f64; D]) -> Result<A, Error> + Sync,
     ) -> PyResult<Vec<A>> {
+        let is_first = !self.is_asked.load(Ordering::Acquire);
+        if is_first {
+            let here = generation() + 1;
+            let asking = self.first_asked_by.compare_exchange(0, here, Ordering::AcqRel, Ordering::Acquire);
+            // Others wait for the one who makes what finds answers. A child waits for ever if that was a thread of its parent.
+            if asking.is_err_and(|other| other != here) {
+                let message =
+                    "forked while another thread asked this triangulation for the first time; ask its copy()";
+                return Err(PyRuntimeError::new_err(message));
+            }
+        }
         let is_many = queries.len() >= 2 * QUERIES;
-        let found = detached(py, self.is_long(queries.len()), || {
+        // The first question makes what finds answers, which is worth threads, and others may have to make it better.
+        let few = if is_first { FEW } else { MANY };
+        let found = detached(py, is_many || self.engine.vertex_count() >= few, || {
             if is_many {
                 queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
             } else {
@@ -210,7 +222,7 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     /// Forgets what is not so any more after a change, and says whether changes by so many points are worth threads.
     fn change(&mut self, points: usize) -> bool {
         self.rows.take();
-        *self.is_asked.get_mut() = false;
+        (*self.is_asked.get_mut(), *self.first_asked_by.get_mut()) = (false, 0);
         points + self.engine.vertex_count() >= FEW
     }
 

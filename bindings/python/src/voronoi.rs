@@ -44,12 +44,12 @@ pub fn clipped_cells<'py>(
     Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
 }
 
+/// Triangles, and the circumcentre of each.
+type Triangles<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray2<f64>>);
+
 /// The triangles of furthest sites, counter-clockwise, and the circumcentre of each, the nearest number to the exact one.
 #[pyfunction]
-pub fn furthest<'py>(
-    py: Python<'py>,
-    triangulation: PyRef<'py, Triangulation>,
-) -> PyResult<(Bound<'py, PyArray2<i32>>, Bound<'py, PyArray2<f64>>)> {
+pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) -> PyResult<Triangles<'py>> {
     let Core::Plane(state) = &triangulation.core else {
         return Err(PyValueError::new_err("furthest sites are for the plane"));
     };

@@ -112,6 +112,34 @@ def test_a_fork_while_other_threads_are_at_work(run):
 
 
 @needs_fork
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_a_fork_while_another_thread_asks_for_the_first_time(run, ndim):
+    program = f"""
+        import os, sys, threading, time
+        import delone
+        from work import points
+        given = points(300_000, {ndim})
+        whole = delone.Delaunay(given)
+        for pause in (0, 0.002, 0.005, 0.01, 0.02, 0.1):
+            tri = whole.copy()
+            other = threading.Thread(target=tri.find_simplex, args=[given[:20_000]])
+            other.start()
+            time.sleep(pause)
+            child = os.fork()
+            if not child:
+                try:
+                    found = tri.nearest(given[:1])
+                except RuntimeError as error:
+                    found = tri.copy().nearest(given[:1])
+                print(*found, flush=True)
+                os._exit(0)
+            os.waitpid(child, 0)
+            other.join()
+    """
+    assert run(program) == ["0"] * 6
+
+
+@needs_fork
 def test_a_fork_in_a_handler_of_signals(run):
     program = """
         import os, signal, sys

@@ -114,7 +114,9 @@ class Voronoi:
                 (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
             rings = [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
         else:
-            given: Any = region if isinstance(region, (list, tuple)) else as_numbers(region, "region")
+            given: Any = region
+            if not isinstance(given, (list, tuple)):
+                given = as_numbers(given, "region")
             is_one = given.ndim != 3 if isinstance(given, np.ndarray) else len(given) > 0 and np.ndim(given[0]) < 2
             parts: list[Any] = [given] if is_one else list(given)
             rings = [as_points(ring, "region", 2) for ring in parts]
