@@ -17,7 +17,7 @@ pub const FEW: usize = 20_000;
 
 /// The pool of a generation, and the slot of the next one.
 struct Slot {
-    pool: OnceLock<Result<ThreadPool, String>>,
+    pool: OnceLock<ThreadPool>,
     next: OnceLock<Box<Slot>>,
 }
 
@@ -43,16 +43,16 @@ fn slot() -> &'static Slot {
 
 /// The pool of this process, made at the first need, of as many threads as `RAYON_NUM_THREADS` says or there are cores.
 pub fn pool() -> PyResult<&'static ThreadPool> {
-    let make = || {
-        let named = ThreadPoolBuilder::new().thread_name(|k| format!("delone-{k}"));
-        // Work that panics has no result, which its waiter reports; the process goes on.
-        named.panic_handler(drop).build().map_err(|error| error.to_string())
-    };
-    slot()
-        .pool
-        .get_or_init(make)
-        .as_ref()
-        .map_err(|error| PyRuntimeError::new_err(format!("no threads: {error}")))
+    let slot = slot();
+    if let Some(pool) = slot.pool.get() {
+        return Ok(pool);
+    }
+    let named = ThreadPoolBuilder::new().thread_name(|k| format!("delone-{k}"));
+    // Work that panics has no result, which its waiter reports; the process goes on.
+    let made = named.panic_handler(drop).build();
+    let made = made.map_err(|error| PyRuntimeError::new_err(format!("no threads to be had: {error}")))?;
+    // Of two that are made at once one goes again.
+    Ok(slot.pool.get_or_init(|| made))
 }
 
 /// To be called in the child of a fork, which has one thread.

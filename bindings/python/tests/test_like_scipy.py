@@ -119,6 +119,9 @@ def test_points_on_the_hull_that_are_no_corners(ndim):
     on_border = ((points == 0) | (points == 3)).any(axis=1)
     expected = set(np.flatnonzero(on_border)) - set(hull.vertices)
     assert set(hull.coplanar[:, 0]) == expected
+    # A point from which facets are seen is none of the hull.
+    aside = np.vstack([points, [[9.0] * ndim]])
+    assert (delone.ConvexHull(aside, qhull_options=f"Qc QG{len(points)}").coplanar == hull.coplanar).all()
     for point, facet, corner in hull.coplanar:
         assert hull.equations[facet, :-1] @ points[point] + hull.equations[facet, -1] == 0
         assert corner in hull.simplices[facet]
@@ -233,7 +236,7 @@ def test_interpolators_of_scipy(ndim):
     with pytest.raises(RuntimeError):
         given.add_points(queries)
     # Their own class alone is taken, and what else is given does not pass for numbers.
-    with pytest.raises(TypeError):
+    with pytest.raises((TypeError, IndexError)):
         scipy.interpolate.LinearNDInterpolator(tri, values)
     with pytest.raises(ValueError, match="without simplices"):
         delone.Delaunay(points[:2]).to_scipy()

@@ -54,8 +54,7 @@ class ConvexHull:
     def _make(self, candidates: NDArray[np.intp]) -> None:
         """The hull of some points, which must be that of all."""
         eye = self._options.seen_from
-        if eye is not None:
-            candidates = candidates[candidates != eye]
+        candidates = self._without_eye(candidates)
         self.npoints = len(self.points)
         self.simplices: NDArray[np.int32] = candidates[_delone.convex_hull(self.points[candidates])].astype(np.int32)
         self.nsimplex = len(self.simplices)
@@ -68,6 +67,10 @@ class ConvexHull:
             self.good = is_seen if self._options.seen else ~is_seen
         for name in ("equations", "area", "volume", "coplanar"):
             self.__dict__.pop(name, None)
+
+    def _without_eye(self, candidates: NDArray[np.intp]) -> NDArray[np.intp]:
+        eye = self._options.seen_from
+        return candidates if eye is None else candidates[candidates != eye]
 
     def _sides(self, at: NDArray[np.float64]) -> NDArray[np.int8]:
         """For points a row each with 1 for the facets that see them, 0 for those in whose plane they are."""
@@ -109,12 +112,13 @@ class ConvexHull:
         """
         if not (self._options.coplanar and self.nsimplex):
             return np.empty((0, 3), dtype=np.int32)
-        core = _delone.Triangulation(self.points)
+        candidates = self._without_eye(np.arange(self.npoints))
+        core = _delone.Triangulation(self.points[candidates])
         on_hull, twins = np.unique(core.hull()), core.duplicates()
-        found = np.union1d(on_hull, twins[np.isin(twins[:, 1], on_hull), 0])
-        found = np.setdiff1d(found, np.append(self.vertices, [] if self._options.seen_from is None else self._options.seen_from))
+        found = candidates[np.union1d(on_hull, twins[np.isin(twins[:, 1], on_hull), 0])]
+        found = np.setdiff1d(found, self.vertices)
         result = np.empty((len(found), 3), dtype=np.int32)
-        for k, point in enumerate(found.astype(np.intp)):
+        for k, point in enumerate(found):
             facet = int((self._sides(self.points[point : point + 1])[0] == 0).argmax())
             corners = self.simplices[facet]
             away = np.abs(self.points[corners] - self.points[point]).max(axis=1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import numpy as np
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from ._delaunay import Delaunay
@@ -65,7 +66,7 @@ class LinearInterpolator:
                 self._scale = np.where(size > 0, size, 1.0)
                 given = (given - self._offset) / self._scale
             self.tri = Delaunay(given)
-        if np.ma.isMaskedArray(values):
+        if ma.isMaskedArray(values):
             raise ValueError("values are a masked array: leave out the points that have none")
         array: NDArray[Any] = np.asarray(values)
         if array.dtype.kind not in "fiubc":

@@ -7,6 +7,9 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+
+# Beforehand: a fork while another thread imports it would leave it half imported.
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 
@@ -19,7 +22,7 @@ def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
 
     Raises TypeError for what holds no real numbers, ValueError for masked arrays and for rows of several lengths.
     """
-    if np.ma.isMaskedArray(values):
+    if ma.isMaskedArray(values):
         raise ValueError(f"{what} is a masked array: give what counts, for example array[~array.mask.any(axis=1)].data")
     array: NDArray[Any] = np.asarray(values)
     if array.dtype.kind not in "fiub":
@@ -73,7 +76,7 @@ def as_indices(values: int | Iterable[int] | ArrayLike, count: int) -> list[int]
     given: Any = values
     if isinstance(given, (set, frozenset)) or hasattr(given, "__next__"):
         given = list(given)
-    if np.ma.isMaskedArray(given):
+    if ma.isMaskedArray(given):
         raise TypeError("indices must not be a masked array")
     array: NDArray[Any] = np.asarray(given)
     if array.dtype.kind == "b":

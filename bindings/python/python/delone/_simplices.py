@@ -33,7 +33,7 @@ def transforms(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     are sums of products. Rounding changes a minor by less than 2.5 eps, the determinant by less than 4 eps of the sum of the
     sizes of these; the first ones together are below the second one, divided by the sides. With `_MOST` for eps times
     these sizes times the largest coordinates, of which sides are at most twice, that is 2 * 2.5 + 2 * 4 thousandths, and
-    one or two more for the rounding of points and of the product.
+    four more for the rounding of what is done with a map.
     """
     count, ndim = len(corners), corners.shape[2]
     result = np.full((count, ndim + 1, ndim), np.nan)
