@@ -87,7 +87,7 @@ WRONG = {
     "huge int": [[2**70, 1], [2, 3]],
     "shape (0,)": np.empty(0),
     "shape (2, 0)": np.empty((2, 0)),
-    "shape (4,)": np.zeros(3),
+    "shape (3,)": np.zeros(3),
     "shape (5, 1)": np.zeros((5, 1)),
     "shape (5, 4)": np.zeros((5, 4)),
     "NaN inside": np.array([[0, np.nan], [1, 2]]),

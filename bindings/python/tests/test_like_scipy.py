@@ -1,5 +1,6 @@
 """Attributes, changes, options and pictures, beside SciPy; what is degenerate, beside fractions."""
 
+import copy
 import pickle
 from fractions import Fraction
 from itertools import pairwise
@@ -74,6 +75,18 @@ def test_points_are_added_until_it_is_closed(name, ndim):
         for other in (what.copy(), pickle.loads(pickle.dumps(what))):
             with pytest.raises(RuntimeError, match="closed"):
                 other.add_points(points)
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_copies_change_by_themselves(name):
+    points = random_points(40, 2)
+    what = getattr(delone, name)(points)
+    for other in (copy.copy(what), copy.deepcopy(what), pickle.loads(pickle.dumps(what))):
+        other.add_points(points + 1)
+        assert (what.npoints, other.npoints) == (40, 80)
+        if name == "Voronoi":
+            assert (len(what.cells()), len(other.cells())) == (40, 80)
+            assert (what.triangulation.npoints, other.triangulation.npoints) == (40, 80)
 
 
 @pytest.mark.parametrize("ndim", [2, 3])

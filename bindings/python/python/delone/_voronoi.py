@@ -124,6 +124,12 @@ class Voronoi:
         pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
         return [pieces[a:b] for a, b in pairwise(starts.tolist())]
 
+    def __copy__(self) -> Voronoi:
+        """A diagram of its own of the same points."""
+        made = Voronoi.__new__(Voronoi)
+        made.__dict__.update(self.__dict__, _tri=self._tri.copy())
+        return made
+
     def __repr__(self) -> str:
         """A line that says what there is."""
         return f"<delone.Voronoi: {self.npoints} points, {len(self.vertices)} vertices, {len(self.ridge_points)} ridges>"
