@@ -7,6 +7,8 @@ use pyo3::prelude::*;
 
 use crate::engine::Imprecise;
 use crate::interrupt::interruptible;
+use crate::memory::{HINTS, TRIANGULATION};
+use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, State, Triangulation, coordinates};
 use crate::value_error;
 
@@ -24,6 +26,7 @@ fn preprocess<H: Imprecise<D, C>, const D: usize, const C: usize>(
     centres: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Box<H>> {
     let centres: Vec<[f64; D]> = coordinates(centres)?;
+    HINTS.check::<D>(centres.len())?;
     let hints = interruptible(py, centres.len(), move || H::preprocess(&centres))?;
     hints.map(Box::new).map_err(value_error)
 }
@@ -41,15 +44,19 @@ impl Hints {
 
     fn triangulate(&mut self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Triangulation> {
         let core = match &mut self.0 {
-            Either::Plane(hints) => {
-                let points = coordinates(&points)?;
-                Core::Plane(State::of(py.detach(|| hints.instance(&points)).map_err(value_error)?))
-            }
-            Either::Space(hints) => {
-                let points = coordinates(&points)?;
-                Core::Space(State::of(py.detach(|| hints.instance(&points)).map_err(value_error)?))
-            }
+            Either::Plane(hints) => Core::Plane(State::of(instance(py, &mut **hints, &points)?)),
+            Either::Space(hints) => Core::Space(State::of(instance(py, &mut **hints, &points)?)),
         };
         Ok(Triangulation { core })
     }
+}
+
+fn instance<H: Imprecise<D, C>, const D: usize, const C: usize>(
+    py: Python<'_>,
+    hints: &mut H,
+    points: &PyReadonlyArray2<'_, f64>,
+) -> PyResult<H::Engine> {
+    let points = coordinates(points)?;
+    TRIANGULATION.check::<D>(points.len())?;
+    detached(py, points.len() >= FEW, || hints.instance(&points))?.map_err(value_error)
 }

@@ -1,11 +1,13 @@
 //! Convex hulls.
 
 use delone::hull::spatial::Hull3;
+use delone_predicates::{Sign, orient2d, orient3d};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::interrupt::interruptible;
+use crate::memory::HULL;
 use crate::triangulation::coordinates;
 use crate::value_error;
 
@@ -18,6 +20,7 @@ pub fn convex_hull<'py>(
     match points.shape()[1] {
         2 => {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
+            HULL.check::<2>(points.len())?;
             let hull = interruptible(py, points.len(), move || delone::convex_hull(&points))?;
             let corners = hull.map_err(value_error)?;
             // On a line both ends are corners, and no edge has an inside.
@@ -29,6 +32,7 @@ pub fn convex_hull<'py>(
         }
         3 => {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
+            HULL.check::<3>(points.len())?;
             let hull = interruptible(py, points.len(), move || Hull3::of(&points))?.map_err(value_error)?;
             let is_body = hull.span() == delone::Dimension::Space;
             let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);
@@ -38,4 +42,32 @@ pub fn convex_hull<'py>(
         }
         columns => Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
     }
+}
+
+/// On which side of facets points are, a row for each point: 1 outside, 0 in its line or plane, -1 inside. Facets are
+/// given by coordinates, the corners of each one after the other.
+#[pyfunction]
+pub fn sides<'py>(
+    py: Python<'py>,
+    facets: PyReadonlyArray2<'py, f64>,
+    points: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<i8>>> {
+    let (rows, columns) = (points.shape()[0], facets.shape()[0] / points.shape()[1].max(1));
+    let sides = if points.shape()[1] == 2 {
+        let (facets, points) = (coordinates(&facets)?, coordinates(&points)?);
+        py.detach(|| table(&points, facets.as_chunks().0, |p, [a, b]| -orient2d(*a, *b, *p)))
+    } else {
+        let (facets, points) = (coordinates(&facets)?, coordinates(&points)?);
+        py.detach(|| table(&points, facets.as_chunks().0, |p, [a, b, c]| orient3d(*a, *b, *c, *p)))
+    };
+    PyArray1::from_vec(py, sides).reshape([rows, columns])
+}
+
+/// Signs of points and facets, as numbers.
+fn table<const D: usize>(
+    points: &[[f64; D]],
+    facets: &[[[f64; D]; D]],
+    side: impl Fn(&[f64; D], &[[f64; D]; D]) -> Sign,
+) -> Vec<i8> {
+    points.iter().flat_map(|p| facets.iter().map(|f| side(p, f) as i8).collect::<Vec<_>>()).collect()
 }

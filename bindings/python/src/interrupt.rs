@@ -2,16 +2,15 @@
 
 use std::sync::Mutex;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::thread;
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
+use crate::pool::{FEW, generation, pool};
+
 /// How often to look for signals.
 const PAUSE: Duration = Duration::from_millis(50);
-/// Fewer points are not worth a thread.
-const FEW: usize = 20_000;
 
 /// Does work on so many points without Python's lock. On Ctrl-C the exception is raised within moments; the work goes on
 /// in the background until its result is dropped.
@@ -24,17 +23,19 @@ pub fn interruptible<T: Send + 'static>(
         return Ok(py.detach(work));
     }
     let (sender, receiver) = sync_channel(1);
-    thread::spawn(move || {
+    py.detach(pool)?.spawn(move || {
         // Nobody is there any more after an interruption.
         _ = sender.send(work());
     });
+    let here = generation();
     // A receiver is for one thread; the lock lends it to whichever this is.
     let receiver = Mutex::new(receiver);
     loop {
         let answer = py.detach(|| receiver.lock().ok().map(|receiver| receiver.recv_timeout(PAUSE)));
         match answer {
             Some(Ok(result)) => return Ok(result),
-            Some(Err(RecvTimeoutError::Timeout)) => py.check_signals()?,
+            // A handler of signals may fork, and its child comes by here too.
+            Some(Err(RecvTimeoutError::Timeout)) if here == generation() => py.check_signals()?,
             _ => return Err(PyRuntimeError::new_err("the work ended without a result")),
         }
     }

@@ -1,13 +1,15 @@
 //! The Rust half of the Python package: arrays in, arrays out. What Python users see is in `python/delone/`, which checks
 //! and names things as they know them from SciPy.
 //!
-//! Everything long runs without Python's lock, on all cores. A simplex is known to Python by its row; rows count the
+//! Everything long runs without Python's lock, on all cores (`pool.rs`). A simplex is known to Python by its row; rows count the
 //! finite simplices by increasing id, and are made anew after a change.
 
 mod engine;
 mod hints;
 mod hull;
 mod interrupt;
+mod memory;
+mod pool;
 mod triangulation;
 mod voronoi;
 
@@ -23,7 +25,10 @@ fn value_error(error: delone::Error) -> PyErr {
 fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<triangulation::Triangulation>()?;
     m.add_class::<hints::Hints>()?;
+    m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;
     m.add_function(wrap_pyfunction!(hull::convex_hull, m)?)?;
+    m.add_function(wrap_pyfunction!(hull::sides, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::clipped_cells, m)?)?;
+    m.add_function(wrap_pyfunction!(voronoi::furthest, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::ridges, m)?)
 }

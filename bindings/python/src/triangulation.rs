@@ -3,19 +3,24 @@
 //! Whoever asks borrows it, and only changes borrow it alone: several threads of Python may ask at once.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use delone::{Delaunay2, Delaunay3, Error, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyIndexError, PyMemoryError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::engine::Engine;
 use crate::interrupt::interruptible;
+use crate::memory::TRIANGULATION;
+use crate::pool::{FEW, detached, generation};
 use crate::value_error;
 
 /// Queries that one task answers.
 const QUERIES: usize = 1024;
+/// Of so many points a sample, which a question may ask for at any time, is large enough for threads.
+const MANY: usize = 500_000;
 
 type Rows<'py> = Bound<'py, PyArray2<i32>>;
 
@@ -24,6 +29,10 @@ pub struct State<E, const D: usize, const C: usize> {
     pub engine: E,
     /// For each number of a simplex its row, once it was asked for; -1 for what is not finite.
     rows: OnceLock<Vec<i32>>,
+    /// Whether the engine has all that it makes for its first question.
+    is_asked: AtomicBool,
+    /// One more than the generation of the process that asks this; 0 if none does.
+    first_asked_by: AtomicUsize,
 }
 
 pub enum Core {
@@ -154,24 +163,67 @@ impl Triangulation {
 
 impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     pub fn of(engine: E) -> Self {
-        Self { engine, rows: OnceLock::new() }
+        let (is_asked, first_asked_by) = (AtomicBool::new(false), AtomicUsize::new(0));
+        Self { engine, rows: OnceLock::new(), is_asked, first_asked_by }
     }
 
     fn build(py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<Self> {
+        TRIANGULATION.check::<D>(points.len())?;
         let built = interruptible(py, points.len(), move || E::build(points))?;
         Ok(Self::of(built.map_err(value_error)?))
     }
 
     /// For each number of a simplex its row.
     fn rows(&self) -> &[i32] {
-        self.rows.get_or_init(|| {
-            let (mut rows, mut row) = (vec![-1; self.engine.slots()], 0);
-            self.engine.visit(|simplex, _, _| {
-                rows[simplex] = row;
-                row += 1;
-            });
-            rows
-        })
+        if let Some(rows) = self.rows.get() {
+            return rows;
+        }
+        // Two may make them at once. Were it one while others wait, a process that is forked meanwhile would wait for ever.
+        let (mut rows, mut row) = (vec![-1; self.engine.slots()], 0);
+        self.engine.visit(|simplex, _, _| {
+            rows[simplex] = row;
+            row += 1;
+        });
+        self.rows.get_or_init(|| rows)
+    }
+
+    /// The answers to queries, in their order. The first error that any query has.
+    fn answers<A: Send>(
+        &self,
+        py: Python<'_>,
+        queries: &[[f64; D]],
+        answer: impl Fn([f64; D]) -> Result<A, Error> + Sync,
+    ) -> PyResult<Vec<A>> {
+        let is_first = !self.is_asked.load(Ordering::Acquire);
+        if is_first {
+            let here = generation() + 1;
+            let asking = self.first_asked_by.compare_exchange(0, here, Ordering::AcqRel, Ordering::Acquire);
+            // Others wait for the one who makes what finds answers. A child waits for ever if that was a thread of its parent.
+            if asking.is_err_and(|other| other != here) {
+                let message =
+                    "forked while another thread asked this triangulation for the first time; ask its copy()";
+                return Err(PyRuntimeError::new_err(message));
+            }
+        }
+        let is_many = queries.len() >= 2 * QUERIES;
+        // The first question makes what finds answers, which is worth threads, and others may have to make it better.
+        let few = if is_first { FEW } else { MANY };
+        let found = detached(py, is_many || self.engine.vertex_count() >= few, || {
+            if is_many {
+                queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
+            } else {
+                queries.iter().map(|&q| answer(q)).collect::<Result<Vec<A>, Error>>()
+            }
+        })?;
+        self.is_asked.fetch_or(!queries.is_empty(), Ordering::Release);
+        found.map_err(value_error)
+    }
+
+    /// Forgets what is not so any more after a change, and says whether changes by so many points are worth threads.
+    fn change(&mut self, points: usize) -> bool {
+        self.rows.take();
+        (*self.is_asked.get_mut(), *self.first_asked_by.get_mut()) = (false, 0);
+        points + self.engine.vertex_count() >= FEW
     }
 
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
@@ -215,8 +267,9 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     }
 
     fn extend(&mut self, py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<()> {
-        self.rows.take();
-        py.detach(|| self.engine.extend(&points)).map_err(value_error)
+        TRIANGULATION.check::<D>(points.len())?;
+        let is_long = self.change(points.len());
+        detached(py, is_long, || self.engine.extend(&points))?.map_err(value_error)
     }
 
     /// All or none.
@@ -233,23 +286,20 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         if let Some(twice) = wanted.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(PyValueError::new_err(format!("point {} is to be removed twice", twice[0].index())));
         }
-        self.rows.take();
-        py.detach(|| wanted.into_iter().try_for_each(|v| self.engine.remove(v))).map_err(value_error)
+        let is_long = self.change(wanted.len());
+        detached(py, is_long, || wanted.into_iter().try_for_each(|v| self.engine.remove(v)))?
+            .map_err(value_error)
     }
 
     fn find<'py>(&self, py: Python<'py>, queries: Vec<[f64; D]>) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        let found = py.detach(|| {
-            let rows = self.rows();
-            let row = |q| self.engine.find(q).map(|found| found.map_or(-1, |simplex| rows[simplex]));
-            answers(&queries, row)
-        });
-        let found = found.map_err(value_error)?;
-        Ok(PyArray1::from_vec(py, found))
+        let rows = py.detach(|| self.rows());
+        let row = |q| self.engine.find(q).map(|found| found.map_or(-1, |simplex| rows[simplex]));
+        Ok(PyArray1::from_vec(py, self.answers(py, &queries, row)?))
     }
 
     fn nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>) -> PyResult<Vec<i64>> {
         let vertex = |q| self.engine.nearest(q).map(|v| v.map_or(-1, |v| v.index() as i64));
-        py.detach(|| answers(&queries, vertex)).map_err(value_error)
+        self.answers(py, &queries, vertex)
     }
 
     fn k_nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>, k: usize) -> PyResult<Vec<i64>> {
@@ -260,8 +310,7 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
             return Err(PyMemoryError::new_err(format!("{} times {k} neighbours", queries.len())));
         }
         let most = k.min(self.engine.vertex_count());
-        let found =
-            py.detach(|| answers(&queries, |q| self.engine.k_nearest(q, most))).map_err(value_error)?;
+        let found = self.answers(py, &queries, |q| self.engine.k_nearest(q, most))?;
         for found in found {
             let missing = k - found.len();
             padded.extend(found.into_iter().map(|v| v.index() as i64));
@@ -269,14 +318,6 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         }
         Ok(padded)
     }
-}
-
-/// The answers to queries, in their order, on all cores. The first error that any query has.
-fn answers<Q: Copy + Sync, A: Send>(
-    queries: &[Q],
-    answer: impl Fn(Q) -> Result<A, Error> + Sync,
-) -> Result<Vec<A>, Error> {
-    queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
 }
 
 /// The points of an array of `D` columns.
@@ -287,8 +328,13 @@ pub fn coordinates<const D: usize>(points: &PyReadonlyArray2<'_, f64>) -> PyResu
             "points of {columns} coordinates where there must be {D}"
         )));
     }
-    let values = points.as_slice()?;
-    Ok(values.as_chunks().0.to_vec())
+    let (rows, _) = points.as_slice()?.as_chunks();
+    let mut copy = Vec::new();
+    if copy.try_reserve_exact(rows.len()).is_err() {
+        return Err(PyMemoryError::new_err(format!("a copy of {} points", rows.len())));
+    }
+    copy.extend_from_slice(rows);
+    Ok(copy)
 }
 
 /// Vertices as rows of numbers.

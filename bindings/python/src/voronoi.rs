@@ -1,10 +1,12 @@
 //! Voronoi cells clipped to a region of the plane, and ridges in space.
 
 use delone::{Region, VertexId};
+use delone_predicates::circumcentre;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, Triangulation, coordinates};
 use crate::value_error;
 
@@ -24,7 +26,7 @@ pub fn clipped_cells<'py>(
     };
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
     let engine = &state.engine;
-    let (corners, ring_starts, starts) = py.detach(|| {
+    let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
         let region = Region::polygon(&rings).map_err(value_error)?;
         let cells = engine.voronoi().clip(&region);
         let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
@@ -36,10 +38,32 @@ pub fn clipped_cells<'py>(
             starts.push(ring_starts.len() as i64 - 1);
         }
         Ok::<_, PyErr>((corners, ring_starts, starts))
-    })?;
+    })??;
     let count = corners.len();
     let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
     Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
+}
+
+/// Triangles, and the circumcentre of each.
+type Triangles<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray2<f64>>);
+
+/// The triangles of furthest sites, counter-clockwise, and the circumcentre of each, the nearest number to the exact one.
+#[pyfunction]
+pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) -> PyResult<Triangles<'py>> {
+    let Core::Plane(state) = &triangulation.core else {
+        return Err(PyValueError::new_err("furthest sites are for the plane"));
+    };
+    let engine = &state.engine;
+    let (corners, centres) = detached(py, engine.vertex_count() >= FEW, || {
+        let triangles: Vec<[VertexId; 3]> = engine.furthest().triangles().collect();
+        let corners: Vec<i32> = triangles.iter().flatten().map(|v| v.index() as i32).collect();
+        let centre = |[a, b, c]: [[f64; 2]; 3]| circumcentre(a, b, c).unwrap_or([f64::INFINITY; 2]);
+        let centres = triangles.iter().flat_map(|triangle| centre(triangle.map(|v| engine.point(v))));
+        (corners, centres.collect::<Vec<f64>>())
+    })?;
+    let count = corners.len() / 3;
+    let corners = PyArray1::from_vec(py, corners).reshape([count, 3])?;
+    Ok((corners, PyArray1::from_vec(py, centres).reshape([count, 2])?))
 }
 
 /// Pairs of points, the starts of their ridges, and the vertices of these.

@@ -8,12 +8,19 @@ tri.add_points(more)
 tri.remove([17, 4])
 """
 
+import os
+
+from . import _delone
 from ._delaunay import Delaunay
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
 from ._plot import plot
 from ._voronoi import Voronoi
+
+# Threads do not survive a fork.
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_delone.after_fork)
 
 __version__ = "0.1.0"
 __all__ = ["ConvexHull", "Delaunay", "Hints", "LinearInterpolator", "Voronoi", "plot"]

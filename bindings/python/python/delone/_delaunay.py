@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from copy import copy
 from itertools import chain, count
 from typing import Any, TypeVar
 
@@ -10,7 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._points import as_points, as_queries
+from ._options import parse
+from ._points import as_flag, as_index, as_indices, as_points, as_queries
+from ._simplices import neighbors_of, transforms
 
 T = TypeVar("T")
 
@@ -27,11 +30,20 @@ class Delaunay:
     points : array_like of floats, shape (n, 2) or (n, 3)
         The points. All must be finite.
     furthest_site : bool
-        Not supported; False.
+        Triangulate so that the circle of each triangle holds all points; for points of the plane. Its triangles join the
+        corners of the hull.
     incremental : bool
         For those who come from SciPy; points can be added and removed either way.
     qhull_options : str, optional
-        For those who come from SciPy; ignored.
+        For those who come from SciPy. Options that concern rounding have no effect, because there is none; what would
+        change the result is refused by a ValueError. `QJ` refuses equal points, which only a joggle tells apart.
+
+    Raises
+    ------
+    TypeError, ValueError
+        What is wrong with the points, and where.
+    MemoryError
+        Where there is not enough for so many points.
 
     Examples
     --------
@@ -51,21 +63,32 @@ class Delaunay:
         qhull_options: str | None = None,
     ) -> None:
         """Triangulates points."""
-        if furthest_site:
-            raise NotImplementedError("furthest-site triangulations")
+        as_flag(incremental, "incremental")
+        self._options = parse(qhull_options, "")
         # SciPy copies too: what a caller changes later does not change the triangulation.
-        self._points: NDArray[np.float64] = np.array(as_points(points), order="C")
-        self._points.flags.writeable = False
-        self._core = _delone.Triangulation(self._points)
+        given = np.array(as_points(points), order="C")
+        self._furthest = as_flag(furthest_site, "furthest_site")
+        if self._furthest and given.shape[1] != 2:
+            raise NotImplementedError("furthest-site triangulations are for points of the plane")
+        self._begin(given, _delone.Triangulation(given))
+        self._refuse_twins(given)
+
+    def _begin(self, points: NDArray[np.float64], core: _delone.Triangulation) -> None:
+        points.flags.writeable = False
+        self._points, self._core = points, core
         self._removed: list[int] = []
+        self._is_closed = False
         self._cache: dict[str, Any] = {}
+
+    def _refuse_twins(self, points: NDArray[np.float64]) -> None:
+        if self._options.distinct and len(np.unique(points + 0.0, axis=0)) < len(points):
+            raise ValueError("qhull_options: 'QJ' makes a corner of each point, but some are equal, and nothing is joggled")
 
     @classmethod
     def _of(cls, points: NDArray[np.float64], core: _delone.Triangulation) -> Delaunay:
         made = cls.__new__(cls)
-        made._points = np.array(points, order="C")
-        made._points.flags.writeable = False
-        made._core, made._removed, made._cache = core, [], {}
+        made._options, made._furthest = parse(None, ""), False
+        made._begin(np.array(points, order="C"), core)
         return made
 
     def _once(self, name: str, make: Callable[[], T]) -> T:
@@ -107,17 +130,40 @@ class Delaunay:
         return self._core.span
 
     @property
+    def furthest_site(self) -> bool:
+        """Whether the circles of triangles hold all points, instead of none."""
+        return self._furthest
+
+    @property
+    def good(self) -> NDArray[np.bool_]:
+        """True for each simplex; for those who come from SciPy."""
+        return np.ones(self.nsimplex, dtype=bool)
+
+    @property
     def min_bound(self) -> NDArray[np.float64]:
         """The least coordinate of the points along each axis."""
-        return np.asarray(self._points.min(axis=0))
+        return np.asarray(self._points.min(axis=0, initial=np.inf))
 
     @property
     def max_bound(self) -> NDArray[np.float64]:
         """The largest coordinate of the points along each axis."""
-        return np.asarray(self._points.max(axis=0))
+        return np.asarray(self._points.max(axis=0, initial=-np.inf))
 
     def _arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        return self._once("arrays", self._core.arrays)
+        def make() -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+            if not self._furthest:
+                return self._core.arrays()
+            triangles = self._farthest()[0]
+            return triangles, neighbors_of(triangles)
+
+        return self._once("arrays", make)
+
+    def _farthest(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+        return self._once("furthest", lambda: _delone.furthest(self._core))
+
+    def _centres(self) -> NDArray[np.float64]:
+        """The circumcentres of triangles, each the nearest numbers to the exact one."""
+        return self._farthest()[1] if self._furthest else self._core.centres()
 
     @property
     def simplices(self) -> NDArray[np.int32]:
@@ -136,12 +182,28 @@ class Delaunay:
     def convex_hull(self) -> NDArray[np.int32]:
         """Facets of the hull, (nfacet, ndim): edges counter-clockwise around the plane's hull, triangles counter-clockwise
         seen from outside."""
-        return self._once("hull", self._core.hull)
+
+        def make() -> NDArray[np.int32]:
+            if not self._furthest:
+                return self._core.hull()
+            rows, corners = np.nonzero(self.neighbors < 0)
+            ends = [self.simplices[rows, (corners + k) % 3] for k in (1, 2)]
+            return np.stack(ends, axis=1)
+
+        return self._once("hull", make)
 
     @property
     def edges(self) -> NDArray[np.int32]:
         """The edges, (nedge, 2), each once; those of points on a line too."""
-        return self._once("edges", self._core.edges)
+
+        def make() -> NDArray[np.int32]:
+            if not self._furthest:
+                return self._core.edges()
+            rows, corners = np.nonzero(np.arange(self.nsimplex)[:, None] > self.neighbors)
+            ends = [self.simplices[rows, (corners + k) % 3] for k in (1, 2)]
+            return np.stack(ends, axis=1)
+
+        return self._once("edges", make)
 
     @property
     def duplicates(self) -> NDArray[np.int32]:
@@ -164,13 +226,15 @@ class Delaunay:
 
     @property
     def vertex_to_simplex(self) -> NDArray[np.int32]:
-        """For each point a simplex that it is a corner of; -1 for those that are no corner."""
+        """For each point a simplex that it, or the one that it equals, is a corner of; -1 for those that are no corner."""
 
         def make() -> NDArray[np.int32]:
             simplices = self.simplices
             result = np.full(self.npoints, -1, dtype=np.int32)
             rows = np.repeat(np.arange(len(simplices), dtype=np.int32), self.ndim + 1)
             result[simplices.ravel()] = rows
+            twins = self.duplicates
+            result[twins[:, 0]] = result[twins[:, 1]]
             return result
 
         return self._once("vertex_to_simplex", make)
@@ -193,25 +257,12 @@ class Delaunay:
     def transform(self) -> NDArray[np.float64]:
         """For each simplex the map to barycentric coordinates, (nsimplex, ndim + 1, ndim).
 
-        With T = transform[i, :ndim] and r = transform[i, ndim], the first ndim coordinates of x are T @ (x - r). NaN where
-        a simplex is too flat for floating point.
+        With T = transform[i, :ndim] and r = transform[i, ndim], the first ndim coordinates of x are T @ (x - r). All of
+        transform[i] is NaN where a simplex is so flat, or so thin beside the size of its coordinates, that a change of x in
+        its last place may move the result by a thousandth, or where T is out of range. In all others the result is right to
+        a 50th for each x in the simplex; that is proved, and mostly it is right to many places.
         """
-
-        def make() -> NDArray[np.float64]:
-            corners = self._points[self.simplices]
-            last = corners[:, -1]
-            sides = np.swapaxes(corners[:, :-1] - last[:, None, :], 1, 2)
-            result = np.full((len(corners), self.ndim + 1, self.ndim), np.nan)
-            result[:, -1] = last
-            with np.errstate(all="ignore"):
-                size = np.abs(sides).max(axis=(1, 2), initial=0.0)[:, None, None]
-                scaled = sides / np.where(size > 0, size, 1.0)
-                sound = np.linalg.det(scaled) != 0.0
-                result[sound, :-1] = np.linalg.inv(scaled[sound]) / size[sound]
-            result[~np.isfinite(result[:, :-1]).all(axis=(1, 2))] = np.nan
-            return result
-
-        return self._once("transform", make)
+        return self._once("transform", lambda: transforms(self._points[self.simplices]))
 
     #: Lifted points have the height paraboloid_scale * |x|^2 + paraboloid_shift; SciPy scales to the size of the others.
     paraboloid_scale = 1.0
@@ -219,34 +270,38 @@ class Delaunay:
 
     @staticmethod
     def _lift(x: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
+        with np.errstate(over="ignore", under="ignore"):
+            return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
 
     def lift_points(self, x: ArrayLike) -> NDArray[np.float64]:
         """Points on the paraboloid: one more coordinate, the square of the distance from the origin."""
-        return self._lift(np.asarray(x, dtype=np.float64))
+        rows, shape = as_queries(x, self.ndim, "x")
+        return self._lift(rows).reshape((*shape, self.ndim + 1))
 
     @property
     def equations(self) -> NDArray[np.float64]:
-        """Planes of the lifted simplices, (nsimplex, ndim + 2): normals of length 1 that point down, and offsets."""
+        """Planes of the lifted simplices, (nsimplex, ndim + 2): normals of length 1 that point down, of furthest sites up, and
+        offsets."""
 
         def make() -> NDArray[np.float64]:
             lifted = self._lift(self._points)[self.simplices]
-            sides = lifted[:, 1:] - lifted[:, :1]
-            count = self.ndim + 1
-            minors = [np.delete(sides, k, axis=2) for k in range(count)]
-            normals = np.stack([(-1) ** k * np.linalg.det(minor) for k, minor in enumerate(minors)], axis=1)
-            normals *= -np.sign(normals[:, -1:])
-            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-            offsets = -(normals * lifted[:, 0]).sum(axis=1)
+            with np.errstate(all="ignore"):
+                sides = lifted[:, 1:] - lifted[:, :1]
+                minors = [np.delete(sides, k, axis=2) for k in range(self.ndim + 1)]
+                normals = np.stack([(-1) ** k * np.linalg.det(minor) for k, minor in enumerate(minors)], axis=1)
+                normals *= np.sign(normals[:, -1:]) * (1 if self._furthest else -1)
+                normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+                offsets = -(normals * lifted[:, 0]).sum(axis=1)
             return np.concatenate([normals, offsets[:, None]], axis=1)
 
         return self._once("equations", make)
 
     def plane_distance(self, xi: ArrayLike) -> NDArray[np.float64]:
         """Distances of lifted points from the planes of all simplices, (..., nsimplex): positive for those whose
-        circumscribed circle or sphere holds the point."""
+        circumscribed circle or sphere holds the point; of furthest sites, for those whose circle does not."""
         lifted = self.lift_points(xi)
-        return np.asarray(lifted @ self.equations[:, :-1].T + self.equations[:, -1])
+        with np.errstate(all="ignore"):
+            return np.asarray(lifted @ self.equations[:, :-1].T + self.equations[:, -1])
 
     # Questions.
 
@@ -257,9 +312,23 @@ class Delaunay:
         from SciPy, and have no effect.
         """
         queries, shape = as_queries(xi, self.ndim)
+        if self._furthest:
+            return self._find_furthest(queries).reshape(shape)
         return self._core.find(queries).reshape(shape)
 
     locate = find_simplex
+
+    def _find_furthest(self, queries: NDArray[np.float64]) -> NDArray[np.int32]:
+        """Looks at all triangles, which join the corners of the hull alone."""
+        found = np.full(len(queries), -1, dtype=np.int32)
+        sides = self._points[np.stack([self.simplices, np.roll(self.simplices, -1, axis=1)], axis=2)].reshape(-1, 2)
+        # So many at a time that the answers for all of them fit memory.
+        step = max(1, 10**7 // max(1, len(sides)))
+        for start in range(0, len(queries) if len(sides) else 0, step):
+            part = queries[start : start + step]
+            inside = np.all(_delone.sides(sides, part).reshape(len(part), -1, 3) <= 0, axis=2)
+            found[start : start + step] = np.where(np.any(inside, axis=1), np.argmax(inside, axis=1), -1)
+        return found
 
     def nearest(self, xi: ArrayLike) -> NDArray[np.int64]:
         """The nearest vertices; the lexicographically smallest of several. -1 if there is no vertex."""
@@ -268,19 +337,24 @@ class Delaunay:
 
     def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
         """The k nearest vertices, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
+        k = as_index(k, "k")
         if k < 1:
             raise ValueError(f"k must be at least 1, not {k}")
         queries, shape = as_queries(xi, self.ndim)
+        if k >= 2**62:
+            raise MemoryError(f"{len(queries)} times {k} neighbours")
         return self._core.k_nearest(queries, k).reshape((*shape, k))
 
     # Changes.
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, whose indices follow those there are. `restart` triangulates all anew, removed ones left out: the
-        result is the same, and for more points than there are it is faster."""
+        result is the same, and for more points than there are it is faster. RuntimeError after `close`."""
+        self._refuse_closed()
         more = as_points(points, columns=self.ndim)
         everything = np.concatenate([self._points, more])
-        if restart:
+        self._refuse_twins(everything)
+        if as_flag(restart, "restart"):
             self._core = _built(everything, self._removed)
         else:
             self._core.extend(more)
@@ -288,9 +362,18 @@ class Delaunay:
         self._points = everything
         self._cache.clear()
 
-    def remove(self, points: int | Iterable[int]) -> None:
-        """Removes vertices by index, all or none. Duplicates of a vertex go with it. Indices of others stay as they are."""
-        wanted = [int(points)] if isinstance(points, (int, np.integer)) else [int(v) for v in points]
+    def remove(self, points: int | Iterable[int] | ArrayLike) -> None:
+        """Removes vertices by index, or those that a mask says, all or none. Duplicates of a vertex go with it. Indices of
+        others stay as they are.
+
+        A mask has a boolean for each point, and those that are no vertices must not be marked. TypeError for what is neither
+        integers nor a mask, IndexError for what is no vertex, RuntimeError after `close`.
+        """
+        self._refuse_closed()
+        wanted = as_indices(points, self.npoints)
+        beyond = next((v for v in wanted if not 0 <= v < self.npoints), None)
+        if beyond is not None:
+            raise IndexError(f"point {beyond} is no vertex")
         twins = self.duplicates
         gone = twins[np.isin(twins[:, 1], wanted), 0].tolist()
         self._core.remove(wanted)
@@ -298,14 +381,38 @@ class Delaunay:
         self._cache.clear()
 
     def close(self) -> None:
-        """Does nothing; for those who come from SciPy."""
+        """Ends changes: points can be neither added nor removed any more."""
+        self._is_closed = True
+
+    def _refuse_closed(self) -> None:
+        if self._is_closed:
+            raise RuntimeError("closed: points can be neither added nor removed any more")
 
     # Copies, and how it looks.
 
     def copy(self) -> Delaunay:
         """A triangulation of its own with the same points."""
         made = Delaunay._of(self._points, self._core.copy())
-        made._removed = list(self._removed)
+        made._removed, made._is_closed = list(self._removed), self._is_closed
+        made._options, made._furthest = self._options, self._furthest
+        return made
+
+    def to_scipy(self) -> Any:
+        """A `scipy.spatial.Delaunay` with these simplices, for what takes no other class, as SciPy's interpolators.
+
+        Its `find_simplex` is SciPy's, with SciPy's tolerance; points cannot be added to it. ValueError where there are no
+        simplices, and for furthest sites. O(n).
+        """
+        import scipy.spatial
+
+        if not self.nsimplex or self._furthest:
+            raise ValueError("SciPy has no triangulation without simplices, and its interpolators take none of furthest sites")
+        made = scipy.spatial.Delaunay.__new__(scipy.spatial.Delaunay)
+        names = ["ndim", "npoints", "nsimplex", "min_bound", "max_bound", "furthest_site", "paraboloid_scale"]
+        names += ["paraboloid_shift", "simplices", "neighbors", "equations", "coplanar", "good"]
+        given = {name: copy(getattr(self, name)) for name in names}
+        nothing = dict.fromkeys(["_qhull", "_transform", "_vertex_to_simplex", "_vertex_neighbor_vertices"])
+        made.__dict__.update(given, **nothing, _points=np.array(self._points))
         return made
 
     def __copy__(self) -> Delaunay:
@@ -318,14 +425,14 @@ class Delaunay:
 
     def __getstate__(self) -> dict[str, Any]:
         """Points and what was removed."""
-        return {"points": np.array(self._points), "removed": list(self._removed)}
+        state = {"points": np.array(self._points), "removed": list(self._removed), "options": self._options}
+        return {**state, "furthest": self._furthest, "closed": self._is_closed}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Triangulates again: the triangulation is a function of the points."""
-        self._points = state["points"]
-        self._points.flags.writeable = False
-        self._core = _built(self._points, state["removed"])
-        self._removed, self._cache = state["removed"], {}
+        self._options, self._furthest = state["options"], state["furthest"]
+        self._begin(state["points"], _built(state["points"], state["removed"]))
+        self._removed, self._is_closed = state["removed"], state["closed"]
 
     def __repr__(self) -> str:
         """A line that says what there is."""

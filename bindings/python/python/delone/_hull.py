@@ -8,11 +8,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._points import as_points
+from ._options import parse
+from ._points import as_flag, as_points
+from ._simplices import neighbors_of
 
 
 class ConvexHull:
     """The convex hull of points in the plane or in space, exact. Points that span less have no facets.
+
+    Parameters
+    ----------
+    points : array_like of floats, shape (n, 2) or (n, 3)
+        The points. All must be finite.
+    incremental : bool
+        For those who come from SciPy; points can be added either way.
+    qhull_options : str, optional
+        For those who come from SciPy. `QGn` leaves out point n and marks in `good` the facets that it sees from outside,
+        `QG-n` those that it does not; `Qc` asks for `coplanar`. Those about rounding have no effect, others are a ValueError.
 
     Attributes
     ----------
@@ -20,50 +32,154 @@ class ConvexHull:
         The points.
     simplices : (nfacet, ndim) array
         Edges counter-clockwise around, or triangles counter-clockwise seen from outside; flat faces are cut.
+    neighbors : (nfacet, ndim) array
+        The facets across from each corner.
     vertices : (nvertex,) array
         The corners: in the plane counter-clockwise, in space by index.
+    good : (nfacet,) array of booleans, or None
+        What `QGn` or `QG-n` asks for, decided exactly: a point in the plane of a facet does not see it. Else None.
     """
 
     def __init__(self, points: ArrayLike, incremental: bool = False, qhull_options: str | None = None) -> None:
         """Finds the hull of points."""
+        as_flag(incremental, "incremental")
+        self._options = parse(qhull_options, "", is_hull=True)
+        self._is_closed = False
         self.points: NDArray[np.float64] = np.array(as_points(points), order="C")
-        self.ndim, self.npoints = self.points.shape[1], len(self.points)
-        self.simplices: NDArray[np.int32] = _delone.convex_hull(self.points)
+        self.ndim = self.points.shape[1]
+        if self._options.seen_from is not None and self._options.seen_from >= len(self.points):
+            raise ValueError(f"qhull_options: 'QG{self._options.seen_from}' among {len(self.points)} points")
+        self._make(np.arange(len(self.points)))
+
+    def _make(self, candidates: NDArray[np.intp]) -> None:
+        """The hull of some points, which must be that of all."""
+        eye = self._options.seen_from
+        candidates = self._without_eye(candidates)
+        self.npoints = len(self.points)
+        self.simplices: NDArray[np.int32] = candidates[_delone.convex_hull(self.points[candidates])].astype(np.int32)
         self.nsimplex = len(self.simplices)
         around = self.simplices[:, 0]
         self.vertices: NDArray[np.int32] = around if self.ndim == 2 else np.unique(self.simplices)
+        self.neighbors: NDArray[np.int32] = neighbors_of(self.simplices)
+        self.good: NDArray[np.bool_] | None = None
+        if eye is not None:
+            is_seen = self._sides(self.points[eye : eye + 1])[0] > 0
+            self.good = is_seen if self._options.seen else ~is_seen
+        for name in ("equations", "area", "volume", "coplanar"):
+            self.__dict__.pop(name, None)
+
+    def _without_eye(self, candidates: NDArray[np.intp]) -> NDArray[np.intp]:
+        eye = self._options.seen_from
+        return candidates if eye is None else candidates[candidates != eye]
+
+    def _sides(self, at: NDArray[np.float64]) -> NDArray[np.int8]:
+        """For points a row each with 1 for the facets that see them, 0 for those in whose plane they are."""
+        return _delone.sides(self.points[self.simplices].reshape(-1, self.ndim), np.ascontiguousarray(at))
+
+    def add_points(self, points: ArrayLike, restart: bool = False) -> None:
+        """Adds points, whose indices follow those there are: the hull of the corners and of these, or with `restart` of all
+        points, is found, which gives the same. RuntimeError after `close`."""
+        if self._is_closed:
+            raise RuntimeError("closed: no points can be added any more")
+        more = as_points(points, columns=self.ndim)
+        before = len(self.points)
+        # Fewer than a hull takes have no corners.
+        is_anew = as_flag(restart, "restart") or not self.nsimplex
+        corners = np.arange(before) if is_anew else np.sort(self.vertices)
+        self.points = np.concatenate([self.points, more])
+        self._make(np.concatenate([corners, np.arange(before, len(self.points))]))
+
+    def close(self) -> None:
+        """Ends changes: no points can be added any more."""
+        self._is_closed = True
+
+    @property
+    def min_bound(self) -> NDArray[np.float64]:
+        """The least coordinate of the points along each axis."""
+        return np.asarray(self.points.min(axis=0, initial=np.inf))
+
+    @property
+    def max_bound(self) -> NDArray[np.float64]:
+        """The largest coordinate of the points along each axis."""
+        return np.asarray(self.points.max(axis=0, initial=-np.inf))
+
+    @cached_property
+    def coplanar(self) -> NDArray[np.int32]:
+        """With the option `Qc` the points on the hull that are no corners, equal ones included, each with a facet in whose
+        plane it is and the nearest corner of this: (m, 3). Without it none, as in SciPy.
+
+        Triangulates all points, and looks at all facets for each point found.
+        """
+        if not (self._options.coplanar and self.nsimplex):
+            return np.empty((0, 3), dtype=np.int32)
+        candidates = self._without_eye(np.arange(self.npoints))
+        core = _delone.Triangulation(self.points[candidates])
+        on_hull, twins = np.unique(core.hull()), core.duplicates()
+        found = candidates[np.union1d(on_hull, twins[np.isin(twins[:, 1], on_hull), 0])]
+        found = np.setdiff1d(found, self.vertices)
+        result = np.empty((len(found), 3), dtype=np.int32)
+        for k, point in enumerate(found):
+            facet = int((self._sides(self.points[point : point + 1])[0] == 0).argmax())
+            corners = self.simplices[facet]
+            away = np.abs(self.points[corners] - self.points[point]).max(axis=1)
+            result[k] = point, facet, corners[away.argmin()]
+        return result
+
+    def _scaled(self) -> tuple[NDArray[np.float64], int]:
+        """Corners of facets seen from one of them, divided by a power of two so that no product leaves the range."""
+        corners, far = _shrunk(self.points[self.simplices])
+        corners, near = _shrunk(corners - corners[:1, :1])
+        return corners, far + near
 
     @cached_property
     def equations(self) -> NDArray[np.float64]:
         """Normals of length 1 that point outside, and offsets: (nfacet, ndim + 1)."""
-        corners = self.points[self.simplices]
+        corners, _ = self._scaled()
         if self.ndim == 2:
             along = corners[:, 1] - corners[:, 0]
             normals = np.stack([along[:, 1], -along[:, 0]], axis=1)
         else:
-            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        with np.errstate(invalid="ignore"):
-            normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        offsets = -(normals * corners[:, 0]).sum(axis=1)
+            normals = np.cross(_unit(corners[:, 1] - corners[:, 0]), _unit(corners[:, 2] - corners[:, 0]))
+        with np.errstate(over="ignore"):
+            normals = _unit(normals)
+            offsets = -(normals * self.points[self.simplices[:, 0]]).sum(axis=1)
         return np.concatenate([normals, offsets[:, None]], axis=1)
 
     @cached_property
     def area(self) -> float:
         """The area of the surface; in the plane the perimeter."""
-        corners = self.points[self.simplices]
+        corners, power = self._scaled()
         sides = corners[:, 1:] - corners[:, :1]
         if self.ndim == 2:
-            return float(np.linalg.norm(sides[:, 0], axis=1).sum())
-        return float(np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).sum() / 2)
+            return float(_times(np.linalg.norm(sides[:, 0], axis=1).sum(), power))
+        return float(_times(np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).sum() / 2, 2 * power))
 
     @cached_property
     def volume(self) -> float:
         """The volume inside; in the plane the area."""
-        if not self.nsimplex:
-            return 0.0
-        corners = self.points[self.simplices] - self.points[self.simplices[0, 0]]
-        return float(np.linalg.det(corners).sum() / (2 if self.ndim == 2 else 6))
+        corners, power = self._scaled()
+        return float(_times(np.linalg.det(corners).sum() / (2 if self.ndim == 2 else 6), self.ndim * power))
 
     def __repr__(self) -> str:
         """A line that says what there is."""
         return f"<delone.ConvexHull: {len(self.vertices)} vertices, {self.nsimplex} facets>"
+
+
+def _times(value: float, power: int) -> NDArray[np.float64]:
+    """A number times a power of two; infinite beyond the range."""
+    with np.errstate(all="ignore"):
+        return np.asarray(np.ldexp(value, power))
+
+
+def _shrunk(values: NDArray[np.float64]) -> tuple[NDArray[np.float64], int]:
+    """Numbers divided by the power of two that makes the largest about one; and this power."""
+    power = int(np.frexp(np.abs(values).max(initial=0.0))[1])
+    return np.ldexp(values, -power), power
+
+
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors of length 1; squares stay in range."""
+    power = np.frexp(np.abs(vectors).max(axis=1, initial=0.0, keepdims=True))[1]
+    scaled = np.ldexp(vectors, -power)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(scaled / np.linalg.norm(scaled, axis=1, keepdims=True))

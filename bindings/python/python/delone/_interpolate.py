@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import numpy as np
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from ._delaunay import Delaunay
+from ._points import as_flag, as_numbers, as_points
 
 
 class LinearInterpolator:
@@ -49,33 +51,41 @@ class LinearInterpolator:
             raise ValueError(f'outside must be "fill" or "nearest", not {outside!r}')
         self._offset: NDArray[np.float64] | float = 0.0
         self._scale: NDArray[np.float64] | float = 1.0
+        rescale = as_flag(rescale, "rescale")
         if isinstance(points, Delaunay):
             if rescale:
                 raise ValueError("rescale is for points, not for a triangulation")
+            if points.furthest_site:
+                raise ValueError("values are interpolated on a triangulation of nearest sites, not of furthest ones")
             self.tri = points
         else:
-            given = np.asarray(points)
-            if rescale and given.ndim == 2 and len(given):
+            given = as_points(points)
+            if rescale and len(given):
                 self._offset = given.mean(axis=0)
                 size = np.ptp(given, axis=0)
                 self._scale = np.where(size > 0, size, 1.0)
                 given = (given - self._offset) / self._scale
-            self.tri = Delaunay(given if rescale else points)
+            self.tri = Delaunay(given)
+        if ma.isMaskedArray(values):
+            raise ValueError("values are a masked array: leave out the points that have none")
         array: NDArray[Any] = np.asarray(values)
         if array.dtype.kind not in "fiubc":
             raise TypeError(f"values must be numbers, not {array.dtype}")
         if array.ndim == 0 or len(array) != self.tri.npoints:
             raise ValueError(f"{self.tri.npoints} points need as many values; they have the shape {array.shape}")
         self.values = array.astype(np.result_type(array.dtype, np.float64))
+        fill = np.asarray(fill_value)
+        if fill.ndim or fill.dtype.kind not in "fiubc" or not np.can_cast(fill.dtype, self.values.dtype):
+            raise TypeError(f"fill_value must be a number of {self.values.dtype}, not {fill_value!r}")
         self.fill_value, self.outside = fill_value, outside
 
     def __call__(self, *xi: ArrayLike) -> NDArray[Any]:
         """Values at points: an array whose last axis has the coordinates, or an array for each coordinate."""
         ndim = self.tri.ndim
         if len(xi) == 1:
-            at = np.asarray(xi[0], dtype=np.float64)
+            at = _rounded(xi[0])
         elif len(xi) == ndim:
-            at = np.stack(np.broadcast_arrays(*(np.asarray(x, dtype=np.float64) for x in xi)), axis=-1)
+            at = np.stack(np.broadcast_arrays(*(_rounded(x) for x in xi)), axis=-1)
         else:
             raise ValueError(f"one array of points or {ndim} of coordinates, not {len(xi)}")
         if at.ndim == 0 or at.shape[-1] != ndim:
@@ -112,6 +122,11 @@ class LinearInterpolator:
         shares[:, -1] = 1.0 - shares[:, :-1].sum(axis=1)
         values = self.values[corners]
         return np.asarray(np.einsum("nk,nk...->n...", shares, values))
+
+
+def _rounded(xi: ArrayLike) -> NDArray[np.float64]:
+    with np.errstate(all="ignore"):
+        return as_numbers(xi, "xi").astype(np.float64)
 
 
 def _det(m: NDArray[np.float64]) -> NDArray[np.float64]:

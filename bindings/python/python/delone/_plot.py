@@ -20,7 +20,10 @@ def plot(what: Delaunay | Voronoi, ax: Any = None, **style: Any) -> Any:
     from matplotlib.collections import PolyCollection
 
     from ._delaunay import Delaunay
+    from ._voronoi import Voronoi
 
+    if not isinstance(what, (Delaunay, Voronoi)):
+        raise TypeError(f"a Delaunay or Voronoi is drawn, not {what!r}")
     if isinstance(what, Delaunay) and what.ndim == 3:
         from mpl_toolkits.mplot3d.art3d import Line3DCollection
 

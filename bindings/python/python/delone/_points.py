@@ -1,25 +1,44 @@
-"""What is taken for an array of points, and what is refused."""
+"""What is taken for points, queries, indices and flags, and what is refused."""
 
 from __future__ import annotations
 
+import operator
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+
+# Beforehand: a fork while another thread imports it would leave it half imported.
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
+
+
+class ShapeError(ValueError, IndexError):
+    """A number where there must be coordinates; SciPy raises IndexError for that, and ValueError for other shapes."""
+
+
+def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
+    """An array of real numbers of any shape.
+
+    Raises TypeError for what holds no real numbers, ValueError for masked arrays and for rows of several lengths.
+    """
+    if ma.isMaskedArray(values):
+        raise ValueError(f"{what} is a masked array: give what counts, for example array[~array.mask.any(axis=1)].data")
+    array: NDArray[Any] = np.asarray(values)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
+    return array
 
 
 def as_points(points: ArrayLike, what: str = "points", columns: int | None = None) -> NDArray[np.float64]:
     """Coordinates as a C-contiguous and aligned float64 array of shape (n, 2) or (n, 3); the same array if it is one already.
 
-    Raises TypeError for what holds no real numbers, ValueError for wrong shapes and for numbers that are not finite.
+    Raises TypeError for what holds no real numbers, ValueError for wrong shapes and for numbers that float64 does not tell
+    apart or that are not finite.
     """
-    if np.ma.isMaskedArray(points):
-        raise TypeError(f"{what} is a masked array: give the points that count, for example masked.compressed() by column")
-    array: NDArray[Any] = np.asarray(points)
-    if array.dtype.kind not in "fiub":
-        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
+    array = as_numbers(points, what)
     if array.ndim != 2:
-        raise ValueError(f"{what} must have the shape (n, 2) or (n, 3), not {array.shape}")
+        raise ValueError(f"{what} must have the shape (n, 2) or (n, 3), not {array.shape} of {array.ndim} dimensions")
     if columns is None and array.shape[1] not in (2, 3):
         raise ValueError(f"{what} must have 2 or 3 coordinates each, not {array.shape[1]}")
     if columns is not None and array.shape[1] != columns:
@@ -28,20 +47,63 @@ def as_points(points: ArrayLike, what: str = "points", columns: int | None = Non
         largest = max(abs(int(array.min())), abs(int(array.max())))
         if largest > 2**53:
             raise ValueError(f"{what} holds integers beyond 2**53, which float64 does not tell apart")
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", under="ignore"):
         result: NDArray[np.float64] = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     is_finite = np.isfinite(result)
     if not is_finite.all():
         row, column = np.argwhere(~is_finite)[0]
-        raise ValueError(f"{what}: point {row} has the {'xyz'[column]} coordinate {result[row, column]}, which is not finite")
+        raise ValueError(f"{what}: point {row} has the {'xyz'[column]} coordinate {array[row, column]}, which is not finite")
+    if array.dtype.kind == "f" and array.dtype.itemsize > 8 and (result != array).any():
+        raise ValueError(f"{what} holds numbers that float64 does not hold exactly; round them with astype(numpy.float64)")
     return result
 
 
-def as_queries(xi: ArrayLike, columns: int) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+def as_queries(xi: ArrayLike, columns: int, what: str = "xi") -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """Queries as rows, and the shape that their answers have: that of `xi` without its last axis."""
-    if np.ma.isMaskedArray(xi):
-        raise TypeError("xi is a masked array")
-    array: NDArray[Any] = np.asarray(xi)
-    if array.ndim == 0 or array.shape[-1] != columns:
-        raise ValueError(f"xi must have {columns} coordinates in its last axis; its shape is {array.shape}")
-    return as_points(array.reshape(-1, columns), "xi", columns), array.shape[:-1]
+    if np.asarray(xi).ndim == 0:
+        raise ShapeError(f"{what} must have {columns} coordinates in its last axis; it is no array but {xi!r}")
+    array = as_numbers(xi, what)
+    if array.shape[-1] != columns:
+        raise ValueError(f"{what} must have {columns} coordinates in its last axis; its shape is {array.shape}")
+    return as_points(array.reshape(-1, columns), what, columns), array.shape[:-1]
+
+
+def as_indices(values: int | Iterable[int] | ArrayLike, count: int) -> list[int]:
+    """Indices of so many points: from an integer, from integers, or from a mask of a boolean for each point, as NumPy has it.
+
+    Raises TypeError for all else, IndexError for masks of another length. Whether there are such points is for the caller.
+    """
+    given: Any = values
+    if isinstance(given, (set, frozenset)) or hasattr(given, "__next__"):
+        given = list(given)
+    if ma.isMaskedArray(given):
+        raise TypeError("indices must not be a masked array")
+    array: NDArray[Any] = np.asarray(given)
+    if array.dtype.kind == "b":
+        if array.shape != (count,):
+            raise IndexError(f"a mask must have the shape ({count},), one boolean for each point, not {array.shape}")
+        found: list[int] = np.flatnonzero(array).tolist()
+        return found
+    if array.dtype.kind == "O" and array.ndim < 2:
+        # Integers beyond 64 bits; they are indices of nothing, and are told so.
+        return [as_index(v, "an index") for v in array.ravel().tolist()]
+    if array.ndim > 1 or (array.dtype.kind not in "iu" and array.size):
+        raise TypeError(f"indices must be integers or a mask, not an array of {array.dtype} and the shape {array.shape}")
+    return [int(v) for v in array.ravel().tolist()]
+
+
+def as_index(value: Any, what: str) -> int:
+    """An integer that is no boolean."""
+    if not isinstance(value, (bool, np.bool_)):
+        try:
+            return operator.index(value)
+        except TypeError:
+            pass
+    raise TypeError(f"{what} must be an integer, not {value!r}")
+
+
+def as_flag(value: Any, what: str) -> bool:
+    """True or False, or the numbers 1 and 0."""
+    if isinstance(value, (bool, np.bool_)) or (isinstance(value, (int, np.integer)) and value in (0, 1)):
+        return bool(value)
+    raise TypeError(f"{what} must be True or False, not {value!r}")

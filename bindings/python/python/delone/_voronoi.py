@@ -11,11 +11,24 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._delaunay import Delaunay
-from ._points import as_points
+from ._options import parse
+from ._points import as_flag, as_numbers, as_points
 
 
 class Voronoi:
     """The Voronoi diagram of points in the plane or in space.
+
+    Parameters
+    ----------
+    points : array_like of floats, shape (n, 2) or (n, 3)
+        The points. All must be finite.
+    furthest_site : bool
+        The diagram of furthest sites; for points of the plane. Only corners of the hull have regions then.
+    incremental : bool
+        For those who come from SciPy; points can be added either way. See `regions`.
+    qhull_options : str, optional
+        For those who come from SciPy, where "Qz" is usual unless `incremental`; see `regions`. Options that concern
+        rounding have no effect, others are a ValueError.
 
     Attributes
     ----------
@@ -28,9 +41,11 @@ class Voronoi:
     ridge_vertices : list of lists
         The vertices of each ridge, in order around it; -1 is infinitely far away.
     regions : list of lists
-        The vertices of each region; -1 is infinitely far away. In the plane in order, counter-clockwise.
+        The vertices of each region; -1 is infinitely far away. In the plane in order, counter-clockwise. With `Qz` there is
+        an empty one first, which is that of no point.
     point_region : (n,) array
-        The region of each point; that of the equal one for duplicates.
+        The region of each point, in the order of the points; that of the equal one for duplicates; -1 for points that are
+        furthest from nowhere.
     """
 
     def __init__(
@@ -41,19 +56,34 @@ class Voronoi:
         qhull_options: str | None = None,
     ) -> None:
         """Makes the diagram of points."""
+        usual = "" if as_flag(incremental, "incremental") else "Qz"
+        self._has_empty = parse(qhull_options, usual).at_infinity
         self._tri = Delaunay(points, furthest_site, incremental, qhull_options)
         self._make()
+
+    def add_points(self, points: ArrayLike, restart: bool = False) -> None:
+        """Adds points, whose indices follow those there are, and makes the diagram of all. `restart` is for those who come
+        from SciPy: it triangulates anew, which gives the same. RuntimeError after `close`."""
+        self._tri.add_points(points, restart)
+        self._make()
+
+    def close(self) -> None:
+        """Ends changes: no points can be added any more."""
+        self._tri.close()
 
     def _make(self) -> None:
         tri = self._tri
         self.points = tri.points
         self.ndim, self.npoints = tri.ndim, tri.npoints
-        self.min_bound: NDArray[np.float64] | None = tri.min_bound if tri.npoints else None
-        self.max_bound: NDArray[np.float64] | None = tri.max_bound if tri.npoints else None
-        centres = tri._core.centres() if tri.ndim == 2 else _circumcentres(tri.points[tri.simplices])
+        self.min_bound, self.max_bound = tri.min_bound, tri.max_bound
+        self.furthest_site = tri.furthest_site
+        centres = tri._centres() if tri.ndim == 2 else _circumcentres(tri.points[np.sort(tri.simplices, axis=1)])
         self.vertices, which = _distinct(centres)
         self.ridge_points, self.ridge_vertices = _ridges(tri, which)
         self.regions, self.point_region = _regions(tri, self.ridge_points, self.ridge_vertices)
+        if self._has_empty:
+            self.regions.insert(0, [])
+            self.point_region[self.point_region >= 0] += 1
 
     @property
     def triangulation(self) -> Delaunay:
@@ -72,8 +102,8 @@ class Voronoi:
         `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
         cells are clipped to the box of the points, a twentieth larger.
         """
-        if self.ndim != 2:
-            raise NotImplementedError("cells are clipped in the plane")
+        if self.ndim != 2 or self.furthest_site:
+            raise NotImplementedError("cells are clipped in the plane, and not those of furthest sites")
         if region is None:
             if not self.npoints:
                 return []
@@ -84,13 +114,21 @@ class Voronoi:
                 (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
             rings = [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
         else:
-            given: list[Any] = list(region)  # type: ignore[arg-type]
-            is_one = bool(given) and np.ndim(given[0]) == 1
-            parts: list[Any] = [region] if is_one else given
+            given: Any = region
+            if not isinstance(given, (list, tuple)):
+                given = as_numbers(given, "region")
+            is_one = given.ndim != 3 if isinstance(given, np.ndarray) else len(given) > 0 and np.ndim(given[0]) < 2
+            parts: list[Any] = [given] if is_one else list(given)
             rings = [as_points(ring, "region", 2) for ring in parts]
         corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings)
         pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
         return [pieces[a:b] for a, b in pairwise(starts.tolist())]
+
+    def __copy__(self) -> Voronoi:
+        """A diagram of its own of the same points."""
+        made = Voronoi.__new__(Voronoi)
+        made.__dict__.update(self.__dict__, _tri=self._tri.copy())
+        return made
 
     def __repr__(self) -> str:
         """A line that says what there is."""
@@ -177,4 +215,6 @@ def _regions(
     point_region = np.arange(tri.npoints, dtype=np.int64)
     twins = tri.duplicates
     point_region[twins[:, 0]] = twins[:, 1]
+    if tri.furthest_site:
+        point_region[[not regions[r] for r in point_region]] = -1
     return regions, point_region

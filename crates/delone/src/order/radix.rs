@@ -78,7 +78,10 @@ fn by_any_digits(entries: &mut Vec<u64>, key_bits: u32) {
 
 /// Into how many parts threads cut entries to scatter them.
 fn parts(entries: usize) -> usize {
-    parallel::parts(entries).min(2 * parallel::threads())
+    match parallel::parts(entries) {
+        1 => 1,
+        parts => parts.min(2 * parallel::threads()),
+    }
 }
 
 /// Least significant digits first.

@@ -1,0 +1,69 @@
+//! The threads that everything long runs on: a pool of its own, because rayon's global one cannot be made anew.
+//!
+//! A forked process has none of the threads of its parent, only the memory that says they are there; whoever gives them
+//! work waits for ever. So each generation of processes has a slot of its own for a pool, and the child of a fork goes on
+//! to the next one (`_delone.after_fork`, which `os.register_at_fork` calls). What it leaves behind is never looked at again:
+//! to drop it would be to wait for threads that do not exist, and it may be locked by one of them.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Work on fewer items is done where it is asked for: the library cuts it into one part, and asks for no threads.
+pub const FEW: usize = 20_000;
+
+/// The pool of a generation, and the slot of the next one.
+struct Slot {
+    pool: OnceLock<ThreadPool>,
+    next: OnceLock<Box<Slot>>,
+}
+
+impl Slot {
+    const fn new() -> Self {
+        Self { pool: OnceLock::new(), next: OnceLock::new() }
+    }
+}
+
+static FIRST: Slot = Slot::new();
+/// How many forks this process is away from the one that has the first slot.
+static GENERATION: AtomicUsize = AtomicUsize::new(0);
+
+/// Which process this is, counted by forks: what threads were given work for another one will never answer.
+pub fn generation() -> usize {
+    GENERATION.load(Ordering::Acquire)
+}
+
+/// The slot of this process.
+fn slot() -> &'static Slot {
+    (0..generation()).fold(&FIRST, |slot, _| slot.next.get_or_init(|| Box::new(Slot::new())))
+}
+
+/// The pool of this process, made at the first need, of as many threads as `RAYON_NUM_THREADS` says or there are cores.
+pub fn pool() -> PyResult<&'static ThreadPool> {
+    let slot = slot();
+    if let Some(pool) = slot.pool.get() {
+        return Ok(pool);
+    }
+    let named = ThreadPoolBuilder::new().thread_name(|k| format!("delone-{k}"));
+    // Work that panics has no result, which its waiter reports; the process goes on.
+    let made = named.panic_handler(drop).build();
+    let made = made.map_err(|error| PyRuntimeError::new_err(format!("no threads to be had: {error}")))?;
+    // Of two that are made at once one goes again.
+    Ok(slot.pool.get_or_init(|| made))
+}
+
+/// To be called in the child of a fork, which has one thread.
+#[pyfunction]
+pub fn after_fork() {
+    GENERATION.fetch_add(1, Ordering::Release);
+    // Made here, where nobody else can be: a fork while another thread makes it would leave it half made for ever.
+    slot();
+}
+
+/// Does work without Python's lock, if it is long on all threads.
+pub fn detached<T: Send>(py: Python<'_>, is_long: bool, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| if is_long { Ok(pool()?.install(work)) } else { Ok(work()) })
+}
