@@ -229,6 +229,36 @@ fn signals_leave_nothing_behind() {
 
 #[cfg(target_os = "linux")]
 #[test]
+fn a_hangup_that_is_ignored_stays_so() {
+    let place = Place::new();
+    place.succeed("generate uniform -n 200000 -o p.npy");
+    let command =
+        format!("trap '' HUP; exec {} -q triangulate p.npy -o m.geojson", env!("CARGO_BIN_EXE_delone"));
+    let mut child =
+        Command::new("sh").current_dir(place.0.path()).args(["-c", &command]).spawn().expect("sh");
+    for _ in 0..5 {
+        std::thread::sleep(Duration::from_millis(20));
+        _ = Command::new("kill").args(["-HUP", &child.id().to_string()]).stderr(Stdio::null()).status();
+    }
+    assert!(child.wait().expect("it ends").success());
+    assert!(place.path("m.geojson").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn files_that_may_not_grow_are_errors() {
+    let place = Place::new();
+    place.succeed("generate uniform -n 20000 -o p.npy");
+    let command =
+        format!("ulimit -f 100; exec {} -q triangulate p.npy -o m.geojson", env!("CARGO_BIN_EXE_delone"));
+    let output = Command::new("sh").current_dir(place.0.path()).args(["-c", &command]).output().expect("sh");
+    let told = text(&output.stderr);
+    assert!(output.status.code() == Some(1) && told.starts_with("error: cannot write m.geojson"), "{told}");
+    assert_eq!(fs::read_dir(place.0.path()).expect("readable").count(), 1);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
 fn too_little_memory_is_one_line() {
     let place = Place::new();
     place.succeed("generate uniform -n 1e6 -o p.npy");
