@@ -200,9 +200,10 @@ impl Tree<'_> {
             };
         };
         let [mut left, mut right] = builder.split(middle);
+        let levels = levels - 1;
         let (a, b) = parallel::join(
-            || self.halve(work, run.start..middle, levels - 1, &mut left),
-            || self.halve(work, middle..run.end, levels - 1, &mut right),
+            || self.halve(work, run.start..middle, levels, &mut left),
+            || self.halve(work, middle..run.end, levels, &mut right),
         );
         let counters = [left.counters, right.counters];
         counters.iter().for_each(|of_half| builder.counters.add(of_half));
