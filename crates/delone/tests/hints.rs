@@ -290,6 +290,49 @@ fn moving_points_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
     assert_eq!(moving.triangulation().points(), [[0.0, 0.0], [1.0, 0.0]]);
 }
 
+/// What cannot be repaired: equal points that part, lines that bend, all that there is turned over.
+#[test]
+fn motions_between_dimensions_are_rebuilt() {
+    let square = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+    let with = |at: usize, p: [f64; 2]| {
+        let mut points = square.to_vec();
+        points.insert(at, p);
+        points
+    };
+    let line = |bend: f64| vec![[0.0, 0.0], [1.0, bend], [2.0, 0.0], [3.0, 0.0]];
+    let steps = [
+        (with(4, square[1]), with(4, [2.0, 1.0])),
+        (with(0, square[3]), with(0, [2.0, 1.0])),
+        (with(4, [2.0, 1.0]), with(4, square[1])),
+        (line(0.0), line(1.0)),
+        (line(1.0), line(0.0)),
+        (line(0.0), line(0.0)),
+        (vec![[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]], vec![[0.0, 0.0], [4.0, 0.0], [0.0, -4.0]]),
+    ];
+    for (from, to) in steps {
+        let mut moving = Moving2::new(&from).expect("finite");
+        assert_eq!(moving.step(&to), Ok(Step::Rebuilt), "{from:?} to {to:?}");
+        same(moving.triangulation(), &to, &format!("{from:?} to {to:?}"));
+    }
+}
+
+/// Rounding lies about circles through tenths; the box around them is twice as wide as its largest coordinate.
+#[test]
+fn motions_onto_a_grid_around_the_origin_are_repaired() {
+    // Around all, four that stay.
+    let mut grid = vec![[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
+    grid.extend((0..441).map(|i| [i % 21, i / 21].map(|k| f64::from(k - 10) * 0.1)));
+    let mut random = Random::new(3);
+    for _ in 0..3 {
+        let mut near: Vec<_> = grid.iter().map(|p| p.map(|x| x + 0.01 * random.between(-1.0, 1.0))).collect();
+        near[..4].copy_from_slice(&grid[..4]);
+        let mut moving = Moving2::new(&near).expect("finite");
+        let step = moving.step(&grid).expect("finite");
+        assert!(matches!(step, Step::Repaired { .. }), "{step:?}");
+        same(moving.triangulation(), &grid, "tenths");
+    }
+}
+
 #[test]
 fn small_motions_are_repaired() {
     let n = 20_000;

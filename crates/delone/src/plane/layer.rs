@@ -240,3 +240,29 @@ impl Level for Layer {
         Some(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+
+    use super::*;
+    use crate::{Delaunay2, Work};
+
+    /// And not by looking at all.
+    #[test]
+    fn the_nearest_vertex_is_near_exactly() {
+        for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid, Kind::Circle] {
+            let points = kind.points(400, 1);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let (mut all, mut to_triangle) = (Work::default(), Work::default());
+            for q in kind.points(400, 2) {
+                let found = d.base.point(d.base.near(Start::Anywhere, q, true, &mut all));
+                d.base.near(Start::Anywhere, q, false, &mut to_triangle);
+                let is_nearest = points.iter().all(|&p| compare_distances(q, found, p).is_le());
+                assert!(is_nearest, "{} {q:?}", kind.name());
+            }
+            let more = all.visited - to_triangle.visited;
+            assert!(more < 5 * 400, "{}: {more} triangles", kind.name());
+        }
+    }
+}

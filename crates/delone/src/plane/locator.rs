@@ -152,6 +152,11 @@ impl Versions {
         versions
     }
 
+    fn bytes(&self) -> usize {
+        let Self { flips, history, places } = self;
+        size_of_val(&*flips.edges) + size_of_val(&*flips.points) + size_of_val(&**places) + history.bytes()
+    }
+
     fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
         self.history.trace(|t| self.flips.holds(t, q), tally)
     }
@@ -190,8 +195,7 @@ impl Delaunay2 {
             }
             Locator::Versions(versions) => {
                 footprint.versions = versions.flips.edges.len() / 4;
-                footprint.strategy =
-                    32 * footprint.versions + 24 * versions.flips.points.len() + versions.history.bytes();
+                footprint.strategy = versions.bytes();
             }
         }
         footprint
@@ -202,10 +206,7 @@ impl Strategy<Layer> for Versions {
     fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
         let corners = self.flips.corners(self.trace(q, tally));
         let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
-        match place.map(|v| layer.mesh.incident[v.index()]) {
-            Some(e) if e != EdgeId::NONE => Start::At(e, Walk::Visibility),
-            _ => Start::Anywhere,
-        }
+        place.map_or(Start::Anywhere, |v| Start::At(layer.mesh.incident[v.index()], Walk::Visibility))
     }
 
     fn inserted(&mut self, layer: &Layer, v: Place, _: Start) {
@@ -223,5 +224,102 @@ impl Strategy<Layer> for Versions {
 
     fn rearranged(&mut self, _: &Layer, moved: &[Place]) {
         self.places.iter_mut().for_each(|place| *place = moved[place.index()]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+
+    use super::*;
+    use crate::Work;
+
+    fn with(n: usize, locate: Locate) -> Delaunay2 {
+        let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, 1)).expect("finite");
+        d.set_strategy(locate).expect("in range");
+        d
+    }
+
+    /// Makes the levels behind hints as a walk does that goes too far.
+    fn rescue(d: &Delaunay2) {
+        let Locator::Tree(hints) = d.locator() else { panic!("hints") };
+        hints.rescue(&d.base, [0.5; 2], &mut ());
+    }
+
+    const STEEP: Hierarchy = Hierarchy {
+        ratio: 4.0,
+        levels: None,
+        smallest_level: 20,
+        rho: 1.0,
+        smallest_sampled: None,
+        exact_nearest: false,
+        seed: 1,
+    };
+
+    /// A triangulation of n points has 2 (n - 1) triangles of 32 bytes; a point has 16, and an edge.
+    #[test]
+    fn footprints_are_what_is_kept() {
+        let bytes = |n: usize| 64 * (n - 1) + 20 * n;
+        for locate in [Locate::Walk(Walk::Visibility), Locate::JumpAndWalk(JumpAndWalk::default())] {
+            assert_eq!(with(100, locate).footprint(), Footprint { base: bytes(100), ..Footprint::default() });
+        }
+        let hints = with(1000, Locate::Tree);
+        let tree = hints.footprint();
+        assert!(tree.strategy > 1000 && tree.levels.is_empty(), "{tree:?}");
+        rescue(&hints);
+        let more = hints.footprint();
+        assert!(more.levels[0] > 10, "{more:?}");
+        assert!(more.strategy >= tree.strategy + bytes(more.levels[0]), "{more:?} after {tree:?}");
+        assert!(more.strategy < tree.strategy + 3 * bytes(more.levels[0]), "{more:?} after {tree:?}");
+        let levels = with(1000, Locate::Hierarchy(STEEP)).footprint();
+        let least: usize = levels.levels.iter().map(|&size| bytes(size)).sum();
+        assert!(levels.strategy >= least && levels.strategy < 2 * least, "{levels:?}");
+        // The triangle of the dummies, and the three that a point makes of it, each with three to follow.
+        let history = with(1, Locate::History).footprint();
+        assert_eq!((history.versions, history.strategy), (4, 4 * 32 + (3 + 1) * 16 + 4 + 4 * 24));
+    }
+
+    /// Whoever keeps them.
+    #[test]
+    fn levels_follow_the_vertices() {
+        for locate in [Locate::Tree, Locate::Hierarchy(STEEP)] {
+            let mut d = with(600, locate);
+            if locate == Locate::Tree {
+                rescue(&d);
+            }
+            let few = d.footprint().levels;
+            assert!(locate == Locate::Tree || few.len() > 2, "{few:?}");
+            for p in Kind::Uniform.points(1800, 2) {
+                d.insert(p).expect("finite");
+            }
+            let mut levels = d.footprint().levels;
+            assert!(levels[0] > 2 * few[0], "{levels:?} after {few:?}");
+            let vertices: Vec<_> = d.vertices().collect();
+            for &v in &vertices[10..] {
+                d.remove(v).expect("a vertex");
+                let left = d.footprint().levels;
+                // A vertex that is the only one of a level ends it.
+                let one_less = |k: usize| levels[k] - left.get(k).unwrap_or(&0) <= 1;
+                assert!((0..levels.len()).all(one_less), "{left:?} after {levels:?}");
+                levels = left;
+            }
+            assert!(levels.iter().all(|&size| size <= 10), "{levels:?}");
+        }
+    }
+
+    #[test]
+    fn strategies_shorten_walks_counted() {
+        let visited = |locate| {
+            let d = with(20_000, locate);
+            let mut work = Work::default();
+            for q in Kind::Uniform.points(300, 7) {
+                d.locate_counted(q, &mut work).expect("finite");
+            }
+            work.visited / 300
+        };
+        let walk = visited(Locate::Walk(Walk::Visibility));
+        let sample = visited(Locate::JumpAndWalk(JumpAndWalk::default()));
+        let levels = visited(Locate::Hierarchy(Hierarchy { smallest_sampled: None, ..Hierarchy::default() }));
+        assert!(2 * sample < walk && 2 * levels < walk, "{walk} {sample} {levels}");
     }
 }

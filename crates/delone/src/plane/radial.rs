@@ -172,7 +172,7 @@ impl NearestSites {
         let turned = |list: &[Place]| list[first..].iter().chain(&list[..first]).copied().collect::<Vec<_>>();
         self.neighbors.extend(turned(around));
         self.beyond.extend(turned(beyond));
-        self.destroyers.resize(start + count, [NONE; KINDS]);
+        self.destroyers.resize(self.neighbors.len(), [NONE; KINDS]);
         move |k| (k + count - first) % count
     }
 

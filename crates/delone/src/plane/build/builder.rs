@@ -1,7 +1,5 @@
 //! What divide and conquer writes: the edge records and hull links of a run of positions.
 
-use std::ops::Range;
-
 use super::divide_and_conquer::Counters;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::HalfEdge;
@@ -27,11 +25,6 @@ impl<'a> Builder<'a> {
         leaving: &'a mut [TriangleId],
     ) -> Self {
         Self { points, counters: Counters::default(), start, edges, leaving }
-    }
-
-    /// The positions that it has memory for.
-    pub(super) fn positions(&self) -> Range<usize> {
-        self.start..self.start + self.leaving.len()
     }
 
     /// Builders of the positions before another one and from it on. The two triangles between them are with the first.

@@ -100,12 +100,7 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
     let mut leaving: Vec<TriangleId> = zeroed(n);
     let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
     if n > 0 {
-        let finest = |b: &KeyBox| {
-            let [width, height] = b.cell(b.depths() - 1);
-            Filter::finest_step(width * scale, height * scale)
-        };
-        let finest = boxes.iter().map(finest).fold(f64::INFINITY, f64::min);
-        let grid = grid_of(ordered.as_flattened(), finest);
+        let grid = grid_of(ordered.as_flattened(), finest_step(boxes, scale));
         Tree { cuts, boxes, scale, grid }.build(0, LEVELS, &mut builder);
     }
     let counters = builder.counters;
@@ -114,6 +109,15 @@ fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>
 
 /// Sizes of sets whose products are in the range of the filters, also those of small cells: 2^-80 to 2^200.
 const SIZES: Range<f64> = 8.3e-25..1.6e60;
+
+/// The finest step of a grid on which arithmetic is exact in the smallest cells of some box, about.
+fn finest_step(boxes: &[KeyBox], scale: f64) -> f64 {
+    let finest = |b: &KeyBox| {
+        let [width, height] = b.cell(b.depths() - 1);
+        Filter::finest_step(width * scale, height * scale)
+    };
+    boxes.iter().map(finest).fold(f64::INFINITY, f64::min)
+}
 
 /// The grid of coordinates if it is coarser than a step. In parallel: the grid of the first part is mostly that of all.
 fn grid_of(coordinates: &[f64], least: f64) -> Option<Grid> {
@@ -178,9 +182,7 @@ impl Tree<'_> {
         };
         let cells = Cells { key_box, filters };
         let all = key_box.start..key_box.end;
-        // Threads divide the memory of a builder, which may have more than this box.
-        let parts = if builder.positions() == all { parallel::parts(all.len()) } else { 1 };
-        let most = all.len().div_ceil(parts);
+        let most = all.len().div_ceil(parallel::parts(all.len()));
         self.halve(&Work { index, cells: &cells, most }, all, levels, builder)
     }
 
@@ -198,9 +200,10 @@ impl Tree<'_> {
             };
         };
         let [mut left, mut right] = builder.split(middle);
+        let levels = levels - 1;
         let (a, b) = parallel::join(
-            || self.halve(work, run.start..middle, levels - 1, &mut left),
-            || self.halve(work, middle..run.end, levels - 1, &mut right),
+            || self.halve(work, run.start..middle, levels, &mut left),
+            || self.halve(work, middle..run.end, levels, &mut right),
         );
         let counters = [left.counters, right.counters];
         counters.iter().for_each(|of_half| builder.counters.add(of_half));
@@ -352,4 +355,92 @@ fn precedes(p: [f64; 2], q: [f64; 2]) -> bool {
 #[inline]
 fn turned([x, y]: [f64; 2]) -> [f64; 2] {
     [y, -x]
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+
+    use super::*;
+
+    fn counters_of(points: &[[f64; 2]]) -> Counters {
+        triangulate(points, &Bounds::of(points)).2
+    }
+
+    /// Points of which no three are on a line: in the order of x, cut in the middle, into fours as long as there are four.
+    #[test]
+    fn up_to_four_points_are_a_leaf() {
+        let expected = [
+            (1, 0, 0),
+            (2, 1, 0),
+            (3, 1, 0),
+            (4, 1, 0),
+            (5, 1, 1),
+            (6, 2, 1),
+            (7, 2, 1),
+            (8, 2, 1),
+            (9, 2, 2),
+            (11, 3, 2),
+            (12, 3, 2),
+        ];
+        for (n, leaves, merges) in expected {
+            let points: Vec<_> = (0..n).map(f64::from).map(|x| [x, x * x]).collect();
+            let found = counters_of(&points);
+            assert_eq!((found.leaves, found.merges), (leaves, merges), "{n} points");
+        }
+    }
+
+    #[test]
+    fn counters_are_added() {
+        let mut sum = Counters { leaves: 1, merges: 2, connected: 3, removed: 4 };
+        sum.add(&Counters { leaves: 10, merges: 20, connected: 30, removed: 40 });
+        assert_eq!(sum, Counters { leaves: 11, merges: 22, connected: 33, removed: 44 });
+    }
+
+    /// The definitions of where a run of a box is cut and of which runs are boxes, on every run down to single points.
+    fn judge_runs(tree: &Tree, index: usize, run: Range<usize>, met: &mut [usize; 2]) {
+        let nested = || tree.boxes.iter().enumerate().skip(index + 1);
+        let is_inside = |at: &usize| nested().any(|(_, b)| b.start < *at && *at < b.end);
+        let cuts = (run.start + 1..run.end).filter(|at| !is_inside(at));
+        let shallowest = cuts.min_by_key(|&at| (tree.cuts[at], at));
+        assert_eq!(tree.shallowest_cut(index, &run), shallowest, "{run:?} of box {index}");
+        let whole = nested().find(|(_, b)| (b.start..b.end) == run).map(|(k, _)| k);
+        assert_eq!(tree.box_of(index, &run), whole, "{run:?} of box {index}");
+        if let Some(middle) = shallowest {
+            met[0] += 1;
+            judge_runs(tree, index, run.start..middle, met);
+            judge_runs(tree, index, middle..run.end, met);
+        } else if let Some(nested) = whole {
+            met[1] += 1;
+            judge_runs(tree, nested, run, met);
+        }
+    }
+
+    #[test]
+    fn runs_are_cut_where_cuts_are_shallowest() {
+        // Crowds in the crowds of crowds, and some alone.
+        let mut points = Kind::Uniform.points(40, 1);
+        for size in [1e-5, 1e-11] {
+            let around = Kind::Uniform.points(50, 2);
+            let add = |&[x, y]: &[f64; 2]| around.iter().map(move |&[u, v]| [x + size * u, y + size * v]);
+            let crowds: Vec<_> = points.iter().step_by(10).flat_map(add).collect();
+            points.extend(crowds);
+        }
+        let Sorted { points: sorted, cuts, boxes, .. } = morton::sort(&points, &Bounds::of(&points));
+        let tree = Tree { cuts: &cuts, boxes: &boxes, scale: 1.0, grid: None };
+        let mut met = [0; 2];
+        judge_runs(&tree, 0, 0..sorted.len(), &mut met);
+        assert_eq!(met, [sorted.len() - 1, boxes.len() - 1]);
+        assert!(boxes.len() > 10, "{} boxes", boxes.len());
+    }
+
+    /// What only one of many threads meets counts.
+    #[test]
+    fn grids_hold_all_coordinates() {
+        let mut coordinates: Vec<f64> = (0..100_000).map(f64::from).collect();
+        assert!(grid_of(&coordinates, 0.5).is_some_and(|grid| grid.holds(1.0) && !grid.holds(0.5)));
+        *coordinates.last_mut().expect("many") = 0.25;
+        assert!(grid_of(&coordinates, 0.125).is_some_and(|grid| grid.holds(0.25)));
+        assert!(grid_of(&coordinates, 0.5).is_none());
+    }
 }

@@ -60,3 +60,32 @@ fn rename(mesh: &mut Mesh, old: Place, new: Place) {
         mesh.lone = Some(new);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::{Algorithm, Delaunay2};
+
+    /// Whatever the order in which they come.
+    #[test]
+    fn the_first_of_equal_points_is_their_vertex() {
+        let (a, b, c, d) = ([0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0]);
+        let sets: [(&[[f64; 2]], &[usize]); 4] = [
+            (&[a, a, a], &[0]),
+            (&[a, b, b, a], &[0, 1]),
+            (&[a, d, d, [2.0, 2.0], a], &[0, 1, 3]),
+            (&[a, b, a, c, b, d, d, c, a], &[0, 1, 3, 5]),
+        ];
+        for (points, vertices) in sets {
+            for seed in 0..30 {
+                let d = Delaunay2::with_algorithm(points, Algorithm::Incremental { seed }).expect("finite");
+                let found: Vec<usize> = d.vertices().map(|v| v.index()).collect();
+                assert_eq!(found, vertices, "{points:?}, seed {seed}");
+                assert_eq!(d.check(), Ok(()), "{points:?}, seed {seed}");
+                let equals = d.duplicates().map(|equal| (equal.point, equal.vertex.index()));
+                let first = |i: usize| (i, points.iter().position(|p| *p == points[i]).expect("itself"));
+                let expected = (0..points.len()).filter(|i| !vertices.contains(i)).map(first);
+                assert!(equals.eq(expected), "{points:?}, seed {seed}");
+            }
+        }
+    }
+}

@@ -92,3 +92,26 @@ pub(super) fn conflict_lists(points: Vec<[f64; 2]>, seed: u64) -> Built {
     let (mesh, duplicates, work, moved) = conflict_lists::triangulate(&points, seed);
     Built { points, mesh, duplicates, counters: Counters::ConflictLists { work, moved } }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Algorithm;
+    use crate::{Delaunay2, Error, Locate};
+
+    #[test]
+    fn what_is_not_finite_is_named() {
+        let located = Algorithm::Located { locate: Locate::default(), seed: 1 };
+        let incremental = Algorithm::Incremental { seed: 1 };
+        for algorithm in [Algorithm::default(), incremental, located, Algorithm::ConflictLists { seed: 1 }] {
+            for (k, bad) in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].into_iter().enumerate() {
+                let mut points = vec![[0.0, 1.0], [2.0, 3.0], [5.0, 4.0], [7.0, -1.0], [6.0, 6.0]];
+                points[3][k % 2] = bad;
+                points[4][0] = f64::NAN;
+                let found = Delaunay2::with_algorithm(&points, algorithm).err();
+                let is_named =
+                    matches!(found, Some(Error::NotFinite { index: 3, axis, .. }) if axis == k % 2);
+                assert!(is_named, "{algorithm:?} {bad}: {found:?}");
+            }
+        }
+    }
+}
