@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, Output, ReadOptions, Remark, Source, decompressed};
+use delone_io::{Cloud, Format, Output, ReadOptions, Remark, Source, decompressed, followed};
 
 use crate::args::InputArgs;
 use crate::message::{Failure, note};
@@ -31,32 +31,36 @@ pub(crate) fn keep_apart<'a>(
     inputs: &[&'a Path],
     outputs: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), Failure> {
-    let place = |path: &Path| match path.file_name() {
+    let place = |path: &Path| {
+        let path = &followed(path).unwrap_or_else(|_| path.to_owned());
         // The file may not exist yet, its folder should.
-        Some(name) if !is_standard(path) => {
-            let folder =
-                path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            path.canonicalize().ok().or_else(|| Some(folder.canonicalize().ok()?.join(name)))
-        }
-        _ => None,
+        let name = path.file_name().filter(|_| !is_standard(path))?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        path.canonicalize().ok().or_else(|| Some(folder.canonicalize().ok()?.join(name)))
     };
     let mut places: Vec<PathBuf> = inputs.iter().filter_map(|path| place(path)).collect();
-    let mut files: Vec<_> = inputs.iter().filter_map(|path| identity(path)).collect();
+    let mut files: Vec<_> = inputs.iter().filter_map(|path| identity(or(path, "/dev/stdin"))).collect();
     for path in outputs {
-        let Some(here) = place(path) else { continue };
-        // Another name of the same file is noticed too.
-        let file = identity(path);
-        let known = file.is_some_and(|file| files.contains(&file));
+        // Another name of the same file is noticed too, and where standard input and output are files.
+        let file = identity(or(path, "/dev/stdout"));
+        let known = file.as_ref().is_some_and(|file| files.contains(file));
         files.extend(file);
-        if known || (places.contains(&here) && !is_special(path)) {
+        let here = place(path);
+        let taken = here.as_ref().is_some_and(|here| places.contains(here) && !is_special(path));
+        if known || taken {
             return Err(Failure::usage(
                 format!("{} would overwrite another file of this command", path.display()),
                 "choose another name for the output",
             ));
         }
-        places.push(here);
+        places.extend(here);
     }
     Ok(())
+}
+
+/// What `-` stands for.
+fn or<'a>(path: &'a Path, standard: &'a str) -> &'a Path {
+    if is_standard(path) { Path::new(standard) } else { path }
 }
 
 /// Whether a path is there but no file: a device or a pipe, which may be named twice.

@@ -83,8 +83,10 @@ fn one_line(text: &str) -> String {
 /// Prints help and version where they were asked for, and a usage error in one line otherwise.
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        _ = error.print();
-        return ExitCode::SUCCESS;
+        return match error.print() {
+            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => unanswered(&error).report(),
+            _ => ExitCode::SUCCESS,
+        };
     }
     if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
         _ = error.print();
@@ -121,13 +123,15 @@ pub(crate) fn note(quiet: bool, text: impl Display) {
     }
 }
 
+fn unanswered(error: &std::io::Error) -> Failure {
+    Failure::new(format!("cannot write the answer: {error}"), "check where standard output goes")
+}
+
 /// Prints a command's answer on standard output. A reader that has seen enough (`| head`) is no failure.
 pub(crate) fn answer(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(Failure::new(format!("cannot write the answer: {error}"), "check where standard output goes"))
-        }
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(unanswered(&error)),
         _ => Ok(()),
     }
 }

@@ -61,6 +61,8 @@ fn columns_are_told() {
             "columns lon, lat were taken",
         ),
         ("latin.csv", "stra\u{df}e,x,y\na,1,2\nb,3,4\n", "columns x, y were taken"),
+        ("savetxt.txt", "# lat lon\n50 7\n51 8\n", "columns lon, lat were taken"),
+        ("r.txt", "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3 4\n", "the first column, which has no name, was left out"),
         ("wkt.csv", "id,wkt\n1,POINT (1 2)\n2,\"MULTIPOINT (3 4, 5 6)\"\n", "column wkt was taken"),
         ("ring.geojson", RING, "the corners of 1 lines and polygons"),
         (
@@ -191,6 +193,63 @@ fn special_outputs_stay_special() {
     symlink("p.csv", place.path("soft.csv")).expect("linked");
     place.fail("triangulate p.csv -o hard.csv --to ply", 2, "would overwrite");
     place.fail("triangulate p.csv -o soft.csv --to ply", 2, "would overwrite");
+}
+
+#[cfg(unix)]
+#[test]
+fn descriptors_are_written_where_they_lead() {
+    let place = Place::new();
+    place.succeed("generate uniform -n 50 --seed 1 -o p.csv");
+    let bash = |line: &str| {
+        let line = line.replace("delone", env!("CARGO_BIN_EXE_delone"));
+        let output =
+            Command::new("bash").current_dir(place.0.path()).args(["-c", &line]).output().expect("bash");
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    // What a file held before stays where a shell appends to it, and what a shell writes after.
+    bash("echo keep me > log; delone -q triangulate p.csv --to ele -o /dev/fd/5 5>>log");
+    let log = fs::read_to_string(place.path("log")).expect("a log");
+    assert!(log.starts_with("keep me\n") && log.contains(" 3 0\n"), "{log}");
+    bash("(echo before >&2; delone -q triangulate p.csv --to ele -o /dev/stderr; echo after >&2) 2> log");
+    let log = fs::read_to_string(place.path("log")).expect("a log");
+    assert!(log.starts_with("before\n") && log.contains(" 3 0\n") && log.ends_with("after\n"), "{log}");
+    let (status, counted, told) =
+        bash("delone -q triangulate p.csv --to ele -o >(head -1 > first); sleep 0.3; cat first");
+    assert!(status == Some(0) && counted.contains(" 3 0"), "{counted} {told}");
+    // Standard input and output that are a file of the command.
+    let before = fs::read(place.path("p.csv")).expect("points");
+    for line in [
+        "delone triangulate - --from csv --to npy -o p.csv < p.csv",
+        "delone triangulate p.csv --to npy -o - 1<>p.csv",
+        "delone triangulate p.csv --to npy -o - >>p.csv",
+    ] {
+        let (status, _, told) = bash(line);
+        assert!(status == Some(2) && told.contains("would overwrite"), "{line}: {status:?} {told}");
+        assert_eq!(fs::read(place.path("p.csv")).expect("points"), before, "{line}");
+    }
+    // Two names that lead to one new file.
+    let (status, _, told) =
+        bash("mkdir d; ln -s d/z.npy a.npy; ln -s d/z.npy b.npy; delone triangulate p.csv -o a.npy -o b.npy");
+    assert!(status == Some(2) && told.contains("would overwrite"), "{told}");
+    let (status, _, _) = bash("delone --help > /dev/full");
+    assert_eq!(status, Some(1));
+}
+
+#[test]
+fn long_quotes_and_wide_lines_take_their_length() {
+    let place = Place::new();
+    // Each of these took minutes when the time was quadratic; they would not end in the time of a test.
+    let open = format!("x,y,n\n1,2,\"5 inch\n{}", "1,2,pipe\n".repeat(1_000_000));
+    place.file("open.csv", open);
+    place.fail("info open.csv", 1, "line 2: a quotation mark is not closed");
+    place.file("cell.csv", format!("x,y,n\n1,2,\"{}\"\n3,4,b\n", "a\n".repeat(1_000_000)));
+    assert_eq!(points(&place, "cell.csv"), 2);
+    place.file("wide.xyz", "1 ".repeat(3_000_000));
+    assert_eq!(points(&place, "wide.xyz"), 1);
+    place.file("none.ply", "ply\nformat ascii 1.0\nelement point 1\nproperty float x\nend_header\n1\n");
+    place.fail("info none.ply", 1, "it has no vertices");
+    place.file("mixed.geojson", "\u{feff}{\"type\":\"MultiPoint\",\"coordinates\":[[1,2],[3,4,5]]}");
+    assert!(text(&place.run("info mixed.geojson").stderr).contains("heights are left out"));
 }
 
 #[cfg(unix)]

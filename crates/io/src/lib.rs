@@ -26,7 +26,7 @@ pub use error::Error;
 pub use format::Format;
 pub use formats::las::LAS_CLASSES;
 pub use input::decompressed;
-pub use output::{Output, remove_unfinished};
+pub use output::{Output, followed, remove_unfinished};
 pub use solid::{Solid, write_solid};
 pub use surface::{Surface, Trim};
 

@@ -4,7 +4,7 @@
 //! mode and its owner, and, if it has several names, all of them.
 
 use std::fs::{self, File, Metadata, OpenOptions};
-use std::io::{self, BufWriter, Stdout, Write};
+use std::io::{self, BufWriter, Stderr, Stdout, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -53,6 +53,7 @@ enum Writer {
 enum Sink {
     File(BufWriter<File>),
     Stdout(BufWriter<Stdout>),
+    Stderr(BufWriter<Stderr>),
 }
 
 /// What becomes of the file in the end.
@@ -98,6 +99,7 @@ impl Output {
         };
         let file = match sink {
             Sink::Stdout(mut stdout) => return stdout.flush(),
+            Sink::Stderr(mut stderr) => return stderr.flush(),
             Sink::File(file) => file.into_inner().map_err(io::IntoInnerError::into_error)?,
         };
         match self.place {
@@ -126,22 +128,29 @@ impl Output {
 
 /// Where an output goes, and how it gets there.
 fn open(path: &Path) -> io::Result<(Sink, Place)> {
-    if ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].iter().any(|name| path == Path::new(name)) {
+    let is = |names: [&str; 3]| names.iter().any(|name| path == Path::new(name));
+    if path == Path::new("-") || is(["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]) {
         return Ok((Sink::Stdout(BufWriter::with_capacity(BUFFER, io::stdout())), Place::Straight));
+    }
+    if is(["/dev/stderr", "/dev/fd/2", "/proc/self/fd/2"]) {
+        return Ok((Sink::Stderr(BufWriter::with_capacity(BUFFER, io::stderr())), Place::Straight));
     }
     let straight = |file| (Sink::File(BufWriter::with_capacity(BUFFER, file)), Place::Straight);
     let path = followed(path)?;
+    if is_system(&path) {
+        // A descriptor of a file that others write to is written to at its end.
+        return Ok(straight(OpenOptions::new().append(true).open(&path)?));
+    }
     let before = match fs::metadata(&path) {
         Ok(about) => Some(about),
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
         Err(error) => return Err(error),
     };
-    let descriptor = path.starts_with("/dev") || path.starts_with("/proc");
     match &before {
         Some(about) if about.is_dir() => {
             return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
         }
-        Some(about) if !about.is_file() || descriptor => {
+        Some(about) if !about.is_file() => {
             return Ok(straight(OpenOptions::new().write(true).open(&path)?));
         }
         Some(about) if about.permissions().readonly() => {
@@ -172,12 +181,18 @@ fn open(path: &Path) -> io::Result<(Sink, Place)> {
     Ok((Sink::File(BufWriter::with_capacity(BUFFER, file)), place))
 }
 
-/// The file that a name stands for, which need not exist.
-fn followed(path: &Path) -> io::Result<PathBuf> {
+/// Whether a path is a device or a descriptor, whose links are not the names of files.
+fn is_system(path: &Path) -> bool {
+    path.starts_with("/dev") && !path.starts_with("/dev/shm") || path.starts_with("/proc")
+}
+
+/// The file that a name stands for, which need not exist; devices and descriptors stand for themselves.
+pub fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     // As many links as systems follow.
     for _ in 0..40 {
         match fs::read_link(&path) {
+            _ if is_system(&path) => return Ok(path),
             Ok(to) => path = path.parent().unwrap_or(Path::new("")).join(to),
             Err(_) => return Ok(path),
         }
@@ -242,6 +257,7 @@ impl Write for Sink {
         match self {
             Self::File(file) => file.write(bytes),
             Self::Stdout(stdout) => stdout.write(bytes),
+            Self::Stderr(stderr) => stderr.write(bytes),
         }
     }
 
@@ -249,6 +265,7 @@ impl Write for Sink {
         match self {
             Self::File(file) => file.flush(),
             Self::Stdout(stdout) => stdout.flush(),
+            Self::Stderr(stderr) => stderr.flush(),
         }
     }
 }

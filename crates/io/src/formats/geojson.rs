@@ -15,13 +15,17 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let all = documents.iter().flat_map(geometries);
     all.for_each(|geometry| found.collect(geometry));
     let positions = found.positions;
-    let with_heights = !positions.is_empty() && positions.iter().all(|p| p.len() > 2);
+    let high = positions.iter().filter(|p| p.len() > 2).count();
+    let with_heights = high > 0 && high == positions.len();
     let mut cloud = Cloud::with_capacity(positions.len(), with_heights);
     for (i, position) in positions.into_iter().enumerate() {
         let &[x, y, ..] = position else {
             return Err(Error::content(format!("GeoJSON: position {i} has fewer than two numbers")));
         };
         cloud.push([x, y], position.get(2).copied().unwrap_or_default());
+    }
+    if high > 0 && !with_heights {
+        cloud.remarks.push("heights are left out: not all positions have them".to_owned());
     }
     if found.shapes > 0 {
         cloud
@@ -33,7 +37,11 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
 }
 
 /// All documents of a file.
-fn parse(source: Box<dyn Source>) -> Result<Vec<GeoJson>, Error> {
+fn parse(mut source: Box<dyn Source>) -> Result<Vec<GeoJson>, Error> {
+    const MARK: &[u8] = b"\xef\xbb\xbf";
+    if source.fill_buf()?.starts_with(MARK) {
+        source.consume(MARK.len());
+    }
     let documents = serde_json::Deserializer::from_reader(Sequence(source)).into_iter();
     let documents: Result<Vec<GeoJson>, _> = documents.collect();
     let documents = documents.map_err(|error| Error::content(format!("GeoJSON: {error}")))?;

@@ -32,12 +32,14 @@ impl Lines {
         Ok(None)
     }
 
-    /// The next line with something on it that is no comment as a whole.
+    /// The next line with something on it, as it is.
     pub(super) fn next_whole(&mut self) -> Result<Option<Line<'_>>, Error> {
+        // Old systems end files by a sign of their own.
+        const END: &str = "\u{1a}";
         while self.advance()? {
             let text = self.text.trim();
-            if !text.is_empty() && !text.starts_with('#') {
-                return Ok(Some(Line { text: self.text.trim(), number: self.number }));
+            if !text.is_empty() && text != END {
+                return Ok(Some(Line { text: &self.text, number: self.number }));
             }
         }
         Ok(None)

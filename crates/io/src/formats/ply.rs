@@ -131,6 +131,9 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
         vertices.iter().for_each(|&Vertex([x, y, z])| cloud.push([x, y], z));
         Ok(())
     })?;
+    if !header.elements.is_empty() && !header.elements.contains_key("vertex") {
+        return Err(broken("it has no vertices"));
+    }
     let mut cloud = points.unwrap_or_default();
     cloud.crs = header.comments.iter().find_map(|comment| Crs::of_name(comment.strip_prefix("crs ")?));
     Ok(cloud)

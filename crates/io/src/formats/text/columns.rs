@@ -1,4 +1,5 @@
-//! Which columns are coordinates: as said, by the names of a header, or the first ones where there is no doubt.
+//! Which columns are coordinates: as said, by the names of a header, or the first ones where there are no names. Names that
+//! do not tell are refused, never guessed at.
 
 /// Columns by number from 0.
 #[derive(Debug, PartialEq, Eq)]
@@ -9,18 +10,39 @@ pub(super) enum Columns {
     Geometry(usize),
 }
 
-/// What x, y and z are called together; pairs of one row belong together.
-const FAMILIES: [[&[&str]; 3]; 3] = [
-    [&["x"], &["y"], &["z"]],
-    [&["easting", "east", "e", "rechtswert"], &["northing", "north", "n", "hochwert"], &[]],
-    [&["lon", "lng", "long", "longitude"], &["lat", "latitude"], &[]],
+/// What x and y are called together; names of one row belong together.
+const FAMILIES: [[&[&str]; 2]; 6] = [
+    [&["x"], &["y"]],
+    [&["easting", "east", "e"], &["northing", "north", "n"]],
+    [&["lon", "lng", "long", "longitude"], &["lat", "latitude"]],
+    [&["ost", "ostwert", "rechtswert"], &["nord", "nordwert", "hochwert"]],
+    [&["este", "longitud", "longitudine"], &["norte", "latitud", "latitudine"]],
+    [&["laenge", "länge"], &["breite"]],
 ];
 
 /// What heights are called beside.
-const HEIGHTS: [&str; 7] = ["z", "height", "elevation", "elev", "altitude", "alt", "h"];
+const HEIGHTS: [&str; 14] = [
+    "z",
+    "height",
+    "elevation",
+    "elev",
+    "ele",
+    "altitude",
+    "alt",
+    "h",
+    "höhe",
+    "hoehe",
+    "cota",
+    "quota",
+    "altitud",
+    "altura",
+];
 
 /// What well-known text is called.
 const GEOMETRIES: [&str; 5] = ["wkt", "geometry", "geom", "the_geom", "wkt_geom"];
+
+/// What stands where a value is missing: no name of a column.
+const MISSING: [&str; 8] = ["na", "n/a", "nan", "null", "none", "nil", "inf", "missing"];
 
 /// Words that say nothing about the axis.
 const FILLERS: [&str; 22] = [
@@ -52,13 +74,10 @@ impl Columns {
     /// Chooses by the fields of the first line; `header` tells whether they are names.
     pub(super) fn choose(fields: &[String], header: bool, said: &[String]) -> Result<Self, String> {
         if !said.is_empty() {
-            return said
-                .iter()
-                .map(|name| column(fields, header, name))
-                .collect::<Result<_, _>>()
-                .map(Self::Numbers);
+            let chosen = said.iter().map(|name| column(fields, header, name));
+            return chosen.collect::<Result<_, _>>().map(Self::Numbers);
         }
-        if let Some(numbers) = header.then(|| by_names(fields)).flatten() {
+        if header && let Some(numbers) = by_names(fields)? {
             return Ok(Self::Numbers(numbers));
         }
         let is_geometry = |field: &String| {
@@ -68,11 +87,19 @@ impl Columns {
         if let Some(column) = fields.iter().position(is_geometry) {
             return Ok(Self::Geometry(column));
         }
-        match fields.len() {
-            0 | 1 => Err("a point needs two numbers, x and y".to_owned()),
-            2 => Ok(Self::Numbers(vec![0, 1])),
-            n if !header => Ok(Self::Numbers((0..n.min(3)).collect())),
-            _ => Err(format!("none of the columns {} is called x or y", shortened(fields))),
+        if header {
+            return Err(format!("none of the columns {} is called x or y", shortened(fields)));
+        }
+        // A separator may follow the last field.
+        let width = fields.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1);
+        let text = fields.iter().find(|field| !field.is_empty() && super::number(field).is_none());
+        match (width, text) {
+            (0 | 1, _) => Err("a point needs two numbers, x and y".to_owned()),
+            (4.., Some(text)) => Err(format!(
+                "without names it cannot be told which of {width} columns are x and y, one of which is {:?}",
+                crate::error::excerpt(text)
+            )),
+            _ => Ok(Self::Numbers((0..width.min(3)).collect())),
         }
     }
 
@@ -96,37 +123,78 @@ impl Columns {
     }
 }
 
-/// Whether the first line is a header: nothing in it is a number, or it names x and y.
-pub(super) fn is_header(fields: &[String], number: impl Fn(&str) -> bool) -> bool {
+/// Whether the first line is a header: it names x and y, or has nothing but names.
+pub(super) fn is_header(fields: &[String]) -> bool {
+    let is_name = |field: &String| {
+        let name = field.trim_start_matches(['#', '%', '/', ' ', '"']).to_lowercase();
+        name.starts_with(|c: char| c.is_alphabetic() || c == '_') && !MISSING.contains(&name.as_str())
+    };
     if fields.iter().any(|field| super::wkt::is_geometry(field)) {
         return false;
     }
-    fields.iter().all(|field| !number(field)) || by_names(fields).is_some()
+    let all = || fields.iter().all(|field| field.is_empty() || is_name(field)) && fields.iter().any(is_name);
+    !matches!(by_names(fields), Ok(None)) || all()
+}
+
+/// Whether names are as many as the fields of a line, and name x and y.
+pub(super) fn name_points(names: &[String], width: usize) -> bool {
+    names.len() == width && !matches!(by_names(names), Ok(None))
 }
 
 /// The column that a name or a number from 1 stands for.
 fn column(fields: &[String], header: bool, said: &str) -> Result<usize, String> {
     let said = said.trim();
-    let named = fields.iter().position(|field| header && field.eq_ignore_ascii_case(said));
+    let named = |is: &dyn Fn(&String) -> bool| -> Result<Option<usize>, String> {
+        let mut columns = (0..fields.len()).filter(|&k| header && is(&fields[k]));
+        match (columns.next(), columns.next()) {
+            (Some(_), Some(_)) => Err(format!("two columns are called {said:?}: give the number of one")),
+            (column, _) => Ok(column),
+        }
+    };
+    // As it is written, or else in other letters.
+    let exact = named(&|field| field == said)?;
+    let named = if exact.is_some() { exact } else { named(&|field| field.eq_ignore_ascii_case(said))? };
     let number = || said.parse::<usize>().ok().filter(|k| (1..=fields.len()).contains(k)).map(|k| k - 1);
     let among = || if header { shortened(fields) } else { format!("{} without names", fields.len()) };
     named.or_else(number).ok_or_else(|| format!("there is no column {said:?} among {}", among()))
 }
 
-fn by_names(fields: &[String]) -> Option<Vec<usize>> {
+/// The columns that are called x and y, and perhaps z; an error if two are, or if angles are in parts.
+fn by_names(fields: &[String]) -> Result<Option<Vec<usize>>, String> {
+    let exact: Vec<String> = fields.iter().map(|field| field.to_lowercase()).collect();
     let plain: Vec<String> = fields.iter().map(|field| plain(field)).collect();
-    let find = |names: &[&str]| names.iter().find_map(|name| plain.iter().position(|field| field == name));
-    let [x, y] = FAMILIES.iter().find_map(|[x, y, _]| Some([find(x)?, find(y)?]))?;
-    let mut columns = vec![x, y];
-    columns.extend(find(&HEIGHTS));
-    Some(columns)
+    let find = |names: &[&str]| {
+        names.iter().find_map(|name| {
+            let of = |list: &[String]| (0..list.len()).filter(|&k| list[k] == *name).collect::<Vec<_>>();
+            [of(&exact), of(&plain)].into_iter().find(|columns| !columns.is_empty())
+        })
+    };
+    let Some([x, y]) = FAMILIES.iter().find_map(|[x, y]| Some([find(x)?, find(y)?])) else { return Ok(None) };
+    let minutes = |field: &String| {
+        let name = field.to_lowercase();
+        ["lat", "lon"].iter().any(|axis| name.contains(axis))
+            && ["min", "sec"].iter().any(|part| name.contains(part))
+    };
+    if fields.iter().any(minutes) {
+        return Err("degrees, minutes and seconds in columns of their own are not put together".to_owned());
+    }
+    let mut columns = Vec::new();
+    for found in [Some(x), Some(y), find(&HEIGHTS)].into_iter().flatten() {
+        match found[..] {
+            [column] => columns.push(column),
+            _ => {
+                return Err(format!("two columns are called {:?}", crate::error::excerpt(&fields[found[0]])));
+            }
+        }
+    }
+    Ok(Some(columns))
 }
 
 /// A name without units and words that say nothing: `X_COORD (m)` is `x`.
 fn plain(name: &str) -> String {
-    let name = name.split(['(', '[']).next().unwrap_or_default().to_ascii_lowercase();
+    let name = name.split(['(', '[']).next().unwrap_or_default().to_lowercase();
     let words: Vec<&str> =
-        name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+        name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let telling: Vec<&str> = words.iter().copied().filter(|word| !FILLERS.contains(word)).collect();
     let [word] = telling[..] else { return words.join(" ") };
     // Written together: xcoord, utmx.
@@ -166,11 +234,25 @@ mod tests {
             ("X (m),Y (m),Z (m)", vec![0, 1, 2]),
             ("lat,x,y,lon", vec![1, 2]),
             ("UTM_E,UTM_N", vec![0, 1]),
-            ("first,second", vec![0, 1]),
+            ("Point,Northing,Easting,Elevation,Description", vec![2, 1, 3]),
+            ("FID,Shape,POINT_X,POINT_Y", vec![2, 3]),
+            ("Point_ID,x,y", vec![1, 2]),
+            ("Breite;Laenge".replace(';', ",").as_str(), vec![1, 0]),
+            ("x,y,POINT_X", vec![0, 1]),
         ] {
             assert_eq!(chosen(header), Ok(Columns::Numbers(columns)), "{header}");
         }
         assert_eq!(chosen("id,WKT"), Ok(Columns::Geometry(1)));
         assert_eq!(chosen("id,foo,bar"), Err("none of the columns id, foo, bar is called x or y".to_owned()));
+        for header in ["first,second", "time,z", "y1,x1", "x,y,x", "lat_deg,lat_min,lon_deg,lon_min"] {
+            assert!(chosen(header).is_err(), "{header}");
+        }
+        let said = |header: &str, names: [&str; 2]| {
+            let fields: Vec<String> = header.split(',').map(str::to_owned).collect();
+            Columns::choose(&fields, true, &names.map(str::to_owned))
+        };
+        assert_eq!(said("a,A,b", ["A", "b"]), Ok(Columns::Numbers(vec![1, 2])));
+        assert!(said("a,a,b", ["a", "b"]).is_err());
+        assert_eq!(said("a,a,b", ["2", "B"]), Ok(Columns::Numbers(vec![1, 2])));
     }
 }

@@ -5,15 +5,19 @@
 //! many fields as the first, or none with anything in it.
 
 mod columns;
+mod fields;
 mod wkt;
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 
-use self::columns::{Columns, is_header};
+use self::columns::{Columns, is_header, name_points};
+use self::fields::{Separator, number, remark};
 use super::lines::Lines;
 use crate::error::excerpt;
 use crate::{Cloud, Error, Source};
+
+/// No quoted field goes on for longer.
+const LONGEST: usize = 1 << 26;
 
 /// Reads points; `said` are header names or numbers from 1 for x, y and perhaps z, or none to find them.
 pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Error> {
@@ -21,31 +25,51 @@ pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Er
         return Err(Error::content("two or three columns are needed, x,y or x,y,z"));
     }
     let mut lines = Lines::new(source);
-    let mut table = Table { said, cloud: Cloud::default(), columns: None, width: 0 };
+    let mut table = Table::new(said);
     let mut separator = None;
     let mut record = String::new();
     while let Some(line) = lines.next_whole()? {
         let at = line.number;
+        if at == 1
+            && let Some(said) = Separator::said(line.text)
+        {
+            separator = Some(said);
+            continue;
+        }
         record.clear();
         record.push_str(line.text);
-        let separator = *separator.get_or_insert_with(|| Separator::of(&record));
-        // A quoted field may go on in the next line.
-        while separator.is_open(&record) {
-            let Some(more) = lines.next_whole()? else {
+        if let Some(text) = remark(&record)
+            && !table.is_row(separator, &record)
+        {
+            table.heed(text);
+            continue;
+        }
+        let sign = *separator.get_or_insert_with(|| Separator::of(&record));
+        // A quoted field may go on in the next lines.
+        let mut open = sign.stays_open(&record, false);
+        while open {
+            let more = lines.next_whole()?.filter(|_| record.len() < LONGEST);
+            let Some(more) = more else {
                 return Err(Error::Line { line: at, what: "a quotation mark is not closed".to_owned() });
             };
+            open = sign.stays_open(more.text, true);
             record.push('\n');
             record.push_str(more.text);
         }
-        let fields = separator.split(&record);
+        // Spreadsheets leave rows of nothing at the end.
+        if sign.is_nothing(&record) {
+            continue;
+        }
+        if table.columns.is_none() && table.takes_count(at, sign, &record) {
+            separator = None;
+            continue;
+        }
         match table.columns {
-            None => table.first(at, &fields.map(Cow::into_owned).collect::<Vec<_>>())?,
-            // Spreadsheets leave rows of nothing at the end.
-            Some(_) if separator.is_nothing(&record) => {}
-            Some(_) => table.row(at, fields)?,
+            None => table.first(at, sign, &record)?,
+            Some(_) => table.row(at, sign, &record)?,
         }
     }
-    Ok(table.cloud)
+    table.end()
 }
 
 /// A table being read.
@@ -54,39 +78,97 @@ struct Table<'a> {
     cloud: Cloud,
     columns: Option<Columns>,
     width: usize,
+    /// The last remark before the first line, which may hold its names.
+    names: Option<String>,
+    /// The line of a number before the first line, which tells how many follow.
+    count: Option<usize>,
+    /// The next row is the first after a header.
+    after_header: bool,
 }
 
-impl Table<'_> {
+impl<'a> Table<'a> {
+    fn new(said: &'a [String]) -> Self {
+        let cloud = Cloud::default();
+        Self { said, cloud, columns: None, width: 0, names: None, count: None, after_header: false }
+    }
+
+    /// Whether a line that looks like a remark is a row all the same: its first field, which begins with the sign of
+    /// remarks, is not a coordinate, and those that are are numbers.
+    fn is_row(&self, separator: Option<Separator>, record: &str) -> bool {
+        let (Some(sign @ Separator::Sign(_)), Some(Columns::Numbers(numbers))) = (separator, &self.columns)
+        else {
+            return false;
+        };
+        let fields: Vec<_> = sign.split(record).collect();
+        let is_number = |&k: &usize| k > 0 && number(&fields[k]).is_some();
+        fields.len() == self.width && numbers.iter().all(is_number)
+    }
+
+    /// Keeps a remark before the first line.
+    fn heed(&mut self, text: &str) {
+        if self.columns.is_none() {
+            self.names = Some(text.to_owned());
+        }
+    }
+
+    /// Whether a line before all others only tells how many follow.
+    fn takes_count(&mut self, line: usize, separator: Separator, record: &str) -> bool {
+        let alone = separator == Separator::Blank && record.trim().parse::<usize>().is_ok();
+        let takes = alone && self.count.is_none();
+        if takes {
+            self.count = Some(line);
+        }
+        takes
+    }
+
     /// Finds out what the columns are.
-    fn first(&mut self, line: usize, fields: &[String]) -> Result<(), Error> {
-        let header = is_header(fields, |field| number(field).is_some());
-        let columns =
-            Columns::choose(fields, header, self.said).map_err(|what| Error::Line { line, what })?;
+    fn first(&mut self, line: usize, separator: Separator, record: &str) -> Result<(), Error> {
+        let fields = |separator: Separator, text: &str| -> Vec<String> {
+            separator.split(text).map(String::from).collect()
+        };
+        let own = fields(separator, record);
+        let header = is_header(&own);
+        // A remark before numbers may hold their names.
+        let ways =
+            [separator, Separator::Sign(','), Separator::Sign(';'), Separator::Sign('\t'), Separator::Blank];
+        let above = self.names.take().filter(|_| !header).and_then(|text| {
+            let splits = ways.iter().map(|&way| fields(way, &text));
+            splits.into_iter().find(|names| {
+                name_points(names, own.len()) || (!self.said.is_empty() && names.len() == own.len())
+            })
+        });
+        let (names, named) = match &above {
+            Some(names) => (names, true),
+            None => (&own, header),
+        };
+        let columns = Columns::choose(names, named, self.said).map_err(|what| Error::Line { line, what })?;
         let heights = matches!(&columns, Columns::Numbers(numbers) if numbers.len() == 3);
         self.cloud = Cloud::with_capacity(0, heights);
-        self.cloud.remarks.extend(columns.remark(fields, header).filter(|_| self.said.is_empty()));
-        (self.columns, self.width) = (Some(columns), fields.len());
-        if header { Ok(()) } else { self.row(line, fields.iter()) }
+        self.cloud.remarks.extend(columns.remark(names, named).filter(|_| self.said.is_empty()));
+        (self.columns, self.width, self.after_header) = (Some(columns), own.len(), header);
+        if header { Ok(()) } else { self.row(line, separator, record) }
     }
 
     /// Takes the points of a row: one, or those of a geometry.
-    fn row<F: AsRef<str>>(&mut self, line: usize, fields: impl Iterator<Item = F>) -> Result<(), Error> {
+    fn row(&mut self, line: usize, separator: Separator, record: &str) -> Result<(), Error> {
+        if std::mem::take(&mut self.after_header) && separator.split(record).count() == self.width + 1 {
+            self.skip_row_names();
+        }
         let wrong = |what: String| Error::Line { line, what };
         let mut point = [0.0; 3];
         let mut count = 0;
-        for (column, field) in fields.enumerate() {
+        for (column, field) in separator.split(record).enumerate() {
             count += 1;
             match &self.columns {
                 Some(Columns::Numbers(numbers)) => {
                     for (axis, _) in numbers.iter().enumerate().filter(|entry| *entry.1 == column) {
-                        let field = field.as_ref();
-                        point[axis] = number(field).ok_or_else(|| {
-                            wrong(format!("field {} is {:?}, not a number", column + 1, excerpt(field)))
+                        point[axis] = number(&field).ok_or_else(|| {
+                            wrong(format!("field {} is {:?}, not a number", column + 1, excerpt(&field)))
                         })?;
                     }
                 }
                 Some(Columns::Geometry(geometry)) if *geometry == column => {
-                    self.geometry(field.as_ref()).map_err(wrong)?;
+                    self.geometry(&field).map_err(wrong)?;
                 }
                 _ => {}
             }
@@ -101,6 +183,17 @@ impl Table<'_> {
         Ok(())
     }
 
+    /// Rows have one field more than there are names: R writes names of rows without a name for their column.
+    fn skip_row_names(&mut self) {
+        self.width += 1;
+        match &mut self.columns {
+            Some(Columns::Numbers(numbers)) => numbers.iter_mut().for_each(|column| *column += 1),
+            Some(Columns::Geometry(column)) => *column += 1,
+            None => {}
+        }
+        self.cloud.remarks.push("the first column, which has no name, was left out".to_owned());
+    }
+
     fn geometry(&mut self, text: &str) -> Result<(), String> {
         for position in wkt::positions(text)? {
             if self.cloud.xy.is_empty() && position.len() > 2 {
@@ -113,17 +206,16 @@ impl Table<'_> {
         }
         Ok(())
     }
-}
 
-/// A number with a decimal point or a decimal comma; a remark after it is left out.
-fn number(field: &str) -> Option<f64> {
-    let field = field.split('#').next().unwrap_or_default().trim();
-    field.parse().ok().or_else(|| match field.split_once(',') {
-        Some((whole, part)) if !part.contains(',') && !field.contains('.') => {
-            format!("{whole}.{part}").parse().ok()
+    fn end(self) -> Result<Cloud, Error> {
+        match (self.count, &self.columns) {
+            // A number alone, and nothing that it counts.
+            (Some(line), None) => {
+                Err(Error::Line { line, what: "a point needs two numbers, x and y".to_owned() })
+            }
+            _ => Ok(self.cloud),
         }
-        _ => None,
-    })
+    }
 }
 
 /// Reads points of a `.pts` file: the number of points, then x, y, z and other numbers in each line; perhaps several
@@ -147,90 +239,6 @@ pub(crate) fn read_pts(source: Box<dyn Source>) -> Result<Cloud, Error> {
         return Err(Error::Truncated(format!("after {} of {announced} points", cloud.xy.len())));
     }
     Ok(cloud)
-}
-
-/// What stands between fields.
-#[derive(Clone, Copy)]
-enum Separator {
-    Sign(char),
-    Blank,
-}
-
-impl Separator {
-    /// By the first line, outside of quotes; a comma may be a decimal one, so others go first.
-    fn of(line: &str) -> Self {
-        let plain: String = line.split('"').step_by(2).collect();
-        let geometry = wkt::is_geometry(&plain);
-        let sign = ['\t', ';', '|', ','].into_iter().find(|&sign| plain.contains(sign));
-        match sign {
-            Some(sign) => Self::Sign(sign),
-            // One column of quoted or well-known text.
-            None if geometry || line.starts_with('"') => Self::Sign(','),
-            None => Self::Blank,
-        }
-    }
-
-    /// Whether there is nothing but separators.
-    fn is_nothing(self, record: &str) -> bool {
-        record.chars().all(|c| self.is(c) || c == '"' || c.is_whitespace())
-    }
-
-    fn is(self, c: char) -> bool {
-        matches!(self, Self::Sign(sign) if sign == c)
-    }
-
-    /// Whether a quoted field has no end yet.
-    fn is_open(self, record: &str) -> bool {
-        matches!(self, Self::Sign(_)) && record.contains('"') && record.matches('"').count() % 2 == 1
-    }
-
-    /// The fields, without quotation marks around them.
-    fn split(self, record: &str) -> Fields<'_> {
-        Fields { separator: self, rest: Some(record) }
-    }
-}
-
-/// The fields of a record.
-struct Fields<'a> {
-    separator: Separator,
-    rest: Option<&'a str>,
-}
-
-impl<'a> Iterator for Fields<'a> {
-    type Item = Cow<'a, str>;
-
-    fn next(&mut self) -> Option<Cow<'a, str>> {
-        let rest = self.rest?;
-        let Separator::Sign(sign) = self.separator else {
-            let word = rest.split('#').next().unwrap_or_default().trim_start();
-            let end = word.find(char::is_whitespace).unwrap_or(word.len());
-            self.rest = Some(&word[end..]);
-            return (end > 0).then_some(Cow::Borrowed(&word[..end]));
-        };
-        let end = if rest.trim_start().starts_with('"') {
-            // Two marks in a row stand for one: what is outside of marks changes at every one.
-            let mut quoted = false;
-            rest.char_indices().find_map(|(at, c)| {
-                quoted ^= c == '"';
-                (c == sign && !quoted).then_some(at)
-            })
-        } else {
-            rest.find(sign)
-        };
-        self.rest = end.map(|end| &rest[end + 1..]);
-        let field = rest[..end.unwrap_or(rest.len())].trim();
-        Some(match field.strip_prefix('"') {
-            None => Cow::Borrowed(field),
-            Some(inner) => {
-                let inner = inner.strip_suffix('"').unwrap_or(inner).trim();
-                if inner.contains('"') {
-                    Cow::Owned(inner.replace("\"\"", "\""))
-                } else {
-                    Cow::Borrowed(inner)
-                }
-            }
-        })
-    }
 }
 
 pub(crate) fn write<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
@@ -286,9 +294,21 @@ mod tests {
             "POINT (1 2)\nPOINT (3.5 -4)",
             "x,y,2020\n1,2,0\n3.5,-4,0\n,,\n",
             "1,2 # the first\n3.5,-4",
+            "sep=;\n1;2\n3,5;-4",
+            "# lat lon\n2 1\n-4 3.5",
+            "#lat,lon\n2,1\n-4,3.5",
+            "#,x,y\n7,1,2\n8,3.5,-4",
+            "2\n1 2\n3.5 -4\n\u{1a}",
+            "//X Y\n2\n1 2\n3.5 -4",
+            "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3.5 -4",
+            "\tx\ty\tz\n0\t1\t2\t7\n1\t3.5\t-4\t7",
+            "colour,x,y\n#ff0000,1,2\n#00ff00,3.5,-4\n#0000ff,no,row",
+            "1,2,\n3.5,-4,",
+            "n,x,y\n5\" pipe,1,2\n\"a\n\nb\",3.5,-4",
         ] {
             let cloud = parse(text, &[]).unwrap_or_else(|error| panic!("{text:?}: {error}"));
-            assert_eq!((&cloud.xy, &cloud.z), (&plain.xy, &plain.z), "{text:?}");
+            let heights = text.contains('z').then(|| vec![7.0, 7.0]);
+            assert_eq!((&cloud.xy, &cloud.z), (&plain.xy, &heights), "{text:?}");
         }
         let high = parse("id,x,y,z\n7,1,2,3", &[]).expect("valid");
         assert_eq!((high.xy, high.z), (vec![[1.0, 2.0]], Some(vec![3.0])));
@@ -303,11 +323,23 @@ mod tests {
             ("1,2\n3", "line 2: 1 fields where the first line has 2"),
             ("1,2\n\n# comment\n3,x", "line 4: field 2 is \"x\", not a number"),
             ("1,2\n3,", "line 2: field 2 is \"\", not a number"),
-            ("1\n2", "line 1: a point needs two numbers, x and y"),
+            ("1\n2", "line 2: a point needs two numbers, x and y"),
+            ("1\n", "line 1: a point needs two numbers, x and y"),
+            ("NA,NA\n1,2", "line 1: field 1 is \"NA\", not a number"),
+            ("0.1D+01,0.2D+01\n1,2", "line 1: field 1 is \"0.1D+01\", not a number"),
+            ("50N,7E\n1,2", "line 1: field 1 is \"50N\", not a number"),
+            ("x,y\n1.#INF,2", "line 2: field 1 is \"1.#INF\", not a number"),
+            (
+                "1,5000,1000,100.5,TP",
+                "line 1: without names it cannot be told which of 5 columns are x and y, one of which is \"TP\"",
+            ),
+            ("Breite,Wert\n1,2", "line 1: none of the columns Breite, Wert is called x or y"),
+            ("x,y,n\n1,2,\"a\n3,4,b\n", "line 2: a quotation mark is not closed"),
+            ("x;wkt\n1;POINT 1 2", "line 2: \"POINT 1 2\" is no geometry such as POINT (1 2)"),
             ("N/A,1\n2,3", "line 1: field 1 is \"N/A\", not a number"),
             ("id,foo,bar\n1,2,3", "line 1: none of the columns id, foo, bar is called x or y"),
             ("1.5;1,234.5", "line 1: field 2 is \"1,234.5\", not a number"),
-            ("id,wkt\n1,POINT (1)", "line 2: \"1\" is no position"),
+            ("id,wkt\n1,POINT (1)", "line 2: \"POINT (1)\" is no geometry such as POINT (1 2)"),
             ("1,2\0", "line 1: it is not text"),
         ] {
             assert_eq!(parse(text, &[]), Err(message.to_owned()), "{text:?}");
