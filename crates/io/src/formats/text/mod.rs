@@ -38,9 +38,12 @@ pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Er
         }
         record.clear();
         record.push_str(line.text);
-        if let Some(text) = remark(&record)
-            && !table.is_row(separator, &record)
-        {
+        if let Some(text) = remark(&record) {
+            if table.is_like_a_row(separator, &record, text) {
+                let what =
+                    "it may be a remark or a row: put its first field in quotes, or a blank after its sign";
+                return Err(Error::Line { line: at, what: what.to_owned() });
+            }
             table.heed(text);
             continue;
         }
@@ -92,16 +95,17 @@ impl<'a> Table<'a> {
         Self { said, cloud, columns: None, width: 0, names: None, count: None, after_header: false }
     }
 
-    /// Whether a line that looks like a remark is a row all the same: its first field, which begins with the sign of
-    /// remarks, is not a coordinate, and those that are are numbers.
-    fn is_row(&self, separator: Option<Separator>, record: &str) -> bool {
+    /// Whether a line that looks like a remark may be a row: its first field, such as #ff0000, is not a coordinate, and
+    /// those that are are numbers.
+    fn is_like_a_row(&self, separator: Option<Separator>, record: &str, text: &str) -> bool {
         let (Some(sign @ Separator::Sign(_)), Some(Columns::Numbers(numbers))) = (separator, &self.columns)
         else {
             return false;
         };
         let fields: Vec<_> = sign.split(record).collect();
         let is_number = |&k: &usize| k > 0 && number(&fields[k]).is_some();
-        fields.len() == self.width && numbers.iter().all(is_number)
+        let apart = text.starts_with(char::is_whitespace);
+        !apart && fields.len() == self.width && numbers.iter().all(is_number)
     }
 
     /// Keeps a remark before the first line.
@@ -302,7 +306,7 @@ mod tests {
             "//X Y\n2\n1 2\n3.5 -4",
             "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3.5 -4",
             "\tx\ty\tz\n0\t1\t2\t7\n1\t3.5\t-4\t7",
-            "colour,x,y\n#ff0000,1,2\n#00ff00,3.5,-4\n#0000ff,no,row",
+            "colour,x,y\n\"#ff0000\",1,2\n# 2,7,8\n#0000ff,no,row\nred,3.5,-4",
             "1,2,\n3.5,-4,",
             "n,x,y\n5\" pipe,1,2\n\"a\n\nb\",3.5,-4",
         ] {
@@ -335,6 +339,10 @@ mod tests {
             ),
             ("Breite,Wert\n1,2", "line 1: none of the columns Breite, Wert is called x or y"),
             ("x,y,n\n1,2,\"a\n3,4,b\n", "line 2: a quotation mark is not closed"),
+            (
+                "id,x,y\n1,2,3\n#2,7,8",
+                "line 3: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
+            ),
             ("x;wkt\n1;POINT 1 2", "line 2: \"POINT 1 2\" is no geometry such as POINT (1 2)"),
             ("N/A,1\n2,3", "line 1: field 1 is \"N/A\", not a number"),
             ("id,foo,bar\n1,2,3", "line 1: none of the columns id, foo, bar is called x or y"),
