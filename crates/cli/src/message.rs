@@ -62,10 +62,14 @@ impl Failure {
 
     /// Prints the failure and gives the exit status.
     pub(crate) fn report(&self) -> ExitCode {
-        eprintln!("error: {}", one_line(&self.message));
-        eprintln!("help: {}", one_line(&self.help));
+        tell(format_args!("error: {}\nhelp: {}", one_line(&self.message), one_line(&self.help)));
         ExitCode::from(self.status)
     }
+}
+
+/// A line on standard error, if somebody reads it.
+fn tell(text: impl Display) {
+    _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// A message in one line, which may hold what a file holds: without what moves the cursor, and not longer than a
@@ -112,14 +116,14 @@ pub(crate) fn usage(error: &clap::Error) -> ExitCode {
 /// What was done, on standard error.
 pub(crate) fn say(quiet: bool, text: impl Display) {
     if !quiet {
-        eprintln!("{text}");
+        tell(text);
     }
 }
 
 /// A remark on standard error.
 pub(crate) fn note(quiet: bool, text: impl Display) {
     if !quiet {
-        eprintln!("note: {text}");
+        tell(format_args!("note: {text}"));
     }
 }
 

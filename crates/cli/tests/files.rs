@@ -233,6 +233,14 @@ fn descriptors_are_written_where_they_lead() {
     assert!(status == Some(2) && told.contains("would overwrite"), "{told}");
     let (status, _, _) = bash("delone --help > /dev/full");
     assert_eq!(status, Some(1));
+    // Nobody reads what is said: the work is done all the same.
+    let (status, _, _) = bash("delone triangulate p.csv -o said.ele 2>/dev/full");
+    assert!(status == Some(0) && place.path("said.ele").exists());
+    let (status, _, _) = bash("delone triangulate none.csv -o said.ele 2>/dev/full");
+    assert_eq!(status, Some(1));
+    // A file by a way through the system is a file.
+    bash("delone -q triangulate p.csv -o /proc/self/cwd/said.ele");
+    assert_eq!(fs::read_to_string(place.path("said.ele")).expect("a mesh").matches(" 3 0\n").count(), 1);
 }
 
 #[test]

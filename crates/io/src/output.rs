@@ -137,7 +137,7 @@ fn open(path: &Path) -> io::Result<(Sink, Place)> {
     }
     let straight = |file| (Sink::File(BufWriter::with_capacity(BUFFER, file)), Place::Straight);
     let path = followed(path)?;
-    if is_system(&path) {
+    if is_descriptor(&path) {
         // A descriptor of a file that others write to is written to at its end.
         return Ok(straight(OpenOptions::new().append(true).open(&path)?));
     }
@@ -181,18 +181,24 @@ fn open(path: &Path) -> io::Result<(Sink, Place)> {
     Ok((Sink::File(BufWriter::with_capacity(BUFFER, file)), place))
 }
 
-/// Whether a path is a device or a descriptor, whose links are not the names of files.
-fn is_system(path: &Path) -> bool {
-    path.starts_with("/dev") && !path.starts_with("/dev/shm") || path.starts_with("/proc")
+/// Whether a path is a descriptor, whose link is not the name of a file: /dev/fd/3, /proc/self/fd/3.
+fn is_descriptor(path: &Path) -> bool {
+    let parts: Vec<&str> = path.iter().filter_map(|part| part.to_str()).collect();
+    let number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    match parts[..] {
+        ["/", "dev", "fd", n] | ["/", "proc", _, "fd", n] => number(n),
+        ["/", "dev", name] => ["stdin", "stdout", "stderr"].contains(&name),
+        _ => false,
+    }
 }
 
-/// The file that a name stands for, which need not exist; devices and descriptors stand for themselves.
+/// The file that a name stands for, which need not exist; descriptors stand for themselves.
 pub fn followed(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     // As many links as systems follow.
     for _ in 0..40 {
         match fs::read_link(&path) {
-            _ if is_system(&path) => return Ok(path),
+            _ if is_descriptor(&path) => return Ok(path),
             Ok(to) => path = path.parent().unwrap_or(Path::new("")).join(to),
             Err(_) => return Ok(path),
         }

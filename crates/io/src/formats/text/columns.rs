@@ -1,6 +1,8 @@
 //! Which columns are coordinates: as said, by the names of a header, or the first ones where there are no names. Names that
 //! do not tell are refused, never guessed at.
 
+use super::fields::Separator;
+
 /// Columns by number from 0.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Columns {
@@ -81,8 +83,7 @@ impl Columns {
             return Ok(Self::Numbers(numbers));
         }
         let is_geometry = |field: &String| {
-            let is_name = || GEOMETRIES.iter().any(|name| field.eq_ignore_ascii_case(name));
-            if header { is_name() } else { super::wkt::is_geometry(field) }
+            if header { names_geometry(field) } else { super::wkt::is_geometry(field) }
         };
         if let Some(column) = fields.iter().position(is_geometry) {
             return Ok(Self::Geometry(column));
@@ -92,7 +93,8 @@ impl Columns {
         }
         // A separator may follow the last field.
         let width = fields.iter().rposition(|field| !field.is_empty()).map_or(0, |last| last + 1);
-        let text = fields.iter().find(|field| !field.is_empty() && super::number(field).is_none());
+        let is_number = |field: &str| super::number(field, Separator::Blank).is_some();
+        let text = fields.iter().find(|field| !field.is_empty() && !is_number(field));
         match (width, text) {
             (0 | 1, _) => Err("a point needs two numbers, x and y".to_owned()),
             (4.., Some(text)) => Err(format!(
@@ -132,8 +134,24 @@ pub(super) fn is_header(fields: &[String]) -> bool {
     if fields.iter().any(|field| super::wkt::is_geometry(field)) {
         return false;
     }
+    let is_fraction =
+        |field: &String| field.contains('.') && super::number(field, Separator::Blank).is_some();
+    if fields.iter().any(is_fraction) {
+        return false;
+    }
     let all = || fields.iter().all(|field| field.is_empty() || is_name(field)) && fields.iter().any(is_name);
     !matches!(by_names(fields), Ok(None)) || all()
+}
+
+/// Whether a name is that of a column of well-known text.
+pub(super) fn names_geometry(name: &str) -> bool {
+    GEOMETRIES.iter().any(|known| name.eq_ignore_ascii_case(known))
+}
+
+/// Whether one of the names that were said is among the fields of the first line, so that these are names.
+pub(super) fn are_said(fields: &[String], said: &[String]) -> bool {
+    let is_name = |name: &&String| name.trim().parse::<f64>().is_err();
+    said.iter().filter(is_name).any(|name| fields.iter().any(|field| field.eq_ignore_ascii_case(name.trim())))
 }
 
 /// Whether names are as many as the fields of a line, and name x and y.
@@ -171,9 +189,10 @@ fn by_names(fields: &[String]) -> Result<Option<Vec<usize>>, String> {
     };
     let Some([x, y]) = FAMILIES.iter().find_map(|[x, y]| Some([find(x)?, find(y)?])) else { return Ok(None) };
     let minutes = |field: &String| {
-        let name = field.to_lowercase();
-        ["lat", "lon"].iter().any(|axis| name.contains(axis))
-            && ["min", "sec"].iter().any(|part| name.contains(part))
+        let words = words(field);
+        let any = |list: &[&str]| words.iter().any(|word| list.contains(&word.as_str()));
+        any(&["lat", "latitude", "lon", "lng", "long", "longitude"])
+            && any(&["min", "minute", "minutes", "sec", "second", "seconds"])
     };
     if fields.iter().any(minutes) {
         return Err("degrees, minutes and seconds in columns of their own are not put together".to_owned());
@@ -190,12 +209,16 @@ fn by_names(fields: &[String]) -> Result<Option<Vec<usize>>, String> {
     Ok(Some(columns))
 }
 
+/// The words of a name, without units in brackets.
+fn words(name: &str) -> Vec<String> {
+    let name = name.split(['(', '[']).next().unwrap_or_default().to_lowercase();
+    name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+}
+
 /// A name without units and words that say nothing: `X_COORD (m)` is `x`.
 fn plain(name: &str) -> String {
-    let name = name.split(['(', '[']).next().unwrap_or_default().to_lowercase();
-    let words: Vec<&str> =
-        name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
-    let telling: Vec<&str> = words.iter().copied().filter(|word| !FILLERS.contains(word)).collect();
+    let words = words(name);
+    let telling: Vec<&String> = words.iter().filter(|word| !FILLERS.contains(&word.as_str())).collect();
     let [word] = telling[..] else { return words.join(" ") };
     // Written together: xcoord, utmx.
     let rest =
@@ -239,6 +262,7 @@ mod tests {
             ("Point_ID,x,y", vec![1, 2]),
             ("Breite;Laenge".replace(';', ",").as_str(), vec![1, 0]),
             ("x,y,POINT_X", vec![0, 1]),
+            ("x,y,latency_sec", vec![0, 1]),
         ] {
             assert_eq!(chosen(header), Ok(Columns::Numbers(columns)), "{header}");
         }

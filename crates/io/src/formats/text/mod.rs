@@ -10,7 +10,7 @@ mod wkt;
 
 use std::io::{self, Write};
 
-use self::columns::{Columns, is_header, name_points};
+use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use super::lines::Lines;
 use crate::error::excerpt;
@@ -49,13 +49,12 @@ pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Er
         }
         let sign = *separator.get_or_insert_with(|| Separator::of(&record));
         // A quoted field may go on in the next lines.
-        let mut open = sign.stays_open(&record, false);
+        let wrong = |what: String| Error::Line { line: at, what };
+        let mut open = sign.stays_open(&record, false).map_err(wrong)?;
         while open {
             let more = lines.next_whole()?.filter(|_| record.len() < LONGEST);
-            let Some(more) = more else {
-                return Err(Error::Line { line: at, what: "a quotation mark is not closed".to_owned() });
-            };
-            open = sign.stays_open(more.text, true);
+            let more = more.ok_or_else(|| wrong("a quotation mark is not closed".to_owned()))?;
+            open = sign.stays_open(more.text, true).map_err(wrong)?;
             record.push('\n');
             record.push_str(more.text);
         }
@@ -81,10 +80,12 @@ struct Table<'a> {
     cloud: Cloud,
     columns: Option<Columns>,
     width: usize,
-    /// The last remark before the first line, which may hold its names.
-    names: Option<String>,
-    /// The line of a number before the first line, which tells how many follow.
-    count: Option<usize>,
+    /// The remarks before the first line, one of which may hold its names.
+    above: Vec<String>,
+    /// How many lines were remarks.
+    left_out: usize,
+    /// A number alone before the first line, which tells how many follow, and its line.
+    count: Option<(usize, usize)>,
     /// The next row is the first after a header.
     after_header: bool,
 }
@@ -92,55 +93,71 @@ struct Table<'a> {
 impl<'a> Table<'a> {
     fn new(said: &'a [String]) -> Self {
         let cloud = Cloud::default();
-        Self { said, cloud, columns: None, width: 0, names: None, count: None, after_header: false }
+        let (columns, above, count) = (None, Vec::new(), None);
+        Self { said, cloud, columns, width: 0, above, left_out: 0, count, after_header: false }
     }
 
     /// Whether a line that looks like a remark may be a row: its first field, such as #ff0000, is not a coordinate, and
-    /// those that are are numbers.
+    /// there are as many fields as in a row.
     fn is_like_a_row(&self, separator: Option<Separator>, record: &str, text: &str) -> bool {
-        let (Some(sign @ Separator::Sign(_)), Some(Columns::Numbers(numbers))) = (separator, &self.columns)
-        else {
-            return false;
+        let is_coordinate = match &self.columns {
+            None => true,
+            Some(Columns::Numbers(numbers)) => numbers.contains(&0),
+            Some(Columns::Geometry(column)) => *column == 0,
         };
-        let fields: Vec<_> = sign.split(record).collect();
-        let is_number = |&k: &usize| k > 0 && number(&fields[k]).is_some();
-        let apart = text.starts_with(char::is_whitespace);
-        !apart && fields.len() == self.width && numbers.iter().all(is_number)
+        let fields = match separator {
+            Some(sign @ Separator::Sign(_)) => sign.split(record).count(),
+            _ => record.split_whitespace().count(),
+        };
+        !is_coordinate && !text.starts_with(char::is_whitespace) && fields >= self.width.max(2)
     }
 
     /// Keeps a remark before the first line.
     fn heed(&mut self, text: &str) {
-        if self.columns.is_none() {
-            self.names = Some(text.to_owned());
+        /// Nobody writes names so far above.
+        const MOST: usize = 1000;
+        self.left_out += 1;
+        if self.columns.is_none() && self.above.len() < MOST {
+            self.above.push(text.to_owned());
         }
+    }
+
+    /// The names in a remark above the first line, of which there are so many: the last that fits.
+    fn names_above(&mut self, separator: Separator, width: usize) -> Option<Vec<String>> {
+        let ways =
+            [separator, Separator::Sign(','), Separator::Sign(';'), Separator::Sign('\t'), Separator::Blank];
+        let by_name = self.said.iter().any(|name| name.trim().parse::<usize>().is_err());
+        let above = std::mem::take(&mut self.above);
+        above.iter().rev().find_map(|text| {
+            let bare = without_brackets(text);
+            let texts = [text.as_str(), &bare, bare.split_once(':').map_or("", |parts| parts.1)];
+            let splits = texts.iter().flat_map(|text| {
+                ways.iter().map(|way| way.split(text).map(String::from).collect::<Vec<String>>())
+            });
+            let fits = |names: &Vec<String>| {
+                name_points(names, width) || (by_name && names.len() == width && are_said(names, self.said))
+            };
+            splits.into_iter().find(fits)
+        })
     }
 
     /// Whether a line before all others only tells how many follow.
     fn takes_count(&mut self, line: usize, separator: Separator, record: &str) -> bool {
-        let alone = separator == Separator::Blank && record.trim().parse::<usize>().is_ok();
-        let takes = alone && self.count.is_none();
+        let number = if separator == Separator::Blank { record.trim().parse::<usize>().ok() } else { None };
+        let takes = number.is_some() && self.count.is_none();
         if takes {
-            self.count = Some(line);
+            self.count = number.map(|number| (number, line));
         }
         takes
     }
 
     /// Finds out what the columns are.
     fn first(&mut self, line: usize, separator: Separator, record: &str) -> Result<(), Error> {
-        let fields = |separator: Separator, text: &str| -> Vec<String> {
-            separator.split(text).map(String::from).collect()
-        };
-        let own = fields(separator, record);
-        let header = is_header(&own);
+        let own: Vec<String> = separator.split(record).map(String::from).collect();
+        let header = is_header(&own) || are_said(&own, self.said);
+        let unread = !self.above.is_empty() && !header;
         // A remark before numbers may hold their names.
-        let ways =
-            [separator, Separator::Sign(','), Separator::Sign(';'), Separator::Sign('\t'), Separator::Blank];
-        let above = self.names.take().filter(|_| !header).and_then(|text| {
-            let splits = ways.iter().map(|&way| fields(way, &text));
-            splits.into_iter().find(|names| {
-                name_points(names, own.len()) || (!self.said.is_empty() && names.len() == own.len())
-            })
-        });
+        let above = if header { None } else { self.names_above(separator, own.len()) };
         let (names, named) = match &above {
             Some(names) => (names, true),
             None => (&own, header),
@@ -148,25 +165,36 @@ impl<'a> Table<'a> {
         let columns = Columns::choose(names, named, self.said).map_err(|what| Error::Line { line, what })?;
         let heights = matches!(&columns, Columns::Numbers(numbers) if numbers.len() == 3);
         self.cloud = Cloud::with_capacity(0, heights);
-        self.cloud.remarks.extend(columns.remark(names, named).filter(|_| self.said.is_empty()));
+        let mut told = columns.remark(names, named);
+        if told.is_none() && unread && above.is_none() {
+            told =
+                Some("the first columns were taken as x, y: the remarks above do not name them".to_owned());
+        }
+        self.cloud.remarks.extend(told.filter(|_| self.said.is_empty()));
         (self.columns, self.width, self.after_header) = (Some(columns), own.len(), header);
         if header { Ok(()) } else { self.row(line, separator, record) }
     }
 
     /// Takes the points of a row: one, or those of a geometry.
     fn row(&mut self, line: usize, separator: Separator, record: &str) -> Result<(), Error> {
-        if std::mem::take(&mut self.after_header) && separator.split(record).count() == self.width + 1 {
+        // R quotes the names of rows, and their column has no name.
+        if std::mem::take(&mut self.after_header)
+            && record.trim_start().starts_with('"')
+            && separator.split(record).count() == self.width + 1
+        {
             self.skip_row_names();
         }
         let wrong = |what: String| Error::Line { line, what };
         let mut point = [0.0; 3];
         let mut count = 0;
+        let mut last_is_empty = false;
         for (column, field) in separator.split(record).enumerate() {
             count += 1;
+            last_is_empty = field.is_empty();
             match &self.columns {
                 Some(Columns::Numbers(numbers)) => {
                     for (axis, _) in numbers.iter().enumerate().filter(|entry| *entry.1 == column) {
-                        point[axis] = number(&field).ok_or_else(|| {
+                        point[axis] = number(&field, separator).ok_or_else(|| {
                             wrong(format!("field {} is {:?}, not a number", column + 1, excerpt(&field)))
                         })?;
                     }
@@ -177,7 +205,8 @@ impl<'a> Table<'a> {
                 _ => {}
             }
         }
-        if count != self.width {
+        // A separator may follow the last field.
+        if count != self.width && !(last_is_empty && count == self.width + 1) {
             return Err(wrong(format!("{count} fields where the first line has {}", self.width)));
         }
         if let Some(Columns::Numbers(_)) = self.columns {
@@ -190,6 +219,10 @@ impl<'a> Table<'a> {
     /// Rows have one field more than there are names: R writes names of rows without a name for their column.
     fn skip_row_names(&mut self) {
         self.width += 1;
+        if self.said.iter().any(|name| name.trim().parse::<usize>().is_ok()) {
+            // Numbers are those of the columns of rows.
+            return;
+        }
         match &mut self.columns {
             Some(Columns::Numbers(numbers)) => numbers.iter_mut().for_each(|column| *column += 1),
             Some(Columns::Geometry(column)) => *column += 1,
@@ -205,21 +238,42 @@ impl<'a> Table<'a> {
             }
             match (position.get(2), &self.cloud.z) {
                 (None, Some(_)) => return Err("a position without height after some with heights".to_owned()),
+                (Some(_), None) => return Err("a position with height after some without".to_owned()),
                 (z, _) => self.cloud.push([position[0], position[1]], z.copied().unwrap_or_default()),
             }
         }
         Ok(())
     }
 
-    fn end(self) -> Result<Cloud, Error> {
-        match (self.count, &self.columns) {
+    fn end(mut self) -> Result<Cloud, Error> {
+        match self.count {
             // A number alone, and nothing that it counts.
-            (Some(line), None) => {
-                Err(Error::Line { line, what: "a point needs two numbers, x and y".to_owned() })
+            Some((_, line)) if self.columns.is_none() => {
+                return Err(Error::Line { line, what: "a point needs two numbers, x and y".to_owned() });
             }
-            _ => Ok(self.cloud),
+            Some((number, _)) if self.cloud.xy.len() < number => {
+                return Err(Error::Truncated(format!("after {} of {number} points", self.cloud.xy.len())));
+            }
+            _ => {}
         }
+        if self.columns.is_none() && self.left_out > 0 {
+            self.cloud.remarks.push(format!("all lines, {} of them, are remarks", self.left_out));
+        }
+        Ok(self.cloud)
     }
+}
+
+/// A text without what is in brackets, such as units.
+fn without_brackets(text: &str) -> String {
+    let mut depth = 0_usize;
+    text.chars()
+        .filter(|&c| {
+            depth += usize::from("([".contains(c));
+            let outside = depth == 0;
+            depth = depth.saturating_sub(usize::from(")]".contains(c)));
+            outside
+        })
+        .collect()
 }
 
 /// Reads points of a `.pts` file: the number of points, then x, y, z and other numbers in each line; perhaps several
@@ -306,8 +360,15 @@ mod tests {
             "//X Y\n2\n1 2\n3.5 -4",
             "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3.5 -4",
             "\tx\ty\tz\n0\t1\t2\t7\n1\t3.5\t-4\t7",
-            "colour,x,y\n\"#ff0000\",1,2\n# 2,7,8\n#0000ff,no,row\nred,3.5,-4",
+            "colour,x,y\n\"#ff0000\",1,2\n# 2,7,8\nred,3.5,-4",
             "1,2,\n3.5,-4,",
+            "x,y\n1,2,\n3.5,-4,",
+            "# lat lon (WGS84)\n# made by me\n2 1\n-4 3.5",
+            "# columns: lat lon\n2 1\n-4 3.5",
+            "geometry\nPOINT (1 2)\nMULTIPOINT (3.5 -4)",
+            "wkt\nSRID=4326;MULTIPOINT (1 2,3.5 -4)",
+            "MULTIPOINT (1 2, 3.5 -4)",
+            "\"n\" \"x\" \"y\"\n\"a\"\"b\" 1 2\n\"c\" 3.5 -4",
             "n,x,y\n5\" pipe,1,2\n\"a\n\nb\",3.5,-4",
         ] {
             let cloud = parse(text, &[]).unwrap_or_else(|error| panic!("{text:?}: {error}"));
@@ -328,6 +389,22 @@ mod tests {
             ("1,2\n\n# comment\n3,x", "line 4: field 2 is \"x\", not a number"),
             ("1,2\n3,", "line 2: field 2 is \"\", not a number"),
             ("1\n2", "line 2: a point needs two numbers, x and y"),
+            ("3\n1 2\n3 4\n", "the file ends after 2 of 3 points"),
+            (
+                "x,y,n\n1,2,\"5\" pipe\"\n3,4,\"6\" pipe\"",
+                "line 2: a quotation mark inside of quotes is not doubled",
+            ),
+            ("x,y,z\n1,2,3,4", "line 2: 4 fields where the first line has 3"),
+            ("x,y\n\"1,000\",2", "line 2: field 1 is \"1,000\", not a number"),
+            (
+                "colour,wkt\n#ff0000,POINT (1 2)",
+                "line 2: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
+            ),
+            (
+                "name x y\n#1 1 2",
+                "line 2: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
+            ),
+            ("wkt\nPOINT (1 2)\nPOINT Z (1 2 3)", "line 3: a position with height after some without"),
             ("1\n", "line 1: a point needs two numbers, x and y"),
             ("NA,NA\n1,2", "line 1: field 1 is \"NA\", not a number"),
             ("0.1D+01,0.2D+01\n1,2", "line 1: field 1 is \"0.1D+01\", not a number"),
