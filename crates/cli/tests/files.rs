@@ -266,12 +266,14 @@ fn signals_leave_nothing_behind() {
     let place = Place::new();
     place.succeed("generate uniform -n 300000 -o p.npy");
     fs::create_dir(place.path("out")).expect("made");
-    // Under nohup these tests and the program they start go on after a hangup.
+    // What these tests were started to ignore (under nohup, in the background), the program ignores too.
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:")).unwrap_or("0");
-    let hangs_up = u64::from_str_radix(ignored.trim(), 16).is_ok_and(|mask| mask & 1 == 0);
-    let signals: &[&str] = if hangs_up { &["INT", "TERM", "HUP"] } else { &["INT", "TERM"] };
-    for signal in signals {
+    let ignored = u64::from_str_radix(ignored.trim(), 16).expect("a mask");
+    for (signal, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+        if ignored >> (number - 1) & 1 == 1 {
+            continue;
+        }
         let mut child = Command::new(env!("CARGO_BIN_EXE_delone"))
             .current_dir(place.path("out"))
             .args(["-q", "triangulate", "../p.npy", "-o", "m.geojson", "-o", "n.geojson", "-o", "o.geojson"])
