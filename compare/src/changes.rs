@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use delone::{Delaunay2, Hierarchy, Locate, Location, VertexId};
+use delone::{Delaunay2, Hierarchy, Locate, Location2, VertexId};
 use delone_oracle::exact::compare_distances;
 use delone_oracle::generate::{Kind, Random};
 use spade::{HierarchyHintGenerator, PositionInTriangulation, Triangulation as _};
@@ -106,7 +106,7 @@ fn delone(points: &Points, queries: &Points, locate: Locate) -> Run {
     run.seconds[0] = start.elapsed().as_secs_f64();
     let start = Instant::now();
     for &q in queries {
-        run.inside.push(!matches!(d.locate(q).expect("finite"), Location::Outside(_)));
+        run.inside.push(!matches!(d.locate(q).expect("finite"), Location2::Outside(_)));
     }
     run.seconds[1] = start.elapsed().as_secs_f64();
     let start = Instant::now();

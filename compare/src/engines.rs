@@ -65,12 +65,12 @@ fn pool(threads: usize) -> ThreadPool {
 fn delone(
     points: &Points,
     wanted: bool,
-    algorithm: delone::Algorithm,
+    algorithm: delone::Algorithm2,
     threads: usize,
 ) -> Result<Run, String> {
     let own = points.to_vec();
     let pool = &POOLS[threads - 1];
-    let (time, result) = pool.install(|| timed(|| delone::Delaunay2::from_vec(own, algorithm)));
+    let (time, result) = pool.install(|| timed(|| delone::Delaunay2::with_algorithm(&own, algorithm)));
     let d = result.map_err(|error| error.to_string())?;
     let triangles =
         if wanted { d.triangles().map(|t| t.map(|v| v.index() as u64)).collect() } else { Vec::new() };
@@ -78,15 +78,15 @@ fn delone(
 }
 
 fn delone_divide_and_conquer(points: &Points, wanted: bool) -> Result<Run, String> {
-    delone(points, wanted, delone::Algorithm::DivideAndConquer, 1)
+    delone(points, wanted, delone::Algorithm2::DivideAndConquer, 1)
 }
 
 fn delone_on_two_threads(points: &Points, wanted: bool) -> Result<Run, String> {
-    delone(points, wanted, delone::Algorithm::DivideAndConquer, 2)
+    delone(points, wanted, delone::Algorithm2::DivideAndConquer, 2)
 }
 
 fn delone_incremental(points: &Points, wanted: bool) -> Result<Run, String> {
-    delone(points, wanted, delone::Algorithm::Incremental { seed: 1 }, 1)
+    delone(points, wanted, delone::Algorithm2::Incremental { seed: 1 }, 1)
 }
 
 #[cfg(cgal)]

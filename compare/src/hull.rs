@@ -5,7 +5,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use delone::hull::spatial::Hull3;
+use delone::Hull3;
 use delone_oracle::generate::Random;
 
 type Points = [[f64; 3]];
@@ -48,7 +48,7 @@ pub fn run(size: usize, runs: usize) {
 
 fn delone(points: &Points) -> Option<(f64, usize)> {
     let start = Instant::now();
-    let hull = Hull3::of(points).ok()?;
+    let hull = Hull3::from_points(points).ok()?;
     Some((start.elapsed().as_secs_f64(), hull.facets().count()))
 }
 

@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use delone::{Delaunay2, Region};
+use delone::{Delaunay2, Region2};
 use delone_oracle::generate::Kind;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use voronoice::{BoundingBox, Point, VoronoiBuilder};
@@ -58,7 +58,7 @@ fn delone(points: &Points, [low, high]: [[f64; 2]; 2]) -> Run {
     let start = Instant::now();
     let d = Delaunay2::from_points(points).expect("finite");
     let built = Instant::now();
-    let cells = d.voronoi().clip(&Region::rectangle(low, high).expect("a box"));
+    let cells = d.voronoi().clip(&Region2::rectangle(low, high).expect("a box"));
     let (all, alone) = (start.elapsed(), built.elapsed());
     let sum = d.vertices().map(|v| cells.area(v)).sum();
     (all.as_secs_f64(), Some(alone.as_secs_f64()), sum)

@@ -2,7 +2,7 @@
 //! corners of a simplex, one more.
 
 use delone::{
-    Algorithm, Delaunay2, Delaunay3, Duplicate, Error, HintOrder, Hints2, Hints3, Location, Location3,
+    Algorithm2, Delaunay2, Delaunay3, Duplicate, Error, HintOrder, Hints2, Hints3, Location2, Location3,
     TetrahedronId, TriangleId, VertexId,
 };
 
@@ -49,7 +49,7 @@ fn finite(d: &Delaunay2, mut triangles: impl Iterator<Item = TriangleId>) -> Opt
 
 impl Engine<2, 3> for Delaunay2 {
     fn build(points: Vec<[f64; 2]>) -> Result<Self, Error> {
-        Self::from_vec(points, Algorithm::default())
+        Self::from_vec(points, Algorithm2::default())
     }
 
     fn extend(&mut self, points: &[[f64; 2]]) -> Result<(), Error> {
@@ -86,12 +86,12 @@ impl Engine<2, 3> for Delaunay2 {
 
     fn find(&self, q: [f64; 2]) -> Result<Option<usize>, Error> {
         Ok(match self.locate(q)? {
-            Location::Triangle(t) => Some(t.index()),
-            Location::Edge(e) => {
+            Location2::Triangle(t) => Some(t.index()),
+            Location2::Edge(e) => {
                 finite(self, [e, self.mesh().twin(e)].map(delone::EdgeId::triangle).into_iter())
             }
-            Location::Vertex(v) => finite(self, self.mesh().star(v).map(delone::EdgeId::triangle)),
-            Location::Outside(_) | Location::LowerDimensional(_) => None,
+            Location2::Vertex(v) => finite(self, self.mesh().star(v).map(delone::EdgeId::triangle)),
+            Location2::Outside(_) | Location2::LowerDimensional(_) => None,
         })
     }
 
@@ -205,7 +205,7 @@ impl Imprecise<2, 3> for Hints2 {
     type Engine = Delaunay2;
 
     fn preprocess(centres: &[[f64; 2]]) -> Result<Self, Error> {
-        Hints2::preprocess(centres, HintOrder::default())
+        Hints2::from_points(centres, HintOrder::default())
     }
 
     fn instance(&mut self, points: &[[f64; 2]]) -> Result<Delaunay2, Error> {
@@ -217,7 +217,7 @@ impl Imprecise<3, 4> for Hints3 {
     type Engine = Delaunay3;
 
     fn preprocess(centres: &[[f64; 3]]) -> Result<Self, Error> {
-        Hints3::preprocess(centres, HintOrder::default())
+        Hints3::from_points(centres, HintOrder::default())
     }
 
     fn instance(&mut self, points: &[[f64; 3]]) -> Result<Delaunay3, Error> {

@@ -1,6 +1,6 @@
 //! Convex hulls.
 
-use delone::hull::spatial::Hull3;
+use delone::Hull3;
 use delone_predicates::{Sign, orient2d, orient3d};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -21,7 +21,7 @@ pub fn convex_hull<'py>(
         2 => {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
             HULL.check::<2>(points.len())?;
-            let hull = interruptible(py, points.len(), move || delone::convex_hull(&points))?;
+            let hull = interruptible(py, points.len(), move || delone::Hull2::from_points(&points))?;
             let corners = hull.map_err(value_error)?;
             // On a line both ends are corners, and no edge has an inside.
             let next = corners.iter().cycle().skip(1);
@@ -33,8 +33,8 @@ pub fn convex_hull<'py>(
         3 => {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
             HULL.check::<3>(points.len())?;
-            let hull = interruptible(py, points.len(), move || Hull3::of(&points))?.map_err(value_error)?;
-            let is_body = hull.span() == delone::Dimension::Space;
+            let hull = interruptible(py, points.len(), move || Hull3::from_points(&points))?.map_err(value_error)?;
+            let is_body = hull.dimension() == delone::Dimension::Space;
             let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);
             let facets: Vec<i32> = facets.collect();
             let count = facets.len() / 3;

@@ -1,6 +1,6 @@
 //! Voronoi cells clipped to a region of the plane, and ridges in space.
 
-use delone::{Region, VertexId};
+use delone::{Region2, VertexId};
 use delone_predicates::circumcentre;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -27,7 +27,7 @@ pub fn clipped_cells<'py>(
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
     let engine = &state.engine;
     let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
-        let region = Region::polygon(&rings).map_err(value_error)?;
+        let region = Region2::polygon(&rings).map_err(value_error)?;
         let cells = engine.voronoi().clip(&region);
         let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
         for v in (0..points).map(VertexId::new) {

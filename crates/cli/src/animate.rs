@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use delone::{Delaunay2, Moving2, Step};
+use delone::{Delaunay2, Moving2, Step2};
 use delone_io::{Error, Format, Surface, picture};
 use delone_oracle::generate::Random;
 
@@ -91,7 +91,7 @@ struct Film {
 impl Film {
     fn new(positions: Vec<[f64; 2]>, args: &AnimateArgs) -> Result<Self, Failure> {
         let moving =
-            Moving2::new(&positions).map_err(|error| Failure::points(&args.input.label(), &error))?;
+            Moving2::from_points(&positions).map_err(|error| Failure::points(&args.input.label(), &error))?;
         let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
         for p in &positions {
             low = [0, 1].map(|k| low[k].min(p[k]));
@@ -121,8 +121,8 @@ impl Film {
             let step =
                 self.moving.step(&self.positions).map_err(|error| Error::Content(error.to_string()))?;
             match step {
-                Step::Repaired { .. } => self.repaired += 1,
-                Step::Rebuilt => self.rebuilt += 1,
+                Step2::Repaired { .. } => self.repaired += 1,
+                Step2::Rebuilt => self.rebuilt += 1,
             }
         }
         Ok(self.moving.triangulation())

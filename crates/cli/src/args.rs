@@ -316,7 +316,7 @@ pub(crate) struct NearestArgs {
 
 npy and csv hold indices of input points. In the plane: the corners, counter-clockwise from the lexicographically
 smallest. In space: a facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is
-on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh files hold the corners
+on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh2 files hold the corners
 of the hull alone; pictures show flat faces whole.")]
 pub(crate) struct HullArgs {
     #[command(flatten)]

@@ -1,6 +1,6 @@
 //! `delone check`: an exact verdict on anyone's triangles.
 
-use delone::plane::verify::{Objection, verify};
+use delone::plane::verify::{Objection2, verify};
 
 use crate::args::CheckArgs;
 use crate::message::{Failure, answer, note};
@@ -29,13 +29,13 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     if let Ok(verdict) = verdict {
         stats.set("duplicates", verdict.duplicates);
         stats.set("hull", verdict.hull);
-        stats.set("clockwise", verdict.clockwise);
-        stats.set("other_diagonals", verdict.other_diagonals);
+        stats.set("clockwise", verdict.negative);
+        stats.set("other_diagonals", verdict.other_ties);
     }
     stats.write(args.input.stats.as_deref())?;
     let verdict = match verdict {
         Ok(verdict) => verdict,
-        Err(Objection::Points(error)) => return Err(Failure::points(&args.input.label(), &error)),
+        Err(Objection2::Points(error)) => return Err(Failure::points(&args.input.label(), &error)),
         Err(objection) => {
             return Err(Failure::new(
                 format!("{}: not Delaunay: {objection}", args.mesh.display()),
@@ -47,14 +47,14 @@ pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let text = if verdict.is_canonical() {
         format!("Delaunay, and the canonical triangulation: {count} triangles\n")
     } else {
-        let others = verdict.other_diagonals;
+        let others = verdict.other_ties;
         format!(
             "Delaunay, not the canonical triangulation: {others} of its cocircular diagonals are the other one; {count} triangles\n"
         )
     };
     answer(&text)?;
-    if verdict.clockwise > 0 {
-        note(quiet, format_args!("{} triangles are clockwise", verdict.clockwise));
+    if verdict.negative > 0 {
+        note(quiet, format_args!("{} triangles are clockwise", verdict.negative));
     }
     Ok(())
 }

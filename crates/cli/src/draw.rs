@@ -1,6 +1,6 @@
 //! `delone draw`: pictures.
 
-use delone::{Algorithm, HintOrder, Hints2};
+use delone::{Algorithm2, HintOrder, Hints2};
 use delone_io::{Format, picture};
 
 use crate::args::{Choice, DrawArgs};
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("read");
     let links = if args.hints { links(&cloud.xy, args)? } else { Vec::new() };
     let xy = std::mem::take(&mut cloud.xy);
-    let triangulation = triangulate::build(xy, Algorithm::default(), &args.input.label(), quiet)?;
+    let triangulation = triangulate::build(xy, Algorithm2::default(), &args.input.label(), quiet)?;
     triangulate::remark(&triangulation, quiet);
     stats.phase("build");
     stats.triangulation(&triangulation);
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
 
 /// From each point to its hint.
 fn links(points: &[[f64; 2]], args: &DrawArgs) -> Result<Vec<[[f64; 2]; 2]>, Failure> {
-    let hints = Hints2::preprocess(points, HintOrder::Random { seed: args.seed })
+    let hints = Hints2::from_points(points, HintOrder::Random { seed: args.seed })
         .map_err(|error| Failure::points(&args.input.label(), &error))?;
     Ok(hints.order().zip(hints.hints()).skip(1).map(|(i, j)| [points[i], points[j]]).collect())
 }

@@ -1,6 +1,6 @@
 //! `delone furthest`: for each query the vertex furthest from it.
 
-use delone::Algorithm;
+use delone::Algorithm2;
 use serde_json::json;
 
 use crate::args::FurthestArgs;
@@ -19,7 +19,7 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     let cloud = files::points(&args.input, 2, quiet)?;
     let queries = files::queries(&args.queries, quiet)?;
     stats.phase("read");
-    let triangulation = build(cloud.xy, Algorithm::default(), &args.input.label(), quiet)?;
+    let triangulation = build(cloud.xy, Algorithm2::default(), &args.input.label(), quiet)?;
     remark(&triangulation, quiet);
     let furthest = triangulation.furthest();
     stats.phase("build");

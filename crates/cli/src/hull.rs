@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use delone::hull::spatial::{Hull3, HullHistory};
 use delone::{Dimension, Work};
+use delone::{Hull3, HullHistory3};
 use delone_io::{Format, Solid};
 
 use crate::args::{HullAlgorithm, HullArgs};
@@ -46,8 +46,8 @@ fn plane(
     stats.phase("read");
     stats.set("points", cloud.xy.len());
     let phase = Phase::start(quiet, "building");
-    let hull =
-        delone::convex_hull(&cloud.xy).map_err(|error| Failure::points(&args.input.label(), &error))?;
+    let hull = delone::Hull2::from_points(&cloud.xy)
+        .map_err(|error| Failure::points(&args.input.label(), &error))?;
     drop(phase);
     stats.phase("build");
     stats.set("hull", hull.len());
@@ -78,10 +78,10 @@ fn space(
     stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
     let hull = match args.algorithm {
-        HullAlgorithm::Quickhull => Hull3::of(&points),
+        HullAlgorithm::Quickhull => Hull3::from_points(&points),
         HullAlgorithm::History => {
             let mut work = Work::default();
-            let history = HullHistory::build_counted(&points, args.seed, &mut work);
+            let history = HullHistory3::build_counted(&points, args.seed, &mut work);
             stats.set("counters", work_done(&work));
             history.map(|history| history.hull().clone())
         }
@@ -89,8 +89,8 @@ fn space(
     .map_err(|error| Failure::points(&args.input.label(), &error))?;
     drop(phase);
     stats.phase("build");
-    let span = format!("{:?}", hull.span()).to_lowercase();
-    if hull.span() < Dimension::Space {
+    let span = format!("{:?}", hull.dimension()).to_lowercase();
+    if hull.dimension() < Dimension::Space {
         note(quiet, format_args!("the points span only this: {span}, so there are no facets"));
     }
     stats.set("dimension", span);

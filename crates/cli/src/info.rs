@@ -1,6 +1,6 @@
 //! `delone info`: what is in a file of points.
 
-use delone::{Algorithm, Delaunay2, Dimension};
+use delone::{Algorithm2, Delaunay2, Dimension};
 use delone_io::{Cloud, LAS_CLASSES};
 use delone_predicates::{in_circle_with_ties, orient2d};
 use serde_json::{Map, Value};
@@ -20,7 +20,7 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("read");
     let heights = cloud.z.take();
     let xy = std::mem::take(&mut cloud.xy);
-    let d = triangulate::build(xy, Algorithm::default(), &args.input.label(), quiet)?;
+    let d = triangulate::build(xy, Algorithm2::default(), &args.input.label(), quiet)?;
     stats.phase("build");
     stats.triangulation(&d);
     let mut text = String::new();
@@ -72,7 +72,7 @@ pub(crate) fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &m
 }
 
 fn plane(d: &Delaunay2, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
-    let hull: Vec<_> = d.hull().map(|v| d.point(v)).collect();
+    let hull: Vec<_> = d.hull_vertices().map(|v| d.point(v)).collect();
     let h = hull.len();
     let straight =
         (0..h).filter(|&i| orient2d(hull[i], hull[(i + 1) % h], hull[(i + 2) % h]).is_zero()).count();

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use delone::{HintOrder, Hints2, Hints3, Work};
+use delone::{HintOrder, Hints2, Hints3, Imprecise, Work};
 use delone_io::{Cloud, Format};
 use serde_json::{Map, Value, json};
 
@@ -49,7 +49,7 @@ impl Room for Hints2 {
     }
 
     fn triangulate(&mut self, points: &Cloud, work: &mut Work) -> Result<(), delone::Error> {
-        self.triangulate_counted(&points.xy, work).map(|_| ())
+        self.triangulate_observed(&points.xy, work).map(|_| ())
     }
 
     fn gave_up(&self) -> bool {
@@ -82,7 +82,7 @@ impl Room for Hints3 {
     }
 
     fn triangulate(&mut self, points: &Vec<[f64; 3]>, work: &mut Work) -> Result<(), delone::Error> {
-        self.triangulate_counted(points, work).map(|_| ())
+        self.triangulate_observed(points, work).map(|_| ())
     }
 
     fn gave_up(&self) -> bool {

@@ -1,6 +1,6 @@
 //! `delone locate`: for each query the triangle that contains it. Also what it has in common with `nearest`.
 
-use delone::{Algorithm, Delaunay2, Locate, Location, TriangleId, Work};
+use delone::{Algorithm2, Ask, Delaunay2, Locate, Location2, TriangleId, Work};
 
 use crate::args::{InputArgs, LocateArgs, QueryArgs};
 use crate::message::Failure;
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &LocateArgs, quiet: bool) -> Result<(), Failure> {
     }
     let mut work = Work::default();
     answer(&args.input, &args.query, 3, quiet, |triangulation, q, row| {
-        let location = triangulation.locate_counted(q, &mut work)?;
+        let location = triangulation.find_observed(q, &mut work)?;
         let corners = triangle(triangulation, location).map_or([-1; 3], |t| t.map(|i| i as i64));
         row.extend(corners);
         Ok(work)
@@ -40,7 +40,7 @@ pub(crate) fn answer(
     let cloud = files::points(input, 2, quiet)?;
     let queries = files::queries(&query.queries, quiet)?;
     stats.phase("read");
-    let mut triangulation = build(cloud.xy, Algorithm::default(), &input.label(), quiet)?;
+    let mut triangulation = build(cloud.xy, Algorithm2::default(), &input.label(), quiet)?;
     triangulation.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
     stats.phase("build");
     remark(&triangulation, quiet);
@@ -78,13 +78,13 @@ pub(crate) fn strategy(query: &QueryArgs) -> Result<Locate, Failure> {
 
 /// The corners of a triangle that contains a point, the same ones whatever found it: from the smallest index on,
 /// and of several triangles the first.
-fn triangle(triangulation: &Delaunay2, location: Location) -> Option<[usize; 3]> {
+fn triangle(triangulation: &Delaunay2, location: Location2) -> Option<[usize; 3]> {
     let mesh = triangulation.mesh();
     let around: Vec<TriangleId> = match location {
-        Location::Triangle(t) => vec![t],
-        Location::Edge(e) => vec![e.triangle(), mesh.twin(e).triangle()],
-        Location::Vertex(v) => mesh.star(v).map(|e| e.triangle()).collect(),
-        Location::Outside(_) | Location::LowerDimensional(_) => Vec::new(),
+        Location2::Triangle(t) => vec![t],
+        Location2::Edge(e) => vec![e.triangle(), mesh.twin(e).triangle()],
+        Location2::Vertex(v) => mesh.star(v).map(|e| e.triangle()).collect(),
+        Location2::Outside(_) | Location2::LowerDimensional(_) => Vec::new(),
     };
     let corners = |t: TriangleId| {
         let mut corners = mesh.corners(t).map(delone::VertexId::index);

@@ -1,6 +1,6 @@
 //! `delone nearest`: for each query the vertices nearest to it.
 
-use delone::Work;
+use delone::{Ask, Work};
 
 use crate::args::NearestArgs;
 use crate::locate::answer;
@@ -16,7 +16,7 @@ pub(crate) fn run(args: &NearestArgs, quiet: bool) -> Result<(), Failure> {
     answer(&args.input, &args.query, k, quiet, |triangulation, q, row| {
         let end = row.len() + k;
         if k == 1 {
-            row.extend(triangulation.nearest_counted(q, &mut work)?.map(|v| v.index() as i64));
+            row.extend(triangulation.nearest_observed(q, &mut work)?.map(|v| v.index() as i64));
         } else {
             row.extend(triangulation.k_nearest(q, k)?.iter().map(|v| v.index() as i64));
         }

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use delone::plane::verify::verify;
-use delone::{Algorithm, Delaunay2};
+use delone::{Algorithm2, Delaunay2};
 use delone_io::Format;
 use delone_oracle::brute::normalized;
 
@@ -99,8 +99,8 @@ fn failure_of_delone(points: &Points) -> Option<String> {
         d.check().map_err(|flaw| format!("{algorithm:?}: {flaw}"))?;
         Ok::<_, String>(normalized(d.triangles().map(|corners| corners.map(|v| d.point(v)))))
     };
-    let outcome = build(Algorithm::DivideAndConquer)
-        .and_then(|fast| Ok((fast, build(Algorithm::Incremental { seed: 0 })?)));
+    let outcome = build(Algorithm2::DivideAndConquer)
+        .and_then(|fast| Ok((fast, build(Algorithm2::Incremental { seed: 0 })?)));
     match outcome {
         Err(why) => Some(why),
         Ok((fast, slow)) => (fast != slow).then(|| "the algorithms disagree".to_owned()),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use delone::{Delaunay2, Delaunay3, Error, Inserted, Location, Location3, VertexId, Work};
+use delone::{Ask, Change, Delaunay2, Delaunay3, Error, Inserted, Location2, Location3, VertexId, Work};
 use delone_io::{Body, Format, Surface, picture};
 
 use crate::args::ReplayArgs;
@@ -213,11 +213,11 @@ fn turned<const N: usize>(mut corners: [usize; N]) -> [usize; N] {
 
 impl Stage<2> for Delaunay2 {
     fn insert(&mut self, p: [f64; 2], work: &mut Work) -> Result<Inserted, Error> {
-        self.insert_counted(p, work)
+        self.insert_observed(p, work)
     }
 
     fn remove(&mut self, v: VertexId, work: &mut Work) -> Result<(), Error> {
-        self.remove_counted(v, work)
+        self.remove_observed(v, work)
     }
 
     fn move_to(&mut self, v: VertexId, p: [f64; 2]) -> Result<(), Error> {
@@ -227,26 +227,26 @@ impl Stage<2> for Delaunay2 {
     fn describe(&self, q: [f64; 2], work: &mut Work) -> Result<String, Error> {
         let mesh = self.mesh();
         let ends = |e| [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
-        Ok(match self.locate_counted(q, work)? {
-            Location::Triangle(t) => {
+        Ok(match self.find_observed(q, work)? {
+            Location2::Triangle(t) => {
                 let [a, b, c] = turned(mesh.corners(t).map(VertexId::index));
                 format!("triangle {a} {b} {c}")
             }
-            Location::Edge(e) => {
+            Location2::Edge(e) => {
                 let [a, b] = ends(e);
                 format!("edge {} {}", a.min(b), a.max(b))
             }
-            Location::Vertex(v) => format!("vertex {}", v.index()),
-            Location::Outside(e) => {
+            Location2::Vertex(v) => format!("vertex {}", v.index()),
+            Location2::Outside(e) => {
                 let [a, b] = ends(e);
                 format!("outside {a} {b}")
             }
-            Location::LowerDimensional(_) => "nowhere".to_owned(),
+            Location2::LowerDimensional(_) => "nowhere".to_owned(),
         })
     }
 
     fn nearest(&self, q: [f64; 2], work: &mut Work) -> Result<Option<VertexId>, Error> {
-        self.nearest_counted(q, work)
+        self.nearest_observed(q, work)
     }
 
     fn vertex_count(&self) -> usize {
@@ -260,11 +260,11 @@ impl Stage<2> for Delaunay2 {
 
 impl Stage<3> for Delaunay3 {
     fn insert(&mut self, p: [f64; 3], work: &mut Work) -> Result<Inserted, Error> {
-        self.insert_counted(p, work)
+        self.insert_observed(p, work)
     }
 
     fn remove(&mut self, v: VertexId, work: &mut Work) -> Result<(), Error> {
-        self.remove_counted(v, work)
+        self.remove_observed(v, work)
     }
 
     fn move_to(&mut self, v: VertexId, p: [f64; 3]) -> Result<(), Error> {
@@ -274,7 +274,7 @@ impl Stage<3> for Delaunay3 {
     fn describe(&self, q: [f64; 3], work: &mut Work) -> Result<String, Error> {
         let mesh = self.mesh();
         let corners = |f| turned(mesh.facet_corners(f).map(VertexId::index));
-        Ok(match self.locate_counted(q, work)? {
+        Ok(match self.find_observed(q, work)? {
             Location3::Tetrahedron(t) => {
                 let [a, b, c, d] = space::positive(mesh.corners(t).map(VertexId::index));
                 format!("tetrahedron {a} {b} {c} {d}")
@@ -298,7 +298,7 @@ impl Stage<3> for Delaunay3 {
     }
 
     fn nearest(&self, q: [f64; 3], work: &mut Work) -> Result<Option<VertexId>, Error> {
-        self.nearest_counted(q, work)
+        self.nearest_observed(q, work)
     }
 
     fn vertex_count(&self) -> usize {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use delone::space::verify::{Objection3, verify};
-use delone::{Algorithm3, Delaunay3, Dimension, Location3, TetrahedronId, VertexId, Work};
+use delone::{Algorithm3, Ask, Delaunay3, Dimension, Location3, TetrahedronId, VertexId, Work};
 use delone_io::{Body, Cloud, Cut, Format, picture};
 use delone_predicates::in_sphere_with_ties;
 
@@ -169,7 +169,7 @@ pub(crate) fn draw(args: &DrawArgs, outputs: &[(PathBuf, Format)], quiet: bool) 
 pub(crate) fn locate(input: &InputArgs, query: &QueryArgs, quiet: bool) -> Result<(), Failure> {
     let mut work = Work::default();
     ask(input, query, 4, quiet, |d, q, row| {
-        let location = d.locate_counted(q, &mut work)?;
+        let location = d.find_observed(q, &mut work)?;
         row.extend(tetrahedron(d, location).map_or([-1; 4], |t| t.map(|i| i as i64)));
         Ok(work)
     })
@@ -181,7 +181,7 @@ pub(crate) fn nearest(input: &InputArgs, query: &QueryArgs, k: usize, quiet: boo
     ask(input, query, k, quiet, |d, q, row| {
         let end = row.len() + k;
         if k == 1 {
-            row.extend(d.nearest_counted(q, &mut work)?.map(|v| v.index() as i64));
+            row.extend(d.nearest_observed(q, &mut work)?.map(|v| v.index() as i64));
         } else {
             row.extend(d.k_nearest(q, k)?.iter().map(|v| v.index() as i64));
         }
@@ -307,9 +307,9 @@ pub(crate) fn info(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
                     && in_sphere_with_ties(a, b, c, e, d.point(across)).is_zero()
             })
             .count();
-        line("tetrahedra", d.cells().count().to_string());
+        line("tetrahedra", d.tetrahedron_ids().count().to_string());
         line("edges", d.edges().count().to_string());
-        line("hull facets", d.hull().count().to_string());
+        line("hull facets", d.hull_facets().count().to_string());
         line("cospherical neighbours", format!("{ties} pairs of tetrahedra"));
         stats.set("cospherical_pairs", ties);
     }

@@ -47,7 +47,7 @@ impl Stats {
         self.set("duplicates", d.duplicates().count());
         self.set("vertices", d.vertex_count());
         self.set("simplices", d.triangle_count());
-        self.set("hull", d.hull().count());
+        self.set("hull", d.hull_vertices().count());
         self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
         let counters = match d.counters() {
             Counters::DivideAndConquer(c) => {
@@ -70,7 +70,7 @@ impl Stats {
         self.set("duplicates", d.duplicates().count());
         self.set("vertices", d.vertex_count());
         self.set("simplices", d.tetrahedra().count());
-        self.set("hull", d.hull().count());
+        self.set("hull", d.hull_vertices().count());
         self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
         self.set("counters", work_done(&d.work()));
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use delone::{Algorithm, Delaunay2, Dimension};
+use delone::{Algorithm2, Delaunay2, Dimension};
 use delone_io::{Cloud, Format, Surface, Trim};
 
 use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     let mut cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
     let algorithm = match name {
-        AlgorithmName::DivideConquer => Algorithm::DivideAndConquer,
+        AlgorithmName::DivideConquer => Algorithm2::DivideAndConquer,
         AlgorithmName::Incremental => incremental(args.locate.unwrap_or(LocateName::Spatial), args.seed),
     };
     let xy = std::mem::take(&mut cloud.xy);
@@ -47,14 +47,14 @@ pub(crate) fn run(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("build");
     stats.set(
         "algorithm",
-        if algorithm == Algorithm::DivideAndConquer { "divide-conquer" } else { "incremental" },
+        if algorithm == Algorithm2::DivideAndConquer { "divide-conquer" } else { "incremental" },
     );
     if name == AlgorithmName::Incremental {
         let locate = args.locate.unwrap_or(LocateName::Spatial).to_possible_value();
         stats.set("locate", locate.map(|value| value.get_name().to_owned()));
     }
     finish(args, &outputs, &triangulation, &cloud, &mut stats, quiet)?;
-    if algorithm == Algorithm::DivideAndConquer {
+    if algorithm == Algorithm2::DivideAndConquer {
         stats.set("threads", rayon::current_num_threads());
     }
     stats.write(stats_path)
@@ -122,23 +122,23 @@ pub(crate) fn surface<'a>(d: &'a Delaunay2, cloud: &'a Cloud, trim: Option<&'a T
 }
 
 /// The incremental algorithm with a way to locate points.
-fn incremental(locate: LocateName, seed: u64) -> Algorithm {
+fn incremental(locate: LocateName, seed: u64) -> Algorithm2 {
     match (locate.strategy(seed), locate) {
-        (Some(locate), _) => Algorithm::Located { locate, seed },
-        (None, LocateName::Conflict) => Algorithm::ConflictLists { seed },
-        (None, _) => Algorithm::Incremental { seed },
+        (Some(locate), _) => Algorithm2::Located { locate, seed },
+        (None, LocateName::Conflict) => Algorithm2::ConflictLists { seed },
+        (None, _) => Algorithm2::Incremental { seed },
     }
 }
 
 /// Triangulates, with progress.
 pub(crate) fn build(
     xy: Vec<[f64; 2]>,
-    algorithm: Algorithm,
+    algorithm: Algorithm2,
     input: &Path,
     quiet: bool,
 ) -> Result<Delaunay2, Failure> {
     let _phase = Phase::start(quiet, "triangulating");
-    Delaunay2::from_vec(xy, algorithm).map_err(|error| Failure::points(input, &error))
+    Delaunay2::with_algorithm(&xy, algorithm).map_err(|error| Failure::points(input, &error))
 }
 
 /// Notes on what might surprise.

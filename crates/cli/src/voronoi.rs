@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::{Algorithm, Delaunay2, Region, Relaxation};
+use delone::{Algorithm2, Delaunay2, Region2, Relaxation2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
@@ -34,11 +34,11 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let xy = std::mem::take(&mut cloud.xy);
     let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
     stats.phase("read");
-    let mut triangulation = triangulate::build(xy, Algorithm::default(), &args.input.label(), quiet)?;
+    let mut triangulation = triangulate::build(xy, Algorithm2::default(), &args.input.label(), quiet)?;
     triangulate::remark(&triangulation, quiet);
     stats.phase("build");
     let region = if polygon {
-        Region::polygon(&rings).map_err(|error| {
+        Region2::polygon(&rings).map_err(|error| {
             let help =
                 "clip to a polygon whose rings cross nowhere and touch each other only at corners of both";
             Failure::new(format!("{}: {error}", args.clip.display()), help)
@@ -48,12 +48,12 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     };
     if args.relax > 0 {
         let _phase = Phase::start(quiet, "relaxing");
-        let relaxation = Relaxation { steps: args.relax, tolerance: args.tolerance };
+        let relaxation = Relaxation2 { steps: args.relax, tolerance: args.tolerance };
         let mut last = (0, 0.0);
         let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
         let points =
             relaxation.run(&triangulation, &region, |step, moved| last = (step, moved)).map_err(failed)?;
-        triangulation = triangulate::build(points, Algorithm::default(), &args.input.label(), quiet)?;
+        triangulation = triangulate::build(points, Algorithm2::default(), &args.input.label(), quiet)?;
         stats.set("relaxed", last.0);
         stats.set("moved", last.1);
         stats.phase("relax");
@@ -80,9 +80,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
 }
 
 /// The box or the hull to clip to.
-fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region, Failure> {
+fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region2, Failure> {
     if args.clip == Path::new("hull") {
-        return Region::hull(triangulation)
+        return Region2::hull(triangulation)
             .map_err(|_| Failure::new("the sites span no area, so their hull has none", "clip to a --box"));
     }
     let (low, high) = match args.bounds[..] {
@@ -97,7 +97,7 @@ fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region, Failu
             return Err(Failure::usage("--box needs four numbers", "give it as --box x0,y0,x1,y1"));
         }
     };
-    Region::rectangle(low, high).map_err(|error| {
+    Region2::rectangle(low, high).map_err(|error| {
         if args.bounds.is_empty() {
             Failure::new("the bounding box of the sites has no area", "give one with --box x0,y0,x1,y1")
         } else {

@@ -86,30 +86,6 @@ pub enum Error {
     },
 }
 
-/// The coordinates of a point, if they are finite.
-#[inline]
-pub(crate) fn finite<const D: usize>(q: [f64; D]) -> Result<[f64; D], Error> {
-    match q.iter().position(|x| !x.is_finite()) {
-        Some(axis) => Err(Error::Coordinate { axis, value: q[axis] }),
-        None => Ok(q),
-    }
-}
-
-/// Whether all points are finite, or the first coordinate that is not.
-pub(crate) fn check_finite<const D: usize>(points: impl IntoIterator<Item = [f64; D]>) -> Result<(), Error> {
-    for (index, p) in points.into_iter().enumerate() {
-        if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
-            return Err(Error::NotFinite { index, axis, value: p[axis] });
-        }
-    }
-    Ok(())
-}
-
-/// Whether points are not too many.
-pub(crate) fn check_count(count: usize, most: usize) -> Result<(), Error> {
-    if count > most { Err(Error::TooManyPoints { count, most }) } else { Ok(()) }
-}
-
 /// What can be wrong with the border of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]

@@ -5,12 +5,12 @@
 //! `f64` is accepted, and every geometric decision is exact.
 //!
 //! ```
-//! use delone::{Algorithm, Delaunay2};
+//! use delone::{Algorithm2, Delaunay2};
 //!
 //! // A grid: every cell is cocircular. Two algorithms, one answer.
 //! let points: Vec<[f64; 2]> = (0..100).map(|i| [f64::from(i % 10), f64::from(i / 10)]).collect();
 //! let fast = Delaunay2::from_points(&points)?;
-//! let other = Delaunay2::with_algorithm(&points, Algorithm::Incremental { seed: 1 })?;
+//! let other = Delaunay2::with_algorithm(&points, Algorithm2::Incremental { seed: 1 })?;
 //!
 //! let sorted = |d: &Delaunay2| {
 //!     let smallest_first = |[a, b, c]: [delone::VertexId; 3]| match a.min(b).min(c) {
@@ -32,8 +32,7 @@
 struct Readme;
 
 mod error;
-mod fetch;
-pub mod hull;
+mod hull;
 mod ids;
 mod locate;
 mod memory;
@@ -41,20 +40,30 @@ pub mod mesh;
 mod order;
 mod parallel;
 pub mod plane;
+mod points;
+mod prefetch;
 pub mod space;
+mod tally;
+mod triangulation;
+mod verdict;
+mod vertex_map;
 
 pub use error::{Error, RegionProblem};
+pub use hull::{Hull2, Hull3, HullHistory3};
 pub use ids::{
     Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, MAX_POINTS_IN_SPACE, TetrahedronId, TriangleId,
     VertexId,
 };
-pub use locate::tally::{Tally, Work};
-pub use locate::{Hierarchy, JumpAndWalk, Locate, Walk};
-pub use mesh::tetrahedra::Mesh3;
-pub use mesh::{Dimension, Mesh};
+pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Walk};
+pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use order::HintOrder;
 pub use plane::{
-    Algorithm, Cells, Counters, Delaunay2, EnclosingCircle, Footprint, Furthest2, Hints2, Location, Moving2,
-    NearestSites, Position2, Region, Relaxation, Ring, Step, Voronoi2, VoronoiEdge, convex_hull,
+    Algorithm2, Cells2, Delaunay2, EnclosingCircle, Furthest2, Hints2, Location2, Moving2, NearestSites2,
+    Region2, Relaxation2, Ring, Step2, Voronoi2, VoronoiEdge2,
 };
-pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Position3, Step3};
+pub use points::{Bounds, Position2, Position3};
+pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Step3};
+pub use tally::{Counters, Merges, Tally, Work};
+pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Triangulation};
+pub use verdict::Verdict;
+pub use vertex_map::VertexMap;

@@ -1,8 +1,8 @@
 //! Insertions, removals and moves in any order: what is left is the triangulation of what is left.
 
 use delone::{
-    Algorithm, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location, VertexId,
-    Walk,
+    Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location2,
+    VertexId, Walk,
 };
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};
@@ -139,7 +139,7 @@ fn bulk_sets_can_be_changed() {
     for &kind in Kind::ALL {
         let n = if kind.is_extreme() { 200 } else { 3_000 };
         let source = kind.points(n, 4);
-        for algorithm in [Algorithm::DivideAndConquer, Algorithm::ConflictLists { seed: 1 }] {
+        for algorithm in [Algorithm2::DivideAndConquer, Algorithm2::ConflictLists { seed: 1 }] {
             let d = Delaunay2::with_algorithm(&source, algorithm).expect("finite");
             let living = d.vertices().map(|v| (v, d.point(v))).collect();
             let mut twin = Twin { d, living };
@@ -228,7 +228,7 @@ fn parameters_out_of_range_are_refused() {
     ] {
         let error = Delaunay2::with_strategy(locate).map(|_| ()).expect_err("out of range");
         assert!(error.to_string().starts_with(name), "{error}");
-        let bulk = Delaunay2::with_algorithm(&[[0.0, 0.0]], Algorithm::Located { locate, seed: 0 });
+        let bulk = Delaunay2::with_algorithm(&[[0.0, 0.0]], Algorithm2::Located { locate, seed: 0 });
         assert!(matches!(bulk, Err(Error::Parameter { .. })));
     }
 }
@@ -357,8 +357,8 @@ fn strategies_follow_a_layout() {
         d.extend(&points, 1).expect("finite");
         let mut work = delone::Work::default();
         for (i, &p) in points.iter().enumerate().step_by(97) {
-            let location = d.locate_counted(p, &mut work).expect("finite");
-            assert_eq!(location, Location::Vertex(VertexId::new(i)), "{locate:?}");
+            let location = d.find_observed(p, &mut work).expect("finite");
+            assert_eq!(location, Location2::Vertex(VertexId::new(i)), "{locate:?}");
         }
         let mean = work.visited as f64 / (points.len() / 97) as f64;
         assert!(mean < 100.0, "{locate:?}: {mean} triangles a query");

@@ -1,19 +1,19 @@
 //! One suite for every algorithm on every named generator: the same triangles, checked, and for small sets
 //! those of the oracle.
 
-use delone::{Algorithm, Delaunay2, Dimension, Hierarchy, JumpAndWalk, Locate, Walk};
+use delone::{Algorithm2, Delaunay2, Dimension, Hierarchy, JumpAndWalk, Locate, Walk};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};
 
 /// Every way to build a triangulation.
-fn algorithms() -> Vec<Algorithm> {
+fn algorithms() -> Vec<Algorithm2> {
     let mut all = vec![
-        Algorithm::DivideAndConquer,
-        Algorithm::Incremental { seed: 0 },
-        Algorithm::Incremental { seed: 77 },
-        Algorithm::ConflictLists { seed: 3 },
+        Algorithm2::DivideAndConquer,
+        Algorithm2::Incremental { seed: 0 },
+        Algorithm2::Incremental { seed: 77 },
+        Algorithm2::ConflictLists { seed: 3 },
     ];
-    all.extend(strategies().into_iter().map(|locate| Algorithm::Located { locate, seed: 5 }));
+    all.extend(strategies().into_iter().map(|locate| Algorithm2::Located { locate, seed: 5 }));
     all
 }
 
@@ -34,7 +34,7 @@ fn strategies() -> Vec<Locate> {
     ]
 }
 
-fn build(points: &[[f64; 2]], algorithm: Algorithm) -> Delaunay2 {
+fn build(points: &[[f64; 2]], algorithm: Algorithm2) -> Delaunay2 {
     Delaunay2::with_algorithm(points, algorithm).expect("finite points")
 }
 
@@ -44,9 +44,9 @@ fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
 }
 
 /// Those that are not slow on any large set: walks from the last of random points are.
-fn scalable_algorithms() -> Vec<Algorithm> {
-    let scalable = |algorithm: &Algorithm| match algorithm {
-        Algorithm::Located { locate, .. } => {
+fn scalable_algorithms() -> Vec<Algorithm2> {
+    let scalable = |algorithm: &Algorithm2| match algorithm {
+        Algorithm2::Located { locate, .. } => {
             [Locate::Tree, Locate::Hierarchy(Hierarchy::default()), Locate::History].contains(locate)
         }
         _ => true,
@@ -55,8 +55,8 @@ fn scalable_algorithms() -> Vec<Algorithm> {
 }
 
 /// Builds with all algorithms, checks each result and their agreement, and returns the triangles.
-fn agreed(points: &[[f64; 2]], what: &str, algorithms: Vec<Algorithm>) -> Vec<[[f64; 2]; 3]> {
-    let first = build(points, Algorithm::default());
+fn agreed(points: &[[f64; 2]], what: &str, algorithms: Vec<Algorithm2>) -> Vec<[[f64; 2]; 3]> {
+    let first = build(points, Algorithm2::default());
     let expected = triangles(&first);
     for algorithm in algorithms {
         let d = build(points, algorithm);
@@ -64,7 +64,7 @@ fn agreed(points: &[[f64; 2]], what: &str, algorithms: Vec<Algorithm>) -> Vec<[[
         assert!(triangles(&d) == expected, "{what} {algorithm:?} differs");
         assert!(d.duplicates().eq(first.duplicates()), "{what} {algorithm:?}");
         assert_eq!(d.dimension(), first.dimension(), "{what} {algorithm:?}");
-        assert_eq!(d.hull().count(), first.hull().count(), "{what} {algorithm:?}");
+        assert_eq!(d.hull_vertices().count(), first.hull_vertices().count(), "{what} {algorithm:?}");
     }
     expected
 }
@@ -120,7 +120,7 @@ fn large_sets_agree_across_algorithms_and_shuffles() {
         let mut points = kind.points(n, 11);
         let expected = agreed(&points, kind.name(), scalable_algorithms());
         Random::new(5).shuffle(&mut points);
-        assert!(triangles(&build(&points, Algorithm::default())) == expected, "{} shuffled", kind.name());
+        assert!(triangles(&build(&points, Algorithm2::default())) == expected, "{} shuffled", kind.name());
     }
 }
 
@@ -140,7 +140,7 @@ fn sets_of_lower_dimension() {
             assert_eq!(d.check(), Ok(()), "{points:?} {algorithm:?}");
             assert_eq!(d.dimension(), dimension, "{points:?} {algorithm:?}");
             assert_eq!(d.triangles().count(), 0);
-            let mut found: Vec<_> = d.hull().map(|v| v.index()).collect();
+            let mut found: Vec<_> = d.hull_vertices().map(|v| v.index()).collect();
             if found.first() > found.last() && hull.first() < hull.last() {
                 found.reverse(); // a line may be read from either end
             }
@@ -161,17 +161,17 @@ fn sets_of_lower_dimension() {
 #[test]
 fn counts_obey_euler() {
     for &kind in Kind::ALL {
-        let d = build(&kind.points(500, 2), Algorithm::default());
+        let d = build(&kind.points(500, 2), Algorithm2::default());
         assert_eq!(d.triangle_count(), d.triangles().count(), "{}", kind.name());
         if d.dimension() != Dimension::Plane {
             continue;
         }
-        let (n, h) = (d.vertex_count(), d.hull().count());
+        let (n, h) = (d.vertex_count(), d.hull_vertices().count());
         assert_eq!(d.triangles().count(), 2 * n - 2 - h, "{}", kind.name());
         assert_eq!(d.edges().count(), 3 * n - 3 - h, "{}", kind.name());
         let degrees: usize = d.vertices().map(|v| d.mesh().neighbors(v).count()).sum();
         assert_eq!(degrees, 2 * d.edges().count(), "{}", kind.name());
-        let hull: Vec<_> = d.hull().map(|v| d.point(v)).collect();
+        let hull: Vec<_> = d.hull_vertices().map(|v| d.point(v)).collect();
         let around: f64 =
             (0..h).map(|i| hull[i][0] * hull[(i + 1) % h][1] - hull[i][1] * hull[(i + 1) % h][0]).sum();
         let inside: f64 = d.mesh().triangles().map(|t| d.area(t)).sum();

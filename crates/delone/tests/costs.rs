@@ -1,7 +1,7 @@
 //! Steps, counted: what a query and a change cost on every kind of points, by the default strategy. Counters are functions
 //! of the input, so that bounds can be asserted; each is about twice what is counted today.
 
-use delone::{Delaunay2, VertexId, Work};
+use delone::{Ask, Change, Delaunay2, VertexId, Work};
 use delone_oracle::generate::{Kind, Random};
 
 /// Sets between whose points triangles are long and thin, by name.
@@ -78,8 +78,8 @@ fn queries_visit_few_triangles_on_any_points() {
             for _ in 0..2000 {
                 let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
                 let middle = [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0);
-                visited.add(counted(|work| _ = d.locate_counted(middle, work).expect("finite")).visited);
-                compared.add(counted(|work| _ = d.nearest_counted(middle, work).expect("finite")).compared);
+                visited.add(counted(|work| _ = d.find_observed(middle, work).expect("finite")).visited);
+                compared.add(counted(|work| _ = d.nearest_observed(middle, work).expect("finite")).compared);
             }
             let calm = ["uniform", "grid"].contains(&&*name);
             let average = if calm { 6.0 } else { 400.0_f64.max(beside_a_line(&name, n) as f64 / 20.0) };
@@ -111,7 +111,7 @@ fn changes_visit_few_triangles_on_any_points() {
         let mut d = Delaunay2::new();
         let (mut visited, mut created) = (Counts::default(), Counts::default());
         for &p in &points {
-            let work = counted(|work| _ = d.insert_counted(p, work).expect("finite"));
+            let work = counted(|work| _ = d.insert_observed(p, work).expect("finite"));
             visited.add(work.visited);
             created.add(work.created);
         }
@@ -122,7 +122,7 @@ fn changes_visit_few_triangles_on_any_points() {
         for i in (0..points.len()).step_by(7) {
             let v = VertexId::new(i);
             if d.mesh().contains(v) {
-                let work = counted(|work| d.remove_counted(v, work).expect("a vertex"));
+                let work = counted(|work| d.remove_observed(v, work).expect("a vertex"));
                 tests.add(work.in_circles + work.orientations + work.created);
             }
         }
@@ -140,7 +140,7 @@ fn removals_count_what_they_take_and_make() {
             [x, y]
         }));
         let mut d = Delaunay2::from_points(&points).expect("finite");
-        let work = counted(|work| d.remove_counted(VertexId::new(0), work).expect("a vertex"));
+        let work = counted(|work| d.remove_observed(VertexId::new(0), work).expect("a vertex"));
         let degree = degree as u64;
         assert_eq!((work.destroyed, work.created), (degree, degree - 2));
     }
@@ -148,7 +148,7 @@ fn removals_count_what_they_take_and_make() {
         let mut points = vec![[1.0, 1.0]];
         points.extend((0..n).map(|i| [f64::from(i), 0.0]));
         let mut d = Delaunay2::from_points(&points).expect("finite");
-        let work = counted(|work| d.remove_counted(VertexId::new(0), work).expect("a vertex"));
+        let work = counted(|work| d.remove_observed(VertexId::new(0), work).expect("a vertex"));
         assert_eq!(work.created, 2 * n as u64 - 2);
     }
 }
@@ -165,7 +165,7 @@ fn queries_at_any_scale_visit_as_many() {
         let mut visited = Counts::default();
         for _ in 0..2000 {
             let q = scaled([random.unit(), random.unit()]);
-            visited.add(counted(|work| _ = d.locate_counted(q, work).expect("finite")).visited);
+            visited.add(counted(|work| _ = d.find_observed(q, work).expect("finite")).visited);
         }
         visited.hold(&format!("2^{exponent}: triangles of a query"), 6.0, 300);
     }

@@ -1,6 +1,6 @@
 //! Furthest sites against their definitions, by brute force over exact arithmetic.
 
-use delone::{Delaunay2, VertexId, VoronoiEdge};
+use delone::{Delaunay2, VertexId, VoronoiEdge2};
 use delone_oracle::exact;
 use delone_oracle::generate::Kind;
 
@@ -119,7 +119,8 @@ fn the_hull_is_the_same_either_way() {
         for n in [0, 1, 2, 3, 10, 100, 500] {
             let points = kind.points(n, 5);
             let d = Delaunay2::from_points(&points).expect("finite");
-            let hull = delone::convex_hull(&points).expect("finite");
+            let hull = delone::Hull2::from_points(&points).expect("finite");
+            let hull = hull.corners().to_vec();
             let corners: Vec<usize> = d.furthest().corners().iter().map(|v| v.index()).collect();
             assert_eq!(hull, corners, "{kind:?} {n}");
             // Every point is inside, and every corner is one.
@@ -132,10 +133,10 @@ fn the_hull_is_the_same_either_way() {
                 );
             }
             let strict = |v: &VertexId| hull.contains(&v.index());
-            assert_eq!(d.hull().filter(strict).count(), hull.len(), "{kind:?} {n}");
+            assert_eq!(d.hull_vertices().filter(strict).count(), hull.len(), "{kind:?} {n}");
         }
     }
-    assert!(delone::convex_hull(&[[0.0, f64::NAN]]).is_err());
+    assert!(delone::Hull2::from_points(&[[0.0, f64::NAN]]).is_err());
 }
 
 /// A point of each edge of the diagram is as far from its two sites as from each other, and from no site further.
@@ -155,15 +156,15 @@ fn edges_are_where_two_sites_are_furthest() {
                         .to_vec()
                 };
                 let met = match edge {
-                    VoronoiEdge::Segment([from, to]) => {
+                    VoronoiEdge2::Segment([from, to]) => {
                         segments += 1;
                         vec![from, to, [0, 1].map(|k| from[k] / 2.0 + to[k] / 2.0)]
                     }
-                    VoronoiEdge::Ray { from, direction } => {
+                    VoronoiEdge2::Ray { from, direction } => {
                         rays += 1;
                         along(from, direction)
                     }
-                    VoronoiEdge::Line { through, direction } => {
+                    VoronoiEdge2::Line { through, direction } => {
                         lines += 1;
                         [along(through, direction), along(through, direction.map(|x| -x))].concat()
                     }

@@ -1,8 +1,8 @@
 //! Imprecise points: every instance is what it is without hints, and walks are as short as the paper says.
 
 use delone::{
-    Algorithm, Algorithm3, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Moving2,
-    Moving3, Step, Step3, VertexId, Work,
+    Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Imprecise,
+    Moving2, Moving3, Step2, Step3, VertexId, Work,
 };
 use delone_oracle::generate::{Kind, Kind3, Random};
 use delone_oracle::{brute, exact};
@@ -26,7 +26,7 @@ fn every_instance_is_the_canonical_triangulation() {
     for &kind in Kind::ALL {
         for order in ORDERS {
             let centres = kind.points(300, 1);
-            let mut hints = Hints2::preprocess(&centres, order).expect("finite");
+            let mut hints = Hints2::from_points(&centres, order).expect("finite");
             let mut random = Random::new(7);
             for round in 0..6 {
                 let instance: Vec<[f64; 2]> = match round {
@@ -55,7 +55,7 @@ fn hints_are_the_nearest_before() {
     for (order, kind) in ORDERS.into_iter().flat_map(|order| [Kind::Uniform, Kind::Line].map(|k| (order, k)))
     {
         let centres = kind.points(300, 1);
-        let hints = Hints2::preprocess(&centres, order).expect("finite");
+        let hints = Hints2::from_points(&centres, order).expect("finite");
         let (order, found): (Vec<usize>, Vec<usize>) = hints.order().zip(hints.hints()).unzip();
         assert_eq!(found[0], order[0]);
         for k in 1..300 {
@@ -69,13 +69,13 @@ fn hints_are_the_nearest_before() {
 #[test]
 fn hints_that_mislead_are_given_up() {
     let centres = Kind::Uniform.points(30_000, 1);
-    let mut hints = Hints2::preprocess(&centres, HintOrder::default()).expect("finite");
+    let mut hints = Hints2::from_points(&centres, HintOrder::default()).expect("finite");
     hints.triangulate(&centres).expect("finite");
     assert!(!hints.gave_up());
     let mut shuffled = centres.clone();
     Random::new(3).shuffle(&mut shuffled);
     let mut work = Work::default();
-    let d = hints.triangulate_counted(&shuffled, &mut work).expect("finite");
+    let d = hints.triangulate_observed(&shuffled, &mut work).expect("finite");
     same(d, &shuffled, "shuffled");
     assert!(hints.gave_up());
     assert!(work.visited < 60 * 30_000, "{}", work.visited);
@@ -94,9 +94,9 @@ fn nested_disks_take_quadratic_time_until_hints_are_given_up() {
         for (p, q) in centres.iter().zip(&instance).skip(1) {
             assert!(((p[0] - q[0]) / p[1]).hypot((p[1] - q[1]) / p[1]) <= 2.1);
         }
-        let mut hints = Hints2::preprocess(&centres, HintOrder::Random { seed: 1 }).expect("finite");
+        let mut hints = Hints2::from_points(&centres, HintOrder::Random { seed: 1 }).expect("finite");
         let mut work = Work::default();
-        same(hints.triangulate_counted(&instance, &mut work).expect("finite"), &instance, "nested");
+        same(hints.triangulate_observed(&instance, &mut work).expect("finite"), &instance, "nested");
         assert_eq!(hints.gave_up(), gives_up, "{n}");
         let visited = work.visited as f64 / n as f64;
         if gives_up {
@@ -112,22 +112,25 @@ fn nested_disks_take_quadratic_time_until_hints_are_given_up() {
 fn hints_that_mislead_in_space_are_given_up() {
     let n = 60_000;
     let centres = Kind3::Cube.points(n, 1);
-    let mut hints = Hints3::preprocess(&centres, HintOrder::default()).expect("finite");
+    let mut hints = Hints3::from_points(&centres, HintOrder::default()).expect("finite");
     let mut shuffled = centres.clone();
     Random::new(3).shuffle(&mut shuffled);
     let d = hints.triangulate(&shuffled).expect("finite");
     let fresh = Delaunay3::from_points(&shuffled).expect("finite");
-    assert_eq!((d.cells().count(), d.hull().count()), (fresh.cells().count(), fresh.hull().count()));
+    assert_eq!(
+        (d.tetrahedron_ids().count(), d.hull_facets().count()),
+        (fresh.tetrahedron_ids().count(), fresh.hull_facets().count())
+    );
     assert!(hints.gave_up());
-    let count = fresh.cells().count();
-    assert_eq!(hints.triangulate(&centres).expect("finite").cells().count(), count);
+    let count = fresh.tetrahedron_ids().count();
+    assert_eq!(hints.triangulate(&centres).expect("finite").tetrahedron_ids().count(), count);
     assert!(!hints.gave_up());
 }
 
 #[test]
 fn bad_instances_leave_the_last_one() {
     let centres = Kind::Uniform.points(50, 1);
-    let mut hints = Hints2::preprocess(&centres, HintOrder::default()).expect("finite");
+    let mut hints = Hints2::from_points(&centres, HintOrder::default()).expect("finite");
     hints.triangulate(&centres).expect("finite");
     same(hints.current(), &centres, "current");
     let before = triangles(hints.current());
@@ -139,8 +142,8 @@ fn bad_instances_leave_the_last_one() {
     assert_eq!(error.as_deref(), Some("point 7 has the y coordinate NaN, which is not finite"));
     assert!(triangles(hints.current()) == before);
     bad[7][1] = f64::INFINITY;
-    assert!(Hints2::preprocess(&bad, HintOrder::default()).is_err());
-    let mut none = Hints2::preprocess::<[f64; 2]>(&[], HintOrder::default()).expect("finite");
+    assert!(Hints2::from_points(&bad, HintOrder::default()).is_err());
+    let mut none = Hints2::from_points::<[f64; 2]>(&[], HintOrder::default()).expect("finite");
     assert_eq!(none.triangulate::<[f64; 2]>(&[]).expect("finite").vertex_count(), 0);
 }
 
@@ -150,7 +153,7 @@ fn walks_are_as_short_as_in_the_paper() {
     for order in ORDERS {
         for n in [1_000, 10_000, 100_000] {
             let centres = Kind::Disks.points(n, 5);
-            let mut hints = Hints2::preprocess(&centres, order).expect("finite");
+            let mut hints = Hints2::from_points(&centres, order).expect("finite");
             let mut random = Random::new(9);
             let instance: Vec<[f64; 2]> = centres
                 .iter()
@@ -164,13 +167,14 @@ fn walks_are_as_short_as_in_the_paper() {
                 })
                 .collect();
             let mut work = Work::default();
-            hints.triangulate_counted(&instance, &mut work).expect("finite");
+            hints.triangulate_observed(&instance, &mut work).expect("finite");
             let visited = work.visited as f64 / n as f64;
             // In spatial order the triangle where a walk starts is one of the last made, and a better one.
             let expected = if matches!(order, HintOrder::Random { .. }) { 2.65..2.95 } else { 2.4..2.7 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
             // Spatial sort alone: 3.7 by straight walks, fewer by visibility.
-            let d = Delaunay2::with_algorithm(&instance, Algorithm::Incremental { seed: 1 }).expect("finite");
+            let d =
+                Delaunay2::with_algorithm(&instance, Algorithm2::Incremental { seed: 1 }).expect("finite");
             let Counters::Incremental(work) = d.counters() else { panic!("counted") };
             let visited = work.visited as f64 / n as f64;
             assert!((3.0..3.8).contains(&visited), "spatial sort {n}: {visited}");
@@ -200,7 +204,7 @@ fn every_instance_in_space_is_the_canonical_triangulation() {
         for order in ORDERS {
             let n = if kind == Kind3::HugeSpan3 { 40 } else { 200 };
             let centres = kind.points(n, 1);
-            let mut hints = Hints3::preprocess(&centres, order).expect("finite");
+            let mut hints = Hints3::from_points(&centres, order).expect("finite");
             let mut random = Random::new(7);
             for round in 0..6 {
                 let instance: Vec<[f64; 3]> = match round {
@@ -225,7 +229,7 @@ fn walks_in_space_are_shorter_than_in_the_paper() {
     for order in ORDERS {
         for n in [1_000, 20_000] {
             let centres = Kind3::Balls.points(n, 5);
-            let mut hints = Hints3::preprocess(&centres, order).expect("finite");
+            let mut hints = Hints3::from_points(&centres, order).expect("finite");
             let mut random = Random::new(9);
             let mut inside = || loop {
                 let u = [0, 1, 2].map(|_| random.between(-1.0, 1.0));
@@ -241,13 +245,13 @@ fn walks_in_space_are_shorter_than_in_the_paper() {
                 })
                 .collect();
             let mut work = Work::default();
-            hints.triangulate_counted(&instance, &mut work).expect("finite");
+            hints.triangulate_observed(&instance, &mut work).expect("finite");
             let visited = work.visited as f64 / n as f64;
             let expected = if matches!(order, HintOrder::Random { .. }) { 4.8..5.05 } else { 4.1..4.35 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
             // Spatial sort alone: 6.6.
             let d = Delaunay3::with_algorithm(&instance, Algorithm3::Spatial { seed: 1 }).expect("finite");
-            let visited = d.work().visited as f64 / n as f64;
+            let visited = d.counters().work().expect("counted").visited as f64 / n as f64;
             assert!((5.4..6.0).contains(&visited), "spatial sort {n}: {visited}");
         }
     }
@@ -259,7 +263,7 @@ fn moving_points_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
         let n = 400;
         let start = kind.points(n, 1);
         let spacing = size(&start) / (n as f64).sqrt();
-        let mut moving = Moving2::new(&start).expect("finite");
+        let mut moving = Moving2::from_points(&start).expect("finite");
         same(moving.triangulation(), &start, kind.name());
         let mut random = Random::new(2);
         let mut points = start.clone();
@@ -284,7 +288,7 @@ fn moving_points_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
             same(moving.triangulation(), &points, &format!("{} {round} {step:?}", kind.name()));
         }
     }
-    let mut moving = Moving2::new(&[[0.0, 0.0], [1.0, 0.0]]).expect("finite");
+    let mut moving = Moving2::from_points(&[[0.0, 0.0], [1.0, 0.0]]).expect("finite");
     assert_eq!(moving.step(&[[0.0, 0.0]]), Err(Error::Length { expected: 2, found: 1 }));
     assert!(moving.step(&[[0.0, 0.0], [f64::NAN, 0.0]]).is_err());
     assert_eq!(moving.triangulation().points(), [[0.0, 0.0], [1.0, 0.0]]);
@@ -310,8 +314,8 @@ fn motions_between_dimensions_are_rebuilt() {
         (vec![[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]], vec![[0.0, 0.0], [4.0, 0.0], [0.0, -4.0]]),
     ];
     for (from, to) in steps {
-        let mut moving = Moving2::new(&from).expect("finite");
-        assert_eq!(moving.step(&to), Ok(Step::Rebuilt), "{from:?} to {to:?}");
+        let mut moving = Moving2::from_points(&from).expect("finite");
+        assert_eq!(moving.step(&to), Ok(Step2::Rebuilt), "{from:?} to {to:?}");
         same(moving.triangulation(), &to, &format!("{from:?} to {to:?}"));
     }
 }
@@ -326,9 +330,9 @@ fn motions_onto_a_grid_around_the_origin_are_repaired() {
     for _ in 0..3 {
         let mut near: Vec<_> = grid.iter().map(|p| p.map(|x| x + 0.01 * random.between(-1.0, 1.0))).collect();
         near[..4].copy_from_slice(&grid[..4]);
-        let mut moving = Moving2::new(&near).expect("finite");
+        let mut moving = Moving2::from_points(&near).expect("finite");
         let step = moving.step(&grid).expect("finite");
-        assert!(matches!(step, Step::Repaired { .. }), "{step:?}");
+        assert!(matches!(step, Step2::Repaired { .. }), "{step:?}");
         same(moving.triangulation(), &grid, "tenths");
     }
 }
@@ -338,7 +342,7 @@ fn small_motions_are_repaired() {
     let n = 20_000;
     let mut points = Kind::Uniform.points(n, 1);
     let spacing = 1.0 / (n as f64).sqrt();
-    let mut moving = Moving2::new(&points).expect("finite");
+    let mut moving = Moving2::from_points(&points).expect("finite");
     let mut random = Random::new(2);
     for round in 0..4 {
         for p in &mut points {
@@ -346,7 +350,7 @@ fn small_motions_are_repaired() {
         }
         let step = moving.step(&points).expect("finite");
         assert!(
-            matches!(step, Step::Repaired { flips, reinserted } if flips > 0 && reinserted < n / 20),
+            matches!(step, Step2::Repaired { flips, reinserted } if flips > 0 && reinserted < n / 20),
             "{step:?}"
         );
         same(moving.triangulation(), &points, &format!("{round}"));
@@ -358,15 +362,15 @@ fn small_motions_are_repaired() {
 fn a_flip_mends_what_turns_over() {
     let box_around = [[-50.0, -50.0], [50.0, -50.0], [50.0, 50.0], [-50.0, 50.0]];
     let with = |x: [f64; 2]| [&[[0.0, 0.0], [2.0, 0.0], [1.0, -3.0], x][..], &box_around].concat();
-    let mut moving = Moving2::new(&with([1.0, 3.0])).expect("finite");
+    let mut moving = Moving2::from_points(&with([1.0, 3.0])).expect("finite");
     let points = with([1.0, -0.125]);
     let step = moving.step(&points).expect("finite");
-    assert!(matches!(step, Step::Repaired { reinserted: 0, .. }), "{step:?}");
+    assert!(matches!(step, Step2::Repaired { reinserted: 0, .. }), "{step:?}");
     same(moving.triangulation(), &points, "turned");
     // Where a removal would leave a line, all is built anew.
-    let mut moving = Moving2::new(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.0]]).expect("finite");
+    let mut moving = Moving2::from_points(&[[0.0, 0.0], [2.0, 0.0], [1.0, 1.0]]).expect("finite");
     let mirrored = [[0.0, 0.0], [2.0, 0.0], [1.0, -1.0]];
-    assert_eq!(moving.step(&mirrored), Ok(Step::Rebuilt));
+    assert_eq!(moving.step(&mirrored), Ok(Step2::Rebuilt));
     same(moving.triangulation(), &mirrored, "mirrored");
 }
 
@@ -374,7 +378,7 @@ fn a_flip_mends_what_turns_over() {
 #[test]
 fn where_too_much_turns_over_all_is_built_anew() {
     let points = Kind::Uniform.points(2000, 1);
-    let mut moving = Moving2::new(&points).expect("finite");
+    let mut moving = Moving2::from_points(&points).expect("finite");
     let mut random = Random::new(5);
     let (mut repaired, mut rebuilt, mut most) = (0, 0, 0);
     for round in 0..60 {
@@ -382,11 +386,11 @@ fn where_too_much_turns_over_all_is_built_anew() {
         let there: Vec<[f64; 2]> =
             points.iter().map(|p| p.map(|x| x + share * random.between(-1.0, 1.0))).collect();
         match moving.step(&there).expect("finite") {
-            Step::Repaired { reinserted, .. } => {
+            Step2::Repaired { reinserted, .. } => {
                 repaired += 1;
                 most = most.max(reinserted);
             }
-            Step::Rebuilt => rebuilt += 1,
+            Step2::Rebuilt => rebuilt += 1,
         }
         same(moving.triangulation(), &there, "moved");
     }
@@ -400,7 +404,7 @@ fn moving_points_in_space_are_repaired_or_rebuilt_into_the_canonical_triangulati
         let n = if kind == Kind3::HugeSpan3 { 40 } else { 300 };
         let start = kind.points(n, 1);
         let spacing = size(&start) / (n as f64).cbrt();
-        let mut moving = Moving3::new(&start).expect("finite");
+        let mut moving = Moving3::from_points(&start).expect("finite");
         same_in_space(moving.triangulation(), &start, kind.name());
         let mut random = Random::new(2);
         let mut points = start.clone();
@@ -429,7 +433,7 @@ fn moving_points_in_space_are_repaired_or_rebuilt_into_the_canonical_triangulati
     }
     assert!(repaired[0] > 60 && repaired[3] > 40 && repaired[9] == 0, "{repaired:?}");
     let start = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
-    let mut moving = Moving3::new(&start).expect("finite");
+    let mut moving = Moving3::from_points(&start).expect("finite");
     assert_eq!(moving.step(&start[1..]), Err(Error::Length { expected: 2, found: 1 }));
     assert!(moving.step(&[start[0], [f64::NAN, 0.0, 0.0]]).is_err());
     same_in_space(moving.triangulation(), &start, "after errors");

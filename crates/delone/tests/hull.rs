@@ -1,7 +1,7 @@
 //! Convex hulls in space against their definition, and the lifting map.
 
-use delone::hull::spatial::{Hull3, HullHistory};
 use delone::{Delaunay2, Dimension, Work};
+use delone::{Hull3, HullHistory3};
 use delone_oracle::exact;
 use delone_oracle::generate::{Kind, Random};
 
@@ -60,9 +60,9 @@ fn sets() -> Vec<(String, Points)> {
 #[test]
 fn hulls_are_convex_closed_and_hold_everything() {
     for (name, points) in sets() {
-        let hull = Hull3::of(&points).expect("finite");
+        let hull = Hull3::from_points(&points).expect("finite");
         let facets: Vec<[usize; 3]> = hull.facets().collect();
-        if hull.span() < Dimension::Space {
+        if hull.dimension() < Dimension::Space {
             assert!(facets.is_empty(), "{name}");
             continue;
         }
@@ -85,7 +85,7 @@ fn hulls_are_convex_closed_and_hold_everything() {
         // Corners are extreme: each is strictly outside of the hull of the others.
         for &v in hull.corners().iter().take(12) {
             let others: Points = points.iter().copied().filter(|&p| p != points[v]).collect();
-            let without = Hull3::of(&others).expect("finite");
+            let without = Hull3::from_points(&others).expect("finite");
             let outside = without.span() < Dimension::Space
                 || without.facets().any(|f| {
                     let [a, b, c] = f.map(|i| others[i]);
@@ -100,11 +100,11 @@ fn hulls_are_convex_closed_and_hold_everything() {
 fn one_set_has_one_hull() {
     for (name, points) in sets() {
         let shape = |points: &[[f64; 3]]| {
-            let hull = Hull3::of(points).expect("finite");
+            let hull = Hull3::from_points(points).expect("finite");
             let of = |face: &Vec<usize>| face.iter().map(|&i| points[i].map(|x| x + 0.0)).collect::<Vec<_>>();
             let mut faces: Vec<_> = hull.faces().iter().map(of).collect();
             faces.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
-            (hull.span(), hull.corners().len(), faces)
+            (hull.dimension(), hull.corners().len(), faces)
         };
         let mut shuffled = points.clone();
         Random::new(3).shuffle(&mut shuffled);
@@ -138,10 +138,10 @@ fn large_hulls_are_the_same_by_both_algorithms() {
             }
         };
         let points: Points = (0..n).map(&mut point).collect();
-        let hull = Hull3::of(&points).expect("finite");
-        let history = HullHistory::build(&points, round).expect("finite");
+        let hull = Hull3::from_points(&points).expect("finite");
+        let history = HullHistory3::from_points(&points, round).expect("finite");
         assert_eq!(history.hull(), &hull, "round {round}");
-        assert_eq!(hull.span(), Dimension::Space);
+        assert_eq!(hull.dimension(), Dimension::Space);
         let edges = hull.faces().iter().map(Vec::len).sum::<usize>() / 2;
         assert_eq!(hull.corners().len() + hull.faces().len(), edges + 2, "round {round}");
     }
@@ -149,14 +149,14 @@ fn large_hulls_are_the_same_by_both_algorithms() {
 
 #[test]
 fn spans_are_told() {
-    let span = |points: &[[f64; 3]]| Hull3::of(points).expect("finite").span();
+    let span = |points: &[[f64; 3]]| Hull3::from_points(points).expect("finite").span();
     assert_eq!(span(&[]), Dimension::Empty);
     assert_eq!(span(&[[1.0; 3], [1.0; 3]]), Dimension::Point);
     assert_eq!(span(&[[0.0; 3], [1.0; 3], [3.0; 3]]), Dimension::Line);
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.5, 0.0, 0.5]];
-    let hull = Hull3::of(&square).expect("finite");
-    assert_eq!((hull.span(), hull.corners().len(), hull.faces().len()), (Dimension::Plane, 4, 1));
-    assert!(Hull3::of(&[[0.0, f64::NAN, 0.0]]).is_err());
+    let hull = Hull3::from_points(&square).expect("finite");
+    assert_eq!((hull.dimension(), hull.corners().len(), hull.faces().len()), (Dimension::Plane, 4, 1));
+    assert!(Hull3::from_points(&[[0.0, f64::NAN, 0.0]]).is_err());
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn the_lower_hull_of_the_lifted_points_is_the_delaunay_triangulation() {
         let points: Vec<[f64; 2]> = raw.iter().map(|&p| scale(p, low, size[0].max(size[1]))).collect();
         let lifted: Points = points.iter().map(|&[x, y]| [x, y, x * x + y * y]).collect();
         let d = Delaunay2::from_points(&points).expect("finite");
-        let hull = Hull3::of(&lifted).expect("finite");
+        let hull = Hull3::from_points(&lifted).expect("finite");
         assert_eq!(hull.lower(&lifted).count(), d.triangles().count(), "{kind:?}");
         // Sites on one circle are one face; every triangle is in one.
         let mut of_corner = vec![Vec::new(); points.len()];
@@ -188,9 +188,9 @@ fn the_lower_hull_of_the_lifted_points_is_the_delaunay_triangulation() {
 #[test]
 fn history_makes_the_same_hull_and_knows_what_is_inside() {
     for (name, points) in sets() {
-        let hull = Hull3::of(&points).expect("finite");
+        let hull = Hull3::from_points(&points).expect("finite");
         for seed in 0..3 {
-            let history = HullHistory::build(&points, seed).expect("finite");
+            let history = HullHistory3::from_points(&points, seed).expect("finite");
             assert_eq!(history.hull(), &hull, "{name}");
             let inside = |q: [f64; 3]| history.contains(q).expect("finite");
             assert!(points.iter().all(|&p| inside(p)), "{name}");
@@ -203,19 +203,19 @@ fn history_makes_the_same_hull_and_knows_what_is_inside() {
             }
         }
     }
-    let history = HullHistory::build(&[[0.0; 3]], 1).expect("finite");
+    let history = HullHistory3::from_points(&[[0.0; 3]], 1).expect("finite");
     assert!(history.contains([0.0, f64::NAN, 0.0]).is_err());
 }
 
 /// By definition: not outside of any facet; for flat sets, if the hull does not grow by it.
 fn is_inside(points: &[[f64; 3]], hull: &Hull3, q: [f64; 3]) -> bool {
-    if hull.span() == Dimension::Space {
+    if hull.dimension() == Dimension::Space {
         let beyond = |[a, b, c]: [usize; 3]| exact::orient3d(points[a], points[b], points[c], q) > 0;
         return !hull.facets().any(beyond);
     }
     let with: Points = points.iter().copied().chain([q]).collect();
-    let grown = Hull3::of(&with).expect("finite");
-    grown.span() == hull.span() && grown.corners().iter().all(|&i| i < points.len())
+    let grown = Hull3::from_points(&with).expect("finite");
+    grown.span() == hull.dimension() && grown.corners().iter().all(|&i| i < points.len())
 }
 
 #[test]
@@ -231,7 +231,7 @@ fn history_is_linear_and_descents_are_logarithmic() {
             })
             .collect();
         let mut work = Work::default();
-        let history = HullHistory::build_counted(&points, 4, &mut work).expect("finite");
+        let history = HullHistory3::build_counted(&points, 4, &mut work).expect("finite");
         assert_eq!(history.size() as u64, work.created);
         assert!((5.5..6.0).contains(&(work.created as f64 / f64::from(n))), "{n}: {}", work.created);
         assert_eq!(work.created - work.destroyed, 2 * u64::try_from(n).expect("small") - 4);

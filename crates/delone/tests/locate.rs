@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use delone::{
-    Algorithm, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location, VertexId, Walk, Work,
+    Algorithm2, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location2, VertexId, Walk, Work,
 };
 use delone_oracle::exact;
 use delone_oracle::generate::{Kind, Random};
@@ -36,25 +36,25 @@ fn queries(points: &[[f64; 2]], random: &mut Random) -> Vec<[f64; 2]> {
 }
 
 /// Whether the answer is right, by definition.
-fn is_right(d: &Delaunay2, q: [f64; 2], location: Location) -> bool {
+fn is_right(d: &Delaunay2, q: [f64; 2], location: Location2) -> bool {
     let mesh = d.mesh();
     let point = |v: VertexId| d.point(v);
     let between = |a: [f64; 2], b: [f64; 2]| exact::orient2d(a, b, q) == 0 && exact::angle(q, a, b) < 0;
     match location {
-        Location::Vertex(v) => point(v) == q,
-        Location::Edge(e) => {
+        Location2::Vertex(v) => point(v) == q,
+        Location2::Edge(e) => {
             let [a, b] = d.segment(e);
             between(a, b)
         }
-        Location::Triangle(t) => {
+        Location2::Triangle(t) => {
             let [a, b, c] = mesh.corners(t).map(point);
             [[a, b], [b, c], [c, a]].iter().all(|[u, v]| exact::orient2d(*u, *v, q) > 0)
         }
-        Location::Outside(e) => {
+        Location2::Outside(e) => {
             let [a, b] = d.segment(e);
             !mesh.is_ghost(e.triangle()) && mesh.apex(mesh.twin(e)).is_ghost() && exact::orient2d(a, b, q) < 0
         }
-        Location::LowerDimensional(dimension) => {
+        Location2::LowerDimensional(dimension) => {
             let on_edge = d.edges().any(|[a, b]| between(point(a), point(b)));
             let at_vertex = d.vertices().any(|v| point(v) == q);
             dimension == d.dimension() && dimension != Dimension::Plane && !on_edge && !at_vertex
@@ -71,7 +71,7 @@ fn every_strategy_answers_by_definition() {
             let points = kind.points(n, i as u64);
             let mut bulk = Delaunay2::from_points(&points).expect("finite");
             bulk.set_strategy(locate).expect("in range");
-            let one_by_one = Delaunay2::with_algorithm(&points, Algorithm::Located { locate, seed: 2 });
+            let one_by_one = Delaunay2::with_algorithm(&points, Algorithm2::Located { locate, seed: 2 });
             for d in [bulk, one_by_one.expect("finite")] {
                 for q in queries(&points, &mut random) {
                     let location = d.locate(q).expect("finite");
@@ -102,14 +102,14 @@ fn walks_start_anywhere() {
 #[test]
 fn nothing_and_little_can_be_asked() {
     let empty = Delaunay2::new();
-    assert_eq!(empty.locate([0.0, 0.0]), Ok(Location::LowerDimensional(Dimension::Empty)));
+    assert_eq!(empty.locate([0.0, 0.0]), Ok(Location2::LowerDimensional(Dimension::Empty)));
     assert_eq!(empty.nearest([0.0, 0.0]), Ok(None));
     assert_eq!(empty.k_nearest([0.0, 0.0], 3), Ok(vec![]));
     assert_eq!(empty.within([0.0, 0.0], 3.0), Ok(vec![]));
     assert_eq!(empty.in_rectangle([0.0, 0.0], [1.0, 1.0]), Ok(vec![]));
     let lone = Delaunay2::from_points(&[[1.0, 1.0]]).expect("finite");
-    assert_eq!(lone.locate([0.0, 0.0]), Ok(Location::LowerDimensional(Dimension::Point)));
-    assert_eq!(lone.locate([1.0, 1.0]), Ok(Location::Vertex(VertexId::new(0))));
+    assert_eq!(lone.locate([0.0, 0.0]), Ok(Location2::LowerDimensional(Dimension::Point)));
+    assert_eq!(lone.locate([1.0, 1.0]), Ok(Location2::Vertex(VertexId::new(0))));
     assert_eq!(lone.nearest([9.0, 0.0]), Ok(Some(VertexId::new(0))));
     assert_eq!(lone.in_rectangle([0.0, 0.0], [1.0, 1.0]), Ok(vec![VertexId::new(0)]));
     assert_eq!(lone.in_rectangle([1.0, 1.0], [0.0, 0.0]), Ok(vec![]));

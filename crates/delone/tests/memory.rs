@@ -11,8 +11,8 @@ fn moved<const D: usize>(points: &[[f64; D]], by: f64) -> Vec<[f64; D]> {
 #[test]
 fn instances_take_the_memory_of_the_first() {
     let (plane, space) = (Kind::Disks.points(5_000, 1), Kind3::Balls.points(2_000, 1));
-    let mut hints = Hints2::preprocess(&plane, HintOrder::default()).expect("finite");
-    let mut in_space = Hints3::preprocess(&space, HintOrder::default()).expect("finite");
+    let mut hints = Hints2::from_points(&plane, HintOrder::default()).expect("finite");
+    let mut in_space = Hints3::from_points(&space, HintOrder::default()).expect("finite");
     for round in 0..4 {
         let (p, q) = (moved(&plane, f64::from(round) / 4.0), moved(&space, f64::from(round) / 4.0));
         let taken = [

@@ -1,6 +1,6 @@
 //! The papers' figures, as counts: seeds are fixed and no clock is asked.
 
-use delone::{Algorithm, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work};
+use delone::{Algorithm2, Ask, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work};
 use delone_oracle::generate::{Kind, Random};
 
 fn uniform(n: usize) -> Vec<[f64; 2]> {
@@ -20,7 +20,7 @@ fn mean(d: &Delaunay2, of: impl Fn(&Work) -> u64) -> f64 {
     let queries = 4_000;
     for _ in 0..queries {
         let q = [random.between(0.1, 0.9), random.between(0.1, 0.9)];
-        d.locate_counted(q, &mut work).expect("finite");
+        d.find_observed(q, &mut work).expect("finite");
     }
     of(&work) as f64 / f64::from(queries)
 }
@@ -92,7 +92,7 @@ fn the_four_modes_rank_as_in_the_paper() {
     for kind in [Kind::Uniform, Kind::Ellipse2] {
         let visited = |options| {
             let points = kind.points(20_000, 3);
-            let algorithm = Algorithm::Located { locate: Locate::Hierarchy(options), seed: 1 };
+            let algorithm = Algorithm2::Located { locate: Locate::Hierarchy(options), seed: 1 };
             match Delaunay2::with_algorithm(&points, algorithm).expect("finite").counters() {
                 Counters::Incremental(work) => (work.visited + work.compared) as f64 / 20_000.0,
                 other => panic!("{other:?}"),
@@ -117,7 +117,7 @@ fn the_four_modes_rank_as_in_the_paper() {
 fn what_a_random_order_creates() {
     let mut traced = Vec::new();
     for n in [1_000, 10_000, 100_000] {
-        let algorithm = Algorithm::Located { locate: Locate::History, seed: 4 };
+        let algorithm = Algorithm2::Located { locate: Locate::History, seed: 4 };
         let d = Delaunay2::with_algorithm(&uniform(n), algorithm).expect("finite");
         let Counters::Incremental(work) = d.counters() else { panic!("incremental") };
         near(work.created as f64 / n as f64, 6.0, 0.05);
@@ -133,7 +133,7 @@ fn what_a_random_order_creates() {
 #[test]
 fn conflict_lists_move_a_point_log_n_times() {
     for n in [1_000_u32, 10_000, 100_000] {
-        let algorithm = Algorithm::ConflictLists { seed: 2 };
+        let algorithm = Algorithm2::ConflictLists { seed: 2 };
         let d = Delaunay2::with_algorithm(&uniform(n as usize), algorithm).expect("finite");
         let Counters::ConflictLists { moved, work } = d.counters() else { panic!("conflict lists") };
         let per_point = moved as f64 / f64::from(n);

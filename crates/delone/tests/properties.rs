@@ -1,6 +1,6 @@
 //! Properties over hostile small sets, with shrinking: whatever fails, fails small.
 
-use delone::{Algorithm, Delaunay2, Hierarchy, Locate};
+use delone::{Algorithm2, Delaunay2, Hierarchy, Locate};
 use delone_oracle::brute;
 use proptest::prelude::*;
 
@@ -31,11 +31,11 @@ proptest! {
     fn every_algorithm_is_the_oracle(points in points(), seed in 0_u64..100) {
         let expected = brute::delaunay(&points);
         let all = [
-            Algorithm::DivideAndConquer,
-            Algorithm::Incremental { seed },
-            Algorithm::ConflictLists { seed },
-            Algorithm::Located { locate: Locate::Hierarchy(Hierarchy { ratio: 2.0, seed, ..Hierarchy::default() }), seed },
-            Algorithm::Located { locate: Locate::History, seed },
+            Algorithm2::DivideAndConquer,
+            Algorithm2::Incremental { seed },
+            Algorithm2::ConflictLists { seed },
+            Algorithm2::Located { locate: Locate::Hierarchy(Hierarchy { ratio: 2.0, seed, ..Hierarchy::default() }), seed },
+            Algorithm2::Located { locate: Locate::History, seed },
         ];
         for algorithm in all {
             let d = Delaunay2::with_algorithm(&points, algorithm).unwrap();
@@ -72,7 +72,7 @@ proptest! {
             let error = Delaunay2::from_points(&points).unwrap_err();
             let named = format!("point {at} has the {} coordinate", ["x", "y"][axis]);
             prop_assert!(error.to_string().starts_with(&named), "{}", error);
-            for algorithm in [Algorithm::Incremental { seed: 1 }, Algorithm::ConflictLists { seed: 1 }] {
+            for algorithm in [Algorithm2::Incremental { seed: 1 }, Algorithm2::ConflictLists { seed: 1 }] {
                 let error = Delaunay2::with_algorithm(&points, algorithm).unwrap_err();
                 prop_assert!(error.to_string().starts_with(&named), "{:?} {}", algorithm, error);
             }

@@ -1,6 +1,6 @@
 //! The history of radial triangles against `nearest` of the triangulation and against brute force.
 
-use delone::{Delaunay2, NearestSites, VertexId, Work};
+use delone::{Delaunay2, NearestSites2, VertexId, Work};
 use delone_oracle::exact;
 use delone_oracle::generate::Kind;
 
@@ -20,7 +20,7 @@ fn the_nearest_site_is_the_nearest() {
             for seed in 0..2 {
                 let points = kind.points(n, 3 + seed);
                 let d = Delaunay2::from_points(&points).expect("finite");
-                let sites = NearestSites::build(&points, seed).expect("finite");
+                let sites = NearestSites2::from_points(&points, seed).expect("finite");
                 for q in queries(&points) {
                     let expected = d.nearest(q).expect("finite").map(VertexId::index);
                     assert_eq!(sites.nearest(q).expect("finite"), expected, "{kind:?} {n} {q:?}");
@@ -34,7 +34,7 @@ fn the_nearest_site_is_the_nearest() {
 fn nothing_is_nearer() {
     for kind in [Kind::Grid, Kind::Uniform, Kind::Circle, Kind::Line] {
         let points = kind.points(100, 1);
-        let sites = NearestSites::build(&points, 7).expect("finite");
+        let sites = NearestSites2::from_points(&points, 7).expect("finite");
         for q in queries(&points) {
             let found = points[sites.nearest(q).expect("finite").expect("there are sites")];
             assert!(points.iter().all(|&p| exact::compare_distances(q, found, p) <= 0), "{kind:?} {q:?}");
@@ -47,13 +47,13 @@ fn size_and_work_are_as_proved() {
     // Guibas, Knuth & Sharir, theorems 5.2 and 5.4: linear size, O(log n) planes, O(log^2 n) comparisons.
     let mut planes = Vec::new();
     for n in [1000, 4000, 16_000] {
-        let sites = NearestSites::build(&Kind::Uniform.points(n, 1), 5).expect("finite");
+        let sites = NearestSites2::from_points(&Kind::Uniform.points(n, 1), 5).expect("finite");
         let size = sites.size() as f64 / n as f64;
         assert!((20.0..24.1).contains(&size), "{n}: {size} triangles a site");
         let mut work = Work::default();
         let queries = Kind::Uniform.points(1000, 2);
         for &q in &queries {
-            sites.nearest_counted(q, &mut work).expect("finite");
+            sites.nearest_observed(q, &mut work).expect("finite");
         }
         planes.push(work.visited as f64 / queries.len() as f64);
         // A triangle hangs on four sites, so it is new in step i with probability at most 4 / i.
@@ -66,7 +66,7 @@ fn size_and_work_are_as_proved() {
 
 #[test]
 fn bad_input_is_named() {
-    assert!(NearestSites::build(&[[0.0, 0.0], [f64::NAN, 1.0]], 0).is_err());
-    let sites = NearestSites::build(&[[0.0, 0.0]], 0).expect("finite");
+    assert!(NearestSites2::from_points(&[[0.0, 0.0], [f64::NAN, 1.0]], 0).is_err());
+    let sites = NearestSites2::from_points(&[[0.0, 0.0]], 0).expect("finite");
     assert!(sites.nearest([f64::INFINITY, 0.0]).is_err());
 }

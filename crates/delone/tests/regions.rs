@@ -1,6 +1,6 @@
 //! Which rings make a region, and how they lie in each other, against the plainest definitions.
 
-use delone::{Delaunay2, Error, Region, RegionProblem};
+use delone::{Delaunay2, Error, Region2, RegionProblem};
 use delone_oracle::generate::Random;
 
 type Rings = Vec<Vec<[f64; 2]>>;
@@ -90,7 +90,7 @@ fn rings_are_accepted_as_the_definition_says() {
         if rings.iter().any(twice) {
             continue;
         }
-        let found = Region::polygon(&rings);
+        let found = Region2::polygon(&rings);
         assert_eq!(found.is_ok(), is_valid(&rings), "{rings:?}: {found:?}");
         let Ok(region) = found else { continue };
         valid += 1;
@@ -121,7 +121,7 @@ fn area(ring: &[[f64; 2]]) -> f64 {
 }
 
 fn problem(rings: &[Vec<[f64; 2]>]) -> Option<(usize, usize, RegionProblem)> {
-    match Region::polygon(rings) {
+    match Region2::polygon(rings) {
         Err(Error::Region { ring, corner, problem }) => Some((ring, corner, problem)),
         _ => None,
     }
@@ -160,18 +160,18 @@ fn rings_that_cross_at_shared_corners_are_named() {
     // Touching is fine: beside each other, one in the other, four at one corner.
     let wedge = |from: [f64; 2], to: [f64; 2]| vec![[0.0, 0.0], from, to];
     let beside = [wedge([2.0, 0.0], [2.0, 1.0]), wedge([1.0, 2.0], [0.0, 2.0])];
-    assert_eq!(Region::polygon(&beside).map(|region| region.area()), Ok(2.0));
+    assert_eq!(Region2::polygon(&beside).map(|region| region.area()), Ok(2.0));
     let within = [wedge([3.0, 0.0], [0.0, 3.0]), wedge([1.0, 0.5], [0.5, 1.0])];
-    assert_eq!(Region::polygon(&within).map(|region| region.area()), Ok(4.5 - 0.375));
+    assert_eq!(Region2::polygon(&within).map(|region| region.area()), Ok(4.5 - 0.375));
     let four = [
         wedge([3.0, 0.0], [0.0, 3.0]),
         wedge([-3.0, 0.0], [0.0, -3.0]),
         wedge([1.0, 0.5], [0.5, 1.0]),
         wedge([3.0, -1.0], [3.0, -2.0]),
     ];
-    assert_eq!(Region::polygon(&four).map(|region| region.area()), Ok(9.0 - 0.375 + 1.5));
+    assert_eq!(Region2::polygon(&four).map(|region| region.area()), Ok(9.0 - 0.375 + 1.5));
     let d = Delaunay2::from_points(&[[0.5, 0.5], [2.5, -1.0], [-1.0, -1.0]]).expect("finite");
-    let region = Region::polygon(&four).expect("a region");
+    let region = Region2::polygon(&four).expect("a region");
     let cells = d.voronoi().clip(&region);
     let sum: f64 = d.vertices().map(|v| cells.area(v)).sum();
     assert!((sum - region.area()).abs() < 1e-12);
@@ -183,14 +183,14 @@ fn coordinates_of_all_sizes_are_compared_exactly() {
     // A corner one unit in the last place beside a side, on either side of it.
     let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let inside = vec![[tiny, 0.5], [0.5, 0.25], [0.5, 0.75]];
-    assert_eq!(Region::polygon(&[square.clone(), inside.clone()]).map(|region| region.area()), Ok(0.875));
+    assert_eq!(Region2::polygon(&[square.clone(), inside.clone()]).map(|region| region.area()), Ok(0.875));
     let outside: Vec<[f64; 2]> = inside.iter().map(|p| [0.0 - p[0], p[1]]).collect();
-    assert_eq!(Region::polygon(&[square.clone(), outside]).map(|region| region.area()), Ok(1.125));
+    assert_eq!(Region2::polygon(&[square.clone(), outside]).map(|region| region.area()), Ok(1.125));
     let on = vec![[0.0, 0.5], [0.5, 0.25], [0.5, 0.75]];
     assert_eq!(problem(&[square, on]).map(|p| p.2), Some(RegionProblem::Crossing));
     let huge = f64::MAX;
     let all = vec![[-huge, -huge], [huge, -huge], [huge, huge], [-huge, huge]];
     let small = vec![[0.0, 0.0], [tiny, 0.0], [0.0, tiny]];
-    let region = Region::polygon(&[small, all]).expect("nested");
+    let region = Region2::polygon(&[small, all]).expect("nested");
     assert_eq!(region.rings().next().map(|ring| ring[0]), Some([0.0, tiny]), "the hole is clockwise");
 }

@@ -1,7 +1,7 @@
 //! Inputs that broke a promise once, each as small as it could be made, and the promise.
 
-use delone::hull::spatial::{Hull3, HullHistory};
-use delone::{Delaunay2, Delaunay3, Error, Hierarchy, Locate, Moving2, Moving3, Step, VertexId, Work};
+use delone::{Delaunay2, Delaunay3, Error, Hierarchy, Locate, Moving2, Moving3, Step2, VertexId, Work};
+use delone::{Hull3, HullHistory3};
 use delone_oracle::generate::{Kind, Kind3, Random};
 
 const LEAST: f64 = f64::from_bits(1);
@@ -21,7 +21,7 @@ fn points_that_change_places_on_a_sphere_come_to_an_end() {
         let n = 10 + random.below(30);
         let mut points: Vec<[f64; 3]> = (0..n).map(|_| on_sphere(&mut random)).collect();
         points.push([0.0; 3]);
-        let mut moving = Moving3::new(&points).expect("finite");
+        let mut moving = Moving3::from_points(&points).expect("finite");
         for _ in 0..2 {
             for _ in 0..=random.below(3) {
                 let (i, j) = (random.below(n), random.below(n));
@@ -48,10 +48,10 @@ fn a_hub_does_not_slow_motion_down() {
             angles.iter().map(|a| [a.cos(), a.sin()]).chain([[0.0, 0.0]]).collect::<Vec<_>>()
         };
         let (before, after) = (around(0.5), around(1.5));
-        let mut moving = Moving2::new(&before).expect("finite");
+        let mut moving = Moving2::from_points(&before).expect("finite");
         let mut work = Work::default();
-        let step = moving.step_counted(&after, &mut work).expect("finite");
-        let Step::Repaired { reinserted, .. } = step else { panic!("{n}: {step:?}") };
+        let step = moving.step_observed(&after, &mut work).expect("finite");
+        let Step2::Repaired { reinserted, .. } = step else { panic!("{n}: {step:?}") };
         assert!(reinserted > n / 40, "only {reinserted} of {n} were removed");
         assert!(work.visited < 40 * reinserted as u64, "{} visits for {reinserted}", work.visited);
         moving.triangulation().check().expect("canonical");
@@ -88,9 +88,9 @@ fn the_first_of_equal_points_is_the_corner_at_any_scale() {
         let distinct: Vec<[f64; 3]> =
             (0..60).map(|_| [(); 3].map(|()| (random.unit() - 0.5) * scale)).collect();
         let points: Vec<[f64; 3]> = distinct.iter().cycle().take(180).copied().collect();
-        let hull = Hull3::of(&points).expect("finite");
+        let hull = Hull3::from_points(&points).expect("finite");
         assert!(hull.corners().iter().all(|&i| i < 60), "{scale:e}: {:?}", hull.corners());
-        assert_eq!(&hull, HullHistory::build(&points, 1).expect("finite").hull(), "{scale:e}");
+        assert_eq!(&hull, HullHistory3::from_points(&points, 1).expect("finite").hull(), "{scale:e}");
     }
 }
 
@@ -167,7 +167,7 @@ fn rectangles_outside_of_large_hulls_are_cheap() {
             let high = low.map(|x| x + size * random.unit());
             let mut work = Work::default();
             let [lowest, highest] = [low, high].map(scaled);
-            let found = d.in_rectangle_counted(lowest, highest, &mut work).expect("finite");
+            let found = d.in_rectangle_observed(lowest, highest, &mut work).expect("finite");
             let is_inside = |p: &&[f64; 2]| (0..2).all(|k| lowest[k] <= p[k] && p[k] <= highest[k]);
             assert_eq!(found.len(), points.iter().filter(is_inside).count());
             let corners = [low, [low[0], high[1]], high, [high[0], low[1]]];
@@ -188,7 +188,7 @@ fn the_face_of_a_flat_set_starts_at_its_smallest_corner() {
         [[1.5, 1.5, 0.0], [-8.0, 8.0, 8.0], [8.0, -8.0, 8.0]],
         [[-8.0, 8.0, -8.0], [-8.0, 8.0, 8.0], [8.0, -8.0, 8.0]],
     ] {
-        let hull = Hull3::of(&points).expect("finite");
+        let hull = Hull3::from_points(&points).expect("finite");
         let smallest = (0..3).min_by(|&i, &j| points[i].partial_cmp(&points[j]).expect("finite"));
         assert_eq!(Some(hull.faces()[0][0]), smallest);
         assert_eq!(hull.corners(), hull.faces()[0]);

@@ -24,7 +24,7 @@ fn triangles(d: &Delaunay3) -> Vec<[[f64; 3]; 3]> {
         corners.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
         corners
     };
-    let mut all: Vec<_> = d.hull().map(|t| sorted(t.map(|v| d.point(v).map(|x| x + 0.0)))).collect();
+    let mut all: Vec<_> = d.hull_facets().map(|t| sorted(t.map(|v| d.point(v).map(|x| x + 0.0)))).collect();
     all.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
     all
 }
@@ -99,15 +99,16 @@ fn grids_tile_their_box() {
         let boxes: usize = [x, y, z].map(|side| side - 1).into_iter().product();
         assert_eq!(six_volumes, 6.0 * boxes as f64, "{x} {y} {z}");
         // Euler's relation of a ball, and of what the hull adds.
-        let [v, e, f, t] = [d.vertex_count(), d.edges().count(), d.facets().count(), d.cells().count()];
+        let [v, e, f, t] =
+            [d.vertex_count(), d.edges().count(), d.facets().count(), d.tetrahedron_ids().count()];
         if t > 0 {
             assert_eq!(v + f, e + t + 1, "{x} {y} {z}");
-            assert_eq!(2 * f, 4 * t + d.hull().count(), "{x} {y} {z}");
+            assert_eq!(2 * f, 4 * t + d.hull_facets().count(), "{x} {y} {z}");
         }
         for v in d.vertices().take(30) {
             let star = d.tetrahedra_at(v);
             assert!(star.iter().all(|&t| d.mesh().corners(t).contains(&v)));
-            let at = d.cells().filter(|&t| d.mesh().corners(t).contains(&v)).count();
+            let at = d.tetrahedron_ids().filter(|&t| d.mesh().corners(t).contains(&v)).count();
             assert_eq!(
                 star.iter().filter(|&&t| !d.mesh().is_ghost(t)).count(),
                 if t > 0 { at } else { star.len() / 2 }
@@ -122,13 +123,13 @@ fn less_than_space() {
     assert_eq!((d.dimension(), d.vertex_count()), (Dimension::Empty, 0));
     let d = Delaunay3::from_points(&[[1.0, 2.0, 3.0]; 4]).expect("finite");
     assert_eq!((d.dimension(), d.vertex_count(), d.duplicates().count()), (Dimension::Point, 1, 3));
-    assert_eq!((d.edges().count(), d.hull().count(), d.check()), (0, 0, Ok(())));
+    assert_eq!((d.edges().count(), d.hull_facets().count(), d.check()), (0, 0, Ok(())));
     let line: Points = (0..50).map(|i| [f64::from(i), f64::from(2 * i), 0.5]).collect();
     let d = Delaunay3::from_points(&line).expect("finite");
     assert_eq!((d.dimension(), d.edges().count(), d.check()), (Dimension::Line, 49, Ok(())));
     let plane = Kind3::SlantedGrid.points(100, 1);
     let d = Delaunay3::from_points(&plane).expect("finite");
-    assert_eq!((d.dimension(), d.hull().count(), d.check()), (Dimension::Plane, 162, Ok(())));
+    assert_eq!((d.dimension(), d.hull_facets().count(), d.check()), (Dimension::Plane, 162, Ok(())));
     assert_eq!(d.edges().count(), 261);
     assert_eq!(d.facets().count(), 162);
     assert!(Delaunay3::from_points(&[[0.0, f64::NAN, 0.0]]).is_err());

@@ -30,7 +30,7 @@ fn shape(d: &Delaunay3) -> (Dimension, Vec<Points>, usize) {
     };
     let mut all: Vec<_> = match d.dimension() {
         Dimension::Space => d.tetrahedra().map(|t| sorted(&t)).collect(),
-        _ => d.hull().map(|t| sorted(&t)).collect(),
+        _ => d.hull_facets().map(|t| sorted(&t)).collect(),
     };
     all.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
     (d.dimension(), all, d.edges().count())

@@ -10,7 +10,7 @@ fn bits(d: &Delaunay2) -> impl PartialEq + use<> {
     let mesh = d.mesh();
     let triangles: Vec<_> = mesh.triangles().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();
     let stars: Vec<_> = d.vertices().map(|v| mesh.star(v).next()).collect();
-    let hull: Vec<VertexId> = d.hull().collect();
+    let hull: Vec<VertexId> = d.hull_vertices().collect();
     (triangles, stars, hull, d.duplicates().collect::<Vec<_>>(), d.counters())
 }
 
@@ -63,9 +63,9 @@ fn many_threads_give_the_canonical_triangulation() {
 /// The same in space.
 fn bits3(d: &Delaunay3) -> impl PartialEq + use<> {
     let mesh = d.mesh();
-    let cells: Vec<_> = d.cells().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();
-    let hull: Vec<_> = d.hull().collect();
-    (cells, hull, d.duplicates().collect::<Vec<_>>(), d.work())
+    let cells: Vec<_> = d.tetrahedron_ids().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();
+    let hull: Vec<_> = d.hull_vertices().collect();
+    (cells, hull, d.duplicates().collect::<Vec<_>>(), d.counters())
 }
 
 /// The tetrahedra, whatever their order and that of their corners.

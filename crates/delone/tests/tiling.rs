@@ -1,23 +1,23 @@
 //! Clipped cells tile their region whatever falls on its border: circumcentres, midpoints, lattices, combs, all scales.
 
-use delone::{Cells, Delaunay2, Region, VertexId};
+use delone::{Cells2, Delaunay2, Region2, VertexId};
 use delone_oracle::generate::{Kind, Random};
 use proptest::prelude::*;
 
 type Points = Vec<[f64; 2]>;
 
 fn area_of(ring: &[[f64; 2]]) -> f64 {
-    Region::polygon(&[ring.to_vec()]).map_or(f64::NAN, |region| region.area())
+    Region2::polygon(&[ring.to_vec()]).map_or(f64::NAN, |region| region.area())
 }
 
-fn cells_of(sites: &[[f64; 2]], region: &Region) -> (Delaunay2, Cells) {
+fn cells_of(sites: &[[f64; 2]], region: &Region2) -> (Delaunay2, Cells2) {
     let d = Delaunay2::from_points(sites).expect("finite");
     let cells = d.voronoi().clip(region);
     (d, cells)
 }
 
 /// The areas of all cells: none negative, none NaN, and all rings inside of the region's box.
-fn judge(name: &str, sites: &[[f64; 2]], region: &Region) -> Vec<f64> {
+fn judge(name: &str, sites: &[[f64; 2]], region: &Region2) -> Vec<f64> {
     let (d, cells) = cells_of(sites, region);
     let [low, high] = region.bounds();
     let areas: Vec<f64> = d.vertices().map(|v| cells.area(v)).collect();
@@ -41,8 +41,8 @@ fn judge(name: &str, sites: &[[f64; 2]], region: &Region) -> Vec<f64> {
     areas
 }
 
-fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> Region {
-    Region::rectangle([x0, y0], [x1, y1]).expect("a rectangle")
+fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> Region2 {
+    Region2::rectangle([x0, y0], [x1, y1]).expect("a rectangle")
 }
 
 fn regular(n: usize, radius: f64, x: f64, y: f64) -> Points {
@@ -119,7 +119,7 @@ fn three_ordinary_sites() {
         ],
     ];
     for comb in combs {
-        let region = Region::polygon(&[comb]).expect("a comb");
+        let region = Region2::polygon(&[comb]).expect("a comb");
         for some in 1..8_usize {
             let some: Points = (0..3).filter(|k| some >> k & 1 == 1).map(|k| sites[k]).collect();
             judge("comb", &some, &region);
@@ -155,7 +155,7 @@ fn sites_a_few_units_in_the_last_place_apart() {
         judge("close", sites, &rectangle(0.0, 0.0, 8.0, 8.0));
         judge("close", sites, &rectangle(-8.0, -8.0, 8.0, 0.0));
         let kite = vec![[0.0, 0.0], [5.0, 0.0], [1.0, 1.0], [0.0, 5.0]];
-        judge("close", sites, &Region::polygon(&[kite]).expect("a kite"));
+        judge("close", sites, &Region2::polygon(&[kite]).expect("a kite"));
     }
     // Corners halfway between numbers: some cells are nothing but a line when these are rounded.
     let at = |i: u64| f64::from_bits(1.0_f64.to_bits() + i);
@@ -176,13 +176,13 @@ fn areas_beyond_the_range_are_infinite() {
     assert!(centre.iter().all(|x| x.is_finite() && *x > 1e307), "{centre:?}");
     // With a hole as large, and with an area that fits while products on the way do not.
     let ring = |x: f64, y: f64| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
-    let frame = Region::polygon(&[ring(huge, huge), ring(huge / 2.0, huge / 2.0)]).expect("a frame");
+    let frame = Region2::polygon(&[ring(huge, huge), ring(huge / 2.0, huge / 2.0)]).expect("a frame");
     assert_eq!(frame.area(), f64::INFINITY);
     let (d, cells) = cells_of(&[[0.0, 1.0]], &frame);
     assert_eq!(cells.area(d.vertices().next().expect("a site")), f64::INFINITY);
     assert_eq!(cells.rings(VertexId::new(0)).map(|ring| ring.area()).collect::<Vec<_>>().len(), 2);
     let flat =
-        Region::polygon(&[vec![[-huge, -huge], [huge, huge], [huge, huge / 2.0]]]).expect("a triangle");
+        Region2::polygon(&[vec![[-huge, -huge], [huge, huge], [huge, huge / 2.0]]]).expect("a triangle");
     assert_eq!(flat.area(), f64::INFINITY);
     assert!((area_of(&ring(huge, 1e-10)) / (4e-10 * huge) - 1.0).abs() < 1e-12);
 }
@@ -191,7 +191,7 @@ fn areas_beyond_the_range_are_infinite() {
 fn centres_of_tiny_and_huge_cells() {
     for scale in [1e-300, 1e-150, 1.0, 1e150, 1e300] {
         let at = |x: f64, y: f64| [x * scale, y * scale];
-        let region = Region::rectangle(at(0.0, 0.0), at(4.0, 2.0)).expect("a rectangle");
+        let region = Region2::rectangle(at(0.0, 0.0), at(4.0, 2.0)).expect("a rectangle");
         let (_, cells) = cells_of(&[at(1.0, 1.0), at(3.0, 1.0)], &region);
         let [x, y] = cells.centroid(VertexId::new(1)).expect("a cell");
         assert!((x / scale - 3.0).abs() < 1e-12 && (y / scale - 1.0).abs() < 1e-12, "{scale}: {x} {y}");
@@ -212,7 +212,7 @@ fn rectilinear_regions_with_many_corners_on_the_cuts() {
         sieve.push(vec![[i + 1.0, j + 1.0], [i + 2.0, j + 1.0], [i + 2.0, j + 2.0], [i + 1.0, j + 2.0]]);
     }
     for rings in [vec![stairs], sieve] {
-        let region = Region::polygon(&rings).expect("a region");
+        let region = Region2::polygon(&rings).expect("a region");
         for step in [0.5, 1.0, 2.0, 3.0] {
             let count = (26.0 / step) as i32;
             let sites: Points = (0..count)
@@ -302,13 +302,13 @@ proptest! {
         for _ in 0..4 {
             let (p, q) = (mark(), mark());
             let (low, high) = ([p[0].min(q[0]), p[1].min(q[1])], [p[0].max(q[0]), p[1].max(q[1])]);
-            if let Ok(region) = Region::rectangle(low, high) {
+            if let Ok(region) = Region2::rectangle(low, high) {
                 judge("rectangle", &points, &region);
             }
             // Most are no polygons.
             for corners in 3..8 {
                 let ring: Points = (0..corners).map(|_| mark()).collect();
-                if let Ok(region) = Region::polygon(&[ring]) {
+                if let Ok(region) = Region2::polygon(&[ring]) {
                     judge("polygon", &points, &region);
                 }
             }
@@ -318,7 +318,7 @@ proptest! {
             star.sort_by(|m, n| angle(m).total_cmp(&angle(n)));
             star.dedup_by_key(|m| angle(m));
 
-            if let Ok(region) = Region::polygon(&[star]) {
+            if let Ok(region) = Region2::polygon(&[star]) {
 
                 judge("star", &points, &region);
             }
@@ -329,11 +329,11 @@ proptest! {
                 comb.extend([[x, q[1]], [x, p[1].midpoint(q[1])]]);
             }
             comb.push([q[0], p[1]]);
-            if let Ok(region) = Region::polygon(&[comb]) {
+            if let Ok(region) = Region2::polygon(&[comb]) {
                 judge("comb", &points, &region);
             }
         }
-        if let Ok(hull) = Region::hull(&d) {
+        if let Ok(hull) = Region2::hull(&d) {
             judge("hull", &points, &hull);
         }
     }

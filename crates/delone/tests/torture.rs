@@ -3,16 +3,16 @@
 use std::path::Path;
 
 use delone::plane::verify::verify;
-use delone::{Algorithm, Delaunay2, Locate};
+use delone::{Algorithm2, Delaunay2, Locate};
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};
 
-const ALGORITHMS: [Algorithm; 5] = [
-    Algorithm::DivideAndConquer,
-    Algorithm::Incremental { seed: 3 },
-    Algorithm::ConflictLists { seed: 3 },
-    Algorithm::Located { locate: Locate::Tree, seed: 3 },
-    Algorithm::Located { locate: Locate::History, seed: 3 },
+const ALGORITHMS: [Algorithm2; 5] = [
+    Algorithm2::DivideAndConquer,
+    Algorithm2::Incremental { seed: 3 },
+    Algorithm2::ConflictLists { seed: 3 },
+    Algorithm2::Located { locate: Locate::Tree, seed: 3 },
+    Algorithm2::Located { locate: Locate::History, seed: 3 },
 ];
 
 fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {

@@ -1,10 +1,10 @@
 //! Voronoi cells against their definition: what is nearest to a site; and clipped cells tile.
 
-use delone::{Cells, Delaunay2, Error, Region, RegionProblem, Relaxation, VertexId, VoronoiEdge};
+use delone::{Cells2, Delaunay2, Error, Region2, RegionProblem, Relaxation2, VertexId, VoronoiEdge2};
 use delone_oracle::generate::Kind;
 
 /// A rectangle that holds most of the points, one that cuts through, and polygons, all scaled to the points.
-fn regions(d: &Delaunay2) -> Vec<(&'static str, Region)> {
+fn regions(d: &Delaunay2) -> Vec<(&'static str, Region2)> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for p in d.points() {
         for axis in 0..2 {
@@ -24,12 +24,12 @@ fn regions(d: &Delaunay2) -> Vec<(&'static str, Region)> {
     let ring = |low: f64, high: f64| vec![at(low, low), at(high, low), at(high, high), at(low, high)];
     // Sets that span the whole range of f64 leave no room for some of these.
     let regions = [
-        ("around", Region::rectangle(at(-0.5, -0.25), at(1.5, 1.75))),
-        ("through", Region::rectangle(at(0.31, 0.17), at(0.72, 1.4))),
-        ("away", Region::rectangle(at(7.0, 8.0), at(9.0, 9.0))),
-        ("star", Region::polygon(&[star])),
-        ("frame", Region::polygon(&[ring(0.0, 1.0), ring(0.2, 0.8), ring(0.4, 0.6)])),
-        ("hull", Region::hull(d)),
+        ("around", Region2::rectangle(at(-0.5, -0.25), at(1.5, 1.75))),
+        ("through", Region2::rectangle(at(0.31, 0.17), at(0.72, 1.4))),
+        ("away", Region2::rectangle(at(7.0, 8.0), at(9.0, 9.0))),
+        ("star", Region2::polygon(&[star])),
+        ("frame", Region2::polygon(&[ring(0.0, 1.0), ring(0.2, 0.8), ring(0.4, 0.6)])),
+        ("hull", Region2::hull(d)),
     ];
     regions.into_iter().filter_map(|(name, region)| Some((name, region.ok()?))).collect()
 }
@@ -138,25 +138,25 @@ fn cells_of_a_grid_merge_their_corners() {
 
 #[test]
 fn low_dimensions_have_cells() {
-    let unit = Region::rectangle([-1.0, -1.0], [3.0, 1.0]).expect("a rectangle");
+    let unit = Region2::rectangle([-1.0, -1.0], [3.0, 1.0]).expect("a rectangle");
     let none = Delaunay2::new();
     assert_eq!(none.voronoi().edges().count(), 0);
     assert!(std::ptr::eq(none.voronoi().triangulation(), &raw const none));
     assert_eq!(none.voronoi().clip(&unit).rings(VertexId::new(0)).count(), 0);
-    assert_eq!(Cells::default().rings(VertexId::new(0)).count(), 0);
+    assert_eq!(Cells2::default().rings(VertexId::new(0)).count(), 0);
     let one = Delaunay2::from_points(&[[0.0, 0.0]]).expect("finite");
     assert_eq!(one.voronoi().clip(&unit).area(VertexId::new(0)), 8.0);
     let line = Delaunay2::from_points(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]).expect("finite");
-    assert!(line.voronoi().edges().all(|e| matches!(e, VoronoiEdge::Line { .. })));
+    assert!(line.voronoi().edges().all(|e| matches!(e, VoronoiEdge2::Line { .. })));
     let cells = line.voronoi().clip(&unit);
     assert_eq!([0, 1, 2].map(|i| cells.area(VertexId::new(i))), [3.0, 2.0, 3.0]);
-    assert!(Region::hull(&line).is_err());
+    assert!(Region2::hull(&line).is_err());
 }
 
 #[test]
 fn the_view_follows_changes() {
     let mut d = Delaunay2::from_points(&Kind::Uniform.points(500, 1)).expect("finite");
-    let region = Region::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a rectangle");
+    let region = Region2::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a rectangle");
     for i in 0..200 {
         d.remove(VertexId::new(2 * i)).expect("a vertex");
         d.move_to(VertexId::new(2 * i + 1), [i as f64 / 200.0, 0.25]).expect("free");
@@ -176,7 +176,7 @@ fn the_view_follows_changes() {
 
 #[test]
 fn bad_regions_are_named() {
-    let problem = |rings: &[Vec<[f64; 2]>]| match Region::polygon(rings) {
+    let problem = |rings: &[Vec<[f64; 2]>]| match Region2::polygon(rings) {
         Err(Error::Region { ring, corner, problem }) => Some((ring, corner, problem)),
         _ => None,
     };
@@ -199,20 +199,20 @@ fn bad_regions_are_named() {
     let mut closed = square.clone();
     closed.push(square[0]);
     closed.reverse();
-    assert_eq!(Region::polygon(&[closed]).map(|region| region.area()), Ok(1.0));
+    assert_eq!(Region2::polygon(&[closed]).map(|region| region.area()), Ok(1.0));
 }
 
 #[test]
 fn relaxation_evens_out() {
     let d = Delaunay2::from_points(&Kind::Uniform.points(400, 1)).expect("finite");
-    let region = Region::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a rectangle");
+    let region = Region2::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a rectangle");
     let spread = |d: &Delaunay2| {
         let cells = d.voronoi().clip(&region);
         let areas: Vec<f64> = d.vertices().map(|v| cells.area(v)).collect();
         areas.iter().fold(0.0, |max: f64, a| max.max(*a)) / areas.iter().fold(1.0, |min: f64, a| min.min(*a))
     };
     let mut moves = Vec::new();
-    let relaxed = Relaxation { steps: 30, tolerance: 0.0 }
+    let relaxed = Relaxation2 { steps: 30, tolerance: 0.0 }
         .run(&d, &region, |_, moved| moves.push(moved))
         .expect("fine");
     let relaxed = Delaunay2::from_points(&relaxed).expect("finite");
@@ -220,11 +220,11 @@ fn relaxation_evens_out() {
     assert!(moves.len() == 30 && moves[29] < moves[0] / 4.0);
     // Of one site, to the middle.
     let one = Delaunay2::from_points(&[[0.25, 0.125]]).expect("finite");
-    let middle = Relaxation { steps: 1, tolerance: 0.0 }
+    let middle = Relaxation2 { steps: 1, tolerance: 0.0 }
         .run(&one, &region, |_, moved| assert_eq!(moved, 0.25_f64.hypot(0.375)))
         .expect("fine");
     assert_eq!(middle, [[0.5, 0.5]]);
-    assert!(Relaxation { steps: 1, tolerance: -1.0 }.run(&d, &region, |_, _| {}).is_err());
+    assert!(Relaxation2 { steps: 1, tolerance: -1.0 }.run(&d, &region, |_, _| {}).is_err());
 }
 
 /// Each from both of its sides: what is unbounded goes away from the site that is on the other side, at a right angle.
@@ -237,7 +237,9 @@ fn edges_go_between_their_sites() {
         let [a, b] = d.segment(e);
         let apart = [b[0] - a[0], b[1] - a[1]];
         let third = sites.iter().find(|p| **p != a && **p != b).expect("three");
-        let VoronoiEdge::Ray { from, direction: [x, y] } = d.voronoi().edge(e) else { panic!("{a:?} {b:?}") };
+        let VoronoiEdge2::Ray { from, direction: [x, y] } = d.voronoi().edge(e) else {
+            panic!("{a:?} {b:?}")
+        };
         assert_eq!(from, centre);
         // Half as long as the edge.
         assert_eq!([x.abs(), y.abs()], [apart[1].abs() / 2.0, apart[0].abs() / 2.0], "{a:?} {b:?}");
@@ -248,7 +250,7 @@ fn edges_go_between_their_sites() {
     for e in d.mesh().undirected_edges().flat_map(|e| [e, d.mesh().twin(e)]) {
         let is_forward = d.segment(e)[0] == sites[0];
         let direction = if is_forward { [1.0, -2.0] } else { [-1.0, 2.0] };
-        assert_eq!(d.voronoi().edge(e), VoronoiEdge::Line { through: [3.0, 3.0], direction });
+        assert_eq!(d.voronoi().edge(e), VoronoiEdge2::Line { through: [3.0, 3.0], direction });
     }
 }
 
@@ -257,7 +259,7 @@ fn rings_are_measured() {
     let ring = |low: f64, high: f64| {
         vec![[low, low + 4.0], [high, low + 4.0], [high, high + 4.0], [low, high + 4.0]]
     };
-    let region = Region::polygon(&[ring(1.0, 5.0), ring(2.0, 3.0)]).expect("a frame");
+    let region = Region2::polygon(&[ring(1.0, 5.0), ring(2.0, 3.0)]).expect("a frame");
     let d = Delaunay2::from_points(&[[4.5, 8.5]]).expect("finite");
     let (v, cells) = (VertexId::new(0), d.voronoi().clip(&region));
     assert_eq!((cells.perimeter(v), cells.area(v)), (20.0, 15.0));
@@ -285,7 +287,7 @@ fn centres_of_mass_are_where_they_are_at_any_scale() {
         for _ in 0..corners.len() {
             corners.rotate_left(1);
             let scaled: Vec<[f64; 2]> = corners.iter().map(|p| p.map(|x| x * scale)).collect();
-            let region = Region::polygon(&[scaled]).expect("simple");
+            let region = Region2::polygon(&[scaled]).expect("simple");
             let cells = d.voronoi().clip(&region);
             // A rectangle of 18 around (4, 3.5), and a triangle of 18 on it around (3, 7).
             let found = cells.centroid(VertexId::new(0)).expect("an area");
@@ -300,7 +302,7 @@ fn centres_of_mass_are_where_they_are_at_any_scale() {
 fn progress_is_told_now_and_then() {
     let points: Vec<[f64; 2]> = (0..66_000).map(|i| [f64::from(i % 256), f64::from(i / 256)]).collect();
     let d = Delaunay2::from_points(&points).expect("finite");
-    let region = Region::rectangle([-1.0, -1.0], [256.0, 258.0]).expect("a rectangle");
+    let region = Region2::rectangle([-1.0, -1.0], [256.0, 258.0]).expect("a rectangle");
     let mut told = Vec::new();
     let cells = d.voronoi().clip_with(&region, |done| told.push(done));
     assert_eq!(told, [65_536]);
@@ -318,7 +320,7 @@ fn cells_that_roundings_could_take_across_are_cut_out() {
         let (mut low, mut high) = ([0, 1].map(|k| at(k, 0)), [0, 1].map(|k| at(k, 4)));
         let border = if sign > 0.0 { &mut high[axis] } else { &mut low[axis] };
         *border = middle[axis] + sign * (size[axis] / 2.0 + bit);
-        let cells = d.voronoi().clip(&Region::rectangle(low, high).expect("a rectangle"));
+        let cells = d.voronoi().clip(&Region2::rectangle(low, high).expect("a rectangle"));
         let v = VertexId::new(12);
         assert_eq!(cells.area(v), size[0] * size[1]);
         let is_shared = |i: &u32| (*i as usize) < d.mesh().slot_count();

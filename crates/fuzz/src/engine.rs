@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use delone::{
-    Algorithm, Algorithm3, Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted, JumpAndWalk,
-    Locate, Location, Location3, VertexId, Walk,
+    Algorithm2, Algorithm3, Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted,
+    JumpAndWalk, Locate, Location2, Location3, VertexId, Walk,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -171,11 +171,11 @@ impl Engine<2> for Delaunay2 {
     shared!(2);
 
     fn located(points: &[[f64; 2]], locate: Locate, seed: u64) -> Result<Self, Error> {
-        Self::with_algorithm(points, Algorithm::Located { locate, seed })
+        Self::with_algorithm(points, Algorithm2::Located { locate, seed })
     }
 
     fn others(points: &[[f64; 2]], seed: u64) -> Vec<(String, Result<Self, Error>)> {
-        let all = [Algorithm::Incremental { seed }, Algorithm::ConflictLists { seed }];
+        let all = [Algorithm2::Incremental { seed }, Algorithm2::ConflictLists { seed }];
         all.map(|algorithm| (format!("{algorithm:?}"), Self::with_algorithm(points, algorithm))).into()
     }
 
@@ -190,11 +190,11 @@ impl Engine<2> for Delaunay2 {
     fn place(&self, q: [f64; 2]) -> Result<Place<2>, Error> {
         let ends = |e| self.segment(e).to_vec();
         Ok(match self.locate(q)? {
-            Location::Triangle(t) => Place::Inside(self.mesh().corners(t).map(|v| self.point(v)).into()),
-            Location::Edge(e) => Place::Inside(ends(e)),
-            Location::Vertex(v) => Place::Inside(vec![self.point(v)]),
-            Location::Outside(e) => Place::Outside(ends(e)),
-            Location::LowerDimensional(_) => Place::Nowhere,
+            Location2::Triangle(t) => Place::Inside(self.mesh().corners(t).map(|v| self.point(v)).into()),
+            Location2::Edge(e) => Place::Inside(ends(e)),
+            Location2::Vertex(v) => Place::Inside(vec![self.point(v)]),
+            Location2::Outside(e) => Place::Outside(ends(e)),
+            Location2::LowerDimensional(_) => Place::Nowhere,
         })
     }
 

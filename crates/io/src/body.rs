@@ -35,7 +35,8 @@ impl Body<'_> {
 
     /// The hull, with the vertices on it alone, by increasing index.
     pub fn hull(&self) -> Solid {
-        let facets: Vec<[usize; 3]> = self.triangulation.hull().map(|t| t.map(VertexId::index)).collect();
+        let facets: Vec<[usize; 3]> =
+            self.triangulation.hull_facets().map(|t| t.map(VertexId::index)).collect();
         let mut used: Vec<usize> = facets.iter().flatten().copied().collect();
         used.sort_unstable();
         used.dedup();
@@ -56,7 +57,7 @@ impl Body<'_> {
         };
         let stays = |t: TetrahedronId| mesh.corners(t).into_iter().map(along).sum::<f64>() <= cut.offset;
         let mut solid = Solid { points: self.points.to_vec(), ..Solid::default() };
-        for t in d.cells().filter(|&t| stays(t)) {
+        for t in d.tetrahedron_ids().filter(|&t| stays(t)) {
             for facet in [0, 1, 2, 3].map(|k| t.facet(k)) {
                 let next = mesh.twin(facet).tetrahedron();
                 if mesh.is_ghost(next) || !stays(next) {
@@ -76,7 +77,7 @@ impl Shape for Body<'_> {
     }
 
     fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send {
-        self.triangulation.hull().map(|corners| corners.map(VertexId::index))
+        self.triangulation.hull_facets().map(|corners| corners.map(VertexId::index))
     }
 
     fn heights(&self) -> Option<&[f64]> {
@@ -116,7 +117,7 @@ pub fn write_body(
 /// Neighbours opposite corners 0 to 3, numbered as in the `.ele` file; -1 across the hull.
 fn write_neigh(out: &mut dyn Write, body: &Body) -> std::io::Result<()> {
     let mesh = body.triangulation.mesh();
-    let cells: Vec<TetrahedronId> = body.triangulation.cells().collect();
+    let cells: Vec<TetrahedronId> = body.triangulation.tetrahedron_ids().collect();
     let mut numbers = vec![-1_i64; mesh.slot_count()];
     for (i, t) in cells.iter().enumerate() {
         numbers[t.index()] = (body.base + i) as i64;

@@ -1,6 +1,6 @@
 //! A Voronoi diagram to be written.
 
-use delone::{Cells, Delaunay2, Ring, VertexId};
+use delone::{Cells2, Delaunay2, Ring, VertexId};
 
 use crate::Crs;
 
@@ -10,7 +10,7 @@ pub struct Diagram<'a> {
     /// The sites.
     pub triangulation: &'a Delaunay2,
     /// Their cells.
-    pub cells: &'a Cells,
+    pub cells: &'a Cells2,
     /// What the coordinates mean; formats that can say it do.
     pub crs: Option<&'a Crs>,
 }

@@ -3,7 +3,8 @@
 use std::hint::black_box;
 
 use delone::{
-    Algorithm, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Moving2, Moving3, Step, Step3, Work,
+    Algorithm2, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Moving2, Moving3, Step2, Step3,
+    Work,
 };
 use delone_oracle::generate::{Kind, Kind3, Random};
 
@@ -49,24 +50,24 @@ fn brownian(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Er
         let mut random = Random::new(seed);
         let mut points: Vec<[f64; 2]> =
             Kind::Uniform.points(n, seed).into_iter().map(|p| p.map(|x| x * side)).collect();
-        let mut hints = Hints2::preprocess(&points, HintOrder::Spatial { seed })?;
-        let mut moving = Moving2::new(&points)?;
+        let mut hints = Hints2::from_points(&points, HintOrder::Spatial { seed })?;
+        let mut moving = Moving2::from_points(&points)?;
         let (mut seconds, mut visited, mut rebuilt) = ([0.0; 3], [0, 0], 0);
         for _ in 0..STEPS {
             points = moved(&points, 1.0, &mut random);
-            let (d, time) = timed(|| Delaunay2::with_algorithm(&points, Algorithm::Incremental { seed }));
+            let (d, time) = timed(|| Delaunay2::with_algorithm(&points, Algorithm2::Incremental { seed }));
             seconds[0] += time;
             if let Counters::Incremental(work) = d?.counters() {
                 visited[0] += work.visited;
             }
             let mut work = Work::default();
-            let follow = || hints.follow_counted(&points, &mut work).map(|d| black_box(d.vertex_count()));
+            let follow = || hints.follow_observed(&points, &mut work).map(|d| black_box(d.vertex_count()));
             let (done, time) = timed(follow);
             done?;
             seconds[1] += time;
             visited[1] += work.visited;
             let (step, time) = timed(|| moving.step(&points));
-            rebuilt += usize::from(step? == Step::Rebuilt);
+            rebuilt += usize::from(step? == Step2::Rebuilt);
             seconds[2] += time;
         }
         let each = |total: f64| total / (n * STEPS) as f64;
@@ -104,7 +105,7 @@ fn by_displacement(findings: &mut Findings, largest: usize, seed: u64) -> Result
     for share in SHARES {
         let mut random = Random::new(seed);
         let mut points = Kind::Uniform.points(n, seed);
-        let mut moving = Moving2::new(&points)?;
+        let mut moving = Moving2::from_points(&points)?;
         let radius = share / MEAN_IN_DISK / (n as f64).sqrt();
         let motion = time_steps(n, || {
             points = moved(&points, radius, &mut random);
@@ -116,7 +117,7 @@ fn by_displacement(findings: &mut Findings, largest: usize, seed: u64) -> Result
         plane.row(motion.cells(share));
         curves[0].push((share, motion.ratio()));
         let mut points = Kind3::Cube.points(m, seed);
-        let mut moving = Moving3::new(&points)?;
+        let mut moving = Moving3::from_points(&points)?;
         let radius = share / MEAN_IN_BALL / (m as f64).cbrt();
         let motion = time_steps(m, || {
             points = moved(&points, radius, &mut random);
@@ -173,13 +174,13 @@ fn time_steps(
     Ok(motion)
 }
 
-fn plane_step(step: Step, n: usize) -> String {
+fn plane_step(step: Step2, n: usize) -> String {
     match step {
-        Step::Repaired { flips, reinserted } => {
+        Step2::Repaired { flips, reinserted } => {
             let [flips, reinserted] = [flips, reinserted].map(|count| short(count as f64 / n as f64));
             format!("repaired: {flips} flips and {reinserted} reinsertions a point")
         }
-        Step::Rebuilt => "rebuilt".to_owned(),
+        Step2::Rebuilt => "rebuilt".to_owned(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Construction time by mode of the Delaunay hierarchy: Devillers 1998, §5.5.2.
 
-use delone::{Algorithm, Counters, Delaunay2, Error, Hierarchy, Locate};
+use delone::{Algorithm2, Counters, Delaunay2, Error, Hierarchy, Locate};
 use delone_oracle::generate::{Kind, Random};
 
 use super::plot::Plot;
@@ -33,8 +33,8 @@ const PAPER: [(Kind, &str, [[f64; 4]; 3]); 5] = [
 /// A mode that is expected to take longer is not run, and called long as in the paper.
 const PATIENCE: f64 = 60.0;
 
-fn ways() -> [(&'static str, Algorithm); 8] {
-    let located = |locate| Algorithm::Located { locate, seed: 1 };
+fn ways() -> [(&'static str, Algorithm2); 8] {
+    let located = |locate| Algorithm2::Located { locate, seed: 1 };
     let hierarchy = |options| located(Locate::Hierarchy(options));
     [
         ("walk", hierarchy(Hierarchy::only_walk())),
@@ -43,8 +43,8 @@ fn ways() -> [(&'static str, Algorithm); 8] {
         ("hierarchy+MSZ", hierarchy(Hierarchy::default())),
         ("tree", located(Locate::Tree)),
         ("history", located(Locate::History)),
-        ("conflict lists", Algorithm::ConflictLists { seed: 1 }),
-        ("divide&conquer", Algorithm::DivideAndConquer),
+        ("conflict lists", Algorithm2::ConflictLists { seed: 1 }),
+        ("divide&conquer", Algorithm2::DivideAndConquer),
     ]
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use delone::{Algorithm, Counters, Delaunay2, Error, Locate, VertexId};
+use delone::{Algorithm2, Counters, Delaunay2, Error, Locate, VertexId};
 use delone_oracle::exact;
 use delone_oracle::generate::{Kind, Random};
 
@@ -168,12 +168,12 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
         let (mut triangles, mut edges) = (0_u64, 0_u64);
         follow(&points, &order, |_| triangles += 1, || edges += 1)?;
         let history =
-            Delaunay2::with_algorithm(&points, Algorithm::Located { locate: Locate::History, seed })?;
+            Delaunay2::with_algorithm(&points, Algorithm2::Located { locate: Locate::History, seed })?;
         let traced = match history.counters() {
             Counters::Incremental(work) => work.visited,
             _ => 0,
         };
-        let lists = Delaunay2::with_algorithm(&points, Algorithm::ConflictLists { seed })?;
+        let lists = Delaunay2::with_algorithm(&points, Algorithm2::ConflictLists { seed })?;
         let moved = match lists.counters() {
             Counters::ConflictLists { moved, .. } => moved,
             _ => 0,

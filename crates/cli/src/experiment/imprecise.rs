@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::path::Path;
 
 use delone::{
-    Algorithm, Algorithm3, Counters, Delaunay2, Delaunay3, Error, Hierarchy, HintOrder, Hints2, Hints3,
-    Locate, Work,
+    Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Error, Hierarchy, HintOrder, Hints2, Hints3,
+    Imprecise, Locate, Work,
 };
 use delone_oracle::generate::{Kind, Kind3, Random};
 
@@ -118,7 +118,7 @@ pub(super) fn scan(path: &Path, largest: usize, seed: u64) -> Result<Findings, F
     let sizes = (3..).map(|k| 10_usize.pow(k)).take_while(|&n| n < most).chain([most]);
     for n in sizes {
         let centres = &model[..n];
-        let hints = Hints3::preprocess(centres, HintOrder::Spatial { seed }).map_err(wrong)?;
+        let hints = Hints3::from_points(centres, HintOrder::Spatial { seed }).map_err(wrong)?;
         let far = hints.order().zip(hints.hints()).skip(1).map(|(i, j)| {
             let square: f64 = (0..3).map(|k| (centres[i][k] - centres[j][k]).powi(2)).sum();
             square.sqrt()
@@ -228,14 +228,14 @@ fn in_plane(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64) -> Result<Ro
     let mut costs = Vec::new();
     let mut preprocessing = 0.0;
     for order in [HintOrder::Random { seed }, HintOrder::Spatial { seed }] {
-        let (hints, seconds) = timed(|| Hints2::preprocess(centres, order));
+        let (hints, seconds) = timed(|| Hints2::from_points(centres, order));
         preprocessing = seconds * 1e9 / n as f64;
         costs.push(by_hints(n, &mut hints?, |hints, work| {
-            hints.triangulate_counted(instance, work).map(|d| _ = black_box(d.vertex_count()))
+            hints.triangulate_observed(instance, work).map(|d| _ = black_box(d.vertex_count()))
         })?);
     }
-    let located = Algorithm::Located { locate: hierarchy(seed), seed };
-    for algorithm in [Algorithm::Incremental { seed }, located, Algorithm::DivideAndConquer] {
+    let located = Algorithm2::Located { locate: hierarchy(seed), seed };
+    for algorithm in [Algorithm2::Incremental { seed }, located, Algorithm2::DivideAndConquer] {
         let (d, seconds) = timed(|| Delaunay2::with_algorithm(instance, algorithm));
         let visited = match d?.counters() {
             Counters::Incremental(work) => Some(work.visited),
@@ -251,10 +251,10 @@ fn in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<Ro
     let mut costs = Vec::new();
     let mut preprocessing = 0.0;
     for order in [HintOrder::Random { seed }, HintOrder::Spatial { seed }] {
-        let (hints, seconds) = timed(|| Hints3::preprocess(centres, order));
+        let (hints, seconds) = timed(|| Hints3::from_points(centres, order));
         preprocessing = seconds * 1e9 / n as f64;
         costs.push(by_hints(n, &mut hints?, |hints, work| {
-            hints.triangulate_counted(instance, work).map(|d| _ = black_box(d.vertex_count()))
+            hints.triangulate_observed(instance, work).map(|d| _ = black_box(d.vertex_count()))
         })?);
     }
     for algorithm in [Algorithm3::Spatial { seed }, Algorithm3::Located { locate: hierarchy(seed), seed }] {

@@ -1,6 +1,6 @@
 //! Jump-and-walk: Devroye, Mücke & Zhu 1998.
 
-use delone::{Delaunay2, Error, JumpAndWalk, Locate, Work};
+use delone::{Ask, Delaunay2, Error, JumpAndWalk, Locate, Work};
 use delone_oracle::generate::{Kind, Random};
 
 use super::plot::Plot;
@@ -13,7 +13,7 @@ const QUERIES: usize = 20_000;
 fn measure(d: &Delaunay2, queries: &[[f64; 2]]) -> Result<([f64; 2], f64), Error> {
     let mut work = Work::default();
     let (outcome, seconds) =
-        timed(|| queries.iter().try_for_each(|&q| d.locate_counted(q, &mut work).map(drop)));
+        timed(|| queries.iter().try_for_each(|&q| d.find_observed(q, &mut work).map(drop)));
     outcome?;
     let mean = |total: u64| total as f64 / queries.len() as f64;
     Ok(([mean(work.visited), mean(work.compared)], seconds * 1e9 / queries.len() as f64))

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use delone::{Delaunay2, Error, Hierarchy, Locate, NearestSites, Work};
+use delone::{Delaunay2, Error, Hierarchy, Locate, NearestSites2, Work};
 use delone_oracle::generate::Kind;
 use kiddo::SquaredEuclidean;
 use kiddo::immutable::float::kdtree::ImmutableKdTree;
@@ -30,9 +30,9 @@ pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
     let mut n = 100;
     while n <= largest {
         let points = Kind::Uniform.points(n, seed);
-        let sites = NearestSites::build(&points, seed)?;
+        let sites = NearestSites2::from_points(&points, seed)?;
         let mut work = Work::default();
-        queries.iter().try_for_each(|&q| sites.nearest_counted(q, &mut work).map(drop))?;
+        queries.iter().try_for_each(|&q| sites.nearest_observed(q, &mut work).map(drop))?;
         let mean = |total: u64| total as f64 / QUERIES as f64;
         let (visited, compared) = (mean(work.visited), mean(work.compared + work.orientations));
         let log = (n as f64).ln();

@@ -1,4 +1,7 @@
-//! Convex hulls without a triangulation.
+//! Convex hulls without a triangulation, in the plane and in space.
 
-pub(crate) mod planar;
-pub mod spatial;
+pub(crate) mod plane;
+mod space;
+
+pub use plane::Hull2;
+pub use space::{Hull3, HullHistory3};

@@ -19,11 +19,11 @@
 
 use std::collections::BTreeMap;
 
-use super::tally::Tally;
 use super::{Ground, JumpAndWalk, Level, Start, Strategy};
 use crate::error::Error;
 use crate::ids::Place;
 use crate::order::random::SplitMix;
+use crate::tally::Tally;
 
 /// Levels that shrink less would be without number.
 const SMALLEST_RATIO: f64 = 1.25;

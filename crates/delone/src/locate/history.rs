@@ -9,8 +9,8 @@
 //! amortized; linear in n for an unlucky query. Nothing is ever forgotten, so nothing can be removed. Choose it to
 //! study the randomized incremental construction.
 
-use super::tally::Tally;
 use crate::ids::TriangleId;
+use crate::tally::Tally;
 
 /// Hears of every split and flip. `shape` tells the geometry after the change.
 pub(crate) trait Observer<S> {

@@ -9,11 +9,11 @@
 
 use std::cmp::Ordering;
 
-use super::tally::Tally;
 use super::{Ground, Start, Strategy};
 use crate::error::Error;
 use crate::ids::Place;
 use crate::order::random::SplitMix;
+use crate::tally::Tally;
 
 /// Parameters of jump-and-walk.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,25 +16,22 @@
 //! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
 
 pub(crate) mod conflict_lists;
+pub(crate) mod from_last;
 pub(crate) mod hierarchy;
 pub(crate) mod history;
 pub(crate) mod jump_and_walk;
 pub(crate) mod nearest;
-pub(crate) mod search;
-pub(crate) mod tally;
 pub(crate) mod tree;
-pub(crate) mod walk;
 
+pub use from_last::Walk;
 pub use hierarchy::Hierarchy;
 pub use jump_and_walk::JumpAndWalk;
-pub use walk::Walk;
 
 use std::cmp::Ordering;
 
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
-use crate::mesh::Mesh;
-use tally::Tally;
+use crate::tally::Tally;
 
 /// How to find where a point falls. The answer is the same; only cost differs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -63,6 +60,20 @@ impl Locate {
             Self::Tree | Self::Walk(_) | Self::History => Ok(()),
         }
     }
+}
+
+/// What a strategy of location keeps.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Footprint {
+    /// Bytes of the triangulation itself: topology, coordinates, names.
+    pub base: usize,
+    /// Bytes of the strategy's own structure.
+    pub strategy: usize,
+    /// Vertices of each level of a hierarchy above the triangulation, the largest first.
+    pub levels: Vec<usize>,
+    /// Triangles of a history, past and present, those at the dummies included.
+    pub versions: usize,
 }
 
 /// A triangulation as strategies of location see it, of the plane or of space.
@@ -107,7 +118,7 @@ pub(crate) trait Ground {
 
     /// Asks memory for the neighbourhood of a hint all at once; a walk would ask piece by piece, and wait each
     /// time.
-    fn fetch_around(&self, hint: Self::Hint);
+    fn prefetch_around(&self, hint: Self::Hint);
 
     /// Compares the distances of two vertices from `q`.
     fn compare_distances(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
@@ -115,24 +126,6 @@ pub(crate) trait Ground {
     /// The vertex nearest to `q`; or only the nearest corner of where a walk ends.
     fn near<T: Tally>(&self, start: Start<Self::Hint>, q: Self::Point, exactly: bool, tally: &mut T)
     -> Place;
-}
-
-/// A triangulation of the plane as walks see it.
-pub(crate) trait Surface: Ground<Hint = EdgeId> {
-    /// The topology.
-    fn mesh(&self) -> &Mesh;
-
-    /// Asks memory for the triangle of an edge, and for its corners where they are likely to be.
-    fn fetch(&self, e: EdgeId);
-
-    /// Whether `q` is strictly on the right of a finite edge: beyond it, seen from the edge's triangle.
-    fn is_beyond(&self, e: EdgeId, q: Self::Point) -> bool;
-
-    /// On which side of the line from `from` to `to` a vertex is: `Greater` on the left.
-    fn side(&self, from: Self::Point, to: Self::Point, v: Place) -> Ordering;
-
-    /// Whether the angle at `w` between `q` and `x` is acute.
-    fn is_acute(&self, w: Place, q: Self::Point, x: Place) -> bool;
 }
 
 /// A triangulation that changes: what a level of the hierarchy must be able to do.

@@ -12,8 +12,8 @@ use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap};
 
 use super::Ground;
-use super::tally::Tally;
 use crate::ids::Place;
+use crate::tally::Tally;
 
 /// A triangulation as searches by distance see it.
 pub(crate) trait Metric: Ground {

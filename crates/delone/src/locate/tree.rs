@@ -16,12 +16,12 @@
 
 use std::cmp::Ordering;
 
-use super::tally::Tally;
 use super::{Ground, Start, Strategy};
-use crate::fetch::fetch;
 use crate::ids::Place;
 use crate::order::quantize::power_to_one;
 use crate::parallel::filled;
+use crate::prefetch::prefetch;
+use crate::tally::Tally;
 
 /// Vertices a leaf, of which one is looked at.
 const LEAF: usize = 2;
@@ -166,9 +166,9 @@ impl<H: Copy + Send + Sync> Tree<H> {
         for level in 1..=self.height {
             let below = line << depth..(line + 1) << depth;
             if level == self.height {
-                below.for_each(|k| fetch(&self.lowest, k));
+                below.for_each(|k| prefetch(&self.lowest, k));
             } else if level + AHEAD > self.height {
-                below.for_each(|k| fetch(&self.upper, first + width + k));
+                below.for_each(|k| prefetch(&self.upper, first + width + k));
             }
             let splits = &self.upper[first + line].splits;
             let mut inner = 1;
@@ -202,7 +202,7 @@ impl<G: Ground> Strategy<G> for Tree<G::Hint> {
         let (line, leaf) = self.leaf::<G>(q);
         let number = (line * LEAVES + leaf) as u32;
         let hint = self.lowest[line].hints[leaf];
-        ground.fetch_around(hint);
+        ground.prefetch_around(hint);
         if alive(&hint) {
             return Start::Hint(hint, number);
         }

@@ -14,10 +14,10 @@
 
 use std::cmp::Ordering;
 
-use super::tally::Tally;
+use crate::tally::Tally;
 use super::{Ground, Start, Strategy, Surface};
 use crate::ids::{EdgeId, Place, TriangleId};
-use crate::mesh::Mesh;
+use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
 
 /// Which walk.
@@ -78,7 +78,7 @@ pub(crate) fn walk_within<G: Surface, T: Tally>(
 }
 
 /// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
-fn finite_side(mesh: &Mesh, e: EdgeId) -> EdgeId {
+fn finite_side(mesh: &Mesh2, e: EdgeId) -> EdgeId {
     let t = e.triangle();
     match mesh.places(t).iter().position(|v| v.is_ghost()) {
         Some(k) => mesh.twin(t.edge(k).next()),
@@ -115,8 +115,8 @@ fn visibility<G: Surface, T: Tally>(
         if turned(from.triangle()) {
             (first, second) = (second, first);
         }
-        ground.fetch(mesh.twin(first));
-        ground.fetch(mesh.twin(second));
+        ground.prefetch(mesh.twin(first));
+        ground.prefetch(mesh.twin(second));
         tally.orientation();
         let crossed = if ground.is_beyond(first, q) {
             first

@@ -3,7 +3,7 @@
 //!
 //! Cost: O(1); one bit a slot.
 
-use crate::fetch::fetch;
+use crate::prefetch::prefetch;
 
 /// How many words of 64 slots to look at on either side.
 const REACH: usize = 4;
@@ -37,8 +37,8 @@ impl Slots {
 
     /// Asks memory for what [`Self::take_near`] reads first.
     #[inline]
-    pub(crate) fn fetch(&self, at: usize) {
-        fetch(&self.words, at / 64);
+    pub(crate) fn prefetch(&self, at: usize) {
+        prefetch(&self.words, at / 64);
     }
 
     /// Takes a free slot near `at`; or, when one in eight is free, any. `None`: make a new one.

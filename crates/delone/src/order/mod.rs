@@ -1,12 +1,11 @@
 //! Permutations of points: the orders in which algorithms visit them. Knows coordinates, no mesh.
 
-pub(crate) mod brio;
-pub(crate) mod curve;
-mod hilbert;
 pub(crate) mod morton;
+pub(crate) mod plane;
 pub(crate) mod quantize;
 mod radix;
 pub(crate) mod random;
+pub(crate) mod space;
 
 /// In which order centres are inserted, and instances after them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,10 +16,11 @@ use std::ops::Range;
 
 use bytemuck::Zeroable;
 
-use super::quantize::{Bounds, Quantizer};
+use super::quantize::Quantizer;
 use super::radix;
 use crate::memory::zeroed;
 use crate::parallel;
+use crate::points::{Bounds, survey};
 
 /// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
 const SHORT_RUN: usize = 32;
@@ -112,7 +113,7 @@ impl Cut {
 }
 
 /// Sorts points within their bounds, in parallel if they are many. All must be finite, and fewer than 2^32.
-pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds) -> Sorted {
+pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds<2>) -> Sorted {
     let n = points.len();
     let mut sorted = Sorted {
         points: zeroed(n),
@@ -168,7 +169,7 @@ impl<'a> Sorter<'a> {
     fn key_box(
         &mut self,
         points: &[[f64; 2]],
-        bounds: &Bounds,
+        bounds: &Bounds<2>,
         index_of: impl Fn(usize) -> u32 + Sync,
         to: Range<usize>,
     ) -> u32 {
@@ -297,7 +298,7 @@ impl<'a> Sorter<'a> {
             run.clone().skip(1).for_each(|at| self.remove(at, run.start));
             return;
         }
-        let depth = self.key_box(&points, &Bounds::of(&points), |i| indices[i], run.clone());
+        let depth = self.key_box(&points, &survey(&points).0, |i| indices[i], run.clone());
         drop((points, indices));
         self.runs(run, depth);
     }
@@ -379,11 +380,11 @@ fn spread(x: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bounds, Cut, Sorted};
+    use super::{Cut, Sorted, survey};
     use delone_oracle::generate::Kind;
 
     fn sort(points: &[[f64; 2]]) -> Sorted {
-        super::sort(points, &Bounds::of(points))
+        super::sort(points, &survey(points).0)
     }
 
     #[test]

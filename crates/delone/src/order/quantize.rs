@@ -94,44 +94,6 @@ pub(crate) fn scaled<const D: usize>(
     (0..count).all(same).then_some((scaled, scale))
 }
 
-/// What one pass over points tells.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Bounds {
-    /// The least corner of the smallest box around them.
-    pub(crate) low: [f64; 2],
-    /// The greatest corner.
-    pub(crate) high: [f64; 2],
-    /// No coordinate is NaN or infinite.
-    pub(crate) are_finite: bool,
-}
-
-impl Bounds {
-    /// In parallel if they are many.
-    pub(crate) fn of(points: &[[f64; 2]]) -> Self {
-        let parts = parallel::parts(points.len());
-        if parts == 1 {
-            return Self::of_part(points);
-        }
-        let chunks = points.chunks(points.len().div_ceil(parts)).collect();
-        let found = parallel::map(chunks, Self::of_part);
-        let corners: Vec<_> = found.iter().flat_map(|part| [part.low, part.high]).collect();
-        let are_finite = found.iter().all(|part| part.are_finite);
-        Self { are_finite, ..Self::of_part(&corners) }
-    }
-
-    fn of_part(points: &[[f64; 2]]) -> Self {
-        let (mut low, mut high, mut are_finite) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], true);
-        for p in points {
-            for k in 0..2 {
-                low[k] = if p[k] < low[k] { p[k] } else { low[k] };
-                high[k] = if p[k] > high[k] { p[k] } else { high[k] };
-                are_finite &= p[k].is_finite();
-            }
-        }
-        Self { low, high, are_finite }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::Quantizer;

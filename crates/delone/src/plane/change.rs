@@ -4,17 +4,19 @@
 //! [`Delaunay2::compact`] gives new ones. What is inserted is laid out near its neighbours in memory; when the number of vertices has doubled, or hints have
 //! grown old, everything is laid out in memory as in the plane again, which costs O(log n) amortized.
 
-use super::insert::Spot;
+use super::Delaunay2;
+use super::layer::insert::Spot;
 use super::locate::Found;
 use super::locator::Locator;
-use super::{Delaunay2, Position2, finite};
-use crate::error::{Error, check_finite};
+use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, MAX_POINTS, Place, VertexId};
-use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
 use crate::locate::{Locate, Start, Strategy, Walk};
 use crate::mesh::Names;
-use crate::order::brio;
+use crate::order;
+use crate::points::check_finite;
+use crate::points::{Position2, finite};
+use crate::tally::Tally;
 
 /// Room of this many places a vertex, beyond which memory is given back.
 const SLACK: usize = 8;
@@ -45,23 +47,15 @@ impl Delaunay2 {
     /// d.insert([0.0, 1.0])?;
     /// d.remove(a)?;
     /// assert!(d.remove(a).is_err()); // gone, and its id never comes back
-    /// assert_eq!(d.hull().next().map(|v| v == b), Some(true));
+    /// assert_eq!(d.hull_vertices().next().map(|v| v == b), Some(true));
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn insert<P: Position2>(&mut self, point: P) -> Result<Inserted, Error> {
-        self.insert_counted(point, &mut ())
+        self.insert_finite(finite(point.xy())?, &mut ())
     }
 
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::insert`].
-    pub fn insert_counted<P: Position2, T: Tally>(
-        &mut self,
-        point: P,
-        tally: &mut T,
-    ) -> Result<Inserted, Error> {
-        let q = finite(&point)?;
+    /// Inserts a point that is finite, and tells each step.
+    pub(super) fn insert_finite<T: Tally>(&mut self, q: [f64; 2], tally: &mut T) -> Result<Inserted, Error> {
         let found = self.spot(q, tally);
         if let Spot::Vertex(place) = found.spot {
             return Ok(Inserted::Existing(self.base.mesh.name(place)));
@@ -82,14 +76,11 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::InsertOnly`] with [`Locate::History`].
     pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
-        self.remove_counted(v, &mut ())
+        self.remove_vertex(v, &mut ())
     }
 
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::remove`].
-    pub fn remove_counted<T: Tally>(&mut self, v: VertexId, tally: &mut T) -> Result<(), Error> {
+    /// Removes a vertex, and tells each step.
+    pub(super) fn remove_vertex<T: Tally>(&mut self, v: VertexId, tally: &mut T) -> Result<(), Error> {
         let place = self.removable(v)?;
         self.names().release(v);
         self.displace(place, tally);
@@ -107,7 +98,7 @@ impl Delaunay2 {
     /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
     /// Nothing has changed then.
     pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
-        let q = finite(&point)?;
+        let q = finite(point.xy())?;
         let old = self.removable(v)?;
         let Found { spot, steps, start } = self.spot(q, &mut ());
         match spot {
@@ -167,7 +158,7 @@ impl Delaunay2 {
     pub fn extend<P: Position2>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
         check_finite(points.iter().copied())?;
-        let order = brio::order(&points, seed);
+        let order = order::plane::insertion_order(&points, seed);
         self.extend_in_order(&points, &order, false, &mut ())
     }
 

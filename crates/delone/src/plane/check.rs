@@ -9,15 +9,15 @@ use delone_predicates::{in_circle, lexicographic, orient2d, strictly_between};
 
 use super::Delaunay2;
 use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
-use crate::mesh::{self, Dimension, Mesh};
+use crate::mesh::{Dimension, Mesh2, MeshFlaw2};
 
 /// What is wrong with a triangulation, one sentence each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Flaw {
+pub enum Flaw2 {
     /// It is no closed surface.
     #[error(transparent)]
-    Mesh(#[from] mesh::check::Flaw),
+    Mesh(#[from] MeshFlaw2),
     /// A finite triangle is clockwise or flat.
     #[error("triangle {0:?} is not counter-clockwise")]
     Orientation(TriangleId),
@@ -47,7 +47,7 @@ pub enum Flaw {
 impl Delaunay2 {
     /// Proves that this is the canonical Delaunay triangulation of all its points, or returns the first flaw
     /// found. O(n), and independent of how it was built and changed.
-    pub fn check(&self) -> Result<(), Flaw> {
+    pub fn check(&self) -> Result<(), Flaw2> {
         self.base.mesh.check()?;
         match &self.named {
             None => check_points(&self.base.points, &self.base.mesh, &self.duplicates)?,
@@ -58,23 +58,23 @@ impl Delaunay2 {
 }
 
 /// Names and places are each other's, with the same coordinates.
-fn check_names(named: &[[f64; 2]], points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+fn check_names(named: &[[f64; 2]], points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
     let kept = |v: VertexId| {
         mesh.place(v).is_some_and(|place| {
             mesh.is_vertex(place) && mesh.name(place) == v && points[place.index()] == named[v.index()]
         })
     };
     if let Some(v) = mesh.vertices().find(|&v| !kept(v)) {
-        return Err(Flaw::Name(v));
+        return Err(Flaw2::Name(v));
     }
     match mesh.inhabited().find(|&place| mesh.place(mesh.name(place)) != Some(place)) {
-        Some(place) => Err(Flaw::Name(mesh.name(place))),
+        Some(place) => Err(Flaw2::Name(mesh.name(place))),
         None => Ok(()),
     }
 }
 
 /// Every point is a vertex, or the later duplicate of an equal vertex.
-fn check_points(points: &[[f64; 2]], mesh: &Mesh, duplicates: &[Duplicate]) -> Result<(), Flaw> {
+fn check_points(points: &[[f64; 2]], mesh: &Mesh2, duplicates: &[Duplicate]) -> Result<(), Flaw2> {
     let mut represented: Vec<bool> = (0..points.len()).map(|i| mesh.contains(VertexId::new(i))).collect();
     for &duplicate in duplicates {
         let Duplicate { point, vertex } = duplicate;
@@ -84,14 +84,14 @@ fn check_points(points: &[[f64; 2]], mesh: &Mesh, duplicates: &[Duplicate]) -> R
             && points[vertex.index()] == points[point]
             && !represented[point];
         if !right {
-            return Err(Flaw::Duplicate(duplicate));
+            return Err(Flaw2::Duplicate(duplicate));
         }
         represented[point] = true;
     }
-    represented.iter().position(|there| !there).map_or(Ok(()), |index| Err(Flaw::Missing(index)))
+    represented.iter().position(|there| !there).map_or(Ok(()), |index| Err(Flaw2::Missing(index)))
 }
 
-fn check_geometry(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+fn check_geometry(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
     match mesh.dimension() {
         Dimension::Empty | Dimension::Point => Ok(()),
         Dimension::Line => check_line(points, mesh),
@@ -103,19 +103,19 @@ fn check_geometry(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
 }
 
 /// All vertices, in lexicographic order and on one line.
-fn check_line(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+fn check_line(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
     let chain: Vec<_> = mesh.border().collect();
     let p = |v: Place| points[v.index()];
     for w in chain.windows(3) {
         if !orient2d(p(w[0]), p(w[1]), p(w[2])).is_zero() || !strictly_between(p(w[0]), p(w[2]), p(w[1])) {
-            return Err(Flaw::Line(mesh.name(w[1])));
+            return Err(Flaw2::Line(mesh.name(w[1])));
         }
     }
-    if chain.len() == mesh.vertex_count() { Ok(()) } else { Err(Flaw::Line(mesh.name(chain[0]))) }
+    if chain.len() == mesh.vertex_count() { Ok(()) } else { Err(Flaw2::Line(mesh.name(chain[0]))) }
 }
 
 /// Convex at every vertex, and once around: the hull has one lexicographic minimum.
-pub(super) fn check_hull(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+pub(super) fn check_hull(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
     let hull: Vec<_> = mesh.border().collect();
     let n = hull.len();
     let mut minima = 0;
@@ -123,23 +123,23 @@ pub(super) fn check_hull(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
         let [a, b, c] = [0, 1, 2].map(|k| points[hull[(i + k) % n].index()]);
         let turn = orient2d(a, b, c);
         if turn.is_negative() || (turn.is_zero() && !strictly_between(a, c, b)) {
-            return Err(Flaw::Hull(mesh.name(hull[(i + 1) % n])));
+            return Err(Flaw2::Hull(mesh.name(hull[(i + 1) % n])));
         }
         minima += usize::from(lexicographic(b, a).is_lt() && lexicographic(b, c).is_lt());
     }
-    if minima == 1 { Ok(()) } else { Err(Flaw::Winding(minima)) }
+    if minima == 1 { Ok(()) } else { Err(Flaw2::Winding(minima)) }
 }
 
-fn check_triangles(points: &[[f64; 2]], mesh: &Mesh) -> Result<(), Flaw> {
+fn check_triangles(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
     for t in mesh.triangles() {
         let [a, b, c] = mesh.places(t).map(|v| points[v.index()]);
         if !orient2d(a, b, c).is_positive() {
-            return Err(Flaw::Orientation(t));
+            return Err(Flaw2::Orientation(t));
         }
         for e in [0, 1, 2].map(|k| t.edge(k)) {
             let across = mesh.tip(mesh.twin(e));
             if !across.is_ghost() && in_circle(a, b, c, points[across.index()]).is_positive() {
-                return Err(Flaw::Delaunay(e));
+                return Err(Flaw2::Delaunay(e));
             }
         }
     }

@@ -25,8 +25,8 @@ use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::conflict_lists::Contains;
 use crate::locate::history::Observer;
-use crate::locate::tally::Tally;
-use crate::mesh::HalfEdge;
+use crate::mesh::triangles::HalfEdge;
+use crate::tally::Tally;
 
 /// The number of dummies; the place of point i is i + DUMMIES.
 pub(super) const DUMMIES: usize = 3;

@@ -16,15 +16,16 @@ use std::collections::BTreeSet;
 
 use delone_predicates::{angle, circumcentre, compare_distances, lexicographic};
 
-use super::insert::Spot;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, VoronoiEdge, finite};
+use super::layer::insert::Spot;
+use super::{Delaunay2, VoronoiEdge2};
 use crate::error::Error;
-use crate::hull::planar;
+use crate::hull::plane;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::locate::Start;
-use crate::mesh::Mesh;
+use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
+use crate::points::{Position2, finite};
 
 /// Corners of a level for each one of the next coarser.
 const RATIO: usize = 8;
@@ -56,7 +57,7 @@ pub struct Furthest2 {
 struct Level {
     points: Vec<[f64; 2]>,
     /// Over the indices of the points; fewer than three have no triangles.
-    mesh: Mesh,
+    mesh: Mesh2,
     /// For each point its index in the next finer level.
     finer: Vec<u32>,
 }
@@ -77,9 +78,9 @@ impl Delaunay2 {
     ///
     /// O(h log h) for h vertices on the hull.
     pub fn furthest(&self) -> Furthest2 {
-        let hull: Vec<VertexId> = self.hull().collect();
+        let hull: Vec<VertexId> = self.hull_vertices().collect();
         let points: Vec<[f64; 2]> = hull.iter().map(|&v| self.point(v)).collect();
-        let corners: Vec<VertexId> = planar::corners(&points).into_iter().map(|i| hull[i]).collect();
+        let corners: Vec<VertexId> = plane::corners(&points).into_iter().map(|i| hull[i]).collect();
         let points: Vec<[f64; 2]> = corners.iter().map(|&v| self.point(v)).collect();
         let mut levels = vec![Level::new(points, Vec::new())];
         let mut random = SplitMix(0);
@@ -100,7 +101,7 @@ impl Level {
     fn new(points: Vec<[f64; 2]>, finer: Vec<u32>) -> Self {
         let n = points.len();
         if n < 3 {
-            return Self { points, mesh: Mesh::empty(n), finer };
+            return Self { points, mesh: Mesh2::empty(n), finer };
         }
         let mut order: Vec<usize> = (0..n).collect();
         SplitMix(n as u64).shuffle(&mut order);
@@ -111,7 +112,7 @@ impl Level {
             next[previous[i]] = next[i];
             previous[next[i]] = previous[i];
         }
-        let mut layer = Layer::new(Mesh::empty(n), points);
+        let mut layer = Layer::new(Mesh2::empty(n), points);
         for &i in &order[..3] {
             let (spot, _) = layer.spot(Start::Anywhere, layer.points[i], &mut ());
             debug_assert!(!matches!(spot, Spot::Vertex(_)), "corners are distinct");
@@ -164,7 +165,7 @@ impl Furthest2 {
     }
 
     /// The edges of the furthest-site Voronoi diagram, with the two sites that are furthest from each.
-    pub fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], VoronoiEdge)> + '_ {
+    pub fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], VoronoiEdge2)> + '_ {
         let Level { mesh, points, .. } = &self.levels[0];
         let centre = |e: EdgeId| {
             let corners = mesh.places(e.triangle());
@@ -191,7 +192,7 @@ impl Furthest2 {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn furthest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
-        let q = finite(&q)?;
+        let q = finite(q.xy())?;
         if self.corners.is_empty() {
             return Ok(None);
         }
@@ -264,15 +265,15 @@ impl Furthest2 {
 }
 
 /// The furthest-site Voronoi edge between two sites: rays go away from the hull edge, across the hull.
-fn bisector([a, b]: [[f64; 2]; 2], left: Option<[f64; 2]>, right: Option<[f64; 2]>) -> VoronoiEdge {
+fn bisector([a, b]: [[f64; 2]; 2], left: Option<[f64; 2]>, right: Option<[f64; 2]>) -> VoronoiEdge2 {
     let to_left = [a[1] / 2.0 - b[1] / 2.0, b[0] / 2.0 - a[0] / 2.0];
     match (left, right) {
-        (Some(from), Some(to)) => VoronoiEdge::Segment([from, to]),
-        (Some(from), None) => VoronoiEdge::Ray { from, direction: to_left },
-        (None, Some(from)) => VoronoiEdge::Ray { from, direction: to_left.map(|x| 0.0 - x) },
+        (Some(from), Some(to)) => VoronoiEdge2::Segment([from, to]),
+        (Some(from), None) => VoronoiEdge2::Ray { from, direction: to_left },
+        (None, Some(from)) => VoronoiEdge2::Ray { from, direction: to_left.map(|x| 0.0 - x) },
         (None, None) => {
             let through = [0, 1].map(|axis| a[axis] / 2.0 + b[axis] / 2.0);
-            VoronoiEdge::Line { through, direction: to_left }
+            VoronoiEdge2::Line { through, direction: to_left }
         }
     }
 }

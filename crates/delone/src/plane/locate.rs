@@ -2,18 +2,19 @@
 
 use delone_predicates::orient2d;
 
-use super::insert::Spot;
+use super::Delaunay2;
+use super::layer::insert::Spot;
 use super::locator::Locator;
-use super::{Delaunay2, Position2, finite};
 use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId, VertexId};
-use crate::locate::tally::Tally;
 use crate::locate::{Locate, Start, Strategy, Walk};
 use crate::mesh::Dimension;
+use crate::points::{Position2, finite};
+use crate::tally::Tally;
 
 /// Where a point falls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Location {
+pub enum Location2 {
     /// Strictly inside this triangle.
     Triangle(TriangleId),
     /// Strictly inside this edge, in one of its two directions.
@@ -46,25 +47,22 @@ impl Delaunay2 {
     /// [`Error::Coordinate`] for NaN and infinities.
     ///
     /// ```
-    /// use delone::{Delaunay2, Location};
+    /// use delone::{Delaunay2, Location2};
     ///
     /// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])?;
-    /// assert!(matches!(d.locate([1.0, 1.0])?, Location::Triangle(_)));
-    /// assert!(matches!(d.locate([2.0, 2.0])?, Location::Edge(_)));
-    /// assert!(matches!(d.locate([3.0, 2.0])?, Location::Outside(_)));
-    /// assert!(matches!(d.locate([4.0, 0.0])?, Location::Vertex(v) if v.index() == 1));
+    /// assert!(matches!(d.locate([1.0, 1.0])?, Location2::Triangle(_)));
+    /// assert!(matches!(d.locate([2.0, 2.0])?, Location2::Edge(_)));
+    /// assert!(matches!(d.locate([3.0, 2.0])?, Location2::Outside(_)));
+    /// assert!(matches!(d.locate([4.0, 0.0])?, Location2::Vertex(v) if v.index() == 1));
     /// # Ok::<(), delone::Error>(())
     /// ```
-    pub fn locate<P: Position2>(&self, q: P) -> Result<Location, Error> {
-        self.locate_counted(q, &mut ())
+    pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
+        self.locate_observed(q.xy(), &mut ())
     }
 
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::locate`].
-    pub fn locate_counted<P: Position2, T: Tally>(&self, q: P, tally: &mut T) -> Result<Location, Error> {
-        let q = finite(&q)?;
+    /// Finds where a point falls, and tells each step.
+    pub(super) fn locate_observed<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Result<Location2, Error> {
+        let q = finite(q)?;
         Ok(self.classify(self.spot(q, tally).spot, q))
     }
 
@@ -78,8 +76,8 @@ impl Delaunay2 {
         walk: Walk,
         q: P,
         tally: &mut T,
-    ) -> Result<Location, Error> {
-        let q = finite(&q)?;
+    ) -> Result<Location2, Error> {
+        let q = finite(q.xy())?;
         let known = self.base.mesh.is_triangle(start);
         let start = if known { Start::At(start.edge(0), walk) } else { Start::Anywhere };
         Ok(self.classify(self.base.spot(start, q, tally).0, q))
@@ -122,24 +120,24 @@ impl Delaunay2 {
         Found { spot, steps, start }
     }
 
-    fn classify(&self, spot: Spot, q: [f64; 2]) -> Location {
+    fn classify(&self, spot: Spot, q: [f64; 2]) -> Location2 {
         let mesh = &self.base.mesh;
         match spot {
-            Spot::Vertex(v) => Location::Vertex(mesh.name(v)),
-            Spot::Segment(e) => Location::Edge(e),
+            Spot::Vertex(v) => Location2::Vertex(mesh.name(v)),
+            Spot::Segment(e) => Location2::Edge(e),
             Spot::Triangle(triangle) => {
                 if let Some(k) = mesh.places(triangle).iter().position(|v| v.is_ghost()) {
-                    return Location::Outside(mesh.twin(triangle.edge(k).next()));
+                    return Location2::Outside(mesh.twin(triangle.edge(k).next()));
                 }
                 let through = |e: &EdgeId| {
                     let [a, b] = [mesh.tail(*e), mesh.head(*e)].map(|v| self.base.points[v.index()]);
                     orient2d(a, b, q).is_zero()
                 };
                 let edges = [0, 1, 2].map(|k| triangle.edge(k));
-                edges.into_iter().find(through).map_or(Location::Triangle(triangle), Location::Edge)
+                edges.into_iter().find(through).map_or(Location2::Triangle(triangle), Location2::Edge)
             }
             Spot::Empty | Spot::BesidePoint | Spot::End(_) | Spot::BesideLine(_) => {
-                Location::LowerDimensional(mesh.dimension())
+                Location2::LowerDimensional(mesh.dimension())
             }
         }
     }

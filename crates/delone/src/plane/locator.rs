@@ -4,16 +4,16 @@ use std::sync::OnceLock;
 
 use super::Delaunay2;
 use super::flips::{DUMMIES, Flips};
-use super::insert::Spot;
 use super::layer::Layer;
+use super::layer::insert::Spot;
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::from_last::FromLast;
 use crate::locate::hierarchy::Levels;
 use crate::locate::history::History;
-use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
-use crate::locate::walk::FromLast;
-use crate::locate::{Ground, Hierarchy, JumpAndWalk, Locate, Start, Strategy, Walk};
+use crate::locate::{Footprint, Ground, Hierarchy, JumpAndWalk, Locate, Start, Strategy, Walk};
 use crate::order::random::SplitMix;
+use crate::tally::Tally;
 
 /// The structure behind a [`Locate`].
 #[derive(Clone, Debug)]
@@ -162,20 +162,6 @@ impl Versions {
     }
 }
 
-/// What a strategy of location keeps.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Footprint {
-    /// Bytes of the triangulation itself: topology, coordinates, names.
-    pub base: usize,
-    /// Bytes of the strategy's own structure.
-    pub strategy: usize,
-    /// Vertices of each level of a hierarchy above the triangulation, the largest first.
-    pub levels: Vec<usize>,
-    /// Triangles of a history, past and present, those at the dummies included.
-    pub versions: usize,
-}
-
 impl Delaunay2 {
     /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
     pub fn footprint(&self) -> Footprint {
@@ -313,7 +299,7 @@ mod tests {
             let d = with(20_000, locate);
             let mut work = Work::default();
             for q in Kind::Uniform.points(300, 7) {
-                d.locate_counted(q, &mut work).expect("finite");
+                d.locate_observed(q, &mut work).expect("finite");
             }
             work.visited / 300
         };

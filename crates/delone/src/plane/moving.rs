@@ -15,15 +15,17 @@
 
 use delone_predicates::{Filter, orient2d};
 
-use super::insert::Spot;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, check};
-use crate::error::{Error, check_finite};
-use crate::fetch::fetch;
-use crate::ids::{EdgeId, Place, TriangleId, VertexId};
-use crate::locate::tally::Tally;
+use super::layer::insert::Spot;
+use super::{Delaunay2, check};
+use crate::error::Error;
+use crate::ids::{EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
-use crate::mesh::Mesh;
+use crate::mesh::Mesh2;
+use crate::points::Position2;
+use crate::points::{check_count, check_finite};
+use crate::prefetch::prefetch;
+use crate::tally::Tally;
 
 /// One vertex in so many may be removed before building anew is faster.
 const REMOVED: usize = 12;
@@ -37,7 +39,7 @@ const BLOCK: usize = 16;
 
 /// How a step was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub enum Step2 {
     /// By repair.
     Repaired {
         /// Edges flipped.
@@ -64,7 +66,7 @@ struct Plan {
 /// ```
 /// use delone::Moving2;
 ///
-/// let mut moving = Moving2::new(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 5.0]])?;
+/// let mut moving = Moving2::from_points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [4.0, 5.0]])?;
 /// moving.step(&[[0.1, 0.0], [4.0, 0.1], [0.0, 3.9], [4.1, 5.0]])?;
 /// assert_eq!(moving.triangulation().triangles().count(), 2);
 /// assert!(moving.triangulation().check().is_ok());
@@ -94,8 +96,8 @@ impl Moving2 {
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
-    pub fn new<P: Position2>(positions: &[P]) -> Result<Self, Error> {
-        super::check_count(positions.len())?;
+    pub fn from_points<P: Position2>(positions: &[P]) -> Result<Self, Error> {
+        check_count(positions.len(), MAX_POINTS)?;
         let positions: Vec<[f64; 2]> = positions.iter().map(Position2::xy).collect();
         check_finite(positions.iter().copied())?;
         let mut moving = Self::default();
@@ -113,20 +115,20 @@ impl Moving2 {
     /// # Errors
     /// [`Error::Length`] if there are more or fewer positions than points; [`Error::NotFinite`] names the first NaN or
     /// infinite coordinate. Nothing has changed then.
-    pub fn step<P: Position2>(&mut self, positions: &[P]) -> Result<Step, Error> {
-        self.step_counted(positions, &mut ())
+    pub fn step<P: Position2>(&mut self, positions: &[P]) -> Result<Step2, Error> {
+        self.step_observed(positions, &mut ())
     }
 
-    /// The same, and counts: as visited the triangles that are looked at beyond one pass over all, and as created and
+    /// Does what [`Self::step`] does, and tells: as visited the triangles that are looked at beyond one pass over all, and as created and
     /// destroyed those of the vertices that are removed and inserted again.
     ///
     /// # Errors
     /// As [`Self::step`].
-    pub fn step_counted<P: Position2, T: Tally>(
+    pub fn step_observed<P: Position2, T: Tally>(
         &mut self,
         positions: &[P],
         tally: &mut T,
-    ) -> Result<Step, Error> {
+    ) -> Result<Step2, Error> {
         let expected = self.current.points().len();
         if positions.len() != expected {
             return Err(Error::Length { expected, found: positions.len() });
@@ -144,11 +146,11 @@ impl Moving2 {
             return Ok(step);
         }
         self.current.rebuild(given);
-        Ok(Step::Rebuilt)
+        Ok(Step2::Rebuilt)
     }
 
     /// Repairs the triangulation, or says that it cannot.
-    fn repair<T: Tally>(&mut self, positions: &[[f64; 2]], tally: &mut T) -> Option<Step> {
+    fn repair<T: Tally>(&mut self, positions: &[[f64; 2]], tally: &mut T) -> Option<Step2> {
         self.removed.clear();
         if !self.current.base.spanned || !self.current.duplicates.is_empty() {
             return None;
@@ -175,7 +177,7 @@ impl Moving2 {
                 }
             }
         }
-        Some(Step::Repaired { flips, reinserted: self.removed.len() })
+        Some(Step2::Repaired { flips, reinserted: self.removed.len() })
     }
 
     /// Puts positions in the order of places; returns the filter for their box.
@@ -185,7 +187,7 @@ impl Moving2 {
         self.goals.clear();
         self.goals.extend((0..layer.points.len()).map(|place| {
             if place + AHEAD < layer.points.len() {
-                fetch(positions, name(place + AHEAD).index());
+                prefetch(positions, name(place + AHEAD).index());
             }
             // A free place goes nowhere.
             positions.get(name(place).index()).copied().unwrap_or(positions[0])
@@ -202,7 +204,7 @@ impl Moving2 {
         let Self { current: Delaunay2 { base: layer, .. }, goals, doubtful, plans, planned, removed, .. } =
             self;
         let most = layer.mesh.vertex_count / REMOVED + 8;
-        let turns_over = |mesh: &Mesh, t: TriangleId| {
+        let turns_over = |mesh: &Mesh2, t: TriangleId| {
             let [a, b, c] = mesh.places(t);
             let finite = !a.is_ghost() && !b.is_ghost() && !c.is_ghost();
             finite && !filter.orient2d(goals[a.index()], goals[b.index()], goals[c.index()]).is_positive()
@@ -282,7 +284,7 @@ fn nearest_neighbor(layer: &Layer, v: Place) -> Option<Place> {
 
 impl Plan {
     /// An edge of a triangle after whose flip both triangles are counter-clockwise.
-    fn find(mesh: &Mesh, goals: &[[f64; 2]], filter: &Filter, t: TriangleId) -> Option<Self> {
+    fn find(mesh: &Mesh2, goals: &[[f64; 2]], filter: &Filter, t: TriangleId) -> Option<Self> {
         let turns_left = |p: Place, q: Place, r: Place| {
             filter.orient2d(goals[p.index()], goals[q.index()], goals[r.index()]).is_positive()
         };
@@ -298,14 +300,14 @@ impl Plan {
     }
 
     /// Whether its triangles are those that it was made for.
-    fn is_good(&self, mesh: &Mesh) -> bool {
+    fn is_good(&self, mesh: &Mesh2) -> bool {
         mesh.is_triangle(self.edge.triangle()) && corners_around(mesh, self.edge) == self.corners
     }
 }
 
 /// The ends of an edge, and the apexes on its left and on its right.
 #[inline]
-fn corners_around(mesh: &Mesh, e: EdgeId) -> [Place; 4] {
+fn corners_around(mesh: &Mesh2, e: EdgeId) -> [Place; 4] {
     [mesh.tail(e), mesh.head(e), mesh.tip(e), mesh.tip(mesh.twin(e))]
 }
 
@@ -357,20 +359,20 @@ fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Op
 
 /// Asks for what lies elsewhere, across a cut of the order, and will be looked at some triangles later.
 #[inline]
-fn ask_ahead(mesh: &Mesh, points: &[[f64; 2]], t: usize) {
+fn ask_ahead(mesh: &Mesh2, points: &[[f64; 2]], t: usize) {
     for record in mesh.edges.get(4 * (t + 2 * AHEAD)..).into_iter().flatten().take(3) {
-        fetch(&mesh.edges, record.twin.index());
+        prefetch(&mesh.edges, record.twin.index());
     }
     for record in mesh.edges.get(4 * (t + AHEAD)..).into_iter().flatten().take(3) {
         if let Some(beyond) = mesh.edges.get(record.twin.previous().index()) {
-            fetch(points, beyond.origin.index());
+            prefetch(points, beyond.origin.index());
         }
     }
 }
 
 /// Whether the triangle of an edge is in conflict with the apex on the other side.
 #[inline]
-fn is_to_flip(mesh: &Mesh, points: &[[f64; 2]], filter: &Filter, e: EdgeId) -> bool {
+fn is_to_flip(mesh: &Mesh2, points: &[[f64; 2]], filter: &Filter, e: EdgeId) -> bool {
     let [a, b, c, d] = corners_around(mesh, e);
     if a.is_ghost() || b.is_ghost() || c.is_ghost() || d.is_ghost() {
         return is_hull_to_flip([a, b, c, d], points);
@@ -391,12 +393,12 @@ fn is_hull_to_flip([a, b, c, d]: [Place; 4], points: &[[f64; 2]]) -> bool {
 
 /// Replaces an edge by the one between the two apexes. The sides of the quadrilateral stay with `e` and its twin:
 /// `e.next()`, `e.previous()` and those of the twin.
-fn flip(mesh: &mut Mesh, e: EdgeId) {
+fn flip(mesh: &mut Mesh2, e: EdgeId) {
     let f = mesh.twin(e);
     let [a, b, c, d] = corners_around(mesh, e);
     let outside = [e.next(), e.previous(), f.next(), f.previous()].map(|side| mesh.twin(side));
     // (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b).
-    let set = |mesh: &mut Mesh, e: EdgeId, corners: [Place; 3]| {
+    let set = |mesh: &mut Mesh2, e: EdgeId, corners: [Place; 3]| {
         for (side, corner) in [e, e.next(), e.previous()].into_iter().zip(corners) {
             mesh.edges[side.index()].origin = corner;
         }

@@ -5,19 +5,20 @@
 //! Cost: location, and O(1) expected for the nearest, O(k log k) for k of them, and the size of the answer for
 //! circles (up to logarithmic factors, on evenly spread points). Where the nearest vertex, or one on the way to it, has
 //! many neighbours all of them are looked at: O(d) for degree d. Where that hurts,
-//! [`NearestSites`](super::NearestSites) answers in O(log^2 n) expected for any set.
+//! [`NearestSites2`](super::NearestSites2) answers in O(log^2 n) expected for any set.
 
 use std::cmp::Ordering;
 
 use delone_predicates::{compare_distances, compare_with_radius, lexicographic};
 
-use super::insert::Spot;
+use super::Delaunay2;
 use super::layer::Layer;
-use super::{Delaunay2, Position2, finite};
+use super::layer::insert::Spot;
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::{self, Metric};
-use crate::locate::tally::Tally;
+use crate::points::{Position2, finite};
+use crate::tally::Tally;
 
 /// By distance, then lexicographically.
 pub(super) fn nearer(q: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering {
@@ -55,20 +56,7 @@ impl Delaunay2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
-        self.nearest_counted(q, &mut ())
-    }
-
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::nearest`].
-    pub fn nearest_counted<P: Position2, T: Tally>(
-        &self,
-        q: P,
-        tally: &mut T,
-    ) -> Result<Option<VertexId>, Error> {
-        let q = finite(&q)?;
-        Ok(self.nearest_place(q, tally).map(|v| self.base.mesh.name(v)))
+        Ok(self.nearest_place(finite(q.xy())?, &mut ()).map(|v| self.base.mesh.name(v)))
     }
 
     /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if
@@ -91,7 +79,7 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn k_nearest<P: Position2>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
-        let q = finite(&q)?;
+        let q = finite(q.xy())?;
         let found = nearest::k_nearest(&self.base, self.nearest_place(q, &mut ()), q, k);
         Ok(found.into_iter().map(|v| self.base.mesh.name(v)).collect())
     }
@@ -101,7 +89,7 @@ impl Delaunay2 {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
     pub fn within<P: Position2>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
-        let q = finite(&q)?;
+        let q = finite(q.xy())?;
         if !radius.is_finite() {
             return Err(Error::Parameter { name: "radius", value: radius, range: "finite" });
         }
@@ -109,7 +97,7 @@ impl Delaunay2 {
     }
 
     /// The place of the nearest vertex: down along edges from the triangle that contains the point.
-    fn nearest_place<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Option<Place> {
+    pub(super) fn nearest_place<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Option<Place> {
         let mesh = &self.base.mesh;
         let point = |v: Place| self.base.points[v.index()];
         let better = |a: Place, b: Place| if nearer(q, point(b), point(a)).is_lt() { b } else { a };

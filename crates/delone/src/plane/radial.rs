@@ -18,13 +18,15 @@ use delone_predicates::{Sign, angle, centre_direction, centre_side, lexicographi
 
 use super::layer::Layer;
 use super::nearest::nearer;
-use super::{Position2, finite};
-use crate::error::{Error, check_finite};
-use crate::ids::{EdgeId, Place};
-use crate::locate::tally::Tally;
+
+use crate::error::Error;
+use crate::ids::{EdgeId, MAX_POINTS, Place};
 use crate::locate::{Start, Walk};
-use crate::mesh::Mesh;
+use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
+use crate::points::{Position2, finite};
+use crate::points::{check_count, check_finite};
+use crate::tally::Tally;
 
 /// Not destroyed; no triangle.
 const NONE: u32 = u32::MAX;
@@ -39,15 +41,15 @@ const BEFORE: usize = 3;
 /// A structure for nearest-site queries on a fixed set.
 ///
 /// ```
-/// use delone::NearestSites;
+/// use delone::NearestSites2;
 ///
-/// let sites = NearestSites::build(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]], 1)?;
+/// let sites = NearestSites2::from_points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]], 1)?;
 /// assert_eq!(sites.nearest([3.0, 1.0])?, Some(1));
 /// assert_eq!(sites.nearest([2.0, 2.0])?, Some(0)); // all three are as near: the smallest
 /// # Ok::<(), delone::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct NearestSites {
+pub struct NearestSites2 {
     /// The Delaunay triangulation in the end.
     layer: Layer,
     /// For each site its plane.
@@ -72,13 +74,13 @@ struct Plane {
     upper: u32,
 }
 
-impl NearestSites {
+impl NearestSites2 {
     /// Builds the structure; the seed decides the random order.
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
-    pub fn build<P: Position2>(points: &[P], seed: u64) -> Result<Self, Error> {
-        super::check_count(points.len())?;
+    pub fn from_points<P: Position2>(points: &[P], seed: u64) -> Result<Self, Error> {
+        check_count(points.len(), MAX_POINTS)?;
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
         check_finite(points.iter().copied())?;
         let mut order: Vec<usize> = (0..points.len()).collect();
@@ -97,7 +99,7 @@ impl NearestSites {
         SplitMix(seed).shuffle(&mut order);
         let off_line = |&k: &usize| !orient2d(points[order[0]], points[order[1]], points[order[k]]).is_zero();
         let third = (2..order.len()).find(off_line);
-        sites.layer = Layer::new(Mesh::empty(points.len()), points);
+        sites.layer = Layer::new(Mesh2::empty(points.len()), points);
         if let Some(third) = third {
             order.swap(2, third);
             sites.first = places(&order[..3]);
@@ -287,19 +289,19 @@ impl NearestSites {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<usize>, Error> {
-        self.nearest_counted(q, &mut ())
+        self.nearest_observed(q, &mut ())
     }
 
-    /// The same, and counts the planes visited, the comparisons of distances, and the rays asked.
+    /// Does what [`Self::nearest`] does, and tells the planes visited, the comparisons of distances, and the rays asked.
     ///
     /// # Errors
     /// As [`Self::nearest`].
-    pub fn nearest_counted<P: Position2, T: Tally>(
+    pub fn nearest_observed<P: Position2, T: Tally>(
         &self,
         q: P,
         tally: &mut T,
     ) -> Result<Option<usize>, Error> {
-        let q = finite(&q)?;
+        let q = finite(q.xy())?;
         let point = |v: Place| self.layer.points[v.index()];
         let better = |v: Place, w: Place| if nearer(q, point(w), point(v)).is_lt() { w } else { v };
         if self.neighbors.is_empty() {
@@ -350,7 +352,7 @@ mod tests {
     use delone_oracle::generate::Kind;
     use delone_predicates::compare_distances;
 
-    use super::NearestSites;
+    use super::NearestSites2;
 
     /// By the history alone: not one step along edges is needed at the end, but for ties.
     #[test]
@@ -358,7 +360,7 @@ mod tests {
         for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid, Kind::Circle, Kind::UnitCircle] {
             for n in [5, 40, 200] {
                 let points = kind.points(n, 1);
-                let sites = NearestSites::build(&points, 2).expect("finite");
+                let sites = NearestSites2::from_points(&points, 2).expect("finite");
                 let mut queries = kind.points(200, 9);
                 queries.extend(points.iter().copied());
                 queries.extend([[1e3, 1.0], [-1e3, 0.25], [0.5, 1e3], [0.25, -1e3]]);

@@ -16,11 +16,12 @@ use std::collections::BTreeSet;
 
 use delone_predicates::orient2d;
 
-use super::insert::Spot;
-use super::{Delaunay2, Position2, finite};
+use super::Delaunay2;
+use super::layer::insert::Spot;
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
-use crate::locate::tally::Tally;
+use crate::points::{Position2, finite};
+use crate::tally::Tally;
 
 /// So many points of the rectangle are looked for at most.
 const ROUNDS: usize = 64;
@@ -89,20 +90,20 @@ impl Delaunay2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn in_rectangle<P: Position2>(&self, low: P, high: P) -> Result<Vec<VertexId>, Error> {
-        self.in_rectangle_counted(low, high, &mut ())
+        self.in_rectangle_observed(low, high, &mut ())
     }
 
-    /// The same, and counts as visited the triangles of walks, those that meet the rectangle, and hull edges.
+    /// Does what [`Self::in_rectangle`] does, and tells as visited the triangles of walks, those that meet the rectangle, and hull edges.
     ///
     /// # Errors
     /// As [`Self::in_rectangle`].
-    pub fn in_rectangle_counted<P: Position2, T: Tally>(
+    pub fn in_rectangle_observed<P: Position2, T: Tally>(
         &self,
         low: P,
         high: P,
         tally: &mut T,
     ) -> Result<Vec<VertexId>, Error> {
-        let rectangle = Rectangle { low: finite(&low)?, high: finite(&high)? };
+        let rectangle = Rectangle { low: finite(low.xy())?, high: finite(high.xy())? };
         if (0..2).any(|k| rectangle.low[k] > rectangle.high[k]) {
             return Ok(Vec::new());
         }

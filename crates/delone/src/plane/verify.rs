@@ -6,33 +6,14 @@
 
 use delone_predicates::{Sign, in_circle, in_circle_with_ties, lexicographic, orient2d, strictly_between};
 
-use crate::error::{Error, check_finite};
-
-/// What is right about triangles that are a Delaunay triangulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Verdict {
-    /// Pairs of neighbours whose four corners are cocircular and divided by the other diagonal than the
-    /// canonical one. None of them: it is *the* canonical triangulation.
-    pub other_diagonals: usize,
-    /// Triangles given in clockwise order.
-    pub clockwise: usize,
-    /// Points that equal a corner without being one.
-    pub duplicates: usize,
-    /// Points on the border of the convex hull; none without triangles.
-    pub hull: usize,
-}
-
-impl Verdict {
-    /// Whether the triangles are those that Delone gives.
-    pub fn is_canonical(&self) -> bool {
-        self.other_diagonals == 0
-    }
-}
+use crate::error::Error;
+use crate::points::check_finite;
+use crate::verdict::Verdict;
 
 /// Why triangles are not a Delaunay triangulation of the points. Triangles and points are named by their index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Objection {
+pub enum Objection2 {
     /// The points themselves are not valid.
     #[error(transparent)]
     Points(#[from] Error),
@@ -79,38 +60,38 @@ pub enum Objection {
 }
 
 /// Judges `triangles`, corners as indices of `points`, in either orientation.
-pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection> {
+pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection2> {
     check_finite(points.iter().copied())?;
     let (triangles, clockwise) = oriented(points, triangles)?;
     let duplicates = check_coverage(points, &triangles)?;
     if triangles.is_empty() {
-        return Ok(Verdict { other_diagonals: 0, clockwise: 0, duplicates, hull: 0 });
+        return Ok(Verdict { other_ties: 0, negative: 0, duplicates, hull: 0 });
     }
     let sides = sides(&triangles);
-    let other_diagonals = check_pairs(points, &triangles, &sides)?;
+    let other_ties = check_pairs(points, &triangles, &sides)?;
     let hull = check_border(points, &triangles, &sides)?;
     let mut corners: Vec<usize> = triangles.as_flattened().to_vec();
     corners.sort_unstable();
     corners.dedup();
     // A disk: V - E + F = 1, where 2 E = 3 F + h.
     if 2 * corners.len() != triangles.len() + hull + 2 {
-        return Err(Objection::Cover);
+        return Err(Objection2::Cover);
     }
-    Ok(Verdict { other_diagonals, clockwise, duplicates, hull })
+    Ok(Verdict { other_ties, negative: clockwise, duplicates, hull })
 }
 
 /// The triangles counter-clockwise, and how many were not.
-fn oriented(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<(Vec<[usize; 3]>, usize), Objection> {
+fn oriented(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<(Vec<[usize; 3]>, usize), Objection2> {
     let mut clockwise = 0;
     let mut result = Vec::with_capacity(triangles.len());
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&corner) = corners.iter().find(|&&corner| corner >= points.len() as u64) {
-            return Err(Objection::Index { triangle, corner, points: points.len() });
+            return Err(Objection2::Index { triangle, corner, points: points.len() });
         }
         let [a, b, c] = corners.map(|corner| corner as usize);
         result.push(match orient2d(points[a], points[b], points[c]) {
             Sign::Positive => [a, b, c],
-            Sign::Zero => return Err(Objection::Flat(triangle)),
+            Sign::Zero => return Err(Objection2::Flat(triangle)),
             Sign::Negative => {
                 clockwise += 1;
                 [a, c, b]
@@ -122,13 +103,13 @@ fn oriented(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<(Vec<[usize; 
 
 /// Every point is a corner or equals one; without triangles all points must be collinear. Returns the number of
 /// points that are no corner.
-fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<usize, Objection> {
+fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<usize, Objection2> {
     if triangles.is_empty() {
         let mut distinct = points.iter().copied();
         let Some(a) = distinct.next() else { return Ok(0) };
         let Some(b) = distinct.find(|&p| p != a) else { return Ok(points.len() - 1) };
         return match points.iter().position(|&c| !orient2d(a, b, c).is_zero()) {
-            Some(off) => Err(Objection::Missing(off)),
+            Some(off) => Err(Objection2::Missing(off)),
             None => Ok(0),
         };
     }
@@ -144,7 +125,7 @@ fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<usize
         } else if corner == Some(points[i]) {
             duplicates += 1;
         } else {
-            return Err(Objection::Missing(i));
+            return Err(Objection2::Missing(i));
         }
     }
     Ok(duplicates)
@@ -174,26 +155,26 @@ fn edges(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
 
 /// Each edge has one triangle on each side at most, and neither contains the other's apex in its circle.
 /// Returns the number of ties that were broken in another way.
-fn check_pairs(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection> {
-    let mut other_diagonals = 0;
+fn check_pairs(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection2> {
+    let mut other_ties = 0;
     for edge in edges(sides) {
         if let Some(pair) = edge.windows(2).find(|pair| pair[0].2 == pair[1].2) {
-            return Err(Objection::Overlap(pair[0].3, pair[1].3));
+            return Err(Objection2::Overlap(pair[0].3, pair[1].3));
         }
         let &[(.., triangle, _), (.., neighbor, k)] = edge else { continue };
         let [a, b, c] = triangles[triangle].map(|corner| points[corner]);
         let point = triangles[neighbor][(k + 2) % 3];
         match in_circle_with_ties(a, b, c, points[point]) {
             Sign::Negative => {}
-            Sign::Positive => return Err(Objection::Circle { triangle, neighbor, point }),
-            Sign::Zero => other_diagonals += usize::from(in_circle(a, b, c, points[point]).is_positive()),
+            Sign::Positive => return Err(Objection2::Circle { triangle, neighbor, point }),
+            Sign::Zero => other_ties += usize::from(in_circle(a, b, c, points[point]).is_positive()),
         }
     }
-    Ok(other_diagonals)
+    Ok(other_ties)
 }
 
 /// The edges with one triangle are one convex loop, once around. Returns their number.
-fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection> {
+fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection2> {
     let mut next: Vec<(usize, usize)> = Vec::new();
     for edge in edges(sides) {
         if let &[(.., t, k)] = edge {
@@ -202,20 +183,20 @@ fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -
     }
     next.sort_unstable();
     if let Some(pair) = next.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-        return Err(Objection::Border(pair[0].0));
+        return Err(Objection2::Border(pair[0].0));
     }
     let follow = |v: usize| next.binary_search_by_key(&v, |edge| edge.0).ok().map(|i| next[i].1);
-    let Some(&(start, _)) = next.first() else { return Err(Objection::Cover) };
+    let Some(&(start, _)) = next.first() else { return Err(Objection2::Cover) };
     let (mut at, mut minima, mut passed) = (start, 0, Vec::new());
     loop {
         let (Some(b), true) = (follow(at), passed.len() <= next.len()) else {
-            return Err(Objection::Border(at));
+            return Err(Objection2::Border(at));
         };
-        let Some(c) = follow(b) else { return Err(Objection::Border(b)) };
+        let Some(c) = follow(b) else { return Err(Objection2::Border(b)) };
         let [pa, pb, pc] = [at, b, c].map(|v| points[v]);
         let turn = orient2d(pa, pb, pc);
         if turn.is_negative() || (turn.is_zero() && !strictly_between(pa, pc, pb)) {
-            return Err(Objection::Dent(b));
+            return Err(Objection2::Dent(b));
         }
         minima += usize::from(lexicographic(pb, pa).is_lt() && lexicographic(pb, pc).is_lt());
         passed.push(at);
@@ -226,7 +207,7 @@ fn check_border(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -
     }
     passed.sort_unstable();
     if let Some(&(left_out, _)) = next.iter().find(|edge| passed.binary_search(&edge.0).is_err()) {
-        return Err(Objection::Border(left_out));
+        return Err(Objection2::Border(left_out));
     }
-    if minima == 1 { Ok(passed.len()) } else { Err(Objection::Cover) }
+    if minima == 1 { Ok(passed.len()) } else { Err(Objection2::Cover) }
 }

@@ -3,15 +3,17 @@
 //! A vertex keeps its [`VertexId`] while others come and go; ids count up and are never used again, until
 //! [`Delaunay3::compact`] gives new ones. When vertices span more or less than before, all are triangulated anew.
 
+use super::Delaunay3;
 use super::layer::Refusal;
 use super::locator::Locator;
-use super::{Delaunay3, Position3, finite};
-use crate::error::{self, Error};
+use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, MAX_POINTS_IN_SPACE, Place, VertexId};
-use crate::locate::tally::Tally;
 use crate::locate::{Locate, Start, Strategy};
-use crate::order::curve;
+use crate::order;
 use crate::order::random::SplitMix;
+use crate::points;
+use crate::points::{Position3, finite};
+use crate::tally::Tally;
 
 /// Below this number of vertices everything is near everything.
 const SMALL: usize = 32;
@@ -37,23 +39,15 @@ impl Delaunay3 {
     /// }
     /// assert_eq!(d.tetrahedra().count(), 1);
     /// d.remove(a)?;
-    /// assert_eq!((d.tetrahedra().count(), d.hull().count()), (0, 1)); // a triangle
+    /// assert_eq!((d.tetrahedra().count(), d.hull_facets().count()), (0, 1)); // a triangle
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn insert<P: Position3>(&mut self, point: P) -> Result<Inserted, Error> {
-        self.insert_counted(point, &mut ())
+        self.insert_finite(finite(point.xyz())?, &mut ())
     }
 
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::insert`].
-    pub fn insert_counted<P: Position3, T: Tally>(
-        &mut self,
-        point: P,
-        tally: &mut T,
-    ) -> Result<Inserted, Error> {
-        let q = finite(&point)?;
+    /// Inserts a point that is finite, and tells each step.
+    pub(super) fn insert_finite<T: Tally>(&mut self, q: [f64; 3], tally: &mut T) -> Result<Inserted, Error> {
         let name = self.base.mesh.names.given();
         if name >= MAX_POINTS_IN_SPACE {
             return Err(Error::TooManyPoints { count: name + 1, most: MAX_POINTS_IN_SPACE });
@@ -80,14 +74,11 @@ impl Delaunay3 {
     /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::TooManyTetrahedra`] if what takes the place of its star
     /// does not fit. Nothing has changed then.
     pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
-        self.remove_counted(v, &mut ())
+        self.remove_vertex(v, &mut ())
     }
 
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::remove`].
-    pub fn remove_counted<T: Tally>(&mut self, v: VertexId, tally: &mut T) -> Result<(), Error> {
+    /// Removes a vertex, and tells each step.
+    pub(super) fn remove_vertex<T: Tally>(&mut self, v: VertexId, tally: &mut T) -> Result<(), Error> {
         let place = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
         self.displace(place, tally)?;
         self.base.mesh.names.release(v);
@@ -102,7 +93,7 @@ impl Delaunay3 {
     /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
     /// Nothing has changed then.
     pub fn move_to<P: Position3>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
-        let q = finite(&point)?;
+        let q = finite(point.xyz())?;
         let old = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
         match self.place(q, &mut ()) {
             Err(Refusal::Full) => Err(self.full()),
@@ -173,10 +164,10 @@ impl Delaunay3 {
     /// ```
     pub fn extend<P: Position3>(&mut self, points: &[P], seed: u64) -> Result<std::ops::Range<usize>, Error> {
         let first = self.base.mesh.names.given();
-        error::check_count(first + points.len(), MAX_POINTS_IN_SPACE)?;
-        error::check_finite(points.iter().map(Position3::xyz))?;
-        let along = curve::hilbert(points.len(), &|i| points[i as usize].xyz());
-        let order = curve::rounds(points.len(), seed).into_iter().map(|k| along[k as usize]);
+        points::check_count(first + points.len(), MAX_POINTS_IN_SPACE)?;
+        points::check_finite(points.iter().map(Position3::xyz))?;
+        let along = order::space::hilbert(points.len(), &|i| points[i as usize].xyz());
+        let order = order::space::rounds(points.len(), seed).into_iter().map(|k| along[k as usize]);
         self.extend_in_order(points, order, &mut ())?;
         Ok(first..first + points.len())
     }

@@ -10,8 +10,7 @@ use delone_predicates::{in_sphere, lexicographic3, orient3d};
 use super::Delaunay3;
 use super::layer::Layer;
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
-use crate::mesh::tetrahedra::Flaw3 as MeshFlaw;
-use crate::mesh::{Dimension, tetrahedra};
+use crate::mesh::{Dimension, MeshFlaw3};
 
 /// What is wrong with a triangulation of space, one sentence each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -19,7 +18,7 @@ use crate::mesh::{Dimension, tetrahedra};
 pub enum Flaw3 {
     /// It is no closed manifold.
     #[error(transparent)]
-    Mesh(#[from] tetrahedra::Flaw3),
+    Mesh(#[from] MeshFlaw3),
     /// A finite tetrahedron is turned over or flat.
     #[error("tetrahedron {0:?} is not in positive order")]
     Orientation(TetrahedronId),
@@ -104,7 +103,7 @@ impl Delaunay3 {
         }
         for p in mesh.inhabited().filter(|p| !self.base.is_scaffold(*p)) {
             if mesh.place(mesh.name(p)) != Some(p) {
-                return Err(Flaw3::Mesh(MeshFlaw::Incident(mesh.name(p))));
+                return Err(Flaw3::Mesh(MeshFlaw3::Incident(mesh.name(p))));
             }
         }
         let wrong = |d: &Duplicate| {

@@ -2,14 +2,15 @@
 
 use delone_predicates::orient3d;
 
+use super::Delaunay3;
 use super::locator::Locator;
-use super::{Delaunay3, Position3, finite};
 use crate::error::Error;
 use crate::ids::{FacetId, TetrahedronId, VertexId};
-use crate::locate::tally::Tally;
 use crate::locate::{Locate, Strategy};
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::FACETS;
+use crate::points::{Position3, finite};
+use crate::tally::Tally;
 
 /// Where a point of space falls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,15 +49,12 @@ impl Delaunay3 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn locate<P: Position3>(&self, q: P) -> Result<Location3, Error> {
-        self.locate_counted(q, &mut ())
+        self.locate_observed(q.xyz(), &mut ())
     }
 
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::locate`].
-    pub fn locate_counted<P: Position3, T: Tally>(&self, q: P, tally: &mut T) -> Result<Location3, Error> {
-        let q = finite(&q)?;
+    /// Finds where a point falls, and tells each step.
+    pub(super) fn locate_observed<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Result<Location3, Error> {
+        let q = finite(q)?;
         if !self.base.is_in_span(q) {
             return Ok(Location3::LowerDimensional(self.dimension()));
         }

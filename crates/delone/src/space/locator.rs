@@ -3,11 +3,11 @@
 use super::layer::Layer;
 use crate::error::Error;
 use crate::ids::{Place, TetrahedronId};
+use crate::locate::from_last::FromLast;
 use crate::locate::hierarchy::Levels;
-use crate::locate::tally::Tally;
 use crate::locate::tree::Tree;
-use crate::locate::walk::FromLast;
 use crate::locate::{JumpAndWalk, Locate, Start, Strategy};
+use crate::tally::Tally;
 
 /// The structure behind a [`Locate`].
 #[derive(Clone, Debug)]

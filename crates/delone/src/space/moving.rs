@@ -13,14 +13,15 @@
 //! Cost: O(n) tests, and O(d log d) for each hole of d tetrahedra; that of an instance with hints otherwise.
 
 use super::check::check_winding;
-use super::hole::{Border, Hole};
 use super::layer::Layer;
-use super::{Delaunay3, Hints3, Position3, check_points};
+use super::layer::hole::{Border, Hole};
+use super::{Delaunay3, Hints3};
 use crate::error::Error;
-use crate::fetch::fetch;
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::Dimension;
 use crate::order::HintOrder;
+use crate::points::{Position3, check_in_space};
+use crate::prefetch::prefetch;
 
 /// One tetrahedron in so many may be bad before hints are faster; one in so many may go.
 const BAD: usize = 7;
@@ -52,7 +53,7 @@ pub enum Step3 {
 /// ```
 /// use delone::Moving3;
 ///
-/// let mut moving = Moving3::new(&[[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]])?;
+/// let mut moving = Moving3::from_points(&[[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]])?;
 /// moving.step(&[[0.1, 0.0, 0.0], [4.0, 0.1, 0.0], [0.0, 3.9, 0.0], [0.1, 0.0, 4.0]])?;
 /// assert_eq!(moving.triangulation().tetrahedra().count(), 1);
 /// assert!(moving.triangulation().check().is_ok());
@@ -73,8 +74,8 @@ impl Moving3 {
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`].
-    pub fn new<P: Position3>(positions: &[P]) -> Result<Self, Error> {
-        let mut hints = Hints3::preprocess(positions, HintOrder::default())?;
+    pub fn from_points<P: Position3>(positions: &[P]) -> Result<Self, Error> {
+        let mut hints = Hints3::from_points(positions, HintOrder::default())?;
         hints.triangulate(positions)?;
         Ok(Self { hints, bad: Vec::new(), lost: Vec::new() })
     }
@@ -95,7 +96,7 @@ impl Moving3 {
         if positions.len() != expected {
             return Err(Error::Length { expected, found: positions.len() });
         }
-        check_points(positions)?;
+        check_in_space(positions)?;
         if let Some(step) = self.repair(positions) {
             return Ok(step);
         }
@@ -193,11 +194,11 @@ fn find_bad(layer: &mut Layer, bad: &mut Vec<TetrahedronId>) -> Option<()> {
 fn ask_ahead(layer: &Layer, t: TetrahedronId) {
     let cells = &layer.mesh.cells;
     for across in cells.get(t.index() + 2 * AHEAD).into_iter().flat_map(|cell| cell.across) {
-        fetch(cells, across.tetrahedron().index());
+        prefetch(cells, across.tetrahedron().index());
     }
     for across in cells.get(t.index() + AHEAD).into_iter().flat_map(|cell| cell.across) {
         if let Some(beyond) = cells.get(across.tetrahedron().index()) {
-            fetch(&layer.points, beyond.corners[across.corner()].index());
+            prefetch(&layer.points, beyond.corners[across.corner()].index());
         }
     }
 }

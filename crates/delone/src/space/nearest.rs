@@ -9,13 +9,14 @@ use std::cmp::Ordering;
 
 use delone_predicates::{compare_distances3, compare_with_radius3, lexicographic3};
 
+use super::Delaunay3;
 use super::layer::Layer;
-use super::{Delaunay3, Position3, finite};
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::{self, Metric};
-use crate::locate::tally::Tally;
 use crate::locate::{Ground, Strategy};
+use crate::points::{Position3, finite};
+use crate::tally::Tally;
 
 impl Metric for Layer {
     fn nearer(&self, q: [f64; 3], a: Place, b: Place) -> Ordering {
@@ -50,20 +51,7 @@ impl Delaunay3 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn nearest<P: Position3>(&self, q: P) -> Result<Option<VertexId>, Error> {
-        self.nearest_counted(q, &mut ())
-    }
-
-    /// The same, and counts what it does.
-    ///
-    /// # Errors
-    /// As [`Self::nearest`].
-    pub fn nearest_counted<P: Position3, T: Tally>(
-        &self,
-        q: P,
-        tally: &mut T,
-    ) -> Result<Option<VertexId>, Error> {
-        let q = finite(&q)?;
-        Ok(self.nearest_place(q, tally).map(|v| self.base.mesh.name(v)))
+        Ok(self.nearest_place(finite(q.xyz())?, &mut ()).map(|v| self.base.mesh.name(v)))
     }
 
     /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if
@@ -86,7 +74,7 @@ impl Delaunay3 {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn k_nearest<P: Position3>(&self, q: P, k: usize) -> Result<Vec<VertexId>, Error> {
-        let q = finite(&q)?;
+        let q = finite(q.xyz())?;
         let found = nearest::k_nearest(&self.base, self.nearest_place(q, &mut ()), q, k);
         Ok(found.into_iter().map(|v| self.base.mesh.name(v)).collect())
     }
@@ -96,7 +84,7 @@ impl Delaunay3 {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities, [`Error::Parameter`] for a radius that is not finite.
     pub fn within<P: Position3>(&self, q: P, radius: f64) -> Result<Vec<VertexId>, Error> {
-        let q = finite(&q)?;
+        let q = finite(q.xyz())?;
         if !radius.is_finite() {
             return Err(Error::Parameter { name: "radius", value: radius, range: "finite" });
         }
@@ -106,7 +94,7 @@ impl Delaunay3 {
         Ok(names)
     }
 
-    fn nearest_place<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<Place> {
+    pub(super) fn nearest_place<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<Place> {
         let layer = &self.base;
         // Below space the walk may lead to the scaffold; the way along edges is short enough.
         let start = if layer.is_spanned() {

@@ -10,26 +10,8 @@ use delone_predicates::{Sign, are_collinear3, in_sphere, in_sphere_with_ties, le
 
 use crate::error::Error;
 use crate::mesh::tetrahedra::FACETS;
-
-/// What is right about tetrahedra that are a Delaunay triangulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Verdict3 {
-    /// Facets between neighbours whose five corners are cospherical and divided in another way than the canonical one.
-    pub other_ties: usize,
-    /// Tetrahedra given in negative order.
-    pub negative: usize,
-    /// Points that equal a corner without being one.
-    pub duplicates: usize,
-    /// Facets on the border of the convex hull.
-    pub hull: usize,
-}
-
-impl Verdict3 {
-    /// Whether the tetrahedra are those that Delone gives.
-    pub fn is_canonical(&self) -> bool {
-        self.other_ties == 0
-    }
-}
+use crate::points::check_in_space;
+use crate::verdict::Verdict;
 
 /// Why tetrahedra are not a Delaunay triangulation of the points. Tetrahedra and points are named by their index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -87,12 +69,12 @@ pub enum Objection3 {
 type Side = ([usize; 3], bool, usize, usize);
 
 /// Judges `tetrahedra`, corners as indices of `points`, in either order.
-pub fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict3, Objection3> {
-    super::check_points(points)?;
+pub fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict, Objection3> {
+    check_in_space(points)?;
     let (tetrahedra, negative) = oriented(points, tetrahedra)?;
     let duplicates = check_coverage(points, &tetrahedra)?;
     if tetrahedra.is_empty() {
-        return Ok(Verdict3 { other_ties: 0, negative, duplicates, hull: 0 });
+        return Ok(Verdict { other_ties: 0, negative, duplicates, hull: 0 });
     }
     let mut sides: Vec<Side> =
         (0..tetrahedra.len()).flat_map(|t| [0, 1, 2, 3].map(|k| side(tetrahedra[t], t, k))).collect();
@@ -103,7 +85,7 @@ pub fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict3, 
         Some(1) | None if is_ball(&tetrahedra, hull) => {}
         times => return Err(Objection3::Cover(times.unwrap_or(0))),
     }
-    Ok(Verdict3 { other_ties, negative, duplicates, hull })
+    Ok(Verdict { other_ties, negative, duplicates, hull })
 }
 
 /// The tetrahedra in positive order, and how many were not.

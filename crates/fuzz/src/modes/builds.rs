@@ -69,7 +69,7 @@ pub(crate) fn judge_hull(points: &[[f64; 2]]) -> Judgement {
     if d.dimension() != delone::Dimension::Plane {
         return Ok(());
     }
-    let hull: Vec<usize> = d.hull().map(|v| v.index()).collect();
+    let hull: Vec<usize> = d.hull_vertices().map(|v| v.index()).collect();
     let corners = corners2(points);
     let start = hull.iter().position(|i| i == &corners[0]).ok_or("the smallest point is not on the hull")?;
     let around: Vec<usize> = hull[start..].iter().chain(&hull[..start]).copied().collect();

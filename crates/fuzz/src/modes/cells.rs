@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use delone::{Delaunay2, Region, VertexId};
+use delone::{Delaunay2, Region2, VertexId};
 use delone_oracle::generate::Random;
 use num_bigint::BigInt;
 
@@ -146,8 +146,8 @@ impl Attack for Cells {
             _ => None,
         });
         let region = match rectangle {
-            Some((low, high)) => Region::rectangle(low, high),
-            None => Region::polygon(&rings),
+            Some((low, high)) => Region2::rectangle(low, high),
+            None => Region2::polygon(&rings),
         };
         let d = Delaunay2::from_points(&sites).map_err(|error| error.to_string())?;
         let region = match region {
@@ -226,7 +226,7 @@ fn integers_at(points: &[[f64; 2]], scale: i32) -> Vec<Vector> {
 
 fn judge_cells(
     d: &Delaunay2,
-    region: &Region,
+    region: &Region2,
     rings: &[Vec<[f64; 2]>],
     sites: &[[f64; 2]],
     seed: u64,
@@ -282,7 +282,7 @@ fn shoelace(ring: &[[f64; 2]]) -> f64 {
 /// Points of the region are in the cell of the nearest site, those very near its border excepted.
 fn whose(
     d: &Delaunay2,
-    cells: &delone::Cells,
+    cells: &delone::Cells2,
     rings: &[Vec<[f64; 2]>],
     sites: &[[f64; 2]],
     (low, high): ([f64; 2], [f64; 2]),
@@ -314,7 +314,7 @@ fn whose(
     Ok(())
 }
 
-fn cells_of(cells: &delone::Cells, site: usize) -> Vec<Vec<[f64; 2]>> {
+fn cells_of(cells: &delone::Cells2, site: usize) -> Vec<Vec<[f64; 2]>> {
     cells.rings(VertexId::new(site)).map(|ring| ring.points().collect()).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Hulls, nearest and furthest sites, the smallest circle around points: against definitions.
 
-use delone::hull::spatial::{Hull3, HullHistory};
-use delone::{Delaunay2, Dimension, NearestSites, convex_hull};
+use delone::{Delaunay2, Dimension, Hull2, NearestSites2};
+use delone::{Hull3, HullHistory3};
 use delone_oracle::generate::Random;
 
 use crate::attack::{Attack, Judgement};
@@ -30,8 +30,8 @@ impl Attack for Planar {
         let mut random = Random::new(seed);
         let text = |error: delone::Error| error.to_string();
         let expected = corners2(points);
-        let found = convex_hull(points).map_err(text)?;
-        if found != expected {
+        let found = Hull2::from_points(points).map_err(text)?;
+        if found.corners() != expected {
             return Err(format!("convex_hull: {found:?} instead of {expected:?}"));
         }
         let d = Delaunay2::from_points(points).map_err(text)?;
@@ -43,7 +43,7 @@ impl Attack for Planar {
         if corners != expected {
             return Err(format!("the corners of furthest: {corners:?} instead of {expected:?}"));
         }
-        let sites = NearestSites::build(points, seed).map_err(text)?;
+        let sites = NearestSites2::from_points(points, seed).map_err(text)?;
         for _ in 0..QUERIES {
             let q = nasty::query(&mut random, points);
             let found = sites.nearest(q).map_err(text)?;
@@ -138,8 +138,10 @@ impl Attack for Spatial {
     fn judge(points: &[[f64; 3]], seed: u64) -> Judgement {
         let mut random = Random::new(seed);
         let text = |error: delone::Error| error.to_string();
-        let history = HullHistory::build(points, seed).map_err(text)?;
-        for (name, hull) in [("Hull3", &Hull3::of(points).map_err(text)?), ("HullHistory", history.hull())] {
+        let history = HullHistory3::from_points(points, seed).map_err(text)?;
+        for (name, hull) in
+            [("Hull3", &Hull3::from_points(points).map_err(text)?), ("HullHistory", history.hull())]
+        {
             judge_hull(points, hull).map_err(|message| format!("{name}: {message}"))?;
         }
         for _ in 0..QUERIES / 3 {
@@ -159,11 +161,12 @@ fn contains_any(points: &[[f64; 3]], q: [f64; 3]) -> bool {
 
 fn judge_hull(points: &[[f64; 3]], hull: &Hull3) -> Judgement {
     if points.is_empty() {
-        let empty = hull.span() == Dimension::Empty && hull.corners().is_empty() && hull.faces().is_empty();
+        let empty =
+            hull.dimension() == Dimension::Empty && hull.corners().is_empty() && hull.faces().is_empty();
         return if empty { Ok(()) } else { Err(format!("{hull:?}")) };
     }
     let (span, expected) = faces(points);
-    let found_span = match hull.span() {
+    let found_span = match hull.dimension() {
         Dimension::Space => 3,
         Dimension::Plane => 2,
         Dimension::Line => 1,

@@ -123,9 +123,9 @@ macro_rules! motion {
                 let frames: Vec<Vec<[f64; $d]>> =
                     (0..steps).map(|step| paths.iter().map(|path| path[step]).collect()).collect();
                 let text = |error: delone::Error| error.to_string();
-                let mut moving = <$moving>::new(&frames[0]).map_err(text)?;
-                let spatial = <$hints>::preprocess(&frames[0], HintOrder::Spatial { seed }).map_err(text)?;
-                let random = <$hints>::preprocess(&frames[0], HintOrder::Random { seed }).map_err(text)?;
+                let mut moving = <$moving>::from_points(&frames[0]).map_err(text)?;
+                let spatial = <$hints>::from_points(&frames[0], HintOrder::Spatial { seed }).map_err(text)?;
+                let random = <$hints>::from_points(&frames[0], HintOrder::Random { seed }).map_err(text)?;
                 let (mut followed, mut near, mut shuffled) = (spatial.clone(), spatial, random);
                 for (step, frame) in frames.iter().enumerate() {
                     if step > 0 {

@@ -49,9 +49,9 @@ pub(crate) fn write_cells<const N: usize>(
     }
     writeln!(
         out,
-        r#"<Cells><DataArray type="Int64" Name="connectivity" format="appended" offset="{}"/>
+        r#"<Cells2><DataArray type="Int64" Name="connectivity" format="appended" offset="{}"/>
 <DataArray type="Int64" Name="offsets" format="appended" offset="{}"/>
-<DataArray type="UInt8" Name="types" format="appended" offset="{}"/></Cells>
+<DataArray type="UInt8" Name="types" format="appended" offset="{}"/></Cells2>
 </Piece></UnstructuredGrid>"#,
         offsets[2], offsets[3], offsets[4]
     )?;

@@ -1,15 +1,15 @@
 //! The checker must fail: a valid triangulation is corrupted in every way that it claims to see.
 
-use super::Flaw;
+use super::Flaw2 as Flaw;
 use crate::ids::{EdgeId, Place, VertexId};
-use crate::mesh::check::Flaw as MeshFlaw;
-use crate::{Algorithm, Delaunay2, Duplicate};
+use crate::mesh::MeshFlaw2 as MeshFlaw;
+use crate::{Delaunay2, Duplicate};
 use delone_oracle::generate::Kind;
 
 fn sample() -> Delaunay2 {
     let mut points = Kind::Uniform.points(40, 9);
     points.push(points[3]);
-    let triangulation = Delaunay2::from_vec(points, Algorithm::default()).expect("finite");
+    let triangulation = Delaunay2::from_vec(points).expect("finite");
     assert_eq!(triangulation.check(), Ok(()));
     triangulation
 }
@@ -73,7 +73,7 @@ fn a_moved_point() {
     // A vertex inside, moved across the hull: its star is no disk around it any more.
     assert!(matches!(
         flaw(|d| {
-            let hull: Vec<_> = d.hull().collect();
+            let hull: Vec<_> = d.hull_vertices().collect();
             let inner = d.vertices().find(|v| !hull.contains(v) && v.index() != 3).expect("an inner vertex");
             d.base.points[inner.index()] = [0.5, -3.0];
         }),
@@ -83,11 +83,11 @@ fn a_moved_point() {
 
 #[test]
 fn a_dent_in_the_hull() {
-    let count = sample().hull().count();
+    let count = sample().hull_vertices().count();
     for dented in 0..count {
         let mut v = VertexId::GHOST;
         let found = flaw(|d| {
-            let hull: Vec<_> = d.hull().collect();
+            let hull: Vec<_> = d.hull_vertices().collect();
             v = hull[dented];
             let [a, b] = [count - 1, 1].map(|i| d.base.points[hull[(dented + i) % count].index()]);
             let inside = [0.7 * a[0] + 0.3 * b[0] + 0.0, 0.7 * a[1] + 0.3 * b[1]];

@@ -7,16 +7,16 @@
 //! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
 
 use super::Voronoi2;
-use super::clip::{self, clip};
-use super::measure;
-use super::region::{Region, enlarged};
-use super::tree::Relation;
+use crate::plane::region::clip::{self, clip};
+use crate::plane::region::tree::Relation;
+use crate::plane::region::{Region2, enlarged, measure};
 use delone_predicates::{Line, circumcentre};
 
-use crate::fetch::fetch;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::Ground;
-use crate::mesh::{HalfEdge, Star};
+use crate::mesh::triangles::{HalfEdge, Star};
+use crate::points::Bounds;
+use crate::prefetch::prefetch;
 
 /// How many triangles ahead memory is asked.
 const AHEAD: usize = 16;
@@ -24,7 +24,7 @@ const AHEAD: usize = 16;
 /// Clipped cells, by site: polygons of one ring or, where the region is not convex, of several. Neighbouring cells
 /// share the vertices between them.
 #[derive(Clone, Debug, Default)]
-pub struct Cells {
+pub struct Cells2 {
     /// For each site the first of its rings, and how many there are.
     sites: Vec<(u32, u32)>,
     /// Where each ring starts among the corners; and the end of the last.
@@ -44,15 +44,15 @@ pub struct Ring<'a> {
 
 impl Voronoi2<'_> {
     /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region.
-    pub fn clip(self, region: &Region) -> Cells {
+    pub fn clip(self, region: &Region2) -> Cells2 {
         self.clip_with(region, |_| {})
     }
 
     /// The same, and tells now and then how many cells are done.
-    pub fn clip_with(self, region: &Region, mut progress: impl FnMut(usize)) -> Cells {
+    pub fn clip_with(self, region: &Region2, mut progress: impl FnMut(usize)) -> Cells2 {
         let triangulation = self.triangulation;
         let (layer, mesh) = (&triangulation.base, triangulation.mesh());
-        let mut cells = Cells {
+        let mut cells = Cells2 {
             sites: vec![(0, 0); triangulation.points().len()],
             starts: Vec::with_capacity(mesh.vertex_count() + 1),
             corners: Vec::with_capacity(6 * mesh.vertex_count()),
@@ -60,7 +60,7 @@ impl Voronoi2<'_> {
         };
         cells.starts.push(0);
         let mut done = 0;
-        let mut add = |cells: &mut Cells, place: Place, e: EdgeId| {
+        let mut add = |cells: &mut Cells2, place: Place, e: EdgeId| {
             let first = cells.starts.len() - 1;
             if !cells.push_whole(mesh.star_from(e), region) {
                 for ring in rounded(&self.cut_out(region, place), region) {
@@ -83,14 +83,14 @@ impl Voronoi2<'_> {
         for t in (0..mesh.slot_count()).map(TriangleId::new) {
             // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
             for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
-                fetch(&mesh.edges, record.twin.index());
+                prefetch(&mesh.edges, record.twin.index());
             }
             for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
-                fetch(&cells.vertices, record.twin.triangle().index());
+                prefetch(&cells.vertices, record.twin.triangle().index());
                 for beyond in [record.twin.next(), record.twin.previous()] {
                     if let Some(record) = mesh.edges.get(beyond.index()) {
-                        fetch(&mesh.edges, record.twin.index());
-                        fetch(&cells.vertices, record.twin.triangle().index());
+                        prefetch(&mesh.edges, record.twin.index());
+                        prefetch(&cells.vertices, record.twin.triangle().index());
                     }
                 }
             }
@@ -114,7 +114,7 @@ impl Voronoi2<'_> {
         let centre = |(corners, ahead): (&[HalfEdge], Option<&[HalfEdge]>)| {
             // Corners lie wherever they lay in the input.
             for corner in ahead.into_iter().flatten() {
-                fetch(&layer.points, corner.origin.index());
+                prefetch(&layer.points, corner.origin.index());
             }
             let [a, b, c] = [0, 1, 2].map(|k| layer.points.get(corners[k].origin.index()).copied());
             a.zip(b).zip(c).and_then(|((a, b), c)| circumcentre(a, b, c)).unwrap_or([f64::INFINITY; 2])
@@ -123,13 +123,13 @@ impl Voronoi2<'_> {
     }
 
     /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
-    pub fn cell(self, site: VertexId, region: &Region) -> Vec<Vec<[f64; 2]>> {
+    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
         let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
         rounded(&self.cut_out(region, place), region).collect()
     }
 
     /// A cell cut out of the region by its bisectors.
-    fn cut_out(self, region: &Region, place: Place) -> Vec<clip::Ring> {
+    fn cut_out(self, region: &Region2, place: Place) -> Vec<clip::Ring> {
         let (layer, mesh) = (&self.triangulation.base, self.triangulation.mesh());
         let site = layer.point(place);
         let cut = |mut rings: Vec<clip::Ring>| {
@@ -153,7 +153,7 @@ impl Voronoi2<'_> {
 }
 
 /// Rings in coordinate units, without those of which nothing is left.
-fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region) -> impl Iterator<Item = Vec<[f64; 2]>> + 'a {
+fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region2) -> impl Iterator<Item = Vec<[f64; 2]>> + 'a {
     let round = |ring: &'a clip::Ring| {
         let mut corners: Vec<[f64; 2]> =
             ring.iter().filter_map(|corner| region.round(&corner.spot)).collect();
@@ -166,19 +166,16 @@ fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region) -> impl Iterator<Ite
     rings.iter().map(round).filter(|corners| corners.len() > 2)
 }
 
-impl Cells {
+impl Cells2 {
     /// Adds a cell that is surely inside of the region. Says whether that is all: nothing is added of a cell surely outside.
     #[inline]
-    fn push_whole(&mut self, star: Star, region: &Region) -> bool {
+    fn push_whole(&mut self, star: Star, region: &Region2) -> bool {
         let start = self.corners.len();
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let mut bounds = Bounds::default();
         let mut last = [f64::NAN; 2];
         for t in star.map(EdgeId::triangle) {
             let corner = self.vertices[t.index()];
-            for axis in 0..2 {
-                low[axis] = low[axis].min(corner[axis]);
-                high[axis] = high[axis].max(corner[axis]);
-            }
+            bounds.include(corner);
             if corner != last {
                 self.corners.push(t.index() as u32);
             }
@@ -186,6 +183,7 @@ impl Cells {
         }
         // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, so
         // no radius is larger than both extents together.
+        let Bounds { low, high } = bounds;
         let extents = (high[0] - low[0]) + (high[1] - low[1]);
         let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
         if relation.is_none_or(|relation| relation != Relation::Inside) {
@@ -248,7 +246,7 @@ impl<'a> Ring<'a> {
         self.corners.iter().map(move |&i| self.vertices[i as usize])
     }
 
-    /// Its corners as indices into [`Cells::vertices`].
+    /// Its corners as indices into [`Cells2::vertices`].
     pub fn indices(self) -> &'a [u32] {
         self.corners
     }

@@ -9,16 +9,10 @@
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.
 
 mod cells;
-mod clip;
-mod measure;
-mod region;
 mod relax;
-mod sweep;
-mod tree;
 
-pub use cells::{Cells, Ring};
-pub use region::Region;
-pub use relax::Relaxation;
+pub use cells::{Cells2, Ring};
+pub use relax::Relaxation2;
 
 use delone_predicates::in_circle_with_ties;
 
@@ -28,17 +22,17 @@ use crate::ids::{EdgeId, TriangleId, VertexId};
 /// The Voronoi diagram of the vertices of a triangulation.
 ///
 /// ```
-/// use delone::{Delaunay2, Region, VoronoiEdge};
+/// use delone::{Delaunay2, Region2, VoronoiEdge2};
 ///
 /// let d = Delaunay2::from_points(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [-2.0, 0.0], [0.0, -2.0]])?;
 /// let voronoi = d.voronoi();
 /// let centre = d.vertices().next().unwrap();
 /// assert!(voronoi.is_bounded(centre));
 /// assert_eq!(voronoi.corners(centre).count(), 4);
-/// let rays = voronoi.edges().filter(|e| matches!(e, VoronoiEdge::Ray { .. })).count();
+/// let rays = voronoi.edges().filter(|e| matches!(e, VoronoiEdge2::Ray { .. })).count();
 /// assert_eq!(rays, 4);
 ///
-/// let cells = voronoi.clip(&Region::rectangle([-2.0, -2.0], [2.0, 2.0])?);
+/// let cells = voronoi.clip(&Region2::rectangle([-2.0, -2.0], [2.0, 2.0])?);
 /// assert_eq!(cells.area(centre), 4.0);
 /// assert_eq!(d.vertices().map(|v| cells.area(v)).sum::<f64>(), 16.0);
 /// # Ok::<(), delone::Error>(())
@@ -50,7 +44,7 @@ pub struct Voronoi2<'a> {
 
 /// An edge of the diagram: the points as near to two sites as to any other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum VoronoiEdge {
+pub enum VoronoiEdge2 {
     /// From the centre of the triangle on the left of the Delaunay edge to the one on its right.
     Segment([[f64; 2]; 2]),
     /// Unbounded on one side.
@@ -88,32 +82,32 @@ impl<'a> Voronoi2<'a> {
         self.triangulation.circumcentre(t)
     }
 
-    /// The Voronoi vertices, one for each finite triangle, in the order of [`crate::Mesh::triangles`]; those of
+    /// The Voronoi vertices, one for each finite triangle, in the order of [`crate::Mesh2::triangles`]; those of
     /// triangles on one circle coincide up to rounding.
     pub fn vertices(self) -> impl Iterator<Item = Option<[f64; 2]>> + 'a {
         self.triangulation.mesh().triangles().map(move |t| self.vertex(t))
     }
 
     /// The Voronoi edge between the sites of a finite Delaunay edge.
-    pub fn edge(self, e: EdgeId) -> VoronoiEdge {
+    pub fn edge(self, e: EdgeId) -> VoronoiEdge2 {
         let mesh = self.triangulation.mesh();
         let [a, b] = self.triangulation.segment(e);
         // To the right of the Delaunay edge, halved for the range of f64.
         let right = [b[1] / 2.0 - a[1] / 2.0, a[0] / 2.0 - b[0] / 2.0];
         let left = right.map(|x| 0.0 - x);
         match (self.vertex(e.triangle()), self.vertex(mesh.twin(e).triangle())) {
-            (Some(from), Some(to)) => VoronoiEdge::Segment([from, to]),
-            (Some(from), None) => VoronoiEdge::Ray { from, direction: right },
-            (None, Some(from)) => VoronoiEdge::Ray { from, direction: left },
+            (Some(from), Some(to)) => VoronoiEdge2::Segment([from, to]),
+            (Some(from), None) => VoronoiEdge2::Ray { from, direction: right },
+            (None, Some(from)) => VoronoiEdge2::Ray { from, direction: left },
             (None, None) => {
                 let through = [0, 1].map(|axis| a[axis] / 2.0 + b[axis] / 2.0);
-                VoronoiEdge::Line { through, direction: right }
+                VoronoiEdge2::Line { through, direction: right }
             }
         }
     }
 
-    /// The Voronoi edges, one for each finite Delaunay edge, in the order of [`crate::Mesh::undirected_edges`].
-    pub fn edges(self) -> impl Iterator<Item = VoronoiEdge> + 'a {
+    /// The Voronoi edges, one for each finite Delaunay edge, in the order of [`crate::Mesh2::undirected_edges`].
+    pub fn edges(self) -> impl Iterator<Item = VoronoiEdge2> + 'a {
         self.triangulation.mesh().undirected_edges().map(move |e| self.edge(e))
     }
 

@@ -5,26 +5,26 @@
 //!
 //! Cost: a construction and a clipping for each step. Convergence is linear and slow: tens of steps look even.
 
-use super::Region;
 use crate::error::Error;
-use crate::plane::{Algorithm, Delaunay2};
+use crate::plane::Delaunay2;
+use crate::plane::Region2;
 
 /// How far to relax.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Relaxation {
+pub struct Relaxation2 {
     /// Steps at most.
     pub steps: usize,
     /// Stop when no site moves further than this, in coordinate units.
     pub tolerance: f64,
 }
 
-impl Default for Relaxation {
+impl Default for Relaxation2 {
     fn default() -> Self {
         Self { steps: 10, tolerance: 0.0 }
     }
 }
 
-impl Relaxation {
+impl Relaxation2 {
     /// Moves sites to the centroids of their cells in a region. Sites whose cell misses the region stay. Returns for
     /// each point of the triangulation, duplicates included, its new position. After each step `progress` is told the
     /// number of steps and the largest distance that a site has moved.
@@ -33,18 +33,18 @@ impl Relaxation {
     /// [`Error::Parameter`] if the tolerance is negative or NaN.
     ///
     /// ```
-    /// use delone::{Delaunay2, Region, Relaxation};
+    /// use delone::{Delaunay2, Region2, Relaxation2};
     ///
     /// let d = Delaunay2::from_points(&[[0.1, 0.5], [0.2, 0.5]])?;
-    /// let unit = Region::rectangle([0.0, 0.0], [1.0, 1.0])?;
-    /// let relaxed = Relaxation { steps: 100, tolerance: 1e-9 }.run(&d, &unit, |_, _| {})?;
+    /// let unit = Region2::rectangle([0.0, 0.0], [1.0, 1.0])?;
+    /// let relaxed = Relaxation2 { steps: 100, tolerance: 1e-9 }.run(&d, &unit, |_, _| {})?;
     /// assert!((relaxed[0][0] - 0.25).abs() < 1e-6 && (relaxed[1][0] - 0.75).abs() < 1e-6);
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn run(
         self,
         triangulation: &Delaunay2,
-        region: &Region,
+        region: &Region2,
         mut progress: impl FnMut(usize, f64),
     ) -> Result<Vec<[f64; 2]>, Error> {
         if self.tolerance.is_nan() || self.tolerance < 0.0 {
@@ -54,7 +54,7 @@ impl Relaxation {
         let ids: Vec<_> = triangulation.vertices().collect();
         let mut sites: Vec<[f64; 2]> = ids.iter().map(|&v| triangulation.point(v)).collect();
         for step in 1..=self.steps {
-            let current = Delaunay2::from_vec(sites.clone(), Algorithm::default())?;
+            let current = Delaunay2::from_vec(sites.clone())?;
             let cells = current.voronoi().clip(region);
             let mut furthest = 0.0_f64;
             for v in current.vertices() {

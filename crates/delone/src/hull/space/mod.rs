@@ -1,0 +1,101 @@
+//! The convex hull in space: what the points span, its flat faces, their corners.
+//!
+//! Two algorithms make the same hull, and judge each other: quickhull (`quickhull.rs`), which [`Hull3::from_points`] uses, and
+//! randomized incremental construction located by history (`history.rs`), which answers queries later. Both cap a
+//! shell of triangles (`shell.rs`) by exact decisions; `faces.rs` joins coplanar triangles in the end, so that the
+//! result is a function of the set.
+
+mod faces;
+mod history;
+mod quickhull;
+mod shell;
+mod start;
+
+pub use history::HullHistory3;
+
+use crate::error::Error;
+use crate::mesh::Dimension;
+use crate::points::{self, Position3};
+use start::{Start, turn};
+
+/// The convex hull of points in space.
+///
+/// ```
+/// use delone::{Dimension, Hull3};
+///
+/// let cube: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+/// let hull = Hull3::from_points(&cube)?;
+/// assert_eq!(hull.dimension(), Dimension::Space);
+/// assert_eq!(hull.corners().len(), 8);
+/// assert_eq!((hull.faces().len(), hull.facets().count()), (6, 12));
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hull3 {
+    span: Dimension,
+    corners: Vec<usize>,
+    faces: Vec<Vec<usize>>,
+}
+
+impl Hull3 {
+    /// Finds the hull. Of equal points the first stands for all. O(n log n) in practice.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate, [`Error::TooManyPoints`] is for more than
+    /// [`crate::MAX_POINTS`].
+    pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
+        let points = &*P::all(points);
+        check(points)?;
+        Ok(match Start::of(points) {
+            Start::Lower(span, corners) => Self { span, corners, faces: Vec::new() },
+            Start::Flat(corners) => Self { span: Dimension::Plane, faces: vec![corners.clone()], corners },
+            Start::Tetrahedron(_) => Self::solid(quickhull::faces(points)),
+        })
+    }
+
+    /// The hull with given faces.
+    fn solid(faces: Vec<Vec<usize>>) -> Self {
+        let mut corners: Vec<usize> = faces.iter().flatten().copied().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        Self { span: Dimension::Space, corners, faces }
+    }
+
+    /// What the points span: a hull of less than space has no facets.
+    pub fn dimension(&self) -> Dimension {
+        self.span
+    }
+
+    /// The extreme points: by increasing index; of a flat set in order around it, of one on a line from end to end.
+    pub fn corners(&self) -> &[usize] {
+        &self.corners
+    }
+
+    /// The flat faces as polygons, counter-clockwise seen from outside, each from its lexicographically smallest
+    /// corner; sorted. The one face of a flat set may be seen from either side.
+    pub fn faces(&self) -> &[Vec<usize>] {
+        &self.faces
+    }
+
+    /// The faces cut into triangles, counter-clockwise seen from outside. None for less than space.
+    pub fn facets(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+        let solid = self.faces.iter().filter(|_| self.span == Dimension::Space);
+        solid.flat_map(|face| face[1..].windows(2).map(|side| [face[0], side[0], side[1]]))
+    }
+
+    /// The facets that are seen from far below: the lower hull. `points` are those of the hull.
+    pub fn lower<'a>(&'a self, points: &'a [[f64; 3]]) -> impl Iterator<Item = [usize; 3]> + 'a {
+        self.facets().filter(|&facet| turn(points, facet, 2).is_lt())
+    }
+
+    /// The facets that are seen from far above: the upper hull. `points` are those of the hull.
+    pub fn upper<'a>(&'a self, points: &'a [[f64; 3]]) -> impl Iterator<Item = [usize; 3]> + 'a {
+        self.facets().filter(|&facet| turn(points, facet, 2).is_gt())
+    }
+}
+
+/// Whether all points are finite, and not too many.
+fn check(points: &[[f64; 3]]) -> Result<(), Error> {
+    points::check_count(points.len(), crate::MAX_POINTS)?;
+    points::check_finite(points.iter().copied())
+}

@@ -1,0 +1,60 @@
+//! No structure: each search walks from the vertex inserted last.
+//!
+//! Source: Devillers, Pion & Teillaud, "Walking in a triangulation", IJFCS 2002, for the walks. Choose this when every
+//! query is near the one before, or near the vertex inserted last; it takes no memory.
+
+use super::{Ground, Start, Strategy};
+use crate::ids::Place;
+use crate::tally::Tally;
+
+/// Which walk.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Walk {
+    /// Cross any edge that has the goal beyond it: the fewest tests.
+    #[default]
+    Visibility,
+    /// The same, edges in random order.
+    Stochastic {
+        /// Decides the order.
+        seed: u64,
+    },
+    /// Visit the triangles on the straight line to the goal.
+    Straight,
+}
+
+/// The strategy without a structure: a walk from the vertex inserted last.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FromLast {
+    pub(crate) walk: Walk,
+    last: Option<Place>,
+}
+
+impl FromLast {
+    pub(crate) fn new(walk: Walk) -> Self {
+        Self { walk, last: None }
+    }
+}
+
+impl<G: Ground> Strategy<G> for FromLast {
+    fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start<G::Hint> {
+        match self.last.map(|v| ground.hint(v)) {
+            Some(hint) if hint != G::NOWHERE => Start::At(hint, self.walk),
+            _ => Start::Anywhere,
+        }
+    }
+
+    fn inserted(&mut self, _: &G, v: Place, _: Start<G::Hint>) {
+        self.last = Some(v);
+    }
+
+    fn removing(&mut self, ground: &G, v: Place) {
+        if self.last == Some(v) {
+            self.last = ground.neighbor(v);
+        }
+    }
+
+    fn rearranged(&mut self, _: &G, moved: &[Place]) {
+        self.last = self.last.and_then(|v| moved.get(v.index()).copied());
+    }
+}

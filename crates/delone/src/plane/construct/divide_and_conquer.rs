@@ -1,0 +1,425 @@
+//! Divide and conquer on ghost triangles, in place.
+//!
+//! Source: Guibas & Stolfi, "Primitives for the manipulation of general subdivisions and the computation of
+//! Voronoi diagrams", TOG 1985 (merging by a rising bubble); Dwyer, "A faster divide-and-conquer algorithm
+//! for constructing Delaunay triangulations", Algorithmica 1987 (alternating cuts). The cuts here are those of
+//! the Morton order, so nothing is stored for the recursion and nothing is searched.
+//!
+//! Cost: O(n log n) in the worst case for any data of bounded exponent range; 32 bytes a triangle and nothing
+//! is allocated while merging.
+//!
+//! # In place
+//!
+//! n points closed by ghost triangles have exactly 2n - 2 triangles. The points at positions [lo, hi) of the
+//! order own the triangles 2 lo .. 2 hi - 2; merging two neighbours at position m uses the two triangles
+//! 2m - 2 and 2m - 1 between them. Connecting two vertices turns one ghost into a finite triangle, removing an
+//! edge turns a finite triangle and a ghost into two ghosts; the count never changes, and memory of
+//! neighbouring points is neighbouring memory.
+//!
+//! While building, the ghost of a hull edge u -> v (interior on its left) always has the corners
+//! (v, u, ghost): edge 0 is the hull edge reversed, edge 1 leads to the ghost of the previous hull edge, edge
+//! 2 to that of the next.
+
+use std::ops::Range;
+
+use delone_predicates::{Filter, Grid, lexicographic};
+
+use super::builder::Builder;
+use super::leaf::Leaf;
+use super::merge::Part;
+use crate::ids::{Duplicate, Place, TriangleId, VertexId};
+use crate::memory::zeroed;
+use crate::mesh::triangles::{HalfEdge, Mesh2};
+use crate::order::morton::{self, Cut, KeyBox, Sorted};
+use crate::order::quantize::scaled;
+use crate::parallel;
+use crate::points::{Bounds, survey};
+use crate::tally::Merges;
+
+/// Triangulates points within their bounds, all finite and at most [`crate::MAX_POINTS`]. Vertices are at the places of
+/// their indices.
+pub(super) fn triangulate(points: &[[f64; 2]], bounds: &Bounds<2>) -> (Mesh2, Vec<Duplicate>, Merges) {
+    let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points, bounds);
+    let (edges, counters) = build(&ordered, &cuts, &boxes);
+    let n = ordered.len();
+    drop((ordered, cuts));
+    let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
+    mesh.lone = if n == 1 { Some(Place::new(indices[0] as usize)) } else { None };
+    mesh.number_vertices(points.len(), |position| Place::new(indices[position.index()] as usize));
+    (mesh, sorted(duplicates), counters)
+}
+
+/// The triangulation of points, with vertices at their positions in Morton order.
+pub(in crate::plane) struct InOrder {
+    pub(in crate::plane) mesh: Mesh2,
+    /// The vertices' points.
+    pub(in crate::plane) points: Vec<[f64; 2]>,
+    /// Their indices.
+    pub(in crate::plane) indices: Vec<u32>,
+    pub(in crate::plane) duplicates: Vec<Duplicate>,
+}
+
+/// The same as `triangulate`, in the order of memory.
+pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
+    let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points, &survey(points).0);
+    let (edges, _) = build(&points, &cuts, &boxes);
+    let n = points.len();
+    let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
+    mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
+    mesh.number_vertices(n, |position| position);
+    InOrder { mesh, points, indices, duplicates: sorted(duplicates) }
+}
+
+fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
+    let named = |(point, vertex): (u32, u32)| Duplicate {
+        point: point as usize,
+        vertex: VertexId::new(vertex as usize),
+    };
+    let mut duplicates: Vec<Duplicate> = duplicates.into_iter().map(named).collect();
+    duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
+    duplicates
+}
+
+fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Merges) {
+    let n = ordered.len();
+    let scaled = scaled(n, |i| ordered[i], &SIZES);
+    let (ordered, scale) = scaled.as_ref().map_or((ordered, 1.0), |(points, scale)| (&points[..], *scale));
+    let mut edges: Vec<HalfEdge> = zeroed(8 * n.saturating_sub(1));
+    let mut leaving: Vec<TriangleId> = zeroed(n);
+    let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
+    if n > 0 {
+        let grid = grid_of(ordered.as_flattened(), finest_step(boxes, scale));
+        Tree { cuts, boxes, scale, grid }.build(0, LEVELS, &mut builder);
+    }
+    let counters = builder.counters;
+    (edges, counters)
+}
+
+/// Sizes of sets whose products are in the range of the filters, also those of small cells: 2^-80 to 2^200.
+const SIZES: Range<f64> = 8.3e-25..1.6e60;
+
+/// The finest step of a grid on which arithmetic is exact in the smallest cells of some box, about.
+fn finest_step(boxes: &[KeyBox], scale: f64) -> f64 {
+    let finest = |b: &KeyBox| {
+        let [width, height] = b.cell(b.depths() - 1);
+        Filter::finest_step(width * scale, height * scale)
+    };
+    boxes.iter().map(finest).fold(f64::INFINITY, f64::min)
+}
+
+/// The grid of coordinates if it is coarser than a step. In parallel: the grid of the first part is mostly that of all.
+fn grid_of(coordinates: &[f64], least: f64) -> Option<Grid> {
+    let parts = parallel::parts(coordinates.len() / 2);
+    if parts > 1 {
+        let mut parts = coordinates.chunks(coordinates.len().div_ceil(parts));
+        let first = Grid::coarser_than(least, parts.next()?)?;
+        if parallel::map(parts.collect(), |part| first.holds_all(part)).iter().all(|&holds| holds) {
+            return Some(first);
+        }
+    }
+    Grid::coarser_than(least, coordinates)
+}
+
+/// The tree that the cuts are, walked without being built.
+#[derive(Clone, Copy)]
+struct Tree<'a> {
+    cuts: &'a [Cut],
+    boxes: &'a [KeyBox],
+    /// What coordinates have been multiplied with since the boxes were made.
+    scale: f64,
+    grid: Option<Grid>,
+}
+
+/// Halves of halves are on the stack, and far points can make thousands of them: deeper than this, one thread goes on.
+const LEVELS: u32 = 128;
+
+/// What threads share of a box.
+struct Work<'a> {
+    index: usize,
+    cells: &'a Cells<'a>,
+    /// A run of so many points is not worth another thread.
+    most: usize,
+}
+
+/// A box, and the static filters of its depths.
+struct Cells<'a> {
+    key_box: KeyBox,
+    filters: &'a [Filter],
+}
+
+/// Parts that wait for their right neighbour, with the cuts behind them, deeper and deeper.
+type Waiting = Vec<(Part, Cut)>;
+
+impl Tree<'_> {
+    /// Triangulates the points of a box, in parallel if they are many: the tree is divided at its shallowest cuts into runs
+    /// that are not too large, which tasks build in memory of their own.
+    fn build(&self, index: usize, levels: u32, builder: &mut Builder) -> Part {
+        let key_box = self.boxes[index];
+        let cell_filter = |depth| {
+            let [width, height] = key_box.cell(depth);
+            Filter::for_box(width * self.scale, height * self.scale, self.grid)
+        };
+        // A few points have one depth, and need no memory for it.
+        let (one, many);
+        let filters: &[Filter] = if key_box.depths() == 1 {
+            one = [cell_filter(0)];
+            &one
+        } else {
+            many = (0..key_box.depths()).map(cell_filter).collect::<Vec<_>>();
+            &many
+        };
+        let cells = Cells { key_box, filters };
+        let all = key_box.start..key_box.end;
+        let most = all.len().div_ceil(parallel::parts(all.len()));
+        self.halve(&Work { index, cells: &cells, most }, all, levels, builder)
+    }
+
+    /// Triangulates a run of points of a box that is a subtree. If it has too many, both halves at its shallowest cut at once,
+    /// in memory of their own.
+    fn halve(&self, work: &Work, run: Range<usize>, levels: u32, builder: &mut Builder) -> Part {
+        let &Work { index, cells, most } = work;
+        let is_large = run.len() > most && levels > 0;
+        let shallowest = if is_large { self.shallowest_cut(index, &run) } else { None };
+        let Some(middle) = shallowest else {
+            // A run that is a box of its own may be as large as all of this one.
+            return match self.box_of(index, &run) {
+                Some(nested) => self.build(nested, levels, builder),
+                None => self.run(index, cells, run, builder),
+            };
+        };
+        let [mut left, mut right] = builder.split(middle);
+        let levels = levels - 1;
+        let (a, b) = parallel::join(
+            || self.halve(work, run.start..middle, levels, &mut left),
+            || self.halve(work, middle..run.end, levels, &mut right),
+        );
+        let counters = [left.counters, right.counters];
+        counters.iter().for_each(|of_half| builder.counters.add(of_half));
+        let (depth, by_x) = cells.key_box.split(self.cuts[middle]);
+        builder.merge(&a, &b, by_x, &cells.filters[depth])
+    }
+
+    /// The position before which a run has its shallowest cut, those inside of nested boxes not counted.
+    fn shallowest_cut(&self, index: usize, run: &Range<usize>) -> Option<usize> {
+        let mut best = None;
+        let mut nested = self.first_nested(index, run.start);
+        let mut at = run.start + 1;
+        while at < run.end {
+            let inner = self.boxes.get(nested).filter(|inner| inner.start < run.end);
+            let limit = inner.map_or(run.end, |inner| inner.start + 1).max(at);
+            let shallowest = Cut::first_shallowest(&self.cuts[at..limit]).map(|k| at + k);
+            best = best.into_iter().chain(shallowest).min_by_key(|&at| self.cuts[at]);
+            at = inner.map_or(run.end, |inner| inner.end);
+            nested = self.first_nested(nested, at);
+        }
+        best
+    }
+
+    /// The box that is nested in another one and is the whole of a run.
+    fn box_of(&self, index: usize, run: &Range<usize>) -> Option<usize> {
+        let nested = self.first_nested(index, run.start);
+        self.boxes.get(nested).is_some_and(|b| b.start == run.start && b.end == run.end).then_some(nested)
+    }
+
+    /// The first box after another one that starts at a position or later.
+    fn first_nested(&self, index: usize, start: usize) -> usize {
+        let after = self.boxes.get(index + 1..).unwrap_or_default();
+        index + 1 + after.partition_point(|b| b.start < start)
+    }
+
+    /// Triangulates a run of points of a box that is a subtree. Recursion follows the nesting of boxes, whose depth the
+    /// exponent range bounds; inside a box the parts that wait for a neighbour are on a stack.
+    fn run(&self, index: usize, cells: &Cells, run: Range<usize>, builder: &mut Builder) -> Part {
+        let mut waiting = Waiting::with_capacity(8);
+        let mut next_box = self.first_nested(index, run.start);
+        let mut at = run.start;
+        loop {
+            let nested = self.boxes.get(next_box).filter(|b| b.start < run.end);
+            let limit = nested.map_or(run.end, |b| b.start);
+            let part = if at == limit {
+                let part = self.build(next_box, 0, builder);
+                next_box = self.first_nested(next_box, part.end);
+                part
+            } else {
+                let count = self.leaf_size(at, limit, &run);
+                let shallowest = self.cuts[at + 1..at + count].iter().min();
+                let depth = shallowest.map_or(0, |&cut| cells.key_box.split(cut).0);
+                let filter = &cells.filters[depth];
+                let leaf = if count > 1 { builder.leaf(at, count, filter) } else { Leaf::Collinear };
+                match leaf {
+                    Leaf::Part(part) => part,
+                    Leaf::Collinear => Part::single(at),
+                }
+            };
+            at = part.end;
+            let after = if at == run.end { Cut::OUTSIDE } else { self.cuts[at] };
+            let part = cells.join(builder, &mut waiting, part, after);
+            if at == run.end {
+                return part;
+            }
+            waiting.push((part, after));
+        }
+    }
+
+    /// The size of the largest subtree of at most four points of a run that starts at a position.
+    fn leaf_size(&self, at: usize, limit: usize, run: &Range<usize>) -> usize {
+        let outside = |i: usize| i == run.start || i == run.end;
+        let cut = |i: usize| if outside(i) { Cut::OUTSIDE } else { self.cuts[i] };
+        let whole = |&count: &usize| {
+            let border = cut(at).max(cut(at + count));
+            self.cuts[at + 1..at + count].iter().all(|&inner| inner > border)
+        };
+        let longest = (limit - at).min(4);
+        (2..=longest).rev().find(whole).unwrap_or(1)
+    }
+}
+
+impl Cells<'_> {
+    /// Merges a part with those to its left, as long as the cuts between them are deeper than the one after it.
+    fn join(&self, builder: &mut Builder, waiting: &mut Waiting, mut part: Part, after: Cut) -> Part {
+        while let Some((left, cut)) = waiting.pop_if(|(_, cut)| *cut > after) {
+            let (depth, by_x) = self.key_box.split(cut);
+            part = builder.merge(&left, &part, by_x, &self.filters[depth]);
+        }
+        part
+    }
+}
+
+impl Part {
+    /// One point.
+    pub(super) fn single(at: usize) -> Self {
+        let v = Place::new(at);
+        Self { start: at, end: at + 1, west: v, east: v, south: v, north: v }
+    }
+
+    /// The extreme corners of a few points.
+    pub(super) fn of_points(points: &[[f64; 2]], start: usize, end: usize) -> Self {
+        let mut part = Self::single(start);
+        part.end = end;
+        for at in start + 1..end {
+            let v = Place::new(at);
+            let p = |v: Place| points[v.index()];
+            part.west = if precedes(p(v), p(part.west)) { v } else { part.west };
+            part.east = if precedes(p(part.east), p(v)) { v } else { part.east };
+            part.south = if precedes(turned(p(v)), turned(p(part.south))) { v } else { part.south };
+            part.north = if precedes(turned(p(part.north)), turned(p(v))) { v } else { part.north };
+        }
+        part
+    }
+
+    /// The positions and extreme corners of two parts, `a` to the left of `b` if cut by x, else below.
+    pub(super) fn union(points: &[[f64; 2]], a: &Self, b: &Self, by_x: bool) -> Self {
+        let p = |v: Place| points[v.index()];
+        let mut part = Self { end: b.end, ..*a };
+        if by_x {
+            part.east = b.east;
+            part.south = if precedes(turned(p(b.south)), turned(p(a.south))) { b.south } else { a.south };
+            part.north = if precedes(turned(p(a.north)), turned(p(b.north))) { b.north } else { a.north };
+        } else {
+            part.north = b.north;
+            part.west = if precedes(p(b.west), p(a.west)) { b.west } else { a.west };
+            part.east = if precedes(p(a.east), p(b.east)) { b.east } else { a.east };
+        }
+        part
+    }
+}
+
+/// Lexicographic order of points, for choosing corners.
+#[inline]
+fn precedes(p: [f64; 2], q: [f64; 2]) -> bool {
+    lexicographic(p, q).is_lt()
+}
+
+/// A quarter turn: the order by (y, -x) is the lexicographic order of turned points.
+#[inline]
+fn turned([x, y]: [f64; 2]) -> [f64; 2] {
+    [y, -x]
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+
+    use super::*;
+
+    fn counters_of(points: &[[f64; 2]]) -> Merges {
+        triangulate(points, &survey(points).0).2
+    }
+
+    /// Points of which no three are on a line: in the order of x, cut in the middle, into fours as long as there are four.
+    #[test]
+    fn up_to_four_points_are_a_leaf() {
+        let expected = [
+            (1, 0, 0),
+            (2, 1, 0),
+            (3, 1, 0),
+            (4, 1, 0),
+            (5, 1, 1),
+            (6, 2, 1),
+            (7, 2, 1),
+            (8, 2, 1),
+            (9, 2, 2),
+            (11, 3, 2),
+            (12, 3, 2),
+        ];
+        for (n, leaves, merges) in expected {
+            let points: Vec<_> = (0..n).map(f64::from).map(|x| [x, x * x]).collect();
+            let found = counters_of(&points);
+            assert_eq!((found.leaves, found.merges), (leaves, merges), "{n} points");
+        }
+    }
+
+    #[test]
+    fn counters_are_added() {
+        let mut sum = Merges { leaves: 1, merges: 2, connected: 3, removed: 4 };
+        sum.add(&Merges { leaves: 10, merges: 20, connected: 30, removed: 40 });
+        assert_eq!(sum, Merges { leaves: 11, merges: 22, connected: 33, removed: 44 });
+    }
+
+    /// The definitions of where a run of a box is cut and of which runs are boxes, on every run down to single points.
+    fn judge_runs(tree: &Tree, index: usize, run: Range<usize>, met: &mut [usize; 2]) {
+        let nested = || tree.boxes.iter().enumerate().skip(index + 1);
+        let is_inside = |at: &usize| nested().any(|(_, b)| b.start < *at && *at < b.end);
+        let cuts = (run.start + 1..run.end).filter(|at| !is_inside(at));
+        let shallowest = cuts.min_by_key(|&at| (tree.cuts[at], at));
+        assert_eq!(tree.shallowest_cut(index, &run), shallowest, "{run:?} of box {index}");
+        let whole = nested().find(|(_, b)| (b.start..b.end) == run).map(|(k, _)| k);
+        assert_eq!(tree.box_of(index, &run), whole, "{run:?} of box {index}");
+        if let Some(middle) = shallowest {
+            met[0] += 1;
+            judge_runs(tree, index, run.start..middle, met);
+            judge_runs(tree, index, middle..run.end, met);
+        } else if let Some(nested) = whole {
+            met[1] += 1;
+            judge_runs(tree, nested, run, met);
+        }
+    }
+
+    #[test]
+    fn runs_are_cut_where_cuts_are_shallowest() {
+        // Crowds in the crowds of crowds, and some alone.
+        let mut points = Kind::Uniform.points(40, 1);
+        for size in [1e-5, 1e-11] {
+            let around = Kind::Uniform.points(50, 2);
+            let add = |&[x, y]: &[f64; 2]| around.iter().map(move |&[u, v]| [x + size * u, y + size * v]);
+            let crowds: Vec<_> = points.iter().step_by(10).flat_map(add).collect();
+            points.extend(crowds);
+        }
+        let Sorted { points: sorted, cuts, boxes, .. } = morton::sort(&points, &survey(&points).0);
+        let tree = Tree { cuts: &cuts, boxes: &boxes, scale: 1.0, grid: None };
+        let mut met = [0; 2];
+        judge_runs(&tree, 0, 0..sorted.len(), &mut met);
+        assert_eq!(met, [sorted.len() - 1, boxes.len() - 1]);
+        assert!(boxes.len() > 10, "{} boxes", boxes.len());
+    }
+
+    /// What only one of many threads meets counts.
+    #[test]
+    fn grids_hold_all_coordinates() {
+        let mut coordinates: Vec<f64> = (0..100_000).map(f64::from).collect();
+        assert!(grid_of(&coordinates, 0.5).is_some_and(|grid| grid.holds(1.0) && !grid.holds(0.5)));
+        *coordinates.last_mut().expect("many") = 0.25;
+        assert!(grid_of(&coordinates, 0.125).is_some_and(|grid| grid.holds(0.25)));
+        assert!(grid_of(&coordinates, 0.5).is_none());
+    }
+}

@@ -1,0 +1,81 @@
+//! The last step of divide and conquer: vertices, until then positions in an order, get their places.
+//!
+//! Cost: O(n); it reads and writes every triangle once, which memory bounds: two threads gain a third.
+
+use std::ops::Range;
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::mesh::triangles::{HalfEdge, Mesh2};
+use crate::parallel;
+
+impl Mesh2 {
+    /// Puts each vertex from its position in an order to its place, one of so many, and remembers an edge of each: the
+    /// last one.
+    ///
+    /// A task has the triangles of some positions, and writes for these alone; what it finds of others is written
+    /// afterwards.
+    pub(super) fn number_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
+        let n = self.vertex_count;
+        let parts = parallel::parts(n);
+        if parts == 1 {
+            self.incident = parallel::filled(EdgeId::NONE, places);
+            let incident = &mut self.incident;
+            self.ghost_edge = number(&mut self.edges, 0, &place, |_, v, e| incident[v.index()] = e);
+            return;
+        }
+        let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
+        let ends = parallel::even_ends(n, parts);
+        let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end);
+        let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
+        let found = parallel::map(tasks, |(edges, positions): (&mut [HalfEdge], Range<usize>)| {
+            let mut elsewhere = Vec::new();
+            let ghost_edge = number(edges, 2 * positions.start, &place, |position, v, e| {
+                if positions.contains(&position.index()) {
+                    incident[v.index()].store(e.bits(), Relaxed);
+                } else {
+                    elsewhere.push((v, e));
+                }
+            });
+            (ghost_edge, elsewhere)
+        });
+        self.incident = incident.into_iter().map(|bits| EdgeId::from_bits(bits.into_inner())).collect();
+        for (ghost_edge, elsewhere) in found {
+            if ghost_edge != EdgeId::NONE {
+                self.ghost_edge = ghost_edge;
+            }
+            for (v, e) in elsewhere {
+                let last = &mut self.incident[v.index()];
+                *last = if *last == EdgeId::NONE { e } else { e.max(*last) };
+            }
+        }
+    }
+}
+
+/// Puts the vertices of triangles, the first of which has a number, from their positions to their places, and notes position,
+/// place and edge of each corner. Returns the last edge that starts at the ghost.
+fn number(
+    edges: &mut [HalfEdge],
+    first: usize,
+    place: impl Fn(Place) -> Place,
+    mut note: impl FnMut(Place, Place, EdgeId),
+) -> EdgeId {
+    let mut ghost_edge = EdgeId::NONE;
+    for (t, records) in edges.chunks_exact_mut(4).enumerate() {
+        records[3] = HalfEdge::UNUSED;
+        for (k, record) in records[..3].iter_mut().enumerate() {
+            let e = TriangleId::new(first + t).edge(k);
+            let position = record.origin;
+            if position.is_ghost() {
+                ghost_edge = e;
+            } else {
+                record.origin = place(position);
+                note(position, record.origin, e);
+            }
+        }
+    }
+    ghost_edge
+}

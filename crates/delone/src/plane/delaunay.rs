@@ -1,0 +1,274 @@
+//! The Delaunay triangulation of the plane: a layer, with names and a strategy of location.
+
+use std::sync::OnceLock;
+
+use delone_predicates::circumcentre;
+
+use super::change::Upkeep;
+use super::construct::{self, Algorithm2, Built, InOrder};
+use super::layer::Layer;
+use super::locator::Locator;
+use crate::error::Error;
+use crate::ids::{Duplicate, EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
+use crate::locate::Locate;
+use crate::mesh::{Dimension, Mesh2, Names};
+use crate::order::random::SplitMix;
+use crate::parallel;
+use crate::points::{Position2, check_count, check_finite};
+use crate::tally::{Counters, Work};
+
+/// The Delaunay triangulation of a set of points in the plane.
+///
+/// It is a function of the set of points alone: four cocircular points always get the same diagonal (see
+/// [`delone_predicates::in_circle`]), whatever the order of the points and the algorithm. A vertex is known by
+/// the index of its point: first those given in bulk, then those inserted, in their order. Vertices can be inserted,
+/// removed and moved at any time, and what is left is the triangulation of what is left. Sets that span less than
+/// the plane (no point, one point, collinear points) are valid triangulations without triangles.
+///
+/// The combinatorial questions (neighbours, stars, hull) are answered by [`Delaunay2::mesh`].
+///
+/// ```
+/// use delone::Delaunay2;
+///
+/// let triangulation = Delaunay2::from_points(&[[0.0, 0.0], [2.0, 0.0], [1.0, 2.0], [1.0, 0.7]])?;
+/// assert_eq!(triangulation.triangles().count(), 3);
+/// assert_eq!(triangulation.hull_vertices().map(|v| v.index()).count(), 3);
+/// for [a, b, c] in triangulation.triangles() {
+///     println!("{} {} {}", a.index(), b.index(), c.index()); // counter-clockwise
+/// }
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Delaunay2 {
+    pub(super) base: Layer,
+    /// The coordinates by id; until the first change these are those by place.
+    pub(super) named: Option<Vec<[f64; 2]>>,
+    /// Points reported as equal to a vertex, sorted; some may be out of date.
+    pub(super) duplicates: Vec<Duplicate>,
+    pub(super) counters: Counters,
+    pub(super) locate: Locate,
+    /// The structure of the strategy, once it was needed.
+    pub(super) locator: OnceLock<Locator>,
+    pub(super) upkeep: Upkeep,
+}
+
+impl Default for Delaunay2 {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Delaunay2 {
+    /// The triangulation of no points.
+    pub fn new() -> Self {
+        Self::assemble(construct::incremental(Vec::new(), 0))
+    }
+
+    /// The triangulation of no points, with a strategy of location.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] names a parameter that is out of range.
+    pub fn with_strategy(locate: Locate) -> Result<Self, Error> {
+        let mut triangulation = Self::new();
+        triangulation.set_strategy(locate)?;
+        Ok(triangulation)
+    }
+
+    /// Triangulates points with the default algorithm.
+    ///
+    /// O(n log n) in the worst case; about 100 bytes a point above the input.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned
+    /// beyond [`MAX_POINTS`].
+    pub fn from_points<P: Position2>(points: &[P]) -> Result<Self, Error> {
+        Self::with_algorithm(points, Algorithm2::default())
+    }
+
+    /// Triangulates points with an algorithm of choice. Errors as [`Self::from_points`], and
+    /// [`Error::Parameter`] for a strategy whose parameters are out of range.
+    pub fn with_algorithm<P: Position2>(points: &[P], algorithm: Algorithm2) -> Result<Self, Error> {
+        check_count(points.len(), MAX_POINTS)?;
+        Self::build(parallel::collect(points.len(), |i| points[i].xy()), algorithm)
+    }
+
+    /// Triangulates coordinates that it may keep, which saves a copy.
+    ///
+    /// # Errors
+    /// As [`Self::from_points`].
+    pub fn from_vec(points: Vec<[f64; 2]>) -> Result<Self, Error> {
+        check_count(points.len(), MAX_POINTS)?;
+        Self::build(points, Algorithm2::default())
+    }
+
+    fn build(points: Vec<[f64; 2]>, algorithm: Algorithm2) -> Result<Self, Error> {
+        if algorithm != Algorithm2::DivideAndConquer {
+            check_finite(points.iter().copied())?;
+        }
+        Ok(Self::assemble(match algorithm {
+            Algorithm2::DivideAndConquer => construct::divide_and_conquer(points)?,
+            Algorithm2::Incremental { seed } => construct::incremental(points, seed),
+            Algorithm2::ConflictLists { seed } => construct::conflict_lists(points, seed),
+            Algorithm2::Located { locate, seed } => return Self::located(&points, locate, seed),
+        }))
+    }
+
+    /// Inserts points one by one in random order.
+    fn located(points: &[[f64; 2]], locate: Locate, seed: u64) -> Result<Self, Error> {
+        let mut triangulation = Self::with_strategy(locate)?;
+        let mut order: Vec<u32> = (0..points.len() as u32).collect();
+        SplitMix(seed).shuffle(&mut order);
+        let mut work = Work::default();
+        triangulation.extend_in_order(points, &order, true, &mut work)?;
+        triangulation.counters = Counters::Incremental(work);
+        Ok(triangulation)
+    }
+
+    pub(super) fn assemble(built: Built) -> Self {
+        let Built { points, mesh, duplicates, counters } = built;
+        let mut upkeep = Upkeep::default();
+        upkeep.renew(mesh.vertex_count());
+        let base = Layer::new(mesh, points);
+        Self {
+            base,
+            named: None,
+            duplicates,
+            counters,
+            locate: Locate::default(),
+            locator: OnceLock::new(),
+            upkeep,
+        }
+    }
+
+    /// The topology: vertices, edges, triangles, stars, hull.
+    pub fn mesh(&self) -> &Mesh2 {
+        &self.base.mesh
+    }
+
+    /// The coordinates of all points ever given, by id: vertices, duplicates, and those since removed.
+    pub fn points(&self) -> &[[f64; 2]] {
+        self.named.as_deref().unwrap_or(&self.base.points)
+    }
+
+    /// The points that equal an earlier one which is a vertex, by increasing index.
+    pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        let points = self.points();
+        let valid =
+            |d: &&Duplicate| self.mesh().contains(d.vertex) && points[d.point] == points[d.vertex.index()];
+        self.duplicates.iter().filter(move |d| self.named.is_none() || valid(d)).copied()
+    }
+
+    /// What the construction did.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// What the points span.
+    pub fn dimension(&self) -> Dimension {
+        self.mesh().dimension()
+    }
+
+    /// The number of vertices: points without duplicates.
+    pub fn vertex_count(&self) -> usize {
+        self.mesh().vertex_count()
+    }
+
+    /// The vertices, by increasing index.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.mesh().vertices()
+    }
+
+    /// The finite triangles as corners in counter-clockwise order.
+    pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
+        self.mesh().triangles().map(|t| self.mesh().corners(t))
+    }
+
+    /// The finite triangles, by id.
+    pub fn triangle_ids(&self) -> impl Iterator<Item = TriangleId> + '_ {
+        self.mesh().triangles()
+    }
+
+    /// The number of finite triangles. O(h) for a hull of h vertices.
+    pub fn triangle_count(&self) -> usize {
+        match self.dimension() {
+            Dimension::Plane => self.mesh().triangle_count() - self.mesh().hull().count(),
+            _ => 0,
+        }
+    }
+
+    /// The finite edges, each once.
+    pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
+    }
+
+    /// The vertices of the hull, counter-clockwise; see [`Mesh2::hull`].
+    pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.mesh().hull()
+    }
+
+    /// The edges of the hull, counter-clockwise; none below the plane.
+    pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
+        let is_spanned = self.dimension() == Dimension::Plane;
+        let (ends, starts) = (self.mesh().hull().skip(1), self.mesh().hull());
+        let closing = self.mesh().hull().take(1);
+        starts.zip(ends.chain(closing)).filter(move |_| is_spanned).map(|(v, w)| [v, w])
+    }
+
+    /// The coordinates of a vertex.
+    ///
+    /// # Panics
+    /// For the ghost vertex and for a vertex of another, larger triangulation.
+    #[inline]
+    pub fn point(&self, v: VertexId) -> [f64; 2] {
+        self.points()[v.index()]
+    }
+
+    /// The coordinates of the ends of a finite edge.
+    pub fn segment(&self, e: EdgeId) -> [[f64; 2]; 2] {
+        [self.mesh().origin(e), self.mesh().destination(e)].map(|v| self.point(v))
+    }
+
+    /// The area of a finite triangle, zero for a ghost; positive up to rounding, infinite if it is too large for an `f64`,
+    /// and never NaN. In coordinate units squared.
+    pub fn area(&self, t: TriangleId) -> f64 {
+        if self.mesh().is_ghost(t) {
+            return 0.0;
+        }
+        let corners = self.mesh().corners(t).map(|v| self.point(v));
+        let twice = |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        let area = twice(corners) / 2.0;
+        if area.is_finite() {
+            return area;
+        }
+        // Products that overflow may cancel: large coordinates are made small, axis by axis, and the area large again.
+        let scale = [0, 1].map(|axis| {
+            let is_large = corners.iter().any(|p| p[axis].abs() > 2f64.powi(500));
+            if is_large { 2f64.powi(-520) } else { 1.0 }
+        });
+        twice(corners.map(|p| [p[0] * scale[0], p[1] * scale[1]])) / 2.0 / scale[0] / scale[1]
+    }
+
+    /// The centre of the circle through the corners of a finite triangle, rounded (see
+    /// [`delone_predicates::circumcentre`]); `None` for a ghost, and where it is too far away for `f64`.
+    pub fn circumcentre(&self, t: TriangleId) -> Option<[f64; 2]> {
+        if self.mesh().is_ghost(t) {
+            return None;
+        }
+        let [a, b, c] = self.mesh().corners(t).map(|v| self.point(v));
+        circumcentre(a, b, c)
+    }
+
+    /// Becomes the triangulation of other points, with vertices at places along a curve.
+    pub(super) fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
+        let InOrder { mut mesh, points, indices, duplicates } = construct::in_order(&positions);
+        let mut names = Names::default();
+        names.reserve(positions.len());
+        indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
+        mesh.names = Some(names);
+        self.base = Layer::new(mesh, points);
+        self.duplicates = duplicates;
+        self.named = Some(positions);
+        self.locator.take();
+        self.upkeep.renew(self.vertex_count());
+    }
+}

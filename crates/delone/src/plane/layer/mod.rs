@@ -1,0 +1,279 @@
+//! A triangulation of the plane that can change: topology, coordinates by place, and the buffers of its
+//! operations. It knows no names and chooses no strategy: `Delaunay2` is one with names, a level of the
+//! hierarchy is one without.
+//!
+//! Cost: [`Layer::lay_out`] a sort and O(n); the operations are in `insert` and `remove`.
+
+pub(in crate::plane) mod cavity;
+pub(in crate::plane) mod insert;
+pub(in crate::plane) mod line;
+mod remove;
+mod search;
+pub(in crate::plane) mod walk;
+
+use std::cmp::Ordering;
+
+use delone_predicates::{Sign, angle, compare_distances, orient2d};
+
+use crate::ids::{EdgeId, Place};
+use crate::locate::{Ground, Level, Start};
+use crate::memory::{make_room, room_for};
+use crate::mesh::triangles::with_spare;
+use crate::mesh::{Dimension, Mesh2, Slots};
+use crate::order::morton::{self, Sorted};
+use crate::points::survey;
+use crate::prefetch::prefetch;
+use crate::tally::Tally;
+use cavity::Cavity;
+use remove::Hole;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(in crate::plane) struct Layer {
+    pub(in crate::plane) mesh: Mesh2,
+    /// For each place its coordinates.
+    pub(in crate::plane) points: Vec<[f64; 2]>,
+    /// Free places.
+    pub(in crate::plane) free: Slots,
+    pub(in crate::plane) cavity: Cavity,
+    pub(in crate::plane) hole: Hole,
+    /// Known without a look at the mesh: most operations ask.
+    pub(in crate::plane) spanned: bool,
+}
+
+impl Default for Layer {
+    fn default() -> Self {
+        Self::new(Mesh2::empty(0), Vec::new())
+    }
+}
+
+impl Layer {
+    /// A mesh built in bulk, its vertices at the places of their indices.
+    pub(in crate::plane) fn new(mesh: Mesh2, points: Vec<[f64; 2]>) -> Self {
+        let spanned = mesh.dimension() == Dimension::Plane;
+        Self {
+            mesh,
+            points,
+            free: Slots::default(),
+            cavity: Cavity::default(),
+            hole: Hole::default(),
+            spanned,
+        }
+    }
+
+    /// Starts anew with other points, none a vertex yet, in the memory that there is.
+    pub(in crate::plane) fn restart(&mut self, points: impl Iterator<Item = [f64; 2]>) {
+        self.points.clear();
+        self.points.extend(points);
+        self.mesh.restart(self.points.len());
+        self.free = Slots::default();
+        self.spanned = false;
+    }
+
+    /// What it takes, buffers not counted.
+    pub(in crate::plane) fn bytes(&self) -> usize {
+        size_of_val(&*self.mesh.edges) + size_of_val(&*self.mesh.incident) + size_of_val(&*self.points)
+    }
+
+    /// A place near another one in memory for a new point.
+    pub(in crate::plane) fn new_place(&mut self, near: usize, q: [f64; 2]) -> Place {
+        if let Some(slot) = self.free.take_near(near) {
+            self.points[slot] = q;
+            return Place::new(slot);
+        }
+        make_room(&mut self.points, 1);
+        self.points.push(q);
+        make_room(&mut self.mesh.incident, 1);
+        self.mesh.incident.push(EdgeId::NONE);
+        Place::new(self.points.len() - 1)
+    }
+
+    /// Gives a place back. Its point stays to be read until the place is used again.
+    pub(in crate::plane) fn free_place(&mut self, v: Place) {
+        self.mesh.incident[v.index()] = EdgeId::NONE;
+        self.free.give(v.index());
+    }
+
+    /// Asks memory for what is kept around a place, where the layout is that of `lay_out`: this many cache lines
+    /// of triangles and of points on either side.
+    #[inline]
+    pub(in crate::plane) fn prefetch_window<const TRIANGLES: usize, const POINTS: usize>(
+        &self,
+        place: usize,
+    ) {
+        let first = (8 * place).wrapping_sub(8 * TRIANGLES);
+        for k in 0..=2 * TRIANGLES {
+            prefetch(&self.mesh.edges, first.wrapping_add(8 * k));
+        }
+        let first = place.wrapping_sub(4 * POINTS);
+        for k in 0..=2 * POINTS {
+            prefetch(&self.points, first.wrapping_add(4 * k));
+        }
+        for k in 0..3 {
+            prefetch(&self.mesh.incident, place.wrapping_sub(16).wrapping_add(16 * k));
+        }
+    }
+
+    /// Lays everything out in memory as in the plane, with room between neighbours. Returns for each old place
+    /// the new one.
+    pub(in crate::plane) fn lay_out(&mut self) -> Vec<Place> {
+        let order = self.sort();
+        let (moved, free) = self.mesh.lay_out(&order);
+        self.free = free;
+        moved
+    }
+
+    /// Puts the points in the order of the new layout. Returns the old place of each.
+    fn sort(&mut self) -> Vec<Place> {
+        let places: Vec<Place> = self.mesh.inhabited().collect();
+        let points: Vec<[f64; 2]> = places.iter().map(|p| self.points[p.index()]).collect();
+        // Copied: what comes may use the memory.
+        self.points = Vec::new();
+        let Sorted { points, indices, .. } = morton::sort(&points, &survey(&points).0);
+        self.points = room_for(with_spare(2 * points.len()));
+        self.points.extend(points.iter().flat_map(|&p| [p, p]));
+        indices.iter().map(|&i| places[i as usize]).collect()
+    }
+}
+
+impl Ground for Layer {
+    type Point = [f64; 2];
+    type Hint = EdgeId;
+    const DIMENSIONS: usize = 2;
+    const NOWHERE: EdgeId = EdgeId::NONE;
+
+    #[inline]
+    fn is_spanned(&self) -> bool {
+        self.spanned
+    }
+
+    fn vertex_count(&self) -> usize {
+        self.mesh.vertex_count
+    }
+
+    fn place_count(&self) -> usize {
+        self.mesh.incident.len()
+    }
+
+    fn inhabited(&self) -> impl Iterator<Item = Place> {
+        self.mesh.inhabited()
+    }
+
+    #[inline]
+    fn hint(&self, v: Place) -> EdgeId {
+        self.mesh.incident[v.index()]
+    }
+
+    #[inline]
+    fn is_alive(&self, hint: EdgeId) -> bool {
+        self.mesh.is_triangle(hint.triangle())
+    }
+
+    fn any_vertex(&self) -> Option<Place> {
+        let first = self.mesh.ghost_edge;
+        (first != EdgeId::NONE).then(|| self.mesh.head(first))
+    }
+
+    fn neighbor(&self, v: Place) -> Option<Place> {
+        self.mesh.spokes(v).map(|e| self.mesh.head(e)).find(|w| !w.is_ghost())
+    }
+
+    #[inline]
+    fn point(&self, v: Place) -> [f64; 2] {
+        self.points[v.index()]
+    }
+
+    #[inline]
+    fn coordinate(q: [f64; 2], axis: usize) -> f64 {
+        q[axis]
+    }
+
+    #[inline]
+    fn prefetch_around(&self, e: EdgeId) {
+        let slot = e.triangle().index();
+        self.prefetch_window::<6, 3>(slot / 2);
+        self.free.prefetch(slot / 2);
+        self.mesh.free.prefetch(slot);
+    }
+
+    #[inline]
+    fn compare_distances(&self, q: [f64; 2], a: Place, b: Place) -> Ordering {
+        compare_distances(q, self.points[a.index()], self.points[b.index()])
+    }
+
+    fn near<T: Tally>(&self, start: Start, q: [f64; 2], exactly: bool, tally: &mut T) -> Place {
+        search::near(self, start, q, exactly, tally)
+    }
+}
+
+/// What walks ask.
+impl Layer {
+    /// Asks memory for the triangle of an edge, and for its corners where they are likely to be.
+    #[inline]
+    fn prefetch_triangle(&self, e: EdgeId) {
+        prefetch(&self.mesh.edges, e.index());
+        prefetch(&self.points, e.triangle().index() / 2);
+    }
+
+    /// Whether `q` is strictly on the right of a finite edge: beyond it, seen from the edge's triangle.
+    #[inline]
+    fn is_beyond(&self, e: EdgeId, q: [f64; 2]) -> bool {
+        let [a, b] = [self.mesh.tail(e), self.mesh.head(e)].map(|v| self.points[v.index()]);
+        orient2d(a, b, q).is_negative()
+    }
+
+    /// On which side of the line from `from` to `to` a vertex is: `Greater` on the left.
+    #[inline]
+    fn side(&self, from: [f64; 2], to: [f64; 2], v: Place) -> Ordering {
+        match orient2d(from, to, self.points[v.index()]) {
+            Sign::Negative => Ordering::Less,
+            Sign::Zero => Ordering::Equal,
+            Sign::Positive => Ordering::Greater,
+        }
+    }
+
+    /// Whether the angle at `w` between `q` and `x` is acute.
+    fn is_acute(&self, w: Place, q: [f64; 2], x: Place) -> bool {
+        angle(self.points[w.index()], q, self.points[x.index()]).is_positive()
+    }
+}
+
+impl Level for Layer {
+    fn add(&mut self, q: [f64; 2], start: Start) -> Option<Place> {
+        let (spot, _) = self.spot(start, q, &mut ());
+        match self.insert(spot, q, &mut ()) {
+            Ok(place) | Err(place) => Some(place),
+        }
+    }
+
+    fn take(&mut self, v: Place) -> Option<()> {
+        self.remove(v, &mut ());
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_oracle::generate::Kind;
+
+    use super::*;
+    use crate::{Delaunay2, Work};
+
+    /// And not by looking at all.
+    #[test]
+    fn the_nearest_vertex_is_near_exactly() {
+        for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid, Kind::Circle] {
+            let points = kind.points(400, 1);
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let (mut all, mut to_triangle) = (Work::default(), Work::default());
+            for q in kind.points(400, 2) {
+                let found = d.base.point(d.base.near(Start::Anywhere, q, true, &mut all));
+                d.base.near(Start::Anywhere, q, false, &mut to_triangle);
+                let is_nearest = points.iter().all(|&p| compare_distances(q, found, p).is_le());
+                assert!(is_nearest, "{} {q:?}", kind.name());
+            }
+            let more = all.visited - to_triangle.visited;
+            assert!(more < 5 * 400, "{}: {more} triangles", kind.name());
+        }
+    }
+}

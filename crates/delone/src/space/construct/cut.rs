@@ -1,0 +1,168 @@
+//! Where to cut a set of points of space into parts that are triangulated apart.
+//!
+//! Near a cut points are triangulated twice, once in their part and once with those of the other side. How many, samples
+//! foretell: of points that fill space they are few, and the fewer the more there are; of points on a surface, whose
+//! tetrahedra reach far, they may be all. What is decided depends on the points alone.
+//!
+//! Cost: O(n log n).
+
+use super::part::Part;
+use crate::ids::TetrahedronId;
+use crate::mesh::tetrahedra::Tetrahedron;
+use crate::order;
+use crate::order::random::SplitMix;
+use crate::parallel;
+use crate::points::Bounds;
+use crate::points::Position3;
+
+/// Fewer points are not worth it.
+const MANY: usize = 1 << 14;
+/// The sizes of the thin samples.
+const THIN: [usize; 2] = [512, 4096];
+/// The number of dense samples.
+const DENSE: usize = 3;
+/// Where a larger share of a dense sample is at the border, the border may be wider than the sample can show.
+const WIDE: f64 = 0.7;
+/// The share of points that may be triangulated twice for two parts, and for more.
+const TWICE_FOR_TWO: f64 = 0.1;
+const TWICE: f64 = 0.05;
+/// More cuts, one after the other, make more parts than there are threads.
+const MOST: u32 = 8;
+
+/// Points to be triangulated apart.
+pub(super) struct Run {
+    /// Their indices, along a Hilbert curve.
+    pub(super) order: Vec<u32>,
+    /// Boxes around all other points.
+    pub(super) others: Vec<Bounds<3>>,
+}
+
+/// Cuts points into runs; into one if more would not pay.
+pub(super) fn cut<P: Position3>(points: &[P]) -> Vec<Run> {
+    let share = if points.len() < MANY { 1.0 } else { share_at_cut(points) };
+    let cuts = if share > TWICE_FOR_TWO { 0 } else { ((TWICE / share) as u32).clamp(1, MOST) };
+    divide(points, (0..points.len() as u32).collect(), cuts, Vec::new())
+}
+
+/// All points as one run.
+pub(super) fn uncut<P: Position3>(points: &[P]) -> Vec<Run> {
+    divide(points, (0..points.len() as u32).collect(), 0, Vec::new())
+}
+
+/// The share of points that are expected at the border of two halves: the larger of what thin samples of the whole and dense
+/// ones of places near the cut let expect.
+fn share_at_cut<P: Position3>(points: &[P]) -> f64 {
+    let mut random = SplitMix(0);
+    let all: Vec<u32> = (0..points.len() as u32).collect();
+    let Some(cut) = choose(points, &all) else { return 1.0 };
+    let thin = thin_share(points, cut, &mut random);
+    if thin > TWICE_FOR_TWO { thin } else { thin.max(dense_share(points, cut, &mut random)) }
+}
+
+/// What samples of two sizes let expect: as the share changed from the one to the other it goes on.
+fn thin_share<P: Position3>(points: &[P], cut: (usize, f64), random: &mut SplitMix) -> f64 {
+    let [few, many] = THIN.map(|count| {
+        let mut sample = || points[random.below(points.len())].xyz();
+        let mut sample: Vec<[f64; 3]> = (0..count).map(|_| sample()).collect();
+        at_border(&mut sample, cut).unwrap_or(count) as f64 / count as f64
+    });
+    if many == 0.0 {
+        return 0.0;
+    }
+    let steps = (points.len() as f64 / THIN[1] as f64).ln() / (THIN[1] as f64 / THIN[0] as f64).ln();
+    many * (many / few).min(1.0).powf(steps)
+}
+
+/// What all points of some boxes on the cut let expect. A box is put at a random point near the cut; so each point is in as
+/// many of them as there are points in its column. All, if no box can tell.
+fn dense_share<P: Position3>(points: &[P], (axis, at): (usize, f64), random: &mut SplitMix) -> f64 {
+    let extent = Bounds::of(points.iter().map(Position3::xyz)).extent();
+    let is_near =
+        |p: &[f64; 3], q: &[f64; 3], part: f64, k: usize| (p[k] - q[k]).abs() <= extent[k] * part / 2.0;
+    let (mut shares, mut boxes) = (0.0, 0);
+    for _ in 0..DENSE {
+        // As wide as it takes for so many points if they were spread evenly; wider until some are on either side.
+        let mut part = (THIN[0] as f64 / points.len() as f64).cbrt();
+        while part < 1.0 {
+            let near: Vec<[f64; 3]> =
+                points.iter().map(Position3::xyz).filter(|p| is_near(p, &[at; 3], part, axis)).collect();
+            if near.is_empty() {
+                break;
+            }
+            let middle = near[random.below(near.len())];
+            let in_column = |p: &[f64; 3]| (0..3).all(|k| k == axis || is_near(p, &middle, part, k));
+            let mut sample: Vec<[f64; 3]> = near.iter().copied().filter(in_column).collect();
+            if sample.len() > 16 * THIN[0] {
+                break;
+            }
+            let Some(at_border) = at_border(&mut sample, (axis, at)) else {
+                part *= 2.0;
+                continue;
+            };
+            if at_border as f64 > WIDE * sample.len() as f64 {
+                return 1.0;
+            }
+            shares += at_border as f64 / sample.len() as f64 * near.len() as f64 / points.len() as f64;
+            boxes += 1;
+            break;
+        }
+    }
+    if boxes == 0 { 1.0 } else { shares / f64::from(boxes) }
+}
+
+/// How many of a sample are at the border of its halves. `None` if these cannot be triangulated apart.
+fn at_border(sample: &mut [[f64; 3]], (axis, at): (usize, f64)) -> Option<usize> {
+    sample.sort_by(|p, q| p[axis].total_cmp(&q[axis]));
+    let (low, high) = sample.split_at(sample.partition_point(|p| p[axis] < at));
+    let of_half = |half: &[[f64; 3]], other: &[[f64; 3]]| {
+        let order = order::space::hilbert(half.len(), &|i| half[i as usize]);
+        let points: Vec<[f64; 3]> = order.into_iter().map(|i| half[i as usize]).collect();
+        let mut cells = vec![Tetrahedron::FREE; 2 * super::room(points.len())];
+        let (mut marks, mut incident) = (vec![0; cells.len()], vec![TetrahedronId::NONE; points.len()]);
+        let mut part = Part::new(&points, &mut cells, &mut marks, &mut incident);
+        part.build(0, &mut ())?;
+        let border = part.find_border(&[Bounds::of(other.iter().copied())]);
+        Some(part.vertices_of(&border).len())
+    };
+    Some(of_half(low, high)? + of_half(high, low)?)
+}
+
+/// Cuts points in halves so many times.
+pub(super) fn divide<P: Position3>(
+    points: &[P],
+    indices: Vec<u32>,
+    cuts: u32,
+    others: Vec<Bounds<3>>,
+) -> Vec<Run> {
+    let Some((axis, at)) = (cuts > 0).then(|| choose(points, &indices)).flatten() else {
+        let order = order::space::hilbert(indices.len(), &|k| points[indices[k as usize] as usize].xyz());
+        return vec![Run { order: order.into_iter().map(|k| indices[k as usize]).collect(), others }];
+    };
+    let halves: (Vec<u32>, Vec<u32>) =
+        indices.into_iter().partition(|&i| points[i as usize].xyz()[axis] < at);
+    let halves = [halves.0, halves.1];
+    let boxes = [0, 1].map(|k| Bounds::of(halves[k].iter().map(|&i| points[i as usize].xyz())));
+    let tasks = halves.into_iter().zip([boxes[1], boxes[0]]).collect();
+    let runs = parallel::map(tasks, |(half, other): (Vec<u32>, Bounds<3>)| {
+        divide(points, half, cuts - 1, others.iter().copied().chain([other]).collect())
+    });
+    runs.into_iter().flatten().collect()
+}
+
+/// The axis and the coordinate that cut points best; none if one side would have nearly all of them, whatever the axis.
+fn choose<P: Position3>(points: &[P], indices: &[u32]) -> Option<(usize, f64)> {
+    const TRIED: usize = 1024;
+    let extent = Bounds::of(indices.iter().map(|&i| points[i as usize].xyz())).extent();
+    let mut axes = [0, 1, 2];
+    axes.sort_by(|&i, &j| extent[j].total_cmp(&extent[i]));
+    let mut random = SplitMix(1);
+    let tried: Vec<[f64; 3]> =
+        (0..TRIED).map(|_| points[indices[random.below(indices.len())] as usize].xyz()).collect();
+    axes.into_iter().find_map(|axis| {
+        let mut along: Vec<f64> = tried.iter().map(|p| p[axis]).collect();
+        along.sort_by(f64::total_cmp);
+        let at = along[TRIED / 2];
+        let below = along.iter().filter(|&&x| x < at).count();
+        (TRIED / 4..=3 * TRIED / 4).contains(&below).then_some((axis, at))
+    })
+}

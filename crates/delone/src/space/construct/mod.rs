@@ -1,0 +1,152 @@
+//! Construction in bulk: biased randomized insertion order along a Hilbert curve, walks, cavities.
+//!
+//! Source: Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Points are kept in memory in the order of
+//! the curve, so neighbours in space are neighbours in memory.
+//!
+//! Cost: O(n log n) expected where the triangulation has O(n) tetrahedra, as on evenly spread points; in the worst
+//! case the triangulation itself is of size O(n^2).
+
+mod apart;
+mod cut;
+mod part;
+
+use std::ops::Range;
+
+use cut::{Run, cut};
+
+use super::layer::Layer;
+use super::layer::arena::Arena;
+use super::layer::cavity::Cavity;
+use crate::ids::{Duplicate, Place, TetrahedronId};
+use crate::mesh::Names;
+use crate::order;
+use crate::order::quantize::scaled;
+use crate::parallel;
+use crate::points::Bounds;
+use crate::points::Position3;
+use crate::tally::Tally;
+
+/// Tetrahedra that room is made for at once: evenly spread points have 6.77 each.
+const fn room(points: usize) -> usize {
+    points * 69 / 10 + 64
+}
+
+/// Triangulates finite points, at most [`crate::MAX_POINTS_IN_SPACE`] of them. They are kept in another order; what is
+/// given is dropped as soon as that is done. `None` if there would be too many tetrahedra.
+pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
+    points: impl AsRef<[P]>,
+    seed: u64,
+    tally: &mut T,
+) -> Option<(Layer, Vec<Duplicate>)> {
+    let Some((scaled, scale)) = scaled_points(points.as_ref()) else {
+        let runs = cut(points.as_ref());
+        return triangulate_runs(points, runs, seed, tally);
+    };
+    drop(points);
+    let runs = cut(&scaled);
+    let (mut layer, duplicates) = triangulate_runs(scaled, runs, seed, tally)?;
+    layer.scale(1.0 / scale);
+    Some((layer, duplicates))
+}
+
+/// Sizes of sets whose products are in the range of the filters: 2^-130 to 2^90.
+const SIZES: Range<f64> = 7.4e-40..1.2e27;
+
+/// The points scaled into that range, if they are out of it. `None` also where what is made up beside points of less than space
+/// might be too large when it is scaled back.
+fn scaled_points<P: Position3>(points: &[P]) -> Option<(Vec<[f64; 3]>, f64)> {
+    let scaled = scaled(points.len(), |i| points[i].xyz(), &SIZES)?;
+    points.iter().all(|p| p.xyz().iter().all(|x| (4.0 * x).is_finite())).then_some(scaled)
+}
+
+/// The same for points that are cut already.
+fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
+    points: impl AsRef<[P]>,
+    runs: Vec<Run>,
+    seed: u64,
+    tally: &mut T,
+) -> Option<(Layer, Vec<Duplicate>)> {
+    let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
+    let parts: Vec<(usize, Vec<Bounds<3>>)> =
+        runs.into_iter().map(|run| (run.order.len(), run.others)).collect();
+    let given = points.as_ref();
+    let mut layer = Layer::new(parallel::collect(order.len(), |k| given[order[k] as usize].xyz()));
+    drop(points);
+    layer.mesh.names = Names::along(&order);
+    drop(order);
+    let mut duplicates = Vec::new();
+    if parts.len() == 1 || apart::triangulate(&mut layer, &parts, seed, &mut duplicates, tally).is_none() {
+        duplicates.clear();
+        triangulate_whole(&mut layer, seed, &mut duplicates, tally)?;
+    }
+    Duplicate::settle(&mut duplicates);
+    Some((layer, duplicates))
+}
+
+/// Makes all points vertices, which must be in an order that is short in space. `None` if there is no room.
+fn triangulate_whole<T: Tally>(
+    layer: &mut Layer,
+    seed: u64,
+    duplicates: &mut Vec<Duplicate>,
+    tally: &mut T,
+) -> Option<()> {
+    let count = layer.points.len();
+    layer.clear_mesh();
+    layer.mesh.incident.fill(TetrahedronId::NONE);
+    layer.mesh.cells.reserve_exact(room(count));
+    layer.mesh.marks.reserve_exact(room(count));
+    build(layer, &order::space::rounds(count, seed), duplicates, tally)
+}
+
+/// Makes the points at some places vertices, in this order, in an empty mesh. Those that equal others become
+/// duplicates. `None` if there is no room.
+pub(super) fn build<T: Tally>(
+    layer: &mut Layer,
+    order: &[u32],
+    duplicates: &mut Vec<Duplicate>,
+    tally: &mut T,
+) -> Option<()> {
+    let first = layer.begin(order)?;
+    let Some(&a) = first.first() else { return Some(()) };
+    let start = layer.mesh.incident[a.index()];
+    let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
+    let mut cavity = std::mem::take(&mut layer.cavity);
+    let mut twins = Vec::new();
+    let all = insert_all(layer, &mut cavity, start, others, &mut twins, tally);
+    layer.cavity = cavity;
+    all?;
+    layer.mesh.vertex_count = order.len() - twins.len();
+    note_twins(layer, &twins, duplicates);
+    Some(())
+}
+
+/// Points that equal vertices are duplicates of them.
+fn note_twins(layer: &mut Layer, twins: &[(Place, Place)], duplicates: &mut Vec<Duplicate>) {
+    let names = &mut layer.mesh.names;
+    duplicates.extend(twins.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
+}
+
+/// Makes the points at some places vertices, the first located from a tetrahedron near it; those that equal a vertex are
+/// listed with it. `None` if there is no room.
+fn insert_all<A: Arena, T: Tally>(
+    arena: &mut A,
+    cavity: &mut Cavity,
+    start: TetrahedronId,
+    places: impl Iterator<Item = Place>,
+    twins: &mut Vec<(Place, Place)>,
+    tally: &mut T,
+) -> Option<()> {
+    let mut last = start;
+    for v in places {
+        let view = arena.view();
+        let q = view.points[v.index()];
+        last = view.walk(last, q, tally);
+        if let Some(w) = view.vertex_at(last, q) {
+            twins.push((v, w));
+            continue;
+        }
+        cavity.insert(arena, v, last, tally)?;
+        last = arena.memory().incident[v.index()];
+    }
+    Some(())
+}

@@ -1,0 +1,223 @@
+//! The triangulation of a run of places, in memory that is one task's own; and which of its tetrahedra are sure to be those
+//! of all points.
+//!
+//! A tetrahedron whose sphere holds no point of the other runs is one of the triangulation of all points. The others are
+//! the *border*. A point elsewhere is in conflict with tetrahedra that hang together and include a ghost that it is
+//! beyond, so the border is found from the ghosts, and nearly all tetrahedra are never looked at.
+
+use std::ops::Range;
+
+use delone_predicates::{Filter3, Grid, Sign, keeps_clear, orient3d};
+
+use super::super::layer::arena::{Arena, Memory, View};
+use super::super::layer::cavity::Cavity;
+use super::super::layer::scaffold::{first_cells, spanning};
+use super::insert_all;
+use crate::ids::{FacetId, Place, TetrahedronId};
+use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
+use crate::order;
+use crate::points::Bounds;
+use crate::tally::Tally;
+
+/// Marks while the border is found: bits.
+const BORDER: u8 = 1;
+const SURE: u8 = 2;
+
+/// See the module. Its ids are its own until [`Self::settle`].
+pub(super) struct Part<'a> {
+    points: &'a [[f64; 3]],
+    filter: Filter3,
+    cells: &'a mut [Tetrahedron],
+    marks: &'a mut [u8],
+    incident: &'a mut [TetrahedronId],
+    /// Slots that were used at some time.
+    used: usize,
+    free: Vec<TetrahedronId>,
+    /// Places and the vertices that they equal.
+    twins: Vec<(Place, Place)>,
+}
+
+/// What a part has to say about itself, with the ids of the whole.
+pub(super) struct Done {
+    /// The slots that were never used, and those that are free again.
+    pub(super) unused: Range<usize>,
+    pub(super) free: Vec<TetrahedronId>,
+    /// Places and the vertices that they equal.
+    pub(super) twins: Vec<(Place, Place)>,
+    /// The border, and its vertices.
+    pub(super) border: Vec<TetrahedronId>,
+    pub(super) vertices: Vec<Place>,
+    /// The facets between the border and the rest: their corners, as seen from the border, and their other sides.
+    pub(super) seam: Vec<([Place; 3], FacetId)>,
+}
+
+impl Arena for Part<'_> {
+    #[inline]
+    fn view(&self) -> View<'_> {
+        View { cells: self.cells, points: self.points, filter: &self.filter }
+    }
+
+    #[inline]
+    fn memory(&mut self) -> Memory<'_> {
+        let Self { cells, marks, incident, points, filter, .. } = self;
+        Memory { cells, marks, incident, points, filter }
+    }
+
+    fn room(&self) -> usize {
+        self.free.len() + self.cells.len() - self.used
+    }
+
+    #[inline]
+    fn new_cell(&mut self) -> Option<TetrahedronId> {
+        self.free.pop().or_else(|| {
+            let fresh = self.used;
+            (fresh < self.cells.len()).then(|| {
+                self.used += 1;
+                TetrahedronId::new(fresh)
+            })
+        })
+    }
+
+    #[inline]
+    fn free_cell(&mut self, t: TetrahedronId) {
+        self.cells[t.index()] = Tetrahedron::FREE;
+        self.free.push(t);
+    }
+}
+
+impl<'a> Part<'a> {
+    /// Points and memory for their tetrahedra, all of it free.
+    pub(super) fn new(
+        points: &'a [[f64; 3]],
+        cells: &'a mut [Tetrahedron],
+        marks: &'a mut [u8],
+        incident: &'a mut [TetrahedronId],
+    ) -> Self {
+        let filter = Filter3::default();
+        Self { points, filter, cells, marks, incident, used: 0, free: Vec::new(), twins: Vec::new() }
+    }
+
+    /// Triangulates the points. `None` if they span less than space, or have more tetrahedra than there is room for.
+    pub(super) fn build<T: Tally>(&mut self, seed: u64, tally: &mut T) -> Option<()> {
+        let extent = Bounds::of(self.points.iter().copied()).extent();
+        self.filter = Filter3::for_box(extent, Grid::of(self.points.as_flattened()));
+        let order = order::space::rounds(self.points.len(), seed);
+        let first = spanning(self.points, &order);
+        let &[a, b, c, d] = &first[..] else { return None };
+        first_cells(self, [a, b, c, d])?;
+        let mut twins = Vec::new();
+        let start = self.incident[a.index()];
+        let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
+        insert_all(self, &mut Cavity::default(), start, others, &mut twins, tally)?;
+        self.twins = twins;
+        Some(())
+    }
+
+    /// Finds and marks the tetrahedra whose spheres may hold points of some boxes. All points of others must be in them.
+    pub(super) fn find_border(&mut self, others: &[Bounds<3>]) -> Vec<TetrahedronId> {
+        let is_ghost = |cell: &Tetrahedron| cell.corners[3].is_ghost() && !cell.corners[0].is_ghost();
+        let first = self.cells[..self.used].iter().position(is_ghost);
+        let mut ghosts: Vec<TetrahedronId> = first.map(TetrahedronId::new).into_iter().collect();
+        // All ghosts: those that nothing is beyond are in the way to others.
+        let mut done = 0;
+        ghosts.iter().for_each(|t| self.marks[t.index()] = SURE);
+        while let Some(&t) = ghosts.get(done) {
+            done += 1;
+            for f in self.cells[t.index()].across.into_iter().take(3) {
+                let next = f.tetrahedron();
+                if self.marks[next.index()] == 0 {
+                    self.marks[next.index()] = SURE;
+                    ghosts.push(next);
+                }
+            }
+        }
+        let mut border: Vec<TetrahedronId> = ghosts
+            .iter()
+            .copied()
+            .filter(|&t| others.iter().any(|other| self.may_be_beyond(t, other)))
+            .collect();
+        border.iter().for_each(|t| self.marks[t.index()] = BORDER);
+        let mut tested = ghosts;
+        let mut done = 0;
+        while let Some(&t) = border.get(done) {
+            done += 1;
+            for f in self.cells[t.index()].across {
+                let next = f.tetrahedron();
+                if self.marks[next.index()] == 0 {
+                    tested.push(next);
+                    if others.iter().any(|other| self.may_hold(next, other)) {
+                        self.marks[next.index()] = BORDER;
+                        border.push(next);
+                    } else {
+                        self.marks[next.index()] = SURE;
+                    }
+                }
+            }
+        }
+        tested.iter().for_each(|t| self.marks[t.index()] &= BORDER);
+        border
+    }
+
+    /// Whether the sphere of a finite tetrahedron may hold points of a box.
+    fn may_hold(&self, t: TetrahedronId, other: &Bounds<3>) -> bool {
+        let corners = self.cells[t.index()].corners.map(|p| self.points[p.index()]);
+        !keeps_clear(corners, other.low, other.high)
+    }
+
+    /// The same for a ghost: some of the box may be beyond its facet, or in the plane of the facet and in its circle, which
+    /// the sphere of the tetrahedron inside cuts out.
+    fn may_be_beyond(&self, ghost: TetrahedronId, other: &Bounds<3>) -> bool {
+        let Tetrahedron { corners: [a, b, c, _], across } = self.cells[ghost.index()];
+        let [a, b, c] = [a, b, c].map(|p| self.points[p.index()]);
+        let corner = |m: usize| [0, 1, 2].map(|k| if m >> k & 1 == 0 { other.low[k] } else { other.high[k] });
+        let most = (0..8).map(|m| orient3d(a, b, c, corner(m))).max();
+        match most {
+            Some(Sign::Negative) | None => false,
+            Some(Sign::Zero) => self.may_hold(across[3].tetrahedron(), other),
+            Some(Sign::Positive) => true,
+        }
+    }
+
+    /// The vertices of the border, by place.
+    pub(super) fn vertices_of(&self, border: &[TetrahedronId]) -> Vec<Place> {
+        let mut is_at = vec![false; self.points.len()];
+        let corners = border.iter().flat_map(|t| self.cells[t.index()].corners);
+        corners.filter(|p| !p.is_ghost()).for_each(|p| is_at[p.index()] = true);
+        (0..is_at.len()).filter(|&p| is_at[p]).map(Place::new).collect()
+    }
+
+    /// Says where its border is, and takes the ids of the whole, where its first place and its first slot for
+    /// tetrahedra have these numbers.
+    pub(super) fn settle(mut self, others: &[Bounds<3>], place: usize, slot: usize) -> Done {
+        let places = |p: Place| if p.is_ghost() { p } else { Place::new(p.index() + place) };
+        let slots = |t: TetrahedronId| TetrahedronId::new(t.index() + slot);
+        let facets = |f: FacetId| slots(f.tetrahedron()).facet(f.corner());
+        let border = self.find_border(others);
+        let vertices = self.vertices_of(&border).into_iter().map(places).collect();
+        let mut seam = Vec::new();
+        for &t in &border {
+            let cell = self.cells[t.index()];
+            for (f, corners) in cell.across.into_iter().zip(FACETS) {
+                if self.marks[f.tetrahedron().index()] == 0 {
+                    seam.push((corners.map(|k| places(cell.corners[k])), facets(f)));
+                }
+            }
+        }
+        border.iter().for_each(|t| self.marks[t.index()] = 0);
+        if slot > 0 {
+            for cell in self.cells[..self.used].iter_mut().filter(|cell| !cell.corners[0].is_ghost()) {
+                *cell = Tetrahedron { corners: cell.corners.map(places), across: cell.across.map(facets) };
+            }
+            let used = self.incident.iter_mut().filter(|t| **t != TetrahedronId::NONE);
+            used.for_each(|t| *t = slots(*t));
+        }
+        Done {
+            unused: slot + self.used..slot + self.cells.len(),
+            free: self.free.into_iter().map(slots).collect(),
+            twins: self.twins.into_iter().map(|(v, w)| (places(v), places(w))).collect(),
+            border: border.into_iter().map(slots).collect(),
+            vertices,
+            seam,
+        }
+    }
+}

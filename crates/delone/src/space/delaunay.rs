@@ -1,0 +1,266 @@
+//! The Delaunay triangulation of space: a layer, with names and a strategy of location.
+
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+
+use super::construct;
+use super::layer::Layer;
+use super::locator::Locator;
+use crate::error::Error;
+use crate::ids::{Duplicate, FacetId, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
+use crate::locate::Locate;
+use crate::mesh::Dimension;
+use crate::mesh::tetrahedra::Mesh3;
+use crate::points::{Position3, check_in_space};
+use crate::tally::{Counters, Work};
+
+/// How to build a triangulation of space. The result is the same set of tetrahedra; only cost and numbering differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Algorithm3 {
+    /// Biased randomized insertion along a Hilbert curve, each point located from the one before: the fastest.
+    Spatial {
+        /// Decides the rounds.
+        seed: u64,
+    },
+    /// One by one in random order, located by a strategy.
+    Located {
+        /// The strategy.
+        locate: Locate,
+        /// Decides the order.
+        seed: u64,
+    },
+}
+
+/// The Delaunay triangulation of a set of points in space.
+///
+/// It is a function of the set of points alone: ties of cospherical points are always broken in the same way (see
+/// [`delone_predicates::in_sphere`]), whatever the order of the points. A vertex is known by the index of its point.
+/// Sets that span less than space are valid triangulations without tetrahedra; coplanar points have triangles.
+///
+/// ```
+/// use delone::Delaunay3;
+///
+/// let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+/// let triangulation = Delaunay3::from_points(&points)?;
+/// assert_eq!(triangulation.tetrahedra().count(), 2);
+/// assert_eq!(triangulation.hull_facets().count(), 6);
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Delaunay3 {
+    pub(super) base: Layer,
+    /// Points reported as equal to a vertex, sorted; some may be out of date.
+    pub(super) duplicates: Vec<Duplicate>,
+    /// Vertices that were moved away from their duplicates.
+    pub(super) moved: BTreeSet<VertexId>,
+    pub(super) work: Work,
+    pub(super) locate: Locate,
+    /// The structure of the strategy, once it was needed.
+    pub(super) locator: OnceLock<Locator>,
+    /// The number of vertices when hints were made.
+    pub(super) hinted: usize,
+}
+
+impl Delaunay3 {
+    /// The triangulation of no points.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The triangulation of no points, with a strategy of location.
+    ///
+    /// # Errors
+    /// As [`Self::set_strategy`].
+    pub fn with_strategy(locate: Locate) -> Result<Self, Error> {
+        let mut triangulation = Self::new();
+        triangulation.set_strategy(locate)?;
+        Ok(triangulation)
+    }
+
+    /// Triangulates points by the default algorithm.
+    ///
+    /// O(n log n) expected where the result has O(n) tetrahedra, as for evenly spread points; in the worst case it has
+    /// O(n^2). About 280 bytes a point above the input for evenly spread points.
+    /// On all threads of rayon's pool where that pays; the result is the same to the bit.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
+    /// [`MAX_POINTS_IN_SPACE`], [`Error::TooManyTetrahedra`] beyond 2^30 of these, which some sets of 66,000 points have.
+    pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
+        check_in_space(points)?;
+        Ok(Self::assemble(with_room(construct::triangulate(points, 0, &mut ()))?, Work::default()))
+    }
+
+    /// Triangulates coordinates that it may take apart, which takes 24 bytes a point less.
+    ///
+    /// # Errors
+    /// As [`Self::from_points`].
+    pub fn from_vec(points: Vec<[f64; 3]>) -> Result<Self, Error> {
+        check_in_space(&points)?;
+        let built = construct::triangulate::<[f64; 3], _>(points, 0, &mut ());
+        Ok(Self::assemble(with_room(built)?, Work::default()))
+    }
+
+    /// Triangulates points with an algorithm of choice, and counts what it does; see [`Self::counters`].
+    ///
+    /// # Errors
+    /// As [`Self::from_points`]; [`Error::Parameter`] and [`Error::OnlyInThePlane`] as in [`Self::set_strategy`].
+    pub fn with_algorithm<P: Position3>(points: &[P], algorithm: Algorithm3) -> Result<Self, Error> {
+        check_in_space(points)?;
+        let mut work = Work::default();
+        match algorithm {
+            Algorithm3::Spatial { seed } => {
+                let built = construct::triangulate(points, seed, &mut work);
+                Ok(Self::assemble(with_room(built)?, work))
+            }
+            Algorithm3::Located { locate, seed } => {
+                let mut d = Self::with_strategy(locate)?;
+                d.extend_shuffled(points, seed, &mut work)?;
+                d.work = work;
+                Ok(d)
+            }
+        }
+    }
+
+    pub(super) fn assemble((base, duplicates): (Layer, Vec<Duplicate>), work: Work) -> Self {
+        Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() }
+    }
+
+    /// What the construction did, if it was by [`Self::with_algorithm`].
+    pub fn counters(&self) -> Counters {
+        Counters::Incremental(self.work)
+    }
+
+    /// The topology: tetrahedra, facets, neighbours. Below space its tetrahedra have corners without a name, which
+    /// stand for the dimensions that are missing.
+    pub fn mesh(&self) -> &Mesh3 {
+        &self.base.mesh
+    }
+
+    /// What the points span.
+    pub fn dimension(&self) -> Dimension {
+        self.base.dimension()
+    }
+
+    /// The number of vertices: points without duplicates.
+    pub fn vertex_count(&self) -> usize {
+        self.base.mesh.vertex_count()
+    }
+
+    /// The vertices, by increasing index.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.base.mesh.vertices()
+    }
+
+    /// The points that equal an earlier one which is a vertex, by increasing index.
+    pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        let valid = |d: &&Duplicate| self.base.mesh.contains(d.vertex) && !self.moved.contains(&d.vertex);
+        self.duplicates.iter().filter(valid).copied()
+    }
+
+    /// The coordinates of a vertex.
+    ///
+    /// # Panics
+    /// For an id that is no vertex.
+    #[inline]
+    pub fn point(&self, v: VertexId) -> [f64; 3] {
+        let place = self.base.mesh.place(v).expect("a vertex");
+        self.base.points[place.index()]
+    }
+
+    /// The finite tetrahedra, by id. None below space.
+    pub fn tetrahedron_ids(&self) -> impl Iterator<Item = TetrahedronId> + '_ {
+        let mesh = &self.base.mesh;
+        let spanned = self.base.scaffold.is_empty();
+        mesh.cells().filter(move |&t| spanned && !mesh.is_ghost(t))
+    }
+
+    /// The finite tetrahedra as corners in positive order: the first three are seen counter-clockwise from the fourth.
+    pub fn tetrahedra(&self) -> impl Iterator<Item = [VertexId; 4]> + '_ {
+        self.tetrahedron_ids().map(|t| self.base.mesh.corners(t))
+    }
+
+    /// The number of finite tetrahedra. O(n).
+    pub fn tetrahedron_count(&self) -> usize {
+        self.tetrahedron_ids().count()
+    }
+
+    /// The finite facets, each from one of its two sides; of coplanar points the triangles.
+    pub fn facets(&self) -> impl Iterator<Item = FacetId> + '_ {
+        let (mesh, dimension) = (&self.base.mesh, self.dimension());
+        let wanted = move |f: &FacetId| match dimension {
+            // From the smaller of two finite sides.
+            Dimension::Space => {
+                let g = mesh.twin(*f);
+                *f < g || mesh.is_ghost(g.tetrahedron())
+            }
+            Dimension::Plane => {
+                self.base.is_scaffold(mesh.cells[f.tetrahedron().index()].corners[f.corner()])
+            }
+            _ => false,
+        };
+        let finite = mesh.cells().filter(|&t| !mesh.is_ghost(t));
+        finite.flat_map(|t| [0, 1, 2, 3].map(|k| t.facet(k))).filter(wanted)
+    }
+
+    /// The facets of the hull, counter-clockwise seen from outside; flat faces are cut into triangles, as the
+    /// triangulation has them. Coplanar points have each triangle once, seen from either side; less than a plane has
+    /// none.
+    pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
+        let (mesh, dimension) = (&self.base.mesh, self.dimension());
+        let ghosts = mesh.cells().filter(move |&t| dimension == Dimension::Space && mesh.is_ghost(t));
+        let outer = ghosts.map(|t| mesh.facet_corners(t.facet(3)));
+        let flat = self.facets().filter(move |_| dimension == Dimension::Plane);
+        outer.chain(flat.map(|f| mesh.facet_corners(f)))
+    }
+
+    /// The vertices on the hull, by increasing index: in the plane of coplanar points all that are corners of a triangle
+    /// of [`Self::hull_facets`].
+    pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        let mut corners: Vec<VertexId> = self.hull_facets().flatten().collect();
+        corners.sort_unstable();
+        corners.dedup();
+        corners.into_iter()
+    }
+
+    /// The edges, each once, of whatever the points span.
+    pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        let mut star = Vec::new();
+        self.base.mesh.inhabited().flat_map(move |p| {
+            let mut joined = self.neighbors_of(p, &mut star);
+            joined.retain(|&q| q > p);
+            let [v] = [self.base.mesh.name(p)];
+            joined.into_iter().map(move |q| [v, self.base.mesh.name(q)])
+        })
+    }
+
+    /// The vertices joined to a vertex by an edge; none for an id that is no vertex.
+    pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        let joined = self.base.mesh.place(v).map(|p| self.neighbors_of(p, &mut Vec::new()));
+        joined.unwrap_or_default().into_iter().map(|p| self.base.mesh.name(p))
+    }
+
+    /// The tetrahedra at a vertex, ghosts included, in no special order; none for an id that is no vertex, and below
+    /// space.
+    pub fn tetrahedra_at(&self, v: VertexId) -> Vec<TetrahedronId> {
+        let mut star = Vec::new();
+        if let Some(place) = self.base.mesh.place(v).filter(|_| self.dimension() == Dimension::Space) {
+            self.base.mesh.star(place, &mut star);
+        }
+        star
+    }
+
+    pub(super) fn neighbors_of(&self, p: Place, star: &mut Vec<TetrahedronId>) -> Vec<Place> {
+        let mut joined = Vec::new();
+        if !self.base.is_scaffold(p) {
+            self.base.neighbors(p, star, &mut joined);
+        }
+        joined
+    }
+}
+
+/// What was built, or that there would be too many tetrahedra.
+fn with_room<T>(built: Option<T>) -> Result<T, Error> {
+    built.ok_or(Error::TooManyTetrahedra { most: MAX_TETRAHEDRA })
+}

@@ -1,0 +1,140 @@
+//! The port between an insertion and the memory that it works in: a layer, or a part of the memory of a layer that is
+//! one task's own.
+
+use delone_predicates::Filter3;
+
+use crate::ids::{Place, TetrahedronId};
+use crate::mesh::tetrahedra::Tetrahedron;
+use crate::tally::Tally;
+
+/// What decisions look at.
+#[derive(Clone, Copy)]
+pub(in crate::space) struct View<'a> {
+    pub(in crate::space) cells: &'a [Tetrahedron],
+    /// For each place its coordinates.
+    pub(in crate::space) points: &'a [[f64; 3]],
+    /// For the box around them.
+    pub(in crate::space) filter: &'a Filter3,
+}
+
+/// What an insertion writes, too.
+pub(in crate::space) struct Memory<'a> {
+    pub(in crate::space) cells: &'a mut [Tetrahedron],
+    /// For each tetrahedron a mark, zero between operations.
+    pub(in crate::space) marks: &'a mut [u8],
+    /// For each place a tetrahedron at its vertex.
+    pub(in crate::space) incident: &'a mut [TetrahedronId],
+    pub(in crate::space) points: &'a [[f64; 3]],
+    pub(in crate::space) filter: &'a Filter3,
+}
+
+/// Memory for tetrahedra.
+pub(in crate::space) trait Arena {
+    fn view(&self) -> View<'_>;
+    fn memory(&mut self) -> Memory<'_>;
+    /// How many more tetrahedra there is room for.
+    fn room(&self) -> usize;
+    /// A tetrahedron to be filled in, if there is room.
+    fn new_cell(&mut self) -> Option<TetrahedronId>;
+    /// Gives one back.
+    fn free_cell(&mut self, t: TetrahedronId);
+}
+
+impl Memory<'_> {
+    #[inline]
+    pub(in crate::space) fn view(&self) -> View<'_> {
+        View { cells: self.cells, points: self.points, filter: self.filter }
+    }
+}
+
+impl View<'_> {
+    #[inline]
+    fn corners(&self, t: TetrahedronId) -> &[Place; 4] {
+        &self.cells[t.index()].corners
+    }
+
+    #[inline]
+    fn at(&self, p: Place) -> &[f64; 3] {
+        &self.points[p.index()]
+    }
+
+    /// The coordinates of four corners, none of them the ghost.
+    #[inline]
+    fn all(&self, &[a, b, c, d]: &[Place; 4]) -> [&[f64; 3]; 4] {
+        [self.at(a), self.at(b), self.at(c), self.at(d)]
+    }
+
+    /// Whether the sphere of a tetrahedron contains `q`. That of a ghost is the half-space beyond its hull facet, with
+    /// the inside of the facet's circle.
+    #[inline]
+    pub(in crate::space) fn conflicts(&self, t: TetrahedronId, q: &[f64; 3]) -> bool {
+        let corners = self.corners(t);
+        if corners[3].is_ghost() { self.is_beyond_hull(t, q) } else { self.is_in_sphere(corners, q) }
+    }
+
+    /// The same for two.
+    #[inline]
+    pub(in crate::space) fn both_conflict(
+        &self,
+        t: TetrahedronId,
+        u: TetrahedronId,
+        q: &[f64; 3],
+    ) -> [bool; 2] {
+        let (first, second) = (self.corners(t), self.corners(u));
+        if first[3].is_ghost() || second[3].is_ghost() {
+            return [self.conflicts(t, q), self.conflicts(u, q)];
+        }
+        let [first, second] = self.filter.in_spheres([self.all(first), self.all(second)], q);
+        [first.is_positive(), second.is_positive()]
+    }
+
+    #[inline]
+    fn is_in_sphere(&self, corners: &[Place; 4], &q: &[f64; 3]) -> bool {
+        let [&a, &b, &c, &d] = self.all(corners);
+        self.filter.in_sphere(a, b, c, d, q).is_positive()
+    }
+
+    /// The same for a ghost.
+    fn is_beyond_hull(&self, t: TetrahedronId, q: &[f64; 3]) -> bool {
+        let Tetrahedron { corners: [a, b, c, _], across } = self.cells[t.index()];
+        let side = self.filter.orient3d(*self.at(a), *self.at(b), *self.at(c), *q);
+        if !side.is_zero() {
+            return side.is_positive();
+        }
+        // In the plane of the facet the sphere of the tetrahedron inside cuts out its circle.
+        self.is_in_sphere(self.corners(across[3].tetrahedron()), q)
+    }
+
+    /// Walks to `q` from a tetrahedron: to a finite one that contains it in its inside or on its border, or else to the
+    /// ghost of a hull facet that it is strictly beyond. Visibility walk, which ends in every Delaunay triangulation.
+    #[inline]
+    pub(in crate::space) fn walk<T: Tally>(
+        &self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        tally: &mut T,
+    ) -> TetrahedronId {
+        let mut t = from;
+        if self.corners(t)[3].is_ghost() {
+            t = self.cells[t.index()].across[3].tetrahedron();
+        }
+        loop {
+            tally.visited();
+            let cell = &self.cells[t.index()];
+            if cell.corners[3].is_ghost() {
+                return t;
+            }
+            (0..4).for_each(|_| tally.orientation());
+            match self.filter.facet_towards(self.all(&cell.corners), &q) {
+                Some(k) => t = cell.across[k].tetrahedron(),
+                None => return t,
+            }
+        }
+    }
+
+    /// The corner of a tetrahedron that a point equals.
+    #[inline]
+    pub(in crate::space) fn vertex_at(&self, t: TetrahedronId, q: [f64; 3]) -> Option<Place> {
+        self.corners(t).iter().copied().find(|&p| !p.is_ghost() && *self.at(p) == q)
+    }
+}

@@ -1,0 +1,250 @@
+//! A triangulation of space that can change: topology, coordinates by place, static filter, and the buffers of its
+//! operations. It knows no strategy of location.
+
+pub(in crate::space) mod arena;
+pub(in crate::space) mod cavity;
+mod ground;
+pub(in crate::space) mod hole;
+mod remove;
+pub(in crate::space) mod scaffold;
+
+use delone_predicates::{Filter3, Grid};
+
+use crate::ids::{Place, TetrahedronId};
+use crate::mesh::tetrahedra::Mesh3;
+use crate::points::Bounds;
+use crate::tally::Tally;
+use arena::{Arena, Memory, View};
+use cavity::Cavity;
+use hole::Hole;
+
+/// See the module.
+#[derive(Clone, Debug, Default)]
+pub(in crate::space) struct Layer {
+    pub(in crate::space) mesh: Mesh3,
+    /// For each place its coordinates.
+    pub(in crate::space) points: Vec<[f64; 3]>,
+    /// Places without a point.
+    free: Vec<Place>,
+    /// The box around all points, and a lattice that they are on.
+    limits: Bounds<3>,
+    grid: Option<Grid>,
+    pub(in crate::space) filter: Filter3,
+    /// The places of scaffold points.
+    pub(in crate::space) scaffold: Vec<Place>,
+    pub(in crate::space) cavity: Cavity,
+    pub(in crate::space) hole: Hole,
+    /// What holes are filled with.
+    pub(in crate::space) fill: Option<Box<Layer>>,
+}
+
+/// Why a point does not become a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::space) enum Refusal {
+    /// It equals this one.
+    Vertex(Place),
+    /// There would be too many tetrahedra.
+    Full,
+}
+
+impl Layer {
+    /// Points at their places, none a vertex yet.
+    pub(in crate::space) fn new(points: Vec<[f64; 3]>) -> Self {
+        let limits = Bounds::of(points.iter().copied());
+        let grid = Grid::of(points.as_flattened());
+        let mesh = Mesh3 { incident: vec![TetrahedronId::NONE; points.len()], ..Mesh3::default() };
+        let filter = Filter3::for_box(limits.extent(), grid);
+        Self { mesh, points, limits, grid, filter, ..Self::default() }
+    }
+
+    /// Starts anew with other points, as [`Self::new`], in the memory that there is. They have no names.
+    pub(in crate::space) fn restart(&mut self, points: impl Iterator<Item = [f64; 3]>) {
+        self.set_points(points);
+        self.free.clear();
+        self.mesh.incident.clear();
+        self.mesh.incident.resize(self.points.len(), TetrahedronId::NONE);
+        self.mesh.names.clear();
+        self.clear_mesh();
+    }
+
+    /// Gives all places other points, and looks at nothing else.
+    pub(in crate::space) fn set_points(&mut self, points: impl Iterator<Item = [f64; 3]>) {
+        self.points.clear();
+        self.points.extend(points);
+        self.limits = Bounds::of(self.points.iter().copied());
+        self.grid = Grid::of(self.points.as_flattened());
+        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+    }
+
+    /// Multiplies all coordinates with a power of two. None may lose bits by that.
+    pub(in crate::space) fn scale(&mut self, power: f64) {
+        self.points.as_flattened_mut().iter_mut().for_each(|x| *x *= power);
+        self.limits = Bounds::of(self.points.iter().copied());
+        self.grid = Grid::of(self.points.as_flattened());
+        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+    }
+
+    pub(in crate::space) fn clear_mesh(&mut self) {
+        self.scaffold.clear();
+        self.mesh.cells.clear();
+        self.mesh.marks.clear();
+        self.mesh.free.clear();
+        self.mesh.vertex_count = 0;
+    }
+
+    /// Keeps a point at a place. It is no vertex yet.
+    pub(in crate::space) fn keep(&mut self, q: [f64; 3]) -> Place {
+        let fits = self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x)));
+        if !fits || self.points.is_empty() {
+            self.grid = Grid::of(&q).filter(|_| self.points.is_empty());
+        }
+        let is_outside = !self.limits.contains(q);
+        self.limits.include(q);
+        if is_outside || !fits {
+            self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+        }
+        if let Some(place) = self.free.pop() {
+            self.points[place.index()] = q;
+            return place;
+        }
+        self.points.push(q);
+        self.mesh.incident.push(TetrahedronId::NONE);
+        self.mesh.names.add_place();
+        Place::new(self.points.len() - 1)
+    }
+
+    /// Gives a place back.
+    pub(in crate::space) fn free_place(&mut self, v: Place) {
+        self.mesh.incident[v.index()] = TetrahedronId::NONE;
+        self.free.push(v);
+    }
+
+    /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or says why not, and nothing has
+    /// changed.
+    pub(in crate::space) fn add_point<T: Tally>(
+        &mut self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        tally: &mut T,
+    ) -> Result<Place, Refusal> {
+        if !self.is_in_span(q) {
+            let v = self.keep(q);
+            if self.rebuild(Some(v)).is_none() {
+                self.free_place(v);
+                return Err(Refusal::Full);
+            }
+            return Ok(v);
+        }
+        let t = self.walk(from, q, tally);
+        if let Some(w) = self.vertex_at(t, q) {
+            return Err(Refusal::Vertex(w));
+        }
+        let v = self.keep(q);
+        if self.insert(v, t, tally).is_none() {
+            self.free_place(v);
+            return Err(Refusal::Full);
+        }
+        Ok(v)
+    }
+
+    /// Some tetrahedron; there must be a vertex.
+    pub(in crate::space) fn any_cell(&self) -> TetrahedronId {
+        self.mesh.cells().next().unwrap_or(TetrahedronId::NONE)
+    }
+
+    /// What decisions look at.
+    #[inline]
+    pub(in crate::space) fn view(&self) -> View<'_> {
+        View { cells: &self.mesh.cells, points: &self.points, filter: &self.filter }
+    }
+
+    /// [`View::conflicts`].
+    #[inline]
+    pub(in crate::space) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
+        self.view().conflicts(t, &q)
+    }
+
+    /// Whether the corners of a finite tetrahedron are in positive order.
+    #[inline]
+    pub(in crate::space) fn is_positive(&self, t: TetrahedronId) -> bool {
+        let [a, b, c, d] = self.mesh.cells[t.index()].corners.map(|p| self.points[p.index()]);
+        self.filter.orient3d(a, b, c, d).is_positive()
+    }
+
+    /// The longest side of the box around all points.
+    pub(in crate::space) fn size(&self) -> f64 {
+        self.limits.extent().into_iter().fold(0.0, f64::max)
+    }
+
+    /// The filter for the vertices and one more point.
+    #[inline]
+    fn filter_with(&self, q: [f64; 3]) -> Filter3 {
+        if self.limits.contains(q) && self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x))) {
+            return self.filter;
+        }
+        let mut limits = self.limits;
+        limits.include(q);
+        Filter3::for_box(limits.extent(), None)
+    }
+
+    /// [`View::walk`], for a point that may be outside of the box around the others.
+    #[inline]
+    pub(in crate::space) fn walk<T: Tally>(
+        &self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        tally: &mut T,
+    ) -> TetrahedronId {
+        View { filter: &self.filter_with(q), ..self.view() }.walk(from, q, tally)
+    }
+
+    /// The vertex of a tetrahedron that a point equals.
+    #[inline]
+    pub(in crate::space) fn vertex_at(&self, t: TetrahedronId, q: [f64; 3]) -> Option<Place> {
+        self.view().vertex_at(t, q).filter(|&p| !self.is_scaffold(p))
+    }
+
+    /// Makes the point at a place a vertex, from a tetrahedron in conflict with it. `None`, and nothing has changed, if there
+    /// is no room.
+    #[inline]
+    pub(in crate::space) fn insert<T: Tally>(
+        &mut self,
+        v: Place,
+        seed: TetrahedronId,
+        tally: &mut T,
+    ) -> Option<()> {
+        let mut cavity = std::mem::take(&mut self.cavity);
+        let inserted = cavity.insert(self, v, seed, tally);
+        self.cavity = cavity;
+        inserted?;
+        self.mesh.vertex_count += 1;
+        Some(())
+    }
+}
+
+impl Arena for Layer {
+    #[inline]
+    fn view(&self) -> View<'_> {
+        self.view()
+    }
+
+    #[inline]
+    fn memory(&mut self) -> Memory<'_> {
+        let Mesh3 { cells, marks, incident, .. } = &mut self.mesh;
+        Memory { cells, marks, incident, points: &self.points, filter: &self.filter }
+    }
+
+    fn room(&self) -> usize {
+        self.mesh.room()
+    }
+
+    #[inline]
+    fn new_cell(&mut self) -> Option<TetrahedronId> {
+        self.mesh.new_cell()
+    }
+
+    #[inline]
+    fn free_cell(&mut self, t: TetrahedronId) {
+        self.mesh.free_cell(t);
+    }
+}
