@@ -1,8 +1,7 @@
 //! Insertions, removals and moves in any order: what is left is the triangulation of what is left.
 
 use delone::{
-    Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location2,
-    VertexId, Walk,
+    Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk,
 };
 use delone_oracle::brute;
 use delone_oracle::generate::{Kind, Random};

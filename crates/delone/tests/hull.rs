@@ -1,6 +1,6 @@
 //! Convex hulls in space against their definition, and the lifting map.
 
-use delone::{Delaunay2, Dimension, Work};
+use delone::{Delaunay2, Dimension};
 use delone::{Hull3, HullHistory3};
 use delone_oracle::exact;
 use delone_oracle::generate::{Kind, Random};
@@ -86,7 +86,7 @@ fn hulls_are_convex_closed_and_hold_everything() {
         for &v in hull.corners().iter().take(12) {
             let others: Points = points.iter().copied().filter(|&p| p != points[v]).collect();
             let without = Hull3::from_points(&others).expect("finite");
-            let outside = without.span() < Dimension::Space
+            let outside = without.dimension() < Dimension::Space
                 || without.facets().any(|f| {
                     let [a, b, c] = f.map(|i| others[i]);
                     exact::orient3d(a, b, c, points[v]) > 0
@@ -149,7 +149,7 @@ fn large_hulls_are_the_same_by_both_algorithms() {
 
 #[test]
 fn spans_are_told() {
-    let span = |points: &[[f64; 3]]| Hull3::from_points(points).expect("finite").span();
+    let span = |points: &[[f64; 3]]| Hull3::from_points(points).expect("finite").dimension();
     assert_eq!(span(&[]), Dimension::Empty);
     assert_eq!(span(&[[1.0; 3], [1.0; 3]]), Dimension::Point);
     assert_eq!(span(&[[0.0; 3], [1.0; 3], [3.0; 3]]), Dimension::Line);
@@ -215,7 +215,7 @@ fn is_inside(points: &[[f64; 3]], hull: &Hull3, q: [f64; 3]) -> bool {
     }
     let with: Points = points.iter().copied().chain([q]).collect();
     let grown = Hull3::from_points(&with).expect("finite");
-    grown.span() == hull.dimension() && grown.corners().iter().all(|&i| i < points.len())
+    grown.dimension() == hull.dimension() && grown.corners().iter().all(|&i| i < points.len())
 }
 
 #[test]
@@ -230,8 +230,8 @@ fn history_is_linear_and_descents_are_logarithmic() {
                 p.map(|x| x / size)
             })
             .collect();
-        let mut work = Work::default();
-        let history = HullHistory3::build_counted(&points, 4, &mut work).expect("finite");
+        let history = HullHistory3::from_points(&points, 4).expect("finite");
+        let work = history.counters().work().expect("counted");
         assert_eq!(history.size() as u64, work.created);
         assert!((5.5..6.0).contains(&(work.created as f64 / f64::from(n))), "{n}: {}", work.created);
         assert_eq!(work.created - work.destroyed, 2 * u64::try_from(n).expect("small") - 4);
