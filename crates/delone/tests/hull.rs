@@ -2,8 +2,8 @@
 
 use delone::hull::spatial::{Hull3, HullHistory};
 use delone::{Delaunay2, Dimension, Work};
+use delone_generators::{Kind, Random};
 use delone_oracle::exact;
-use delone_oracle::generate::{Kind, Random};
 
 type Points = Vec<[f64; 3]>;
 

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use delone::{
     Algorithm, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Moving2, Moving3, Step, Step3, Work,
 };
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 use super::imprecise::moved;
 use super::plot::Plot;

@@ -7,7 +7,7 @@ use delone::{
     Algorithm, Algorithm3, Counters, Delaunay2, Delaunay3, Error, Hierarchy, HintOrder, Hints2, Hints3,
     Locate, Work,
 };
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};

@@ -347,7 +347,7 @@ fn remember(current: &mut Vec<u32>, e: EdgeId, node: u32) {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
     use delone_predicates::compare_distances;
 
     use super::NearestSites;

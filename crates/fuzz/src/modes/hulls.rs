@@ -2,7 +2,7 @@
 
 use delone::hull::spatial::{Hull3, HullHistory};
 use delone::{Delaunay2, Dimension, NearestSites, convex_hull};
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use crate::attack::{Attack, Judgement};
 use crate::nasty;

@@ -4,7 +4,7 @@ use super::Flaw;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::mesh::check::Flaw as MeshFlaw;
 use crate::{Algorithm, Delaunay2, Duplicate};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 
 fn sample() -> Delaunay2 {
     let mut points = Kind::Uniform.points(40, 9);
