@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use delone::{Delaunay2, Hierarchy, Locate, Location2, VertexId};
 use delone_oracle::exact::compare_distances;
-use delone_oracle::generate::{Kind, Random};
+use delone_generators::{Kind, Random};
 use spade::{HierarchyHintGenerator, PositionInTriangulation, Triangulation as _};
 
 type Points = [[f64; 2]];

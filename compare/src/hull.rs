@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use delone::Hull3;
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 type Points = [[f64; 3]];
 

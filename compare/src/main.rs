@@ -17,7 +17,7 @@ use std::time::Duration;
 
 use clap::Parser;
 use delone::plane::verify::verify;
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 
 use engines::{ENGINES, Engine};
 

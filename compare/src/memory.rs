@@ -4,7 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use delone_oracle::generate::{Kind, Kind3};
+use delone_generators::{Kind, Kind3};
 
 use crate::engines::ENGINES;
 

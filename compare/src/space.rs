@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use delone::Delaunay3;
-use delone_oracle::generate::Kind3;
+use delone_generators::Kind3;
 
 use crate::engines::POOLS;
 

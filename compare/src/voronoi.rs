@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use delone::{Delaunay2, Region2};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 use voronoice::{BoundingBox, Point, VoronoiBuilder};
 

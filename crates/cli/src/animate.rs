@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use delone::{Delaunay2, Moving2, Step2};
+use delone_generators::Random;
 use delone_io::{Error, Format, Surface, picture};
-use delone_oracle::generate::Random;
 
 use crate::args::AnimateArgs;
 use crate::files;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use delone_generators::{Kind, Kind3};
 use delone_io::Format;
-use delone_oracle::generate::{Kind, Kind3};
 
 use crate::args::GenerateArgs;
 use crate::files;

@@ -10,7 +10,6 @@ use std::process::{Command, Stdio};
 use delone::plane::verify::verify;
 use delone::{Algorithm2, Delaunay2};
 use delone_io::Format;
-use delone_oracle::brute::normalized;
 
 use crate::args::ReduceArgs;
 use crate::files;
@@ -91,13 +90,27 @@ fn reduce(mut points: Vec<[f64; 2]>, fails: impl Fn(&Points) -> bool) -> Vec<[f6
     points
 }
 
+/// The same triangle from its least corner, so that it has one form: negative zero compares as zero.
+fn from_least([a, b, c]: [[f64; 2]; 3]) -> [[f64; 2]; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < a && b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
+
 /// Why Delone fails on some points, if it does: a panic, a failed check, two algorithms that disagree.
 fn failure_of_delone(points: &Points) -> Option<String> {
     let build = |algorithm| {
         let attempt = panic::catch_unwind(AssertUnwindSafe(|| Delaunay2::with_algorithm(points, algorithm)));
         let d = attempt.map_err(|_| format!("{algorithm:?} panics"))?.map_err(|error| error.to_string())?;
         d.check().map_err(|flaw| format!("{algorithm:?}: {flaw}"))?;
-        Ok::<_, String>(normalized(d.triangles().map(|corners| corners.map(|v| d.point(v)))))
+        let mut triangles: Vec<_> =
+            d.triangles().map(|corners| from_least(corners.map(|v| d.point(v)))).collect();
+        triangles.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+        Ok::<_, String>(triangles)
     };
     let outcome = build(Algorithm2::DivideAndConquer)
         .and_then(|fast| Ok((fast, build(Algorithm2::Incremental { seed: 0 })?)));
@@ -141,7 +154,7 @@ fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Result<O
 #[cfg(test)]
 mod tests {
     use super::{failure_of_command, failure_of_delone, reduce};
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     #[test]
     fn reduces_to_the_points_that_matter() {

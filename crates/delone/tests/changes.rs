@@ -3,8 +3,8 @@
 use delone::{
     Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk,
 };
+use delone_generators::{Kind, Random};
 use delone_oracle::brute;
-use delone_oracle::generate::{Kind, Random};
 use proptest::prelude::*;
 
 fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {

@@ -2,8 +2,8 @@
 //! those of the oracle.
 
 use delone::{Algorithm2, Delaunay2, Dimension, Hierarchy, JumpAndWalk, Locate, Walk};
+use delone_generators::{Kind, Random};
 use delone_oracle::brute;
-use delone_oracle::generate::{Kind, Random};
 
 /// Every way to build a triangulation.
 fn algorithms() -> Vec<Algorithm2> {

@@ -2,7 +2,7 @@
 //! of the input, so that bounds can be asserted; each is about twice what is counted today.
 
 use delone::{Ask, Change, Delaunay2, VertexId, Work};
-use delone_oracle::generate::{Kind, Random};
+use delone_generators::{Kind, Random};
 
 /// Sets between whose points triangles are long and thin, by name.
 fn shapes(n: usize) -> Vec<(String, Vec<[f64; 2]>)> {

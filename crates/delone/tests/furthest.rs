@@ -1,8 +1,8 @@
 //! Furthest sites against their definitions, by brute force over exact arithmetic.
 
 use delone::{Delaunay2, VertexId, VoronoiEdge2};
+use delone_generators::Kind;
 use delone_oracle::exact;
-use delone_oracle::generate::Kind;
 
 /// The furthest point, the lexicographically smallest of several.
 fn brute(points: &[[f64; 2]], q: [f64; 2]) -> Option<usize> {

@@ -4,7 +4,7 @@ use delone::{
     Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Hints3, Imprecise,
     Moving2, Moving3, Step2, Step3, VertexId, Work,
 };
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 use delone_oracle::{brute, exact};
 
 const ORDERS: [HintOrder; 2] = [HintOrder::Random { seed: 3 }, HintOrder::Spatial { seed: 4 }];

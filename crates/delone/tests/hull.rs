@@ -2,8 +2,8 @@
 
 use delone::{Delaunay2, Dimension};
 use delone::{Hull3, HullHistory3};
+use delone_generators::{Kind, Random};
 use delone_oracle::exact;
-use delone_oracle::generate::{Kind, Random};
 
 type Points = Vec<[f64; 3]>;
 

@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use delone::{
     Algorithm2, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location2, VertexId, Walk, Work,
 };
+use delone_generators::{Kind, Random};
 use delone_oracle::exact;
-use delone_oracle::generate::{Kind, Random};
 
 fn strategies() -> Vec<Locate> {
     let steep = Hierarchy { ratio: 3.0, smallest_level: 2, ..Hierarchy::default() };

@@ -1,7 +1,7 @@
 //! Memory is asked for once: what instance after instance needs is there after the first.
 
 use delone::{HintOrder, Hints2, Hints3};
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 fn moved<const D: usize>(points: &[[f64; D]], by: f64) -> Vec<[f64; D]> {
     let mut random = Random::new(3);

@@ -1,7 +1,7 @@
 //! The papers' figures, as counts: seeds are fixed and no clock is asked.
 
 use delone::{Algorithm2, Ask, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work};
-use delone_oracle::generate::{Kind, Random};
+use delone_generators::{Kind, Random};
 
 fn uniform(n: usize) -> Vec<[f64; 2]> {
     Kind::Uniform.points(n, 12)

@@ -1,8 +1,8 @@
 //! The history of radial triangles against `nearest` of the triangulation and against brute force.
 
 use delone::{Delaunay2, NearestSites2, VertexId, Work};
+use delone_generators::Kind;
 use delone_oracle::exact;
-use delone_oracle::generate::Kind;
 
 fn queries(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut queries: Vec<[f64; 2]> = points.iter().copied().take(40).collect();

@@ -1,7 +1,7 @@
 //! Which rings make a region, and how they lie in each other, against the plainest definitions.
 
 use delone::{Delaunay2, Error, Region2, RegionProblem};
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 type Rings = Vec<Vec<[f64; 2]>>;
 

@@ -2,7 +2,7 @@
 
 use delone::{Delaunay2, Delaunay3, Error, Hierarchy, Locate, Moving2, Moving3, Step2, VertexId, Work};
 use delone::{Hull3, HullHistory3};
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 const LEAST: f64 = f64::from_bits(1);
 

@@ -2,8 +2,8 @@
 
 use delone::space::verify::{Objection3, verify};
 use delone::{Algorithm3, Delaunay3, Dimension, Hierarchy, Locate};
+use delone_generators::{Kind3, Random};
 use delone_oracle::brute;
-use delone_oracle::generate::{Kind3, Random};
 
 type Points = Vec<[f64; 3]>;
 

@@ -4,8 +4,8 @@
 use delone::{
     Delaunay3, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location3, VertexId, Walk,
 };
+use delone_generators::{Kind3, Random};
 use delone_oracle::exact;
-use delone_oracle::generate::{Kind3, Random};
 
 type Points = Vec<[f64; 3]>;
 

@@ -2,7 +2,7 @@
 #![cfg(feature = "rayon")]
 
 use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, VertexId};
-use delone_oracle::generate::{Kind, Kind3};
+use delone_generators::{Kind, Kind3};
 use rayon::ThreadPoolBuilder;
 
 /// Everything that a triangulation is: corners and neighbours by triangle, an edge of each vertex, duplicates.

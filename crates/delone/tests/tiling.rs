@@ -1,7 +1,7 @@
 //! Clipped cells tile their region whatever falls on its border: circumcentres, midpoints, lattices, combs, all scales.
 
 use delone::{Cells2, Delaunay2, Region2, VertexId};
-use delone_oracle::generate::{Kind, Random};
+use delone_generators::{Kind, Random};
 use proptest::prelude::*;
 
 type Points = Vec<[f64; 2]>;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use delone::plane::verify::verify;
 use delone::{Algorithm2, Delaunay2, Locate};
+use delone_generators::{Kind, Random};
 use delone_oracle::brute;
-use delone_oracle::generate::{Kind, Random};
 
 const ALGORITHMS: [Algorithm2; 5] = [
     Algorithm2::DivideAndConquer,

@@ -2,7 +2,7 @@
 
 use delone::plane::verify::{Objection2, verify};
 use delone::{Algorithm2, Delaunay2};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 
 fn triangles(d: &Delaunay2) -> Vec<[u64; 3]> {
     d.triangles().map(|corners| corners.map(|v| v.index() as u64)).collect()

@@ -1,7 +1,7 @@
 //! Voronoi cells against their definition: what is nearest to a site; and clipped cells tile.
 
 use delone::{Cells2, Delaunay2, Error, Region2, RegionProblem, Relaxation2, VertexId, VoronoiEdge2};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 
 /// A rectangle that holds most of the points, one that cuts through, and polygons, all scaled to the points.
 fn regions(d: &Delaunay2) -> Vec<(&'static str, Region2)> {

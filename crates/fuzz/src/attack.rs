@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 /// Nothing, or what is wrong.
 pub(crate) type Judgement = Result<(), String>;

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 /// How much work exact arithmetic has with a set.
 const EXTREME: usize = 2;
@@ -261,7 +261,7 @@ pub(crate) fn query<const D: usize>(random: &mut Random, points: &[[f64; D]]) ->
 #[cfg(test)]
 mod tests {
     use super::{FAMILIES, family, points, query};
-    use delone_oracle::generate::Random;
+    use delone_generators::Random;
 
     #[test]
     fn all_families_give_finite_points_in_both_dimensions() {

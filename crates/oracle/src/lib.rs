@@ -1,15 +1,13 @@
 //! The independent judge: what a Delaunay triangulation *is*, computed as slowly and as plainly as the
-//! definition reads, and the named point sets on which everything is judged.
+//! definition reads.
 //!
 //! This crate depends on no other crate of the project, so a mistake there cannot hide here.
 //!
 //! - [`exact`]: orientation and lifted determinants over the integers, by Laplace expansion;
 //! - [`brute`]: the canonical triangulation of up to 64 points and of all their subsets, by trying all
 //!   triples against all points;
-//! - [`lines`]: where lines meet, as fractions;
-//! - [`generate`]: named, seeded point sets, the same bits on every machine.
+//! - [`lines`]: where lines meet, as fractions.
 
 pub mod brute;
 pub mod exact;
-pub mod generate;
 pub mod lines;

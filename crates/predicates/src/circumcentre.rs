@@ -79,7 +79,7 @@ fn rounded_once(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
 mod tests {
     use super::{circumcentre, rounded_once};
     use crate::Point2;
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     fn in_floating_point(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
         super::in_floating_point(a, b, c, f64::INFINITY)

@@ -3,8 +3,8 @@
 
 use std::cmp::Ordering;
 
+use delone_generators::Random;
 use delone_oracle::exact as oracle;
-use delone_oracle::generate::Random;
 
 use crate::filter::{
     Grid, in_circle_filter, in_circle_scaled, in_sphere_filter, in_sphere_scaled, orient2d_filter,

@@ -2,7 +2,7 @@
 
 use crate::counters::{Counts, Predicate, Stage, take};
 use crate::{Point2, in_circle, orient2d};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 
 fn counted(points: &[Point2]) -> Counts {
     take();

@@ -1,7 +1,7 @@
 //! A sphere that is said to keep clear of a box does, however close they are.
 
+use delone_generators::Random;
 use delone_oracle::exact;
-use delone_oracle::generate::Random;
 use delone_predicates::{Point3, keeps_clear};
 
 fn point(r: &mut Random, size: f64) -> Point3 {

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 use delone_oracle::lines::{self, Line as Judged};
 use delone_predicates::{Line, Point2, Sign, Spot, circumcentre};
 

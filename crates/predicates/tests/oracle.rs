@@ -1,7 +1,7 @@
 //! Every predicate against integer determinants of unlimited size, on random and adversarial tuples.
 
+use delone_generators::Random;
 use delone_oracle::exact;
-use delone_oracle::generate::Random;
 use delone_predicates::{
     Filter, Filter3, Grid, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction, centre_side,
     compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,

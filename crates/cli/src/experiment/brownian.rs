@@ -6,7 +6,7 @@ use delone::{
     Algorithm2, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Moving2, Moving3, Step2, Step3,
     Work,
 };
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 use super::imprecise::moved;
 use super::plot::Plot;

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use delone::{Delaunay2, Delaunay3, Error};
-use delone_oracle::generate::{Kind, Kind3};
+use delone_generators::{Kind, Kind3};
 use rayon::ThreadPool;
 
 use super::plot::Plot;

@@ -1,7 +1,7 @@
 //! Construction time by mode of the Delaunay hierarchy: Devillers 1998, §5.5.2.
 
 use delone::{Algorithm2, Counters, Delaunay2, Error, Hierarchy, Locate};
-use delone_oracle::generate::{Kind, Random};
+use delone_generators::{Kind, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};

@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use delone::{Algorithm2, Counters, Delaunay2, Error, Locate, VertexId};
+use delone_generators::{Kind, Random};
 use delone_oracle::exact;
-use delone_oracle::generate::{Kind, Random};
 
 use super::Findings;
 use super::plot::Plot;

@@ -7,7 +7,7 @@ use delone::{
     Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Error, Hierarchy, HintOrder, Hints2, Hints3,
     Imprecise, Locate, Work,
 };
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};

@@ -1,7 +1,7 @@
 //! Jump-and-walk: Devroye, Mücke & Zhu 1998.
 
 use delone::{Ask, Delaunay2, Error, JumpAndWalk, Locate, Work};
-use delone_oracle::generate::{Kind, Random};
+use delone_generators::{Kind, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};

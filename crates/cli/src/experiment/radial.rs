@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use delone::{Delaunay2, Error, Hierarchy, Locate, NearestSites2, Work};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 use kiddo::SquaredEuclidean;
 use kiddo::immutable::float::kdtree::ImmutableKdTree;
 

@@ -381,7 +381,7 @@ fn spread(x: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::{Cut, Sorted, survey};
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     fn sort(points: &[[f64; 2]]) -> Sorted {
         super::sort(points, &survey(points).0)

@@ -314,7 +314,7 @@ impl Upkeep {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     use super::{IN_CACHE, SLACK, Upkeep};
     use crate::Delaunay2;

@@ -215,7 +215,7 @@ impl Strategy<Layer> for Versions {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     use super::*;
     use crate::Work;

@@ -349,7 +349,7 @@ fn remember(current: &mut Vec<u32>, e: EdgeId, node: u32) {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
     use delone_predicates::compare_distances;
 
     use super::NearestSites2;

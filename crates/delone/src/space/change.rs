@@ -264,7 +264,7 @@ impl Delaunay3 {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Random;
+    use delone_generators::Random;
 
     use crate::error::Error;
     use crate::ids::{Inserted, VertexId};

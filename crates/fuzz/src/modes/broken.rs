@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use crate::attack::{Attack, Judgement};
 

@@ -1,7 +1,7 @@
 //! All ways to build a triangulation of a few points, against the definition.
 
 use delone::Delaunay2;
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use crate::attack::Judgement;
 use crate::engine::{Engine, THREADS, pools, strategies};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use delone::{Delaunay2, Region2, VertexId};
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 use num_bigint::BigInt;
 
 use crate::attack::{Attack, Judgement};

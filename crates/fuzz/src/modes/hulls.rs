@@ -2,7 +2,7 @@
 
 use delone::{Delaunay2, Dimension, Hull2, NearestSites2};
 use delone::{Hull3, HullHistory3};
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use crate::attack::{Attack, Judgement};
 use crate::nasty;

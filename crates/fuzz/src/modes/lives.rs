@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use delone::{Error, Inserted, VertexId};
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use super::builds::compare;
 use super::queries;

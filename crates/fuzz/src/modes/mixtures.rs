@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 
 use delone::Inserted;
-use delone_oracle::generate::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random};
 
 use crate::attack::{Attack, Judgement};
 use crate::engine::{Engine, THREADS, pools, strategies};

@@ -1,7 +1,7 @@
 //! Points that move by leaps: collapses, exchanges of places, spheres. An item is the path of one point.
 
 use delone::{Delaunay2, Delaunay3, HintOrder, Hints2, Hints3, Moving2, Moving3};
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use super::builds::compare;
 use crate::attack::{Attack, Judgement};

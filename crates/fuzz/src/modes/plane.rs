@@ -1,7 +1,7 @@
 //! Small sets in the plane: every algorithm, strategy and number of threads gives what the definition says.
 
 use delone::Delaunay2;
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use super::builds;
 use crate::attack::{Attack, Judgement};

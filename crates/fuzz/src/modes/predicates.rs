@@ -1,6 +1,6 @@
 //! Predicates and filters on tuples whose products underflow or overflow in part, against big integers.
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 use delone_predicates::{
     Filter, Filter3, Grid, Pencil, Plane, Sign, angle, are_collinear3, centre_direction, centre_side,
     circumcentre, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,

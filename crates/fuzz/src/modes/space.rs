@@ -1,7 +1,7 @@
 //! Small sets in space, as in the plane.
 
 use delone::Delaunay3;
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use super::builds;
 use crate::attack::{Attack, Judgement};

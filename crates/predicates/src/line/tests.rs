@@ -1,6 +1,6 @@
 //! What floating point tells of lines by itself, and from where on it does not.
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 use super::*;
 

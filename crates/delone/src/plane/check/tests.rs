@@ -4,7 +4,7 @@ use super::Flaw2 as Flaw;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::mesh::MeshFlaw2 as MeshFlaw;
 use crate::{Delaunay2, Duplicate};
-use delone_oracle::generate::Kind;
+use delone_generators::Kind;
 
 fn sample() -> Delaunay2 {
     let mut points = Kind::Uniform.points(40, 9);

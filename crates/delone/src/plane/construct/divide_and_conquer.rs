@@ -338,7 +338,7 @@ fn turned([x, y]: [f64; 2]) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     use super::*;
 

@@ -254,7 +254,7 @@ impl Level for Layer {
 
 #[cfg(test)]
 mod tests {
-    use delone_oracle::generate::Kind;
+    use delone_generators::Kind;
 
     use super::*;
     use crate::{Delaunay2, Work};

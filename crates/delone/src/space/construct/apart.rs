@@ -209,7 +209,7 @@ mod tests {
     use crate::mesh::Names;
     use crate::space::Delaunay3;
     use crate::space::layer::Layer;
-    use delone_oracle::generate::Kind3;
+    use delone_generators::Kind3;
 
     /// All tetrahedra, ghosts included, as sorted corners.
     fn cells(d: &Delaunay3) -> Vec<[usize; 4]> {

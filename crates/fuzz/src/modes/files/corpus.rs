@@ -4,8 +4,8 @@ use std::io::{Cursor, Write};
 use std::sync::OnceLock;
 
 use delone::Delaunay2;
+use delone_generators::Kind;
 use delone_io::{Crs, Format, Surface};
-use delone_oracle::generate::Kind;
 
 use super::{ARRAYS, E57, JSON, LAS, MESHES, PLY, TEXT};
 

@@ -7,8 +7,8 @@ mod mutation;
 use std::fs;
 use std::io::Cursor;
 
+use delone_generators::Random;
 use delone_io::{Format, ReadOptions, Source, decompressed};
-use delone_oracle::generate::Random;
 
 use self::mutation::Mutation;
 use crate::attack::{Attack, Judgement};

@@ -1,6 +1,6 @@
 //! Changes of the bytes of a file.
 
-use delone_oracle::generate::Random;
+use delone_generators::Random;
 
 /// A change. Places are fractions of the file, so that they mean something whatever was changed before.
 #[derive(Clone, Debug)]

@@ -1,7 +1,6 @@
 //! Named point sets in space.
 
-use super::Random;
-use crate::exact::Point3;
+use crate::{Point3, Random, repeat};
 
 kinds! {
     /// A named family of point sets in space.
@@ -71,10 +70,6 @@ kinds! {
     }));
     /// Any magnitude that a double has, of either sign.
     HugeSpan3 = "huge-span3", |n, r| repeat(n, || [0, 1, 2].map(|_| any_magnitude(r)));
-}
-
-fn repeat(n: usize, mut make: impl FnMut() -> Point3) -> Vec<Point3> {
-    (0..n).map(|_| make()).collect()
 }
 
 fn in_ball(random: &mut Random) -> Point3 {
