@@ -187,9 +187,8 @@ impl EdgeId {
         Self(bits)
     }
 
-    #[inline]
+    #[cfg(test)]
     pub(crate) fn new(index: usize) -> Self {
-        debug_assert!(index < Self::NONE.index(), "edge index {index} is out of range");
         Self(index as u32)
     }
 

@@ -1,26 +1,35 @@
-//! The house rules that no compiler checks: arrows point down, files stay short, rooms have real names.
+//! The house rules that no compiler checks: arrows point down, no circles, surgery in one room, files stay short, rooms have
+//! real names.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The rooms, bottom to top, in floors. A room may use those on lower floors, and its own inside; rooms on the
-/// same floor do not know each other.
+/// The rooms of the library, bottom to top, in floors. A room may use those on lower floors, and its own inside; rooms on
+/// the same floor do not know each other.
 const FLOORS: &[&[&str]] = &[
-    &["ids", "fetch", "memory"],
-    &["error", "parallel"],
+    &["ids", "prefetch", "memory", "tally", "verdict"],
+    &["error", "parallel", "vertex_map"],
+    &["points"],
     &["order"],
     &["mesh"],
-    &["locate"],
-    &["hull"],
+    &["locate", "hull"],
+    &["triangulation"],
     &["plane", "space"],
-    &["moving"],
 ];
+
+/// Rooms that decide by the predicates.
+const DECIDE: [&str; 3] = ["hull", "plane", "space"];
+
+/// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
+const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];
 
 /// Names that say nothing about what is inside.
 const EMPTY_NAMES: [&str; 7] = ["util", "utils", "common", "helpers", "core", "misc", "shared"];
 
-/// The longest file that one sitting allows, tests apart.
-const LONGEST: usize = 800;
+/// The longest file that one sitting allows, tests apart, and what half of all files stay below.
+const LONGEST: usize = 500;
+const MEDIAN: usize = 150;
 
 fn floor(room: &str) -> Option<usize> {
     FLOORS.iter().position(|rooms| rooms.contains(&room))
@@ -38,63 +47,150 @@ fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The rooms named by the `use crate::` lines of a file, braces at the first level taken apart.
-fn rooms_used(text: &str) -> Vec<String> {
+/// The code of a file without its tests, and without comments.
+fn code_of(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("readable");
+    let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let is_code = |line: &&str| !line.trim_start().starts_with("//");
+    code.lines().filter(is_code).map(|line| format!("{line}\n")).collect()
+}
+
+/// The rooms that code names: after every `crate::`, with braces at the first level taken apart.
+fn rooms_used(code: &str) -> Vec<String> {
+    let name = |text: &str| -> String {
+        text.trim_start()
+            .chars()
+            .take_while(|c| c.is_ascii_lowercase() || *c == '_' || c.is_ascii_digit())
+            .collect()
+    };
     let mut rooms = Vec::new();
-    for line in
-        text.lines().filter_map(|line| line.trim_start().split_once("use crate::").map(|parts| parts.1))
-    {
-        let names = line.trim_start_matches('{').split(',');
-        let whole = if line.starts_with('{') { usize::MAX } else { 1 };
-        for name in names.take(whole) {
-            let room: String =
-                name.trim().chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect();
-            rooms.push(room);
+    for (at, _) in code.match_indices("crate::") {
+        let before = code[..at].chars().next_back();
+        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$') {
+            continue;
+        }
+        let rest = &code[at + "crate::".len()..];
+        match rest.strip_prefix('{') {
+            None => rooms.push(name(rest)),
+            Some(list) => {
+                let mut depth = 0;
+                let mut start = 0;
+                for (i, c) in list.char_indices() {
+                    match c {
+                        '{' => depth += 1,
+                        '}' if depth > 0 => depth -= 1,
+                        ',' | '}' if depth == 0 => {
+                            rooms.push(name(&list[start..i]));
+                            start = i + 1;
+                            if c == '}' {
+                                break;
+                            }
+                        }
+                        _ => {}
+                    }
+                }
+            }
         }
     }
+    // Names in capitals are re-exports at the root, which has no room.
+    rooms.retain(|room| !room.is_empty());
     rooms
+}
+
+/// The room that a file is in.
+fn room_of(inside: &Path) -> String {
+    let first = inside.components().next().expect("a name").as_os_str().to_string_lossy().into_owned();
+    first.trim_end_matches(".rs").to_owned()
+}
+
+fn sources(package: &str) -> (PathBuf, Vec<PathBuf>) {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(package).join("src");
+    let mut found = Vec::new();
+    files(&source, &mut found);
+    (source, found)
 }
 
 #[test]
 fn arrows_point_down() {
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut found = Vec::new();
-    files(&source, &mut found);
+    let (source, found) = sources("delone");
     let mut arrows = 0;
     for path in &found {
         let inside = path.strip_prefix(&source).expect("below src");
-        let first = inside.components().next().expect("a name").as_os_str().to_string_lossy();
-        let room = first.trim_end_matches(".rs");
-        let is_test = inside.ends_with("tests.rs");
-        if room == "lib" || is_test {
+        let room = room_of(inside);
+        if room == "lib" || inside.ends_with("tests.rs") {
             continue;
         }
-        let own = floor(room).unwrap_or_else(|| panic!("{room} has no floor: decide where it lives"));
-        let text = fs::read_to_string(path).expect("readable");
-        let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-        for used in rooms_used(code) {
-            let below = floor(&used).unwrap_or_else(|| panic!("{}: use crate::{used}", inside.display()));
+        let own = floor(&room).unwrap_or_else(|| panic!("{room} has no floor: decide where it lives"));
+        let code = code_of(path);
+        for used in rooms_used(&code) {
+            // Constants and types of the root are those of some room below.
+            let Some(below) = floor(&used) else { panic!("{}: crate::{used}", inside.display()) };
             assert!(below < own || used == room, "{}: {room} must not use {used}", inside.display());
             arrows += usize::from(used != room);
         }
-        for stranger in ["delone_oracle", "delone_generators"] {
-            assert!(!code.contains(stranger), "{}: {stranger} is for tests only", inside.display());
-        }
-        let decides = code.contains("delone_predicates");
+        assert!(!code.contains("delone_oracle"), "{}: the judge is for tests only", inside.display());
         assert!(
-            !decides || ["hull", "plane", "space"].contains(&room),
-            "{}: only hull, plane and space decide",
+            !code.contains("delone_predicates") || DECIDE.contains(&&*room),
+            "{}: only {DECIDE:?} decide",
             inside.display()
         );
     }
-    assert!(arrows > 20, "only {arrows} arrows were seen: is the reader of `use` lines broken?");
+    assert!(arrows > 100, "only {arrows} arrows were seen: is the reader of paths broken?");
+}
+
+/// At the top of every crate: who uses whom never leads back.
+#[test]
+fn rooms_stand_in_no_circle() {
+    for package in ["delone", "predicates", "io", "cli", "oracle", "generators", "fuzz"] {
+        let (source, found) = sources(package);
+        let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for path in &found {
+            let room = room_of(path.strip_prefix(&source).expect("below src"));
+            if room != "lib" && room != "main" && !path.ends_with("tests.rs") {
+                let used = rooms_used(&code_of(path)).into_iter().filter(|used| *used != room);
+                uses.entry(room.clone()).or_default().extend(used);
+            }
+        }
+        // What uses nothing that is left goes first; what stays is a circle.
+        while let Some(done) = uses.iter().find(|(_, used)| used.iter().all(|u| !uses.contains_key(u))) {
+            let done = done.0.clone();
+            uses.remove(&done);
+        }
+        assert!(uses.is_empty(), "{package}: a circle among {uses:?}");
+    }
+}
+
+/// The corners and twins of triangles are written in one room; only the construction in bulk has arrays of its own.
+#[test]
+fn surgery_has_one_room() {
+    let (source, found) = sources("delone");
+    let mut seen = 0;
+    for path in &found {
+        let inside = path.strip_prefix(&source).expect("below src").to_string_lossy().replace('\\', "/");
+        if inside.ends_with("tests.rs") {
+            continue;
+        }
+        let code = code_of(path);
+        let writes = [".origin = ", ".twin = ", ".edges["].iter().any(|write| {
+            code.lines().any(|line| {
+                line.split_once(write).is_some_and(|(_, rest)| {
+                    !write.ends_with('[')
+                        || rest.split_once(']').is_some_and(|(_, rest)| rest.contains(" = "))
+                })
+            })
+        });
+        let may = SURGEONS.iter().any(|place| inside.starts_with(place));
+        assert!(!writes || may, "{inside} writes the records of triangles: that is surgery");
+        seen += usize::from(writes);
+    }
+    assert!(seen >= 3, "only {seen} surgeons were seen");
 }
 
 #[test]
-fn the_reader_of_use_lines_reads() {
-    let text =
-        "use crate::ids::{A, B};\n    use crate::{mesh, order::x};\npub(crate) use crate::error::Error;";
-    assert_eq!(rooms_used(text), ["ids", "mesh", "order", "error"]);
+fn the_reader_of_paths_reads() {
+    let text = "use crate::ids::{A, B};\n    use crate::{mesh, order::{x, y}, Z};\npub(crate) use crate::error::Error;
+        let a = crate::points::survey(p); delone_crate::no(); $crate::no();";
+    assert_eq!(rooms_used(text), ["ids", "mesh", "order", "error", "points"]);
 }
 
 #[test]
@@ -102,16 +198,21 @@ fn files_are_short_and_rooms_have_names() {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut found = Vec::new();
     files(&crates, &mut found);
-    assert!(found.len() > 40);
+    let mut lengths = Vec::new();
     for path in found {
         let text = fs::read_to_string(&path).expect("readable");
         let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
         let length = code.lines().count();
         assert!(length <= LONGEST, "{} has {length} lines: is it one idea?", path.display());
+        lengths.push(length);
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         let folder = path.parent().and_then(Path::file_name).unwrap_or_default().to_string_lossy();
         for name in [stem, folder] {
             assert!(!EMPTY_NAMES.contains(&&*name), "{}: {name} says nothing", path.display());
         }
     }
+    lengths.sort_unstable();
+    assert!(lengths.len() > 150);
+    let median = lengths[lengths.len() / 2];
+    assert!(median < MEDIAN, "half of all files have {median} lines and more");
 }

@@ -31,6 +31,7 @@ mod decided;
 mod distance;
 mod exact;
 mod filter;
+mod in_box;
 mod in_circle;
 mod in_sphere;
 mod lexicographic;

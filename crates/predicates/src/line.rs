@@ -7,10 +7,12 @@
 //! A line is where a x + b y + c is zero; two lines meet at the cross product of their coefficients, and the third line
 //! there is the determinant of all three, over that of (a, b) of the first two. Degree four in the coordinates.
 
+mod exact;
+
 use std::cmp::Ordering;
 
 use crate::circumcentre::circumcentre_within;
-use crate::{Point2, Sign, compare_distances, exact, lexicographic, orient2d};
+use crate::{Point2, Sign, compare_distances, lexicographic, orient2d};
 
 /// A directed line, given by what is positive: on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -257,6 +257,15 @@ impl Delaunay2 {
         }
     }
 
+    /// A new layout, with hints for it.
+    pub(super) fn rearrange_now(&mut self) {
+        self.names();
+        let moved = self.base.lay_out();
+        if let Some(locator) = self.locator.get_mut() {
+            locator.rearranged(&self.base, &moved);
+        }
+    }
+
     /// New hints; and a new layout, if there are many more vertices than at the last one, or much room.
     #[cold]
     fn rearrange(&mut self) {
@@ -266,11 +275,7 @@ impl Delaunay2 {
         self.upkeep.renew(count);
         if (sparse || grown) && count <= LARGEST_SPREAD {
             self.upkeep.laid_out = count;
-            self.names();
-            let moved = self.base.lay_out();
-            if let Some(locator) = self.locator.get_mut() {
-                locator.rearranged(&self.base, &moved);
-            }
+            self.rearrange_now();
         } else if let Some(Locator::Tree(hints)) = self.locator.get_mut() {
             hints.tree = Tree::build(&self.base);
         }
@@ -391,11 +396,7 @@ mod tests {
                 kept.retain(|v| v.index() % 3 > 0 || d.remove(*v).is_err());
                 let before: Vec<_> =
                     kept.iter().map(|&v| d.mesh().neighbors(v).collect::<Vec<_>>()).collect();
-                d.names();
-                let moved = d.base.lay_out();
-                if let Some(locator) = d.locator.get_mut() {
-                    crate::locate::Strategy::rearranged(locator, &d.base, &moved);
-                }
+                d.rearrange_now();
                 d.check().expect("canonical");
                 for (&v, before) in kept.iter().zip(before) {
                     let mut now: Vec<_> = d.mesh().neighbors(v).collect();

@@ -272,3 +272,16 @@ impl Delaunay2 {
         self.upkeep.renew(self.vertex_count());
     }
 }
+
+#[cfg(test)]
+impl Delaunay2 {
+    /// For tests that change what no operation does.
+    pub(crate) fn mesh_mut(&mut self) -> &mut Mesh2 {
+        &mut self.base.mesh
+    }
+
+    /// Moves everything to other places, as changes do in the long run.
+    pub(crate) fn lay_out(&mut self) {
+        self.rearrange_now();
+    }
+}

@@ -25,7 +25,7 @@ use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::conflict_lists::Contains;
 use crate::locate::history::Observer;
-use crate::mesh::triangles::HalfEdge;
+use crate::mesh::Mesh2;
 use crate::tally::Tally;
 
 /// The number of dummies; the place of point i is i + DUMMIES.
@@ -34,12 +34,18 @@ pub(super) const DUMMIES: usize = 3;
 /// Triangles, present ones and, if the observer keeps them, past ones.
 #[derive(Clone, Debug)]
 pub(super) struct Flips {
-    /// Four records a triangle, as in a mesh. The twins of past triangles mean nothing.
-    pub(super) edges: Vec<HalfEdge>,
+    /// The triangles in front of that of the dummies, which closes them from behind. The twins of past triangles mean
+    /// nothing.
+    pub(super) mesh: Mesh2,
     /// The points, after a stand-in for each dummy.
     pub(super) points: Vec<[f64; 2]>,
     /// Edges across from the new point that are to be tested.
     pending: Vec<EdgeId>,
+}
+
+/// The triangle of the three dummies behind all others.
+fn back() -> TriangleId {
+    TriangleId::new(1)
 }
 
 fn is_dummy(p: Place) -> bool {
@@ -49,13 +55,21 @@ fn is_dummy(p: Place) -> bool {
 impl Flips {
     /// The triangle of the dummies.
     pub(super) fn new() -> Self {
-        let corner = |i| HalfEdge { origin: Place::new(i), twin: EdgeId::NONE };
-        let edges = vec![corner(0), corner(1), corner(2), HalfEdge::UNUSED];
-        Self { edges, points: vec![[0.0; 2]; DUMMIES], pending: Vec::new() }
+        Self { mesh: Mesh2::pillow(), points: vec![[0.0; 2]; DUMMIES], pending: Vec::new() }
+    }
+
+    /// The number of triangles, past ones and those at the dummies included.
+    pub(super) fn count(&self) -> usize {
+        self.mesh.slot_count() - 1
+    }
+
+    /// What it takes.
+    pub(super) fn bytes(&self) -> usize {
+        self.mesh.bytes() + size_of_val(&*self.points)
     }
 
     pub(super) fn corners(&self, t: TriangleId) -> [Place; 3] {
-        [0, 1, 2].map(|k| self.edges[t.edge(k).index()].origin)
+        self.mesh.places(t)
     }
 
     fn point(&self, p: Place) -> [f64; 2] {
@@ -117,23 +131,19 @@ impl Flips {
         observer: &mut O,
         tally: &mut T,
     ) {
-        let corners = self.corners(t);
-        let outside = [0, 1, 2].map(|k| self.edges[t.edge(k).index()].twin);
+        let border = [0, 1, 2].map(|k| (self.mesh.tail(t.edge(k)), self.mesh.twin(t.edge(k))));
         let new = [if O::KEEPS { self.allocate() } else { t }, self.allocate(), self.allocate()];
-        for k in 0..3 {
-            self.write(new[k], [corners[k], corners[(k + 1) % 3], p]);
-            self.link(new[k].edge(0), outside[k]);
-            self.link(new[k].edge(1), new[(k + 1) % 3].edge(2));
-        }
+        self.mesh.incident.resize(self.points.len(), EdgeId::NONE);
+        self.mesh.fill_star(p, &border, &new);
         tally.destroyed(1);
         tally.created(3);
         observer.split(self, t, new);
         self.pending.extend(new.map(|t| t.edge(0)));
         let q = self.point(p);
         while let Some(e) = self.pending.pop() {
-            let f = self.edges[e.index()].twin;
-            if f == EdgeId::NONE {
-                continue; // an edge between dummies
+            let f = self.mesh.twin(e);
+            if f.triangle() == back() {
+                continue;
             }
             tally.in_circle();
             if self.conflicts(f.triangle(), q) {
@@ -154,39 +164,15 @@ impl Flips {
     ///        z                    z
     /// ```
     fn flip<O: Observer<Self>>(&mut self, e: EdgeId, f: EdgeId, observer: &mut O) {
-        let origin = |e: EdgeId| self.edges[e.index()].origin;
-        let twin = |e: EdgeId| self.edges[e.index()].twin;
-        let (x, y, p, z) = (origin(e), origin(f), origin(e.previous()), origin(f.previous()));
-        let (yp, px, xz, zy) = (twin(e.next()), twin(e.previous()), twin(f.next()), twin(f.previous()));
         let old = [e.triangle(), f.triangle()];
         let [left, right] = if O::KEEPS { [self.allocate(), self.allocate()] } else { old };
-        self.write(left, [x, z, p]);
-        self.write(right, [z, y, p]);
-        self.link(left.edge(0), xz);
-        self.link(right.edge(0), zy);
-        self.link(left.edge(1), right.edge(2));
-        self.link(left.edge(2), px);
-        self.link(right.edge(1), yp);
+        self.mesh.flip_into(e, [left.edge(1), right.edge(2)]);
         observer.flip(self, old, [left, right]);
         self.pending.extend([left.edge(0), right.edge(0)]);
     }
 
     fn allocate(&mut self) -> TriangleId {
-        self.edges.extend([HalfEdge::UNUSED; 4]);
-        TriangleId::new(self.edges.len() / 4 - 1)
-    }
-
-    fn write(&mut self, t: TriangleId, corners: [Place; 3]) {
-        for (k, origin) in corners.into_iter().enumerate() {
-            self.edges[t.edge(k).index()].origin = origin;
-        }
-    }
-
-    fn link(&mut self, e: EdgeId, f: EdgeId) {
-        self.edges[e.index()].twin = f;
-        if f != EdgeId::NONE {
-            self.edges[f.index()].twin = e;
-        }
+        self.mesh.new_triangle(TriangleId::new(0))
     }
 }
 

@@ -18,6 +18,7 @@ use delone_predicates::{angle, circumcentre, compare_distances, lexicographic};
 
 use super::layer::Layer;
 use super::layer::insert::Spot;
+use super::layer::kernel::Furthest;
 use super::{Delaunay2, VoronoiEdge2};
 use crate::error::Error;
 use crate::hull::plane;
@@ -112,22 +113,22 @@ impl Level {
             next[previous[i]] = next[i];
             previous[next[i]] = previous[i];
         }
-        let mut layer = Layer::new(Mesh2::empty(n), points);
+        let mut layer: Layer<Furthest> = Layer::new(Mesh2::empty(n), points);
         for &i in &order[..3] {
             let (spot, _) = layer.spot(Start::Anywhere, layer.points[i], &mut ());
             debug_assert!(!matches!(spot, Spot::Vertex(_)), "corners are distinct");
             layer.insert_at(Place::new(i), spot, &mut ());
         }
-        let Layer { mut mesh, points, mut cavity, .. } = layer;
         for &i in &order[3..] {
             let (a, b) = (Place::new(previous[i]), Place::new(next[i]));
+            let mesh = &layer.mesh;
             let hull_edge = |e: &EdgeId| mesh.head(*e) == b && mesh.tip(mesh.twin(*e)).is_ghost();
             if let Some(e) = mesh.spokes(a).find(hull_edge) {
                 let beyond = mesh.twin(e).triangle();
-                cavity.insert_furthest(&mut mesh, &points, Place::new(i), beyond);
+                layer.insert_at(Place::new(i), Spot::Triangle(beyond), &mut ());
             }
         }
-        Self { points, mesh, finer }
+        Self { points: layer.points, mesh: layer.mesh, finer }
     }
 
     /// Climbs from a corner to one that no neighbour is further away than.

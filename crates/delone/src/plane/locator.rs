@@ -154,7 +154,7 @@ impl Versions {
 
     fn bytes(&self) -> usize {
         let Self { flips, history, places } = self;
-        size_of_val(&*flips.edges) + size_of_val(&*flips.points) + size_of_val(&**places) + history.bytes()
+        flips.bytes() + size_of_val(&**places) + history.bytes()
     }
 
     fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
@@ -180,7 +180,7 @@ impl Delaunay2 {
                 footprint.strategy = levels.bytes(Layer::bytes);
             }
             Locator::Versions(versions) => {
-                footprint.versions = versions.flips.edges.len() / 4;
+                footprint.versions = versions.flips.count();
                 footprint.strategy = versions.bytes();
             }
         }
@@ -260,9 +260,10 @@ mod tests {
         let levels = with(1000, Locate::Hierarchy(STEEP)).footprint();
         let least: usize = levels.levels.iter().map(|&size| bytes(size)).sum();
         assert!(levels.strategy >= least && levels.strategy < 2 * least, "{levels:?}");
-        // The triangle of the dummies, and the three that a point makes of it, each with three to follow.
+        // The triangle of the dummies, the one behind it, and the three that a point makes, each with three to follow.
         let history = with(1, Locate::History).footprint();
-        assert_eq!((history.versions, history.strategy), (4, 4 * 32 + (3 + 1) * 16 + 4 + 4 * 24));
+        let bytes = 5 * 32 + (3 + 1) * (16 + 4) + 4 + 5 * 24;
+        assert_eq!((history.versions, history.strategy), (4, bytes));
     }
 
     /// Whoever keeps them.

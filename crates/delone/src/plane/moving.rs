@@ -261,7 +261,7 @@ impl Moving2 {
         }
         for plan in &*plans {
             if plan.is_good(&layer.mesh) {
-                flip(&mut layer.mesh, plan.edge);
+                layer.mesh.flip(plan.edge);
             }
         }
         // Every triangle that turned over has been destroyed, or there is a plan for it; this proves that plans did not
@@ -344,7 +344,7 @@ fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Op
             while let Some(e) = pending.pop() {
                 if is_to_flip(mesh, points, filter, e) {
                     let f = mesh.twin(e);
-                    flip(mesh, e);
+                    mesh.flip(e);
                     flips += 1;
                     if flips > most {
                         return None;
@@ -389,28 +389,4 @@ fn is_hull_to_flip([a, b, c, d]: [Place; 4], points: &[[f64; 2]]) -> bool {
     };
     // A hull edge has nothing beyond it; one to the ghost leaves a dent if what is next to it is beyond the hull.
     (a.is_ghost() && turns_left(b, c, d)) || (b.is_ghost() && turns_left(c, a, d))
-}
-
-/// Replaces an edge by the one between the two apexes. The sides of the quadrilateral stay with `e` and its twin:
-/// `e.next()`, `e.previous()` and those of the twin.
-fn flip(mesh: &mut Mesh2, e: EdgeId) {
-    let f = mesh.twin(e);
-    let [a, b, c, d] = corners_around(mesh, e);
-    let outside = [e.next(), e.previous(), f.next(), f.previous()].map(|side| mesh.twin(side));
-    // (a, b, c) and (b, a, d) become (d, c, a) and (c, d, b).
-    let set = |mesh: &mut Mesh2, e: EdgeId, corners: [Place; 3]| {
-        for (side, corner) in [e, e.next(), e.previous()].into_iter().zip(corners) {
-            mesh.edges[side.index()].origin = corner;
-        }
-    };
-    set(mesh, e, [d, c, a]);
-    set(mesh, f, [c, d, b]);
-    let [b_c, c_a, a_d, d_b] = outside;
-    mesh.link(e.next(), c_a);
-    mesh.link(e.previous(), a_d);
-    mesh.link(f.next(), d_b);
-    mesh.link(f.previous(), b_c);
-    for side in [e.next(), e.previous(), f.next(), f.previous()] {
-        mesh.remember(side);
-    }
 }

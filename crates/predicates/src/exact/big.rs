@@ -21,7 +21,7 @@ fn aligned<const N: usize>(coordinates: &[f64; N]) -> (Vec<Vector>, i32) {
 }
 
 /// Numbers as integers on their common scale, and its binary exponent.
-pub(super) fn integers(numbers: &[f64]) -> (Vec<BigInt>, i32) {
+pub(crate) fn integers(numbers: &[f64]) -> (Vec<BigInt>, i32) {
     let parts: Vec<_> = numbers.iter().map(|&x| decode(x)).collect();
     let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
     let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
@@ -43,7 +43,7 @@ fn cross(u: &Vector, v: &Vector) -> BigInt {
     &u[0] * &v[1] - &u[1] * &v[0]
 }
 
-pub(super) fn sign(value: &BigInt) -> Sign {
+pub(crate) fn sign(value: &BigInt) -> Sign {
     match value.sign() {
         BigSign::Minus => Sign::Negative,
         BigSign::NoSign => Sign::Zero,
@@ -148,7 +148,7 @@ pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {
 }
 
 /// `numerator / denominator * 2^scale`, rounded once unless it is subnormal.
-pub(super) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> f64 {
+pub(crate) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> f64 {
     /// Bits of the quotient that are computed; the last one stands for all that follow.
     const BITS: i64 = 80;
     let (n, d) = (numerator.magnitude(), denominator.magnitude());

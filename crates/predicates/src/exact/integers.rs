@@ -16,7 +16,7 @@ fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
 }
 
 /// The same for any number of them; what is zero is left as it is.
-pub(super) fn align_into(coordinates: &[f64], aligned: &mut [i64]) -> Option<()> {
+pub(crate) fn align_into(coordinates: &[f64], aligned: &mut [i64]) -> Option<()> {
     let scale = coordinates.iter().map(|&x| decode(x).1).min().unwrap_or(0);
     for (out, &x) in aligned.iter_mut().zip(coordinates) {
         let (mantissa, exponent) = decode(x);

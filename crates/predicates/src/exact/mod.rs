@@ -5,22 +5,19 @@
 //! when no product can leave the exponent range, [`big`] integers for the rest.
 //!
 //! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones. Lines of the plane and where they meet
-//! have a file of their own ([`lines`]).
+//! have a file of their own (`line/exact.rs`).
 //!
 //! Before big integers, floating point is asked once more, scaled so that nothing leaves the range (`filter/scaled.rs`).
 //!
 //! In the plane all three evaluate the base-and-apex form (see `pencil`): with l = a, r = b, the orientation of a, b, c is
 //! `(c - a) x (c - b)`, and the in-circle determinant of a, b, c, d is `dot_c cross_d - dot_d cross_c`.
 
-mod big;
-mod integers;
-mod lines;
+pub(crate) mod big;
+pub(crate) mod integers;
 mod space;
-mod wide;
+pub(crate) mod wide;
 
 use std::cmp::Ordering;
-
-pub(crate) use lines::{meeting, side_of_meeting, turn};
 
 use crate::counters::{Predicate, Stage, count};
 use crate::filter::{in_circle_scaled, in_sphere_scaled, orient2d_scaled, orient3d_scaled};

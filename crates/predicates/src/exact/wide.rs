@@ -8,10 +8,10 @@ use crate::Sign;
 
 /// A number of N words, two's complement, the lowest first.
 #[derive(Clone, Copy)]
-pub(super) struct Wide<const N: usize>([u64; N]);
+pub(crate) struct Wide<const N: usize>([u64; N]);
 
 impl<const N: usize> Wide<N> {
-    pub(super) fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         let (mut sum, mut carry) = (self.0, 0);
         for (word, more) in sum.iter_mut().zip(other.0) {
             let part = u128::from(*word) + u128::from(more) + carry;
@@ -28,7 +28,7 @@ impl<const N: usize> Wide<N> {
         Self(result)
     }
 
-    pub(super) fn minus(self, other: Self) -> Self {
+    pub(crate) fn minus(self, other: Self) -> Self {
         self.plus(other.negative())
     }
 
@@ -40,7 +40,7 @@ impl<const N: usize> Wide<N> {
         if self.is_negative() { self.negative() } else { self }
     }
 
-    pub(super) fn sign(self) -> Sign {
+    pub(crate) fn sign(self) -> Sign {
         if self.is_negative() {
             Sign::Negative
         } else if self.0.iter().all(|&word| word == 0) {
@@ -51,7 +51,7 @@ impl<const N: usize> Wide<N> {
     }
 
     /// The product, in as many words as both have together.
-    pub(super) fn times<const M: usize, const P: usize>(self, other: Wide<M>) -> Wide<P> {
+    pub(crate) fn times<const M: usize, const P: usize>(self, other: Wide<M>) -> Wide<P> {
         debug_assert_eq!(P, N + M, "a product has room");
         let (x, y) = (self.magnitude(), other.magnitude());
         let mut product = [0; P];

@@ -56,8 +56,9 @@ impl Mesh2 {
             );
             let mut records = [HalfEdge::UNUSED; 4];
             if t != NONE {
-                let old = &self.edges[TriangleId::new(t as usize).edge(0).index()..][..3];
-                for (record, &HalfEdge { origin, twin }) in records.iter_mut().zip(old) {
+                let old = &self.edges[TriangleId::new(t as usize).edge(0).index()..][..4];
+                records[3] = old[3];
+                for (record, &HalfEdge { origin, twin }) in records.iter_mut().zip(&old[..3]) {
                     let origin = if origin.is_ghost() { origin } else { moved[origin.index()] };
                     *record = HalfEdge { origin, twin: edge(twin) };
                 }

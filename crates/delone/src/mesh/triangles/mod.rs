@@ -31,6 +31,9 @@
 mod check;
 mod iterate;
 mod layout;
+mod line;
+pub(crate) mod surgery;
+mod tags;
 
 pub use check::MeshFlaw2;
 pub use iterate::{Hull, Star};
@@ -39,7 +42,6 @@ pub(crate) use layout::with_spare;
 use bytemuck::Zeroable;
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
-use crate::memory::make_room;
 use crate::mesh::{Dimension, Names, Slots};
 
 /// A directed edge: where it starts, and the same edge the other way round.
@@ -50,7 +52,7 @@ pub(crate) struct HalfEdge {
 }
 
 impl HalfEdge {
-    /// What the fourth record of a triangle without a mark holds, and the records of a triangle not built yet.
+    /// What the fourth record of a triangle without mark and tags holds, and the records of a triangle not built yet.
     pub(crate) const UNUSED: Self = Self { origin: Place::GHOST, twin: EdgeId::NONE };
 }
 
@@ -58,7 +60,7 @@ impl HalfEdge {
 /// vertex.
 #[derive(Clone, Debug)]
 pub struct Mesh2 {
-    /// Four records a triangle; the fourth holds its mark. In a free triangle all are unused.
+    /// Four records a triangle; the fourth holds its mark and its tags. In a free triangle all are unused.
     pub(crate) edges: Vec<HalfEdge>,
     /// For each place an edge that leaves its vertex; [`EdgeId::NONE`] where there is no vertex.
     pub(crate) incident: Vec<EdgeId>,
@@ -185,6 +187,11 @@ impl Mesh2 {
         self.free = Slots::default();
     }
 
+    /// What triangles and stars take.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.edges) + size_of_val(&*self.incident)
+    }
+
     /// The vertex at a place.
     #[inline]
     pub(crate) fn name(&self, place: Place) -> VertexId {
@@ -250,58 +257,5 @@ impl Mesh2 {
     /// Whether there is a triangle with this index, and it is in use.
     pub(crate) fn is_triangle(&self, t: TriangleId) -> bool {
         self.edges.get(t.edge(0).index()).is_some_and(|record| record.twin != EdgeId::NONE)
-    }
-
-    /// A triangle to be filled in, near another one in memory.
-    pub(crate) fn new_triangle(&mut self, near: TriangleId) -> TriangleId {
-        if let Some(slot) = self.free.take_near(near.index()) {
-            return TriangleId::new(slot);
-        }
-        make_room(&mut self.edges, 4);
-        self.edges.extend([HalfEdge::UNUSED; 4]);
-        TriangleId::new(self.slot_count() - 1)
-    }
-
-    /// Gives a triangle back.
-    pub(crate) fn free_triangle(&mut self, t: TriangleId) {
-        self.edges[t.edge(0).index()..][..3].fill(HalfEdge::UNUSED);
-        self.free.give(t.index());
-    }
-
-    /// Writes the corners of a triangle.
-    #[inline]
-    pub(crate) fn set_corners(&mut self, t: TriangleId, corners: [Place; 3]) {
-        let records = &mut self.edges[t.edge(0).index()..][..3];
-        for (record, corner) in records.iter_mut().zip(corners) {
-            record.origin = corner;
-        }
-    }
-
-    /// Whether a triangle is marked: the fourth record says, on the cache line that is read anyway.
-    #[inline]
-    pub(crate) fn is_marked(&self, t: TriangleId) -> bool {
-        self.edges[4 * t.index() + 3].origin != Place::GHOST
-    }
-
-    /// Marks a triangle, or takes the mark away.
-    #[inline]
-    pub(crate) fn mark(&mut self, t: TriangleId, marked: bool) {
-        self.edges[4 * t.index() + 3].origin = if marked { Place::new(0) } else { Place::GHOST };
-    }
-
-    /// Remembers the edge as one that leaves its origin.
-    #[inline]
-    pub(crate) fn remember(&mut self, e: EdgeId) {
-        match self.tail(e) {
-            Place::GHOST => self.ghost_edge = e,
-            p => self.incident[p.index()] = e,
-        }
-    }
-
-    /// Makes two directed edges twins of each other.
-    #[inline]
-    pub(crate) fn link(&mut self, e: EdgeId, f: EdgeId) {
-        self.edges[e.index()].twin = f;
-        self.edges[f.index()].twin = e;
     }
 }

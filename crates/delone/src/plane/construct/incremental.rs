@@ -20,7 +20,7 @@ pub(super) fn triangulate<T: Tally>(
     tally: &mut T,
 ) -> (Vec<[f64; 2]>, Mesh2, Vec<Duplicate>) {
     let order = order::plane::insertion_order(&points, seed);
-    let mut layer = Layer::new(Mesh2::empty(points.len()), points);
+    let mut layer: Layer = Layer::new(Mesh2::empty(points.len()), points);
     layer.mesh.edges.reserve_exact(8 * layer.points.len().saturating_sub(1));
     let mut duplicates = Vec::new();
     let mut start = Start::Anywhere;
@@ -31,7 +31,7 @@ pub(super) fn triangulate<T: Tally>(
                 // The first of equal points given is their vertex.
                 let (first, later) = (v.min(w), v.max(w));
                 if later == w {
-                    rename(&mut layer.mesh, w, v);
+                    layer.mesh.rename(w, v);
                 }
                 duplicates.push(Duplicate { point: later.index(), vertex: first.same() });
                 first
@@ -47,18 +47,6 @@ pub(super) fn triangulate<T: Tally>(
     }
     Duplicate::settle(&mut duplicates);
     (layer.points, layer.mesh, duplicates)
-}
-
-/// Lets `new` stand where `old` stood: the same point under another index.
-fn rename(mesh: &mut Mesh2, old: Place, new: Place) {
-    let star: Vec<_> = mesh.spokes(old).collect();
-    for e in star {
-        mesh.edges[e.index()].origin = new;
-    }
-    mesh.incident.swap(old.index(), new.index());
-    if mesh.lone == Some(old) {
-        mesh.lone = Some(new);
-    }
 }
 
 #[cfg(test)]

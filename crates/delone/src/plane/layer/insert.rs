@@ -5,6 +5,7 @@
 use delone_predicates::orient2d;
 
 use super::Layer;
+use super::kernel::Kernel;
 use super::line::{self, OnLine};
 use super::walk::{walk, walk_within};
 use crate::ids::{EdgeId, Place, TriangleId};
@@ -31,7 +32,7 @@ pub(in crate::plane) enum Spot {
     Triangle(TriangleId),
 }
 
-impl Layer {
+impl<K: Kernel> Layer<K> {
     /// Finds where a point falls, and how many steps the walk took. Exact.
     #[inline]
     pub(in crate::plane) fn spot<T: Tally>(&self, start: Start, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
@@ -133,12 +134,12 @@ impl Layer {
                 self.mesh.lone = Some(v);
                 self.mesh.vertex_count = 1;
             }
-            Spot::BesidePoint => line::begin(&mut self.mesh, v),
-            Spot::Segment(e) => line::split(&mut self.mesh, e, v),
-            Spot::End(end) => line::extend(&mut self.mesh, end, v),
+            Spot::BesidePoint => self.mesh.begin_line(v),
+            Spot::Segment(e) => self.mesh.split_segment(e, v),
+            Spot::End(end) => self.mesh.extend_line(end, v),
             // The ghosts on one side of the line are in conflict; joining the point to them makes the plane.
             Spot::BesideLine(triangle) | Spot::Triangle(triangle) => {
-                self.cavity.insert(&mut self.mesh, &self.points, v, triangle, tally);
+                self.cavity.insert::<K, T>(&mut self.mesh, &self.points, v, triangle, tally);
                 self.spanned = true;
             }
         }

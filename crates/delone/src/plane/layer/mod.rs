@@ -6,12 +6,14 @@
 
 pub(in crate::plane) mod cavity;
 pub(in crate::plane) mod insert;
+pub(in crate::plane) mod kernel;
 pub(in crate::plane) mod line;
 mod remove;
 mod search;
 pub(in crate::plane) mod walk;
 
 use std::cmp::Ordering;
+use std::marker::PhantomData;
 
 use delone_predicates::{Sign, angle, compare_distances, orient2d};
 
@@ -25,11 +27,12 @@ use crate::points::survey;
 use crate::prefetch::prefetch;
 use crate::tally::Tally;
 use cavity::Cavity;
+use kernel::{Kernel, Nearest};
 use remove::Hole;
 
 /// See the module.
 #[derive(Clone, Debug)]
-pub(in crate::plane) struct Layer {
+pub(in crate::plane) struct Layer<K: Kernel = Nearest> {
     pub(in crate::plane) mesh: Mesh2,
     /// For each place its coordinates.
     pub(in crate::plane) points: Vec<[f64; 2]>,
@@ -39,15 +42,17 @@ pub(in crate::plane) struct Layer {
     pub(in crate::plane) hole: Hole,
     /// Known without a look at the mesh: most operations ask.
     pub(in crate::plane) spanned: bool,
+    /// What decides conflicts.
+    kernel: PhantomData<K>,
 }
 
-impl Default for Layer {
+impl<K: Kernel> Default for Layer<K> {
     fn default() -> Self {
         Self::new(Mesh2::empty(0), Vec::new())
     }
 }
 
-impl Layer {
+impl<K: Kernel> Layer<K> {
     /// A mesh built in bulk, its vertices at the places of their indices.
     pub(in crate::plane) fn new(mesh: Mesh2, points: Vec<[f64; 2]>) -> Self {
         let spanned = mesh.dimension() == Dimension::Plane;
@@ -58,6 +63,7 @@ impl Layer {
             cavity: Cavity::default(),
             hole: Hole::default(),
             spanned,
+            kernel: PhantomData,
         }
     }
 
@@ -72,7 +78,7 @@ impl Layer {
 
     /// What it takes, buffers not counted.
     pub(in crate::plane) fn bytes(&self) -> usize {
-        size_of_val(&*self.mesh.edges) + size_of_val(&*self.mesh.incident) + size_of_val(&*self.points)
+        self.mesh.bytes() + size_of_val(&*self.points)
     }
 
     /// A place near another one in memory for a new point.
@@ -136,7 +142,7 @@ impl Layer {
     }
 }
 
-impl Ground for Layer {
+impl<K: Kernel> Ground for Layer<K> {
     type Point = [f64; 2];
     type Hint = EdgeId;
     const DIMENSIONS: usize = 2;
@@ -207,7 +213,7 @@ impl Ground for Layer {
 }
 
 /// What walks ask.
-impl Layer {
+impl<K: Kernel> Layer<K> {
     /// Asks memory for the triangle of an edge, and for its corners where they are likely to be.
     #[inline]
     fn prefetch_triangle(&self, e: EdgeId) {
@@ -238,7 +244,7 @@ impl Layer {
     }
 }
 
-impl Level for Layer {
+impl<K: Kernel> Level for Layer<K> {
     fn add(&mut self, q: [f64; 2], start: Start) -> Option<Place> {
         let (spot, _) = self.spot(start, q, &mut ());
         match self.insert(spot, q, &mut ()) {

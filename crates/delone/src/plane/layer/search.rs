@@ -6,14 +6,15 @@
 use std::cmp::Ordering;
 
 use super::Layer;
+use super::kernel::Kernel;
 use super::walk::walk;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::{Ground, Start};
 use crate::tally::Tally;
 
 /// Walks to `q`; then the nearest corner of the triangle found or, exactly, the nearest vertex.
-pub(in crate::plane) fn near<T: Tally>(
-    layer: &Layer,
+pub(in crate::plane) fn near<K: Kernel, T: Tally>(
+    layer: &Layer<K>,
     start: Start,
     q: [f64; 2],
     exactly: bool,
@@ -29,7 +30,13 @@ pub(in crate::plane) fn near<T: Tally>(
 
 /// Phase 3, exactly: outwards from the triangle that contains `q`, across the edges at the nearest vertex known
 /// and across those whose nearer end sees the query and the other end at an acute angle.
-fn search<T: Tally>(layer: &Layer, triangle: TriangleId, corner: Place, q: [f64; 2], tally: &mut T) -> Place {
+fn search<K: Kernel, T: Tally>(
+    layer: &Layer<K>,
+    triangle: TriangleId,
+    corner: Place,
+    q: [f64; 2],
+    tally: &mut T,
+) -> Place {
     let mesh = &layer.mesh;
     let mut best = corner;
     let mut pending: Vec<EdgeId> = [0, 1, 2]

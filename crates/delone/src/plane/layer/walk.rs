@@ -15,6 +15,7 @@
 use std::cmp::Ordering;
 
 use super::Layer;
+use super::kernel::Kernel;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
@@ -33,7 +34,12 @@ pub(in crate::plane) struct Goal {
 
 /// Walks to `q`. The triangulation must span the plane.
 #[inline]
-pub(in crate::plane) fn walk<T: Tally>(layer: &Layer, start: Start, q: [f64; 2], tally: &mut T) -> Goal {
+pub(in crate::plane) fn walk<K: Kernel, T: Tally>(
+    layer: &Layer<K>,
+    start: Start,
+    q: [f64; 2],
+    tally: &mut T,
+) -> Goal {
     let mesh = &layer.mesh;
     match start {
         Start::At(e, Walk::Visibility) | Start::Hint(e, _) => walk_within(layer, e, q, usize::MAX, tally),
@@ -52,8 +58,8 @@ pub(in crate::plane) fn walk<T: Tally>(layer: &Layer, start: Start, q: [f64; 2],
 
 /// A visibility walk, which ends, anywhere, after more steps than `most`, at least 2.
 #[inline]
-pub(in crate::plane) fn walk_within<T: Tally>(
-    layer: &Layer,
+pub(in crate::plane) fn walk_within<K: Kernel, T: Tally>(
+    layer: &Layer<K>,
     start: EdgeId,
     q: [f64; 2],
     most: usize,
@@ -73,8 +79,8 @@ fn finite_side(mesh: &Mesh2, e: EdgeId) -> EdgeId {
 
 /// `turned` says for each triangle whether its edges are asked clockwise.
 #[inline]
-fn visibility<T: Tally>(
-    layer: &Layer,
+fn visibility<K: Kernel, T: Tally>(
+    layer: &Layer<K>,
     start: EdgeId,
     q: [f64; 2],
     most: usize,
@@ -122,7 +128,7 @@ fn visibility<T: Tally>(
 }
 
 /// From a vertex along the segment to `q`. A vertex on the line counts as being on its right.
-fn straight<T: Tally>(layer: &Layer, v: Place, q: [f64; 2], tally: &mut T) -> Goal {
+fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally: &mut T) -> Goal {
     let mesh = &layer.mesh;
     let from = layer.points[v.index()];
     let mut steps = 0;

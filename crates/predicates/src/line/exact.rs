@@ -4,9 +4,10 @@
 
 use num_bigint::BigInt;
 
-use super::wide::Wide;
-use super::{big, integers};
-use crate::{Line, Point2, Sign};
+use super::Line;
+use crate::exact::wide::Wide;
+use crate::exact::{big, integers};
+use crate::{Point2, Sign};
 
 /// The coefficients of a line whose numbers are on a common scale; `one` is a 1 of their kind.
 macro_rules! coefficients {
@@ -68,7 +69,7 @@ fn big_minor(e: &[BigInt; 3], f: &[BigInt; 3], i: usize, j: usize) -> BigInt {
 
 #[cold]
 #[inline(never)]
-pub(crate) fn turn(first: &Line, second: &Line) -> Sign {
+pub(super) fn turn(first: &Line, second: &Line) -> Sign {
     if let Some(lines) = small([first, second]) {
         let [e, f] = lines.map(|line| line.map(Wide::from));
         return minor(&e, &f, 0, 1).sign();
@@ -79,7 +80,7 @@ pub(crate) fn turn(first: &Line, second: &Line) -> Sign {
 
 #[cold]
 #[inline(never)]
-pub(crate) fn side_of_meeting(first: &Line, second: &Line, third: &Line) -> Sign {
+pub(super) fn side_of_meeting(first: &Line, second: &Line, third: &Line) -> Sign {
     if let Some(lines) = small([first, second, third]) {
         let [e, f, g] = lines.map(|line| line.map(Wide::from));
         let turn = minor(&e, &f, 0, 1);
@@ -96,7 +97,7 @@ pub(crate) fn side_of_meeting(first: &Line, second: &Line, third: &Line) -> Sign
 /// Where two lines meet, correctly rounded; a coordinate that no `f64` can hold is infinite. None for parallel lines.
 #[cold]
 #[inline(never)]
-pub(crate) fn meeting(first: &Line, second: &Line) -> Option<Point2> {
+pub(super) fn meeting(first: &Line, second: &Line) -> Option<Point2> {
     let ([e, f], scale) = large([first, second]);
     let denominator = big_minor(&e, &f, 0, 1);
     (denominator != BigInt::ZERO).then(|| {
