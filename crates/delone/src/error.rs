@@ -61,8 +61,8 @@ pub enum Error {
         /// The number of points.
         found: usize,
     },
-    /// There is no location by history in space.
-    #[error("location by history is for the plane")]
+    /// There is no such strategy of location in space: no history, and of walks only the visibility walk.
+    #[error("this strategy of location is for the plane")]
     OnlyInThePlane,
     /// A region has no proper border.
     #[error("ring {ring} of the region, at corner {corner}: {problem}")]

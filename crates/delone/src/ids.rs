@@ -67,20 +67,6 @@ pub struct Duplicate {
     pub vertex: VertexId,
 }
 
-impl Duplicate {
-    /// Sorts duplicates and lets each refer to a vertex. One may have been renamed after a duplicate referred to it;
-    /// it is a duplicate itself then, of a smaller index and so already settled.
-    pub(crate) fn settle(duplicates: &mut [Self]) {
-        duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
-        for i in 0..duplicates.len() {
-            let vertex = duplicates[i].vertex;
-            if let Ok(earlier) = duplicates[..i].binary_search_by_key(&vertex.index(), |d| d.point) {
-                duplicates[i].vertex = duplicates[earlier].vertex;
-            }
-        }
-    }
-}
-
 /// What became of an inserted point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inserted {

@@ -31,6 +31,7 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod duplicates;
 mod error;
 mod hull;
 mod ids;

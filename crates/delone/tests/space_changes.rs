@@ -2,7 +2,8 @@
 //! against brute force.
 
 use delone::{
-    Delaunay3, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location3, VertexId, Walk,
+    Delaunay2, Delaunay3, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location3, VertexId,
+    Walk,
 };
 use delone_generators::{Kind3, Random};
 use delone_oracle::exact;
@@ -225,4 +226,26 @@ fn many_points_at_once_or_in_two_goes() {
     let mut d = Delaunay3::new();
     assert!(d.extend(&[[0.0; 3], [f64::NAN, 0.0, 0.0]], 0).is_err());
     assert_eq!(d.extend(&[[0.0; 3]], 0), Ok(0..1));
+}
+
+/// In the plane and in space alike: what equals a vertex is forgotten when that moves away, and only then.
+#[test]
+fn duplicates_follow_their_vertex() {
+    use delone::Change;
+    fn life<T: Change>(at: impl Fn(f64) -> T::Point) {
+        let seen = |d: &T| d.duplicates().map(|d| (d.point, d.vertex.index())).collect::<Vec<_>>();
+        let points = [0.0, 1.0, 2.0, 3.0, 1.0, 2.0].map(&at);
+        let mut d = T::from_vec(points.to_vec()).expect("finite");
+        assert_eq!(seen(&d), [(4, 1), (5, 2)]);
+        d.move_to(VertexId::new(1), at(7.0)).expect("free");
+        assert_eq!(seen(&d), [(5, 2)]);
+        // What comes later may equal it again, where it is now.
+        d.extend(&[at(7.0), at(1.0)], 0).expect("finite");
+        assert_eq!(seen(&d), [(5, 2), (6, 1)]);
+        d.remove_observed(VertexId::new(2), &mut ()).expect("a vertex");
+        assert_eq!(seen(&d), [(6, 1)]);
+        assert!(d.check().is_ok());
+    }
+    life::<Delaunay2>(|x| [x, x * x]);
+    life::<Delaunay3>(|x| [x, x * x, x * x * x]);
 }

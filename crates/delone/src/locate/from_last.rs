@@ -14,12 +14,12 @@ pub enum Walk {
     /// Cross any edge that has the goal beyond it: the fewest tests.
     #[default]
     Visibility,
-    /// The same, edges in random order.
+    /// Cross any edge that has the goal beyond it, asked in random order. For the plane.
     Stochastic {
         /// Decides the order.
         seed: u64,
     },
-    /// Visit the triangles on the straight line to the goal.
+    /// Visit the triangles on the straight line to the goal. For the plane.
     Straight,
 }
 

@@ -56,6 +56,11 @@ impl Names {
         self.places.len()
     }
 
+    /// What both tables take.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&*self.of) + size_of_val(&*self.places)
+    }
+
     /// The vertex at a place.
     #[inline]
     pub(crate) fn of(&self, place: Place) -> VertexId {

@@ -9,7 +9,7 @@ use super::layer::insert::Spot;
 use super::locate::Found;
 use super::locator::Locator;
 use crate::error::Error;
-use crate::ids::{Duplicate, Inserted, MAX_POINTS, Place, VertexId};
+use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::tree::Tree;
 use crate::locate::{Locate, Start, Strategy, Walk};
 use crate::mesh::Names;
@@ -113,6 +113,7 @@ impl Delaunay2 {
                     locator.inserted(&self.base, new, start);
                 }
                 self.displace(old, &mut ());
+                self.duplicates.vertex_moves(v, self.points().len());
                 self.note_walk(steps);
             }
         }
@@ -191,7 +192,7 @@ impl Delaunay2 {
                 last = Some(v);
             }
         }
-        Duplicate::settle(&mut self.duplicates);
+        self.duplicates.settle();
         Ok(first..first + points.len())
     }
 
@@ -200,7 +201,7 @@ impl Delaunay2 {
         if self.named.is_none() {
             self.named = Some(self.base.points.clone());
             // Places of duplicates are free from now on.
-            for duplicate in &self.duplicates {
+            for duplicate in self.duplicates.iter(|_| true) {
                 self.base.free.give(duplicate.point);
             }
         }

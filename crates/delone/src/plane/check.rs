@@ -50,7 +50,7 @@ impl Delaunay2 {
     pub fn check(&self) -> Result<(), Flaw2> {
         self.base.mesh.check()?;
         match &self.named {
-            None => check_points(&self.base.points, &self.base.mesh, &self.duplicates)?,
+            None => check_points(&self.base.points, &self.base.mesh, self.duplicates.iter(|_| true))?,
             Some(named) => check_names(named, &self.base.points, &self.base.mesh)?,
         }
         check_geometry(&self.base.points, &self.base.mesh)
@@ -74,9 +74,13 @@ fn check_names(named: &[[f64; 2]], points: &[[f64; 2]], mesh: &Mesh2) -> Result<
 }
 
 /// Every point is a vertex, or the later duplicate of an equal vertex.
-fn check_points(points: &[[f64; 2]], mesh: &Mesh2, duplicates: &[Duplicate]) -> Result<(), Flaw2> {
+fn check_points(
+    points: &[[f64; 2]],
+    mesh: &Mesh2,
+    duplicates: impl Iterator<Item = Duplicate>,
+) -> Result<(), Flaw2> {
     let mut represented: Vec<bool> = (0..points.len()).map(|i| mesh.contains(VertexId::new(i))).collect();
-    for &duplicate in duplicates {
+    for duplicate in duplicates {
         let Duplicate { point, vertex } = duplicate;
         let right = point < points.len()
             && mesh.contains(vertex)

@@ -8,6 +8,7 @@ use super::change::Upkeep;
 use super::construct::{self, Algorithm2, Built, InOrder};
 use super::layer::Layer;
 use super::locator::Locator;
+use crate::duplicates::Duplicates;
 use crate::error::Error;
 use crate::ids::{Duplicate, EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
 use crate::locate::Locate;
@@ -43,8 +44,7 @@ pub struct Delaunay2 {
     pub(super) base: Layer,
     /// The coordinates by id; until the first change these are those by place.
     pub(super) named: Option<Vec<[f64; 2]>>,
-    /// Points reported as equal to a vertex, sorted; some may be out of date.
-    pub(super) duplicates: Vec<Duplicate>,
+    pub(super) duplicates: Duplicates,
     pub(super) counters: Counters,
     pub(super) locate: Locate,
     /// The structure of the strategy, once it was needed.
@@ -132,7 +132,7 @@ impl Delaunay2 {
         Self {
             base,
             named: None,
-            duplicates,
+            duplicates: Duplicates::new(duplicates),
             counters,
             locate: Locate::default(),
             locator: OnceLock::new(),
@@ -152,10 +152,7 @@ impl Delaunay2 {
 
     /// The points that equal an earlier one which is a vertex, by increasing index.
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
-        let points = self.points();
-        let valid =
-            |d: &&Duplicate| self.mesh().contains(d.vertex) && points[d.point] == points[d.vertex.index()];
-        self.duplicates.iter().filter(move |d| self.named.is_none() || valid(d)).copied()
+        self.duplicates.iter(|v| self.mesh().contains(v))
     }
 
     /// What the construction did.
@@ -217,10 +214,11 @@ impl Delaunay2 {
     /// The coordinates of a vertex.
     ///
     /// # Panics
-    /// For the ghost vertex and for a vertex of another, larger triangulation.
+    /// For an id that is no vertex.
     #[inline]
     pub fn point(&self, v: VertexId) -> [f64; 2] {
-        self.points()[v.index()]
+        let place = self.mesh().place(v).expect("a vertex");
+        self.base.points[place.index()]
     }
 
     /// The coordinates of the ends of a finite edge.
@@ -266,7 +264,7 @@ impl Delaunay2 {
         indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));
         mesh.names = Some(names);
         self.base = Layer::new(mesh, points);
-        self.duplicates = duplicates;
+        self.duplicates = Duplicates::new(duplicates);
         self.named = Some(positions);
         self.locator.take();
         self.upkeep.renew(self.vertex_count());

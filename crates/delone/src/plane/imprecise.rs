@@ -17,8 +17,9 @@ use std::collections::BTreeMap;
 use super::Delaunay2;
 use super::layer::Layer;
 use super::layer::insert::Spot;
+use crate::duplicates::Duplicates;
 use crate::error::Error;
-use crate::ids::{Duplicate, EdgeId, Inserted, MAX_POINTS, Place};
+use crate::ids::{EdgeId, Inserted, MAX_POINTS, Place};
 use crate::locate::nearest::Metric;
 use crate::locate::{Start, Walk};
 use crate::mesh::Names;
@@ -198,7 +199,7 @@ impl Hints2 {
 fn insert_all<T: Tally, const RENEW: bool>(
     layer: &mut Layer,
     hints: &mut [u32],
-    duplicates: &mut Vec<Duplicate>,
+    duplicates: &mut Duplicates,
     tally: &mut T,
 ) -> bool {
     let mut left = STEPS * hints.len() + SOME;
@@ -242,6 +243,6 @@ fn insert_all<T: Tally, const RENEW: bool>(
             }
         }
     }
-    Duplicate::settle(duplicates);
+    duplicates.settle();
     true
 }

@@ -66,7 +66,7 @@ impl Delaunay2 {
         Ok(self.classify(self.spot(q, tally).spot, q))
     }
 
-    /// The same by a walk from a triangle that is near the point: O(1) expected from nearby.
+    /// Finds where a point falls by a walk from a triangle that is near it: O(1) expected from nearby.
     ///
     /// # Errors
     /// As [`Self::locate`].

@@ -7,7 +7,7 @@ use super::Delaunay3;
 use super::layer::Refusal;
 use super::locator::Locator;
 use crate::error::Error;
-use crate::ids::{Duplicate, Inserted, MAX_POINTS_IN_SPACE, Place, VertexId};
+use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, VertexId};
 use crate::locate::{Locate, Start, Strategy};
 use crate::order;
 use crate::order::random::SplitMix;
@@ -107,9 +107,7 @@ impl Delaunay3 {
                 }
                 self.base.mesh.names.release(v);
                 self.base.mesh.names.bind(v, new);
-                if !self.duplicates.is_empty() {
-                    self.moved.insert(v);
-                }
+                self.duplicates.vertex_moves(v, self.base.mesh.names.given());
                 Ok(())
             }
         }
@@ -206,7 +204,7 @@ impl Delaunay3 {
                 }
             }
         }
-        Duplicate::settle(&mut self.duplicates);
+        self.duplicates.settle();
         result
     }
 

@@ -1,11 +1,11 @@
 //! The Delaunay triangulation of space: a layer, with names and a strategy of location.
 
-use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use super::construct;
 use super::layer::Layer;
 use super::locator::Locator;
+use crate::duplicates::Duplicates;
 use crate::error::Error;
 use crate::ids::{Duplicate, FacetId, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
 use crate::locate::Locate;
@@ -50,10 +50,7 @@ pub enum Algorithm3 {
 #[derive(Clone, Debug, Default)]
 pub struct Delaunay3 {
     pub(super) base: Layer,
-    /// Points reported as equal to a vertex, sorted; some may be out of date.
-    pub(super) duplicates: Vec<Duplicate>,
-    /// Vertices that were moved away from their duplicates.
-    pub(super) moved: BTreeSet<VertexId>,
+    pub(super) duplicates: Duplicates,
     pub(super) work: Work,
     pub(super) locate: Locate,
     /// The structure of the strategy, once it was needed.
@@ -124,7 +121,13 @@ impl Delaunay3 {
     }
 
     pub(super) fn assemble((base, duplicates): (Layer, Vec<Duplicate>), work: Work) -> Self {
-        Self { hinted: base.mesh.vertex_count(), base, duplicates, work, ..Self::default() }
+        Self {
+            hinted: base.mesh.vertex_count(),
+            base,
+            duplicates: Duplicates::new(duplicates),
+            work,
+            ..Self::default()
+        }
     }
 
     /// What the construction did, if it was by [`Self::with_algorithm`].
@@ -155,8 +158,7 @@ impl Delaunay3 {
 
     /// The points that equal an earlier one which is a vertex, by increasing index.
     pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
-        let valid = |d: &&Duplicate| self.base.mesh.contains(d.vertex) && !self.moved.contains(&d.vertex);
-        self.duplicates.iter().filter(valid).copied()
+        self.duplicates.iter(|v| self.base.mesh.contains(v))
     }
 
     /// The coordinates of a vertex.

@@ -13,7 +13,7 @@
 use super::Delaunay3;
 use super::layer::Layer;
 use crate::error::Error;
-use crate::ids::{Duplicate, Inserted, Place, TetrahedronId};
+use crate::ids::{Inserted, Place, TetrahedronId};
 use crate::locate::nearest::Metric;
 use crate::mesh::Names;
 use crate::order::random::SplitMix;
@@ -203,7 +203,6 @@ impl Hints3 {
         d.base.restart(self.along.iter().map(|&i| instance[i as usize].xyz()));
         d.base.mesh.names.clone_from(&self.names);
         d.duplicates.clear();
-        d.moved.clear();
         d.locator.take();
         d.hinted = instance.len();
         Ok(())
@@ -248,7 +247,7 @@ impl Hints3 {
                 *hint = nearest(layer, v).map_or(*hint, |w| w.index() as u32);
             }
         }
-        Duplicate::settle(duplicates);
+        duplicates.settle();
         true
     }
 }

@@ -63,6 +63,19 @@ impl Delaunay3 {
         Ok(self.classify(t, q))
     }
 
+    /// Finds where a point falls by a walk from a tetrahedron that is near it: O(1) expected from nearby.
+    ///
+    /// # Errors
+    /// As [`Self::locate`].
+    pub fn locate_from<P: Position3>(&self, start: TetrahedronId, q: P) -> Result<Location3, Error> {
+        let q = finite(q.xyz())?;
+        let known = self.dimension() == Dimension::Space && self.base.mesh.is_cell(start);
+        if !known {
+            return self.locate_observed(q, &mut ());
+        }
+        Ok(self.classify(self.base.walk(start, q, &mut ()), q))
+    }
+
     /// The strategy of location.
     pub fn strategy(&self) -> Locate {
         self.locate
@@ -71,7 +84,8 @@ impl Delaunay3 {
     /// Chooses the strategy of location; the structure is made when it is needed.
     ///
     /// # Errors
-    /// [`Error::Parameter`] names a parameter that is out of range; [`Error::OnlyInThePlane`] for [`Locate::History`].
+    /// [`Error::Parameter`] names a parameter that is out of range; [`Error::OnlyInThePlane`] for [`Locate::History`] and
+    /// for other walks than the visibility walk.
     pub fn set_strategy(&mut self, locate: Locate) -> Result<(), Error> {
         Locator::validate(locate)?;
         self.locate = locate;

@@ -1,12 +1,13 @@
 //! The strategies of location at work in space.
 
+use super::Delaunay3;
 use super::layer::Layer;
 use crate::error::Error;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::from_last::FromLast;
 use crate::locate::hierarchy::Levels;
 use crate::locate::tree::Tree;
-use crate::locate::{JumpAndWalk, Locate, Start, Strategy};
+use crate::locate::{Footprint, JumpAndWalk, Locate, Start, Strategy, Walk};
 use crate::tally::Tally;
 
 /// The structure behind a [`Locate`].
@@ -19,9 +20,14 @@ pub(super) enum Locator {
 }
 
 impl Locator {
-    /// Whether there is such a structure in space.
+    /// Whether there is such a strategy in space.
     pub(super) fn validate(locate: Locate) -> Result<(), Error> {
-        if locate == Locate::History { Err(Error::OnlyInThePlane) } else { locate.validate() }
+        match locate {
+            Locate::History | Locate::Walk(Walk::Stochastic { .. } | Walk::Straight) => {
+                Err(Error::OnlyInThePlane)
+            }
+            _ => locate.validate(),
+        }
     }
 
     /// The structure for the vertices that there are.
@@ -63,5 +69,21 @@ impl Strategy<Layer> for Locator {
 
     fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
         each!(self, strategy => strategy.rearranged(layer, moved));
+    }
+}
+
+impl Delaunay3 {
+    /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
+    pub fn footprint(&self) -> Footprint {
+        let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
+        match self.locator() {
+            Locator::Tree(tree) => footprint.strategy = tree.bytes(),
+            Locator::FromLast(_) | Locator::JumpAndWalk(_) => {}
+            Locator::Hierarchy(levels) => {
+                footprint.levels = levels.sizes();
+                footprint.strategy = levels.bytes(Layer::bytes);
+            }
+        }
+        footprint
     }
 }

@@ -28,7 +28,7 @@ pub enum MeshFlaw3 {
 
 impl Mesh3 {
     /// Whether this is a closed manifold, or the first flaw found. O(n log n).
-    pub(crate) fn check(&self) -> Result<(), MeshFlaw3> {
+    pub fn check(&self) -> Result<(), MeshFlaw3> {
         let (mut cells, mut of_vertex) = (0, vec![0_usize; self.incident.len() + 1]);
         for t in self.cells() {
             cells += 1;

@@ -122,6 +122,12 @@ impl Mesh3 {
 
 /// From inside, by place.
 impl Mesh3 {
+    /// What tetrahedra, stars and names take.
+    pub(crate) fn bytes(&self) -> usize {
+        let Self { cells, incident, marks, names, .. } = self;
+        size_of_val(&**cells) + size_of_val(&**incident) + size_of_val(&**marks) + names.bytes()
+    }
+
     /// The vertex at a place; the ghost for a scaffold.
     #[inline]
     pub(crate) fn name(&self, place: Place) -> VertexId {

@@ -1,6 +1,7 @@
 //! The checker must fail: a valid triangulation is corrupted in every way that it claims to see.
 
 use super::Flaw2 as Flaw;
+use crate::duplicates::Duplicates;
 use crate::ids::{EdgeId, Place, VertexId};
 use crate::mesh::MeshFlaw2 as MeshFlaw;
 use crate::{Delaunay2, Duplicate, Mesh2};
@@ -171,7 +172,7 @@ fn a_lost_point() {
 #[test]
 fn a_false_duplicate() {
     let wrong = Duplicate { point: 40, vertex: VertexId::new(4) };
-    assert_eq!(flaw(|d| d.duplicates[0] = wrong), Flaw::Duplicate(wrong));
+    assert_eq!(flaw(|d| d.duplicates = Duplicates::new(vec![wrong])), Flaw::Duplicate(wrong));
     // There is no point 41.
     let wrong = Duplicate { point: 41, vertex: VertexId::new(3) };
     assert_eq!(flaw(|d| d.duplicates.push(wrong)), Flaw::Duplicate(wrong));
@@ -180,7 +181,8 @@ fn a_false_duplicate() {
     let mut d = Delaunay2::from_points(&[[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
         .expect("finite");
     assert_eq!(d.check(), Ok(()));
-    d.duplicates[1] = wrong;
+    let first = d.duplicates().next().expect("of the first point");
+    d.duplicates = Duplicates::new(vec![first, wrong]);
     assert_eq!(d.check(), Err(Flaw::Duplicate(wrong)));
 }
 

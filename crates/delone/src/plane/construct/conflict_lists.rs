@@ -4,6 +4,7 @@
 
 use delone_predicates::lexicographic;
 
+use crate::duplicates::settle;
 use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::locate::conflict_lists::ConflictLists;
 use crate::mesh::Mesh2;
@@ -38,7 +39,7 @@ pub(super) fn triangulate(points: &[[f64; 2]], seed: u64) -> (Mesh2, Vec<Duplica
             vertices.push(i);
         }
     }
-    Duplicate::settle(&mut duplicates);
+    settle(&mut duplicates);
     let moved = lists.moved;
     drop(lists);
     let place = |p: Place| match p.index() {

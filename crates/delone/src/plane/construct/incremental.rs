@@ -4,6 +4,7 @@
 //! Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Cost: O(n log n) expected for any
 //! input, by the randomness of the order; on evenly spread points O(n) after sorting.
 
+use crate::duplicates::settle;
 use crate::ids::{Duplicate, Place};
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
@@ -45,7 +46,7 @@ pub(super) fn triangulate<T: Tally>(
             start = Start::At(layer.mesh.incident[at.index()], Walk::Visibility);
         }
     }
-    Duplicate::settle(&mut duplicates);
+    settle(&mut duplicates);
     (layer.points, layer.mesh, duplicates)
 }
 

@@ -48,7 +48,7 @@ impl Voronoi2<'_> {
         self.clip_with(region, |_| {})
     }
 
-    /// The same, and tells now and then how many cells are done.
+    /// Clips all cells to a region, and tells now and then how many are done.
     pub fn clip_with(self, region: &Region2, mut progress: impl FnMut(usize)) -> Cells2 {
         let triangulation = self.triangulation;
         let (layer, mesh) = (&triangulation.base, triangulation.mesh());

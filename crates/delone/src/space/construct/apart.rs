@@ -205,7 +205,7 @@ mod tests {
     use super::super::cut::divide;
     use super::super::triangulate_whole;
     use super::triangulate;
-    use crate::ids::Duplicate;
+    use crate::duplicates::{Duplicates, settle};
     use crate::mesh::Names;
     use crate::space::Delaunay3;
     use crate::space::layer::Layer;
@@ -244,13 +244,21 @@ mod tests {
                     continue;
                 }
                 joined += 1;
-                Duplicate::settle(&mut duplicates);
-                let apart = Delaunay3 { base: layer, duplicates, ..Delaunay3::default() };
+                settle(&mut duplicates);
+                let apart = Delaunay3 {
+                    base: layer,
+                    duplicates: Duplicates::new(duplicates),
+                    ..Delaunay3::default()
+                };
                 apart.check().unwrap_or_else(|flaw| panic!("{} {count}: {flaw}", kind.name()));
                 let mut duplicates = Vec::new();
                 triangulate_whole(&mut whole, 0, &mut duplicates, &mut ());
-                Duplicate::settle(&mut duplicates);
-                let whole = Delaunay3 { base: whole, duplicates, ..Delaunay3::default() };
+                settle(&mut duplicates);
+                let whole = Delaunay3 {
+                    base: whole,
+                    duplicates: Duplicates::new(duplicates),
+                    ..Delaunay3::default()
+                };
                 assert_eq!(cells(&apart), cells(&whole), "{} {count}", kind.name());
                 assert!(apart.duplicates().eq(whole.duplicates()), "{} {count}", kind.name());
             }

@@ -17,6 +17,7 @@ use cut::{Run, cut};
 use super::layer::Layer;
 use super::layer::arena::Arena;
 use super::layer::cavity::Cavity;
+use crate::duplicates::settle;
 use crate::ids::{Duplicate, Place, TetrahedronId};
 use crate::mesh::Names;
 use crate::order;
@@ -79,7 +80,7 @@ fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
         duplicates.clear();
         triangulate_whole(&mut layer, seed, &mut duplicates, tally)?;
     }
-    Duplicate::settle(&mut duplicates);
+    settle(&mut duplicates);
     Some((layer, duplicates))
 }
 

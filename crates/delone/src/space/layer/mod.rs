@@ -152,6 +152,11 @@ impl Layer {
         self.mesh.cells().next().unwrap_or(TetrahedronId::NONE)
     }
 
+    /// What it takes, buffers not counted.
+    pub(in crate::space) fn bytes(&self) -> usize {
+        self.mesh.bytes() + size_of_val(&*self.points)
+    }
+
     /// What decisions look at.
     #[inline]
     pub(in crate::space) fn view(&self) -> View<'_> {
