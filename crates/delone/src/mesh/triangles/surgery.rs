@@ -99,6 +99,16 @@ impl Mesh2 {
         self.link(into[0], into[1]);
     }
 
+    /// Writes all of a triangle. The twins do not know of it yet.
+    #[inline]
+    fn write_triangle(&mut self, t: TriangleId, corners: [Place; 3], twins: [EdgeId; 3], tags: Tags) {
+        let records = &mut self.edges[t.edge(0).index()..][..4];
+        for k in 0..3 {
+            records[k] = HalfEdge { origin: corners[k], twin: twins[k] };
+        }
+        records[3] = tags.record();
+    }
+
     /// Writes the triangle of an edge, its corners from the origin of the edge on, two of its sides glued to what is outside.
     #[inline]
     fn write(&mut self, e: EdgeId, corners: [Place; 3], sides: [(EdgeId, EdgeId); 2], domain: Tags) {
@@ -117,62 +127,65 @@ impl Mesh2 {
     /// `v` its last corner.
     #[inline]
     pub(crate) fn fill_star(&mut self, v: Place, border: &[BorderEdge], triangles: &[TriangleId]) {
-        let n = border.len();
-        debug_assert_eq!(triangles.len(), n, "a triangle for each edge");
+        debug_assert_eq!(triangles.len(), border.len(), "a triangle for each edge");
         // Of the first triangle before any is written: all that go are in one domain.
         let domain = self.tags(triangles[0]).of_domain();
-        for i in 0..n {
-            let (t, following) = (triangles[i], triangles[(i + 1) % n]);
-            let ((a, outside), (b, _)) = (border[i], border[(i + 1) % n]);
-            self.set_corners(t, [a, b, v]);
-            self.set_tags(t, domain.with(t.edge(0), self.is_fixed(outside)));
-            self.link(t.edge(0), outside);
-            self.link(t.edge(1), following.edge(2));
+        let mut previous = triangles[triangles.len() - 1];
+        for (i, (&t, &(a, outside))) in triangles.iter().zip(border).enumerate() {
+            let (b, following) = match (border.get(i + 1), triangles.get(i + 1)) {
+                (Some(&(b, _)), Some(&following)) => (b, following),
+                _ => (border[0].0, triangles[0]),
+            };
+            let tags = domain.with(t.edge(0), self.is_fixed(outside));
+            let twins = [outside, following.edge(2), previous.edge(1)];
+            self.write_triangle(t, [a, b, v], twins, tags);
+            self.edges[outside.index()].twin = t.edge(0);
             self.remember(t.edge(0));
+            previous = t;
         }
         self.incident[v.index()] = triangles[0].edge(2);
     }
 
-    /// Fills a hole of n edges, its border given counter-clockwise, with n - 2 triangles, side by side. `apex` says which
-    /// vertex of the border is joined to the side from `last` to `first`, one between them, and what is to be known of the two
-    /// sides that this makes, the one from `first` on first. `pending` is a buffer.
+    /// Fills a hole of n edges, its border given counter-clockwise, with the last n - 2 of some triangles, side by side. `apex`
+    /// says which vertex of the border is joined to the side from `last` to `first`, one between them, and what is to be known
+    /// of the two sides that this makes, the one from `first` on first. `pending` is a buffer.
+    #[inline]
     pub(crate) fn fill_hole<C>(
         &mut self,
         border: &[BorderEdge],
-        mut triangles: impl Iterator<Item = TriangleId>,
+        triangles: &[TriangleId],
         pending: &mut Vec<Part<C>>,
         known: C,
         mut apex: impl FnMut(usize, usize, C) -> (usize, C, C),
     ) {
-        let end = border.len() - 1;
-        let mut domain = None;
-        pending.push((0, end, border[end].1, known));
+        let (end, closing) = (border.len() - 1, border[border.len() - 1].1);
+        let mut unused = triangles.len();
+        let domain = self.tags(triangles[unused - 1]).of_domain();
+        pending.push((0, end, closing, known));
         while let Some((first, last, outside, known)) = pending.pop() {
             if last == first + 1 {
-                self.glue(outside, border[first].1);
+                let side = border[first].1;
+                self.link(outside, side);
                 self.remember(outside);
+                if self.is_fixed(side) {
+                    self.set_fixed(side, true);
+                }
                 continue;
             }
             let (k, towards, back) = apex(first, last, known);
-            let t = triangles.next().expect("a hole of n edges takes n - 2 triangles");
-            let domain = *domain.get_or_insert_with(|| self.tags(t).of_domain());
-            self.set_corners(t, [border[last].0, border[first].0, border[k].0]);
-            self.set_tags(t, domain);
-            self.glue(t.edge(0), outside);
-            if last == end && first == 0 {
-                self.remember(t.edge(0));
-            }
+            unused -= 1;
+            let t = triangles[unused];
+            let corners = [border[last].0, border[first].0, border[k].0];
+            // Two of its sides are closed when their turn comes.
+            self.write_triangle(t, corners, [outside, EdgeId::NONE, EdgeId::NONE], domain);
+            self.edges[outside.index()].twin = t.edge(0);
             pending.push((first, k, t.edge(1), towards));
             pending.push((k, last, t.edge(2), back));
         }
-    }
-
-    /// Links two edges, both of which are fixed if one is.
-    #[inline]
-    fn glue(&mut self, e: EdgeId, f: EdgeId) {
-        self.link(e, f);
-        if self.is_fixed(e) || self.is_fixed(f) {
-            self.set_fixed(e, true);
+        let inside = self.twin(closing);
+        self.remember(inside);
+        if self.is_fixed(closing) {
+            self.set_fixed(closing, true);
         }
     }
 

@@ -21,6 +21,12 @@ impl Tags {
         Self(self.0 & !EDGES)
     }
 
+    /// What is written of them, without a mark.
+    #[inline]
+    pub(super) fn record(self) -> HalfEdge {
+        HalfEdge { origin: Place::GHOST, twin: EdgeId::from_bits(!self.0) }
+    }
+
     /// With an edge fixed, or not.
     #[inline]
     pub(super) fn with(self, e: EdgeId, fixed: bool) -> Self {
@@ -48,10 +54,11 @@ impl Mesh2 {
     /// Gives a triangle its tags, and takes its mark away.
     #[inline]
     pub(super) fn set_tags(&mut self, t: TriangleId, tags: Tags) {
-        self.edges[4 * t.index() + 3] = HalfEdge { origin: Place::GHOST, twin: EdgeId::from_bits(!tags.0) };
+        self.edges[4 * t.index() + 3] = tags.record();
     }
 
     /// Fixes an edge and its twin, or lets them go.
+    #[cold]
     pub(super) fn set_fixed(&mut self, e: EdgeId, fixed: bool) {
         for e in [e, self.twin(e)] {
             self.set_tags(e.triangle(), self.tags(e.triangle()).with(e, fixed));

@@ -19,7 +19,7 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
     const HIDES: bool = false;
 
     /// Whether the circle of a finite triangle contains a point, in the sense of the kernel.
-    fn contains(corners: [[f64; 2]; 3], q: [f64; 2]) -> bool;
+    fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool;
 
     /// The same for the half-plane on the left of a hull edge seen from outside, with the inside of the edge: the circle of a
     /// ghost.
@@ -42,7 +42,7 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
         } else if corners[2].is_ghost() {
             Self::contains_beyond(point(0), point(1), q)
         } else {
-            Self::contains([point(0), point(1), point(2)], q)
+            Self::contains(point(0), point(1), point(2), q)
         }
     }
 }
@@ -53,7 +53,7 @@ pub(in crate::plane) struct Nearest;
 
 impl Kernel for Nearest {
     #[inline]
-    fn contains([a, b, c]: [[f64; 2]; 3], q: [f64; 2]) -> bool {
+    fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool {
         in_circle(a, b, c, q).is_positive()
     }
 }
@@ -64,7 +64,7 @@ pub(in crate::plane) struct Furthest;
 
 impl Kernel for Furthest {
     #[inline]
-    fn contains([a, b, c]: [[f64; 2]; 3], q: [f64; 2]) -> bool {
+    fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool {
         !in_circle(a, b, c, q).is_positive()
     }
 }

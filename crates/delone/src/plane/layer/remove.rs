@@ -22,6 +22,9 @@ use crate::tally::Tally;
 /// The largest degree at which looking at all candidates is cheaper than building.
 const SMALL: usize = 24;
 
+/// A hole is filled by so many triangles less than the star had; these, the first ones, are given back.
+const LESS: usize = 2;
+
 /// The border of the hole, counter-clockwise, and the triangles to fill it with. Kept between removals.
 #[derive(Clone, Debug, Default)]
 pub(in crate::plane) struct Hole {
@@ -71,8 +74,7 @@ impl<K: Kernel> Layer<K> {
             } else {
                 hole.fill_large(&mut self.mesh, &self.points);
             }
-            // Two less than there were.
-            hole.triangles.drain(..2).for_each(|t| self.mesh.free_triangle(t));
+            hole.triangles[..LESS].iter().for_each(|&t| self.mesh.free_triangle(t));
             self.mesh.vertex_count -= 1;
         }
         self.hole = hole;
@@ -98,7 +100,7 @@ impl Hole {
     /// What the last removal from the plane did: the triangles that fill the hole, and for each edge of its border where it
     /// starts, and its twin outside.
     pub(in crate::plane) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {
-        (&self.triangles, &self.border)
+        (self.triangles.get(LESS..).unwrap_or_default(), &self.border)
     }
 
     /// Collects the star of a vertex, in both directions at once: the next triangle on one side is fetched from
@@ -133,8 +135,7 @@ impl Hole {
     /// linear search, because the circles through two points are ordered.
     fn fill<K: Kernel, T: Tally>(&mut self, mesh: &mut Mesh2, tally: &mut T) {
         let Self { border, points, triangles, pending, .. } = self;
-        let of_star = triangles.iter().rev().copied();
-        mesh.fill_hole(border, of_star, pending, (), |first, last, ()| {
+        mesh.fill_hole(border, triangles, pending, (), |first, last, ()| {
             (apex::<K, T>(border, points, first, last, tally), (), ())
         });
     }
@@ -161,14 +162,14 @@ impl Hole {
         };
         let side = side.expect("the border of a hole is Delaunay");
         // Each side is known by the edge of the patch that is it, seen from inside.
-        let of_star = triangles.iter().rev().copied();
-        mesh.fill_hole(border, of_star, &mut Vec::new(), side, |_, _, e| {
+        mesh.fill_hole(border, triangles, &mut Vec::new(), side, |_, _, e| {
             (on_border(patch.tip(e)), patch.twin(e.next()), patch.twin(e.previous()))
         });
     }
 }
 
 /// The apex of the side from `last` to `first` among the vertices between them.
+#[inline]
 fn apex<K: Kernel, T: Tally>(
     border: &[BorderEdge],
     points: &[[f64; 2]],
