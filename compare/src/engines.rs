@@ -70,7 +70,10 @@ fn delone(
 ) -> Result<Run, String> {
     let own = points.to_vec();
     let pool = &POOLS[threads - 1];
-    let (time, result) = pool.install(|| timed(|| delone::Delaunay2::with_algorithm(&own, algorithm)));
+    let (time, result) = pool.install(|| timed(|| match algorithm {
+            delone::Algorithm2::DivideAndConquer => delone::Delaunay2::from_vec(own),
+            _ => delone::Delaunay2::with_algorithm(&own, algorithm),
+        }));
     let d = result.map_err(|error| error.to_string())?;
     let triangles =
         if wanted { d.triangles().map(|t| t.map(|v| v.index() as u64)).collect() } else { Vec::new() };

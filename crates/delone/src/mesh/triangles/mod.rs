@@ -69,6 +69,8 @@ pub struct Mesh2 {
     pub(crate) vertex_count: usize,
     /// The only vertex, when there is one.
     pub(crate) lone: Option<Place>,
+    /// Whether any edge was ever fixed, or any triangle put into a domain: if not, there is nothing to carry along.
+    pub(crate) is_tagged: bool,
     /// Which triangles are free.
     pub(crate) free: Slots,
     /// None while vertices are at the places of their indices.
@@ -173,6 +175,7 @@ impl Mesh2 {
             ghost_edge: EdgeId::NONE,
             vertex_count: 0,
             lone: None,
+            is_tagged: false,
             free: Slots::default(),
             names: None,
         }

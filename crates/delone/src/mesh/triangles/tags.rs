@@ -48,6 +48,9 @@ impl Mesh2 {
 
     #[inline]
     pub(super) fn tags(&self, t: TriangleId) -> Tags {
+        if !self.is_tagged {
+            return Tags::default();
+        }
         Tags(!self.edges[4 * t.index() + 3].twin.bits())
     }
 
@@ -60,6 +63,7 @@ impl Mesh2 {
     /// Fixes an edge and its twin, or lets them go.
     #[cold]
     pub(super) fn set_fixed(&mut self, e: EdgeId, fixed: bool) {
+        self.is_tagged |= fixed;
         for e in [e, self.twin(e)] {
             self.set_tags(e.triangle(), self.tags(e.triangle()).with(e, fixed));
         }
@@ -155,6 +159,7 @@ mod tests {
         let mut d = Delaunay2::from_points(&Kind::Uniform.points(100, 1)).expect("finite");
         let all: Vec<_> = (0..d.mesh().slot_count()).map(crate::ids::TriangleId::new).collect();
         let mesh = d.mesh_mut();
+        mesh.is_tagged = true;
         all.iter().for_each(|&t| mesh.set_tags(t, Tags(7 << EDGES.count_ones())));
         for p in Kind::Uniform.points(100, 2) {
             d.insert(p).expect("finite");
