@@ -90,6 +90,7 @@ pub enum Flaw3 {
 /// From outside, by vertex.
 impl Mesh3 {
     /// The four corners in positive order; the ghost vertex, in a ghost tetrahedron, is the last.
+    #[inline]
     pub fn corners(&self, t: TetrahedronId) -> [VertexId; 4] {
         self.cells[t.index()].corners.map(|p| self.name(p))
     }
