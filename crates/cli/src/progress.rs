@@ -63,7 +63,7 @@ impl Phase {
 
     /// A reader that moves the bar.
     pub(crate) fn watch<R>(&self, reader: R) -> Watched<R> {
-        Watched { reader, bar: self.bar.clone() }
+        Watched { reader, bar: self.bar.clone(), unseen: 0 }
     }
 }
 
@@ -80,12 +80,27 @@ impl Drop for Phase {
 pub(crate) struct Watched<R> {
     reader: R,
     bar: ProgressBar,
+    /// Bytes that the bar does not know yet: it asks for the time with every step, which costs more than a line of text.
+    unseen: u64,
+}
+
+/// So many bytes are a step of the bar.
+const STEP: u64 = 1 << 16;
+
+impl<R> Watched<R> {
+    fn advance(&mut self, count: usize) {
+        self.unseen += count as u64;
+        if self.unseen >= STEP {
+            self.bar.inc(self.unseen);
+            self.unseen = 0;
+        }
+    }
 }
 
 impl<R: Read> Read for Watched<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.reader.read(buffer)?;
-        self.bar.inc(count as u64);
+        self.advance(count);
         Ok(count)
     }
 }
@@ -96,7 +111,7 @@ impl<R: BufRead> BufRead for Watched<R> {
     }
 
     fn consume(&mut self, count: usize) {
-        self.bar.inc(count as u64);
+        self.advance(count);
         self.reader.consume(count);
     }
 }
@@ -105,6 +120,7 @@ impl<R: Seek> Seek for Watched<R> {
     fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
         let position = self.reader.seek(position)?;
         self.bar.set_position(position);
+        self.unseen = 0;
         Ok(position)
     }
 }

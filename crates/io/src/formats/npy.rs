@@ -1,86 +1,53 @@
 //! NumPy arrays and archives of them: points are numbers of shape (n, 2) or (n, 3), triangles integers of shape (t, 3).
 
-use std::io::{self, BufReader, BufWriter, Cursor, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, BufWriter, Cursor, Read, Seek, Write};
 use std::sync::mpsc::sync_channel;
 
-use npyz::{DType, NpyFile, Order, WriterBuilder};
-use zip::ZipArchive;
+use crate::{Cloud, Error, Source};
 
-use crate::{Cloud, Error, Source, guard};
+mod archive;
+mod header;
+
+use header::Header;
 
 /// Numbers are read and written eight bytes at a time: from and to a buffer of a type that the compiler knows, which is ten
 /// times faster than from and to one behind a pointer.
 const BUFFER: usize = 1 << 18;
 
-/// NumPy itself reads no longer headers.
-const LONGEST_HEADER: u64 = 10_000;
-
-type File<R> = NpyFile<BufReader<R>>;
-
-/// Reads the header, after a look at how long it claims to be.
-fn open<R: Read + Seek>(mut source: R) -> Result<File<R>, Error> {
-    const MAGIC: &[u8] = b"\x93NUMPY";
-    let early = |_| Error::Truncated("inside the array's header".to_owned());
-    let length = source.seek(SeekFrom::End(0))?;
-    source.rewind()?;
-    let mut start = [0; 12];
-    let magic = source.read_exact(&mut start[..MAGIC.len()]);
-    if magic.is_err() || !start.starts_with(MAGIC) {
-        return Err(Error::content("no NumPy array: it does not begin as one"));
-    }
-    source.read_exact(&mut start[MAGIC.len()..10]).map_err(early)?;
-    let mut header = 10 + u64::from(u16::from_le_bytes([start[8], start[9]]));
-    if start[6] > 1 {
-        source.read_exact(&mut start[10..]).map_err(early)?;
-        header = 12 + u64::from(u32::from_le_bytes([start[8], start[9], start[10], start[11]]));
-    }
-    if header > length {
-        return Err(Error::Truncated("inside the array's header".to_owned()));
-    }
-    // What is longer or deeper describes no numbers, and keeps the parser busy for ever.
-    let mut text = vec![0; header.min(LONGEST_HEADER) as usize];
-    source.rewind()?;
-    source.read_exact(&mut text).map_err(early)?;
-    if header > LONGEST_HEADER || text.iter().filter(|byte| b"([{".contains(byte)).count() > 8 {
-        return Err(Error::content("no NumPy array of numbers: its header is too long or too deep"));
-    }
-    source.rewind()?;
-    let wrong = |error: io::Error| match error.kind() {
-        io::ErrorKind::UnexpectedEof => Error::Truncated("inside the array's header".to_owned()),
-        _ => Error::content(format!("no NumPy array: {error}")),
-    };
-    // It multiplies the numbers of a shape without a look at their size.
-    let file =
-        guard::decode("npy", || NpyFile::new(BufReader::with_capacity(BUFFER, source)).map_err(wrong))?;
-    if let ([rows, columns], Some(size)) = (file.shape(), file.dtype().num_bytes()) {
-        let row = columns.saturating_mul(size as u64).max(1);
-        let complete = (length - header) / row;
-        if complete < *rows && *columns > 0 {
-            return Err(Error::Truncated(format!("inside row {complete} of {rows}")));
-        }
-    }
-    Ok(file)
+/// An array whose header is read.
+struct File<R> {
+    header: Header,
+    source: BufReader<R>,
 }
 
-fn type_name<R: Read>(file: &File<R>) -> String {
-    match file.dtype() {
-        DType::Plain(plain) => plain.to_string(),
-        other => other.descr(),
+fn open<R: Read + Seek>(mut source: R) -> Result<File<R>, Error> {
+    let header = Header::read(&mut source)?;
+    Ok(File { header, source: BufReader::with_capacity(BUFFER, source) })
+}
+
+impl<R: Read> File<R> {
+    /// All numbers until the source ends, each of so many bytes.
+    fn numbers<T, const N: usize>(
+        mut self,
+        decode: impl Fn([u8; N]) -> T,
+    ) -> impl Iterator<Item = Result<T, Error>> {
+        let mut place = 0;
+        std::iter::from_fn(move || {
+            let mut bytes = [0; N];
+            let read = self.source.read_exact(&mut bytes);
+            place += 1;
+            Some(read.map(|()| decode(bytes)).map_err(|error| ended(error, place - 1)))
+        })
     }
 }
 
 /// Calls `$take` with the numbers of an array, whatever their type, each made another by `$convert`.
 macro_rules! numbers {
-    ($file:expr, $found:expr, $take:expr, $convert:expr, $($name:literal $from:ty),+) => {
-        match $found.trim_start_matches(['<', '>', '|', '=']) {
+    ($file:expr, $take:expr, $convert:expr, $($name:literal $from:ty),+) => {
+        match $file.header.kind.as_str() {
             $($name => {
-                let data = $file.data::<$from>().map_err(|error| Error::content(error.to_string()))?;
-                let mut place = 0;
-                $take(&mut data.map(|value| {
-                    let value = value.map_err(|error| ended(error, place))?;
-                    place += 1;
-                    $convert(value)
-                }))
+                let decode = if $file.header.is_big { <$from>::from_be_bytes } else { <$from>::from_le_bytes };
+                $take(&mut $file.numbers(decode).map(|value| $convert(value?)))
             })+
             found => Err(Error::content(format!("the array is of type {found}, which is not read here"))),
         }
@@ -107,32 +74,22 @@ fn exact(value: i128) -> Result<f64, Error> {
 /// Reads points of shape (n, 2) or (n, 3), or transposed, of floating point or whole numbers.
 pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
     let file = open(source)?;
-    let shape = file.shape().to_vec();
+    let shape = &file.header.shape;
     let (rows, columns, transposed) = match shape[..] {
         [rows, columns @ (2 | 3)] => (rows as usize, columns as usize, false),
         [columns @ (2 | 3), rows] => (rows as usize, columns as usize, true),
         _ => return Err(Error::content(format!("the array has the shape {shape:?}, not (n, 2) or (n, 3)"))),
     };
     // Point after point, or column after column: all x, all y, all z.
-    let by_columns = (file.order() == Order::Fortran) != transposed;
-    let found = type_name(&file);
-    // The same words serve single and double precision.
-    #[allow(clippy::useless_conversion)]
-    let mut cloud = if found.contains('f') {
-        let take =
-            |values: &mut dyn Iterator<Item = Result<f64, Error>>| fill(values, rows, columns, by_columns);
-        match found.as_str() {
-            // The usual type, for which the compiler sees all of the loop.
-            "<f8" => {
-                let values = file.data::<f64>().map_err(|error| Error::content(error.to_string()))?;
-                fill(values, rows, columns, by_columns)
-            }
-            _ => numbers!(file, found, take, |value| Ok(f64::from(value)), "f8" f64, "f4" f32),
-        }
+    let by_columns = file.header.by_columns != transposed;
+    let take = |values: &mut dyn Iterator<Item = Result<f64, Error>>| fill(values, rows, columns, by_columns);
+    let mut cloud = if file.header.kind == "f8" && !file.header.is_big {
+        // The usual type, for which the compiler sees all of the loop.
+        fill(file.numbers(f64::from_le_bytes), rows, columns, by_columns)
+    } else if file.header.kind.starts_with('f') {
+        numbers!(file, take, |value| Ok(Into::<f64>::into(value)), "f8" f64, "f4" f32)
     } else {
-        let take =
-            |values: &mut dyn Iterator<Item = Result<f64, Error>>| fill(values, rows, columns, by_columns);
-        numbers!(file, found, take, |value| exact(i128::from(value)),
+        numbers!(file, take, |value| exact(i128::from(value)),
             "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)
     }?;
     if transposed {
@@ -142,16 +99,13 @@ pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
 }
 
 /// Points from the numbers of an array.
-fn fill<E: Into<Error>>(
-    mut values: impl Iterator<Item = Result<f64, E>>,
+fn fill(
+    mut values: impl Iterator<Item = Result<f64, Error>>,
     rows: usize,
     columns: usize,
     by_columns: bool,
 ) -> Result<Cloud, Error> {
-    let mut next = || match values.next() {
-        Some(value) => value.map_err(Into::into),
-        None => Err(Error::Truncated("inside the numbers".to_owned())),
-    };
+    let mut next = || values.next().unwrap_or_else(|| Err(Error::Truncated("inside the numbers".to_owned())));
     let mut cloud = Cloud::with_capacity(rows, columns == 3);
     if by_columns {
         for _ in 0..rows {
@@ -175,17 +129,13 @@ fn fill<E: Into<Error>>(
 }
 
 /// Reads the array of points of an archive: the one that is called so, or the only one that has the shape of points.
-pub(crate) fn read_archive(source: Box<dyn Source>) -> Result<Cloud, Error> {
+pub(crate) fn read_archive(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
     const NAMES: [&str; 7] = ["points", "pts", "xy", "xyz", "coords", "coordinates", "vertices"];
-    let broken = |error: zip::result::ZipError| Error::content(format!("no NumPy archive: {error}"));
-    let mut archive = ZipArchive::new(source).map_err(broken)?;
     let mut arrays = Vec::new();
     let mut names = Vec::new();
-    for i in 0..archive.len() {
-        let mut entry = archive.by_index(i).map_err(broken)?;
-        let name = entry.name().map_err(broken)?.trim_end_matches(".npy").to_owned();
-        let mut bytes = Vec::new();
-        entry.read_to_end(&mut bytes)?;
+    for entry in archive::entries(&mut source)? {
+        let name = entry.name.trim_end_matches(".npy").to_owned();
+        let bytes = entry.read(&mut source)?;
         if let Ok(cloud) = read_points(Cursor::new(bytes)) {
             arrays.push((name.clone(), cloud));
         }
@@ -210,24 +160,22 @@ pub(crate) fn read_archive(source: Box<dyn Source>) -> Result<Cloud, Error> {
 /// Reads rows of N indices.
 pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
     let file = open(source)?;
-    let [rows, width] = file.shape()[..] else {
-        return Err(Error::content(format!("the array has the shape {:?}, not (t, {N})", file.shape())));
+    let shape = &file.header.shape;
+    let [rows, width] = shape[..] else {
+        return Err(Error::content(format!("the array has the shape {shape:?}, not (t, {N})")));
     };
     if width != N as u64 {
         return Err(Error::content(format!("the array has the shape [{rows}, {width}], not (t, {N})")));
     }
-    let (rows, order) = (rows as usize, file.order());
+    let (rows, by_columns) = (rows as usize, file.header.by_columns);
     let index = |value: i128| {
         u64::try_from(value).map_err(|_| Error::content(format!("the array has the negative index {value}")))
     };
-    let found = type_name(&file);
-    let collect = |values: &mut dyn Iterator<Item = _>| values.collect::<Result<Vec<u64>, Error>>();
-    let values = numbers!(file, found, collect, |value| index(i128::from(value)),
+    let collect =
+        |values: &mut dyn Iterator<Item = _>| values.take(N * rows).collect::<Result<Vec<u64>, Error>>();
+    let values = numbers!(file, collect, |value| index(i128::from(value)),
         "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)?;
-    let at = |row: usize, k: usize| match order {
-        Order::C => values[N * row + k],
-        Order::Fortran => values[k * rows + row],
-    };
+    let at = |row: usize, k: usize| values[if by_columns { k * rows + row } else { N * row + k }];
     Ok((0..rows).map(|row| std::array::from_fn(|k| at(row, k))).collect())
 }
 
@@ -239,10 +187,7 @@ pub(crate) fn write_simplices<const N: usize>(
     count: usize,
     rows: impl Iterator<Item = [usize; N]> + Send,
 ) -> io::Result<()> {
-    let mut header = Vec::new();
-    let options = npyz::WriteOptions::<i64>::new().default_dtype().shape(&[count as u64, N as u64]);
-    options.writer(&mut header).write_header_only()?;
-    out.write_all(&header)?;
+    header::write(out, "i8", &[count, N])?;
     let mut rows = rows.fuse();
     let mut block = move || {
         let mut block = Vec::with_capacity(BUFFER);
@@ -263,30 +208,29 @@ pub(crate) fn write_simplices<const N: usize>(
 }
 
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(BUFFER, out);
-    let shape = [points.len() as u64, D as u64];
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
-    writer.extend(points.as_flattened().iter().copied())?;
-    writer.finish()?;
-    out.flush()
+    let numbers = points.as_flattened().iter().map(|x| x.to_le_bytes());
+    write_numbers(out, "f8", &[points.len(), D], numbers)
 }
 
 /// Writes rows of integers: int64 of shape (rows, columns).
 pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64]) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(BUFFER, out);
-    let shape = [(values.len() / columns) as u64, columns as u64];
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()?;
-    out.flush()
+    let shape = [values.len() / columns, columns];
+    write_numbers(out, "i8", &shape, values.iter().map(|value| value.to_le_bytes()))
 }
 
 pub(crate) fn write_index_list(out: &mut dyn Write, values: &[i64]) -> io::Result<()> {
+    write_numbers(out, "i8", &[values.len()], values.iter().map(|value| value.to_le_bytes()))
+}
+
+fn write_numbers(
+    out: &mut dyn Write,
+    kind: &str,
+    shape: &[usize],
+    mut numbers: impl Iterator<Item = [u8; 8]>,
+) -> io::Result<()> {
     let mut out = BufWriter::with_capacity(BUFFER, out);
-    let shape = [values.len() as u64];
-    let mut writer = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut out).begin_nd()?;
-    writer.extend(values.iter().copied())?;
-    writer.finish()?;
+    header::write(&mut out, kind, shape)?;
+    numbers.try_for_each(|bytes| out.write_all(&bytes))?;
     out.flush()
 }
 

@@ -73,6 +73,7 @@ pub struct Mesh3 {
 /// From outside, by vertex.
 impl Mesh3 {
     /// The four corners in positive order; the ghost vertex, in a ghost tetrahedron, is the last.
+    #[inline]
     pub fn corners(&self, t: TetrahedronId) -> [VertexId; 4] {
         self.cells[t.index()].corners.map(|p| self.name(p))
     }
