@@ -1,8 +1,10 @@
-//! Exact, canonical Delaunay triangulation.
+//! Exact, canonical Delaunay triangulation, in the plane and in space.
 //!
 //! The triangulation is a function of the set of points alone: ties between cocircular points are broken by a
-//! symbolic perturbation, so insertion order, algorithm and machine never show in the result. Every finite
+//! symbolic perturbation, so insertion order, algorithm, threads and machine never show in the result. Every finite
 //! `f64` is accepted, and every geometric decision is exact.
+//!
+#![doc = concat!("<p align=\"center\">", include_str!("../docs/triangulation.svg"), include_str!("../docs/cells.svg"), include_str!("../docs/tetrahedra.svg"), "</p>")]
 //!
 //! ```
 //! use delone::{Algorithm2, Delaunay2};
@@ -12,20 +14,50 @@
 //! let fast = Delaunay2::from_points(&points)?;
 //! let other = Delaunay2::with_algorithm(&points, Algorithm2::Incremental { seed: 1 })?;
 //!
-//! let sorted = |d: &Delaunay2| {
-//!     let smallest_first = |[a, b, c]: [delone::VertexId; 3]| match a.min(b).min(c) {
-//!         m if m == a => [a, b, c],
-//!         m if m == b => [b, c, a],
-//!         _ => [c, a, b],
-//!     };
-//!     let mut triangles: Vec<_> = d.triangles().map(smallest_first).collect();
-//!     triangles.sort();
-//!     triangles
+//! let edges = |d: &Delaunay2| {
+//!     let mut edges: Vec<_> = d.edges().map(|[v, w]| [v.min(w), v.max(w)]).collect();
+//!     edges.sort();
+//!     edges
 //! };
-//! assert_eq!(sorted(&fast), sorted(&other));
+//! assert_eq!(edges(&fast), edges(&other));
 //! fast.check()?; // proved, not believed
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Which type
+//!
+//! | what there is | in the plane | in space | cost |
+//! | --- | --- | --- | --- |
+//! | points, all at once or coming and going | [`Delaunay2`] | [`Delaunay3`] | O(n log n); a change O(log n) on average |
+//! | points known nearly beforehand, in many instances | [`Hints2`] | [`Hints3`] | O(n) an instance |
+//! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
+//! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
+//! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
+//! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
+//! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
+//! | nearest sites at the same cost for any sites | [`NearestSites2`] | [`Delaunay3::nearest`] | O(log^2 n) a query |
+//! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
+//! | data of your own on vertices | [`VertexMap`] | [`VertexMap`] | O(1) |
+//! | code for any kind of triangulation | [`Triangulation`], [`Ask`], [`Change`] | the same | |
+//!
+//! Points are anything that is a [`Position2`] or a [`Position3`]: arrays and tuples of `f64`, `f32`, `i32`, and the points of
+//! other crates by feature. Results are indices: a [`VertexId`] is the index of its point.
+//!
+//! # Names
+//!
+//! What exists in the plane or in space ends in 2 or 3. `new` is empty, `from_points` takes points, `from_vec` may keep
+//! them, `with_...` has a choice. Triangles are counter-clockwise, tetrahedra in positive order. Errors name what is wrong, by
+//! index.
+//!
+//! # Features
+//!
+//! | feature | default | what |
+//! | --- | --- | --- |
+//! | `rayon` | yes | large sets are built on all threads of the current pool, to the same bits |
+//! | `mint` | | points of `mint` as input |
+//! | `geo-types` | | points and coordinates of `geo-types` as input |
+//!
+//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `sparse`, `labels`.
 
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]

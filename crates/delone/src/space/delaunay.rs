@@ -83,7 +83,7 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned beyond
-    /// [`MAX_POINTS_IN_SPACE`], [`Error::TooManyTetrahedra`] beyond 2^30 of these, which some sets of 66,000 points have.
+    /// [`crate::MAX_POINTS_IN_SPACE`], [`Error::TooManyTetrahedra`] beyond 2^30 of these, which some sets of 66,000 points have.
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         check_in_space(points)?;
         Ok(Self::assemble(with_room(construct::triangulate(points, 0, &mut ()))?, Work::default()))
