@@ -57,7 +57,7 @@
 //! | `mint` | | points of `mint` as input |
 //! | `geo-types` | | points and coordinates of `geo-types` as input |
 //!
-//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `sparse`, `labels`.
+//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `section`, `labels`.
 
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]

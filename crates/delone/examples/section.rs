@@ -1,4 +1,4 @@
-//! Tetrahedra of a ball, seen from above where a plane cuts them: `cargo run --example sparse` leaves `sparse.svg`.
+//! Tetrahedra of a ball, seen from above where a plane cuts them: `cargo run --example section` leaves `section.svg`.
 #![expect(
     clippy::disallowed_macros,
     clippy::disallowed_methods,
@@ -36,5 +36,5 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     println!("{} tetrahedra, {cut} of them cut", d.tetrahedron_count());
-    Ok(picture.save("sparse.svg")?)
+    Ok(picture.save("section.svg")?)
 }
