@@ -316,7 +316,7 @@ pub(crate) struct NearestArgs {
 
 npy and csv hold indices of input points. In the plane: the corners, counter-clockwise from the lexicographically
 smallest. In space: a facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is
-on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh2 files hold the corners
+on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh files hold the corners
 of the hull alone; pictures show flat faces whole.")]
 pub(crate) struct HullArgs {
     #[command(flatten)]
@@ -370,7 +370,7 @@ impl CameraArgs {
     pub(crate) fn camera(&self) -> Result<Camera, Failure> {
         match self.view[..] {
             [azimuth, elevation] if azimuth.is_finite() && (-90.0..=90.0).contains(&elevation) => {
-                Ok(Camera { size: self.size, azimuth, elevation, wireframe: false })
+                Ok(Camera { azimuth, elevation, wireframe: false })
             }
             _ => Err(Failure::usage(
                 "--view takes two angles, the second from -90 to 90",

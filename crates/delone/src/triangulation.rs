@@ -118,10 +118,6 @@ pub trait Triangulation: Debug + Send + Sync {
     /// none, but for coplanar points of space: each of their triangles once, seen from either side.
     fn hull_facets(&self) -> impl Iterator<Item = Self::Facet> + Send + '_;
 
-    /// The vertices on the hull: in the plane counter-clockwise, or from end to end of a line; in space by increasing
-    /// index.
-    fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_;
-
     /// Proves that it is the one canonical triangulation, or tells the first flaw found.
     fn check(&self) -> Result<(), Self::Flaw>;
 }

@@ -84,8 +84,8 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
         self.points.iter().enumerate().map(position)
     }
 
-    /// The edges of what is not left out, each with whether it is on the border of that; of points that span less all,
-    /// which are nothing but border.
+    /// The edges of what is not left out, each with whether it is on the border of that. Those of points that span less are
+    /// nothing but border, and edges of no simplex that a trim would keep.
     pub(crate) fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], bool)> + '_ {
         let t = self.triangulation;
         let is_spanned = t.simplices().next().is_some();
@@ -102,7 +102,8 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             gone.extend(t.simplices().filter(|&s| !self.keeps(s)).flat_map(|s| pairs(t.corners(s))));
             gone.sort_unstable();
         }
-        t.edges().filter_map(move |edge| {
+        let shown = t.edges().filter(move |_| is_spanned || self.trim.is_none());
+        shown.filter_map(move |edge| {
             let pair = ordered(edge);
             let is_border = !is_spanned || border.binary_search(&pair).is_ok();
             (is_border || gone.binary_search(&pair).is_err()).then_some((edge, is_border))

@@ -12,7 +12,7 @@ pub struct Trim {
     count: usize,
 }
 
-/// A plane that takes away the tetrahedra whose middle is beyond it.
+/// A plane that takes away the simplices whose middle is beyond it.
 #[derive(Clone, Copy, Debug)]
 pub struct Cut {
     /// The side that is taken away.
@@ -45,9 +45,11 @@ impl Trim {
     }
 
     /// Leaves out what is beyond a plane.
-    pub fn beyond<T: Triangulation<Point = [f64; 3]>>(t: &T, cut: &Cut) -> Self {
+    pub fn beyond<T: Triangulation>(t: &T, cut: &Cut) -> Self {
+        let count = (T::Point::COUNT + 1) as f64;
         let mut trim = Self { left_out: vec![false; t.slot_count()], count: 0 };
-        let along = |p: [f64; 3]| -> f64 { (0..3).map(|k| cut.normal[k] * p[k] / 4.0).sum() };
+        let along =
+            |p: T::Point| -> f64 { cut.normal.iter().zip(p.as_ref()).map(|(n, x)| n * x / count).sum() };
         for s in t.simplices() {
             let corners = t.corners(s);
             let middle: f64 = corners.as_ref().iter().filter_map(|&v| t.position(v)).map(along).sum();

@@ -85,10 +85,6 @@ impl Triangulation for Named {
         self.plain.hull_facets()
     }
 
-    fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.plain.hull_vertices()
-    }
-
     fn check(&self) -> Result<(), Flaw2> {
         self.plain.check()
     }

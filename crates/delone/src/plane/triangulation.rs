@@ -83,10 +83,6 @@ impl Triangulation for Delaunay2 {
         self.hull_facets()
     }
 
-    fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.hull_vertices()
-    }
-
     fn check(&self) -> Result<(), Flaw2> {
         self.check()
     }

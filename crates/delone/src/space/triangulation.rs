@@ -79,10 +79,6 @@ impl Triangulation for Delaunay3 {
         self.hull_facets()
     }
 
-    fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
-        self.hull_vertices()
-    }
-
     fn check(&self) -> Result<(), Flaw3> {
         self.check()
     }
