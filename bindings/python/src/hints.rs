@@ -1,11 +1,10 @@
 //! Points that are nearly known beforehand.
 
-use delone::{Hints2, Hints3};
+use delone::{Coordinates, HintOrder, Hints2, Hints3, Imprecise};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::engine::Imprecise;
 use crate::interrupt::interruptible;
 use crate::memory::{HINTS, TRIANGULATION};
 use crate::pool::{FEW, detached};
@@ -21,13 +20,16 @@ enum Either {
 #[pyclass(module = "delone._delone")]
 pub struct Hints(Either);
 
-fn preprocess<H: Imprecise<D, C>, const D: usize, const C: usize>(
+/// The points of what hints make.
+type Point<H> = <<H as Imprecise>::Triangulation as delone::Triangulation>::Point;
+
+fn preprocess<H: Imprecise + 'static>(
     py: Python<'_>,
     centres: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Box<H>> {
-    let centres: Vec<[f64; D]> = coordinates(centres)?;
-    HINTS.check::<D>(centres.len())?;
-    let hints = interruptible(py, centres.len(), move || H::preprocess(&centres))?;
+    let centres: Vec<Point<H>> = coordinates(centres)?;
+    HINTS.check(Point::<H>::COUNT, centres.len())?;
+    let hints = interruptible(py, centres.len(), move || H::from_centres(&centres, HintOrder::default()))?;
     hints.map(Box::new).map_err(value_error)
 }
 
@@ -51,12 +53,13 @@ impl Hints {
     }
 }
 
-fn instance<H: Imprecise<D, C>, const D: usize, const C: usize>(
+fn instance<H: Imprecise>(
     py: Python<'_>,
     hints: &mut H,
     points: &PyReadonlyArray2<'_, f64>,
-) -> PyResult<H::Engine> {
-    let points = coordinates(points)?;
-    TRIANGULATION.check::<D>(points.len())?;
-    detached(py, points.len() >= FEW, || hints.instance(&points))?.map_err(value_error)
+) -> PyResult<H::Triangulation> {
+    let points: Vec<Point<H>> = coordinates(points)?;
+    TRIANGULATION.check(Point::<H>::COUNT, points.len())?;
+    let made = detached(py, points.len() >= FEW, || hints.triangulate_observed(&points, &mut ()).cloned())?;
+    made.map_err(value_error)
 }

@@ -20,20 +20,18 @@ pub fn convex_hull<'py>(
     match points.shape()[1] {
         2 => {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
-            HULL.check::<2>(points.len())?;
+            HULL.check(2, points.len())?;
             let hull = interruptible(py, points.len(), move || delone::Hull2::from_points(&points))?;
-            let corners = hull.map_err(value_error)?;
-            // On a line both ends are corners, and no edge has an inside.
-            let next = corners.iter().cycle().skip(1);
-            let edges = corners.iter().zip(next).flat_map(|(&v, &w)| [v as i32, w as i32]);
-            let edges: Vec<i32> = if corners.len() > 2 { edges.collect() } else { Vec::new() };
+            let hull = hull.map_err(value_error)?;
+            let edges: Vec<i32> = hull.facets().flatten().map(|v| v as i32).collect();
             let count = edges.len() / 2;
             PyArray1::from_vec(py, edges).reshape([count, 2])
         }
         3 => {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
-            HULL.check::<3>(points.len())?;
-            let hull = interruptible(py, points.len(), move || Hull3::from_points(&points))?.map_err(value_error)?;
+            HULL.check(3, points.len())?;
+            let hull =
+                interruptible(py, points.len(), move || Hull3::from_points(&points))?.map_err(value_error)?;
             let is_body = hull.dimension() == delone::Dimension::Space;
             let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);
             let facets: Vec<i32> = facets.collect();

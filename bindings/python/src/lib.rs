@@ -4,7 +4,6 @@
 //! Everything long runs without Python's lock, on all cores (`pool.rs`). A simplex is known to Python by its row; rows count the
 //! finite simplices by increasing id, and are made anew after a change.
 
-mod engine;
 mod hints;
 mod hull;
 mod interrupt;

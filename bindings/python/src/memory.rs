@@ -15,8 +15,8 @@ pub const HULL: Need = Need([50, 100]);
 
 impl Need {
     /// Refuses work on so many points if there is no memory for it.
-    pub fn check<const D: usize>(&self, points: usize) -> PyResult<()> {
-        let bytes = points.saturating_mul(self.0[D - 2]);
+    pub fn check(&self, dimension: usize, points: usize) -> PyResult<()> {
+        let bytes = points.saturating_mul(self.0[dimension - 2]);
         let mut room = Vec::<u8>::new();
         if black_box(&mut room).try_reserve_exact(bytes).is_err() {
             let megabytes = bytes >> 20;

@@ -5,13 +5,12 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use delone::{Delaunay2, Delaunay3, Error, VertexId};
+use delone::{Change, Coordinates, Corners, Delaunay2, Delaunay3, Error, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::engine::Engine;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
 use crate::pool::{FEW, detached, generation};
@@ -24,20 +23,20 @@ const MANY: usize = 500_000;
 
 type Rows<'py> = Bound<'py, PyArray2<i32>>;
 
-/// An engine and the rows of its simplices.
-pub struct State<E, const D: usize, const C: usize> {
-    pub engine: E,
+/// A triangulation and the rows of its simplices.
+pub struct State<T> {
+    pub triangulation: T,
     /// For each number of a simplex its row, once it was asked for; -1 for what is not finite.
     rows: OnceLock<Vec<i32>>,
-    /// Whether the engine has all that it makes for its first question.
+    /// Whether it has all that it makes for its first question.
     is_asked: AtomicBool,
     /// One more than the generation of the process that asks this; 0 if none does.
     first_asked_by: AtomicUsize,
 }
 
 pub enum Core {
-    Plane(State<Delaunay2, 2, 3>),
-    Space(State<Delaunay3, 3, 4>),
+    Plane(State<Delaunay2>),
+    Space(State<Delaunay3>),
 }
 
 /// See `_delone.pyi`.
@@ -78,7 +77,7 @@ impl Triangulation {
         let Core::Plane(state) = &self.core else {
             return Err(PyValueError::new_err("exact circumcentres are for the plane"));
         };
-        let d = &state.engine;
+        let d = &state.triangulation;
         let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
         let centres: Vec<[f64; 2]> = py.detach(|| d.mesh().triangles().map(centre).collect());
         let count = centres.len();
@@ -117,8 +116,7 @@ impl Triangulation {
     }
 
     fn is_vertex(&self, index: usize) -> bool {
-        // Ids are below 2^29.
-        index < 1 << 29 && either!(&self.core, state => state.is_vertex(VertexId::new(index)))
+        either!(&self.core, state => state.is_vertex(VertexId::new(index)))
     }
 
     /// The rows of simplices that hold points; -1 outside.
@@ -154,22 +152,25 @@ impl Triangulation {
 
     fn copy(&self) -> Self {
         let core = match &self.core {
-            Core::Plane(state) => Core::Plane(State::of(state.engine.clone())),
-            Core::Space(state) => Core::Space(State::of(state.engine.clone())),
+            Core::Plane(state) => Core::Plane(State::of(state.triangulation.clone())),
+            Core::Space(state) => Core::Space(State::of(state.triangulation.clone())),
         };
         Self { core }
     }
 }
 
-impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
-    pub fn of(engine: E) -> Self {
+impl<T: Change + 'static> State<T> {
+    /// Corners of a simplex.
+    const WIDTH: usize = T::Point::COUNT + 1;
+
+    pub fn of(triangulation: T) -> Self {
         let (is_asked, first_asked_by) = (AtomicBool::new(false), AtomicUsize::new(0));
-        Self { engine, rows: OnceLock::new(), is_asked, first_asked_by }
+        Self { triangulation, rows: OnceLock::new(), is_asked, first_asked_by }
     }
 
-    fn build(py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<Self> {
-        TRIANGULATION.check::<D>(points.len())?;
-        let built = interruptible(py, points.len(), move || E::build(points))?;
+    fn build(py: Python<'_>, points: Vec<T::Point>) -> PyResult<Self> {
+        TRIANGULATION.check(T::Point::COUNT, points.len())?;
+        let built = interruptible(py, points.len(), move || T::from_vec(points))?;
         Ok(Self::of(built.map_err(value_error)?))
     }
 
@@ -179,20 +180,24 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
             return rows;
         }
         // Two may make them at once. Were it one while others wait, a process that is forked meanwhile would wait for ever.
-        let (mut rows, mut row) = (vec![-1; self.engine.slots()], 0);
-        self.engine.visit(|simplex, _, _| {
-            rows[simplex] = row;
-            row += 1;
-        });
+        let mut rows = vec![-1; self.triangulation.slot_count()];
+        for (row, simplex) in (0..).zip(self.triangulation.simplices()) {
+            rows[self.triangulation.index(simplex)] = row;
+        }
         self.rows.get_or_init(|| rows)
+    }
+
+    /// The row of a simplex; -1 for none.
+    fn row(&self, rows: &[i32], simplex: Option<T::Simplex>) -> i32 {
+        simplex.map_or(-1, |simplex| rows[self.triangulation.index(simplex)])
     }
 
     /// The answers to queries, in their order. The first error that any query has.
     fn answers<A: Send>(
         &self,
         py: Python<'_>,
-        queries: &[[f64; D]],
-        answer: impl Fn([f64; D]) -> Result<A, Error> + Sync,
+        queries: &[T::Point],
+        answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
     ) -> PyResult<Vec<A>> {
         let is_first = !self.is_asked.load(Ordering::Acquire);
         if is_first {
@@ -208,7 +213,7 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
         let is_many = queries.len() >= 2 * QUERIES;
         // The first question makes what finds answers, which is worth threads, and others may have to make it better.
         let few = if is_first { FEW } else { MANY };
-        let found = detached(py, is_many || self.engine.vertex_count() >= few, || {
+        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, || {
             if is_many {
                 queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
             } else {
@@ -223,61 +228,67 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     fn change(&mut self, points: usize) -> bool {
         self.rows.take();
         (*self.is_asked.get_mut(), *self.first_asked_by.get_mut()) = (false, 0);
-        points + self.engine.vertex_count() >= FEW
+        points + self.triangulation.vertex_count() >= FEW
     }
 
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
         let (corners, neighbors) = py.detach(|| {
             let rows = self.rows();
             let (mut corners, mut neighbors): (Vec<i32>, Vec<i32>) = (Vec::new(), Vec::new());
-            self.engine.visit(|_, vertices, across| {
-                corners.extend(vertices.map(|v| v.index() as i32));
-                neighbors.extend(across.map(|simplex| rows[simplex]));
-            });
+            for simplex in self.triangulation.simplices() {
+                corners.extend(self.triangulation.corners(simplex).indices().map(|i| i as i32));
+                let across = (0..Self::WIDTH).map(|k| self.triangulation.across(simplex, k));
+                neighbors.extend(across.map(|next| self.row(rows, next)));
+            }
             (corners, neighbors)
         });
-        let count = corners.len() / C;
-        let array = |values: Vec<i32>| PyArray1::from_vec(py, values).reshape([count, C]);
+        let count = corners.len() / Self::WIDTH;
+        let array = |values: Vec<i32>| PyArray1::from_vec(py, values).reshape([count, Self::WIDTH]);
         Ok((array(corners)?, array(neighbors)?))
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        table(py, &self.engine.hull())
+        // Coplanar points have facets, but no hull that is a body.
+        let is_spanned = self.span() as usize == T::Point::COUNT;
+        let facets = self.triangulation.hull_facets().filter(|_| is_spanned);
+        table(py, T::Point::COUNT, facets)
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        table(py, &py.detach(|| self.engine.edges()))
+        let edges: Vec<[VertexId; 2]> = py.detach(|| self.triangulation.edges().collect());
+        table(py, 2, edges.into_iter())
     }
 
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let duplicates = self.engine.duplicates().into_iter().map(|d| [VertexId::new(d.point), d.vertex]);
-        table(py, &duplicates.collect::<Vec<_>>())
+        let duplicates = self.triangulation.duplicates().map(|d| [VertexId::new(d.point), d.vertex]);
+        table(py, 2, duplicates)
     }
 
     fn vertex_count(&self) -> usize {
-        self.engine.vertex_count()
+        self.triangulation.vertex_count()
     }
 
     fn span(&self) -> i32 {
-        self.engine.span()
+        // Nothing is -1, a point 0.
+        self.triangulation.dimension() as i32 - 1
     }
 
     fn is_vertex(&self, v: VertexId) -> bool {
-        self.engine.is_vertex(v)
+        self.triangulation.position(v).is_some()
     }
 
-    fn extend(&mut self, py: Python<'_>, points: Vec<[f64; D]>) -> PyResult<()> {
-        TRIANGULATION.check::<D>(points.len())?;
+    fn extend(&mut self, py: Python<'_>, points: Vec<T::Point>) -> PyResult<()> {
+        TRIANGULATION.check(T::Point::COUNT, points.len())?;
         let is_long = self.change(points.len());
-        detached(py, is_long, || self.engine.extend(&points))?.map_err(value_error)
+        detached(py, is_long, || self.triangulation.extend(&points, 0))?.map(drop).map_err(value_error)
     }
 
     /// All or none.
     fn remove(&mut self, py: Python<'_>, vertices: &[i64]) -> PyResult<()> {
         let mut wanted = Vec::with_capacity(vertices.len());
         for &index in vertices {
-            let v = usize::try_from(index).ok().filter(|&index| index < 1 << 29).map(VertexId::new);
-            match v.filter(|&v| self.engine.is_vertex(v)) {
+            let v = usize::try_from(index).ok().map(VertexId::new);
+            match v.filter(|&v| self.is_vertex(v)) {
                 Some(v) => wanted.push(v),
                 None => return Err(PyIndexError::new_err(format!("point {index} is no vertex"))),
             }
@@ -287,30 +298,33 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
             return Err(PyValueError::new_err(format!("point {} is to be removed twice", twice[0].index())));
         }
         let is_long = self.change(wanted.len());
-        detached(py, is_long, || wanted.into_iter().try_for_each(|v| self.engine.remove(v)))?
-            .map_err(value_error)
+        detached(py, is_long, || {
+            wanted.into_iter().try_for_each(|v| self.triangulation.remove_observed(v, &mut ()))
+        })?
+        .map_err(value_error)
     }
 
-    fn find<'py>(&self, py: Python<'py>, queries: Vec<[f64; D]>) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    fn find<'py>(&self, py: Python<'py>, queries: Vec<T::Point>) -> PyResult<Bound<'py, PyArray1<i32>>> {
         let rows = py.detach(|| self.rows());
-        let row = |q| self.engine.find(q).map(|found| found.map_or(-1, |simplex| rows[simplex]));
+        let row = |q| self.triangulation.find(q).map(|found| self.row(rows, found.simplex));
         Ok(PyArray1::from_vec(py, self.answers(py, &queries, row)?))
     }
 
-    fn nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>) -> PyResult<Vec<i64>> {
-        let vertex = |q| self.engine.nearest(q).map(|v| v.map_or(-1, |v| v.index() as i64));
+    fn nearest(&self, py: Python<'_>, queries: Vec<T::Point>) -> PyResult<Vec<i64>> {
+        let vertex =
+            |q| self.triangulation.nearest_observed(q, &mut ()).map(|v| v.map_or(-1, |v| v.index() as i64));
         self.answers(py, &queries, vertex)
     }
 
-    fn k_nearest(&self, py: Python<'_>, queries: Vec<[f64; D]>, k: usize) -> PyResult<Vec<i64>> {
+    fn k_nearest(&self, py: Python<'_>, queries: Vec<T::Point>, k: usize) -> PyResult<Vec<i64>> {
         // The answer may be larger than memory.
         let mut padded = Vec::new();
         let size = queries.len().checked_mul(k);
         if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
             return Err(PyMemoryError::new_err(format!("{} times {k} neighbours", queries.len())));
         }
-        let most = k.min(self.engine.vertex_count());
-        let found = self.answers(py, &queries, |q| self.engine.k_nearest(q, most))?;
+        let most = k.min(self.triangulation.vertex_count());
+        let found = self.answers(py, &queries, |q| self.triangulation.k_nearest(q, most))?;
         for found in found {
             let missing = k - found.len();
             padded.extend(found.into_iter().map(|v| v.index() as i64));
@@ -320,25 +334,30 @@ impl<E: Engine<D, C>, const D: usize, const C: usize> State<E, D, C> {
     }
 }
 
-/// The points of an array of `D` columns.
-pub fn coordinates<const D: usize>(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; D]>> {
-    if points.shape()[1] != D {
-        let columns = points.shape()[1];
+/// The points of an array that has a column for each coordinate.
+pub fn coordinates<P: Coordinates>(points: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<P>> {
+    if points.shape()[1] != P::COUNT {
+        let (columns, expected) = (points.shape()[1], P::COUNT);
         return Err(PyValueError::new_err(format!(
-            "points of {columns} coordinates where there must be {D}"
+            "points of {columns} coordinates where there must be {expected}"
         )));
     }
-    let (rows, _) = points.as_slice()?.as_chunks();
+    let rows = points.as_slice()?.chunks_exact(P::COUNT);
     let mut copy = Vec::new();
     if copy.try_reserve_exact(rows.len()).is_err() {
         return Err(PyMemoryError::new_err(format!("a copy of {} points", rows.len())));
     }
-    copy.extend_from_slice(rows);
+    copy.extend(rows.map(|row| {
+        let mut point = P::default();
+        point.as_mut().copy_from_slice(row);
+        point
+    }));
     Ok(copy)
 }
 
-/// Vertices as rows of numbers.
-fn table<'py, const N: usize>(py: Python<'py>, rows: &[[VertexId; N]]) -> PyResult<Rows<'py>> {
-    let values: Vec<i32> = rows.iter().flatten().map(|v| v.index() as i32).collect();
-    PyArray1::from_vec(py, values).reshape([rows.len(), N])
+/// Vertices as rows of so many numbers.
+fn table<C: Corners>(py: Python<'_>, columns: usize, rows: impl Iterator<Item = C>) -> PyResult<Rows<'_>> {
+    let values: Vec<i32> = rows.flat_map(Corners::indices).map(|i| i as i32).collect();
+    let count = values.len() / columns;
+    PyArray1::from_vec(py, values).reshape([count, columns])
 }

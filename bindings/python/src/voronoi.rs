@@ -25,10 +25,10 @@ pub fn clipped_cells<'py>(
         return Err(PyValueError::new_err("cells are clipped in the plane"));
     };
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
-    let engine = &state.engine;
+    let d = &state.triangulation;
     let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
         let region = Region2::polygon(&rings).map_err(value_error)?;
-        let cells = engine.voronoi().clip(&region);
+        let cells = d.voronoi().clip(&region);
         let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
         for v in (0..points).map(VertexId::new) {
             for ring in cells.rings(v) {
@@ -53,12 +53,12 @@ pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) 
     let Core::Plane(state) = &triangulation.core else {
         return Err(PyValueError::new_err("furthest sites are for the plane"));
     };
-    let engine = &state.engine;
-    let (corners, centres) = detached(py, engine.vertex_count() >= FEW, || {
-        let triangles: Vec<[VertexId; 3]> = engine.furthest().triangles().collect();
+    let d = &state.triangulation;
+    let (corners, centres) = detached(py, d.vertex_count() >= FEW, || {
+        let triangles: Vec<[VertexId; 3]> = d.furthest().triangles().collect();
         let corners: Vec<i32> = triangles.iter().flatten().map(|v| v.index() as i32).collect();
         let centre = |[a, b, c]: [[f64; 2]; 3]| circumcentre(a, b, c).unwrap_or([f64::INFINITY; 2]);
-        let centres = triangles.iter().flat_map(|triangle| centre(triangle.map(|v| engine.point(v))));
+        let centres = triangles.iter().flat_map(|triangle| centre(triangle.map(|v| d.point(v))));
         (corners, centres.collect::<Vec<f64>>())
     })?;
     let count = corners.len() / 3;

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use delone::{Delaunay2, Moving2, Step2};
+use delone::{Bounds, Delaunay2, Moving2, Step2};
 use delone_generators::Random;
-use delone_io::{Error, Format, Surface, picture};
+use delone_io::{Error, Format, Mesh, picture, write_mesh};
 
 use crate::args::AnimateArgs;
 use crate::files;
@@ -34,19 +34,20 @@ pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("read");
     let mut film = Film::new(cloud.xy, args)?;
     stats.phase("build");
-    stats.triangulation(film.moving.triangulation());
+    let start = film.moving.triangulation();
+    stats.triangulation(start, start.counters());
     let options =
         picture::Options { size: args.size, window: Some(film.window), ..picture::Options::default() };
     {
         let phase = Phase::count(quiet, "drawing", u64::from(args.steps) + 1);
-        let draw = |triangulation: &Delaunay2, on: &mut dyn FnMut(&Surface) -> Result<(), Error>| {
+        let draw = |d: &Delaunay2, on: &mut dyn FnMut(&Mesh<Delaunay2>) -> Result<(), Error>| {
             phase.advance();
-            on(&Surface::new(triangulation))
+            on(&Mesh::new(d, d.points()))
         };
         if is_series {
             for (step, (path, format)) in outputs.iter().enumerate() {
                 files::write(path, |out| {
-                    draw(film.at(step)?, &mut |surface| picture::write(out, *format, surface, &options))
+                    draw(film.at(step)?, &mut |mesh| write_mesh(out, *format, mesh, &options).map(drop))
                 })?;
             }
         } else {
@@ -54,7 +55,7 @@ pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
                 let (pictures, delay) = (args.steps + 1, args.delay);
                 let mut animation = picture::Animation::start(out, film.window, pictures, delay, options)?;
                 for step in 0..pictures as usize {
-                    draw(film.at(step)?, &mut |surface| animation.add(surface))?;
+                    draw(film.at(step)?, &mut |mesh| animation.add(mesh))?;
                 }
                 animation.finish()
             })?;
@@ -92,11 +93,9 @@ impl Film {
     fn new(positions: Vec<[f64; 2]>, args: &AnimateArgs) -> Result<Self, Failure> {
         let moving =
             Moving2::from_points(&positions).map_err(|error| Failure::points(&args.input.label(), &error))?;
-        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
-        for p in &positions {
-            low = [0, 1].map(|k| low[k].min(p[k]));
-            high = [0, 1].map(|k| high[k].max(p[k]));
-        }
+        let bounds = Bounds::of(positions.iter().copied());
+        // A window has finite corners, around no point too.
+        let [low, high] = [bounds.low, bounds.high].map(|corner| corner.map(|x| x.clamp(f64::MIN, f64::MAX)));
         // A tenth of the distance of neighbours in an even set.
         let longer = [0, 1].into_iter().map(|k| high[k] / 2.0 - low[k] / 2.0).fold(0.0, f64::max);
         let radius = args.radius.unwrap_or(0.2 * longer / (positions.len().max(1) as f64).sqrt());

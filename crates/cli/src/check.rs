@@ -1,60 +1,52 @@
-//! `delone check`: an exact verdict on anyone's triangles.
-
-use delone::plane::verify::{Objection2, verify};
+//! `delone check`: an exact verdict on anyone's simplices.
 
 use crate::args::CheckArgs;
+use crate::files;
 use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
+use crate::room::{self, Objection, Room};
 use crate::stats::Stats;
-use crate::{files, space};
 
-pub(crate) fn run(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&args.input.paths_and(&args.mesh), args.input.stats.as_deref())?;
-    if args.dim.is_space() {
-        return space::check(args, quiet);
-    }
     let mut stats = Stats::start();
-    let cloud = files::points(&args.input, 2, quiet)?;
-    let triangles = files::triangles(&args.mesh, quiet)?;
+    let (points, _) = room::read::<R>(&args.input, quiet)?;
+    let simplices = files::simplices(&args.mesh, quiet, R::read_simplices)?;
     stats.phase("read");
     let verdict = {
         let _phase = Phase::start(quiet, "checking");
-        verify(&cloud.xy, &triangles)
+        R::verify(&points, &simplices)
     };
     stats.phase("check");
-    stats.set("points", cloud.xy.len());
-    stats.set("simplices", triangles.len());
+    let words = R::WORDS;
+    let (count, many) = (simplices.len(), words.simplex[1]);
+    stats.set("points", points.len());
+    stats.set("simplices", count);
     stats.set("delaunay", verdict.is_ok());
-    stats.set("canonical", verdict.is_ok_and(|verdict| verdict.is_canonical()));
-    if let Ok(verdict) = verdict {
+    stats.set("canonical", verdict.as_ref().is_ok_and(|verdict| verdict.is_canonical()));
+    if let Ok(verdict) = &verdict {
         stats.set("duplicates", verdict.duplicates);
         stats.set("hull", verdict.hull);
-        stats.set("clockwise", verdict.negative);
-        stats.set("other_diagonals", verdict.other_ties);
+        stats.set(words.negative[0], verdict.negative);
+        stats.set(words.other[0], verdict.other_ties);
     }
     stats.write(args.input.stats.as_deref())?;
-    let verdict = match verdict {
-        Ok(verdict) => verdict,
-        Err(Objection2::Points(error)) => return Err(Failure::points(&args.input.label(), &error)),
-        Err(objection) => {
-            return Err(Failure::new(
-                format!("{}: not Delaunay: {objection}", args.mesh.display()),
-                "triangles and points are counted from 0",
-            ));
-        }
-    };
-    let count = triangles.len();
+    let verdict = verdict.map_err(|objection| match objection {
+        Objection::Points(error) => Failure::points(&args.input.label(), &error),
+        Objection::Simplices(what) => Failure::new(
+            format!("{}: not Delaunay: {what}", args.mesh.display()),
+            format!("{many} and points are counted from 0"),
+        ),
+    })?;
     let text = if verdict.is_canonical() {
-        format!("Delaunay, and the canonical triangulation: {count} triangles\n")
+        format!("Delaunay, and the canonical triangulation: {count} {many}\n")
     } else {
-        let others = verdict.other_ties;
-        format!(
-            "Delaunay, not the canonical triangulation: {others} of its cocircular diagonals are the other one; {count} triangles\n"
-        )
+        let others = format!("{} {}", verdict.other_ties, words.other[1]);
+        format!("Delaunay, not the canonical triangulation: {others}; {count} {many}\n")
     };
     answer(&text)?;
     if verdict.negative > 0 {
-        note(quiet, format_args!("{} triangles are clockwise", verdict.negative));
+        note(quiet, format_args!("{} {many} are {}", verdict.negative, words.negative[1]));
     }
     Ok(())
 }

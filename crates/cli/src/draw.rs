@@ -1,15 +1,16 @@
 //! `delone draw`: pictures.
 
-use delone::{Algorithm2, HintOrder, Hints2};
-use delone_io::{Format, picture};
+use delone::{Coordinates, HintOrder, Hints2};
+use delone_io::{Cut, Format, Trim, picture, write_mesh};
 
 use crate::args::{Choice, DrawArgs};
+use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
+use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::{files, space, triangulate};
 
-pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
+pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &args.input.paths())?;
     if let Some((path, format)) =
         outputs.iter().find(|(_, format)| !matches!(format, Format::Svg | Format::Png))
@@ -19,54 +20,75 @@ pub(crate) fn run(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
             "pictures are svg and png; for other files use delone triangulate",
         ));
     }
+    let mut options = options(args, R::is_space())?;
+    let cut = cut(args)?;
+    let mut stats = Stats::start();
+    let (points, about) = room::read::<R>(&args.input, quiet)?;
+    stats.phase("read");
+    if args.hints {
+        options.links = links(&points, args)?;
+    }
+    let d: R = room::build(&points, R::FASTEST, &args.input.label(), quiet)?;
+    room::remark(&d, quiet);
+    stats.phase("build");
+    stats.triangulation(&d, d.counters());
+    let cut = cut.map(|cut| Trim::beyond(&d, &cut));
+    let trim = cut.or_else(|| room::trim(&d, args.max_edge, &mut stats));
+    let mesh = room::mesh(&d, &points, &about, trim.as_ref());
+    let _phase = Phase::start(quiet, "drawing");
+    for (path, format) in &outputs {
+        files::write(path, |out| write_mesh(out, *format, &mesh, &options))?;
+    }
+    stats.phase("write");
+    stats.tell(quiet, R::WORDS.simplex);
+    stats.write(args.input.stats.as_deref())
+}
+
+/// What to draw, if that is to be had there.
+fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure> {
     if args.disks.is_some_and(|radius| !radius.is_finite() || radius < 0.0) {
         return Err(Failure::usage("--disks takes a radius", "as in --disks 0.5, in coordinate units"));
     }
-    if args.dim.is_space() {
-        if args.disks.is_some() || args.hints || args.max_edge.is_some() {
-            return Err(Failure::usage(
-                "--disks, --hints and --max-edge are for the plane",
-                "leave them or --dim 3 out",
-            ));
-        }
-        return space::draw(args, &outputs, quiet);
+    if is_space && (args.disks.is_some() || args.hints || args.max_edge.is_some()) {
+        return Err(Failure::usage(
+            "--disks, --hints and --max-edge are for the plane",
+            "leave them or --dim 3 out",
+        ));
     }
-    if !args.cut.is_empty() || args.wireframe {
+    if !is_space && (!args.cut.is_empty() || args.wireframe) {
         return Err(Failure::usage("--cut and --wireframe are for space", "add --dim 3, or leave them out"));
     }
-    let mut stats = Stats::start();
-    let mut cloud = files::points(&args.input, 2, quiet)?;
-    stats.phase("read");
-    let links = if args.hints { links(&cloud.xy, args)? } else { Vec::new() };
-    let xy = std::mem::take(&mut cloud.xy);
-    let triangulation = triangulate::build(xy, Algorithm2::default(), &args.input.label(), quiet)?;
-    triangulate::remark(&triangulation, quiet);
-    stats.phase("build");
-    stats.triangulation(&triangulation);
-    let trim = triangulate::trim(&triangulation, args.max_edge, &mut stats);
-    let surface = triangulate::surface(&triangulation, &cloud, trim.as_ref());
+    let camera = if is_space { args.camera.camera()? } else { picture::Camera::default() };
     let yes = |choice: Option<Choice>| choice.map(|choice| choice == Choice::Yes);
-    let options = picture::Options {
+    Ok(picture::Options {
         size: args.camera.size,
+        camera: picture::Camera { wireframe: args.wireframe, ..camera },
         edges: yes(args.edges),
         points: yes(args.points),
         fill: yes(args.fill),
         disks: args.disks,
-        links,
-        window: None,
-    };
-    let _phase = Phase::start(quiet, "drawing");
-    for (path, format) in &outputs {
-        files::write(path, |out| picture::write(out, *format, &surface, &options))?;
-    }
-    stats.phase("write");
-    stats.tell(quiet, ["triangle", "triangles"]);
-    stats.write(args.input.stats.as_deref())
+        ..picture::Options::default()
+    })
 }
 
-/// From each point to its hint.
-fn links(points: &[[f64; 2]], args: &DrawArgs) -> Result<Vec<[[f64; 2]; 2]>, Failure> {
-    let hints = Hints2::from_points(points, HintOrder::Random { seed: args.seed })
+/// What is taken away.
+fn cut(args: &DrawArgs) -> Result<Option<Cut>, Failure> {
+    match args.cut[..] {
+        [] => Ok(None),
+        [a, b, c, offset] if args.cut.iter().all(|x| x.is_finite()) => {
+            Ok(Some(Cut { normal: [a, b, c], offset }))
+        }
+        _ => Err(Failure::usage(
+            "--cut takes four numbers",
+            "as in --cut 1,0,0,0.5: what has x above 0.5 is taken away",
+        )),
+    }
+}
+
+/// From each point of the plane to its hint.
+fn links<P: Coordinates>(points: &[P], args: &DrawArgs) -> Result<Vec<[[f64; 2]; 2]>, Failure> {
+    let points: Vec<[f64; 2]> = points.iter().map(|p| [0, 1].map(|k| p.as_ref()[k])).collect();
+    let hints = Hints2::from_points(&points, HintOrder::Random { seed: args.seed })
         .map_err(|error| Failure::points(&args.input.label(), &error))?;
     Ok(hints.order().zip(hints.hints()).skip(1).map(|(i, j)| [points[i], points[j]]).collect())
 }

@@ -166,36 +166,8 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
     Ok(all)
 }
 
-/// Reads the points of a command, which must have three coordinates, and what else their files tell.
-pub(crate) fn points_in_space(args: &InputArgs, quiet: bool) -> Result<(Vec<[f64; 3]>, Cloud), Failure> {
-    let mut cloud = points(args, 3, quiet)?;
-    let points = in_space(&mut cloud, &args.label())?;
-    Ok((points, cloud))
-}
-
-fn in_space(cloud: &mut Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
-    let xy = std::mem::take(&mut cloud.xy);
-    match cloud.z.take() {
-        Some(z) => Ok(xy.iter().zip(z).map(|(&[x, y], z)| [x, y, z]).collect()),
-        None if xy.is_empty() => Ok(Vec::new()),
-        None => Err(Failure::new(
-            format!("{}: the points have no third coordinate", path.display()),
-            "leave --dim 3 out, or name three columns with --columns",
-        )),
-    }
-}
-
-/// Reads points of space that are asked for.
-pub(crate) fn queries_in_space(path: &Path, quiet: bool) -> Result<Vec<[f64; 3]>, Failure> {
-    in_space(&mut asked(path, 3, quiet)?, path)
-}
-
 /// Reads points that are asked for.
-pub(crate) fn queries(path: &Path, quiet: bool) -> Result<Vec<[f64; 2]>, Failure> {
-    Ok(asked(path, 2, quiet)?.xy)
-}
-
-fn asked(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
     let format = format(path, None, "the extension")?;
     let options = ReadOptions { dimension, ..ReadOptions::default() };
     let (source, _phase) = open(path, format, quiet)?;
@@ -225,17 +197,8 @@ pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
     })
 }
 
-/// Reads triangles.
-pub(crate) fn triangles(path: &Path, quiet: bool) -> Result<Vec<[u64; 3]>, Failure> {
-    simplices(path, quiet, delone_io::read_triangles)
-}
-
-/// Reads tetrahedra.
-pub(crate) fn tetrahedra(path: &Path, quiet: bool) -> Result<Vec<[u64; 4]>, Failure> {
-    simplices(path, quiet, delone_io::read_tetrahedra)
-}
-
-fn simplices<T>(
+/// Reads the simplices of a mesh.
+pub(crate) fn simplices<T>(
     path: &Path,
     quiet: bool,
     read: impl Fn(Box<dyn Source>, Format) -> Result<Vec<T>, delone_io::Error>,

@@ -1,14 +1,14 @@
 //! `delone furthest`: for each query the vertex furthest from it.
 
-use delone::Algorithm2;
+use delone::Delaunay2;
 use serde_json::json;
 
 use crate::args::FurthestArgs;
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
+use crate::room::{self, Room, build, remark};
 use crate::stats::Stats;
-use crate::triangulate::{build, remark};
 
 pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
@@ -16,10 +16,10 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&args.input.paths_and(&args.queries), outputs)?;
     let format = files::index_format(&args.output, args.to)?;
     let mut stats = Stats::start();
-    let cloud = files::points(&args.input, 2, quiet)?;
-    let queries = files::queries(&args.queries, quiet)?;
+    let (points, _) = room::read::<Delaunay2>(&args.input, quiet)?;
+    let queries = room::queries::<Delaunay2>(&args.queries, quiet)?;
     stats.phase("read");
-    let triangulation = build(cloud.xy, Algorithm2::default(), &args.input.label(), quiet)?;
+    let triangulation: Delaunay2 = build(&points, Delaunay2::FASTEST, &args.input.label(), quiet)?;
     remark(&triangulation, quiet);
     let furthest = triangulation.furthest();
     stats.phase("build");
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
         }
     }
     stats.phase("query");
-    stats.triangulation(&triangulation);
+    stats.triangulation(&triangulation, triangulation.counters());
     stats.set("queries", queries.len());
     let circle = furthest.enclosing_circle().map(|circle| {
         let support: Vec<usize> = circle.support.iter().map(|v| v.index()).collect();

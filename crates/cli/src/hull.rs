@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use delone::{Dimension, Work};
-use delone::{Hull3, HullHistory3};
-use delone_io::{Format, Solid};
+use delone::{Delaunay2, Delaunay3, Dimension, Hull2, Hull3, HullHistory3};
+use delone_io::{Format, Solid, picture};
 
 use crate::args::{HullAlgorithm, HullArgs};
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
+use crate::room;
 use crate::stats::{Stats, work_done};
 
 pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
@@ -42,16 +42,15 @@ fn plane(
             "choose one of these, or give --dim 3; delone draw makes pictures with the hull",
         ));
     }
-    let cloud = files::points(&args.input, 2, quiet)?;
+    let (points, _) = room::read::<Delaunay2>(&args.input, quiet)?;
     stats.phase("read");
-    stats.set("points", cloud.xy.len());
+    stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
-    let hull = delone::Hull2::from_points(&cloud.xy)
-        .map_err(|error| Failure::points(&args.input.label(), &error))?;
+    let hull = Hull2::from_points(&points).map_err(|error| Failure::points(&args.input.label(), &error))?;
     drop(phase);
     stats.phase("build");
-    stats.set("hull", hull.len());
-    let corners: Vec<i64> = hull.into_iter().map(|i| i as i64).collect();
+    stats.set("hull", hull.corners().len());
+    let corners: Vec<i64> = hull.corners().iter().map(|&i| i as i64).collect();
     for (path, format) in outputs {
         files::write(path, |out| delone_io::write_index_list(out, *format, &corners))?;
     }
@@ -73,16 +72,17 @@ fn space(
         ));
     }
     let camera = args.camera.camera()?;
-    let (points, _) = files::points_in_space(&args.input, quiet)?;
+    let options = picture::Options { size: args.camera.size, camera, ..picture::Options::default() };
+    let (points, _) = room::read::<Delaunay3>(&args.input, quiet)?;
     stats.phase("read");
     stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
     let hull = match args.algorithm {
         HullAlgorithm::Quickhull => Hull3::from_points(&points),
         HullAlgorithm::History => {
-            let mut work = Work::default();
-            let history = HullHistory3::build_counted(&points, args.seed, &mut work);
-            stats.set("counters", work_done(&work));
+            let history = HullHistory3::from_points(&points, args.seed);
+            let work = history.as_ref().ok().and_then(|history| history.counters().work());
+            stats.set("counters", work_done(&work.unwrap_or_default()));
             history.map(|history| history.hull().clone())
         }
     }
@@ -104,7 +104,7 @@ fn space(
             let facets: Vec<i64> = hull.facets().flatten().map(|i| i as i64).collect();
             files::write(path, |out| delone_io::write_indices(out, *format, 3, &facets))?;
         } else {
-            files::write_mesh(path, quiet, |out| delone_io::write_solid(out, *format, &solid, &camera))?;
+            files::write_mesh(path, quiet, |out| delone_io::write_solid(out, *format, &solid, &options))?;
         }
     }
     Ok(())

@@ -1,50 +1,58 @@
 //! `delone info`: what is in a file of points.
 
-use delone::{Algorithm2, Delaunay2, Dimension};
+use delone::{Coordinates, Dimension};
 use delone_io::{Cloud, LAS_CLASSES};
-use delone_predicates::{in_circle_with_ties, orient2d};
 use serde_json::{Map, Value};
 
 use crate::args::InfoArgs;
+use crate::files;
 use crate::message::{Failure, answer};
+use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::{files, space, triangulate};
 
-pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
-    if args.dim.is_space() {
-        return space::info(args, quiet);
-    }
+pub(crate) fn run<R: Room>(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&args.input.paths(), args.input.stats.as_deref())?;
     let mut stats = Stats::start();
-    let mut cloud = files::points(&args.input, 2, quiet)?;
+    let (points, about) = room::read::<R>(&args.input, quiet)?;
     stats.phase("read");
-    let heights = cloud.z.take();
-    let xy = std::mem::take(&mut cloud.xy);
-    let d = triangulate::build(xy, Algorithm2::default(), &args.input.label(), quiet)?;
+    let d: R = room::build(&points, R::FASTEST, &args.input.label(), quiet)?;
     stats.phase("build");
-    stats.triangulation(&d);
+    stats.triangulation(&d, d.counters());
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:22} {value}\n");
-    line("points", d.points().len().to_string());
+    line("points", points.len().to_string());
     line("duplicates", d.duplicates().count().to_string());
     let span = match d.dimension() {
         Dimension::Empty => "nothing: there is no point",
         Dimension::Point => "a point",
         Dimension::Line => "a line: all points are collinear",
-        Dimension::Plane | Dimension::Space => "the plane",
+        Dimension::Plane if R::is_space() => "a plane: all points are coplanar",
+        Dimension::Plane => "the plane",
+        Dimension::Space => "space",
     };
     line("they span", span.to_owned());
-    for (axis, values) in [("x", 0), ("y", 1)] {
-        if let Some(range) = range(d.points().iter().map(|p| p[values])) {
-            line(axis, range);
+    for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let range = if k < R::Point::COUNT {
+            range(points.iter().map(|p| p.as_ref()[k]))
+        } else {
+            range(about.z.iter().flatten().copied())
+        };
+        range.into_iter().for_each(|range| line(axis, range));
+    }
+    file(&about, &mut line, &mut stats);
+    let simplices = d.simplex_count();
+    if simplices > 0 {
+        line(R::WORDS.simplex[1], simplices.to_string());
+        d.describe(&mut line, &mut stats);
+        let (ties, tied) = (ties(&d), R::WORDS.tied);
+        line(&format!("{tied} neighbours"), format!("{ties} pairs of {}", R::WORDS.simplex[1]));
+        stats.set(&format!("{tied}_pairs"), ties);
+        let mut lengths = lengths(&d);
+        lengths.sort_unstable_by(f64::total_cmp);
+        if let (Some(shortest), Some(longest)) = (lengths.first(), lengths.last()) {
+            let median = lengths[lengths.len() / 2];
+            line("edge lengths", format!("{shortest:.6} to {longest:.6}, median {median:.6}"));
         }
-    }
-    if let Some(range) = heights.and_then(|z| range(z.into_iter())) {
-        line("z", range);
-    }
-    file(&cloud, &mut line, &mut stats);
-    if d.dimension() == Dimension::Plane {
-        plane(&d, &mut line, &mut stats);
     }
     stats.phase("count");
     stats.write(args.input.stats.as_deref())?;
@@ -52,7 +60,7 @@ pub(crate) fn run(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
 }
 
 /// What the file tells besides its points.
-pub(crate) fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
+fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
     if let Some(crs) = &cloud.crs {
         line("coordinates", crs.to_string());
         stats.set("crs", crs.to_string());
@@ -71,50 +79,30 @@ pub(crate) fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &m
     }
 }
 
-fn plane(d: &Delaunay2, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
-    let hull: Vec<_> = d.hull_vertices().map(|v| d.point(v)).collect();
-    let h = hull.len();
-    let straight =
-        (0..h).filter(|&i| orient2d(hull[i], hull[(i + 1) % h], hull[(i + 2) % h]).is_zero()).count();
-    let mesh = d.mesh();
-    let ties = mesh
-        .undirected_edges()
-        .filter(|&e| {
-            let f = mesh.twin(e);
-            let corners = [mesh.origin(e), mesh.destination(e), mesh.apex(e), mesh.apex(f)];
-            !corners.iter().any(|v| v.is_ghost()) && {
-                let [a, b, c, q] = corners.map(|v| d.point(v));
-                in_circle_with_ties(a, b, c, q).is_zero()
-            }
-        })
-        .count();
-    line("triangles", d.triangle_count().to_string());
-    let area: f64 = mesh.triangles().map(|t| d.area(t)).sum();
-    let density = d.points().len() as f64 / area;
-    line("area of the hull", format!("{area:.6}, {density:.6} points on a unit"));
-    stats.set("area", area);
-    stats.set("density", density);
-    line("hull vertices", format!("{h}, {straight} of them inside a straight side"));
-    line("cocircular neighbours", format!("{ties} pairs of triangles"));
-    let mut lengths: Vec<f64> = d
-        .edges()
-        .map(|edge| {
-            let [p, q] = edge.map(|v| d.point(v));
-            (p[0] - q[0]).hypot(p[1] - q[1])
-        })
-        .collect();
-    lengths.sort_unstable_by(f64::total_cmp);
-    if let (Some(shortest), Some(longest)) = (lengths.first(), lengths.last()) {
-        line(
-            "edge lengths",
-            format!("{shortest:.6} to {longest:.6}, median {:.6}", lengths[lengths.len() / 2]),
-        );
-    }
-    stats.set("straight_hull_vertices", straight);
-    stats.set("cocircular_pairs", ties);
+/// Pairs of neighbours that could be divided in another way.
+fn ties<R: Room>(d: &R) -> usize {
+    let position = |v| d.position(v).unwrap_or_default();
+    let is_tie = |s: R::Simplex, next: R::Simplex| {
+        let corners = d.corners(s);
+        let beyond = d.corners(next);
+        let apex = beyond.as_ref().iter().find(|v| !corners.as_ref().contains(v));
+        let simplex: Vec<R::Point> = corners.as_ref().iter().map(|&v| position(v)).collect();
+        apex.is_some_and(|&v| R::is_tie(&simplex, position(v)))
+    };
+    let neighbours = |s| (0..=R::Point::COUNT).filter_map(move |k| d.across(s, k));
+    let tied = |s| neighbours(s).filter(|&next| s < next && is_tie(s, next)).count();
+    d.simplices().map(tied).sum()
 }
 
-pub(crate) fn range(values: impl Iterator<Item = f64>) -> Option<String> {
+fn lengths<R: Room>(d: &R) -> Vec<f64> {
+    let length = |[v, w]: [delone::VertexId; 2]| {
+        let [p, q] = [v, w].map(|v| d.position(v).unwrap_or_default());
+        p.as_ref().iter().zip(q.as_ref()).map(|(x, y)| x - y).fold(0.0, f64::hypot)
+    };
+    d.edges().map(length).collect()
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Option<String> {
     let (low, high) =
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.min(low), x.max(high)));
     (low <= high).then(|| format!("{low:?} to {high:?}"))

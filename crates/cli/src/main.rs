@@ -16,11 +16,13 @@ mod locate;
 mod memory;
 mod message;
 mod nearest;
+mod outcome;
 mod progress;
+mod queries;
 mod reduce;
 mod replay;
+mod room;
 mod signals;
-mod space;
 mod stats;
 mod triangulate;
 mod voronoi;
@@ -29,8 +31,20 @@ use std::num::NonZero;
 use std::process::ExitCode;
 
 use clap::Parser;
+use delone::{Delaunay2, Delaunay3};
 
 use args::{Cli, Command};
+
+/// Runs a command in the plane or in space, as its arguments say.
+macro_rules! in_room {
+    ($command:ident, $args:ident, $quiet:ident) => {
+        if $args.dim.is_space() {
+            $command::run::<Delaunay3>(&$args, $quiet)
+        } else {
+            $command::run::<Delaunay2>(&$args, $quiet)
+        }
+    };
+}
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
@@ -41,19 +55,19 @@ fn main() -> ExitCode {
     signals::clean_up();
     start_threads(cli.threads, quiet);
     let result = match cli.command {
-        Command::Triangulate(args) => triangulate::run(&args, quiet),
-        Command::Check(args) => check::run(&args, quiet),
+        Command::Triangulate(args) => in_room!(triangulate, args, quiet),
+        Command::Check(args) => in_room!(check, args, quiet),
         Command::Generate(args) => generate::run(&args, quiet),
-        Command::Draw(args) => draw::run(&args, quiet),
+        Command::Draw(args) => in_room!(draw, args, quiet),
         Command::Animate(args) => animate::run(&args, quiet),
-        Command::Info(args) => info::run(&args, quiet),
+        Command::Info(args) => in_room!(info, args, quiet),
         Command::Reduce(args) => reduce::run(&args, quiet),
-        Command::Locate(args) => locate::run(&args, quiet),
-        Command::Nearest(args) => nearest::run(&args, quiet),
+        Command::Locate(args) => in_room!(locate, args, quiet),
+        Command::Nearest(args) => in_room!(nearest, args, quiet),
         Command::Hull(args) => hull::run(&args, quiet),
         Command::Furthest(args) => furthest::run(&args, quiet),
         Command::Voronoi(args) => voronoi::run(&args, quiet),
-        Command::Replay(args) => replay::run(&args, quiet),
+        Command::Replay(args) => in_room!(replay, args, quiet),
         Command::Experiment(args) => experiment::run(&args, quiet),
         Command::Version => about::version(),
         Command::Completions { shell } => about::completions(shell),

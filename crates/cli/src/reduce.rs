@@ -145,7 +145,7 @@ fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Result<O
         Ok(status) if !status.success() => return Ok(Some(format!("the command fails ({status})"))),
         Ok(_) => {}
     }
-    Ok(match files::triangles(&output, true) {
+    Ok(match files::simplices(&output, true, delone_io::read_triangles) {
         Err(_) => Some("the command writes no triangles".to_owned()),
         Ok(triangles) => verify(points, &triangles).err().map(|objection| objection.to_string()),
     })

@@ -2,118 +2,79 @@
 
 use std::fmt::Write;
 
-use delone::{Ask, Change, Delaunay2, Delaunay3, Error, Inserted, Location2, Location3, VertexId, Work};
-use delone_io::{Body, Format, Surface, picture};
+use delone::{Coordinates, Error, Found, Inserted, VertexId, Work};
+use delone_io::{Mesh, picture, write_mesh};
 
 use crate::args::ReplayArgs;
+use crate::files;
 use crate::message::{Failure, answer};
 use crate::progress::Phase;
+use crate::room::{self, Room, positive};
 use crate::stats::{Stats, work_done};
-use crate::{files, space};
 
 /// Up to this number of vertices every operation is checked; beyond it, one in as many.
 const CHECKED: usize = 1000;
+/// What to do about a triangulation that is wrong.
+const BUG: &str = "please report this with the input: it is a bug";
 
 /// One line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Operation<const D: usize> {
-    Insert([f64; D]),
+enum Operation<P> {
+    Insert(P),
     Remove(VertexId),
-    Move(VertexId, [f64; D]),
-    Locate([f64; D]),
-    Nearest([f64; D]),
+    Move(VertexId, P),
+    Locate(P),
+    Nearest(P),
 }
 
-/// A triangulation that can be asked and changed, of the plane or of space.
-trait Stage<const D: usize> {
-    fn insert(&mut self, p: [f64; D], work: &mut Work) -> Result<Inserted, Error>;
-    fn remove(&mut self, v: VertexId, work: &mut Work) -> Result<(), Error>;
-    fn move_to(&mut self, v: VertexId, p: [f64; D]) -> Result<(), Error>;
-    /// Where a point falls, in words.
-    fn describe(&self, q: [f64; D], work: &mut Work) -> Result<String, Error>;
-    fn nearest(&self, q: [f64; D], work: &mut Work) -> Result<Option<VertexId>, Error>;
-    fn vertex_count(&self) -> usize;
-    fn check(&self) -> Result<(), String>;
-}
-
-pub(crate) fn run(args: &ReplayArgs, quiet: bool) -> Result<(), Failure> {
-    let strategy = args.locate.strategy(args.seed).ok_or_else(|| {
-        Failure::usage(
-            "that strategy is for building in bulk, not for changes",
-            "choose --locate tree, walk, jump-and-walk, hierarchy or history",
-        )
-    })?;
+pub(crate) fn run<R: Room>(args: &ReplayArgs, quiet: bool) -> Result<(), Failure> {
+    let strategy = room::strategy(args.locate, args.seed, "changes")?;
     let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &[&args.operations])?;
-    let holds = |format: Format| {
-        if args.dim.is_space() { space::holds_bodies(format) } else { format.holds_meshes() }
-    };
-    if let Some((path, format)) = outputs.iter().find(|(_, format)| !holds(*format)) {
-        let error = if args.dim.is_space() {
-            delone_io::Error::NotABody(*format)
-        } else {
-            delone_io::Error::NotAMesh(*format)
-        };
-        return Err(Failure::file(path, &error));
-    }
-    let unfit = |error: Error| Failure::usage(error, "see delone --help");
+    room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
-    if args.dim.is_space() {
-        let mut d = Delaunay3::new();
-        d.set_strategy(strategy).map_err(unfit)?;
-        let replayed = replay(args, &mut d, &mut stats, quiet)?;
-        stats.space(&d, replayed.points.len());
-        stats.set("counters", work_done(&replayed.work));
-        let body = Body { triangulation: &d, points: &replayed.points, crs: None, base: 0 };
-        for (path, format) in &outputs {
-            let camera = picture::Camera::default();
-            files::write(path, |out| delone_io::write_body(out, *format, &body, &camera))?;
-        }
-    } else {
-        let mut d = Delaunay2::with_strategy(strategy).map_err(unfit)?;
-        let replayed = replay(args, &mut d, &mut stats, quiet)?;
-        stats.triangulation(&d);
-        stats.set("counters", work_done(&replayed.work));
-        let surface = Surface::new(&d);
-        for (path, format) in &outputs {
-            files::write(path, |out| delone_io::write_surface(out, *format, &surface))?;
-        }
+    let mut d = R::default();
+    d.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
+    let replayed = replay(args, &mut d, &mut stats, quiet)?;
+    stats.triangulation(&d, d.counters());
+    stats.set("counters", work_done(&replayed.work));
+    let mesh = Mesh::new(&d, &replayed.points);
+    for (path, format) in &outputs {
+        let options = picture::Options::default();
+        files::write(path, |out| write_mesh(out, *format, &mesh, &options))?;
     }
     stats.phase("write");
     stats.write(args.stats.as_deref())
 }
 
 /// Reads and performs all operations, and prints the answers.
-fn replay<const D: usize>(
+fn replay<R: Room>(
     args: &ReplayArgs,
-    stage: &mut impl Stage<D>,
+    d: &mut R,
     stats: &mut Stats,
     quiet: bool,
-) -> Result<Replayed<D>, Failure> {
+) -> Result<Replayed<R::Point>, Failure> {
     let text = files::text(&args.operations, quiet)?;
     stats.phase("read");
     let wrong = |number: usize, what: String, help: &str| {
         Failure::new(format!("{}: line {number}: {what}", args.operations.display()), help)
     };
     let mut replayed = Replayed::default();
+    let check = |d: &R| d.check().map_err(|flaw| format!("the triangulation is wrong: {flaw}"));
     {
         let _phase = Phase::start(quiet, "replaying");
         for (number, line) in (1..).zip(text.lines()) {
             let operation = parse(line).map_err(|what| wrong(number, what, "see delone replay --help"))?;
             let Some(operation) = operation else { continue };
             replayed
-                .perform(stage, operation)
+                .perform(d, operation)
                 .map_err(|error| wrong(number, error.to_string(), "see delone replay --help"))?;
-            let count = stage.vertex_count();
+            let count = d.vertex_count();
             if args.check && (count <= CHECKED || replayed.operations.is_multiple_of(CHECKED)) {
-                stage
-                    .check()
-                    .map_err(|what| wrong(number, what, "please report this with the input: it is a bug"))?;
+                check(d).map_err(|what| wrong(number, what, BUG))?;
             }
         }
         if args.check {
-            stage
-                .check()
-                .map_err(|what| Failure::new(what, "please report this with the input: it is a bug"))?;
+            check(d).map_err(|what| Failure::new(what, BUG))?;
         }
     }
     stats.phase("build");
@@ -123,7 +84,7 @@ fn replay<const D: usize>(
 }
 
 /// An operation, or nothing on a line without one.
-fn parse<const D: usize>(line: &str) -> Result<Option<Operation<D>>, String> {
+fn parse<P: Coordinates>(line: &str) -> Result<Option<Operation<P>>, String> {
     let content = line.split('#').next().unwrap_or_default();
     let words: Vec<&str> = content.split_whitespace().collect();
     let number = |word: &str| word.parse::<f64>().map_err(|_| format!("{word:?} is no number"));
@@ -136,12 +97,12 @@ fn parse<const D: usize>(line: &str) -> Result<Option<Operation<D>>, String> {
         return Err(format!("{sign:?} is no operation"));
     }
     let with_id = sign == "-" || sign == ">";
-    let takes = usize::from(with_id) + if sign == "-" { 0 } else { D };
+    let takes = usize::from(with_id) + if sign == "-" { 0 } else { P::COUNT };
     if values.len() != takes {
         return Err(format!("{sign} takes {takes} values, not {}", values.len()));
     }
-    let mut point = [0.0; D];
-    for (x, word) in point.iter_mut().zip(&values[usize::from(with_id)..]) {
+    let mut point = P::default();
+    for (x, word) in point.as_mut().iter_mut().zip(&values[usize::from(with_id)..]) {
         *x = number(word)?;
     }
     Ok(Some(match sign {
@@ -154,26 +115,26 @@ fn parse<const D: usize>(line: &str) -> Result<Option<Operation<D>>, String> {
 }
 
 /// What was done and said.
-struct Replayed<const D: usize> {
+struct Replayed<P> {
     answers: String,
     work: Work,
     operations: usize,
     /// By id, where each vertex is or was.
-    points: Vec<[f64; D]>,
+    points: Vec<P>,
 }
 
-impl<const D: usize> Default for Replayed<D> {
+impl<P> Default for Replayed<P> {
     fn default() -> Self {
         Self { answers: String::new(), work: Work::default(), operations: 0, points: Vec::new() }
     }
 }
 
-impl<const D: usize> Replayed<D> {
-    fn perform(&mut self, stage: &mut impl Stage<D>, operation: Operation<D>) -> Result<(), Error> {
+impl<P: Coordinates> Replayed<P> {
+    fn perform<R: Room<Point = P>>(&mut self, d: &mut R, operation: Operation<P>) -> Result<(), Error> {
         self.operations += 1;
         match operation {
             Operation::Insert(p) => {
-                let sign = match stage.insert(p, &mut self.work)? {
+                let sign = match d.insert_observed(p, &mut self.work)? {
                     Inserted::New(v) => {
                         self.points.push(p);
                         ('+', v)
@@ -182,16 +143,16 @@ impl<const D: usize> Replayed<D> {
                 };
                 self.say(format_args!("{} {}", sign.0, sign.1.index()));
             }
-            Operation::Remove(v) => stage.remove(v, &mut self.work)?,
+            Operation::Remove(v) => d.remove_observed(v, &mut self.work)?,
             Operation::Move(v, p) => {
-                stage.move_to(v, p)?;
+                d.move_to(v, p)?;
                 self.points[v.index()] = p;
             }
             Operation::Locate(q) => {
-                let words = stage.describe(q, &mut self.work)?;
+                let words = describe::<R>(&d.find_observed(q, &mut self.work)?);
                 self.say(format_args!("? {words}"));
             }
-            Operation::Nearest(q) => match stage.nearest(q, &mut self.work)? {
+            Operation::Nearest(q) => match d.nearest_observed(q, &mut self.work)? {
                 Some(v) => self.say(format_args!("@ {}", v.index())),
                 None => self.say(format_args!("@ none")),
             },
@@ -204,110 +165,23 @@ impl<const D: usize> Replayed<D> {
     }
 }
 
-/// From the smallest on, in the same sense.
-fn turned<const N: usize>(mut corners: [usize; N]) -> [usize; N] {
-    let least = (0..N).min_by_key(|&k| corners[k]).unwrap_or(0);
-    corners.rotate_left(least);
-    corners
-}
-
-impl Stage<2> for Delaunay2 {
-    fn insert(&mut self, p: [f64; 2], work: &mut Work) -> Result<Inserted, Error> {
-        self.insert_observed(p, work)
+/// Where a point falls, in words.
+fn describe<R: Room>(found: &Found<R::Simplex>) -> String {
+    let face = found.face();
+    let kind = match face.len() {
+        0 => return "nowhere".to_owned(),
+        _ if found.is_outside => "outside",
+        count if count > R::Point::COUNT => R::WORDS.simplex[0],
+        1 => "vertex",
+        2 => "edge",
+        _ => "facet",
+    };
+    let mut corners = positive(face);
+    if ["edge", "facet"].contains(&kind) {
+        // The same from both sides.
+        corners.sort_unstable();
     }
-
-    fn remove(&mut self, v: VertexId, work: &mut Work) -> Result<(), Error> {
-        self.remove_observed(v, work)
-    }
-
-    fn move_to(&mut self, v: VertexId, p: [f64; 2]) -> Result<(), Error> {
-        self.move_to(v, p)
-    }
-
-    fn describe(&self, q: [f64; 2], work: &mut Work) -> Result<String, Error> {
-        let mesh = self.mesh();
-        let ends = |e| [mesh.origin(e), mesh.destination(e)].map(VertexId::index);
-        Ok(match self.find_observed(q, work)? {
-            Location2::Triangle(t) => {
-                let [a, b, c] = turned(mesh.corners(t).map(VertexId::index));
-                format!("triangle {a} {b} {c}")
-            }
-            Location2::Edge(e) => {
-                let [a, b] = ends(e);
-                format!("edge {} {}", a.min(b), a.max(b))
-            }
-            Location2::Vertex(v) => format!("vertex {}", v.index()),
-            Location2::Outside(e) => {
-                let [a, b] = ends(e);
-                format!("outside {a} {b}")
-            }
-            Location2::LowerDimensional(_) => "nowhere".to_owned(),
-        })
-    }
-
-    fn nearest(&self, q: [f64; 2], work: &mut Work) -> Result<Option<VertexId>, Error> {
-        self.nearest_observed(q, work)
-    }
-
-    fn vertex_count(&self) -> usize {
-        self.vertex_count()
-    }
-
-    fn check(&self) -> Result<(), String> {
-        self.check().map_err(|flaw| format!("the triangulation is wrong: {flaw}"))
-    }
-}
-
-impl Stage<3> for Delaunay3 {
-    fn insert(&mut self, p: [f64; 3], work: &mut Work) -> Result<Inserted, Error> {
-        self.insert_observed(p, work)
-    }
-
-    fn remove(&mut self, v: VertexId, work: &mut Work) -> Result<(), Error> {
-        self.remove_observed(v, work)
-    }
-
-    fn move_to(&mut self, v: VertexId, p: [f64; 3]) -> Result<(), Error> {
-        self.move_to(v, p)
-    }
-
-    fn describe(&self, q: [f64; 3], work: &mut Work) -> Result<String, Error> {
-        let mesh = self.mesh();
-        let corners = |f| turned(mesh.facet_corners(f).map(VertexId::index));
-        Ok(match self.find_observed(q, work)? {
-            Location3::Tetrahedron(t) => {
-                let [a, b, c, d] = space::positive(mesh.corners(t).map(VertexId::index));
-                format!("tetrahedron {a} {b} {c} {d}")
-            }
-            Location3::Facet(f) => {
-                // The same from both sides.
-                let [a, b, c] = corners(f).min(corners(mesh.twin(f)));
-                format!("facet {a} {b} {c}")
-            }
-            Location3::Edge(ends) => {
-                let [a, b] = ends.map(VertexId::index);
-                format!("edge {} {}", a.min(b), a.max(b))
-            }
-            Location3::Vertex(v) => format!("vertex {}", v.index()),
-            Location3::Outside(f) => {
-                let [a, b, c] = corners(mesh.twin(f));
-                format!("outside {a} {b} {c}")
-            }
-            Location3::LowerDimensional(_) => "nowhere".to_owned(),
-        })
-    }
-
-    fn nearest(&self, q: [f64; 3], work: &mut Work) -> Result<Option<VertexId>, Error> {
-        self.nearest_observed(q, work)
-    }
-
-    fn vertex_count(&self) -> usize {
-        self.vertex_count()
-    }
-
-    fn check(&self) -> Result<(), String> {
-        self.check().map_err(|flaw| format!("the triangulation is wrong: {flaw}"))
-    }
+    corners.iter().fold(kind.to_owned(), |words, corner| format!("{words} {corner}"))
 }
 
 #[cfg(test)]
@@ -317,7 +191,7 @@ mod tests {
 
     #[test]
     fn lines_are_read() {
-        let parse = parse::<2>;
+        let parse = parse::<[f64; 2]>;
         assert_eq!(parse("+ 1 -2.5e-3"), Ok(Some(Operation::Insert([1.0, -2.5e-3]))));
         assert_eq!(parse("  - 7 # gone"), Ok(Some(Operation::Remove(VertexId::new(7)))));
         assert_eq!(parse("> 0 1 2"), Ok(Some(Operation::Move(VertexId::new(0), [1.0, 2.0]))));
@@ -326,6 +200,6 @@ mod tests {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
         assert_eq!(super::parse("@ 1 2 3"), Ok(Some(Operation::Nearest([1.0, 2.0, 3.0]))));
-        assert!(super::parse::<3>("@ 1 2").is_err());
+        assert!(super::parse::<[f64; 3]>("@ 1 2").is_err());
     }
 }

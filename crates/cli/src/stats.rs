@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
-use delone::{Counters, Delaunay2, Delaunay3, Work};
+use delone::{Coordinates, Counters, Dimension, Triangulation, Work};
 use serde_json::{Map, Value, json};
 
 use crate::files;
@@ -41,15 +41,15 @@ impl Stats {
         self.facts.get(name).cloned().unwrap_or(Value::Null)
     }
 
-    /// Notes what a triangulation has.
-    pub(crate) fn triangulation(&mut self, d: &Delaunay2) {
-        self.set("points", d.points().len());
+    /// Notes what a triangulation has, and what its construction did.
+    pub(crate) fn triangulation(&mut self, d: &impl Triangulation, counters: Counters) {
+        self.set("points", d.ids_given());
         self.set("duplicates", d.duplicates().count());
         self.set("vertices", d.vertex_count());
-        self.set("simplices", d.triangle_count());
-        self.set("hull", d.hull_vertices().count());
+        self.set("simplices", d.simplex_count());
+        self.set("hull", hull(d));
         self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
-        let counters = match d.counters() {
+        let counters = match counters {
             Counters::DivideAndConquer(c) => {
                 json!({ "leaves": c.leaves, "merges": c.merges, "connected": c.connected, "removed": c.removed })
             }
@@ -62,17 +62,6 @@ impl Stats {
             _ => json!({}),
         };
         self.set("counters", counters);
-    }
-
-    /// Notes what a triangulation of space has.
-    pub(crate) fn space(&mut self, d: &Delaunay3, points: usize) {
-        self.set("points", points);
-        self.set("duplicates", d.duplicates().count());
-        self.set("vertices", d.vertex_count());
-        self.set("simplices", d.tetrahedra().count());
-        self.set("hull", d.hull_vertices().count());
-        self.set("dimension", format!("{:?}", d.dimension()).to_lowercase());
-        self.set("counters", work_done(&d.work()));
     }
 
     /// Says in one line what was done; `simplices` are called so, one and many.
@@ -107,6 +96,14 @@ impl Stats {
         self.facts.insert("seconds".to_owned(), Value::Object(self.seconds));
         let text = format!("{:#}\n", Value::Object(self.facts));
         files::write(path, |out| Ok(out.write_all(text.as_bytes())?))
+    }
+}
+
+/// The size of the hull: its facets, and in the plane, where there are none, all vertices of a line.
+fn hull<T: Triangulation>(d: &T) -> usize {
+    match d.dimension() {
+        Dimension::Empty | Dimension::Point | Dimension::Line if T::Point::COUNT == 2 => d.vertex_count(),
+        _ => d.hull_facets().count(),
     }
 }
 

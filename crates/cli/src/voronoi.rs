@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use delone::{Algorithm2, Delaunay2, Region2, Relaxation2};
+use delone::{Bounds, Delaunay2, Region2, Relaxation2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
+use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
+use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::{files, triangulate};
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let polygon = !["box", "hull"].map(Path::new).contains(&args.clip.as_path());
@@ -30,12 +31,13 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
     }
     let mut stats = Stats::start();
-    let mut cloud = files::points(&args.input, 2, quiet)?;
-    let xy = std::mem::take(&mut cloud.xy);
+    let (points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
     let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
     stats.phase("read");
-    let mut triangulation = triangulate::build(xy, Algorithm2::default(), &args.input.label(), quiet)?;
-    triangulate::remark(&triangulation, quiet);
+    let build = |points: &[[f64; 2]]| room::build(points, Delaunay2::FASTEST, &args.input.label(), quiet);
+    let mut triangulation: Delaunay2 = build(&points)?;
+    drop(points);
+    room::remark(&triangulation, quiet);
     stats.phase("build");
     let region = if polygon {
         Region2::polygon(&rings).map_err(|error| {
@@ -53,7 +55,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         let failed = |error: delone::Error| Failure::usage(error, "see delone voronoi --help");
         let points =
             relaxation.run(&triangulation, &region, |step, moved| last = (step, moved)).map_err(failed)?;
-        triangulation = triangulate::build(points, Algorithm2::default(), &args.input.label(), quiet)?;
+        triangulation = build(&points)?;
         stats.set("relaxed", last.0);
         stats.set("moved", last.1);
         stats.phase("relax");
@@ -63,11 +65,11 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         triangulation.voronoi().clip(&region)
     };
     stats.phase("clip");
-    stats.triangulation(&triangulation);
+    stats.triangulation(&triangulation, triangulation.counters());
     stats.set("cells", triangulation.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
     stats.set("area", region.area());
     let _phase = Phase::start(quiet, "writing");
-    let diagram = Diagram { triangulation: &triangulation, cells: &cells, crs: cloud.crs.as_ref() };
+    let diagram = Diagram { triangulation: &triangulation, cells: &cells, crs: about.crs.as_ref() };
     for (path, format) in &outputs {
         files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
     }
@@ -87,10 +89,8 @@ fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region2, Fail
     }
     let (low, high) = match args.bounds[..] {
         [] => {
-            let points = triangulation.points();
-            let least = |axis: usize| points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-            let most = |axis: usize| points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
-            ([least(0), least(1)], [most(0), most(1)])
+            let bounds = Bounds::of(triangulation.points().iter().copied());
+            (bounds.low, bounds.high)
         }
         [x0, y0, x1, y1] => ([x0, y0], [x1, y1]),
         _ => {

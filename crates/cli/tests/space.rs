@@ -13,8 +13,7 @@ fn json(place: &Place, name: &str) -> Value {
 fn points_become_tetrahedra_in_every_format() {
     let place = Place::new();
     place.succeed("generate ball -n 500 --seed 2 -o ball.npy");
-    let formats =
-        "-o t.npy -o t.ele -o t.neigh -o t.node -o t.vtu -o h.ply -o h.obj -o h.stl -o p.svg -o p.png";
+    let formats = "-o t.npy -o t.ele -o t.neigh -o t.node -o t.edge -o t.vtu -o h.ply -o h.obj -o h.stl -o p.svg -o p.png";
     place.succeed(&format!("triangulate ball.npy --dim 3 {formats} --check --stats s.json -q"));
     let stats = json(&place, "s.json");
     let (cells, hull) =
@@ -28,6 +27,11 @@ fn points_become_tetrahedra_in_every_format() {
     assert!(text("t.ele").starts_with(&format!("{cells} 4 0\n")));
     assert_eq!(text("t.neigh").lines().count() as u64, cells + 1);
     assert!(text("t.node").starts_with("500 3 0 0\n"));
+    // Two facets of the hull meet at each of its edges.
+    assert_eq!(
+        text("t.edge").lines().skip(1).filter(|line| line.ends_with(" 1")).count() as u64,
+        3 * hull / 2
+    );
     assert_eq!(text("h.obj").matches("f ").count() as u64, hull);
     assert_eq!(std::fs::metadata(place.path("h.stl")).expect("written").len(), 84 + 50 * hull);
     for mesh in ["t.npy", "t.ele"] {
@@ -112,6 +116,7 @@ fn queries_in_space() {
         info.contains("tetrahedra             1\n") && info.contains("hull facets            4\n"),
         "{info}"
     );
+    assert!(info.ends_with("edge lengths           4.000000 to 5.656854, median 5.656854\n"), "{info}");
 }
 
 #[test]

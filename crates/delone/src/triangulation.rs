@@ -33,7 +33,12 @@ impl Coordinates for [f64; 3] {
 }
 
 /// The corners of a simplex or of one of its facets: an array of vertices.
-pub trait Corners: AsRef<[VertexId]> + Copy + Debug + Send + Sync + 'static {}
+pub trait Corners: AsRef<[VertexId]> + Copy + Debug + Send + Sync + 'static {
+    /// The indices of the vertices, in their order.
+    fn indices(self) -> impl Iterator<Item = usize> + Send {
+        (0..self.as_ref().len()).map(move |k| self.as_ref()[k].index())
+    }
+}
 
 impl<const N: usize> Corners for [VertexId; N] {}
 
@@ -109,7 +114,8 @@ pub trait Triangulation: Debug + Send + Sync {
     /// The finite simplices at a vertex, in no special order; none for an id that is no vertex.
     fn simplices_at(&self, v: VertexId) -> Vec<Self::Simplex>;
 
-    /// The facets of the hull, counter-clockwise seen from outside; none where the points span less than the whole.
+    /// The facets of the hull, counter-clockwise seen from outside. Where the points span less than the whole there are
+    /// none, but for coplanar points of space: each of their triangles once, seen from either side.
     fn hull_facets(&self) -> impl Iterator<Item = Self::Facet> + Send + '_;
 
     /// Proves that it is the one canonical triangulation, or tells the first flaw found.
@@ -143,8 +149,8 @@ impl<S> Found<S> {
     }
 
     /// The corners of the smallest face that holds the point: one is a vertex, two are an edge, three a triangle, four a
-    /// tetrahedron. Outside those of a facet of the hull that the point is beyond, none where the points span less than the
-    /// whole.
+    /// tetrahedron. Outside those of a facet of the hull that the point is beyond, counter-clockwise seen from there; none
+    /// where the points span less than the whole.
     pub fn face(&self) -> &[VertexId] {
         &self.corners[..self.count]
     }

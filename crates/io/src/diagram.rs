@@ -1,21 +1,21 @@
 //! A Voronoi diagram to be written.
 
-use delone::{Cells2, Delaunay2, Ring, VertexId};
+use delone::{Cells2, Ring, Triangulation, VertexId};
 
 use crate::Crs;
 
 /// Clipped cells, with the triangulation of their sites.
-#[derive(Clone, Copy, Debug)]
-pub struct Diagram<'a> {
+#[derive(Debug)]
+pub struct Diagram<'a, T> {
     /// The sites.
-    pub triangulation: &'a Delaunay2,
+    pub triangulation: &'a T,
     /// Their cells.
     pub cells: &'a Cells2,
     /// What the coordinates mean; formats that can say it do.
     pub crs: Option<&'a Crs>,
 }
 
-impl Diagram<'_> {
+impl<T: Triangulation<Point = [f64; 2]>> Diagram<'_, T> {
     /// The rings of a cell as polygons: each an outer ring, counter-clockwise, and its holes.
     pub(crate) fn polygons(&self, site: VertexId) -> Vec<Vec<Ring<'_>>> {
         let rings: Vec<Ring> = self.cells.rings(site).collect();
@@ -34,10 +34,15 @@ impl Diagram<'_> {
         polygons
     }
 
-    /// The smallest and the largest corner of all cells and sites.
+    /// The coordinates of a site.
+    pub(crate) fn point(&self, site: VertexId) -> [f64; 2] {
+        self.triangulation.position(site).unwrap_or_default()
+    }
+
+    /// The corners of all cells, and all sites.
     pub(crate) fn corners(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let cells = self.triangulation.vertices().flat_map(|v| self.cells.rings(v)).flat_map(Ring::points);
-        cells.chain(self.triangulation.vertices().map(|v| self.triangulation.point(v)))
+        cells.chain(self.triangulation.vertices().map(|v| self.point(v)))
     }
 }
 

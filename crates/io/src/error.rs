@@ -71,7 +71,7 @@ impl Error {
             Self::NotCells(_) => "cells: geojson svg png",
             Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele",
             Self::NotABody(_) => {
-                "tetrahedra: npy ele neigh node vtu; their hull: ply obj stl; pictures: svg png"
+                "tetrahedra: npy ele neigh node edge vtu; their hull: ply obj stl; pictures: svg png"
             }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
             Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",

@@ -98,14 +98,6 @@ impl Format {
     }
 }
 
-impl Format {
-    /// Whether a triangulation can be written in it.
-    pub fn holds_meshes(self) -> bool {
-        use Format::{Edge, Ele, GeoJson, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
-        matches!(self, Npy | Node | Ele | Neigh | Edge | Ply | Obj | Stl | Vtu | GeoJson | Svg | Png)
-    }
-}
-
 /// Whether a file is compressed, by its name.
 pub(crate) fn is_gzip(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))

@@ -1,10 +1,9 @@
 //! Files in and out: points, meshes and pictures, one file of code for each format.
 //!
-//! Reading gives a [`Cloud`]; writing takes a [`Surface`], a triangulation with the heights of its points.
+//! Reading gives a [`Cloud`]; writing takes a [`Mesh`], a triangulation of any kind with what lies beside it.
 //! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
 //! ([`Output`]), so no reader ever sees half a file.
 
-mod body;
 mod cloud;
 mod crs;
 mod diagram;
@@ -13,12 +12,12 @@ mod format;
 mod formats;
 mod guard;
 mod input;
+mod mesh;
 mod output;
 pub mod picture;
 mod solid;
-mod surface;
+mod trim;
 
-pub use body::{Body, Cut, write_body};
 pub use cloud::Cloud;
 pub use crs::Crs;
 pub use diagram::Diagram;
@@ -26,11 +25,14 @@ pub use error::Error;
 pub use format::Format;
 pub use formats::las::LAS_CLASSES;
 pub use input::decompressed;
+pub use mesh::{Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};
 pub use solid::{Solid, write_solid};
-pub use surface::{Surface, Trim};
+pub use trim::{Cut, Trim};
 
 use std::io::{BufRead, Seek};
+
+use delone::Triangulation;
 
 /// What a user should know of a file that was written.
 pub type Remark = Option<String>;
@@ -113,33 +115,6 @@ trait Shape {
     }
 }
 
-/// Writes a triangulation. Indices in the file are those of the input points (duplicates are written as points
-/// that no triangle uses), from 0 unless the format counts from 1.
-pub fn write_surface(
-    out: &mut dyn std::io::Write,
-    format: Format,
-    surface: &Surface,
-) -> Result<Remark, Error> {
-    use formats::{geojson, npy, obj, ply, stl, triangle, vtu};
-    match format {
-        Format::Npy => {
-            npy::write_simplices(out, surface.triangle_count(), surface.triangles())?;
-        }
-        Format::Node => triangle::write_node(out, surface)?,
-        Format::Ele => triangle::write_ele(out, surface.base, surface.triangles())?,
-        Format::Neigh => triangle::write_neigh(out, surface)?,
-        Format::Edge => triangle::write_edge(out, surface)?,
-        Format::Ply => ply::write(out, surface)?,
-        Format::Obj => obj::write(out, surface)?,
-        Format::Stl => return Ok(stl::write(out, surface)?),
-        Format::Vtu => vtu::write(out, surface)?,
-        Format::GeoJson => geojson::write(out, surface)?,
-        Format::Svg | Format::Png => picture::write(out, format, surface, &picture::Options::default())?,
-        _ => return Err(Error::NotAMesh(format)),
-    }
-    Ok(None)
-}
-
 /// Reads the rings of polygons: those of GeoJSON polygons, or all points of another format as one ring.
 pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     match format {
@@ -155,7 +130,7 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f6
 pub fn write_diagram(
     out: &mut dyn std::io::Write,
     format: Format,
-    diagram: &Diagram,
+    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
     size: u32,
 ) -> Result<(), Error> {
     match format {
@@ -177,7 +152,7 @@ pub fn write_points<const D: usize>(
         Format::Text => text::write(out, points)?,
         Format::Npy => npy::write_points(out, points)?,
         Format::Raw => raw::write(out, points)?,
-        Format::Node => triangle::write_points(out, 0, points)?,
+        Format::Node => triangle::write_node(out, 0, D, points, None)?,
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,

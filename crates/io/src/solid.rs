@@ -1,11 +1,10 @@
-//! Closed surfaces in space, such as convex hulls.
+//! Closed surfaces in space: convex hulls, and the borders of triangulations.
 
 use std::io::Write;
 
-use delone::Dimension;
-use delone::Hull3;
+use delone::{Corners, Dimension, Hull3, Triangulation, VertexId};
 
-use crate::{Error, Format, Remark, Shape, picture};
+use crate::{Error, Format, Mesh, Remark, Shape, picture};
 
 /// Flat convex faces around a body.
 #[derive(Clone, Debug, Default)]
@@ -31,6 +30,41 @@ impl Solid {
     }
 }
 
+/// The corners of the facet opposite to each corner, counter-clockwise seen from outside.
+const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+
+impl<T: Triangulation<Point = [f64; 3]>> Mesh<'_, T> {
+    /// The border: the hull with its vertices alone, by increasing index; or, if something is left out, that of the rest.
+    pub fn solid(&self) -> Solid {
+        if self.trim.is_some() { self.rest() } else { self.hull() }
+    }
+
+    fn hull(&self) -> Solid {
+        let facets: Vec<T::Facet> = self.triangulation.hull_facets().collect();
+        let mut used: Vec<VertexId> = facets.iter().flat_map(|facet| facet.as_ref()).copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        let place = |i: usize| used.partition_point(|&corner| corner.index() < i);
+        Solid {
+            faces: facets.iter().map(|facet| facet.indices().map(place).collect()).collect(),
+            points: used.iter().map(|&v| self.point(v)).collect(),
+            laid_open: Vec::new(),
+        }
+    }
+
+    fn rest(&self) -> Solid {
+        let mut solid = Solid { points: self.points.to_vec(), ..Solid::default() };
+        for s in self.simplices() {
+            let corners = self.triangulation.corners(s);
+            for k in (0..4).filter(|&k| self.across(s, k).is_none()) {
+                solid.faces.push(FACETS[k].map(|i| corners.as_ref()[i].index()).to_vec());
+                solid.laid_open.push(self.triangulation.across(s, k).is_some());
+            }
+        }
+        solid
+    }
+}
+
 impl Shape for Solid {
     fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
         self.points.iter().copied()
@@ -50,7 +84,7 @@ pub fn write_solid(
     out: &mut dyn Write,
     format: Format,
     solid: &Solid,
-    camera: &picture::Camera,
+    options: &picture::Options,
 ) -> Result<Remark, Error> {
     use crate::formats::{obj, ply, stl, vtu};
     match format {
@@ -58,7 +92,7 @@ pub fn write_solid(
         Format::Obj => obj::write(out, solid)?,
         Format::Stl => return Ok(stl::write(out, solid)?),
         Format::Vtu => vtu::write(out, solid)?,
-        Format::Svg | Format::Png => picture::write_solid(out, format, solid, camera)?,
+        Format::Svg | Format::Png => picture::write_solid(out, format, solid, options)?,
         _ => return Err(Error::NotASolid(format)),
     }
     Ok(None)

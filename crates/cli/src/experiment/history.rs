@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use delone::{Algorithm2, Counters, Delaunay2, Error, Locate, VertexId};
 use delone_generators::{Kind, Random};
-use delone_oracle::exact;
+use delone_predicates::{in_circle, orient2d};
 
 use super::Findings;
 use super::plot::Plot;
@@ -54,10 +54,10 @@ fn scopes(seed: u64, findings: &mut Findings) -> Result<(), Error> {
     for a in 0..SMALL {
         for b in a + 1..SMALL {
             for c in b + 1..SMALL {
-                let turn = exact::orient2d(points[a], points[b], points[c]);
+                let turn = orient2d(points[a], points[b], points[c]);
                 let inside = |&q: &usize| {
                     ![a, b, c].contains(&q)
-                        && exact::in_circle(points[a], points[b], points[c], points[q]) * turn > 0
+                        && (in_circle(points[a], points[b], points[c], points[q]) * turn).is_positive()
                 };
                 scope_of.insert([a, b, c], (0..SMALL).filter(inside).count());
             }

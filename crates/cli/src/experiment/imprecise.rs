@@ -12,8 +12,8 @@ use delone_generators::{Kind, Kind3, Random};
 use super::plot::Plot;
 use super::table::{Table, short};
 use super::{Findings, timed};
-use crate::files;
 use crate::message::Failure;
+use crate::room;
 
 const METHODS: [&str; 5] =
     ["hints, random order", "hints, spatial order", "spatial sort", "hierarchy", "divide and conquer"];
@@ -100,7 +100,7 @@ pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
 
 /// `delone experiment scan`: noise around the points of a scanned model, as strong as points are from their hints.
 pub(super) fn scan(path: &Path, largest: usize, seed: u64) -> Result<Findings, Failure> {
-    let mut model = files::queries_in_space(path, true)?;
+    let mut model = room::queries::<Delaunay3>(path, true)?;
     let wrong = |error: Error| Failure::points(path, &error);
     if model.len() < 100 {
         return Err(Failure::new(
@@ -259,7 +259,7 @@ fn in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<Ro
     }
     for algorithm in [Algorithm3::Spatial { seed }, Algorithm3::Located { locate: hierarchy(seed), seed }] {
         let (d, seconds) = timed(|| Delaunay3::with_algorithm(instance, algorithm));
-        costs.push(Cost::of(n, seconds, Some(d?.work().visited)));
+        costs.push(Cost::of(n, seconds, d?.counters().work().map(|work| work.visited)));
     }
     Ok((costs, preprocessing))
 }

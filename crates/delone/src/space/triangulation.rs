@@ -76,8 +76,7 @@ impl Triangulation for Delaunay3 {
     }
 
     fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 3]> + Send + '_ {
-        let is_spanned = self.dimension() == Dimension::Space;
-        self.hull_facets().filter(move |_| is_spanned)
+        self.hull_facets()
     }
 
     fn check(&self) -> Result<(), Flaw3> {
@@ -101,7 +100,7 @@ impl Ask for Delaunay3 {
                 Found::on(&[v, w], self.simplices_at(v).into_iter().find(around))
             }
             Location3::Vertex(v) => Found::on(&[v], self.simplices_at(v).first().copied()),
-            Location3::Outside(f) => Found::beyond(&mesh.facet_corners(f)),
+            Location3::Outside(f) => Found::beyond(&mesh.facet_corners(mesh.twin(f))),
             Location3::LowerDimensional(_) => Found::beyond(&[]),
         })
     }

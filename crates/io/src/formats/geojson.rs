@@ -2,10 +2,10 @@
 
 use std::io::{self, Read, Write};
 
-use delone::Ring;
+use delone::{Ring, Triangulation};
 use geojson::{GeoJson, Geometry, GeometryValue};
 
-use crate::{Cloud, Crs, Diagram, Error, Shape, Source, Surface};
+use crate::{Cloud, Crs, Diagram, Error, Mesh, Shape, Source};
 
 /// Reads the positions of all geometries, in their order; the last of a ring, which is the first again, is left out.
 /// Several documents may follow each other, as in text sequences and lines of GeoJSON.
@@ -153,7 +153,10 @@ pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, 
 
 /// Writes a feature for each site, with its index and the area of its cell; without geometry where the cell is
 /// empty.
-pub(crate) fn write_cells(out: &mut dyn Write, diagram: &Diagram) -> io::Result<()> {
+pub(crate) fn write_cells(
+    out: &mut dyn Write,
+    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
+) -> io::Result<()> {
     write!(out, "{{\"type\":\"FeatureCollection\",")?;
     write_system(out, diagram.crs)?;
     write!(out, "\"features\":[")?;
@@ -198,19 +201,22 @@ fn write_polygon(out: &mut dyn Write, rings: &[Ring]) -> io::Result<()> {
 }
 
 /// Writes a feature for each triangle, with the indices of its corners.
-pub(crate) fn write(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
+pub(crate) fn write(
+    out: &mut dyn Write,
+    mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
+) -> io::Result<()> {
     write!(out, "{{\"type\":\"FeatureCollection\",")?;
-    write_system(out, surface.crs)?;
+    write_system(out, mesh.crs)?;
     write!(out, "\"features\":[")?;
-    let positions: Vec<_> = surface.positions().collect();
-    for (i, triangle) in surface.triangles().enumerate() {
+    let positions: Vec<_> = mesh.positions().collect();
+    for (i, triangle) in mesh.triangles().enumerate() {
         let separator = if i == 0 { "" } else { "," };
         write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{triangle:?}}},")?;
         write!(out, "\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[")?;
         for (k, corner) in [0, 1, 2, 0].into_iter().enumerate() {
             let [x, y, z] = positions[triangle[corner]];
             let separator = if k == 0 { "" } else { "," };
-            match surface.heights {
+            match mesh.heights {
                 Some(_) => write!(out, "{separator}[{x:?},{y:?},{z:?}]")?,
                 None => write!(out, "{separator}[{x:?},{y:?}]")?,
             }

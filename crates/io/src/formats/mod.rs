@@ -18,6 +18,6 @@ pub(crate) mod vtk;
 pub(crate) mod vtu;
 
 /// A point of the plane or of space, in space.
-fn in_space<const D: usize>(p: &[f64; D]) -> [f64; 3] {
-    [0, 1, 2].map(|k| p.get(k).copied().unwrap_or_default())
+fn in_space(p: &impl AsRef<[f64]>) -> [f64; 3] {
+    [0, 1, 2].map(|k| p.as_ref().get(k).copied().unwrap_or_default())
 }

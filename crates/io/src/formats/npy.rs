@@ -179,20 +179,21 @@ pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<
     Ok((0..rows).map(|row| std::array::from_fn(|k| at(row, k))).collect())
 }
 
-/// Writes so many rows of indices: int64 of shape (count, N), from 0.
+/// Writes so many rows of `columns` indices: int64 of shape (count, columns), from 0.
 ///
 /// Half of the time goes to the numbers and half to the system, so they are two threads' work where there are two.
-pub(crate) fn write_simplices<const N: usize>(
+pub(crate) fn write_simplices(
     out: &mut dyn Write,
     count: usize,
-    rows: impl Iterator<Item = [usize; N]> + Send,
+    columns: usize,
+    rows: impl Iterator<Item: IntoIterator<Item = usize>> + Send,
 ) -> io::Result<()> {
-    header::write(out, "i8", &[count, N])?;
+    header::write(out, "i8", &[count, columns])?;
     let mut rows = rows.fuse();
     let mut block = move || {
         let mut block = Vec::with_capacity(BUFFER);
-        for row in rows.by_ref().take(BUFFER / (8 * N)) {
-            row.iter().for_each(|&i| block.extend_from_slice(&(i as i64).to_le_bytes()));
+        for row in rows.by_ref().take(BUFFER / (8 * columns)) {
+            row.into_iter().for_each(|i| block.extend_from_slice(&(i as i64).to_le_bytes()));
         }
         (!block.is_empty()).then_some(block)
     };
@@ -262,7 +263,7 @@ mod tests {
     fn rows_are_written_in_order_by_one_thread_or_two() {
         for count in [0, 1, BUFFER / 24, BUFFER / 24 + 1, BUFFER - 1, BUFFER, 2 * BUFFER + 5] {
             let mut bytes = Vec::new();
-            write_simplices(&mut bytes, count, rows(count)).expect("room");
+            write_simplices(&mut bytes, count, 3, rows(count)).expect("room");
             let (header, data) = bytes.split_at(bytes.len() - 24 * count);
             assert!(header.starts_with(b"\x93NUMPY") && header.len() % 64 == 0);
             let numbers = data.as_chunks().0.iter().map(|&bytes| i64::from_le_bytes(bytes));
@@ -273,7 +274,7 @@ mod tests {
     #[test]
     fn a_full_disk_is_an_error_soon() {
         for room in [0, 100, 24 * BUFFER] {
-            let endless = write_simplices(&mut Full(room), 1 << 40, rows(usize::MAX / 8));
+            let endless = write_simplices(&mut Full(room), 1 << 40, 3, rows(usize::MAX / 8));
             assert_eq!(endless.map_err(|error| error.kind()), Err(io::ErrorKind::StorageFull));
         }
     }

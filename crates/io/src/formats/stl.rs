@@ -4,6 +4,8 @@
 use std::collections::HashSet;
 use std::io::{self, Write};
 
+use delone::Bounds;
+
 use super::lines::Lines;
 use crate::{Cloud, Error, Remark, Shape, Source};
 
@@ -98,17 +100,11 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remar
 
 /// Where to move the origin to: nowhere, as long as rounding is less than a millionth of the extent.
 fn shift(shape: &impl Shape) -> Option<[f64; 3]> {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for p in shape.positions() {
-        for k in 0..3 {
-            low[k] = low[k].min(p[k]);
-            high[k] = high[k].max(p[k]);
-        }
-    }
-    let extent = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
-    let largest = low.iter().chain(&high).map(|x| x.abs()).fold(0.0, f64::max);
+    let bounds = Bounds::of(shape.positions());
+    let extent = bounds.extent().into_iter().fold(0.0, f64::max);
+    let largest = bounds.low.iter().chain(&bounds.high).map(|x| x.abs()).fold(0.0, f64::max);
     let coarse = largest * f64::from(f32::EPSILON) > extent * 1e-6;
-    (coarse && extent > 0.0 && largest.is_finite()).then(|| low.map(f64::floor))
+    (coarse && extent > 0.0 && largest.is_finite()).then(|| bounds.low.map(f64::floor))
 }
 
 fn difference(p: [f64; 3], q: [f64; 3]) -> [f64; 3] {

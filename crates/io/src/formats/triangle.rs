@@ -1,12 +1,12 @@
-//! The files of Shewchuk's Triangle: `.node`, `.ele`, `.neigh`, `.edge`. Read with indices from 0 or from 1,
+//! The files of Shewchuk's Triangle, and of TetGen: `.node`, `.ele`, `.neigh`, `.edge`. Read with indices from 0 or from 1,
 //! written with the base of the points that were read.
 
 use std::io::{self, Write};
 
-use delone::TriangleId;
+use delone::Triangulation;
 
 use super::lines::Lines;
-use crate::{Cloud, Error, Shape, Source, Surface};
+use crate::{Cloud, Error, Mesh, Source};
 
 /// Points there is room for before they are read: what a header claims is not believed beyond.
 const AHEAD: usize = 1 << 16;
@@ -86,71 +86,59 @@ pub(crate) fn read_ele<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u
     Ok(triangles)
 }
 
-pub(crate) fn write_node(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    let attributes = usize::from(surface.heights.is_some());
-    writeln!(out, "{} 2 {attributes} 0", surface.triangulation.points().len())?;
-    for (i, [x, y, z]) in surface.positions().enumerate() {
-        write!(out, "{} {x:?} {y:?}", surface.base + i)?;
-        if attributes == 1 {
-            write!(out, " {z:?}")?;
+/// Writes points of `columns` coordinates, and their heights if they have some besides; they count from `base`.
+pub(crate) fn write_node<P: AsRef<[f64]>>(
+    out: &mut dyn Write,
+    base: usize,
+    columns: usize,
+    points: &[P],
+    heights: Option<&[f64]>,
+) -> io::Result<()> {
+    writeln!(out, "{} {columns} {} 0", points.len(), u8::from(heights.is_some()))?;
+    for (i, p) in points.iter().enumerate() {
+        write!(out, "{}", base + i)?;
+        let height = heights.map(|heights| heights.get(i).unwrap_or(&0.0));
+        p.as_ref().iter().chain(height).try_for_each(|x| write!(out, " {x:?}"))?;
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// Simplices; they and the points count from the base.
+pub(crate) fn write_ele<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+    writeln!(out, "{} {} 0", mesh.simplex_count(), Mesh::<T>::WIDTH)?;
+    for (i, mut corners) in mesh.rows().enumerate() {
+        write!(out, "{}", mesh.base + i)?;
+        corners.try_for_each(|corner| write!(out, " {}", mesh.base + corner))?;
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+/// Neighbours opposite each corner, numbered as in the `.ele` file; -1 across the border.
+pub(crate) fn write_neigh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+    let mut numbers = vec![-1_i64; mesh.triangulation.slot_count()];
+    for (i, s) in mesh.simplices().enumerate() {
+        numbers[mesh.triangulation.index(s)] = (mesh.base + i) as i64;
+    }
+    writeln!(out, "{} {}", mesh.simplex_count(), Mesh::<T>::WIDTH)?;
+    for (i, s) in mesh.simplices().enumerate() {
+        write!(out, "{}", mesh.base + i)?;
+        for k in 0..Mesh::<T>::WIDTH {
+            let next = mesh.triangulation.across(s, k);
+            write!(out, " {}", next.map_or(-1, |next| numbers[mesh.triangulation.index(next)]))?;
         }
         writeln!(out)?;
     }
     Ok(())
 }
 
-pub(crate) fn write_points<const D: usize>(
-    out: &mut dyn Write,
-    base: usize,
-    points: &[[f64; D]],
-) -> io::Result<()> {
-    writeln!(out, "{} {D} 0 0", points.len())?;
-    for (i, p) in points.iter().enumerate() {
-        write!(out, "{}", base + i)?;
-        p.iter().try_for_each(|x| write!(out, " {x:?}"))?;
-        writeln!(out)?;
-    }
-    Ok(())
-}
-
-/// Writes simplices of N corners; they and the points count from `base`.
-pub(crate) fn write_ele<const N: usize>(
-    out: &mut dyn Write,
-    base: usize,
-    simplices: impl Iterator<Item = [usize; N]>,
-) -> io::Result<()> {
-    let simplices: Vec<[usize; N]> = simplices.collect();
-    writeln!(out, "{} {N} 0", simplices.len())?;
-    for (i, corners) in simplices.iter().enumerate() {
-        write!(out, "{}", base + i)?;
-        corners.iter().try_for_each(|corner| write!(out, " {}", base + corner))?;
-        writeln!(out)?;
-    }
-    Ok(())
-}
-
-/// Neighbours opposite corners 0, 1 and 2, numbered as in the `.ele` file; -1 across the border.
-pub(crate) fn write_neigh(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    let mesh = surface.triangulation.mesh();
-    let mut numbers = vec![-1_i64; mesh.slot_count()];
-    for (i, t) in surface.cells().enumerate() {
-        numbers[t.index()] = (surface.base + i) as i64;
-    }
-    writeln!(out, "{} 3", surface.triangle_count())?;
-    for (i, t) in surface.cells().enumerate() {
-        // The neighbour opposite corner k is across the edge that leaves the next corner.
-        let [across_0, across_1, across_2] = mesh.adjacent(t).map(|t: TriangleId| numbers[t.index()]);
-        writeln!(out, "{} {across_1} {across_2} {across_0}", surface.base + i)?;
-    }
-    Ok(())
-}
-
 /// Edges with a marker that is 1 on the border.
-pub(crate) fn write_edge(out: &mut dyn Write, surface: &Surface) -> io::Result<()> {
-    writeln!(out, "{} 1", surface.edges().count())?;
-    for (i, e) in surface.edges().enumerate() {
-        let [from, to] = surface.ends(e).map(|v| surface.base + v.index());
-        writeln!(out, "{} {from} {to} {}", surface.base + i, u8::from(surface.is_border(e)))?;
+pub(crate) fn write_edge<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+    writeln!(out, "{} 1", mesh.edges().count())?;
+    for (i, (ends, is_border)) in mesh.edges().enumerate() {
+        let [from, to] = ends.map(|v| mesh.base + v.index());
+        writeln!(out, "{} {from} {to} {}", mesh.base + i, u8::from(is_border))?;
     }
     Ok(())
 }

@@ -8,62 +8,72 @@ use crate::Shape;
 const KINDS: [(usize, u8); 2] = [(3, 5), (4, 10)];
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
-    write_cells(out, shape, shape.triangles())
+    let (points, cells) = (shape.positions().count(), shape.triangles().count());
+    let grid = Grid { points, heights: shape.heights(), cells, width: 3 };
+    grid.write(out, shape.positions(), shape.triangles())
 }
 
-/// Writes cells of N corners.
-pub(crate) fn write_cells<const N: usize>(
-    out: &mut dyn Write,
-    shape: &impl Shape,
-    simplices: impl Iterator<Item = [usize; N]>,
-) -> io::Result<()> {
-    let simplices: Vec<[usize; N]> = simplices.collect();
-    let (points, cells) = (shape.positions().count(), simplices.len());
-    let kind = KINDS.into_iter().find(|kind| kind.0 == N).map_or(0, |kind| kind.1);
-    // Each array is preceded by its length in eight bytes.
-    let mut end = 0;
-    let mut place = |size: usize| {
-        let start = end;
-        end += size + 8;
-        start
-    };
-    let heights = shape.heights();
-    let offsets = [
-        place(24 * points),
-        heights.map_or(0, |heights| place(8 * heights.len())),
-        place(8 * N * cells),
-        place(8 * cells),
-        place(cells),
-    ];
-    writeln!(
-        out,
-        r#"<?xml version="1.0"?>
+/// What a file holds: so many points, a value for each, and so many cells of so many corners.
+pub(crate) struct Grid<'a> {
+    pub(crate) points: usize,
+    pub(crate) heights: Option<&'a [f64]>,
+    pub(crate) cells: usize,
+    pub(crate) width: usize,
+}
+
+impl Grid<'_> {
+    pub(crate) fn write(
+        &self,
+        out: &mut dyn Write,
+        positions: impl Iterator<Item = [f64; 3]>,
+        corners: impl Iterator<Item: IntoIterator<Item = usize>>,
+    ) -> io::Result<()> {
+        let Self { points, heights, cells, width } = *self;
+        let kind = KINDS.into_iter().find(|kind| kind.0 == width).map_or(0, |kind| kind.1);
+        // Each array is preceded by its length in eight bytes.
+        let mut end = 0;
+        let mut place = |size: usize| {
+            let start = end;
+            end += size + 8;
+            start
+        };
+        let offsets = [
+            place(24 * points),
+            heights.map_or(0, |heights| place(8 * heights.len())),
+            place(8 * width * cells),
+            place(8 * cells),
+            place(cells),
+        ];
+        writeln!(
+            out,
+            r#"<?xml version="1.0"?>
 <VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">
 <UnstructuredGrid><Piece NumberOfPoints="{points}" NumberOfCells="{cells}">
 <Points><DataArray type="Float64" NumberOfComponents="3" format="appended" offset="{}"/></Points>"#,
-        offsets[0]
-    )?;
-    if heights.is_some() {
-        let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
-        writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
-    }
-    writeln!(
-        out,
-        r#"<Cells2><DataArray type="Int64" Name="connectivity" format="appended" offset="{}"/>
+            offsets[0]
+        )?;
+        if heights.is_some() {
+            let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
+            writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
+        }
+        writeln!(
+            out,
+            r#"<Cells><DataArray type="Int64" Name="connectivity" format="appended" offset="{}"/>
 <DataArray type="Int64" Name="offsets" format="appended" offset="{}"/>
-<DataArray type="UInt8" Name="types" format="appended" offset="{}"/></Cells2>
+<DataArray type="UInt8" Name="types" format="appended" offset="{}"/></Cells>
 </Piece></UnstructuredGrid>"#,
-        offsets[2], offsets[3], offsets[4]
-    )?;
-    write!(out, "<AppendedData encoding=\"raw\">\n_")?;
-    array(out, 3 * points, shape.positions().flatten().map(f64::to_le_bytes))?;
-    if let Some(heights) = heights {
-        array(out, heights.len(), heights.iter().map(|z| z.to_le_bytes()))?;
+            offsets[2], offsets[3], offsets[4]
+        )?;
+        write!(out, "<AppendedData encoding=\"raw\">\n_")?;
+        array(out, 3 * points, positions.flatten().map(f64::to_le_bytes))?;
+        if let Some(heights) = heights {
+            array(out, heights.len(), heights.iter().map(|z| z.to_le_bytes()))?;
+        }
+        array(out, width * cells, corners.flatten().map(|index| (index as i64).to_le_bytes()))?;
+        array(out, cells, (1..=cells).map(|end| ((width * end) as i64).to_le_bytes()))?;
+        array(out, cells, (0..cells).map(|_| [kind]))?;
+        writeln!(out, "\n</AppendedData>\n</VTKFile>")
     }
-    array(out, N * cells, simplices.iter().flatten().map(|&index| (index as i64).to_le_bytes()))?;
-    array(out, cells, (1..=cells).map(|end| ((N * end) as i64).to_le_bytes()))?;
-    array(out, cells, (0..cells).map(|_| [kind]))?;
-    writeln!(out, "\n</AppendedData>\n</VTKFile>")
 }
 
 /// Writes an array of so many values, its length first.

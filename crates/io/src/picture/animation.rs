@@ -2,9 +2,11 @@
 
 use std::io::Write;
 
+use delone::Triangulation;
+
 use super::view::View;
 use super::{Layers, Options, check_size, png};
-use crate::{Error, Surface};
+use crate::{Error, Mesh};
 
 /// An animated PNG being written, picture by picture.
 pub struct Animation<W: Write> {
@@ -52,13 +54,13 @@ impl<W: Write> Animation<W> {
     ///
     /// # Errors
     /// When there are more than were said, and when writing fails.
-    pub fn add(&mut self, surface: &Surface) -> Result<(), Error> {
+    pub fn add(&mut self, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Result<(), Error> {
         let (view, layers) = *self.style.get_or_insert_with(|| {
-            let view = View::of(surface, &self.options);
-            (view, Layers::choose(surface, &view, &self.options))
+            let view = View::of(mesh, &self.options);
+            (view, Layers::choose(mesh, &view, &self.options))
         });
         debug_assert_eq!([view.width, view.height], self.size);
-        let canvas = png::draw(surface, &view, layers, &self.options)?;
+        let canvas = png::draw(mesh, &view, layers, &self.options)?;
         self.writer.write_image_data(&canvas.colours()).map_err(failed)
     }
 

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use delone::{Ring, VertexId};
+use delone::{Ring, Triangulation, VertexId};
 
 use super::colour::{DENSITY, EDGE, PAPER, POINT, Rgb};
 use super::png::Canvas;
@@ -22,7 +22,12 @@ struct Style {
 }
 
 /// Draws clipped cells: filled by their area, outlined while there is room, with their sites.
-pub(crate) fn write(out: &mut dyn Write, format: Format, diagram: &Diagram, size: u32) -> Result<(), Error> {
+pub(crate) fn write(
+    out: &mut dyn Write,
+    format: Format,
+    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
+    size: u32,
+) -> Result<(), Error> {
     super::check_size(size)?;
     let style = Style::of(diagram, size);
     match format {
@@ -32,7 +37,7 @@ pub(crate) fn write(out: &mut dyn Write, format: Format, diagram: &Diagram, size
 }
 
 impl Style {
-    fn of(diagram: &Diagram, size: u32) -> Self {
+    fn of(diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>, size: u32) -> Self {
         let view = View::around(diagram.corners(), size);
         let mut areas: Vec<f64> = sites(diagram).map(|v| diagram.cells.area(v).ln()).collect();
         areas.sort_by(f64::total_cmp);
@@ -65,7 +70,7 @@ impl Style {
 }
 
 /// The sites whose cells are not empty.
-fn sites<'a>(diagram: &'a Diagram) -> impl Iterator<Item = VertexId> + 'a {
+fn sites<T: Triangulation<Point = [f64; 2]>>(diagram: &Diagram<T>) -> impl Iterator<Item = VertexId> {
     diagram.triangulation.vertices().filter(|&v| diagram.cells.rings(v).next().is_some())
 }
 
@@ -74,7 +79,11 @@ fn dot_colour(cell: Rgb) -> Rgb {
     if cell.iter().map(|&part| u32::from(part)).sum::<u32>() > 330 { POINT } else { PAPER }
 }
 
-fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Error> {
+fn png(
+    out: &mut dyn Write,
+    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
+    style: &Style,
+) -> Result<(), Error> {
     let view = &style.view;
     let mut canvas = Canvas::from(&Raster::new(view.width, view.height, PAPER))?;
     let place = |ring: Ring| ring.points().map(|p| view.place(p)).collect::<Vec<_>>();
@@ -90,7 +99,7 @@ fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Erro
     if let Some(radius) = style.dot_radius() {
         for colour in [POINT, PAPER] {
             let wanted = |v: &VertexId| dot_colour(style.colour(diagram.cells.area(*v))) == colour;
-            let positions = sites(diagram).filter(wanted).map(|v| view.place(diagram.triangulation.point(v)));
+            let positions = sites(diagram).filter(wanted).map(|v| view.place(diagram.point(v)));
             canvas.dots(positions, radius, colour, 255);
         }
     }
@@ -99,7 +108,11 @@ fn png(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> Result<(), Erro
     canvas.encode(out)
 }
 
-fn svg(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> std::io::Result<()> {
+fn svg(
+    out: &mut dyn Write,
+    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
+    style: &Style,
+) -> std::io::Result<()> {
     let view = &style.view;
     super::svg::open(out, view)?;
     let outline = if style.outlines() { hex(EDGE) } else { "none".to_owned() };
@@ -123,7 +136,7 @@ fn svg(out: &mut dyn Write, diagram: &Diagram, style: &Style) -> std::io::Result
     writeln!(out, "</g>")?;
     if let Some(radius) = style.dot_radius() {
         for v in sites(diagram) {
-            let [x, y] = view.place(diagram.triangulation.point(v));
+            let [x, y] = view.place(diagram.point(v));
             let colour = hex(dot_colour(style.colour(diagram.cells.area(v))));
             writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{colour}"/>"#)?;
         }

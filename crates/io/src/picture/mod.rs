@@ -23,7 +23,9 @@ pub(crate) use solid::write as write_solid;
 
 use std::io::Write;
 
-use crate::{Error, Format, Surface};
+use delone::Triangulation;
+
+use crate::{Error, Format, Mesh};
 use view::View;
 
 /// What to draw. `None` leaves a choice to the room there is.
@@ -31,17 +33,19 @@ use view::View;
 pub struct Options {
     /// The longer side in pixels.
     pub size: u32,
-    /// Draw edges.
+    /// In space, where it is seen from.
+    pub camera: Camera,
+    /// In the plane, draw edges.
     pub edges: Option<bool>,
-    /// Draw vertices.
+    /// In the plane, draw vertices.
     pub points: Option<bool>,
-    /// Fill triangles with colour.
+    /// In the plane, fill triangles with colour.
     pub fill: Option<bool>,
-    /// Draw a disk of this radius, in coordinate units, around each vertex.
+    /// In the plane, draw a disk of this radius, in coordinate units, around each vertex.
     pub disks: Option<f64>,
-    /// Lines to draw, such as those from points to their hints.
+    /// In the plane, lines to draw, such as those from points to their hints.
     pub links: Vec<[[f64; 2]; 2]>,
-    /// The corners of the box that is shown, if it is not that of the points.
+    /// In the plane, the corners of the box that is shown, if it is not that of the points.
     pub window: Option<[[f64; 2]; 2]>,
 }
 
@@ -49,6 +53,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             size: 1600,
+            camera: Camera::default(),
             edges: None,
             points: None,
             fill: None,
@@ -70,10 +75,10 @@ struct Layers {
 }
 
 impl Layers {
-    fn choose(surface: &Surface, view: &View, options: &Options) -> Self {
-        let n = surface.triangulation.vertex_count().max(1);
+    fn choose(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, view: &View, options: &Options) -> Self {
+        let n = mesh.triangulation.vertex_count().max(1);
         let spacing = (f64::from(view.width) * f64::from(view.height) / n as f64).sqrt();
-        let relief = surface.heights.is_some();
+        let relief = mesh.heights.is_some();
         Self {
             fill: options.fill.unwrap_or(relief || (spacing < 60.0 && options.disks.is_none())),
             edges: options.edges.unwrap_or(spacing > if relief { 14.0 } else { 5.0 }),
@@ -92,14 +97,19 @@ impl Layers {
     }
 }
 
-/// Draws a triangulation.
-pub fn write(out: &mut dyn Write, format: Format, surface: &Surface, options: &Options) -> Result<(), Error> {
+/// Draws a triangulation of the plane.
+pub(crate) fn write(
+    out: &mut dyn Write,
+    format: Format,
+    mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
+    options: &Options,
+) -> Result<(), Error> {
     check_size(options.size)?;
-    let view = View::of(surface, options);
-    let layers = Layers::choose(surface, &view, options);
+    let view = View::of(mesh, options);
+    let layers = Layers::choose(mesh, &view, options);
     match format {
-        Format::Svg => Ok(svg::write(out, surface, &view, layers, options)?),
-        _ => png::draw(surface, &view, layers, options)?.encode(out),
+        Format::Svg => Ok(svg::write(out, mesh, &view, layers, options)?),
+        _ => png::draw(mesh, &view, layers, options)?.encode(out),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use delone::Triangulation;
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 use tiny_skia::{
     Color, LineCap, LineJoin, Paint as Brush, PathBuilder, Pixmap, PremultipliedColorU8, Rect, Stroke,
@@ -10,37 +11,37 @@ use tiny_skia::{
 
 use super::colour::{DISK, EDGE, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
 use super::raster::Raster;
-use super::relief::Paint;
+use super::relief::{Paint, area};
 use super::view::View;
 use super::{Layers, Options};
-use crate::{Error, Surface};
+use crate::{Error, Mesh, Shape};
 
 /// Draws a triangulation.
 pub(super) fn draw(
-    surface: &Surface,
+    mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
     view: &View,
     layers: Layers,
     options: &Options,
 ) -> Result<Canvas, Error> {
-    let d = surface.triangulation;
-    let paint = Paint::of(surface);
+    let d = mesh.triangulation;
+    let paint = Paint::of(mesh);
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if layers.fill {
-        fill(&mut raster, surface, view, &paint);
+        fill(&mut raster, mesh, view, &paint);
     }
     let mut canvas = Canvas::from(&raster)?;
     drop(raster);
-    let vertices = || d.vertices().map(|v| view.place(d.point(v)));
+    let vertices = || d.vertices().map(|v| view.place(mesh.point(v)));
     if let Some(radius) = options.disks {
         canvas.dots(vertices(), view.length(radius), DISK, 180);
     }
     if layers.edges {
-        let alpha = if surface.heights.is_some() { 90 } else { 255 };
-        canvas.edges(surface, view, layers.line_width(), alpha);
+        let alpha = if mesh.heights.is_some() { 90 } else { 255 };
+        canvas.edges(mesh, view, layers.line_width(), alpha);
     }
     let links = options.links.iter().map(|link| link.map(|p| view.place(p)));
     canvas.lines(links, LINK, 255, 2.0 * layers.line_width());
-    canvas.border(surface, view, layers.line_width() * 1.5);
+    canvas.border(mesh, view, layers.line_width() * 1.5);
     if layers.points || d.vertex_count() < 3 {
         canvas.dots(vertices(), layers.point_radius(), POINT, 255);
     }
@@ -48,12 +49,11 @@ pub(super) fn draw(
     Ok(canvas)
 }
 
-fn fill(raster: &mut Raster, surface: &Surface, view: &View, paint: &Paint) {
-    let d = surface.triangulation;
-    for t in surface.cells() {
-        let triangle = d.mesh().corners(t).map(delone::VertexId::index);
-        let corners = triangle.map(|i| view.place(d.points()[i]));
-        let values = paint.corners(triangle, d.area(t));
+fn fill(raster: &mut Raster, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, view: &View, paint: &Paint) {
+    for triangle in mesh.triangles() {
+        let points = triangle.map(|i| mesh.points[i]);
+        let corners = points.map(|p| view.place(p));
+        let values = paint.corners(triangle, area(points));
         raster.dot(corners[0], paint.colour(values[0]));
         raster.triangle(corners, values, |value| paint.colour(value));
     }
@@ -113,16 +113,20 @@ impl Canvas {
         }
     }
 
-    fn edges(&mut self, surface: &Surface, view: &View, width: f64, alpha: u8) {
-        let d = surface.triangulation;
-        let ends = surface.edges().map(|e| surface.ends(e).map(|v| view.place(d.point(v))));
+    fn edges(
+        &mut self,
+        mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
+        view: &View,
+        width: f64,
+        alpha: u8,
+    ) {
+        let ends = mesh.edges().map(|(ends, _)| ends.map(|v| view.place(mesh.point(v))));
         self.lines(ends, EDGE, alpha, width);
     }
 
-    fn border(&mut self, surface: &Surface, view: &View, width: f64) {
-        let d = surface.triangulation;
-        let border = surface.edges().filter(|&e| surface.is_border(e));
-        let sides = border.map(|e| surface.ends(e).map(|v| view.place(d.point(v))));
+    fn border(&mut self, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, view: &View, width: f64) {
+        let border = mesh.edges().filter(|edge| edge.1);
+        let sides = border.map(|(ends, _)| ends.map(|v| view.place(mesh.point(v))));
         self.lines(sides, HULL, 255, width);
     }
 

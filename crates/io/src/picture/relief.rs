@@ -1,7 +1,9 @@
 //! What colour a triangle has: shaded height, or density.
 
+use delone::Triangulation;
+
 use super::colour::{DENSITY, HEIGHT, Ramp, Rgb, shade};
-use crate::{Shape, Surface};
+use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
 const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
@@ -26,16 +28,16 @@ pub(super) struct Relief<'a> {
 }
 
 impl<'a> Paint<'a> {
-    pub(super) fn of(surface: &'a Surface) -> Self {
-        match surface.heights {
-            Some(heights) if !heights.is_empty() => Self::Relief(Relief::of(surface, heights)),
-            _ => Self::density(surface),
+    pub(super) fn of(mesh: &'a Mesh<impl Triangulation<Point = [f64; 2]>>) -> Self {
+        match mesh.heights {
+            Some(heights) if !heights.is_empty() => Self::Relief(Relief::of(mesh, heights)),
+            _ => Self::density(mesh),
         }
     }
 
-    fn density(surface: &Surface) -> Self {
-        let d = surface.triangulation;
-        let mut areas: Vec<f64> = surface.cells().map(|t| d.area(t).ln()).filter(|a| a.is_finite()).collect();
+    fn density(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Self {
+        let areas = mesh.triangles().map(|triangle| area(triangle.map(|i| mesh.points[i])).ln());
+        let mut areas: Vec<f64> = areas.filter(|area| area.is_finite()).collect();
         let (low, high) = spread(&mut areas);
         Self::Density { low, high }
     }
@@ -62,15 +64,28 @@ impl<'a> Paint<'a> {
 }
 
 impl<'a> Relief<'a> {
-    fn of(surface: &Surface, heights: &'a [f64]) -> Self {
+    fn of(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, heights: &'a [f64]) -> Self {
         let mut sorted: Vec<f64> = heights.iter().copied().filter(|z| z.is_finite()).collect();
         let (low, high) = spread(&mut sorted);
-        Self { heights, light: light(surface), low, high }
+        Self { heights, light: light(mesh), low, high }
     }
 
     fn value(&self, i: usize) -> f64 {
         fraction(self.heights[i], self.low, self.high)
     }
+}
+
+/// The area of a triangle: infinite if it is too large for an `f64`, and never NaN.
+pub(super) fn area(corners: [[f64; 2]; 3]) -> f64 {
+    let of = |[a, b, c]: [[f64; 2]; 3]| ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
+    let area = of(corners);
+    if area.is_finite() {
+        return area;
+    }
+    // Products that overflow may cancel: large coordinates are made small, axis by axis, and the area large again.
+    let is_large = |axis: usize| corners.iter().any(|p| p[axis].abs() > 2f64.powi(500));
+    let [x, y] = [0, 1].map(|axis| if is_large(axis) { 2f64.powi(-520) } else { 1.0 });
+    of(corners.map(|p| [p[0] * x, p[1] * y])) / x / y
 }
 
 /// Where a value lies between two others, 0.5 if these are equal.
@@ -90,10 +105,10 @@ fn spread(values: &mut [f64]) -> (f64, f64) {
 
 /// The light at each point, from the mean normal of its triangles. Flat land is exaggerated until its typical
 /// slope can be seen.
-fn light(surface: &Surface) -> Vec<f64> {
-    let positions: Vec<_> = surface.positions().collect();
+fn light(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Vec<f64> {
+    let positions: Vec<_> = mesh.positions().collect();
     let mut normals = vec![[0.0_f64; 3]; positions.len()];
-    for triangle in surface.triangles() {
+    for triangle in mesh.triangles() {
         let [a, b, c] = triangle.map(|i| positions[i]);
         let (u, v) = ([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
         let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];

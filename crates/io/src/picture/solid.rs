@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use super::Options;
 use super::colour::{PAPER, Rgb, shade};
 use super::png::Canvas;
 use super::raster::Raster;
@@ -19,8 +20,6 @@ const LAMP: f64 = 0.75;
 /// Where a solid is seen from, by parallel rays.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// The longer side of the picture in pixels.
-    pub size: u32,
     /// Degrees counter-clockwise from the x axis.
     pub azimuth: f64,
     /// Degrees above the plane of x and y.
@@ -31,7 +30,7 @@ pub struct Camera {
 
 impl Default for Camera {
     fn default() -> Self {
-        Self { size: 1600, azimuth: -60.0, elevation: 25.0, wireframe: false }
+        Self { azimuth: -60.0, elevation: 25.0, wireframe: false }
     }
 }
 
@@ -76,15 +75,16 @@ pub(crate) fn write(
     out: &mut dyn Write,
     format: Format,
     solid: &Solid,
-    camera: &Camera,
+    options: &Options,
 ) -> Result<(), Error> {
-    super::check_size(camera.size)?;
+    super::check_size(options.size)?;
+    let camera = &options.camera;
     let axes = Axes::of(camera);
     let largest = solid.points.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     // Sums of coordinates must not overflow.
     let half = if largest > f64::MAX / 8.0 { 0.125 } else { 1.0 };
     let turned: Vec<[f64; 3]> = solid.points.iter().map(|p| axes.turn(p.map(|x| x * half))).collect();
-    let view = View::around(turned.iter().map(|&[x, y, _]| [x, y]), camera.size);
+    let view = View::around(turned.iter().map(|&[x, y, _]| [x, y]), options.size);
     let mut faces: Vec<Visible> =
         (0..solid.faces.len()).filter_map(|i| Visible::of(solid, i, &turned, &view, camera)).collect();
     faces.sort_by(|f, g| f.depth.total_cmp(&g.depth));

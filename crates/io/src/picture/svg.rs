@@ -2,51 +2,53 @@
 
 use std::io::{self, Write};
 
+use delone::Triangulation;
+
 use super::colour::{DISK, EDGE, HULL, LINK, POINT, Rgb};
-use super::relief::Paint;
+use super::relief::{Paint, area};
 use super::view::View;
 use super::{Layers, Options};
-use crate::Surface;
+use crate::{Mesh, Shape};
 
 pub(super) fn write(
     out: &mut dyn Write,
-    surface: &Surface,
+    mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
     view: &View,
     layers: Layers,
     options: &Options,
 ) -> io::Result<()> {
-    let d = surface.triangulation;
+    let d = mesh.triangulation;
     open(out, view)?;
     if layers.fill {
-        let paint = Paint::of(surface);
+        let paint = Paint::of(mesh);
         writeln!(out, r#"<g stroke-width="0.6" stroke-linejoin="round">"#)?;
-        for t in surface.cells() {
-            let triangle = d.mesh().corners(t).map(delone::VertexId::index);
-            let values = paint.corners(triangle, d.area(t));
+        for triangle in mesh.triangles() {
+            let corners = triangle.map(|i| mesh.points[i]);
+            let values = paint.corners(triangle, area(corners));
             let mean = [0, 1].map(|k| values.iter().map(|value| value[k]).sum::<f64>() / 3.0);
             let colour = hex(paint.colour(mean));
-            let [a, b, c] = triangle.map(|i| place(view, d.points()[i]));
+            let [a, b, c] = corners.map(|p| place(view, p));
             writeln!(out, r#"<path fill="{colour}" stroke="{colour}" d="M{a}L{b}L{c}Z"/>"#)?;
         }
         writeln!(out, "</g>")?;
     }
     if let Some(radius) = options.disks {
         writeln!(out, r#"<g fill="{}" fill-opacity="0.7">"#, hex(DISK))?;
-        circles(out, view, d.vertices().map(|v| (d.point(v), v.index())), view.length(radius))?;
+        circles(out, view, d.vertices().map(|v| (mesh.point(v), v.index())), view.length(radius))?;
     }
     if layers.edges {
-        let edges = surface.edges().map(|e| surface.ends(e).map(|v| d.point(v)));
+        let edges = mesh.edges().map(|(ends, _)| ends.map(|v| mesh.point(v)));
         segments(out, view, edges, EDGE, layers.line_width())?;
     }
     if !options.links.is_empty() {
         segments(out, view, options.links.iter().copied(), LINK, 2.0 * layers.line_width())?;
     }
-    let border = surface.edges().filter(|&e| surface.is_border(e));
-    let sides = border.map(|e| surface.ends(e).map(|v| d.point(v)));
+    let border = mesh.edges().filter(|edge| edge.1);
+    let sides = border.map(|(ends, _)| ends.map(|v| mesh.point(v)));
     segments(out, view, sides, HULL, 1.5 * layers.line_width())?;
     if layers.points || d.vertex_count() < 3 {
         writeln!(out, r#"<g fill="{}">"#, hex(POINT))?;
-        circles(out, view, d.vertices().map(|v| (d.point(v), v.index())), layers.point_radius())?;
+        circles(out, view, d.vertices().map(|v| (mesh.point(v), v.index())), layers.point_radius())?;
     }
     scale(out, view)?;
     writeln!(out, "</svg>")

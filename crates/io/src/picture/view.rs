@@ -1,9 +1,9 @@
 //! From coordinates to pixels: the same scale in both directions, y upwards, a margin around.
 
-use delone::VertexId;
+use delone::{Bounds, Triangulation, VertexId};
 
 use super::Options;
-use crate::Surface;
+use crate::Mesh;
 
 /// Pixels left free around the drawing.
 const MARGIN: f64 = 24.0;
@@ -26,29 +26,23 @@ pub(super) struct View {
 impl View {
     /// Shows all points with their disks, or a window, the longer side `size` pixels long and the shorter at least a
     /// third of it.
-    pub(super) fn of(surface: &Surface, options: &Options) -> Self {
-        let d = surface.triangulation;
+    pub(super) fn of(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, options: &Options) -> Self {
         let r = options.disks.unwrap_or(0.0);
         let around = |v: VertexId| {
-            let [x, y] = d.point(v);
+            let [x, y] = mesh.point(v);
             [[x - r, y - r], [x + r, y + r]]
         };
         match options.window {
             Some(corners) => Self::around(corners.into_iter(), options.size),
-            None => Self::around(d.vertices().flat_map(around), options.size),
+            None => Self::around(mesh.triangulation.vertices().flat_map(around), options.size),
         }
     }
 
     /// Shows some points.
     pub(super) fn around(points: impl Iterator<Item = [f64; 2]>, size: u32) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for p in points {
-            for k in 0..2 {
-                low[k] = low[k].min(p[k]);
-                high[k] = high[k].max(p[k]);
-            }
-        }
-        let half = if (0..2).any(|k| high[k] - low[k] == f64::INFINITY) { 0.5 } else { 1.0 };
+        let bounds = Bounds::of(points);
+        let half = if bounds.extent().contains(&f64::INFINITY) { 0.5 } else { 1.0 };
+        let Bounds { low, high } = bounds;
         let extent = [0, 1].map(|k| (high[k] * half - low[k] * half).max(0.0));
         let longer = extent[0].max(extent[1]);
         let size = f64::from(size);

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use delone::Delaunay2;
 use delone_generators::Kind;
-use delone_io::{Crs, Format, Surface};
+use delone_io::{Crs, Format, Mesh, picture};
 
 use super::{ARRAYS, E57, JSON, LAS, MESHES, PLY, TEXT};
 
@@ -69,9 +69,10 @@ fn written(format: Format) -> (Format, Vec<u8>) {
 fn mesh(format: Format) -> (Format, Vec<u8>) {
     let crs = Crs::of_epsg(25_832);
     let mut bytes = Vec::new();
-    let triangulation = Delaunay2::from_points(&points()).unwrap_or_default();
-    let surface = Surface { crs: Some(&crs), base: 1, ..Surface::new(&triangulation) };
-    let outcome = delone_io::write_surface(&mut bytes, format, &surface);
+    let points = points();
+    let triangulation = Delaunay2::from_points(&points).unwrap_or_default();
+    let mesh = Mesh { crs: Some(&crs), base: 1, ..Mesh::new(&triangulation, &points) };
+    let outcome = delone_io::write_mesh(&mut bytes, format, &mesh, &picture::Options::default());
     assert!(outcome.is_ok(), "{format} is written");
     (format, bytes)
 }

@@ -1,0 +1,164 @@
+//! What can be said on the command line: the commands and what they have in common; what is each one's own has files of
+//! its own.
+
+mod ask;
+mod points;
+mod shapes;
+mod triangulate;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use delone_io::{Format, LAS_CLASSES};
+
+pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
+pub(crate) use points::{CheckArgs, ExperimentArgs, ExperimentName, GenerateArgs, InfoArgs, ReduceArgs};
+pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, VoronoiArgs};
+pub(crate) use triangulate::{AlgorithmName, LocateName, TriangulateArgs};
+
+/// Exact Delaunay triangulation: one point set, one triangulation.
+#[derive(Debug, Parser)]
+#[command(name = "delone", version, arg_required_else_help = true, propagate_version = true)]
+pub(crate) struct Cli {
+    /// No progress and no notes on standard error; errors still appear.
+    #[arg(long, short, global = true)]
+    pub(crate) quiet: bool,
+    /// Threads at most [default: RAYON_NUM_THREADS, or as many as there are cores]. Results do not depend on it;
+    /// the default constructions use them, in the plane and in space.
+    #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) threads: Option<u16>,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Triangulate points.
+    Triangulate(TriangulateArgs),
+    /// Find the triangle that contains each of many points.
+    Locate(LocateArgs),
+    /// Find the vertices nearest to each of many points.
+    Nearest(NearestArgs),
+    /// The corners of the convex hull in the plane, or its facets in space.
+    Hull(HullArgs),
+    /// Find the vertex furthest from each of many points.
+    Furthest(FurthestArgs),
+    /// Voronoi cells, clipped, as polygons or as a picture.
+    Voronoi(VoronoiArgs),
+    /// Insert, remove, move and ask, as a text file says, one operation a line.
+    Replay(ReplayArgs),
+    /// Judge triangles from any program: Delaunay? canonical?
+    Check(CheckArgs),
+    /// Make a named set of points; the same seed gives the same bytes on every machine.
+    Generate(GenerateArgs),
+    /// Draw points, triangles and hull as SVG or PNG.
+    Draw(DrawArgs),
+    /// Show points in Brownian motion as a moving picture.
+    Animate(AnimateArgs),
+    /// Tell what is in a file of points: counts, bounds, duplicates, degeneracies.
+    Info(InfoArgs),
+    /// Shrink points on which algorithms disagree, and print them as a test.
+    Reduce(ReduceArgs),
+    /// Repeat the experiments of the papers, with the papers' figures beside.
+    Experiment(ExperimentArgs),
+    /// Print the version.
+    Version,
+    /// Print a script that completes commands and options in a shell.
+    #[command(after_help = "Examples:
+  delone completions bash > ~/.local/share/bash-completion/completions/delone
+  delone completions zsh > ~/.zfunc/_delone
+  delone completions fish > ~/.config/fish/completions/delone.fish")]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Print the manual page, or write those of all commands into a folder.
+    Man {
+        /// Folder for the pages.
+        #[arg(long, short, value_name = "FOLDER")]
+        output: Option<PathBuf>,
+    },
+}
+
+/// How points are read.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct InputArgs {
+    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl
+    /// vtk vtu pcd geojson, each also with .gz. Several files are one set.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) input: Vec<PathBuf>,
+    /// Format of the input, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) from: Option<Format>,
+    /// LAS classes to keep, by number or name (ground, building, water, ...), separated by commas.
+    #[arg(long, value_name = "CLASS", value_delimiter = ',', value_parser = class)]
+    pub(crate) class: Vec<u8>,
+    /// Columns of text that are x, y and perhaps z: names or numbers from 1, separated by commas.
+    #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
+    pub(crate) columns: Vec<String>,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+impl InputArgs {
+    /// The files that are read.
+    pub(crate) fn paths(&self) -> Vec<&Path> {
+        self.input.iter().map(PathBuf::as_path).collect()
+    }
+
+    /// The files that are read, and another one.
+    pub(crate) fn paths_and<'a>(&'a self, other: &'a Path) -> Vec<&'a Path> {
+        self.paths().into_iter().chain([other]).collect()
+    }
+
+    /// What messages call the set.
+    pub(crate) fn label(&self) -> PathBuf {
+        match &self.input[..] {
+            [one] => one.clone(),
+            [first, rest @ ..] => format!("{} and {} more", first.display(), rest.len()).into(),
+            [] => PathBuf::new(),
+        }
+    }
+}
+
+/// A LAS class by its number or its name.
+fn class(text: &str) -> Result<u8, String> {
+    let named = LAS_CLASSES.iter().find(|(name, _)| text.eq_ignore_ascii_case(name)).map(|class| class.1);
+    named.or_else(|| text.parse().ok()).ok_or_else(|| {
+        let names: Vec<&str> = LAS_CLASSES.iter().map(|class| class.0).collect();
+        format!("a class is a number up to 255 or one of {}", names.join(", "))
+    })
+}
+
+/// A length in coordinate units.
+fn length(text: &str) -> Result<f64, String> {
+    text.parse().ok().filter(|x: &f64| *x >= 0.0).ok_or_else(|| "it is no length".to_owned())
+}
+
+/// A number of things, 1e6 as well as 1000000.
+fn count(text: &str) -> Result<usize, String> {
+    let plain = text.replace('_', "");
+    let scientific = || plain.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..9e15).contains(n));
+    plain
+        .parse()
+        .ok()
+        .or_else(|| scientific().map(|n| n as usize))
+        .ok_or_else(|| "it is no whole number".to_owned())
+}
+
+/// The plane or space.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct DimArgs {
+    /// Dimension: 2 takes x and y, 3 takes z too.
+    #[arg(long, value_name = "DIM", default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=3))]
+    pub(crate) dim: u8,
+}
+
+impl DimArgs {
+    pub(crate) fn is_space(self) -> bool {
+        self.dim == 3
+    }
+}

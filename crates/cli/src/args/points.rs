@@ -1,0 +1,140 @@
+//! What commands take that make, describe and judge points and meshes: `generate`, `info`, `check`, `reduce`, `experiment`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use delone_io::Format;
+
+use super::{DimArgs, InputArgs, count};
+
+/// Make points.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone generate uniform -n 1000000 --seed 1 -o points.npy
+  delone generate ellipse2 -n 5000 -o points.csv
+  delone generate list")]
+pub(crate) struct GenerateArgs {
+    /// Name of the set, or `list` to see them all.
+    #[arg(value_name = "KIND")]
+    pub(crate) kind: String,
+    /// Number of points, as in 5000 or 1e6.
+    #[arg(short, value_name = "N", default_value = "1000", value_parser = count)]
+    pub(crate) n: usize,
+    /// Seed of the random numbers.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Output file (csv xyz txt npy bin node ply obj geojson), or - for standard output.
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+    /// Format of the output, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// Describe points.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:
+  delone info tile.laz --class 2")]
+pub(crate) struct InfoArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+}
+
+/// Judge triangles.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone check points.npy triangles.npy
+  delone check points.node other.1.ele
+  delone check points.npy tetrahedra.npy --dim 3
+
+Exit status: 0 Delaunay (the answer says whether canonical too), 1 not Delaunay or bad data, 2 wrong usage.")]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    /// File of triangles (npy ele ply obj) or of tetrahedra (npy ele).
+    #[arg(value_name = "MESH")]
+    pub(crate) mesh: PathBuf,
+}
+
+/// Shrink points.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone reduce points.csv -o small.csv
+  delone reduce points.npy --against 'python3 other.py {points} {triangles}'
+
+Without --against, points fail on which Delone's algorithms disagree or a check fails. With it, points fail for
+which the command fails, or writes triangles that are not Delaunay; {points} and {triangles} are .npy files.")]
+pub(crate) struct ReduceArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Another program to judge instead.
+    #[arg(long, value_name = "COMMAND")]
+    pub(crate) against: Option<String>,
+    /// File for the reduced points.
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// Repeat experiments.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone experiment hierarchy --largest 50000
+  delone experiment jump-and-walk -o results
+  delone experiment history -o results
+  delone experiment radial --largest 1000000
+  delone experiment imprecise --largest 10000000 -o results
+  delone experiment scan model.ply
+  delone experiment growth --largest 10000000 -o results
+
+A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
+seconds on this machine and differ from run to run; counts depend on the seed alone.")]
+pub(crate) struct ExperimentArgs {
+    /// Which experiment.
+    #[arg(value_name = "NAME")]
+    pub(crate) name: ExperimentName,
+    /// File of points in space, for scan.
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: Option<PathBuf>,
+    /// Folder for tables and plots.
+    #[arg(long, short, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// The largest set.
+    #[arg(long, value_name = "N", default_value = "500000", value_parser = count)]
+    pub(crate) largest: usize,
+    /// Seed of points and orders.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// Experiments by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExperimentName {
+    /// Build five kinds of sets with the Delaunay hierarchy and its simpler modes (Devillers 1998, §5.5.2).
+    Hierarchy,
+    /// Triangles visited by jump-and-walk, and its cost against the sample size (Devroye, Mücke & Zhu 1998).
+    JumpAndWalk,
+    /// What ever appears in randomized incremental construction, and what locating costs (Guibas, Knuth & Sharir
+    /// 1992, §2 and §3).
+    History,
+    /// Nearest sites by the history of radial triangles: its size, the work of a query, and its time beside other
+    /// ways (the same, §5).
+    Radial,
+    /// Triangulate instances of imprecise points by hints, in the plane and in space (Devillers 2011, §5).
+    Imprecise,
+    /// Follow points in Brownian motion by the hints of the last step (the same), and automatically.
+    Brownian,
+    /// Add noise to the points of a scanned model, and triangulate by hints (the same).
+    Scan,
+    /// Time of a construction by the number of points, in the plane on one thread and on all, and in space.
+    Growth,
+}

@@ -1,0 +1,217 @@
+//! What commands take that make shapes and pictures: `hull`, `voronoi`, `draw`, `animate`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use delone_io::Format;
+use delone_io::picture::Camera;
+
+use super::{DimArgs, InputArgs, length};
+use crate::message::Failure;
+
+/// Convex hull.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone hull points.csv -o corners.npy
+  delone hull points.csv -o - --to csv
+  delone hull model.ply --dim 3 -o facets.npy -o hull.stl -o hull.png
+  delone hull tile.laz --dim 3 --view 200,30 -o hull.svg
+
+npy and csv hold indices of input points. In the plane: the corners, counter-clockwise from the lexicographically
+smallest. In space: a facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is
+on the line of its neighbours or inside of a face, and of equal points the first is taken. Mesh files hold the corners
+of the hull alone; pictures show flat faces whole.")]
+pub(crate) struct HullArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Output file (npy csv; in space also ply obj stl vtu svg png), or - for standard output; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    /// Algorithm in space; the hull is the same.
+    #[arg(long, value_name = "NAME", default_value = "quickhull")]
+    pub(crate) algorithm: HullAlgorithm,
+    /// Seed of the random order of `history`.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+}
+
+/// Algorithms for hulls in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum HullAlgorithm {
+    /// The furthest points first (Barber, Dobkin & Huhdanpaa 1996).
+    Quickhull,
+    /// Random order, located by history (Guibas, Knuth & Sharir 1992, §4.1).
+    History,
+}
+
+/// Where a picture in space is seen from.
+#[derive(Debug, Args)]
+pub(crate) struct CameraArgs {
+    /// Where pictures are seen from, in degrees: around from the x axis, and up.
+    #[arg(
+        long,
+        value_name = "AROUND,UP",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true,
+        default_value = "-60,25"
+    )]
+    view: Vec<f64>,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
+}
+
+impl CameraArgs {
+    pub(crate) fn camera(&self) -> Result<Camera, Failure> {
+        match self.view[..] {
+            [azimuth, elevation] if azimuth.is_finite() && (-90.0..=90.0).contains(&elevation) => {
+                Ok(Camera { azimuth, elevation, wireframe: false })
+            }
+            _ => Err(Failure::usage(
+                "--view takes two angles, the second from -90 to 90",
+                "as in --view 200,30: from the direction 200 degrees around, 30 degrees up",
+            )),
+        }
+    }
+}
+
+/// Voronoi cells.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone voronoi shops.csv -o cells.geojson -o cells.png
+  delone voronoi shops.csv --clip border.geojson -o cells.geojson
+  delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
+
+GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
+beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site.")]
+pub(crate) struct VoronoiArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Output file (geojson svg png), or - for standard output; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// What to clip to: `box`, `hull` (the convex hull of the sites), or a file with polygons (geojson) or with the
+    /// corners of one polygon (any format of points).
+    #[arg(long, value_name = "REGION", default_value = "box")]
+    pub(crate) clip: PathBuf,
+    /// The box to clip to [default: the bounding box of the sites].
+    #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_hyphen_values = true)]
+    pub(crate) bounds: Vec<f64>,
+    /// Move sites to the centroids of their cells, at most so many times (Lloyd relaxation).
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) relax: usize,
+    /// Stop relaxing when no site moves further than this, in coordinate units.
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0)]
+    pub(crate) tolerance: f64,
+    /// Write the sites, as relaxed, to a file of points.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sites: Option<PathBuf>,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
+}
+
+/// Draw points.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone draw points.csv -o picture.svg
+  delone draw tile.laz --class 2 -o relief.png --size 3000 --edges=no
+  delone draw model.ply --dim 3 --view 200,30 --cut 1,0,0,0.5 -o inside.png
+  delone draw centres.csv --disks 1 --hints -o imprecise.svg
+
+What is drawn follows from the room there is; --edges, --points and --fill decide otherwise. With --dim 3 the hull is
+drawn, or what a cut leaves of the tetrahedra.")]
+pub(crate) struct DrawArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Picture: svg or png, or - for standard output; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    #[command(flatten)]
+    pub(crate) camera: CameraArgs,
+    /// In space, take away the tetrahedra whose middle is beyond the plane A x + B y + C z = D.
+    #[arg(long, value_name = "A,B,C,D", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    pub(crate) cut: Vec<f64>,
+    /// In space, draw edges alone, those behind too.
+    #[arg(long)]
+    pub(crate) wireframe: bool,
+    /// Draw edges.
+    #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
+    pub(crate) edges: Option<Choice>,
+    /// Draw vertices.
+    #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
+    pub(crate) points: Option<Choice>,
+    /// Fill triangles by height or density.
+    #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
+    pub(crate) fill: Option<Choice>,
+    /// In the plane, leave out triangles with an edge longer than this, from the hull inwards.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) max_edge: Option<f64>,
+    /// In the plane, draw a disk of this radius around each point: how imprecise it is.
+    #[arg(long, value_name = "RADIUS")]
+    pub(crate) disks: Option<f64>,
+    /// In the plane, join each point to its hint: the nearest of those before it in a random order.
+    #[arg(long)]
+    pub(crate) hints: bool,
+    /// Seed of the random order of --hints.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+}
+
+/// Show a motion.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone animate points.csv -o motion.png
+  delone generate disks -n 300 -o - --to csv | delone animate - --from csv --radius 1 --steps 100 -o motion.png
+  delone animate points.csv -o 'frame-{}.svg'
+
+Every step moves each point at random inside of a disk around it; the triangulation is repaired, or rebuilt where that is
+faster, and the statistics tell how often. The output is one animated PNG, or a file for each step.")]
+pub(crate) struct AnimateArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Animated picture: png; or, with {} where the number of the step shall stand, a series of png or svg.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: PathBuf,
+    /// Format of an output whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Number of steps.
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(..10_000))]
+    pub(crate) steps: u32,
+    /// How far a point goes in a step at most [default: a fifth of the distance of neighbours in an even set].
+    #[arg(long, value_name = "RADIUS")]
+    pub(crate) radius: Option<f64>,
+    /// Milliseconds a picture is shown.
+    #[arg(long, value_name = "MS", default_value_t = 40)]
+    pub(crate) delay: u16,
+    /// The longer side in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
+    /// Seed of the motion.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+}
+
+/// Yes or no.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Choice {
+    Yes,
+    No,
+}

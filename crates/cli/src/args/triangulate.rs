@@ -1,0 +1,101 @@
+//! What `triangulate` takes, and names of algorithms and strategies.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use delone::{Hierarchy, JumpAndWalk, Locate, Walk};
+use delone_io::Format;
+
+use super::{DimArgs, InputArgs, length};
+
+/// Triangulate points.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone triangulate points.csv -o mesh.ply -o picture.png
+  delone triangulate tile.laz --class ground --max-edge 50 -o terrain.ply -o terrain.png
+  delone triangulate north.laz south.laz -o both.ply
+  delone triangulate points.npy -o triangles.npy --check --stats stats.json
+  delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
+  delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
+  delone triangulate measured.npy --hints nominal.npy -o triangles.npy --stats stats.json
+  delone triangulate run-*.npy --hints nominal.npy -o 'mesh-{}.npy'
+
+x and y are triangulated; heights are kept. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
+seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
+from 0.
+Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
+pub(crate) struct TriangulateArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Output file (npy node ele neigh edge ply obj stl vtu geojson svg png), or - for standard output; may be
+    /// repeated. For several instances {} stands for the name of each.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    /// Algorithm; the result is the same [default: divide-conquer in the plane, incremental in space].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) algorithm: Option<AlgorithmName>,
+    /// Point location of the incremental algorithm [default: spatial].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) locate: Option<LocateName>,
+    /// File of approximate positions, row by row those of the points: they are preprocessed, and the points located from
+    /// their hints.
+    #[arg(long, value_name = "CENTRES", conflicts_with_all = ["algorithm", "locate"])]
+    pub(crate) hints: Option<PathBuf>,
+    /// Seed of randomized algorithms; it changes their course, not their result.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// In the plane, leave out triangles with an edge longer than this, from the hull inwards: what bridges bays and
+    /// gaps at the border of the data.
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub(crate) max_edge: Option<f64>,
+    /// Prove the result with exact arithmetic before writing it.
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
+/// Bulk algorithms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AlgorithmName {
+    /// Divide and conquer in Morton order: the fastest, in the plane.
+    DivideConquer,
+    /// One by one in random order; --locate says how points are located.
+    Incremental,
+}
+
+/// Point location strategies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LocateName {
+    /// A k-d tree of hints: the fastest for any set and any change.
+    Tree,
+    /// Walk from the vertex inserted last.
+    Walk,
+    /// Walk from the nearest of n^(1/3) random vertices.
+    JumpAndWalk,
+    /// Descend through triangulations of random samples (the Delaunay hierarchy).
+    Hierarchy,
+    /// Trace all triangles that ever were; no removal.
+    History,
+    /// Triangles keep lists of the points to come; bulk only.
+    Conflict,
+    /// Walk from the previous point in spatial order; bulk only.
+    Spatial,
+}
+
+impl LocateName {
+    /// The strategy of a triangulation that changes, if this is one.
+    pub(crate) fn strategy(self, seed: u64) -> Option<Locate> {
+        Some(match self {
+            Self::Tree => Locate::Tree,
+            Self::Walk => Locate::Walk(Walk::Visibility),
+            Self::JumpAndWalk => Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
+            Self::Hierarchy => Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() }),
+            Self::History => Locate::History,
+            Self::Conflict | Self::Spatial => return None,
+        })
+    }
+}

@@ -1,0 +1,58 @@
+//! What `locate` and `nearest` have in common: a question for each of many points, and a row of indices for an answer.
+
+use delone::Work;
+
+use crate::args::{InputArgs, QueryArgs};
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+use crate::room::{self, Room};
+use crate::stats::{Stats, work_done};
+
+/// Asks the same question for every query and writes a row of indices for each, filled up by -1.
+pub(crate) fn answer<R: Room>(
+    input: &InputArgs,
+    query: &QueryArgs,
+    columns: usize,
+    quiet: bool,
+    ask: impl Fn(&R, R::Point, &mut Work) -> Result<Vec<usize>, delone::Error>,
+) -> Result<(), Failure> {
+    let strategy = room::strategy(query.locate, query.seed, "queries")?;
+    let format = files::index_format(&query.output, query.to)?;
+    files::keep_apart(
+        &input.paths_and(&query.queries),
+        std::iter::once(query.output.as_path()).chain(input.stats.as_deref()),
+    )?;
+    let mut stats = Stats::start();
+    let (points, _) = room::read::<R>(input, quiet)?;
+    let queries = room::queries::<R>(&query.queries, quiet)?;
+    stats.phase("read");
+    let mut d: R = room::build(&points, R::FASTEST, &input.label(), quiet)?;
+    drop(points);
+    d.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
+    stats.phase("build");
+    room::remark(&d, quiet);
+    let mut rows = Vec::with_capacity(columns * queries.len());
+    let mut work = Work::default();
+    {
+        let _phase = Phase::start(quiet, "locating");
+        for (index, &q) in queries.iter().enumerate() {
+            let found = ask(&d, q, &mut work).map_err(|error| {
+                Failure::new(
+                    format!("{}: query {index}: {error}", query.queries.display()),
+                    "remove that query or repair its coordinates: every finite number is accepted",
+                )
+            })?;
+            rows.extend(found.into_iter().map(|i| i as i64));
+            rows.resize(columns * (index + 1), -1);
+        }
+    }
+    stats.phase("query");
+    stats.triangulation(&d, d.counters());
+    stats.set("queries", queries.len());
+    stats.set("counters", work_done(&work));
+    files::write(&query.output, |out| delone_io::write_indices(out, format, columns, &rows))?;
+    stats.phase("write");
+    stats.tell(quiet, R::WORDS.simplex);
+    stats.write(input.stats.as_deref())
+}

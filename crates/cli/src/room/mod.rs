@@ -1,0 +1,192 @@
+//! The plane and space as the commands see them, so that each command is written once.
+//!
+//! What commands share is here too: how points are read, triangulated and remarked on. A dimension tells in its own file
+//! what is different there.
+
+mod plane;
+mod space;
+
+use std::path::{Path, PathBuf};
+
+use delone::{Change, Coordinates, Counters, Dimension, Imprecise, Locate, Triangulation, Verdict, VertexId};
+use delone_io::{Cloud, Drawable, Format, Mesh, Source, Trim};
+
+use crate::args::{AlgorithmName, InputArgs, LocateName};
+use crate::files;
+use crate::message::{Failure, note};
+use crate::progress::Phase;
+use crate::stats::Stats;
+
+/// The plane or space, by its triangulation.
+pub(crate) trait Room: Change<Point: Drawable> {
+    const WORDS: Words;
+    type Algorithm: Copy;
+    /// What commands build with that leave no choice.
+    const FASTEST: Self::Algorithm;
+    type Hints: Imprecise<Triangulation = Self>;
+    /// The corners of a simplex in a file.
+    type Row;
+
+    /// Whether this is space.
+    fn is_space() -> bool {
+        Self::Point::COUNT == 3
+    }
+
+    /// Takes the coordinates that are triangulated out of what a file has.
+    fn take_points(cloud: &mut Cloud, path: &Path) -> Result<Vec<Self::Point>, Failure>;
+
+    /// How to build, by the names of options.
+    fn plan(
+        algorithm: Option<AlgorithmName>,
+        locate: Option<LocateName>,
+        seed: u64,
+    ) -> Result<Plan<Self::Algorithm>, Failure>;
+
+    fn build(points: &[Self::Point], algorithm: Self::Algorithm) -> Result<Self, delone::Error>;
+
+    /// What the construction did.
+    fn counters(&self) -> Counters;
+
+    /// Whether a point is on the circle or sphere through the corners of a simplex.
+    fn is_tie(simplex: &[Self::Point], q: Self::Point) -> bool;
+
+    /// Tells `info` more of simplices and hull, line by line.
+    fn describe(&self, line: &mut impl FnMut(&str, String), stats: &mut Stats);
+
+    fn read_simplices(source: Box<dyn Source>, format: Format) -> Result<Vec<Self::Row>, delone_io::Error>;
+
+    /// Judges simplices from elsewhere.
+    fn verify(points: &[Self::Point], simplices: &[Self::Row]) -> Result<Verdict, Objection>;
+}
+
+/// What things are called.
+pub(crate) struct Words {
+    /// A simplex, and several.
+    pub(crate) simplex: [&'static str; 2],
+    /// What the corners of neighbours are that could be divided in another way.
+    pub(crate) tied: &'static str,
+    /// What `check` calls simplices in negative order: in statistics, and in a sentence.
+    pub(crate) negative: [&'static str; 2],
+    /// And neighbours that are divided in another way than the canonical one.
+    pub(crate) other: [&'static str; 2],
+}
+
+/// How to build, and what statistics say of it.
+pub(crate) struct Plan<A> {
+    pub(crate) algorithm: A,
+    pub(crate) name: AlgorithmName,
+    /// How points are located, where that is a choice.
+    pub(crate) locate: Option<LocateName>,
+}
+
+/// Why simplices from elsewhere are wrong.
+pub(crate) enum Objection {
+    /// The points themselves are.
+    Points(delone::Error),
+    Simplices(String),
+}
+
+/// Reads the points of a command, and what else their files tell.
+pub(crate) fn read<R: Room>(input: &InputArgs, quiet: bool) -> Result<(Vec<R::Point>, Cloud), Failure> {
+    let mut cloud = files::points(input, R::Point::COUNT, quiet)?;
+    let points = R::take_points(&mut cloud, &input.label())?;
+    Ok((points, cloud))
+}
+
+/// Reads points that are asked for, or centres.
+pub(crate) fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>, Failure> {
+    R::take_points(&mut files::queries(path, R::Point::COUNT, quiet)?, path)
+}
+
+/// Refuses formats that hold no triangulations.
+pub(crate) fn check_formats<R: Room>(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
+    let check = |(path, format): &(PathBuf, Format)| {
+        R::Point::check(*format).map_err(|error| Failure::file(path, &error))
+    };
+    outputs.iter().try_for_each(check)
+}
+
+/// Triangulates, with progress.
+pub(crate) fn build<R: Room>(
+    points: &[R::Point],
+    algorithm: R::Algorithm,
+    input: &Path,
+    quiet: bool,
+) -> Result<R, Failure> {
+    let _phase = Phase::start(quiet, "triangulating");
+    R::build(points, algorithm).map_err(|error| Failure::points(input, &error))
+}
+
+/// The strategy of a triangulation that is asked or changed, as `purpose` says.
+pub(crate) fn strategy(locate: LocateName, seed: u64, purpose: &str) -> Result<Locate, Failure> {
+    locate.strategy(seed).ok_or_else(|| {
+        Failure::usage(
+            format!("that strategy is for building in bulk, not for {purpose}"),
+            "choose --locate tree, walk, jump-and-walk, hierarchy or history",
+        )
+    })
+}
+
+/// Notes on what might surprise.
+pub(crate) fn remark<R: Room>(d: &R, quiet: bool) {
+    let (points, duplicates) = (d.ids_given(), d.duplicates().count());
+    if duplicates > 0 {
+        let text = match duplicates {
+            1 => "equals an earlier one and is no vertex",
+            _ => "equal earlier ones and are no vertices",
+        };
+        note(quiet, format_args!("{duplicates} of {points} points {text}"));
+    }
+    let what = match d.dimension() {
+        Dimension::Empty => "there are no points",
+        Dimension::Point => "there is only one distinct point",
+        Dimension::Line => "all points are on one line",
+        Dimension::Plane if R::is_space() => "all points are in one plane",
+        Dimension::Plane | Dimension::Space => return,
+    };
+    note(quiet, format_args!("{what}, so there are no {}", R::WORDS.simplex[1]));
+}
+
+/// What is left out for its length.
+pub(crate) fn trim(d: &impl Triangulation, longest: Option<f64>, stats: &mut Stats) -> Option<Trim> {
+    let trim = Trim::long_edges(d, longest?);
+    stats.set("left_out", trim.count());
+    Some(trim)
+}
+
+/// What is written of a triangulation.
+pub(crate) fn mesh<'a, R: Room>(
+    d: &'a R,
+    points: &'a [R::Point],
+    about: &'a Cloud,
+    trim: Option<&'a Trim>,
+) -> Mesh<'a, R> {
+    let (heights, crs, base) = (about.z.as_deref(), about.crs.as_ref(), about.base);
+    Mesh { heights, crs, base, trim, ..Mesh::new(d, points) }
+}
+
+/// The least of all even permutations of corners: the same whatever found them.
+pub(crate) fn positive(corners: &[VertexId]) -> Vec<usize> {
+    let mut corners: Vec<usize> = corners.iter().map(|v| v.index()).collect();
+    let before = |(k, &v): (usize, &usize)| corners[..k].iter().filter(|&&w| w > v).count();
+    let is_odd = corners.iter().enumerate().map(before).sum::<usize>() % 2 == 1;
+    corners.sort_unstable();
+    if is_odd && let [.., v, w] = &mut corners[..] {
+        std::mem::swap(v, w);
+    }
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::positive;
+    use delone::VertexId;
+
+    #[test]
+    fn corners_have_one_order() {
+        let of = |corners: &[usize]| positive(&corners.iter().map(|&i| VertexId::new(i)).collect::<Vec<_>>());
+        assert_eq!((of(&[7, 3]), of(&[3, 7])), (vec![7, 3], vec![3, 7]));
+        assert_eq!((of(&[5, 2, 4]), of(&[2, 5, 4])), (vec![2, 4, 5], vec![2, 5, 4]));
+        assert_eq!((of(&[4, 3, 2, 1]), of(&[4, 3, 1, 2])), (vec![1, 2, 3, 4], vec![1, 2, 4, 3]));
+    }
+}

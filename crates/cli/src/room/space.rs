@@ -1,0 +1,91 @@
+//! What is different in space.
+
+use std::path::Path;
+
+use delone::space::verify::{Objection3, verify};
+use delone::{Algorithm3, Counters, Delaunay3, Hints3, Verdict};
+use delone_io::{Cloud, Format, Source};
+use delone_predicates::in_sphere_with_ties;
+
+use super::{Objection, Plan, Room, Words};
+use crate::args::{AlgorithmName, LocateName};
+use crate::message::Failure;
+use crate::stats::Stats;
+
+impl Room for Delaunay3 {
+    const WORDS: Words = Words {
+        simplex: ["tetrahedron", "tetrahedra"],
+        tied: "cospherical",
+        negative: ["negative", "in negative order"],
+        other: ["other_ties", "ties between neighbours are broken in another way"],
+    };
+    type Algorithm = Algorithm3;
+    const FASTEST: Algorithm3 = Algorithm3::Spatial { seed: 0 };
+    type Hints = Hints3;
+    type Row = [u64; 4];
+
+    fn take_points(cloud: &mut Cloud, path: &Path) -> Result<Vec<[f64; 3]>, Failure> {
+        let xy = std::mem::take(&mut cloud.xy);
+        match cloud.z.take() {
+            Some(z) => Ok(xy.iter().zip(z).map(|(&[x, y], z)| [x, y, z]).collect()),
+            None if xy.is_empty() => Ok(Vec::new()),
+            None => Err(Failure::new(
+                format!("{}: the points have no third coordinate", path.display()),
+                "leave --dim 3 out, or name three columns with --columns",
+            )),
+        }
+    }
+
+    fn plan(
+        algorithm: Option<AlgorithmName>,
+        locate: Option<LocateName>,
+        seed: u64,
+    ) -> Result<Plan<Algorithm3>, Failure> {
+        if algorithm == Some(AlgorithmName::DivideConquer) {
+            return Err(Failure::usage(
+                "divide and conquer is for the plane",
+                "leave --algorithm out: in space points are inserted one by one in spatial order",
+            ));
+        }
+        let locate = locate.unwrap_or(LocateName::Spatial);
+        let algorithm = match (locate, locate.strategy(seed)) {
+            (LocateName::Spatial, _) => Algorithm3::Spatial { seed },
+            (LocateName::Conflict | LocateName::History, _) | (_, None) => {
+                return Err(Failure::usage(
+                    "location by history and by conflict lists is for the plane",
+                    "choose --locate spatial, tree, walk, jump-and-walk or hierarchy",
+                ));
+            }
+            (_, Some(locate)) => Algorithm3::Located { locate, seed },
+        };
+        Ok(Plan { algorithm, name: AlgorithmName::Incremental, locate: Some(locate) })
+    }
+
+    fn build(points: &[[f64; 3]], algorithm: Algorithm3) -> Result<Self, delone::Error> {
+        Self::with_algorithm(points, algorithm)
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters()
+    }
+
+    fn is_tie(simplex: &[[f64; 3]], q: [f64; 3]) -> bool {
+        matches!(*simplex, [a, b, c, d] if in_sphere_with_ties(a, b, c, d, q).is_zero())
+    }
+
+    fn describe(&self, line: &mut impl FnMut(&str, String), _: &mut Stats) {
+        line("edges", self.edges().count().to_string());
+        line("hull facets", self.hull_facets().count().to_string());
+    }
+
+    fn read_simplices(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 4]>, delone_io::Error> {
+        delone_io::read_tetrahedra(source, format)
+    }
+
+    fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict, Objection> {
+        verify(points, tetrahedra).map_err(|objection| match objection {
+            Objection3::Points(error) => Objection::Points(error),
+            other => Objection::Simplices(other.to_string()),
+        })
+    }
+}

@@ -1,0 +1,243 @@
+//! A triangulation of any kind to be written, whole or without what is left out of it.
+
+use std::io::Write;
+
+use delone::{Coordinates, Corners, Triangulation, VertexId};
+
+use crate::formats::{geojson, npy, obj, ply, stl, triangle, vtu};
+use crate::{Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
+
+/// A triangulation to be written, with what lies beside it.
+///
+/// ```
+/// use delone::{Delaunay2, Delaunay3};
+/// use delone_io::{Format, Mesh, picture, write_mesh};
+///
+/// let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+/// let triangulation = Delaunay2::from_points(&points)?;
+/// let mut file = Vec::new();
+/// write_mesh(&mut file, Format::Ele, &Mesh::new(&triangulation, &points), &picture::Options::default())?;
+/// assert_eq!(file, b"1 3 0\n0 0 1 2\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Mesh<'a, T: Triangulation> {
+    /// The triangulation.
+    pub triangulation: &'a T,
+    /// All points of the input by id, those that are no vertices too.
+    pub points: &'a [T::Point],
+    /// In the plane, the height of each of them.
+    pub heights: Option<&'a [f64]>,
+    /// What the coordinates mean; formats that can say it do.
+    pub crs: Option<&'a Crs>,
+    /// What the first point is called in Triangle's formats, 0 or 1.
+    pub base: usize,
+    /// What is left out.
+    pub trim: Option<&'a Trim>,
+}
+
+impl<'a, T: Triangulation> Mesh<'a, T> {
+    /// Corners of a simplex.
+    pub(crate) const WIDTH: usize = T::Point::COUNT + 1;
+
+    /// All of a triangulation.
+    pub fn new(triangulation: &'a T, points: &'a [T::Point]) -> Self {
+        Self { triangulation, points, heights: None, crs: None, base: 0, trim: None }
+    }
+
+    fn keeps(&self, s: T::Simplex) -> bool {
+        self.trim.is_none_or(|trim| trim.keeps(self.triangulation.index(s)))
+    }
+
+    /// The finite simplices that are not left out.
+    pub(crate) fn simplices(&self) -> impl Iterator<Item = T::Simplex> + Send + '_ {
+        self.triangulation.simplices().filter(|&s| self.keeps(s))
+    }
+
+    /// How many there are.
+    pub fn simplex_count(&self) -> usize {
+        self.triangulation.simplex_count() - self.trim.map_or(0, Trim::count)
+    }
+
+    /// What is across the facet opposite to corner `k`, if it is not left out.
+    pub(crate) fn across(&self, s: T::Simplex, k: usize) -> Option<T::Simplex> {
+        self.triangulation.across(s, k).filter(|&next| self.keeps(next))
+    }
+
+    /// The corners of each simplex as indices of points.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> + Send + '_ {
+        self.simplices().map(|s| self.triangulation.corners(s).indices())
+    }
+
+    /// The coordinates of a vertex.
+    pub(crate) fn point(&self, v: VertexId) -> T::Point {
+        self.points[v.index()]
+    }
+
+    /// All points with three coordinates: heights are the third, or zero.
+    pub(crate) fn positions(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let height = |i: usize| self.heights.and_then(|heights| heights.get(i)).copied().unwrap_or_default();
+        let position = move |(i, p): (usize, &T::Point)| {
+            let coordinate = |k: usize| p.as_ref().get(k).copied();
+            [0, 1, 2].map(|k| coordinate(k).unwrap_or_else(|| height(i)))
+        };
+        self.points.iter().enumerate().map(position)
+    }
+
+    /// The edges of what is not left out, each with whether it is on the border of that. Those of points that span less are
+    /// nothing but border, and edges of no simplex that a trim would keep.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], bool)> + '_ {
+        let t = self.triangulation;
+        let is_spanned = t.simplices().next().is_some();
+        let mut border = Vec::new();
+        for s in self.simplices() {
+            for k in (0..Self::WIDTH).filter(|&k| self.across(s, k).is_none()) {
+                border.extend(pairs(t.corners(s)).filter(|pair| !pair.contains(&t.corners(s).as_ref()[k])));
+            }
+        }
+        border.sort_unstable();
+        // What is kept and what is left out share no edge but on the border between them.
+        let mut gone: Vec<[VertexId; 2]> = Vec::new();
+        if self.trim.is_some() {
+            gone.extend(t.simplices().filter(|&s| !self.keeps(s)).flat_map(|s| pairs(t.corners(s))));
+            gone.sort_unstable();
+        }
+        let shown = t.edges().filter(move |_| is_spanned || self.trim.is_none());
+        shown.filter_map(move |edge| {
+            let pair = ordered(edge);
+            let is_border = !is_spanned || border.binary_search(&pair).is_ok();
+            (is_border || gone.binary_search(&pair).is_err()).then_some((edge, is_border))
+        })
+    }
+}
+
+/// The edges of a simplex, by their ends in order.
+fn pairs<C: Corners>(corners: C) -> impl Iterator<Item = [VertexId; 2]> {
+    let count = corners.as_ref().len();
+    let each = (0..count).flat_map(move |i| (i + 1..count).map(move |j| (i, j)));
+    each.map(move |(i, j)| ordered([corners.as_ref()[i], corners.as_ref()[j]]))
+}
+
+fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
+    [v.min(w), v.max(w)]
+}
+
+impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {
+    fn positions(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.positions()
+    }
+
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send {
+        self.simplices().map(|s| {
+            let corners = self.triangulation.corners(s);
+            [0, 1, 2].map(|k| corners.as_ref()[k].index())
+        })
+    }
+
+    fn heights(&self) -> Option<&[f64]> {
+        self.heights
+    }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.crs
+    }
+}
+
+/// Points whose triangulations are drawn, and written where a format holds triangles alone: those of the plane as they
+/// are, those of space by their border.
+pub trait Drawable: Coordinates {
+    /// The formats that hold triangulations of such points.
+    const FORMATS: &'static [Format];
+
+    /// Why a triangulation is not written in another format.
+    fn refusal(format: Format) -> Error;
+
+    /// Whether triangulations of such points are written in a format.
+    fn check(format: Format) -> Result<(), Error> {
+        if Self::FORMATS.contains(&format) { Ok(()) } else { Err(Self::refusal(format)) }
+    }
+
+    /// Writes the triangles of a triangulation, or draws it.
+    fn write_triangles<T: Triangulation<Point = Self>>(
+        out: &mut dyn Write,
+        format: Format,
+        mesh: &Mesh<T>,
+        options: &picture::Options,
+    ) -> Result<Remark, Error>;
+}
+
+impl Drawable for [f64; 2] {
+    const FORMATS: &'static [Format] = &{
+        use Format::{Edge, Ele, GeoJson, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
+        [Npy, Node, Ele, Neigh, Edge, Vtu, Ply, Obj, Stl, GeoJson, Svg, Png]
+    };
+
+    fn refusal(format: Format) -> Error {
+        Error::NotAMesh(format)
+    }
+
+    fn write_triangles<T: Triangulation<Point = Self>>(
+        out: &mut dyn Write,
+        format: Format,
+        mesh: &Mesh<T>,
+        options: &picture::Options,
+    ) -> Result<Remark, Error> {
+        match format {
+            Format::Ply => ply::write(out, mesh)?,
+            Format::Obj => obj::write(out, mesh)?,
+            Format::Stl => return Ok(stl::write(out, mesh)?),
+            Format::GeoJson => geojson::write(out, mesh)?,
+            Format::Svg | Format::Png => picture::write(out, format, mesh, options)?,
+            _ => return Err(Self::refusal(format)),
+        }
+        Ok(None)
+    }
+}
+
+impl Drawable for [f64; 3] {
+    const FORMATS: &'static [Format] = &{
+        use Format::{Edge, Ele, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
+        [Npy, Node, Ele, Neigh, Edge, Vtu, Ply, Obj, Stl, Svg, Png]
+    };
+
+    fn refusal(format: Format) -> Error {
+        Error::NotABody(format)
+    }
+
+    fn write_triangles<T: Triangulation<Point = Self>>(
+        out: &mut dyn Write,
+        format: Format,
+        mesh: &Mesh<T>,
+        options: &picture::Options,
+    ) -> Result<Remark, Error> {
+        Self::check(format)?;
+        write_solid(out, format, &mesh.solid(), options)
+    }
+}
+
+/// Writes a triangulation, or draws it as the options say. Indices in the file are those of the input points (duplicates
+/// are written as points that no simplex uses), from 0 unless the format counts from 1. Of space, formats that hold
+/// triangles alone get the border, with the points on it.
+pub fn write_mesh<T: Triangulation<Point: Drawable>>(
+    out: &mut dyn Write,
+    format: Format,
+    mesh: &Mesh<T>,
+    options: &picture::Options,
+) -> Result<Remark, Error> {
+    match format {
+        Format::Npy => npy::write_simplices(out, mesh.simplex_count(), Mesh::<T>::WIDTH, mesh.rows())?,
+        Format::Node => {
+            triangle::write_node(out, mesh.base, T::Point::COUNT, mesh.points, mesh.heights)?;
+        }
+        Format::Ele => triangle::write_ele(out, mesh)?,
+        Format::Neigh => triangle::write_neigh(out, mesh)?,
+        Format::Edge => triangle::write_edge(out, mesh)?,
+        Format::Vtu => {
+            let (points, cells) = (mesh.points.len(), mesh.simplex_count());
+            let grid = vtu::Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH };
+            grid.write(out, mesh.positions(), mesh.rows())?;
+        }
+        _ => return T::Point::write_triangles(out, format, mesh, options),
+    }
+    Ok(None)
+}
