@@ -121,7 +121,7 @@ impl Film {
                 self.moving.step(&self.positions).map_err(|error| Error::Content(error.to_string()))?;
             match step {
                 Step2::Repaired { .. } => self.repaired += 1,
-                Step2::Rebuilt => self.rebuilt += 1,
+                _ => self.rebuilt += 1,
             }
         }
         Ok(self.moving.triangulation())

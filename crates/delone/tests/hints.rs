@@ -390,7 +390,7 @@ fn where_too_much_turns_over_all_is_built_anew() {
                 repaired += 1;
                 most = most.max(reinserted);
             }
-            Step2::Rebuilt => rebuilt += 1,
+            _ => rebuilt += 1,
         }
         same(moving.triangulation(), &there, "moved");
     }

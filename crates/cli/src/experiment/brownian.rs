@@ -180,7 +180,7 @@ fn plane_step(step: Step2, n: usize) -> String {
             let [flips, reinserted] = [flips, reinserted].map(|count| short(count as f64 / n as f64));
             format!("repaired: {flips} flips and {reinserted} reinsertions a point")
         }
-        Step2::Rebuilt => "rebuilt".to_owned(),
+        _ => "rebuilt".to_owned(),
     }
 }
 
@@ -191,6 +191,6 @@ fn space_step(step: Step3, n: usize) -> String {
             format!("repaired: {holes} holes and {reinserted} reinsertions a point")
         }
         Step3::Hinted => "by hints".to_owned(),
-        Step3::Rebuilt => "rebuilt".to_owned(),
+        _ => "rebuilt".to_owned(),
     }
 }

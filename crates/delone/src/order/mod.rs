@@ -9,6 +9,7 @@ pub(crate) mod space;
 
 /// In which order centres are inserted, and instances after them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum HintOrder {
     /// At random.
     Random {

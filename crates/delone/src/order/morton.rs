@@ -195,21 +195,21 @@ impl<'a> Sorter<'a> {
         radix::sort(&mut entries, depth);
         let parts = parallel::parts(n);
         if parts == 1 {
-            self.place(to, &entries, 0, points, &index_of, depth);
+            self.put_in_order(to, &entries, 0, points, &index_of, depth);
             return depth;
         }
         let ends: Vec<usize> = parallel::even_ends(n, parts).into_iter().map(|end| to.start + end).collect();
         let first = self.start + to.start;
         parallel::map(self.split(to, &ends), |mut task| {
             let from = task.start - first;
-            task.place(0..task.points.len(), &entries, from, points, &index_of, depth);
+            task.put_in_order(0..task.points.len(), &entries, from, points, &index_of, depth);
         });
         depth
     }
 
     /// Writes points, indices and cuts of sorted entries, from one of them on, to some positions: three plain loops,
     /// because the points come from everywhere in memory and nothing should stand in the way of fetching many at once.
-    fn place(
+    fn put_in_order(
         &mut self,
         to: Range<usize>,
         entries: &[u64],

@@ -61,7 +61,7 @@ impl Delaunay2 {
             return Ok(Inserted::Existing(self.base.mesh.name(place)));
         }
         let v = self.new_names([q].into_iter())?;
-        self.place(v, found, q, tally);
+        self.insert_named(v, found, q, tally);
         Ok(Inserted::New(v))
     }
 
@@ -188,7 +188,7 @@ impl Delaunay2 {
                 self.duplicates.push(duplicate);
                 last = Some(duplicate.vertex);
             } else {
-                self.place(v, found, q, tally);
+                self.insert_named(v, found, q, tally);
                 last = Some(v);
             }
         }
@@ -224,7 +224,7 @@ impl Delaunay2 {
 
     /// Makes a named point a vertex. Where it falls there is none.
     #[inline]
-    fn place<T: Tally>(&mut self, v: VertexId, found: Found, q: [f64; 2], tally: &mut T) {
+    fn insert_named<T: Tally>(&mut self, v: VertexId, found: Found, q: [f64; 2], tally: &mut T) {
         let place = self.base.place_for(found.spot, q);
         // First the name: memory takes it while the cavity is dug.
         self.base.mesh.names().bind(v, place);

@@ -65,6 +65,7 @@ struct Level {
 
 /// The smallest circle that no point is outside of.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct EnclosingCircle {
     /// Its centre, rounded.
     pub centre: [f64; 2],

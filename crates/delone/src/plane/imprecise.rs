@@ -150,7 +150,7 @@ impl Hints2 {
         instance: &[P],
         tally: &mut T,
     ) -> Result<&Delaunay2, Error> {
-        self.place(instance)?;
+        self.restart(instance)?;
         let Delaunay2 { base, duplicates, .. } = &mut self.current;
         self.gave_up = !insert_all::<_, RENEW>(base, &mut self.hints, duplicates, tally);
         if self.gave_up {
@@ -161,7 +161,7 @@ impl Hints2 {
     }
 
     /// Puts an instance at its places, none a vertex yet.
-    fn place<P: Position2>(&mut self, instance: &[P]) -> Result<(), Error> {
+    fn restart<P: Position2>(&mut self, instance: &[P]) -> Result<(), Error> {
         if instance.len() != self.order.len() {
             return Err(Error::Length { expected: self.order.len(), found: instance.len() });
         }

@@ -39,6 +39,7 @@ const BLOCK: usize = 16;
 
 /// How a step was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Step2 {
     /// By repair.
     Repaired {

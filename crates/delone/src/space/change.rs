@@ -52,7 +52,7 @@ impl Delaunay3 {
         if name >= MAX_POINTS_IN_SPACE {
             return Err(Error::TooManyPoints { count: name + 1, most: MAX_POINTS_IN_SPACE });
         }
-        match self.place(q, tally) {
+        match self.insert_unnamed(q, tally) {
             Err(Refusal::Full) => Err(self.full()),
             Err(Refusal::Vertex(there)) => Ok(Inserted::Existing(self.base.mesh.name(there))),
             Ok(place) => {
@@ -95,7 +95,7 @@ impl Delaunay3 {
     pub fn move_to<P: Position3>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
         let q = finite(point.xyz())?;
         let old = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
-        match self.place(q, &mut ()) {
+        match self.insert_unnamed(q, &mut ()) {
             Err(Refusal::Full) => Err(self.full()),
             Err(Refusal::Vertex(there)) if there == old => Ok(()),
             Err(Refusal::Vertex(there)) => Err(Error::Occupied { vertex: self.base.mesh.name(there) }),
@@ -193,7 +193,7 @@ impl Delaunay3 {
         let mut result = Ok(());
         for i in order {
             let v = VertexId::new(first + i as usize);
-            match self.place(points[i as usize].xyz(), tally) {
+            match self.insert_unnamed(points[i as usize].xyz(), tally) {
                 Ok(place) => self.base.mesh.names.bind(v, place),
                 Err(Refusal::Vertex(place)) => {
                     self.duplicates.push(self.base.mesh.names.coincide(v, place));
@@ -214,7 +214,7 @@ impl Delaunay3 {
     }
 
     /// Makes a point a vertex without a name; or says why not.
-    fn place<T: Tally>(&mut self, q: [f64; 3], tally: &mut T) -> Result<Place, Refusal> {
+    fn insert_unnamed<T: Tally>(&mut self, q: [f64; 3], tally: &mut T) -> Result<Place, Refusal> {
         let in_span = self.base.is_in_span(q);
         let start = if in_span { self.locator().start(&self.base, q, tally) } else { Start::Anywhere };
         let from = self.base.start_cell(start);

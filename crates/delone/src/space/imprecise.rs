@@ -135,7 +135,7 @@ impl Hints3 {
         instance: &[P],
         tally: &mut T,
     ) -> Result<&Delaunay3, Error> {
-        self.place(instance)?;
+        self.restart(instance)?;
         let arrived = self.insert_all::<T, false>(tally);
         self.settle(arrived, instance)
     }
@@ -158,7 +158,7 @@ impl Hints3 {
         instance: &[P],
         tally: &mut T,
     ) -> Result<&Delaunay3, Error> {
-        self.place(instance)?;
+        self.restart(instance)?;
         let arrived = self.insert_all::<T, true>(tally);
         self.settle(arrived, instance)
     }
@@ -194,7 +194,7 @@ impl Hints3 {
     }
 
     /// Puts an instance at its places, none a vertex yet.
-    fn place<P: Position3>(&mut self, instance: &[P]) -> Result<(), Error> {
+    fn restart<P: Position3>(&mut self, instance: &[P]) -> Result<(), Error> {
         if instance.len() != self.along.len() {
             return Err(Error::Length { expected: self.along.len(), found: instance.len() });
         }

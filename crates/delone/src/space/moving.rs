@@ -34,6 +34,7 @@ const GOING: u8 = 2;
 
 /// How a step was made in space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Step3 {
     /// By repair.
     Repaired {
@@ -273,7 +274,7 @@ impl Mend<'_> {
         let Self { layer, hole, fill, .. } = self;
         let mesh = &layer.mesh;
         hole.set_vertices(layer, None, None);
-        if hole.has_twins(layer) {
+        if hole.has_equal_points(layer) {
             return Some(Vec::new());
         }
         hole.triangulate(layer, fill);

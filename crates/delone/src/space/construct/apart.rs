@@ -14,7 +14,7 @@ use super::super::layer::Layer;
 use super::super::layer::hole::turned;
 use super::cut::{cut, uncut};
 use super::part::{Done, Part};
-use super::{note_twins, room, triangulate_runs};
+use super::{note_equal, room, triangulate_runs};
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::{Mesh3, Tetrahedron};
@@ -36,7 +36,7 @@ pub(super) fn triangulate<T: Tally + Default + Send>(
 ) -> Option<()> {
     let parts = build_parts(layer, runs, seed, tally)?;
     join(layer, &parts, seed, tally)?;
-    parts.iter().for_each(|part| note_twins(layer, &part.twins, duplicates));
+    parts.iter().for_each(|part| note_equal(layer, &part.equal, duplicates));
     layer.mesh.vertex_count = layer.points.len() - duplicates.len();
     Some(())
 }

@@ -112,19 +112,19 @@ pub(super) fn build<T: Tally>(
     let start = layer.mesh.incident[a.index()];
     let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
     let mut cavity = std::mem::take(&mut layer.cavity);
-    let mut twins = Vec::new();
-    let all = insert_all(layer, &mut cavity, start, others, &mut twins, tally);
+    let mut equal = Vec::new();
+    let all = insert_all(layer, &mut cavity, start, others, &mut equal, tally);
     layer.cavity = cavity;
     all?;
-    layer.mesh.vertex_count = order.len() - twins.len();
-    note_twins(layer, &twins, duplicates);
+    layer.mesh.vertex_count = order.len() - equal.len();
+    note_equal(layer, &equal, duplicates);
     Some(())
 }
 
 /// Points that equal vertices are duplicates of them.
-fn note_twins(layer: &mut Layer, twins: &[(Place, Place)], duplicates: &mut Vec<Duplicate>) {
+fn note_equal(layer: &mut Layer, equal: &[(Place, Place)], duplicates: &mut Vec<Duplicate>) {
     let names = &mut layer.mesh.names;
-    duplicates.extend(twins.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
+    duplicates.extend(equal.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
 }
 
 /// Makes the points at some places vertices, the first located from a tetrahedron near it; those that equal a vertex are
@@ -134,7 +134,7 @@ fn insert_all<A: Arena, T: Tally>(
     cavity: &mut Cavity,
     start: TetrahedronId,
     places: impl Iterator<Item = Place>,
-    twins: &mut Vec<(Place, Place)>,
+    equal: &mut Vec<(Place, Place)>,
     tally: &mut T,
 ) -> Option<()> {
     let mut last = start;
@@ -143,7 +143,7 @@ fn insert_all<A: Arena, T: Tally>(
         let q = view.points[v.index()];
         last = view.walk(last, q, tally);
         if let Some(w) = view.vertex_at(last, q) {
-            twins.push((v, w));
+            equal.push((v, w));
             continue;
         }
         cavity.insert(arena, v, last, tally)?;

@@ -34,7 +34,7 @@ pub(super) struct Part<'a> {
     used: usize,
     free: Vec<TetrahedronId>,
     /// Places and the vertices that they equal.
-    twins: Vec<(Place, Place)>,
+    equal: Vec<(Place, Place)>,
 }
 
 /// What a part has to say about itself, with the ids of the whole.
@@ -43,7 +43,7 @@ pub(super) struct Done {
     pub(super) unused: Range<usize>,
     pub(super) free: Vec<TetrahedronId>,
     /// Places and the vertices that they equal.
-    pub(super) twins: Vec<(Place, Place)>,
+    pub(super) equal: Vec<(Place, Place)>,
     /// The border, and its vertices.
     pub(super) border: Vec<TetrahedronId>,
     pub(super) vertices: Vec<Place>,
@@ -94,7 +94,7 @@ impl<'a> Part<'a> {
         incident: &'a mut [TetrahedronId],
     ) -> Self {
         let filter = Filter3::default();
-        Self { points, filter, cells, marks, incident, used: 0, free: Vec::new(), twins: Vec::new() }
+        Self { points, filter, cells, marks, incident, used: 0, free: Vec::new(), equal: Vec::new() }
     }
 
     /// Triangulates the points. `None` if they span less than space, or have more tetrahedra than there is room for.
@@ -105,11 +105,11 @@ impl<'a> Part<'a> {
         let first = spanning(self.points, &order);
         let &[a, b, c, d] = &first[..] else { return None };
         first_cells(self, [a, b, c, d])?;
-        let mut twins = Vec::new();
+        let mut equal = Vec::new();
         let start = self.incident[a.index()];
         let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
-        insert_all(self, &mut Cavity::default(), start, others, &mut twins, tally)?;
-        self.twins = twins;
+        insert_all(self, &mut Cavity::default(), start, others, &mut equal, tally)?;
+        self.equal = equal;
         Some(())
     }
 
@@ -214,7 +214,7 @@ impl<'a> Part<'a> {
         Done {
             unused: slot + self.used..slot + self.cells.len(),
             free: self.free.into_iter().map(slots).collect(),
-            twins: self.twins.into_iter().map(|(v, w)| (places(v), places(w))).collect(),
+            equal: self.equal.into_iter().map(|(v, w)| (places(v), places(w))).collect(),
             border: border.into_iter().map(slots).collect(),
             vertices,
             seam,

@@ -72,7 +72,7 @@ impl Hole {
     }
 
     /// Whether two of the vertices are in one place.
-    pub(in crate::space) fn has_twins(&mut self, layer: &Layer) -> bool {
+    pub(in crate::space) fn has_equal_points(&mut self, layer: &Layer) -> bool {
         let at = |&i: &u32| layer.points[self.vertices[i as usize].index()];
         self.order.clear();
         self.order.extend(0..self.vertices.len() as u32);
