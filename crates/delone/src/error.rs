@@ -62,7 +62,7 @@ pub enum Error {
         found: usize,
     },
     /// There is no such strategy of location in space: no history, and of walks only the visibility walk.
-    #[error("this strategy of location is for the plane")]
+    #[error("location by history, and walks but for the visibility walk, are for the plane")]
     OnlyInThePlane,
     /// A region has no proper border.
     #[error("ring {ring} of the region, at corner {corner}: {problem}")]

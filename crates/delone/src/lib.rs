@@ -28,14 +28,14 @@
 //!
 //! | what there is | in the plane | in space | cost |
 //! | --- | --- | --- | --- |
-//! | points, all at once or coming and going | [`Delaunay2`] | [`Delaunay3`] | O(n log n); a change O(log n) on average |
+//! | points, all at once or coming and going | [`Delaunay2`] | [`Delaunay3`] | O(n log n), in space where the result is linear; a change O(log n) on average |
 //! | points known nearly beforehand, in many instances | [`Hints2`] | [`Hints3`] | O(n) an instance |
 //! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
-//! | nearest sites at the same cost for any sites | [`NearestSites2`] | [`Delaunay3::nearest`] | O(log^2 n) a query |
+//! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
 //! | data of your own on vertices | [`VertexMap`] | [`VertexMap`] | O(1) |
 //! | code for any kind of triangulation | [`Triangulation`], [`Ask`], [`Change`] | the same | |

@@ -175,7 +175,7 @@ pub trait Ask: Triangulation {
     /// Finds the `k` vertices nearest to a point, nearest first; fewer if there are not so many.
     fn k_nearest(&self, q: Self::Point, k: usize) -> Result<Vec<VertexId>, Error>;
 
-    /// Finds the vertices within a distance of a point, nearest first.
+    /// Finds the vertices within a distance of a point, by increasing id.
     fn within(&self, q: Self::Point, radius: f64) -> Result<Vec<VertexId>, Error>;
 
     /// Finds where a point falls, unobserved.

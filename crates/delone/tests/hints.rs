@@ -250,7 +250,8 @@ fn walks_in_space_are_shorter_than_in_the_paper() {
             let expected = if matches!(order, HintOrder::Random { .. }) { 4.8..5.05 } else { 4.1..4.35 };
             assert!(expected.contains(&visited), "{order:?} {n}: {visited}");
             // Spatial sort alone: 6.6.
-            let d = Delaunay3::with_algorithm(&instance, Algorithm3::Spatial { seed: 1 }).expect("finite");
+            let d =
+                Delaunay3::with_algorithm(&instance, Algorithm3::Incremental { seed: 1 }).expect("finite");
             let visited = d.counters().work().expect("counted").visited as f64 / n as f64;
             assert!((5.4..6.0).contains(&visited), "spatial sort {n}: {visited}");
         }

@@ -66,7 +66,7 @@ fn large_sets_agree_across_orders() {
         Random::new(4).shuffle(&mut points);
         let hierarchy = Locate::Hierarchy(Hierarchy::default());
         for algorithm in [
-            Algorithm3::Spatial { seed: 1 },
+            Algorithm3::Incremental { seed: 1 },
             Algorithm3::Located { locate: Locate::Tree, seed: 2 },
             Algorithm3::Located { locate: hierarchy, seed: 3 },
         ] {

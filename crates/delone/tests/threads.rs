@@ -83,7 +83,9 @@ fn set(d: &Delaunay3) -> Vec<[VertexId; 4]> {
 fn threads_never_show_in_space() {
     let on = |threads: usize, points: &[[f64; 3]]| {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-        pool.install(|| Delaunay3::with_algorithm(points, Algorithm3::Spatial { seed: 0 }).expect("finite"))
+        pool.install(|| {
+            Delaunay3::with_algorithm(points, Algorithm3::Incremental { seed: 0 }).expect("finite")
+        })
     };
     for (kind, n) in
         [(Kind3::Cube, 130_000), (Kind3::Clusters3, 60_000), (Kind3::Grid3, 50_000), (Kind3::Sphere, 20_000)]

@@ -213,7 +213,7 @@ impl Engine<3> for Delaunay3 {
     }
 
     fn others(points: &[[f64; 3]], seed: u64) -> Vec<(String, Result<Self, Error>)> {
-        let algorithm = Algorithm3::Spatial { seed };
+        let algorithm = Algorithm3::Incremental { seed };
         vec![(format!("{algorithm:?}"), Self::with_algorithm(points, algorithm))]
     }
 

@@ -257,7 +257,8 @@ fn in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<Ro
             hints.triangulate_observed(instance, work).map(|d| _ = black_box(d.vertex_count()))
         })?);
     }
-    for algorithm in [Algorithm3::Spatial { seed }, Algorithm3::Located { locate: hierarchy(seed), seed }] {
+    for algorithm in [Algorithm3::Incremental { seed }, Algorithm3::Located { locate: hierarchy(seed), seed }]
+    {
         let (d, seconds) = timed(|| Delaunay3::with_algorithm(instance, algorithm));
         costs.push(Cost::of(n, seconds, d?.counters().work().map(|work| work.visited)));
     }

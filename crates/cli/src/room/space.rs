@@ -20,7 +20,7 @@ impl Room for Delaunay3 {
         other: ["other_ties", "ties between neighbours are broken in another way"],
     };
     type Algorithm = Algorithm3;
-    const FASTEST: Algorithm3 = Algorithm3::Spatial { seed: 0 };
+    const FASTEST: Algorithm3 = Algorithm3::Incremental { seed: 0 };
     type Hints = Hints3;
     type Row = [u64; 4];
 
@@ -49,7 +49,7 @@ impl Room for Delaunay3 {
         }
         let locate = locate.unwrap_or(LocateName::Spatial);
         let algorithm = match (locate, locate.strategy(seed)) {
-            (LocateName::Spatial, _) => Algorithm3::Spatial { seed },
+            (LocateName::Spatial, _) => Algorithm3::Incremental { seed },
             (LocateName::Conflict | LocateName::History, _) | (_, None) => {
                 return Err(Failure::usage(
                     "location by history and by conflict lists is for the plane",

@@ -1,6 +1,6 @@
 //! Where does a point fall? Strategies of location, free of coordinates.
 //!
-//! A strategy proposes where to start; the exact [`walk`] alone decides, so that every strategy gives every
+//! A strategy proposes where to start; the exact walk alone decides, so that every strategy gives every
 //! answer. What location needs to know of a triangulation is the port [`Ground`], which each dimension
 //! implements with its predicates.
 //!

@@ -198,7 +198,12 @@ impl Delaunay2 {
         self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
     }
 
-    /// The vertices of the hull, counter-clockwise; see [`Mesh2::hull`].
+    /// The vertices joined to a vertex by an edge, counter-clockwise; none for an id that is no vertex.
+    pub fn neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + '_ {
+        self.mesh().neighbors(v)
+    }
+
+    /// The vertices of the hull, counter-clockwise; of a line those from end to end; see [`Mesh2::hull`].
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.mesh().hull()
     }

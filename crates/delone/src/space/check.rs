@@ -94,7 +94,7 @@ impl Delaunay3 {
         Ok(())
     }
 
-    /// Names and places are each other's, every name is a vertex or a duplicate, and the vertices are as many as said.
+    /// Names and places are each other's, every duplicate is one of an earlier vertex, and the vertices are as many as said.
     fn check_vertices(&self) -> Result<(), Flaw3> {
         let mesh = &self.base.mesh;
         let count = mesh.inhabited().filter(|p| !self.base.is_scaffold(*p)).count();

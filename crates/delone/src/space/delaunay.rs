@@ -19,7 +19,7 @@ use crate::tally::{Counters, Work};
 #[non_exhaustive]
 pub enum Algorithm3 {
     /// Biased randomized insertion along a Hilbert curve, each point located from the one before: the fastest.
-    Spatial {
+    Incremental {
         /// Decides the rounds.
         seed: u64,
     },
@@ -107,7 +107,7 @@ impl Delaunay3 {
         check_in_space(points)?;
         let mut work = Work::default();
         match algorithm {
-            Algorithm3::Spatial { seed } => {
+            Algorithm3::Incremental { seed } => {
                 let built = construct::triangulate(points, seed, &mut work);
                 Ok(Self::assemble(with_room(built)?, work))
             }
@@ -217,8 +217,7 @@ impl Delaunay3 {
         outer.chain(flat.map(|f| mesh.facet_corners(f)))
     }
 
-    /// The vertices on the hull, by increasing index: in the plane of coplanar points all that are corners of a triangle
-    /// of [`Self::hull_facets`].
+    /// The vertices on the hull by increasing index: the corners of [`Self::hull_facets`], so none of less than a plane.
     pub fn hull_vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
         let mut corners: Vec<VertexId> = self.hull_facets().flatten().collect();
         corners.sort_unstable();

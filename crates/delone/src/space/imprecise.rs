@@ -1,6 +1,6 @@
 //! Imprecise points in space: preprocess their approximate positions once, triangulate many instances fast.
 //!
-//! As in the plane (`plane/hints.rs`): each centre's hint is the nearest one inserted before it, and each point of an
+//! As in the plane (`plane/imprecise.rs`): each centre's hint is the nearest one inserted before it, and each point of an
 //! instance is located by a walk from the instance of its hint.
 //!
 //! Source: Devillers, "Delaunay triangulation of imprecise points: preprocess and actually get a fast query time",
