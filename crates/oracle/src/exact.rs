@@ -41,13 +41,11 @@ fn expansion(rows: &[&[BigInt]]) -> BigInt {
             let mut sum = BigInt::ZERO;
             for (i, row) in rows.iter().enumerate() {
                 let term = &row[0] * expansion(others);
-                if i % 2 == 0 {
-                    sum += term
-                } else {
-                    sum -= term
+                sum = if i % 2 == 0 { sum + term } else { sum - term };
+                // From here on all rows but the next one.
+                if let Some(other) = others.get_mut(i) {
+                    *other = &row[1..];
                 }
-                // All rows but the next one.
-                others.get_mut(i).into_iter().for_each(|other| *other = &row[1..]);
             }
             sum
         }
