@@ -114,10 +114,19 @@ fn medium_sets_against_the_oracle() {
 }
 
 #[test]
-fn large_sets_agree_across_algorithms_and_shuffles() {
+fn sets_of_ten_thousand_agree_across_algorithms_and_shuffles() {
+    large_sets_agree(10_000, 1_000);
+}
+
+#[test]
+#[ignore = "long: .ci/run"]
+fn sets_of_a_hundred_thousand_agree_across_algorithms_and_shuffles() {
+    large_sets_agree(100_000, 3_000);
+}
+
+fn large_sets_agree(size: usize, extreme: usize) {
     for &kind in Kind::ALL {
-        let n = if kind.is_extreme() { 3_000 } else { 100_000 };
-        let mut points = kind.points(n, 11);
+        let mut points = kind.points(if kind.is_extreme() { extreme } else { size }, 11);
         let expected = agreed(&points, kind.name(), scalable_algorithms());
         Random::new(5).shuffle(&mut points);
         assert!(triangles(&build(&points, Algorithm2::default())) == expected, "{} shuffled", kind.name());

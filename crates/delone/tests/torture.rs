@@ -64,17 +64,27 @@ fn public_bug_cases() {
 }
 
 /// Sets on which many libraries return wrong triangles, lose points or hang.
-#[test]
-fn stress_sets() {
+fn stress_sets(side: usize) {
     for (kind, n) in [
-        (Kind::TinyLattice, 256 * 256 + 2),
-        (Kind::NearLine, 50_000),
-        (Kind::RotatedGrid, 300 * 300),
-        (Kind::UnitCircle, 50_000),
-        (Kind::FarClusters, 50_000),
+        (Kind::TinyLattice, side * side + 2),
+        (Kind::NearLine, side * side),
+        (Kind::RotatedGrid, side * side),
+        (Kind::UnitCircle, side * side),
+        (Kind::FarClusters, side * side),
     ] {
         endure(kind.name(), &kind.points(n, 1));
     }
+}
+
+#[test]
+fn stress_sets_of_ten_thousand() {
+    stress_sets(100);
+}
+
+#[test]
+#[ignore = "long: .ci/run"]
+fn stress_sets_of_seventy_thousand() {
+    stress_sets(256);
 }
 
 /// Boxes nested hundreds of times, on a thread with a small stack.
