@@ -83,8 +83,8 @@ fn stress_sets_of_ten_thousand() {
 
 #[test]
 #[ignore = "long: .ci/run"]
-fn stress_sets_of_seventy_thousand() {
-    stress_sets(256);
+fn stress_sets_of_ninety_thousand() {
+    stress_sets(300);
 }
 
 /// Boxes nested hundreds of times, on a thread with a small stack.
