@@ -101,8 +101,8 @@ impl Grid {
         Self::coarser_than(0.0, coordinates)
     }
 
-    /// The same, or `None` if it is finer than a step (rounded down to a power of two): the first coordinate may
-    /// tell.
+    /// The lattice that coordinates are on, or `None` if it is finer than a step (rounded down to a power of two): the first
+    /// coordinate may tell.
     pub fn coarser_than(least: f64, coordinates: &[f64]) -> Option<Self> {
         let least = ((least.to_bits() >> 52) as i32 - 1023).max(-200);
         let (mut lowest, mut largest) = (i32::MAX, 0.0_f64);

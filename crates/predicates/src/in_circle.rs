@@ -24,7 +24,7 @@ pub fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
     in_circle_exact(a, b, c, d)
 }
 
-/// The same test without the perturbation: zero for cocircular points. For judging triangulations that broke
+/// Tells on which side of a circle a point is, without the perturbation: zero for cocircular points. For judging triangulations that broke
 /// their ties in another way, which are Delaunay all the same.
 pub fn in_circle_with_ties(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
     in_circle_filter(a, b, c, d).unwrap_or_else(|| exact::in_circle(a, b, c, d))

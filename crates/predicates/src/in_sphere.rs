@@ -23,7 +23,7 @@ pub fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign 
     in_sphere_filter(a, b, c, d, e).unwrap_or_else(|| in_sphere_exact(a, b, c, d, e))
 }
 
-/// The same test without the perturbation: zero for cospherical points.
+/// Tells on which side of a sphere a point is, without the perturbation: zero for cospherical points.
 pub fn in_sphere_with_ties(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> Sign {
     in_sphere_filter(a, b, c, d, e).unwrap_or_else(|| exact::in_sphere(a, b, c, d, e))
 }

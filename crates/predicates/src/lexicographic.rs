@@ -23,7 +23,7 @@ pub fn lexicographic(a: Point2, b: Point2) -> Ordering {
     }
 }
 
-/// The same in space: compares by x, then by y, then by z.
+/// Compares points of space by x, then by y, then by z.
 #[inline]
 pub fn lexicographic3(a: Point3, b: Point3) -> Ordering {
     let different = (0..3).find(|&k| a[k] != b[k]);

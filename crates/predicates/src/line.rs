@@ -23,7 +23,7 @@ pub enum Line {
     Bisector(Point2, Point2),
     /// The points whose x (axis 0) or y (any other) is a number; positive where it is larger.
     Above(usize, f64),
-    /// The same, positive where it is smaller.
+    /// The points whose x (axis 0) or y (any other) is a number; positive where it is smaller.
     Below(usize, f64),
 }
 
