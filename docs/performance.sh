@@ -24,6 +24,8 @@ TEXT
     echo "- Machine: ${model:-unknown}, $(nproc) cores"
     echo "- $(rustc --version), $(date -u +%Y-%m-%d)"
     echo "- $points points, where nothing else is said"
+    echo "- Load of the machine at the start: $(cut -d' ' -f1-2 /proc/loadavg 2>/dev/null || echo unknown); with more than 0 the ratios hold, the"
+    echo "  times are too long, and threads gain less than they could"
     printf '\n## Bulk construction in the plane\n\n'
     compare --size "$points" --runs 3
     printf '\n## One by one: insertion, location, nearest vertex, removal\n\n'

@@ -4,6 +4,8 @@
 //! triangle is counter-clockwise, the hull turns left or goes straight everywhere and only once around, and no
 //! edge has the vertex across it inside the circle of its triangle (Delaunay's lemma: local implies global, for
 //! the perturbed points too). Cost: O(n).
+//!
+//! That every point is a vertex or a duplicate holds where no site hides another; a hidden site would be neither.
 
 use delone_predicates::{in_circle, lexicographic, orient2d, strictly_between};
 

@@ -8,6 +8,9 @@
 //! most d^2 / 2 tests and hardly more than d for the usual six, in buffers that are kept; above that, O(d log d) by
 //! dividing and conquering the border. The ghost vertex is a vertex of the border like others, so the hull is no
 //! special case.
+//!
+//! Where no site hides another, as under the kernels that there are, the border of the hole has all sites that its triangles
+//! can have. Under a kernel that hides sites, those that the removed one hid are candidates too.
 
 use delone_predicates::orient2d;
 
