@@ -32,18 +32,18 @@ pub(crate) enum Place<const D: usize> {
     Nowhere,
 }
 
-/// Strategies of location; those of space are all but the last.
+/// Strategies of location; those of space come first.
 pub(crate) fn strategies(seed: u64) -> [Locate; 8] {
     let hierarchy = Hierarchy::default();
     [
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
-        Locate::Walk(Walk::Stochastic { seed }),
-        Locate::Walk(Walk::Straight),
         Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
         Locate::Hierarchy(hierarchy),
         // Levels even for few vertices.
         Locate::Hierarchy(Hierarchy { ratio: 2.0, smallest_level: 2, ..hierarchy }),
+        Locate::Walk(Walk::Stochastic { seed }),
+        Locate::Walk(Walk::Straight),
         Locate::History,
     ]
 }
@@ -204,7 +204,7 @@ impl Engine<2> for Delaunay2 {
 }
 
 impl Engine<3> for Delaunay3 {
-    const STRATEGIES: usize = 7;
+    const STRATEGIES: usize = 5;
 
     shared!(3);
 
