@@ -13,7 +13,7 @@ use clap_complete::Shell;
 use delone_io::{Format, LAS_CLASSES};
 
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
-pub(crate) use points::{CheckArgs, ExperimentArgs, ExperimentName, GenerateArgs, InfoArgs, ReduceArgs};
+pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, VoronoiArgs};
 pub(crate) use triangulate::{AlgorithmName, LocateName, TriangulateArgs};
 

@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use delone_experiments::{EXPERIMENTS, Experiment};
 use delone_io::Format;
 
 use super::{DimArgs, InputArgs, count};
@@ -82,9 +84,7 @@ pub(crate) struct ReduceArgs {
     pub(crate) output: Option<PathBuf>,
 }
 
-/// Repeat experiments.
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
+const EXPERIMENT_EXAMPLES: &str = "Examples:
   delone experiment hierarchy --largest 50000
   delone experiment jump-and-walk -o results
   delone experiment history -o results
@@ -94,11 +94,15 @@ pub(crate) struct ReduceArgs {
   delone experiment growth --largest 10000000 -o results
 
 A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
-seconds on this machine and differ from run to run; counts depend on the seed alone.")]
+seconds on this machine and differ from run to run; counts depend on the seed alone.";
+
+/// Repeat experiments.
+#[derive(Debug, Args)]
+#[command(after_help = experiment_help())]
 pub(crate) struct ExperimentArgs {
     /// Which experiment.
-    #[arg(value_name = "NAME")]
-    pub(crate) name: ExperimentName,
+    #[arg(value_name = "NAME", value_parser = experiment_names(), hide_possible_values = true)]
+    name: String,
     /// File of points in space, for scan.
     #[arg(value_name = "MODEL")]
     pub(crate) model: Option<PathBuf>,
@@ -108,6 +112,9 @@ pub(crate) struct ExperimentArgs {
     /// The largest set.
     #[arg(long, value_name = "N", default_value = "500000", value_parser = count)]
     pub(crate) largest: usize,
+    /// How often each quantity is measured, from other points and in other orders; tables give mean and deviation.
+    #[arg(long, value_name = "T", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) trials: u16,
     /// Seed of points and orders.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
@@ -116,25 +123,20 @@ pub(crate) struct ExperimentArgs {
     pub(crate) stats: Option<PathBuf>,
 }
 
-/// Experiments by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ExperimentName {
-    /// Build five kinds of sets with the Delaunay hierarchy and its simpler modes (Devillers 1998, §5.5.2).
-    Hierarchy,
-    /// Triangles visited by jump-and-walk, and its cost against the sample size (Devroye, Mücke & Zhu 1998).
-    JumpAndWalk,
-    /// What ever appears in randomized incremental construction, and what locating costs (Guibas, Knuth & Sharir
-    /// 1992, §2 and §3).
-    History,
-    /// Nearest sites by the history of radial triangles: its size, the work of a query, and its time beside other
-    /// ways (the same, §5).
-    Radial,
-    /// Triangulate instances of imprecise points by hints, in the plane and in space (Devillers 2011, §5).
-    Imprecise,
-    /// Follow points in Brownian motion by the hints of the last step (the same), and automatically.
-    Brownian,
-    /// Add noise to the points of a scanned model, and triangulate by hints (the same).
-    Scan,
-    /// Time of a construction by the number of points, in the plane on one thread and on all, and in space.
-    Growth,
+/// The names of all experiments.
+fn experiment_names() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.name))
+}
+
+/// What each experiment shows, and examples.
+fn experiment_help() -> String {
+    let list = EXPERIMENTS.iter().map(|e| format!("  {:<15} {}\n", e.name, e.about)).collect::<String>();
+    format!("Experiments:\n{list}\n{EXPERIMENT_EXAMPLES}")
+}
+
+impl ExperimentArgs {
+    /// The experiment asked for.
+    pub(crate) fn experiment(&self) -> &'static Experiment {
+        Experiment::named(&self.name).expect("the parser takes these names alone")
+    }
 }

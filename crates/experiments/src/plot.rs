@@ -17,16 +17,17 @@ const COLOURS: [RGBColor; 8] = [
 ];
 
 /// Curves through measured values.
-pub(super) struct Plot {
+#[derive(Clone, Debug)]
+pub struct Plot {
     /// The name of its file.
-    pub(super) name: String,
+    pub name: String,
     title: String,
     axes: [String; 2],
     curves: Vec<(String, Vec<(f64, f64)>)>,
 }
 
 impl Plot {
-    pub(super) fn new(name: &str, title: &str, axes: [&str; 2]) -> Self {
+    pub(crate) fn new(name: &str, title: &str, axes: [&str; 2]) -> Self {
         Self {
             name: name.to_owned(),
             title: title.to_owned(),
@@ -36,13 +37,16 @@ impl Plot {
     }
 
     /// Adds a curve; values that have no logarithm are left out.
-    pub(super) fn curve(&mut self, name: &str, points: impl IntoIterator<Item = (f64, f64)>) {
+    pub(crate) fn curve(&mut self, name: &str, points: impl IntoIterator<Item = (f64, f64)>) {
         let points = points.into_iter().filter(|&(x, y)| x > 0.0 && y > 0.0 && y.is_finite()).collect();
         self.curves.push((name.to_owned(), points));
     }
 
     /// The picture.
-    pub(super) fn svg(&self) -> Result<String, String> {
+    ///
+    /// # Errors
+    /// What the drawing library says.
+    pub fn svg(&self) -> Result<String, String> {
         let mut svg = String::new();
         self.draw(&mut svg).map_err(|error| format!("cannot draw {}: {error}", self.name))?;
         Ok(svg)
@@ -53,7 +57,11 @@ impl Plot {
         let range = |of: fn(&(f64, f64)) -> f64| {
             let low = all().map(of).fold(f64::INFINITY, f64::min);
             let high = all().map(of).fold(0.0, f64::max);
-            if low < high { low / 1.2..high * 1.2 } else { 0.5..2.0 }
+            match low.is_finite() {
+                true if high / low < 4.0 => low / 2.0..high * 2.0,
+                true => low / 1.2..high * 1.2,
+                false => 0.5..2.0,
+            }
         };
         let area = SVGBackend::with_string(svg, (900, 620)).into_drawing_area();
         area.fill(&WHITE)?;

@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use delone::{Algorithm2, Counters, Delaunay2, Error, Locate, VertexId};
+use delone::{Algorithm2, Counters, Delaunay2, Locate, VertexId};
 use delone_generators::{Kind, Random};
 use delone_predicates::{in_circle, orient2d};
 
-use super::Findings;
+use super::{Error, Findings, Options};
 use super::plot::Plot;
 use super::table::{Table, short};
 
@@ -15,7 +15,8 @@ use super::table::{Table, short};
 const SMALL: usize = 24;
 const ORDERS: usize = 4_000;
 
-pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
     let mut findings = Findings::default();
     scopes(seed, &mut findings)?;
     growth(largest, seed, &mut findings)?;

@@ -1,11 +1,11 @@
 //! Construction time by mode of the Delaunay hierarchy: Devillers 1998, §5.5.2.
 
-use delone::{Algorithm2, Counters, Delaunay2, Error, Hierarchy, Locate};
+use delone::{Algorithm2, Counters, Delaunay2, Hierarchy, Locate};
 use delone_generators::{Kind, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Findings, timed};
+use super::{Error, Findings, Options, timed};
 
 const SIZES: [usize; 3] = [5_000, 50_000, 500_000];
 
@@ -48,7 +48,8 @@ fn ways() -> [(&'static str, Algorithm2); 8] {
     ]
 }
 
-pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
     let ways = ways();
     let heads = |extra: &[&'static str]| -> Vec<&'static str> {
         let mut heads = vec!["set", "size"];

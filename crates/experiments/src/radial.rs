@@ -2,18 +2,19 @@
 
 use std::hint::black_box;
 
-use delone::{Delaunay2, Error, Hierarchy, Locate, NearestSites2, Work};
+use delone::{Delaunay2, Hierarchy, Locate, NearestSites2, Work};
 use delone_generators::Kind;
 use kiddo::SquaredEuclidean;
 use kiddo::immutable::float::kdtree::ImmutableKdTree;
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Findings, timed};
+use super::{Error, Findings, Options, timed};
 
 const QUERIES: usize = 20_000;
 
-pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
     let queries = Kind::Uniform.points(QUERIES, seed + 1);
     let mut counts = Table::new(
         "radial-counts",

@@ -2,13 +2,12 @@
 
 use std::hint::black_box;
 
-use delone::{Delaunay2, Delaunay3, Error};
+use delone::{Delaunay2, Delaunay3};
 use delone_generators::{Kind, Kind3};
-use rayon::ThreadPool;
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Findings, timed};
+use super::{Error, Findings, Options, timed};
 
 /// Small sets are built so often that this many points are built in all.
 const POINTS: usize = 3_000_000;
@@ -17,7 +16,8 @@ const RUNS: usize = 3;
 const ENOUGH: usize = 20_000_000;
 
 /// `delone experiment growth`: from a thousand points on, in space up to a tenth as many as in the plane.
-pub(super) fn run(largest: usize, seed: u64, all_threads: &ThreadPool) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed, all_threads) = (options.largest, options.seed, options.threads);
     let threads = all_threads.current_num_threads();
     let many = format!("{threads} threads");
     let names = ["uniform", "uniform", "clusters", "grid", "cube", "cube"];
@@ -70,7 +70,7 @@ pub(super) fn run(largest: usize, seed: u64, all_threads: &ThreadPool) -> Result
 }
 
 /// Nanoseconds a point of the fastest of some runs.
-fn fastest(n: usize, build: impl Fn() -> Result<(), Error>) -> Result<f64, Error> {
+fn fastest(n: usize, build: impl Fn() -> Result<(), delone::Error>) -> Result<f64, Error> {
     let runs = if n < ENOUGH { (POINTS / n).clamp(RUNS, 300) } else { 1 };
     let mut least = f64::INFINITY;
     for _ in 0..runs {

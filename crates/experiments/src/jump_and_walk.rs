@@ -1,11 +1,11 @@
 //! Jump-and-walk: Devroye, Mücke & Zhu 1998.
 
-use delone::{Ask, Delaunay2, Error, JumpAndWalk, Locate, Work};
+use delone::{Ask, Delaunay2, JumpAndWalk, Locate, Work};
 use delone_generators::{Kind, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Findings, timed};
+use super::{Error, Findings, Options, timed};
 
 const QUERIES: usize = 20_000;
 
@@ -19,7 +19,8 @@ fn measure(d: &Delaunay2, queries: &[[f64; 2]]) -> Result<([f64; 2], f64), Error
     Ok(([mean(work.visited), mean(work.compared)], seconds * 1e9 / queries.len() as f64))
 }
 
-pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
     let queries: Vec<[f64; 2]> = {
         // Away from the border, as the theorem asks.
         let mut random = Random::new(seed + 1);

@@ -1,19 +1,16 @@
 //! Imprecise points: the tables of Devillers 2011, §5, for disjoint unit disks and balls, and for a scanned model.
 
 use std::hint::black_box;
-use std::path::Path;
 
 use delone::{
-    Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Error, Hierarchy, HintOrder, Hints2, Hints3,
+    Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Hierarchy, HintOrder, Hints2, Hints3,
     Imprecise, Locate, Work,
 };
 use delone_generators::{Kind, Kind3, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Findings, timed};
-use crate::message::Failure;
-use crate::room;
+use super::{Error, Findings, Options, timed};
 
 const METHODS: [&str; 5] =
     ["hints, random order", "hints, spatial order", "spatial sort", "hierarchy", "divide and conquer"];
@@ -51,7 +48,7 @@ fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
 }
 
 /// Each point moved randomly inside of a ball around it.
-pub(super) fn moved<const D: usize>(points: &[[f64; D]], radius: f64, random: &mut Random) -> Vec<[f64; D]> {
+pub(crate) fn moved<const D: usize>(points: &[[f64; D]], radius: f64, random: &mut Random) -> Vec<[f64; D]> {
     let shift = |p: &[f64; D]| {
         let (mut q, u) = (*p, in_ball::<D>(random));
         q.iter_mut().zip(u).for_each(|(x, u)| *x += radius * u);
@@ -77,7 +74,8 @@ impl Cost {
 type Row = (Vec<Cost>, f64);
 
 /// `delone experiment imprecise`.
-pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
     let mut findings = Findings::default();
     let sizes = |most: usize| (3..).map(|k| 10_usize.pow(k)).take_while(move |&n| n <= most);
     let mut plane = Report::new("imprecise", "Disjoint unit disks", &METHODS, &PLANE, &PLANE_VISITED);
@@ -99,33 +97,28 @@ pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
 }
 
 /// `delone experiment scan`: noise around the points of a scanned model, as strong as points are from their hints.
-pub(super) fn scan(path: &Path, largest: usize, seed: u64) -> Result<Findings, Failure> {
-    let mut model = room::queries::<Delaunay3>(path, true)?;
-    let wrong = |error: Error| Failure::points(path, &error);
+pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
+    let mut model = options.model.to_vec();
     if model.len() < 100 {
-        return Err(Failure::new(
-            format!("{}: {} points are too few for an experiment", path.display(), model.len()),
-            "give a model of some thousand points",
-        ));
+        return Err(Error::SmallModel(model.len()));
     }
     let mut findings = Findings::default();
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let title = format!("Noisy samples of {name}");
-    let mut report = Report::new("scan", &title, &METHODS[..4], &SCAN, &SCAN_VISITED);
+    let mut report = Report::new("scan", "Noisy samples of a scanned model", &METHODS[..4], &SCAN, &SCAN_VISITED);
     let mut random = Random::new(seed);
     random.shuffle(&mut model);
     let most = model.len().min(largest);
     let sizes = (3..).map(|k| 10_usize.pow(k)).take_while(|&n| n < most).chain([most]);
     for n in sizes {
         let centres = &model[..n];
-        let hints = Hints3::from_points(centres, HintOrder::Spatial { seed }).map_err(wrong)?;
+        let hints = Hints3::from_points(centres, HintOrder::Spatial { seed })?;
         let far = hints.order().zip(hints.hints()).skip(1).map(|(i, j)| {
             let square: f64 = (0..3).map(|k| (centres[i][k] - centres[j][k]).powi(2)).sum();
             square.sqrt()
         });
         let radius = far.sum::<f64>() / n as f64;
         let instance = moved(centres, radius, &mut random);
-        report.row(n, &in_space(centres, &instance, seed).map_err(wrong)?);
+        report.row(n, &in_space(centres, &instance, seed)?);
     }
     report.finish(&mut findings);
     Ok(findings)
@@ -210,7 +203,7 @@ impl<'a> Report<'a> {
 fn by_hints<H>(
     n: usize,
     hints: &mut H,
-    triangulate: impl Fn(&mut H, &mut Work) -> Result<(), Error>,
+    triangulate: impl Fn(&mut H, &mut Work) -> Result<(), delone::Error>,
 ) -> Result<Cost, Error> {
     let mut work = Work::default();
     triangulate(hints, &mut work)?;

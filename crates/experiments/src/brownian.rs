@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use delone::{
-    Algorithm2, Counters, Delaunay2, Delaunay3, Error, HintOrder, Hints2, Moving2, Moving3, Step2, Step3,
+    Algorithm2, Counters, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Moving3, Step2, Step3,
     Work,
 };
 use delone_generators::{Kind, Kind3, Random};
@@ -11,7 +11,7 @@ use delone_generators::{Kind, Kind3, Random};
 use super::imprecise::moved;
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Findings, timed};
+use super::{Error, Findings, Options, timed};
 
 /// Steps of a motion.
 const STEPS: usize = 10;
@@ -31,7 +31,8 @@ const MEAN_IN_BALL: f64 = 3.0 / 4.0;
 
 /// `delone experiment brownian`: points that move by up to one unit a step, four units apart; and what the automatic
 /// mover needs, by displacement.
-pub(super) fn run(largest: usize, seed: u64) -> Result<Findings, Error> {
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let (largest, seed) = (options.largest, options.seed);
     let mut findings = Findings::default();
     brownian(&mut findings, largest, seed)?;
     by_displacement(&mut findings, largest, seed)?;

@@ -1,0 +1,99 @@
+//! `delone experiment`: the papers' experiments on this machine, with the papers' figures beside.
+
+use std::path::Path;
+
+use delone::Delaunay3;
+use delone_experiments::{Error, Experiment, Options, Table};
+
+use crate::args::ExperimentArgs;
+use crate::files;
+use crate::message::{Failure, answer};
+use crate::progress::Phase;
+use crate::room;
+use crate::stats::Stats;
+
+pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
+    let experiment = args.experiment();
+    let model = match &args.model {
+        Some(_) if !experiment.takes_model() => {
+            return Err(Failure::usage(
+                "only scan takes a file",
+                "leave the file out, or name the experiment scan",
+            ));
+        }
+        Some(path) => room::queries::<Delaunay3>(path, true)?,
+        None if experiment.takes_model() => {
+            return Err(Failure::usage(
+                "scan needs a file of points in space",
+                "as in: delone experiment scan model.ply",
+            ));
+        }
+        None => Vec::new(),
+    };
+    if let Some(folder) = &args.output {
+        std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
+        // What runs for hours should not find out in the end that it cannot be kept.
+        tempfile::tempfile_in(folder).map_err(|error| cannot_write(folder, &error))?;
+    }
+    let mut stats = Stats::start();
+    // What is compared works on one thread, as in the papers.
+    let pool = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| Failure::new(error, "the system gives no thread: try again"))
+    };
+    let (one, all) = (pool(1)?, pool(rayon::current_num_threads())?);
+    let findings = one.install(|| {
+        let _phase = Phase::start(quiet, "experimenting");
+        let options = Options {
+            largest: args.largest,
+            trials: args.trials as usize,
+            seed: args.seed,
+            model: &model,
+            threads: &all,
+        };
+        experiment.run(&options).map_err(|error| failure(experiment, &error, args))
+    })?;
+    stats.phase("build");
+    let text: Vec<String> = findings.tables.iter().map(Table::to_string).collect();
+    answer(&text.join("\n"))?;
+    if let Some(folder) = &args.output {
+        for table in &findings.tables {
+            write(folder, &table.name, "csv", &table.csv())?;
+        }
+        for plot in &findings.plots {
+            let svg = plot.svg().map_err(|error| Failure::new(error, "please report this: it is a bug"))?;
+            write(folder, &plot.name, "svg", &svg)?;
+        }
+    }
+    stats.phase("write");
+    stats.write(args.stats.as_deref())
+}
+
+fn failure(experiment: &Experiment, error: &Error, args: &ExperimentArgs) -> Failure {
+    match error {
+        Error::TooSmall { smallest, .. } => {
+            Failure::usage(error, format!("give at least --largest {smallest} to {}", experiment.name))
+        }
+        Error::SmallModel(_) | Error::Library(_) => match &args.model {
+            Some(path) => Failure::new(
+                format!("{}: {error}", path.display()),
+                "give a model of some thousand points",
+            ),
+            None => Failure::new(error, "try a smaller --largest"),
+        },
+        _ => Failure::new(error, "please report this: it is a bug"),
+    }
+}
+
+fn cannot_write(folder: &Path, error: &std::io::Error) -> Failure {
+    Failure::new(
+        format!("cannot write into the folder {}: {error}", folder.display()),
+        "check the name and the permissions",
+    )
+}
+
+fn write(folder: &Path, name: &str, extension: &str, content: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    let path = folder.join(format!("{name}.{extension}"));
+    files::write(&path, |out| Ok(out.write_all(content.as_bytes())?))
+}
