@@ -37,7 +37,7 @@ const SCAN: [Published; 0] = [];
 const SCAN_VISITED: [f64; 3] = [f64::NAN, 6.1, 7.6];
 
 /// A random point of the unit ball of D dimensions.
-fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
+pub(crate) fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
     loop {
         let mut u = [0.0; D];
         u.iter_mut().for_each(|x| *x = random.between(-1.0, 1.0));
