@@ -3,9 +3,8 @@
 use std::hint::black_box;
 
 use delone::{Algorithm2, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Moving3, Step2, Step3, Work};
-use delone_generators::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random, moved};
 
-use super::imprecise::moved;
 use super::plot::Plot;
 use super::table::{Table, short};
 use super::trials::Trials;

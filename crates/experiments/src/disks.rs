@@ -4,9 +4,8 @@
 //! (§6.2), balls in space (§6.3).
 
 use delone::{Delaunay2, Error as Refusal, HintOrder, Hints2, Hints3, Imprecise, VertexId, Work};
-use delone_generators::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random, in_ball, moved};
 
-use super::imprecise::{in_ball, moved};
 use super::plot::Plot;
 use super::table::{Table, short};
 use super::trials::Trials;

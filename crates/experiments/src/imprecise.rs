@@ -6,7 +6,7 @@ use delone::{
     Algorithm2, Algorithm3, Delaunay2, Delaunay3, Hierarchy, HintOrder, Hints2, Hints3, Imprecise, Locate,
     Work,
 };
-use delone_generators::{Kind, Kind3, Random};
+use delone_generators::{Kind, Kind3, Random, moved};
 
 use super::plot::Plot;
 use super::table::{Table, short};
@@ -50,27 +50,6 @@ const SPACE: [Published; 3] = [
 /// Its scanned models, Hand, Galaad and Neptune, have visits from 5.3 to 6.4 by hints in spatial order, and from 7.0 to 7.9
 /// by spatial sort.
 const SCAN: [Published; 0] = [];
-
-/// A random point of the unit ball of D dimensions.
-pub(crate) fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
-    loop {
-        let mut u = [0.0; D];
-        u.iter_mut().for_each(|x| *x = random.between(-1.0, 1.0));
-        if u.iter().map(|x| x * x).sum::<f64>() <= 1.0 {
-            return u;
-        }
-    }
-}
-
-/// Each point moved randomly inside of a ball around it.
-pub(crate) fn moved<const D: usize>(points: &[[f64; D]], radius: f64, random: &mut Random) -> Vec<[f64; D]> {
-    let shift = |p: &[f64; D]| {
-        let (mut q, u) = (*p, in_ball::<D>(random));
-        q.iter_mut().zip(u).for_each(|(x, u)| *x += radius * u);
-        q
-    };
-    points.iter().map(shift).collect()
-}
 
 /// What a method needs for one point: nanoseconds, and triangles visited if it walks.
 #[derive(Clone, Default)]
