@@ -36,7 +36,7 @@ pub struct Hierarchy {
     pub ratio: f64,
     /// The largest number of levels, the triangulation itself included; unlimited if `None`.
     pub levels: Option<usize>,
-    /// Below this number of vertices a level has none above it that is used.
+    /// A level with fewer vertices is not used to locate points; one, at least.
     pub smallest_level: usize,
     /// From this number of vertices on, the search in the highest level starts from a random sample; `None`
     /// never samples.
@@ -142,18 +142,12 @@ impl<L: Level> Levels<L> {
         self.samples.iter().map(|sample| ground(&sample.ground) + links(sample)).sum()
     }
 
-    /// The number of levels from `level` on (0 is the lowest sample) that a descent to `below` vertices goes through.
-    fn used_above(&self, level: usize, below: usize) -> usize {
-        let mut below = below;
-        let mut count = 0;
-        for sample in &self.samples[level..] {
-            if below < self.options.smallest_level || !sample.ground.is_spanned() {
-                break;
-            }
-            below = sample.ground.vertex_count();
-            count += 1;
-        }
-        count
+    /// The number of levels from `level` on (0 is the lowest sample) that a descent goes through.
+    fn used_from(&self, level: usize) -> usize {
+        let is_used = |sample: &&Sample<L>| {
+            sample.ground.vertex_count() >= self.options.smallest_level && sample.ground.is_spanned()
+        };
+        self.samples[level..].iter().take_while(is_used).count()
     }
 
     /// Descends until the vertex of level `stop` (1 is the lowest sample) near `q` is found; returns its place
@@ -215,7 +209,7 @@ impl<L: Level> Levels<L> {
     /// Where to start looking for `q` in a sample.
     fn start_at(&self, level: usize, q: L::Point) -> Start<L::Hint> {
         let here = &self.samples[level].ground;
-        match self.used_above(level + 1, here.vertex_count()) {
+        match self.used_from(level + 1) {
             0 => self.enter(here, q, &mut ()),
             used => Start::Vertex(self.descend(level + 1 + used, level + 2, q, &mut ())),
         }
@@ -224,7 +218,7 @@ impl<L: Level> Levels<L> {
 
 impl<L: Level, G: Ground<Point = L::Point, Hint = L::Hint>> Strategy<G> for Levels<L> {
     fn start<T: Tally>(&self, ground: &G, q: L::Point, tally: &mut T) -> Start<L::Hint> {
-        match self.used_above(0, ground.vertex_count()) {
+        match self.used_from(0) {
             0 if self.options.smallest_sampled.is_some() => self.enter(ground, q, tally),
             0 => self
                 .last
