@@ -44,11 +44,11 @@ impl<G: Ground> Strategy<G> for FromLast {
         }
     }
 
-    fn inserted(&mut self, _: &G, v: Place, _: Start<G::Hint>) {
+    fn inserted<T: Tally>(&mut self, _: &G, v: Place, _: Start<G::Hint>, _: &mut T) {
         self.last = Some(v);
     }
 
-    fn removing(&mut self, ground: &G, v: Place) {
+    fn removing<T: Tally>(&mut self, ground: &G, v: Place, _: &mut T) {
         if self.last == Some(v) {
             self.last = ground.neighbor(v);
         }

@@ -13,7 +13,7 @@ use super::{Ground, Start, Strategy};
 use crate::error::Error;
 use crate::ids::Place;
 use crate::order::random::SplitMix;
-use crate::tally::Tally;
+use crate::tally::{Phase, Tally};
 
 /// Parameters of jump-and-walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,13 +22,15 @@ pub struct JumpAndWalk {
     pub rho: f64,
     /// A fixed sample size instead, not zero.
     pub sample: Option<usize>,
+    /// Whether a vertex may be drawn twice, which saves remembering what has been drawn. The paper draws without replacement.
+    pub with_replacement: bool,
     /// Decides the samples, together with the query: the same query has the same sample.
     pub seed: u64,
 }
 
 impl Default for JumpAndWalk {
     fn default() -> Self {
-        Self { rho: 1.0, sample: None, seed: 0 }
+        Self { rho: 1.0, sample: None, with_replacement: false, seed: 0 }
     }
 }
 
@@ -49,20 +51,22 @@ impl JumpAndWalk {
         self.sample.unwrap_or(size as usize).clamp(1, n.max(1))
     }
 
-    /// The nearest to `q` of vertices drawn at random, with replacement.
+    /// The nearest to `q` of vertices drawn at random.
     pub(super) fn jump<G: Ground, T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Option<Place> {
         let places = ground.place_count();
         if places == 0 {
             return None;
         }
+        tally.phase(Phase::Sample);
         let mix = |seed: u64, axis| SplitMix(seed ^ G::coordinate(q, axis).to_bits()).next();
         let mut random = SplitMix((0..G::DIMENSIONS).fold(self.seed, mix));
         let mut best: Option<Place> = None;
         let mut left = self.sample_size(ground.vertex_count(), G::DIMENSIONS);
-        // Free places are skipped. Where nearly all are free, fewer draws have to do: any start is right.
+        let mut drawn = Drawn::new(if self.with_replacement { 0 } else { left });
+        // Free places are skipped. Where nearly all are free, or all have been drawn, fewer draws have to do: any start is right.
         for _ in 0..16 * left {
             let v = Place::new(random.below(places));
-            if ground.hint(v) == G::NOWHERE {
+            if ground.hint(v) == G::NOWHERE || !drawn.is_new(v) {
                 continue;
             }
             tally.compared();
@@ -78,14 +82,44 @@ impl JumpAndWalk {
     }
 }
 
+/// The places that have been drawn, hashed by linear probing; nothing is remembered where there is no room.
+struct Drawn {
+    /// A power of two of slots, at most half full; none, if there is no room.
+    slots: Vec<Place>,
+}
+
+impl Drawn {
+    fn new(most: usize) -> Self {
+        let slots = if most == 0 { 0 } else { (2 * most).next_power_of_two() };
+        Self { slots: vec![Place::GHOST; slots] }
+    }
+
+    /// Remembers a place, unless it has been drawn before.
+    fn is_new(&mut self, v: Place) -> bool {
+        if self.slots.is_empty() {
+            return true;
+        }
+        let hash = (v.index() as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut slot = (hash >> (64 - self.slots.len().trailing_zeros())) as usize;
+        while !self.slots[slot].is_ghost() {
+            if self.slots[slot] == v {
+                return false;
+            }
+            slot = (slot + 1) & (self.slots.len() - 1);
+        }
+        self.slots[slot] = v;
+        true
+    }
+}
+
 impl<G: Ground> Strategy<G> for JumpAndWalk {
     fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint> {
         self.jump(ground, q, tally).map_or(Start::Anywhere, Start::Vertex)
     }
 
-    fn inserted(&mut self, _: &G, _: Place, _: Start<G::Hint>) {}
+    fn inserted<T: Tally>(&mut self, _: &G, _: Place, _: Start<G::Hint>, _: &mut T) {}
 
-    fn removing(&mut self, _: &G, _: Place) {}
+    fn removing<T: Tally>(&mut self, _: &G, _: Place, _: &mut T) {}
 
     fn rearranged(&mut self, _: &G, _: &[Place]) {}
 }
