@@ -82,32 +82,40 @@ impl JumpAndWalk {
     }
 }
 
-/// The places that have been drawn, hashed by linear probing; nothing is remembered where there is no room.
+/// The places that have been drawn, hashed by linear probing; those of small samples without a memory to be asked for.
 struct Drawn {
-    /// A power of two of slots, at most half full; none, if there is no room.
-    slots: Vec<Place>,
+    few: [Place; Self::FEW],
+    many: Vec<Place>,
+    /// The number of slots, a power of two, at most half full; 1 if nothing is remembered.
+    slots: usize,
 }
 
 impl Drawn {
+    const FEW: usize = 32;
+
+    /// Remembers at most so many; nothing, if that is zero.
     fn new(most: usize) -> Self {
-        let slots = if most == 0 { 0 } else { (2 * most).next_power_of_two() };
-        Self { slots: vec![Place::GHOST; slots] }
+        let slots = (2 * most).next_power_of_two();
+        let many = if slots > Self::FEW { vec![Place::GHOST; slots] } else { Vec::new() };
+        Self { few: [Place::GHOST; Self::FEW], many, slots }
     }
 
     /// Remembers a place, unless it has been drawn before.
+    #[inline]
     fn is_new(&mut self, v: Place) -> bool {
-        if self.slots.is_empty() {
+        if self.slots == 1 {
             return true;
         }
+        let slots = if self.many.is_empty() { &mut self.few[..self.slots] } else { &mut self.many[..] };
         let hash = (v.index() as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        let mut slot = (hash >> (64 - self.slots.len().trailing_zeros())) as usize;
-        while !self.slots[slot].is_ghost() {
-            if self.slots[slot] == v {
+        let mut slot = (hash >> (64 - slots.len().trailing_zeros())) as usize;
+        while !slots[slot].is_ghost() {
+            if slots[slot] == v {
                 return false;
             }
-            slot = (slot + 1) & (self.slots.len() - 1);
+            slot = (slot + 1) & (slots.len() - 1);
         }
-        self.slots[slot] = v;
+        slots[slot] = v;
         true
     }
 }
@@ -122,4 +130,35 @@ impl<G: Ground> Strategy<G> for JumpAndWalk {
     fn removing<T: Tally>(&mut self, _: &G, _: Place, _: &mut T) {}
 
     fn rearranged(&mut self, _: &G, _: &[Place]) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Drawn, JumpAndWalk, Place};
+
+    #[test]
+    fn what_has_been_drawn_is_not_new() {
+        for most in [1, 2, 16, 17, 1000] {
+            let mut drawn = Drawn::new(most);
+            for k in 0..most {
+                assert!(drawn.is_new(Place::new(7 * k)) && !drawn.is_new(Place::new(7 * k)), "{k} of {most}");
+            }
+            assert!((0..most).all(|k| !drawn.is_new(Place::new(7 * k))));
+        }
+        let mut none = Drawn::new(0);
+        assert!(none.is_new(Place::new(1)) && none.is_new(Place::new(1)));
+    }
+
+    #[test]
+    fn samples_are_as_large_as_asked() {
+        let size = |rho, sample, n, dimensions| {
+            JumpAndWalk { rho, sample, ..JumpAndWalk::default() }.sample_size(n, dimensions)
+        };
+        assert_eq!((size(1.0, None, 1001, 2), size(1.0, None, 10_001, 3)), (11, 11));
+        assert_eq!((size(2.5, None, 27, 2), size(1e300, None, 27, 2), size(1e-300, None, 27, 2)), (8, 27, 1));
+        assert_eq!(
+            (size(1.0, Some(32), 100, 2), size(1.0, Some(32), 10, 2), size(1.0, None, 0, 2)),
+            (32, 10, 1)
+        );
+    }
 }
