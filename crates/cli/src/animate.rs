@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use delone::{Bounds, Delaunay2, Moving2, Step2};
-use delone_generators::Random;
+use delone_generators::{Random, in_ball};
 use delone_io::{Error, Format, Mesh, picture, write_mesh};
 
 use crate::args::AnimateArgs;
@@ -108,12 +108,7 @@ impl Film {
         if step > 0 {
             let [low, high] = self.window;
             for p in &mut self.positions {
-                let shift = loop {
-                    let u = [self.random.between(-1.0, 1.0), self.random.between(-1.0, 1.0)];
-                    if u[0] * u[0] + u[1] * u[1] <= 1.0 {
-                        break u;
-                    }
-                };
+                let shift: [f64; 2] = in_ball(&mut self.random);
                 // Those that reach the border stay there until they turn.
                 *p = [0, 1].map(|k| (p[k] + self.radius * shift[k]).clamp(low[k], high[k]));
             }

@@ -206,7 +206,7 @@ fn disks_and_hints_are_drawn() {
     place.fail("draw p.csv --dim 3 --hints -o x.svg", 2, "for the plane");
     place.succeed("generate cube -n 200 --seed 1 -o model.ply");
     let table = place.succeed("experiment scan model.ply --largest 200");
-    assert!(table.contains("Noisy samples of model"), "{table}");
+    assert!(table.contains("Noisy samples of a scanned model"), "{table}");
     place.fail("experiment scan", 2, "needs a file");
     place.fail("experiment imprecise model.ply", 2, "only scan");
     place.file("few.csv", "1,2,3\n");

@@ -4,14 +4,19 @@
 //! and plots ([`Findings`]). Counts depend on the seed alone and are the same on every machine. `docs/papers.md` says which
 //! experiment shows what.
 
+mod appear;
 mod brownian;
+mod conflicts;
+mod disks;
 mod growth;
 mod hierarchy;
 mod history;
 mod imprecise;
 mod jump_and_walk;
+mod order;
 mod plot;
 mod radial;
+mod scopes;
 mod table;
 mod trials;
 
@@ -89,6 +94,26 @@ pub struct Experiment {
 /// All experiments.
 pub const EXPERIMENTS: &[Experiment] = &[
     Experiment {
+        name: "scopes",
+        about: "Which triangles, edges and tetrahedra ever appear, by the points in their circles, simulated and computed \
+                (Guibas, Knuth & Sharir 1992, §2, §4.2 and §4.3)",
+        smallest: 100,
+        run: scopes::run,
+    },
+    Experiment {
+        name: "order",
+        about: "What the order of insertion does: bad orders, variance, adding to a set, an unlucky site, sorting (the same, \
+                §2.1, §2.3 and §3)",
+        smallest: 100,
+        run: order::run,
+    },
+    Experiment {
+        name: "conflicts",
+        about: "The equations of the analysis of conflict lists, step by step (lecture notes)",
+        smallest: 100,
+        run: conflicts::run,
+    },
+    Experiment {
         name: "history",
         about: "What ever appears in randomized incremental construction, and what locating costs (Guibas, Knuth & Sharir \
                 1992, §2 and §3)",
@@ -119,6 +144,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "Triangulate instances of imprecise points by hints, in the plane and in space (Devillers 2011, §5)",
         smallest: 10_000,
         run: imprecise::run,
+    },
+    Experiment {
+        name: "disks",
+        about: "What the analysis of hints counts, and disks that overlap, differ or mislead (the same, §4 and §6)",
+        smallest: 1000,
+        run: disks::run,
     },
     Experiment {
         name: "brownian",
