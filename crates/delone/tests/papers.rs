@@ -111,6 +111,18 @@ fn the_four_modes_rank_as_in_the_paper() {
     }
 }
 
+/// The same, §5.4: the highest level that is used has twenty vertices or more, so that there is something to sample.
+#[test]
+fn the_sample_at_the_top_saves_a_walk() {
+    let visited = |options| {
+        let algorithm = Algorithm2::Located { locate: Locate::Hierarchy(options), seed: 1 };
+        let d = Delaunay2::with_algorithm(&uniform(50_000), algorithm).expect("finite");
+        d.counters().work().map_or(f64::NAN, |work| work.visited as f64 / 50_000.0)
+    };
+    let [levels, both] = [Hierarchy::only_levels(), Hierarchy::default()].map(visited);
+    assert!(both < 0.9 * levels, "{both} with the sample, {levels} without");
+}
+
 /// Guibas, Knuth & Sharir 1992: a new point of a random order creates about six triangles (at most 22 by their bound),
 /// with intermediate ones nine, and tracing costs O(log n).
 #[test]

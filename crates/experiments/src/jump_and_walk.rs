@@ -63,7 +63,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
         if m > n {
             break;
         }
-        d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { sample: Some(m), seed, rho: 1.0 }))?;
+        d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { sample: Some(m), seed, ..JumpAndWalk::default() }))?;
         let ([visited, compared], ns) = measure(&d, &queries)?;
         by_sample.row([m.to_string(), short(visited), short(visited + compared), short(ns)]);
         walks.push((m as f64, visited));

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use delone::{Change, Delaunay2, Error, HintOrder, Hints2, Imprecise, Location2, VertexId};
+use delone::{Change, Delaunay2, Error, HintOrder, Hints2, Imprecise, Inserted, Location2, VertexId};
 use delone_generators::{Random, moved};
 use delone_io::picture::{Mark, Sketch, Tone};
 
@@ -50,7 +50,7 @@ pub(super) fn flips(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<S
             Location2::Edge(e) => before.mesh().corners(e.triangle()),
             _ => continue,
         };
-        if inserted.is_duplicate() || first.iter().any(|v| v.is_ghost()) {
+        if matches!(inserted, Inserted::Existing(_)) || first.iter().any(|v| v.is_ghost()) {
             continue;
         }
         let after = triangles(&d);

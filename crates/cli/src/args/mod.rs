@@ -4,6 +4,7 @@
 mod ask;
 mod points;
 mod shapes;
+mod strategy;
 mod triangulate;
 
 use std::path::{Path, PathBuf};
@@ -15,7 +16,8 @@ use delone_io::{Format, LAS_CLASSES};
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
-pub(crate) use triangulate::{AlgorithmName, LocateName, TriangulateArgs};
+pub(crate) use strategy::{LocateName, StrategyArgs};
+pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]

@@ -8,8 +8,8 @@ use super::layer::Layer;
 use super::layer::insert::Spot;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::from_last::FromLast;
-use crate::locate::hierarchy::Levels;
 use crate::locate::history::History;
+use crate::locate::levels::Levels;
 use crate::locate::tree::Tree;
 use crate::locate::{Footprint, Ground, Hierarchy, JumpAndWalk, Locate, Start, Strategy, Walk};
 use crate::order::random::SplitMix;
@@ -57,12 +57,17 @@ impl Strategy<Layer> for Locator {
     }
 
     #[inline]
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
-        each!(self, strategy => strategy.inserted(layer, v, start));
+    fn start_to_insert<T: Tally>(&mut self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
+        each!(self, strategy => strategy.start_to_insert(layer, q, tally))
     }
 
-    fn removing(&mut self, layer: &Layer, v: Place) {
-        each!(self, strategy => strategy.removing(layer, v));
+    #[inline]
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, tally: &mut T) {
+        each!(self, strategy => strategy.inserted(layer, v, start, tally));
+    }
+
+    fn removing<T: Tally>(&mut self, layer: &Layer, v: Place, tally: &mut T) {
+        each!(self, strategy => strategy.removing(layer, v, tally));
     }
 
     fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
@@ -110,16 +115,16 @@ impl Strategy<Layer> for Hints {
     }
 
     #[inline]
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
-        self.tree.inserted(layer, v, start);
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, tally: &mut T) {
+        self.tree.inserted(layer, v, start, tally);
         if let Some(levels) = self.levels.get_mut() {
-            levels.inserted(layer, v, start);
+            levels.inserted(layer, v, start, tally);
         }
     }
 
-    fn removing(&mut self, layer: &Layer, v: Place) {
+    fn removing<T: Tally>(&mut self, layer: &Layer, v: Place, tally: &mut T) {
         if let Some(levels) = self.levels.get_mut() {
-            levels.removing(layer, v);
+            levels.removing(layer, v, tally);
         }
     }
 
@@ -147,7 +152,7 @@ impl Versions {
         let mut order: Vec<Place> = layer.mesh.inhabited().collect();
         SplitMix(0).shuffle(&mut order);
         for v in order {
-            versions.inserted(layer, v, Start::Anywhere);
+            versions.inserted(layer, v, Start::Anywhere, &mut ());
         }
         versions
     }
@@ -195,7 +200,7 @@ impl Strategy<Layer> for Versions {
         place.map_or(Start::Anywhere, |v| Start::At(layer.mesh.incident[v.index()], Walk::Visibility))
     }
 
-    fn inserted(&mut self, layer: &Layer, v: Place, _: Start) {
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, _: Start, _: &mut T) {
         let q = layer.point(v);
         let t = self.trace(q, &mut ());
         self.flips.points.push(q);
@@ -204,7 +209,7 @@ impl Strategy<Layer> for Versions {
         self.flips.insert(p, t, &mut self.history, &mut ());
     }
 
-    fn removing(&mut self, _: &Layer, _: Place) {
+    fn removing<T: Tally>(&mut self, _: &Layer, _: Place, _: &mut T) {
         debug_assert!(false, "nothing is removed from a history");
     }
 
@@ -218,7 +223,7 @@ mod tests {
     use delone_generators::Kind;
 
     use super::*;
-    use crate::Work;
+    use crate::{Nearest, Work};
 
     fn with(n: usize, locate: Locate) -> Delaunay2 {
         let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, 1)).expect("finite");
@@ -236,9 +241,11 @@ mod tests {
         ratio: 4.0,
         levels: None,
         smallest_level: 20,
-        rho: 1.0,
         smallest_sampled: None,
-        exact_nearest: false,
+        rho: 1.0,
+        with_replacement: false,
+        nearest: Nearest::Corner,
+        walk: None,
         seed: 1,
     };
 

@@ -20,7 +20,7 @@ use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
-use crate::tally::Tally;
+use crate::tally::{Phase, Tally};
 
 /// The end of a walk.
 #[derive(Clone, Copy, Debug)]
@@ -100,6 +100,7 @@ fn visibility<K: Kernel, T: Tally>(
     tally: &mut T,
 ) -> Goal {
     let mesh = &layer.mesh;
+    tally.phase(Phase::Walk);
     let mut from = finite_side(mesh, start);
     let mut steps = 1;
     visit(layer, from.triangle(), tally);
@@ -143,6 +144,7 @@ fn visibility<K: Kernel, T: Tally>(
 fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally: &mut T) -> Goal {
     let mesh = &layer.mesh;
     let from = layer.points[v.index()];
+    tally.phase(Phase::Turn);
     let mut steps = 0;
     let mut is_left = |w: Place| {
         tally.orientation();
@@ -169,6 +171,7 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
         spoke = next;
     };
     (0..steps).for_each(|_| tally.visited());
+    tally.phase(Phase::Walk);
     tally.saw(|| corners(layer, side.triangle()));
     loop {
         tally.orientation();
