@@ -1,9 +1,9 @@
 //! From how many points on sampling and levels pay: Figures 3 and 4, by the paper's formulas and by what is counted.
 
-use delone::{Delaunay2, Hierarchy, Locate};
+use delone::Hierarchy;
 use delone_generators::Kind;
 
-use super::count;
+use super::{count, uniform};
 use crate::phases::operations;
 use crate::plot::Plot;
 use crate::table::{Table, short};
@@ -55,8 +55,8 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
             let mut sum = 0.0;
             for set in 0..SETS {
                 let seed = options.seed + 100 * set;
-                let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
-                d.set_strategy(Locate::Hierarchy(Hierarchy { seed, ..way.2 }))?;
+                // One by one: a walk begins at the last of random points.
+                let (d, _) = uniform(n, Hierarchy { seed, ..way.2 }, seed)?;
                 let phases = count(&d, &Kind::Uniform.points(QUERIES, seed + 1))?;
                 sum += operations(&phases, QUERIES) / SETS as f64;
             }
