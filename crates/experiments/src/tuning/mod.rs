@@ -17,6 +17,7 @@ use super::plot::Plot;
 use super::table::{Table, short};
 use super::trials::Trials;
 use super::{Error, Findings, Options, timed};
+use crossovers::Edges;
 
 const QUERIES: usize = 10_000;
 const RATIOS: [f64; 8] = [2.0, 4.0, 8.0, 18.0, 30.0, 40.0, 60.0, 90.0];
@@ -139,6 +140,7 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             "ratio",
             "operations",
             "paper's formula",
+            "with the edges of 4.2",
             "visited",
             "with sample: operations",
             "with sample: visited",
@@ -148,7 +150,7 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             "ratio / (ratio - 1)",
         ],
     );
-    let mut curves: [Vec<(f64, f64)>; 3] = Default::default();
+    let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
     for ratio in RATIOS {
         let mut trials: [Trials; 7] = Default::default();
         for trial in 0..options.trials as u64 {
@@ -171,16 +173,19 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             ];
             trials.iter_mut().zip(values).for_each(|(trial, value)| trial.add(value));
         }
-        let formula = crossovers::levels((n as f64).log2(), ratio);
+        let [printed, derived] = [Edges::AsPrinted, Edges::AsDerived]
+            .map(|edges| crossovers::levels((n as f64).log2(), ratio, edges));
         curves[0].push((ratio, trials[0].mean()));
         curves[1].push((ratio, trials[2].mean()));
-        curves[2].push((ratio, formula));
+        curves[2].push((ratio, printed));
+        curves[3].push((ratio, derived));
         let [count, visited, with_sample, visited_with, ns, insertion, memory] =
             trials.map(|t| t.to_string());
         table.row([
             ratio.to_string(),
             count,
-            short(formula),
+            short(printed),
+            short(derived),
             visited,
             with_sample,
             visited_with,
@@ -195,7 +200,8 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         &format!("Operations of a query among {n} points by the ratio between levels"),
         ["ratio", "floating-point operations"],
     );
-    for (name, curve) in ["levels", "levels and sample", "the paper's formula"].into_iter().zip(curves) {
+    let names = ["levels", "levels and sample", "the paper's formula", "the same with the edges of 4.2"];
+    for (name, curve) in names.into_iter().zip(curves) {
         plot.curve(name, curve);
     }
     findings.tables.push(table);
