@@ -6,6 +6,9 @@ pub trait Tally {
     fn visited(&mut self) {}
     /// A vertex was compared with others for its distance.
     fn compared(&mut self) {}
+    /// A triangle that was visited, or a vertex that was compared, by its corners; those of a ghost are the ends of its hull
+    /// edge. For those who draw what is done: a walk tells all of them, in order.
+    fn saw(&mut self, _corners: impl FnOnce() -> Vec<Vec<f64>>) {}
     /// The orientation of three points was asked for.
     fn orientation(&mut self) {}
     /// A triangle was tested for conflict with a point.

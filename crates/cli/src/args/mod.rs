@@ -15,7 +15,7 @@ use delone_io::{Format, LAS_CLASSES};
 
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
-pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, VoronoiArgs};
+pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 
@@ -57,7 +57,7 @@ pub(crate) enum Command {
     Generate(GenerateArgs),
     /// Draw points, triangles and hull as SVG or PNG.
     Draw(DrawArgs),
-    /// Show points in Brownian motion as a moving picture.
+    /// Show points in motion, or what an algorithm does, as a moving picture.
     Animate(AnimateArgs),
     /// Tell what is in a file of points: counts, bounds, duplicates, degeneracies.
     Info(InfoArgs),

@@ -70,6 +70,7 @@ impl JumpAndWalk {
                 continue;
             }
             tally.compared();
+            tally.saw(|| vec![(0..G::DIMENSIONS).map(|axis| G::coordinate(ground.point(v), axis)).collect()]);
             if best.is_none_or(|b| ground.compare_distances(q, v, b) == Ordering::Less) {
                 best = Some(v);
             }

@@ -5,7 +5,7 @@ use std::io::Write;
 use delone::Triangulation;
 
 use super::view::View;
-use super::{Layers, Options, check_size, png};
+use super::{Layers, Options, Sketch, check_size, png};
 use crate::{Error, Mesh};
 
 /// An animated PNG being written, picture by picture.
@@ -61,6 +61,16 @@ impl<W: Write> Animation<W> {
         });
         debug_assert_eq!([view.width, view.height], self.size);
         let canvas = png::draw(mesh, &view, layers, &self.options)?;
+        self.writer.write_image_data(&canvas.colours()).map_err(failed)
+    }
+
+    /// Adds a sketch.
+    ///
+    /// # Errors
+    /// As [`Self::add`].
+    pub fn sketch(&mut self, sketch: &Sketch) -> Result<(), Error> {
+        let window = self.options.window.into_iter().flatten();
+        let canvas = sketch.draw(&View::around(window, self.options.size))?;
         self.writer.write_image_data(&canvas.colours()).map_err(failed)
     }
 

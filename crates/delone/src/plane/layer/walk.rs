@@ -68,6 +68,18 @@ pub(in crate::plane) fn walk_within<K: Kernel, T: Tally>(
     visibility(layer, start, q, most, |_| false, tally)
 }
 
+/// Tells of a triangle.
+#[inline]
+fn visit<K: Kernel, T: Tally>(layer: &Layer<K>, t: TriangleId, tally: &mut T) {
+    tally.visited();
+    tally.saw(|| corners(layer, t));
+}
+
+fn corners<K: Kernel>(layer: &Layer<K>, t: TriangleId) -> Vec<Vec<f64>> {
+    let corners = layer.mesh.places(t).into_iter().filter(|v| !v.is_ghost());
+    corners.map(|v| layer.points[v.index()].to_vec()).collect()
+}
+
 /// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
 fn finite_side(mesh: &Mesh2, e: EdgeId) -> EdgeId {
     let t = e.triangle();
@@ -91,12 +103,12 @@ fn visibility<K: Kernel, T: Tally>(
     tally.phase(Phase::Walk);
     let mut from = finite_side(mesh, start);
     let mut steps = 1;
-    tally.visited();
+    visit(layer, from.triangle(), tally);
     tally.orientation();
     if layer.is_beyond(from, q) {
         from = mesh.twin(from);
         steps += 1;
-        tally.visited();
+        visit(layer, from.triangle(), tally);
         if mesh.tip(from).is_ghost() {
             return Goal { triangle: from.triangle(), steps };
         }
@@ -121,7 +133,7 @@ fn visibility<K: Kernel, T: Tally>(
         };
         from = mesh.twin(crossed);
         steps += 1;
-        tally.visited();
+        visit(layer, from.triangle(), tally);
         if mesh.tip(from).is_ghost() || steps > most {
             return Goal { triangle: from.triangle(), steps };
         }
@@ -161,6 +173,7 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
     };
     (0..steps).for_each(|_| tally.visited());
     tally.phase(Phase::Walk);
+    tally.saw(|| corners(layer, side.triangle()));
     loop {
         tally.orientation();
         if !layer.is_beyond(side, q) {
@@ -168,7 +181,7 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
         }
         let entered = mesh.twin(side);
         steps += 1;
-        tally.visited();
+        visit(layer, entered.triangle(), tally);
         let tip = mesh.tip(entered);
         if tip.is_ghost() {
             return Goal { triangle: entered.triangle(), steps };
