@@ -188,7 +188,9 @@ fn phases_cost_what_the_paper_expects() {
         let options = Hierarchy { ratio: 30.0, levels: Some(3), nearest, ..Hierarchy::default() };
         let d = located(60_000, Locate::Hierarchy(options));
         let mut phases = Phases::default();
-        queries.iter().for_each(|&q| drop(d.find_observed(q, &mut phases).expect("finite")));
+        for &q in &queries {
+            d.find_observed(q, &mut phases).expect("finite");
+        }
         let each = |count: u64, levels: u64| count as f64 / (levels * queries.len() as u64) as f64;
         let [_, turn, walk, search] = phases.counts;
         near(each(turn.orientations, 3), 3.05, 0.05);

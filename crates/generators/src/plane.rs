@@ -214,7 +214,7 @@ fn hub(n: usize) -> Vec<Point2> {
         if i == 0 {
             return [0.0, 0.0];
         }
-        let (pair, is_second) = (((i - 1) / 2) as f64, i % 2 == 0);
+        let (pair, is_second) = (((i - 1) / 2) as f64, i.is_multiple_of(2));
         let radius = libm::pow(shrink, pairs / 2.0 - pair) / if is_second { 2.1 } else { 1.0 };
         let angle = (pair + if is_second { 0.0 } else { 0.01 }) / pairs;
         [radius * libm::cos(angle), radius * libm::sin(angle)]

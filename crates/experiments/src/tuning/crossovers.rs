@@ -109,8 +109,8 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
     );
     for (better, worse, paper) in [(1, 0, 40), (2, 0, 180), (2, 1, 600)] {
         let [printed, derived] = [Edges::AsPrinted, Edges::AsDerived].map(|edges| {
-            let least =
-                (1..1_000_000).find(|&n| ways[better].1(n as f64, edges) < ways[worse].1(n as f64, edges));
+            let cost = |way: usize, n: u32| ways[way].1(f64::from(n), edges);
+            let least = (1..1_000_000).find(|&n| cost(better, n) < cost(worse, n));
             least.map_or("never".to_owned(), |n| n.to_string())
         });
         table.row([
