@@ -29,6 +29,8 @@ experiment conflicts 100 1000 1000
 experiment history 100 200000 200000 --trials 1
 experiment radial 1000 1000000 1000000
 experiment hierarchy 5000 500000 500000
+experiment tuning 1000 300000 300000
+experiment deletion 1000 1000000 1000000
 experiment jump-and-walk 1000 1000000 1000000
 experiment imprecise 10000 10000000 100000000
 experiment disks 1000 100000 100000

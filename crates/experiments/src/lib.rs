@@ -7,6 +7,7 @@
 mod appear;
 mod brownian;
 mod conflicts;
+mod deletion;
 mod disks;
 mod growth;
 mod hierarchy;
@@ -14,11 +15,13 @@ mod history;
 mod imprecise;
 mod jump_and_walk;
 mod order;
+mod phases;
 mod plot;
 mod radial;
 mod scopes;
 mod table;
 mod trials;
+mod tuning;
 
 use std::time::Instant;
 
@@ -132,6 +135,19 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "Build five kinds of sets with the Delaunay hierarchy and its simpler modes (Devillers 1998, §5.5.2)",
         smallest: 5000,
         run: hierarchy::run,
+    },
+    Experiment {
+        name: "tuning",
+        about: "What a level of the hierarchy costs, by phase and by the ratio between levels; crossovers; a set that misleads \
+                (the same, §3, §4 and appendix)",
+        smallest: 1000,
+        run: tuning::run,
+    },
+    Experiment {
+        name: "deletion",
+        about: "What removing random vertices costs, with and without a hierarchy (the same, §5.1)",
+        smallest: 1000,
+        run: deletion::run,
     },
     Experiment {
         name: "jump-and-walk",

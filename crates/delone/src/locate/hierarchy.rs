@@ -11,10 +11,10 @@
 //! At the top a few vertices are drawn at random and the nearest of them is the start (the mixed method of
 //! §4.5).
 //!
-//! Cost: O(ratio log n / log ratio) expected (Theorem 6) for any data if the query is a random one of the points, the
-//! randomness being the sample's, and phase 3 is exact. With the modified phase 3, the default here as in the paper's code,
-//! that is what is seen on all data but those made against it (the set `wheels`): the appendix of the paper shows that it is not a theorem.
-//! O(n ratio / (ratio - 1)) memory. Insertion and removal work on all levels of a vertex, O(1) of them expected. Choose it where
+//! Cost: O(ratio log n / log ratio) expected for any data (Theorem 6), the randomness being the sample's, if the query is a
+//! random one of the points and phase 3 is by circles. With the modified phase 3, the default here as in the paper's code, and
+//! with the one by angles, that is what is seen on all data but those made against them: on the set `hub` both are linear, the
+//! first as the appendix of the paper says. O(n ratio / (ratio - 1)) memory. Insertion and removal work on all levels of a vertex, O(1) of them expected. Choose it where
 //! points come in adversarial order or many are removed.
 
 use super::{JumpAndWalk, Walk};
@@ -33,7 +33,8 @@ pub enum Nearest {
     /// The nearest vertex, by searching outwards from that triangle and crossing an edge only if the angle at its nearer end,
     /// towards the query, is acute (§2.2). In space by following edges downhill.
     Exact,
-    /// The nearest vertex, among the corners of all triangles whose circles contain the query (§5.2). In the plane.
+    /// The nearest vertex, among the corners of all triangles whose circles contain the query (§5.2): its neighbours, if it were
+    /// a vertex, which are fewer than six on average over queries that are random ones of the points. In the plane.
     InCircle,
 }
 

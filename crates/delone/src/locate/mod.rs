@@ -12,7 +12,7 @@
 //! | [`Locate::Tree`] | Bentley 1975, Devillers 1998 | O(log n) | always, unless there is a reason |
 //! | [`Locate::Walk`] | Devillers, Pion & Teillaud 2002 | O(sqrt n), O(1) from nearby | queries follow each other in space |
 //! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
-//! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n) for any data, queries like the points | adversarial data that change a lot |
+//! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n), for any data with [`Nearest::InCircle`], queries like the points | adversarial data that change a lot |
 //! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
 
 pub(crate) mod conflict_lists;

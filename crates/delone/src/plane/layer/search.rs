@@ -29,8 +29,8 @@ pub(in crate::plane) fn near<K: Kernel, T: Tally>(
     let is_outside = || layer.mesh.places(triangle).iter().any(|v| v.is_ghost());
     let nearest = match nearest {
         Nearest::Corner => best,
-        // No triangle contains `q`, and circles of many ghosts may.
-        Nearest::Exact | Nearest::InCircle if is_outside() => descend(layer, best, q, tally),
+        // Beyond the hull no triangle contains `q`.
+        Nearest::Exact if is_outside() => descend(layer, best, q, tally),
         Nearest::Exact => search(layer, triangle, best, q, tally),
         Nearest::InCircle => search_conflicts(layer, triangle, best, q, tally),
     };
@@ -74,7 +74,8 @@ fn search_conflicts<K: Kernel, T: Tally>(
 }
 
 /// Phase 3, exactly: outwards from the triangle that contains `q`, across the edges at the nearest vertex known
-/// and across those whose nearer end sees the query and the other end at an acute angle.
+/// and across those whose nearer end sees the query and the other end at an acute angle. At a vertex of large degree these may
+/// be many: the triangles there need no corner in the disk in which the proof of Lemma 5 counts them.
 fn search<K: Kernel, T: Tally>(
     layer: &Layer<K>,
     triangle: TriangleId,

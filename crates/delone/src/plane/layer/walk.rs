@@ -163,6 +163,7 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
         let head = mesh.head(next);
         steps += 1;
         if next == first || head.is_ghost() || mesh.head(spoke).is_ghost() {
+            (1..steps).for_each(|_| tally.visited());
             return walk_within(layer, spoke, q, usize::MAX, tally);
         }
         if is_left(head) == turns_left {
