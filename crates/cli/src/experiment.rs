@@ -75,10 +75,9 @@ fn failure(experiment: &Experiment, error: &Error, args: &ExperimentArgs) -> Fai
             Failure::usage(error, format!("give at least --largest {smallest} to {}", experiment.name))
         }
         Error::SmallModel(_) | Error::Library(_) => match &args.model {
-            Some(path) => Failure::new(
-                format!("{}: {error}", path.display()),
-                "give a model of some thousand points",
-            ),
+            Some(path) => {
+                Failure::new(format!("{}: {error}", path.display()), "give a model of some thousand points")
+            }
             None => Failure::new(error, "try a smaller --largest"),
         },
         _ => Failure::new(error, "please report this: it is a bug"),

@@ -3,8 +3,7 @@
 use std::hint::black_box;
 
 use delone::{
-    Algorithm2, Counters, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Moving3, Step2, Step3,
-    Work,
+    Algorithm2, Counters, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Moving3, Step2, Step3, Work,
 };
 use delone_generators::{Kind, Kind3, Random};
 

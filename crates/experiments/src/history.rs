@@ -7,9 +7,9 @@ use delone::{Algorithm2, Counters, Delaunay2, Locate, VertexId};
 use delone_generators::{Kind, Random};
 use delone_predicates::{in_circle, orient2d};
 
-use super::{Error, Findings, Options};
 use super::plot::Plot;
 use super::table::{Table, short};
+use super::{Error, Findings, Options};
 
 /// Points of the set that is simulated, and the number of random orders.
 const SMALL: usize = 24;

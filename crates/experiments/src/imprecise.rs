@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use delone::{
-    Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Hierarchy, HintOrder, Hints2, Hints3,
-    Imprecise, Locate, Work,
+    Algorithm2, Algorithm3, Counters, Delaunay2, Delaunay3, Hierarchy, HintOrder, Hints2, Hints3, Imprecise,
+    Locate, Work,
 };
 use delone_generators::{Kind, Kind3, Random};
 
@@ -104,7 +104,8 @@ pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
         return Err(Error::SmallModel(model.len()));
     }
     let mut findings = Findings::default();
-    let mut report = Report::new("scan", "Noisy samples of a scanned model", &METHODS[..4], &SCAN, &SCAN_VISITED);
+    let mut report =
+        Report::new("scan", "Noisy samples of a scanned model", &METHODS[..4], &SCAN, &SCAN_VISITED);
     let mut random = Random::new(seed);
     random.shuffle(&mut model);
     let most = model.len().min(largest);

@@ -30,13 +30,19 @@ impl Table {
     /// The same, separated by commas: a line of heads, then the rows.
     pub fn csv(&self) -> String {
         let lines = std::iter::once(&self.heads).chain(&self.rows);
-        lines.map(|cells| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n").collect()
+        lines
+            .map(|cells| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n")
+            .collect()
     }
 }
 
 /// A field of a file of comma-separated values.
 fn quoted(cell: &str) -> String {
-    if cell.contains([',', '"', '\n']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
+    if cell.contains([',', '"', '\n']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
 }
 
 impl fmt::Display for Table {
