@@ -1,6 +1,6 @@
 //! The papers' figures, as counts: seeds are fixed and no clock is asked.
 
-use delone::{Algorithm2, Ask, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, Work};
+use delone::{Algorithm2, Ask, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, VertexId, Work};
 use delone_generators::{Kind, Random};
 
 fn uniform(n: usize) -> Vec<[f64; 2]> {
@@ -112,21 +112,59 @@ fn the_four_modes_rank_as_in_the_paper() {
 }
 
 /// Guibas, Knuth & Sharir 1992: a new point of a random order creates about six triangles (at most 22 by their bound),
-/// with intermediate ones nine, and tracing costs O(log n).
+/// with intermediate ones nine; it is traced once, in O(log n), by two orientations at a split and one at a flip.
 #[test]
 fn what_a_random_order_creates() {
     let mut traced = Vec::new();
     for n in [1_000, 10_000, 100_000] {
-        let algorithm = Algorithm2::Located { locate: Locate::History, seed: 4 };
-        let d = Delaunay2::with_algorithm(&uniform(n), algorithm).expect("finite");
-        let Counters::Incremental(work) = d.counters() else { panic!("incremental") };
-        near(work.created as f64 / n as f64, 6.0, 0.05);
-        near(d.footprint().versions as f64 / n as f64, 9.0, 0.06);
-        traced.push(work.visited as f64 / n as f64 / (n as f64).ln());
+        let by = |locate| Algorithm2::Located { locate, seed: 4 };
+        let work = |d: &Delaunay2| d.counters().work().expect("incremental");
+        let d = Delaunay2::with_algorithm(&uniform(n), by(Locate::History)).expect("finite");
+        let by_history = work(&d);
+        near(by_history.created as f64 / n as f64, 9.0, 0.06);
+        assert_eq!(by_history.created + 1, d.footprint().versions as u64);
+        // A split is undone by none, and each flip makes as many as it takes.
+        assert_eq!(by_history.created - by_history.destroyed, 2 * n as u64);
+        traced.push(by_history.visited as f64 / n as f64 / (n as f64).ln());
+        let orientations = by_history.orientations as f64 / by_history.visited as f64;
+        assert!((1.0..1.5).contains(&orientations), "{orientations} a triangle");
+        let cavities = Delaunay2::with_algorithm(&uniform(n), by(Locate::Tree)).expect("finite");
+        near(work(&cavities).created as f64 / n as f64, 6.0, 0.05);
     }
     for per_log in traced {
         near(per_log, 3.5, 0.25);
     }
+}
+
+/// The same beside a triangulation that changes: the versions go on where a search has ended.
+#[test]
+fn versions_go_on_as_points_come() {
+    let (mut points, new) = (uniform(3_000), Kind::Uniform.points(2_000, 99));
+    let mut d = Delaunay2::with_algorithm(&points, Algorithm2::Located { locate: Locate::History, seed: 4 })
+        .expect("finite");
+    for &q in &new {
+        d.insert(q).expect("finite");
+    }
+    points.extend(&new);
+    let sorted = |d: &Delaunay2| {
+        let mut triangles: Vec<_> = d
+            .triangles()
+            .map(|mut t| {
+                t.sort_unstable();
+                t
+            })
+            .collect();
+        triangles.sort_unstable();
+        triangles
+    };
+    assert_eq!(sorted(&d), sorted(&Delaunay2::from_points(&points).expect("finite")));
+    near(d.footprint().versions as f64 / points.len() as f64, 9.0, 0.06);
+    // The triangle found has the vertex, so that there is nothing to walk.
+    let mut work = Work::default();
+    for (i, &q) in points.iter().enumerate() {
+        assert_eq!(d.find_observed(q, &mut work).expect("finite").face(), [VertexId::new(i)]);
+    }
+    near(work.visited as f64 / points.len() as f64 / (points.len() as f64).ln(), 4.0, 0.25);
 }
 
 /// Conflict lists: fewer than 12 (H_n - 1) moves a point, and O(log n) of them.

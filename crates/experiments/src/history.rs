@@ -151,6 +151,7 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
             "with intermediate",
             "traced",
             "traced / ln n",
+            "orientations / traced",
             "moved in lists",
             "moved / ln n",
             "bound 12 (H_n - 1)",
@@ -170,10 +171,8 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
         follow(&points, &order, |_| triangles += 1, || edges += 1)?;
         let history =
             Delaunay2::with_algorithm(&points, Algorithm2::Located { locate: Locate::History, seed })?;
-        let traced = match history.counters() {
-            Counters::Incremental(work) => work.visited,
-            _ => 0,
-        };
+        let work = history.counters().work().unwrap_or_default();
+        let traced = work.visited;
         let lists = Delaunay2::with_algorithm(&points, Algorithm2::ConflictLists { seed })?;
         let moved = match lists.counters() {
             Counters::ConflictLists { moved, .. } => moved,
@@ -190,6 +189,7 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
             short(per(versions)),
             short(per(traced)),
             short(per(traced) / log),
+            short(work.orientations as f64 / traced as f64),
             short(per(moved)),
             short(per(moved) / log),
             short(12.0 * (harmonic - 1.0)),

@@ -3,16 +3,14 @@
 use std::sync::OnceLock;
 
 use super::Delaunay2;
-use super::flips::{DUMMIES, Flips};
 use super::layer::Layer;
 use super::layer::insert::Spot;
-use crate::ids::{EdgeId, Place, TriangleId};
+use super::versions::Versions;
+use crate::ids::{EdgeId, Place};
 use crate::locate::from_last::FromLast;
 use crate::locate::hierarchy::Levels;
-use crate::locate::history::History;
 use crate::locate::tree::Tree;
-use crate::locate::{Footprint, Ground, Hierarchy, JumpAndWalk, Locate, Start, Strategy, Walk};
-use crate::order::random::SplitMix;
+use crate::locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Start, Strategy};
 use crate::tally::Tally;
 
 /// The structure behind a [`Locate`].
@@ -131,37 +129,6 @@ impl Strategy<Layer> for Hints {
     }
 }
 
-/// All versions of the triangulation, made by splits and flips, with the history that leads through them.
-#[derive(Clone, Debug)]
-pub(super) struct Versions {
-    flips: Flips,
-    history: History,
-    /// For each point of the versions the place of its vertex.
-    places: Vec<Place>,
-}
-
-impl Versions {
-    /// Inserts the vertices that there are in random order, as the analysis wants it.
-    fn build(layer: &Layer) -> Self {
-        let mut versions = Self { flips: Flips::new(), history: History::default(), places: Vec::new() };
-        let mut order: Vec<Place> = layer.mesh.inhabited().collect();
-        SplitMix(0).shuffle(&mut order);
-        for v in order {
-            versions.inserted(layer, v, Start::Anywhere);
-        }
-        versions
-    }
-
-    fn bytes(&self) -> usize {
-        let Self { flips, history, places } = self;
-        flips.bytes() + size_of_val(&**places) + history.bytes()
-    }
-
-    fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
-        self.history.trace(|t| self.flips.holds(t, q), tally)
-    }
-}
-
 impl Delaunay2 {
     /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
     pub fn footprint(&self) -> Footprint {
@@ -180,36 +147,11 @@ impl Delaunay2 {
                 footprint.strategy = levels.bytes(Layer::bytes);
             }
             Locator::Versions(versions) => {
-                footprint.versions = versions.flips.count();
+                footprint.versions = versions.count();
                 footprint.strategy = versions.bytes();
             }
         }
         footprint
-    }
-}
-
-impl Strategy<Layer> for Versions {
-    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
-        let corners = self.flips.corners(self.trace(q, tally));
-        let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
-        place.map_or(Start::Anywhere, |v| Start::At(layer.mesh.incident[v.index()], Walk::Visibility))
-    }
-
-    fn inserted(&mut self, layer: &Layer, v: Place, _: Start) {
-        let q = layer.point(v);
-        let t = self.trace(q, &mut ());
-        self.flips.points.push(q);
-        self.places.push(v);
-        let p = Place::new(self.flips.points.len() - 1);
-        self.flips.insert(p, t, &mut self.history, &mut ());
-    }
-
-    fn removing(&mut self, _: &Layer, _: Place) {
-        debug_assert!(false, "nothing is removed from a history");
-    }
-
-    fn rearranged(&mut self, _: &Layer, moved: &[Place]) {
-        self.places.iter_mut().for_each(|place| *place = moved[place.index()]);
     }
 }
 
@@ -218,7 +160,7 @@ mod tests {
     use delone_generators::Kind;
 
     use super::*;
-    use crate::Work;
+    use crate::{Walk, Work};
 
     fn with(n: usize, locate: Locate) -> Delaunay2 {
         let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, 1)).expect("finite");
@@ -260,9 +202,9 @@ mod tests {
         let levels = with(1000, Locate::Hierarchy(STEEP)).footprint();
         let least: usize = levels.levels.iter().map(|&size| bytes(size)).sum();
         assert!(levels.strategy >= least && levels.strategy < 2 * least, "{levels:?}");
-        // The triangle of the dummies, the one behind it, and the three that a point makes, each with three to follow.
+        // The triangle of the dummies, the one behind it, and the three that a point makes, each with what follows.
         let history = with(1, Locate::History).footprint();
-        let bytes = 5 * 32 + (3 + 1) * (16 + 4) + 4 + 5 * 24;
+        let bytes = 5 * 32 + (3 + 1) * (16 + 4) + 4 + 5 * 4;
         assert_eq!((history.versions, history.strategy), (4, bytes));
     }
 

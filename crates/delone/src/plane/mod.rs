@@ -17,6 +17,7 @@ mod rectangle;
 mod region;
 mod triangulation;
 pub mod verify;
+mod versions;
 mod voronoi;
 
 pub use construct::Algorithm2;

@@ -87,7 +87,7 @@ impl NearestSites2 {
             let around: Vec<Place> = star.iter().map(|&e| self.layer.mesh.head(e)).collect();
             let turn = self.planes.add(&self.layer.points, site, &around, &vec![Place::GHOST; around.len()]);
             for (k, e) in star.into_iter().enumerate() {
-                self.appear(e, self.planes.radial(self.planes.seat(site, turn(k)), INTERIOR));
+                self.appear(e, Radial::new(self.planes.seat(site, turn(k)), INTERIOR));
             }
         }
         self.triangles = self.planes.seats();
@@ -122,10 +122,10 @@ impl NearestSites2 {
         gone.into_iter().chain(border.iter().map(|&[_, outside]| outside)).for_each(|e| self.disappear(e));
         for (k, [edge, outside]) in border.into_iter().enumerate() {
             let [own, following] = [k, k + 1].map(|k| self.planes.seat(site, turn(k)));
-            self.appear(edge, self.planes.radial(own, FOLLOWING));
-            self.appear(edge.next(), self.planes.radial(following, TO_SITE));
-            self.appear(edge.previous(), self.planes.radial(own, INTERIOR));
-            self.appear(outside, self.planes.radial(following, BEFORE));
+            self.appear(edge, Radial::new(own, FOLLOWING));
+            self.appear(edge.next(), Radial::new(following, TO_SITE));
+            self.appear(edge.previous(), Radial::new(own, INTERIOR));
+            self.appear(outside, Radial::new(following, BEFORE));
         }
     }
 

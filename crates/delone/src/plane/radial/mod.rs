@@ -148,15 +148,19 @@ impl NearestSites2 {
         if self.apex.is_none() {
             return Ok(self.nearest_on_line(q, tally).map(Place::index));
         }
-        let [mut nearest, across] = self.planes.sides(self.trace(q, tally));
-        // On the border of a cell there may be a smaller site at the same distance. Such sites are on one circle around the
-        // query, and joined.
-        let is_border = !across.is_ghost() && {
-            tally.compared();
-            compare_distances(q, self.layer.points[nearest.index()], self.layer.points[across.index()])
-                .is_eq()
-        };
-        while is_border {
+        let [nearest, across] = self.planes.sides(self.trace(q, tally));
+        let point = |v: Place| self.layer.points[v.index()];
+        if across.is_ghost() {
+            return Ok(Some(nearest.index()));
+        }
+        tally.compared();
+        let is_border = compare_distances(q, point(nearest), point(across)).is_eq();
+        Ok(Some(if is_border { self.smallest(nearest, q, tally) } else { nearest }.index()))
+    }
+
+    /// The smallest of the sites that are as near to `q` as this nearest one. They are on one circle around `q`, and joined.
+    fn smallest<T: Tally>(&self, mut nearest: Place, q: [f64; 2], tally: &mut T) -> Place {
+        loop {
             let mut best = nearest;
             for e in self.layer.mesh.spokes(nearest) {
                 let w = self.layer.mesh.head(e);
@@ -166,11 +170,10 @@ impl NearestSites2 {
                 }
             }
             if best == nearest {
-                break;
+                return nearest;
             }
             nearest = best;
         }
-        Ok(Some(nearest.index()))
     }
 
     /// The number of radial triangles that ever were: O(n) expected.

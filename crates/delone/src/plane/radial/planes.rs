@@ -38,6 +38,11 @@ impl Radial {
     /// No triangle.
     pub(super) const NONE: Self = Self(u32::MAX);
 
+    /// That of a kind at a seat.
+    pub(super) fn new(seat: Seat, kind: usize) -> Self {
+        Self(KINDS as u32 * seat.0 + kind as u32)
+    }
+
     fn seat(self) -> usize {
         self.0 as usize / KINDS
     }
@@ -78,7 +83,7 @@ struct Row {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Planes {
     /// For each site its plane.
-    planes: Vec<Plane>,
+    ranges: Vec<Plane>,
     /// Of all planes the neighbours, counter-clockwise around the site.
     neighbors: Vec<Place>,
     rows: Vec<Row>,
@@ -102,11 +107,11 @@ impl Planes {
         let is_upper = |k: usize| is_upper(points, [site, around[k % count], around[(k + 1) % count]]);
         let first = (0..count).find(|&k| is_upper(k) && !is_upper(k + count - 1)).unwrap_or(0);
         let upper = (0..count).filter(|&k| is_upper(k)).count() as u32;
-        if self.planes.len() <= site.index() {
-            self.planes.resize(site.index() + 1, Plane::default());
+        if self.ranges.len() <= site.index() {
+            self.ranges.resize(site.index() + 1, Plane::default());
         }
         let start = self.neighbors.len() as u32;
-        self.planes[site.index()] = Plane { start, count: count as u32, upper };
+        self.ranges[site.index()] = Plane { start, count: count as u32, upper };
         self.neighbors.extend(around[first..].iter().chain(&around[..first]));
         let turned = beyond[first..].iter().chain(&beyond[..first]);
         self.rows.extend(turned.map(|&beyond| Row { site, beyond, links: [u32::MAX; KINDS] }));
@@ -115,12 +120,7 @@ impl Planes {
 
     /// The seat of a number in the plane of a site.
     pub(super) fn seat(&self, site: Place, k: usize) -> Seat {
-        Seat(self.planes[site.index()].start + k as u32)
-    }
-
-    /// A triangle at a seat.
-    pub(super) fn radial(&self, seat: Seat, kind: usize) -> Radial {
-        Radial(KINDS as u32 * seat.0 + kind as u32)
+        Seat(self.ranges[site.index()].start + k as u32)
     }
 
     /// Whose plane a seat is in, and who sits there.
@@ -159,7 +159,7 @@ impl Planes {
 
     /// Who sits one further, or one before.
     fn beside(&self, seat: usize, step: isize) -> Place {
-        let range = self.planes[self.rows[seat].site.index()].range();
+        let range = self.ranges[self.rows[seat].site.index()].range();
         let k = (seat - range.start).wrapping_add_signed(step).wrapping_add(range.len()) % range.len();
         self.neighbors[range.start + k]
     }
@@ -172,7 +172,7 @@ impl Planes {
         q: [f64; 2],
         tally: &mut T,
     ) -> Radial {
-        let plane = self.planes[site.index()];
+        let plane = self.ranges[site.index()];
         let around = &self.neighbors[plane.range()];
         let [x, y] = points[site.index()];
         let (mut low, mut high) = if q[1] > y || (q[1] == y && q[0] > x) {
@@ -189,7 +189,7 @@ impl Planes {
                 high = middle;
             }
         }
-        self.radial(self.seat(site, low % around.len()), INTERIOR)
+        Radial::new(self.seat(site, low % around.len()), INTERIOR)
     }
 
     /// The exterior triangle at a seat in whose angle `q` is.
@@ -210,7 +210,7 @@ impl Planes {
         } else {
             BEFORE
         };
-        self.radial(seat, kind)
+        Radial::new(seat, kind)
     }
 }
 
