@@ -12,7 +12,7 @@ fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
 }
 
 /// Strategies under which vertices can go.
-fn strategies() -> [Locate; 6] {
+fn strategies() -> [Locate; 7] {
     [
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
@@ -20,6 +20,7 @@ fn strategies() -> [Locate; 6] {
         Locate::JumpAndWalk(JumpAndWalk::default()),
         Locate::Hierarchy(Hierarchy { ratio: 2.5, smallest_level: 3, ..Hierarchy::default() }),
         Locate::Hierarchy(Hierarchy { exact_nearest: true, ratio: 4.0, ..Hierarchy::only_levels() }),
+        Locate::DelaunayTree,
     ]
 }
 
@@ -350,7 +351,7 @@ fn duplicates_end_with_their_vertex() {
 #[test]
 fn strategies_follow_a_layout() {
     let points = Kind::Uniform.points(34_000, 1);
-    for locate in [Locate::History, Locate::Hierarchy(Hierarchy::default())] {
+    for locate in [Locate::History, Locate::Hierarchy(Hierarchy::default()), Locate::DelaunayTree] {
         let mut d = Delaunay2::with_strategy(locate).expect("in range");
         d.locate([0.5, 0.5]).expect("finite");
         d.extend(&points, 1).expect("finite");

@@ -5,6 +5,7 @@
 //! experiment shows what.
 
 mod brownian;
+mod delaunay_tree;
 mod growth;
 mod hierarchy;
 mod history;
@@ -94,6 +95,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
                 1992, §2 and §3)",
         smallest: 100,
         run: history::run,
+    },
+    Experiment {
+        name: "delaunay-tree",
+        about: "The Delaunay tree in the plane and in space: size and searches, also after removals (the same, §3)",
+        smallest: 100,
+        run: delaunay_tree::run,
     },
     Experiment {
         name: "radial",

@@ -80,6 +80,8 @@ pub(crate) enum LocateName {
     Hierarchy,
     /// Trace all triangles that ever were; no removal.
     History,
+    /// Search all triangles that ever were by their circles (the Delaunay tree).
+    DelaunayTree,
     /// Triangles keep lists of the points to come; bulk only.
     Conflict,
     /// Walk from the previous point in spatial order; bulk only.
@@ -95,6 +97,7 @@ impl LocateName {
             Self::JumpAndWalk => Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
             Self::Hierarchy => Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() }),
             Self::History => Locate::History,
+            Self::DelaunayTree => Locate::DelaunayTree,
             Self::Conflict | Self::Spatial => return None,
         })
     }

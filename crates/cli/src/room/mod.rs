@@ -122,7 +122,7 @@ pub(crate) fn strategy(locate: LocateName, seed: u64, purpose: &str) -> Result<L
     locate.strategy(seed).ok_or_else(|| {
         Failure::usage(
             format!("that strategy is for building in bulk, not for {purpose}"),
-            "choose --locate tree, walk, jump-and-walk or hierarchy; in the plane history too",
+            "choose --locate tree, walk, jump-and-walk, hierarchy or delaunay-tree; in the plane history too",
         )
     })
 }

@@ -53,7 +53,7 @@ impl Room for Delaunay3 {
             (LocateName::Conflict | LocateName::History, _) | (_, None) => {
                 return Err(Failure::usage(
                     "location by history and by conflict lists is for the plane",
-                    "choose --locate spatial, tree, walk, jump-and-walk or hierarchy",
+                    "choose --locate spatial, tree, walk, jump-and-walk, hierarchy or delaunay-tree",
                 ));
             }
             (_, Some(locate)) => Algorithm3::Located { locate, seed },

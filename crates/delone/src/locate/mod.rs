@@ -13,9 +13,11 @@
 //! | [`Locate::Walk`] | Devillers, Pion & Teillaud 2002 | O(sqrt n), O(1) from nearby | queries follow each other in space |
 //! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
 //! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n) for any data, queries like the points | adversarial data that change a lot |
+//! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
 //! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
 
 pub(crate) mod conflict_lists;
+pub(crate) mod delaunay_tree;
 pub(crate) mod from_last;
 pub(crate) mod hierarchy;
 pub(crate) mod history;
@@ -49,6 +51,8 @@ pub enum Locate {
     Hierarchy(Hierarchy),
     /// A descent through all triangles that ever were. Removal is an error.
     History,
+    /// A search by circles through all triangles that ever were; those of a vertex that is removed are forgotten.
+    DelaunayTree,
 }
 
 impl Locate {
@@ -57,7 +61,7 @@ impl Locate {
         match self {
             Self::JumpAndWalk(options) => options.validate(),
             Self::Hierarchy(options) => options.validate(),
-            Self::Tree | Self::Walk(_) | Self::History => Ok(()),
+            Self::Tree | Self::Walk(_) | Self::History | Self::DelaunayTree => Ok(()),
         }
     }
 }
@@ -72,7 +76,7 @@ pub struct Footprint {
     pub strategy: usize,
     /// Vertices of each level of a hierarchy above the triangulation, the largest first.
     pub levels: Vec<usize>,
-    /// Triangles of a history, past and present, those at the dummies included.
+    /// Triangles of a history, past and present, those at the dummies or ghosts included; tetrahedra in space.
     pub versions: usize,
 }
 

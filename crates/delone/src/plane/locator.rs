@@ -7,6 +7,7 @@ use super::layer::Layer;
 use super::layer::insert::Spot;
 use super::versions::Versions;
 use crate::ids::{EdgeId, Place};
+use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
 use crate::locate::hierarchy::Levels;
 use crate::locate::tree::Tree;
@@ -20,6 +21,7 @@ pub(super) enum Locator {
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
+    DelaunayTree(Box<DelaunayTree<[f64; 2], 3>>),
     Versions(Box<Versions>),
 }
 
@@ -31,6 +33,7 @@ impl Locator {
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+            Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
             Locate::History => Self::Versions(Box::new(Versions::build(layer))),
         }
     }
@@ -43,6 +46,7 @@ macro_rules! each {
             Locator::FromLast($strategy) => $do,
             Locator::JumpAndWalk($strategy) => $do,
             Locator::Hierarchy($strategy) => $do,
+            Locator::DelaunayTree($strategy) => $do,
             Locator::Versions($strategy) => $do,
         }
     };
@@ -145,6 +149,10 @@ impl Delaunay2 {
             Locator::Hierarchy(levels) => {
                 footprint.levels = levels.sizes();
                 footprint.strategy = levels.bytes(Layer::bytes);
+            }
+            Locator::DelaunayTree(tree) => {
+                footprint.versions = tree.count();
+                footprint.strategy = tree.bytes();
             }
             Locator::Versions(versions) => {
                 footprint.versions = versions.count();
