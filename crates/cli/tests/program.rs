@@ -332,7 +332,7 @@ fn strategies_of_location_give_the_same_answers() {
     let place = Place::new();
     place.file("points.csv", "0,0\n4,0\n0,4\n4,4\n2,2\n");
     place.file("queries.csv", "1,0.5\n2,2\n1,1\n9,9\n2,0\n");
-    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history", "delaunay-tree"] {
+    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history", "stars", "delaunay-tree"] {
         let found = rows(
             &place
                 .succeed(&format!("locate points.csv --queries queries.csv -o - --to csv --locate {locate}")),

@@ -31,6 +31,7 @@ fn strategies() -> Vec<Locate> {
         Locate::Hierarchy(steep),
         Locate::Hierarchy(Hierarchy { exact_nearest: true, levels: Some(3), ..steep }),
         Locate::History,
+        Locate::Stars,
         Locate::DelaunayTree,
     ]
 }

@@ -21,6 +21,7 @@ fn strategies() -> Vec<Locate> {
         Locate::Hierarchy(steep),
         Locate::Hierarchy(Hierarchy { exact_nearest: true, ..steep }),
         Locate::History,
+        Locate::Stars,
         Locate::DelaunayTree,
     ]
 }

@@ -167,6 +167,31 @@ fn versions_go_on_as_points_come() {
     near(work.visited as f64 / points.len() as f64 / (points.len() as f64).ln(), 4.0, 0.25);
 }
 
+/// The same, the unlucky site of §3: most sites are on a line, and one comes in between two others high above it. The trace is
+/// linear in the number of sites, as the paper says, and with binary search in the versions it is not.
+#[test]
+fn an_unlucky_site_is_traced_long_and_searched_fast() {
+    let work = |locate, n: usize| {
+        let mut d = Delaunay2::with_strategy(locate).expect("in range");
+        d.locate([0.0, 0.0]).expect("finite");
+        let mut bottom: Vec<f64> = (1..=n).map(|i| -(i as f64)).collect();
+        Random::new(7).shuffle(&mut bottom);
+        d.insert([1.0, 1.0]).expect("finite");
+        for x in bottom {
+            d.insert([x, 0.0]).expect("finite");
+        }
+        d.insert([0.0, 1.0]).expect("finite");
+        let mut work = Work::default();
+        d.find_observed([0.5, 1.0 - 1e-9], &mut work).expect("finite");
+        work.visited + work.orientations
+    };
+    for n in [500, 2000] {
+        assert!(work(Locate::History, n) > n as u64 / 2, "{n}: {}", work(Locate::History, n));
+        let log = (n as f64).ln();
+        assert!((work(Locate::Stars, n) as f64) < 2.0 * log * log, "{n}: {}", work(Locate::Stars, n));
+    }
+}
+
 /// Conflict lists: fewer than 12 (H_n - 1) moves a point, and O(log n) of them.
 #[test]
 fn conflict_lists_move_a_point_log_n_times() {

@@ -3,23 +3,27 @@
 
 use std::collections::BTreeMap;
 
-use delone::{Algorithm2, Counters, Delaunay2, Locate, VertexId};
+use delone::{Algorithm2, Ask, Counters, Delaunay2, Locate, VertexId, Work};
 use delone_generators::{Kind, Random};
 use delone_predicates::{in_circle, orient2d};
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Error, Findings, Options};
+use super::trials::Trials;
+use super::{Error, Findings, Options, sizes};
 
 /// Points of the set that is simulated, and the number of random orders.
 const SMALL: usize = 24;
 const ORDERS: usize = 4_000;
+/// Queries in each size.
+const QUERIES: usize = 2_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let (largest, seed) = (options.largest, options.seed);
     let mut findings = Findings::default();
     scopes(seed, &mut findings)?;
     growth(largest, seed, &mut findings)?;
+    unlucky(options, &mut findings)?;
     Ok(findings)
 }
 
@@ -152,6 +156,8 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
             "traced",
             "traced / ln n",
             "orientations / traced",
+            "stars searched",
+            "orientations there",
             "moved in lists",
             "moved / ln n",
             "bound 12 (H_n - 1)",
@@ -163,8 +169,7 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
         ["points", "per point"],
     );
     let mut curves = [const { Vec::new() }; 4];
-    let mut n = 100;
-    while n <= largest.min(200_000) {
+    for n in sizes(100, largest.min(200_000)) {
         let points = Kind::Uniform.points(n, seed);
         let order: Vec<usize> = (0..n).collect(); // the generator's order is random
         let (mut triangles, mut edges) = (0_u64, 0_u64);
@@ -173,6 +178,15 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
             Delaunay2::with_algorithm(&points, Algorithm2::Located { locate: Locate::History, seed })?;
         let work = history.counters().work().unwrap_or_default();
         let traced = work.visited;
+        let stars = {
+            let mut d = Delaunay2::from_points(&points)?;
+            d.set_strategy(Locate::Stars)?;
+            let mut work = Work::default();
+            // Queries, not sites: what is located is as far from what is there.
+            let queries = Kind::Uniform.points(QUERIES, seed + 1);
+            queries.iter().try_for_each(|&q| d.find_observed(q, &mut work).map(drop))?;
+            [work.visited, work.orientations].map(|total| total as f64 / QUERIES as f64)
+        };
         let lists = Delaunay2::with_algorithm(&points, Algorithm2::ConflictLists { seed })?;
         let moved = match lists.counters() {
             Counters::ConflictLists { moved, .. } => moved,
@@ -190,6 +204,8 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
             short(per(traced)),
             short(per(traced) / log),
             short(work.orientations as f64 / traced as f64),
+            short(stars[0]),
+            short(stars[1]),
             short(per(moved)),
             short(per(moved) / log),
             short(12.0 * (harmonic - 1.0)),
@@ -197,7 +213,6 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
         for (curve, total) in curves.iter_mut().zip([triangles, versions, traced, moved]) {
             curve.push((n as f64, per(total)));
         }
-        n = if n.to_string().starts_with('1') { n * 3 } else { n / 3 * 10 };
     }
     let names = ["triangles that appear", "with intermediate ones", "traced by history", "moved in lists"];
     let logarithm: Vec<_> = curves[2].iter().map(|&(n, _): &(f64, f64)| (n, n.ln())).collect();
@@ -207,6 +222,53 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
     plot.curve("ln n", logarithm);
     findings.tables.push(table);
     findings.plots.push(plot);
+    Ok(())
+}
+
+/// The unlucky site of §3: n sites on a line in random order, one high above them before, one after; then a site in between,
+/// close to those two, is located.
+fn unlucky(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let mut table = Table::new(
+        "history-unlucky",
+        "Steps and tests to locate the unlucky site of §3 (the paper: a trace linear in n; by binary search in the versions not, \
+         as it hopes)",
+        &[
+            "points",
+            "traced",
+            "traced / n",
+            "with orientations",
+            "stars searched",
+            "with orientations",
+            "by circles",
+            "with tests",
+        ],
+    );
+    for n in sizes(100, options.largest.min(10_000)) {
+        let mut trials: [Trials; 6] = Default::default();
+        for trial in 0..options.trials as u64 {
+            let located = |locate: Locate| -> Result<[f64; 2], Error> {
+                let mut d = Delaunay2::with_strategy(locate)?;
+                d.locate([0.0, 0.0])?;
+                let mut bottom: Vec<f64> = (1..=n).map(|i| -(i as f64)).collect();
+                Random::new(options.seed + trial).shuffle(&mut bottom);
+                d.insert([1.0, 1.0])?;
+                bottom.into_iter().try_for_each(|x| d.insert([x, 0.0]).map(drop))?;
+                d.insert([0.0, 1.0])?;
+                let mut work = Work::default();
+                d.find_observed([0.5, 1.0 - 1e-9], &mut work)?;
+                Ok([work.visited as f64, (work.visited + work.orientations + work.in_circles) as f64])
+            };
+            let all = [located(Locate::History)?, located(Locate::Stars)?, located(Locate::DelaunayTree)?];
+            for (trials, value) in trials.iter_mut().zip(all.into_iter().flatten()) {
+                trials.add(value);
+            }
+        }
+        let [traced, with, stars, with_stars, circles, with_circles] = &trials;
+        let share = short(traced.mean() / n as f64);
+        let cells = [with, stars, with_stars, circles, with_circles].map(ToString::to_string);
+        table.row([vec![n.to_string(), traced.to_string(), share], cells.to_vec()].concat());
+    }
+    findings.tables.push(table);
     Ok(())
 }
 

@@ -98,13 +98,12 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
                 short(work.mean() / (c * square(*n))),
             ]);
         }
-        let curve = |of: &dyn Fn(&(usize, [Trials; 5])) -> f64| {
-            rows.iter().map(|row| (row.0 as f64, of(row))).collect::<Vec<_>>()
-        };
         let name = kind.name();
-        plot.curve(&format!("{name}: planes visited"), curve(&|row| row.1[1].mean()));
-        plot.curve(&format!("{name}: comparisons and rays"), curve(&|row| row.1[4].mean()));
-        plot.curve(&format!("{name}: {} ln^2 n", short(c)), curve(&|row| c * square(row.0)));
+        let means = |k: usize| rows.iter().map(move |(n, trials)| (*n as f64, trials[k].mean()));
+        plot.curve(&format!("{name}: planes visited"), means(1));
+        plot.curve(&format!("{name}: comparisons and rays"), means(4));
+        let law = rows.iter().map(|(n, _)| (*n as f64, c * square(*n)));
+        plot.curve(&format!("{name}: {} ln^2 n", short(c)), law);
     }
     findings.tables.push(table);
     findings.plots.push(plot);

@@ -33,7 +33,7 @@ pub(crate) enum Place<const D: usize> {
 }
 
 /// Strategies of location; those of space come first.
-pub(crate) fn strategies(seed: u64) -> [Locate; 9] {
+pub(crate) fn strategies(seed: u64) -> [Locate; 10] {
     let hierarchy = Hierarchy::default();
     [
         Locate::Tree,
@@ -46,6 +46,7 @@ pub(crate) fn strategies(seed: u64) -> [Locate; 9] {
         Locate::Walk(Walk::Stochastic { seed }),
         Locate::Walk(Walk::Straight),
         Locate::History,
+        Locate::Stars,
     ]
 }
 
@@ -167,7 +168,7 @@ macro_rules! shared {
 }
 
 impl Engine<2> for Delaunay2 {
-    const STRATEGIES: usize = 9;
+    const STRATEGIES: usize = 10;
 
     shared!(2);
 

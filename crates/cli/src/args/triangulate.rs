@@ -80,6 +80,8 @@ pub(crate) enum LocateName {
     Hierarchy,
     /// Trace all triangles that ever were; no removal.
     History,
+    /// The same without triangles that came and went in one insertion, by binary search; no removal.
+    Stars,
     /// Search all triangles that ever were by their circles (the Delaunay tree).
     DelaunayTree,
     /// Triangles keep lists of the points to come; bulk only.
@@ -97,6 +99,7 @@ impl LocateName {
             Self::JumpAndWalk => Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
             Self::Hierarchy => Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() }),
             Self::History => Locate::History,
+            Self::Stars => Locate::Stars,
             Self::DelaunayTree => Locate::DelaunayTree,
             Self::Conflict | Self::Spatial => return None,
         })

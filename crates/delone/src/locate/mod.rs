@@ -13,8 +13,9 @@
 //! | [`Locate::Walk`] | Devillers, Pion & Teillaud 2002 | O(sqrt n), O(1) from nearby | queries follow each other in space |
 //! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
 //! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n) for any data, queries like the points | adversarial data that change a lot |
-//! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
 //! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
+//! | [`Locate::Stars`] | the same | O(log n) stars, random order | to study it; insertion only |
+//! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
 
 pub(crate) mod conflict_lists;
 pub(crate) mod delaunay_tree;
@@ -51,6 +52,9 @@ pub enum Locate {
     Hierarchy(Hierarchy),
     /// A descent through all triangles that ever were. Removal is an error.
     History,
+    /// The same without the triangles that came and went in one insertion: those that an insertion left are searched by
+    /// binary search around the new vertex. Removal is an error.
+    Stars,
     /// A search by circles through all triangles that ever were; those of a vertex that is removed are forgotten.
     DelaunayTree,
 }
@@ -61,7 +65,7 @@ impl Locate {
         match self {
             Self::JumpAndWalk(options) => options.validate(),
             Self::Hierarchy(options) => options.validate(),
-            Self::Tree | Self::Walk(_) | Self::History | Self::DelaunayTree => Ok(()),
+            Self::Tree | Self::Walk(_) | Self::History | Self::Stars | Self::DelaunayTree => Ok(()),
         }
     }
 }

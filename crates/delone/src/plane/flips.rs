@@ -77,12 +77,23 @@ impl Flips {
     }
 
     /// On which side of the line from a to b a point is, a and b corners of the triangulation, not both dummies.
-    fn side(&self, a: Place, b: Place, q: [f64; 2]) -> Sign {
+    pub(super) fn side(&self, a: Place, b: Place, q: [f64; 2]) -> Sign {
         match (is_dummy(a), is_dummy(b)) {
             (false, false) => orient2d(self.point(a), self.point(b), q),
             (true, false) => towards(self.point(b), q, a),
             (false, true) => towards(q, self.point(a), b),
             (true, true) => Sign::Positive, // the dummies are around everything, counter-clockwise
+        }
+    }
+
+    /// The same where also the point may be a dummy, for a that is none.
+    pub(super) fn turn(&self, a: Place, b: Place, c: Place) -> Sign {
+        match (is_dummy(b), is_dummy(c)) {
+            (_, false) => self.side(a, b, self.point(c)),
+            (false, true) => towards(self.point(a), self.point(b), c),
+            // They are around everything in their order.
+            (true, true) if (b.index() + 1) % DUMMIES == c.index() => Sign::Positive,
+            (true, true) => Sign::Negative,
         }
     }
 

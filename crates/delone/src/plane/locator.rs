@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use super::Delaunay2;
 use super::layer::Layer;
 use super::layer::insert::Spot;
+use super::stars::Stars;
 use super::versions::Versions;
 use crate::ids::{EdgeId, Place};
 use crate::locate::delaunay_tree::DelaunayTree;
@@ -23,6 +24,7 @@ pub(super) enum Locator {
     Hierarchy(Box<Levels<Layer>>),
     DelaunayTree(Box<DelaunayTree<[f64; 2], 3>>),
     Versions(Box<Versions>),
+    Stars(Box<Stars>),
 }
 
 impl Locator {
@@ -35,6 +37,7 @@ impl Locator {
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
             Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
             Locate::History => Self::Versions(Box::new(Versions::build(layer))),
+            Locate::Stars => Self::Stars(Box::new(Stars::build(layer))),
         }
     }
 }
@@ -48,6 +51,7 @@ macro_rules! each {
             Locator::Hierarchy($strategy) => $do,
             Locator::DelaunayTree($strategy) => $do,
             Locator::Versions($strategy) => $do,
+            Locator::Stars($strategy) => $do,
         }
     };
 }
@@ -157,6 +161,10 @@ impl Delaunay2 {
             Locator::Versions(versions) => {
                 footprint.versions = versions.count();
                 footprint.strategy = versions.bytes();
+            }
+            Locator::Stars(stars) => {
+                footprint.versions = stars.count();
+                footprint.strategy = stars.bytes();
             }
         }
         footprint

@@ -15,6 +15,7 @@ mod nearest;
 mod radial;
 mod rectangle;
 mod region;
+mod stars;
 mod triangulation;
 pub mod verify;
 mod versions;

@@ -25,7 +25,7 @@ impl Locator {
     /// Whether there is such a strategy in space.
     pub(super) fn validate(locate: Locate) -> Result<(), Error> {
         match locate {
-            Locate::History | Locate::Walk(Walk::Stochastic { .. } | Walk::Straight) => {
+            Locate::History | Locate::Stars | Locate::Walk(Walk::Stochastic { .. } | Walk::Straight) => {
                 Err(Error::OnlyInThePlane)
             }
             _ => locate.validate(),
@@ -35,7 +35,7 @@ impl Locator {
     /// The structure for the vertices that there are.
     pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
         match locate {
-            Locate::Tree | Locate::History => Self::Tree(Tree::build(layer)),
+            Locate::Tree | Locate::History | Locate::Stars => Self::Tree(Tree::build(layer)),
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),

@@ -37,9 +37,9 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
     }
 }
 
-/// Removes vertices in random order until the first simplex is left, and compares each time.
-pub(crate) fn forgets<G: Simplices<N>, const N: usize>(ground: &G, seed: u64, what: &str) {
-    let mut random = SplitMix(seed);
+/// Removes vertices in random order until the first simplex is left, compares each time, and searches.
+pub(crate) fn forgets<G: Simplices<N>, const N: usize>(ground: &G, queries: &[G::Point], what: &str) {
+    let mut random = SplitMix(queries.len() as u64);
     let mut order: Vec<Place> = ground.inhabited().collect();
     random.shuffle(&mut order);
     let mut tree = DelaunayTree::<G::Point, N>::build(ground);
@@ -58,5 +58,10 @@ pub(crate) fn forgets<G: Simplices<N>, const N: usize>(ground: &G, seed: u64, wh
         without.grow(ground, &order);
         assert!(tree.known() == without.known(), "{what}, {} left", order.len());
         assert_eq!(tree.count(), without.count());
+        for &q in queries {
+            let found = tree.search::<G, _>(q, &mut ()).expect("whatever is asked, there is a conflict");
+            let is_present = tree.nodes[found as usize].killer == NONE && tree.is_hit::<G>(found, q);
+            assert!(is_present || tree.corner_at(found, q).is_some(), "{what}");
+        }
     }
 }

@@ -36,7 +36,7 @@ mod tests {
         for &kind in Kind::ALL {
             for n in [4, 5, 8, 40] {
                 let d = Delaunay2::from_points(&kind.points(n, 1)).expect("finite");
-                forgets::<_, 3>(&d.base, 2, kind.name());
+                forgets::<_, 3>(&d.base, &kind.points(12, 9), kind.name());
             }
         }
     }

@@ -48,7 +48,7 @@ mod tests {
         for &kind in Kind3::ALL {
             for n in [5, 6, 9, 24] {
                 let d = Delaunay3::from_points(&kind.points(n, 1)).expect("finite");
-                forgets::<_, 4>(&d.base, 3, kind.name());
+                forgets::<_, 4>(&d.base, &kind.points(12, 9), kind.name());
             }
         }
     }
