@@ -9,6 +9,7 @@ mod delaunay_tree;
 mod growth;
 mod hierarchy;
 mod history;
+mod hull;
 mod imprecise;
 mod jump_and_walk;
 mod plot;
@@ -101,6 +102,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "The Delaunay tree in the plane and in space: size and searches, also after removals (the same, §3)",
         smallest: 100,
         run: delaunay_tree::run,
+    },
+    Experiment {
+        name: "hull",
+        about: "Hulls in space in random order: facets that ever were, and what locating costs (the same, §4.1)",
+        smallest: 100,
+        run: hull::run,
     },
     Experiment {
         name: "radial",
