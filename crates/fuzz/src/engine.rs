@@ -33,7 +33,7 @@ pub(crate) enum Place<const D: usize> {
 }
 
 /// Strategies of location; those of space come first.
-pub(crate) fn strategies(seed: u64) -> [Locate; 8] {
+pub(crate) fn strategies(seed: u64) -> [Locate; 10] {
     let hierarchy = Hierarchy::default();
     [
         Locate::Tree,
@@ -42,9 +42,11 @@ pub(crate) fn strategies(seed: u64) -> [Locate; 8] {
         Locate::Hierarchy(hierarchy),
         // Levels even for few vertices.
         Locate::Hierarchy(Hierarchy { ratio: 2.0, smallest_level: 2, ..hierarchy }),
+        Locate::DelaunayTree,
         Locate::Walk(Walk::Stochastic { seed }),
         Locate::Walk(Walk::Straight),
         Locate::History,
+        Locate::Stars,
     ]
 }
 
@@ -166,7 +168,7 @@ macro_rules! shared {
 }
 
 impl Engine<2> for Delaunay2 {
-    const STRATEGIES: usize = 8;
+    const STRATEGIES: usize = 10;
 
     shared!(2);
 
@@ -204,7 +206,7 @@ impl Engine<2> for Delaunay2 {
 }
 
 impl Engine<3> for Delaunay3 {
-    const STRATEGIES: usize = 5;
+    const STRATEGIES: usize = 6;
 
     shared!(3);
 
