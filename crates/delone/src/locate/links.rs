@@ -144,7 +144,8 @@ mod tests {
                 let below = random.below(most);
                 match up.get(&below).copied() {
                     None if up.len() < most => {
-                        let here = (0..).find(|here| up.values().all(|other| other != here)).expect("free");
+                        let here =
+                            (0..most).find(|here| up.values().all(|other| other != here)).expect("free");
                         links.join(Place::new(here), Place::new(below));
                         up.insert(below, here);
                     }
