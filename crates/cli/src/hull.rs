@@ -85,6 +85,10 @@ fn space(
             stats.set("counters", work_done(&work.unwrap_or_default()));
             history.map(|history| history.hull().clone())
         }
+        HullAlgorithm::Flips => Hull3::by_flips(&points, args.seed).map(|(hull, counters)| {
+            stats.set("counters", work_done(&counters.work().unwrap_or_default()));
+            hull
+        }),
     }
     .map_err(|error| Failure::points(&args.input.label(), &error))?;
     drop(phase);

@@ -332,7 +332,7 @@ fn strategies_of_location_give_the_same_answers() {
     let place = Place::new();
     place.file("points.csv", "0,0\n4,0\n0,4\n4,4\n2,2\n");
     place.file("queries.csv", "1,0.5\n2,2\n1,1\n9,9\n2,0\n");
-    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history"] {
+    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history", "stars", "delaunay-tree"] {
         let found = rows(
             &place
                 .succeed(&format!("locate points.csv --queries queries.csv -o - --to csv --locate {locate}")),
@@ -385,7 +385,7 @@ fn operations_are_replayed() {
     let operations =
         "# a square\n+ 0 0\n+ 4 0\n+ 0 4\n+ 4 4\n? 1 1\n+ 4 0\n> 3 5 5\n@ 9 9\n? 9 0\n? 2 0\n- 0\n? 0 0\n";
     place.file("ops.txt", operations);
-    for locate in ["tree", "walk", "jump-and-walk", "hierarchy"] {
+    for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "delaunay-tree"] {
         let answers = place.succeed(&format!("replay ops.txt -o t.npy -o t.svg --check --locate {locate}"));
         let lines: Vec<_> = answers.lines().collect();
         assert_eq!(lines[..4], ["+ 0", "+ 1", "+ 2", "+ 3"], "{locate}");

@@ -13,7 +13,7 @@ fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
 }
 
 /// Strategies under which vertices can go.
-fn strategies() -> [Locate; 7] {
+fn strategies() -> [Locate; 8] {
     [
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
@@ -27,6 +27,7 @@ fn strategies() -> [Locate; 7] {
             walk: Some(Walk::Visibility),
             ..Hierarchy::default()
         }),
+        Locate::DelaunayTree,
     ]
 }
 
@@ -357,7 +358,7 @@ fn duplicates_end_with_their_vertex() {
 #[test]
 fn strategies_follow_a_layout() {
     let points = Kind::Uniform.points(34_000, 1);
-    for locate in [Locate::History, Locate::Hierarchy(Hierarchy::default())] {
+    for locate in [Locate::History, Locate::Hierarchy(Hierarchy::default()), Locate::DelaunayTree] {
         let mut d = Delaunay2::with_strategy(locate).expect("in range");
         d.locate([0.5, 0.5]).expect("finite");
         d.extend(&points, 1).expect("finite");

@@ -32,6 +32,8 @@ fn strategies() -> Vec<Locate> {
         Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, levels: Some(3), ..steep }),
         Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, walk: Some(Walk::Visibility), ..steep }),
         Locate::History,
+        Locate::Stars,
+        Locate::DelaunayTree,
     ]
 }
 

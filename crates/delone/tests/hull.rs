@@ -119,7 +119,7 @@ fn one_set_has_one_hull() {
 }
 
 #[test]
-fn large_hulls_are_the_same_by_both_algorithms() {
+fn large_hulls_are_the_same_by_all_algorithms() {
     let mut random = Random::new(11);
     let n = 20_000;
     for round in 0..6 {
@@ -141,6 +141,12 @@ fn large_hulls_are_the_same_by_both_algorithms() {
         let hull = Hull3::from_points(&points).expect("finite");
         let history = HullHistory3::from_points(&points, round).expect("finite");
         assert_eq!(history.hull(), &hull, "round {round}");
+        let (by_flips, counters) = Hull3::by_flips(&points, round).expect("finite");
+        assert_eq!(by_flips, hull, "round {round}");
+        // By flips indeed: a corner comes with three facets at least. The last set is flat but for rounding, and no number is
+        // inside of it.
+        let created = counters.work().expect("counted").created;
+        assert!(round == 5 || created >= 3 * hull.corners().len() as u64 - 8, "round {round}: {created}");
         assert_eq!(hull.dimension(), Dimension::Space);
         let edges = hull.faces().iter().map(Vec::len).sum::<usize>() / 2;
         assert_eq!(hull.corners().len() + hull.faces().len(), edges + 2, "round {round}");
@@ -192,6 +198,7 @@ fn history_makes_the_same_hull_and_knows_what_is_inside() {
         for seed in 0..3 {
             let history = HullHistory3::from_points(&points, seed).expect("finite");
             assert_eq!(history.hull(), &hull, "{name}");
+            assert_eq!(Hull3::by_flips(&points, seed).expect("finite").0, hull, "{name}");
             let inside = |q: [f64; 3]| history.contains(q).expect("finite");
             assert!(points.iter().all(|&p| inside(p)), "{name}");
             // Between neighbours in the list, and beyond them: some on faces, some outside.
@@ -205,6 +212,29 @@ fn history_makes_the_same_hull_and_knows_what_is_inside() {
     }
     let history = HullHistory3::from_points(&[[0.0; 3]], 1).expect("finite");
     assert!(history.contains([0.0, f64::NAN, 0.0]).is_err());
+}
+
+/// On line: after each point the hull of those so far, and whether the point was outside of the one before.
+#[test]
+fn a_hull_may_grow_point_by_point() {
+    for (name, mut points) in sets() {
+        points.truncate(40);
+        let mut history = HullHistory3::new();
+        for (i, &p) in points.iter().enumerate() {
+            let before = history.hull().clone();
+            let was_inside = i > 0 && is_inside(&points[..i], &before, p);
+            assert_eq!(history.insert(p).expect("finite"), !was_inside, "{name}: {p:?}");
+            assert_eq!(history.hull(), &Hull3::from_points(&points[..=i]).expect("finite"), "{name} {i}");
+            assert!(history.contains(p).expect("finite"), "{name}");
+        }
+        for pair in points.windows(2) {
+            let q = [0, 1, 2].map(|k| pair[0][k] / 2.0 + pair[1][k] / 2.0);
+            assert_eq!(history.contains(q), Ok(is_inside(&points, history.hull(), q)), "{name}: {q:?}");
+        }
+    }
+    let mut history = HullHistory3::new();
+    assert!(history.insert([0.0, f64::NAN, 0.0]).is_err());
+    assert_eq!(history.hull().dimension(), Dimension::Empty);
 }
 
 /// By definition: not outside of any facet; for flat sets, if the hull does not grow by it.

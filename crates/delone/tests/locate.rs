@@ -30,6 +30,8 @@ fn strategies() -> Vec<Locate> {
             ..steep
         }),
         Locate::History,
+        Locate::Stars,
+        Locate::DelaunayTree,
     ]
 }
 

@@ -264,20 +264,83 @@ fn changes_are_cheap_on_all_levels() {
 }
 
 /// Guibas, Knuth & Sharir 1992: a new point of a random order creates about six triangles (at most 22 by their bound),
-/// with intermediate ones nine, and tracing costs O(log n).
+/// with intermediate ones nine; it is traced once, in O(log n), by two orientations at a split and one at a flip.
 #[test]
 fn what_a_random_order_creates() {
     let mut traced = Vec::new();
     for n in [1_000, 10_000, 100_000] {
-        let algorithm = Algorithm2::Located { locate: Locate::History, seed: 4 };
-        let d = Delaunay2::with_algorithm(&uniform(n), algorithm).expect("finite");
-        let Counters::Incremental(work) = d.counters() else { panic!("incremental") };
-        near(work.created as f64 / n as f64, 6.0, 0.05);
-        near(d.footprint().versions as f64 / n as f64, 9.0, 0.06);
-        traced.push(work.visited as f64 / n as f64 / (n as f64).ln());
+        let by = |locate| Algorithm2::Located { locate, seed: 4 };
+        let work = |d: &Delaunay2| d.counters().work().expect("incremental");
+        let d = Delaunay2::with_algorithm(&uniform(n), by(Locate::History)).expect("finite");
+        let by_history = work(&d);
+        near(by_history.created as f64 / n as f64, 9.0, 0.06);
+        assert_eq!(by_history.created + 1, d.footprint().versions as u64);
+        // A split is undone by none, and each flip makes as many as it takes.
+        assert_eq!(by_history.created - by_history.destroyed, 2 * n as u64);
+        traced.push(by_history.visited as f64 / n as f64 / (n as f64).ln());
+        let orientations = by_history.orientations as f64 / by_history.visited as f64;
+        assert!((1.0..1.5).contains(&orientations), "{orientations} a triangle");
+        let cavities = Delaunay2::with_algorithm(&uniform(n), by(Locate::Tree)).expect("finite");
+        near(work(&cavities).created as f64 / n as f64, 6.0, 0.05);
     }
     for per_log in traced {
         near(per_log, 3.5, 0.25);
+    }
+}
+
+/// The same beside a triangulation that changes: the versions go on where a search has ended.
+#[test]
+fn versions_go_on_as_points_come() {
+    let (mut points, new) = (uniform(3_000), Kind::Uniform.points(2_000, 99));
+    let mut d = Delaunay2::with_algorithm(&points, Algorithm2::Located { locate: Locate::History, seed: 4 })
+        .expect("finite");
+    for &q in &new {
+        d.insert(q).expect("finite");
+    }
+    points.extend(&new);
+    let sorted = |d: &Delaunay2| {
+        let mut triangles: Vec<_> = d
+            .triangles()
+            .map(|mut t| {
+                t.sort_unstable();
+                t
+            })
+            .collect();
+        triangles.sort_unstable();
+        triangles
+    };
+    assert_eq!(sorted(&d), sorted(&Delaunay2::from_points(&points).expect("finite")));
+    near(d.footprint().versions as f64 / points.len() as f64, 9.0, 0.06);
+    // The triangle found has the vertex, so that there is nothing to walk.
+    let mut work = Work::default();
+    for (i, &q) in points.iter().enumerate() {
+        assert_eq!(d.find_observed(q, &mut work).expect("finite").face(), [VertexId::new(i)]);
+    }
+    near(work.visited as f64 / points.len() as f64 / (points.len() as f64).ln(), 4.0, 0.25);
+}
+
+/// The same, the unlucky site of §3: most sites are on a line, and one comes in between two others high above it. The trace is
+/// linear in the number of sites, as the paper says, and with binary search in the versions it is not.
+#[test]
+fn an_unlucky_site_is_traced_long_and_searched_fast() {
+    let work = |locate, n: usize| {
+        let mut d = Delaunay2::with_strategy(locate).expect("in range");
+        d.locate([0.0, 0.0]).expect("finite");
+        let mut bottom: Vec<f64> = (1..=n).map(|i| -(i as f64)).collect();
+        Random::new(7).shuffle(&mut bottom);
+        d.insert([1.0, 1.0]).expect("finite");
+        for x in bottom {
+            d.insert([x, 0.0]).expect("finite");
+        }
+        d.insert([0.0, 1.0]).expect("finite");
+        let mut work = Work::default();
+        d.find_observed([0.5, 1.0 - 1e-9], &mut work).expect("finite");
+        work.visited + work.orientations
+    };
+    for n in [500, 2000] {
+        assert!(work(Locate::History, n) > n as u64 / 2, "{n}: {}", work(Locate::History, n));
+        let log = (n as f64).ln();
+        assert!((work(Locate::Stars, n) as f64) < 2.0 * log * log, "{n}: {}", work(Locate::Stars, n));
     }
 }
 

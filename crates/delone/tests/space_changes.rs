@@ -19,6 +19,7 @@ fn strategies() -> Vec<Locate> {
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(steep),
         Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, levels: Some(3), ..steep }),
+        Locate::DelaunayTree,
     ]
 }
 

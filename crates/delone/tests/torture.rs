@@ -7,12 +7,13 @@ use delone::{Algorithm2, Delaunay2, Locate};
 use delone_generators::{Kind, Random};
 use delone_oracle::brute;
 
-const ALGORITHMS: [Algorithm2; 5] = [
+const ALGORITHMS: [Algorithm2; 6] = [
     Algorithm2::DivideAndConquer,
     Algorithm2::Incremental { seed: 3 },
     Algorithm2::ConflictLists { seed: 3 },
     Algorithm2::Located { locate: Locate::Tree, seed: 3 },
     Algorithm2::Located { locate: Locate::History, seed: 3 },
+    Algorithm2::Located { locate: Locate::Stars, seed: 3 },
 ];
 
 fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {

@@ -7,11 +7,13 @@
 mod appear;
 mod brownian;
 mod conflicts;
+mod delaunay_tree;
 mod deletion;
 mod disks;
 mod growth;
 mod hierarchy;
 mod history;
+mod hull;
 mod imprecise;
 mod jump_and_walk;
 mod order;
@@ -105,7 +107,7 @@ pub const EXPERIMENTS: &[Experiment] = &[
     },
     Experiment {
         name: "order",
-        about: "What the order of insertion does: bad orders, variance, adding to a set, an unlucky site, sorting (the same, \
+        about: "What the order of insertion does: bad orders, variance, adding to a set, sorting (the same, \
                 §2.1, §2.3 and §3)",
         smallest: 100,
         run: order::run,
@@ -122,6 +124,18 @@ pub const EXPERIMENTS: &[Experiment] = &[
                 1992, §2 and §3)",
         smallest: 100,
         run: history::run,
+    },
+    Experiment {
+        name: "delaunay-tree",
+        about: "The Delaunay tree in the plane and in space: size and searches, also after removals (the same, §3)",
+        smallest: 100,
+        run: delaunay_tree::run,
+    },
+    Experiment {
+        name: "hull",
+        about: "Hulls in space in random order: facets that ever were, and what locating costs (the same, §4.1)",
+        smallest: 100,
+        run: hull::run,
     },
     Experiment {
         name: "radial",

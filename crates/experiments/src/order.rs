@@ -1,9 +1,9 @@
 //! `delone experiment order`: what the order of insertion does to randomized incremental construction.
 //!
 //! Source: Guibas, Knuth & Sharir 1992: the bad order of Figure 1 and the question of the variance (§2.1), adding to a set
-//! (Theorem 2.6), the unlucky site and sorting on a parabola (§3).
+//! (Theorem 2.6), sorting on a parabola (§3). The unlucky site is with `history`.
 
-use delone::{Algorithm2, Ask, Change, Delaunay2, Error as Refusal, Locate, Work};
+use delone::{Change, Delaunay2, Error as Refusal, Locate, Work};
 use delone_generators::{Kind, Random};
 
 use super::appear;
@@ -22,7 +22,6 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     bad_order(options, &mut findings)?;
     variance(options, &mut findings)?;
     adding(options, &mut findings)?;
-    unlucky(options, &mut findings)?;
     sorting(options, &mut findings)?;
     Ok(findings)
 }
@@ -132,74 +131,6 @@ fn adding(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         }
     }
     findings.tables.push(table);
-    Ok(())
-}
-
-/// Triangles that a history visits to find a point, after so many points in an order; and orientations asked.
-fn traced(points: &[[f64; 2]], order: &[usize], q: [f64; 2]) -> Result<f64, Refusal> {
-    let mut d = Delaunay2::with_strategy(Locate::History)?;
-    for &i in order {
-        d.insert(points[i])?;
-    }
-    let mut work = Work::default();
-    d.find_observed(q, &mut work)?;
-    Ok(work.visited as f64)
-}
-
-/// §3: sites on the axis, Y and X above it, and a last one below the edge from X to Y.
-fn unlucky(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
-        "order-unlucky",
-        "Triangles visited for the unlucky site P of §3, if the three come last of n in the order Y, X, P or anywhere in it",
-        &["points", "Y, X, P at the end", "in n", "Y, X, P anywhere", "in n", "a mean site"],
-    );
-    let mut plot =
-        Plot::new("order-unlucky", "Triangles traced to locate one site", ["points", "triangles visited"]);
-    let mut curves: [Vec<(f64, f64)>; 3] = Default::default();
-    let mut random = Random::new(options.seed);
-    for n in sizes(100, options.largest.min(QUADRATIC)) {
-        let mut points = two_rows(n - 3, 0);
-        let (y, x, p) = (n - 3, n - 2, n - 1);
-        points.extend([[1.0, 1.0], [0.0, 1.0], [0.5, 1.0 - 1e-9]]);
-        let mut last = Trials::default();
-        let mut anywhere = Trials::default();
-        let mut mean = Trials::default();
-        for _ in 0..options.trials {
-            let mut order: Vec<usize> = (0..n - 3).collect();
-            random.shuffle(&mut order);
-            let with = |before: &[usize]| [&order[..], before].concat();
-            last.add(traced(&points, &with(&[y, x]), points[p])?);
-            // The three at random places, in this order.
-            let mut places = [0; 3].map(|_| random.below(n - 2));
-            places.sort_unstable();
-            let mut all = order.clone();
-            all.insert(places[0], y);
-            all.insert(places[1] + 1, x);
-            anywhere.add(traced(&points, &all[..places[2] + 2], points[p])?);
-            let d = Delaunay2::with_algorithm(
-                &points,
-                Algorithm2::Located { locate: Locate::History, seed: random.bits() },
-            )?;
-            mean.extend(d.counters().work().map(|work| work.visited as f64 / n as f64));
-        }
-        let of_n = |trials: &Trials| short(trials.mean() / n as f64);
-        table.row([
-            n.to_string(),
-            last.to_string(),
-            of_n(&last),
-            anywhere.to_string(),
-            of_n(&anywhere),
-            mean.to_string(),
-        ]);
-        for (curve, trials) in curves.iter_mut().zip([&last, &anywhere, &mean]) {
-            curve.push((n as f64, trials.mean()));
-        }
-    }
-    for (name, curve) in ["P, last of all", "P, anywhere", "a mean site"].into_iter().zip(curves) {
-        plot.curve(name, curve);
-    }
-    findings.tables.push(table);
-    findings.plots.push(plot);
     Ok(())
 }
 

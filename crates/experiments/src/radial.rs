@@ -1,4 +1,7 @@
 //! Nearest sites by the history of radial triangles: Guibas, Knuth & Sharir 1992, §5.
+//!
+//! Theorem 5.2: O(n) triangles; 5.4: O(log n) planes a query, at most 4 H_n by its proof, and O(log^2 n) comparisons. The
+//! law c ln^2 n is fitted to the sizes up to [`FITTED`]; what larger ones take beside it shows whether it holds.
 
 use std::hint::black_box;
 
@@ -9,39 +12,116 @@ use kiddo::immutable::float::kdtree::ImmutableKdTree;
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Error, Findings, Options, timed};
+use super::trials::Trials;
+use super::{Error, Findings, Options, decades, timed};
 
 const QUERIES: usize = 20_000;
+/// The law is fitted to sizes up to this one.
+const FITTED: usize = 10_000;
+const KINDS: [Kind; 2] = [Kind::Uniform, Kind::Ellipse2];
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let (largest, seed) = (options.largest, options.seed);
-    let queries = Kind::Uniform.points(QUERIES, seed + 1);
-    let mut counts = Table::new(
+    let mut findings = Findings::default();
+    counts(options, &mut findings)?;
+    times(options, &mut findings)?;
+    Ok(findings)
+}
+
+fn square(n: usize) -> f64 {
+    (n as f64).ln().powi(2)
+}
+
+fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let mut table = Table::new(
         "radial-counts",
-        "Radial triangles that ever were, and the work of a nearest-site query",
-        &["points", "triangles / n", "planes", "planes / ln n", "comparisons", "comparisons / ln^2 n"],
+        "Radial triangles that ever were, and the work of a query for the nearest site (the paper: O(n) triangles, at most \
+         4 H_n planes, O(log^2 n) comparisons)",
+        &[
+            "set",
+            "points",
+            "triangles / n",
+            "planes",
+            "planes / ln n",
+            "4 H_n",
+            "comparisons",
+            "rays",
+            "work",
+            "work / ln^2 n",
+            "work / fitted c ln^2 n",
+        ],
     );
-    let mut times = Table::new(
+    let mut plot = Plot::new(
+        "radial-counts",
+        "Nearest sites by radial triangles: work of a query",
+        ["sites n", "mean of 20,000 queries"],
+    );
+    for kind in KINDS {
+        let mut rows = Vec::new();
+        for n in decades(100, options.largest) {
+            let mut trials: [Trials; 5] = Default::default();
+            for trial in 0..options.trials as u64 {
+                let seed = options.seed + trial;
+                let sites = NearestSites2::from_points(&kind.points(n, seed), seed)?;
+                let mut work = Work::default();
+                for q in Kind::Uniform.points(QUERIES, seed + 1000) {
+                    sites.nearest_observed(q, &mut work)?;
+                }
+                let [planes, compared, rays] = [work.visited, work.compared, work.orientations]
+                    .map(|total| total as f64 / QUERIES as f64);
+                let size = sites.size() as f64 / n as f64;
+                for (trials, value) in trials.iter_mut().zip([size, planes, compared, rays, compared + rays])
+                {
+                    trials.add(value);
+                }
+            }
+            rows.push((n, trials));
+        }
+        // The least squares of work - c ln^2 n.
+        let fitted = rows.iter().filter(|row| row.0 <= FITTED);
+        let (above, below) = fitted.fold((0.0, 0.0), |(above, below), (n, trials)| {
+            (above + trials[4].mean() * square(*n), below + square(*n).powi(2))
+        });
+        let c = above / below;
+        for (n, [size, planes, compared, rays, work]) in &rows {
+            let harmonic: f64 = (1..=*n).map(|i| 1.0 / i as f64).sum();
+            table.row([
+                kind.name().to_owned(),
+                n.to_string(),
+                size.to_string(),
+                planes.to_string(),
+                short(planes.mean() / (*n as f64).ln()),
+                short(4.0 * harmonic),
+                compared.to_string(),
+                rays.to_string(),
+                work.to_string(),
+                short(work.mean() / square(*n)),
+                short(work.mean() / (c * square(*n))),
+            ]);
+        }
+        let name = kind.name();
+        let means = |k: usize| rows.iter().map(move |(n, trials)| (*n as f64, trials[k].mean()));
+        plot.curve(&format!("{name}: planes visited"), means(1));
+        plot.curve(&format!("{name}: comparisons and rays"), means(4));
+        let law = rows.iter().map(|(n, _)| (*n as f64, c * square(*n)));
+        plot.curve(&format!("{name}: {} ln^2 n", short(c)), law);
+    }
+    findings.tables.push(table);
+    findings.plots.push(plot);
+    Ok(())
+}
+
+fn times(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let seed = options.seed;
+    let queries = Kind::Uniform.points(QUERIES, seed + 1);
+    let mut table = Table::new(
         "radial-times",
         "Nanoseconds of a query for the nearest of n uniform sites",
         &["points", "radial", "hierarchy", "hint tree", "kiddo's k-d tree"],
     );
-    let (mut planes, mut comparisons) = (Vec::new(), Vec::new());
     let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
-    let mut n = 100;
-    while n <= largest {
+    for n in decades(100, options.largest) {
         let points = Kind::Uniform.points(n, seed);
         let sites = NearestSites2::from_points(&points, seed)?;
-        let mut work = Work::default();
-        queries.iter().try_for_each(|&q| sites.nearest_observed(q, &mut work).map(drop))?;
-        let mean = |total: u64| total as f64 / QUERIES as f64;
-        let (visited, compared) = (mean(work.visited), mean(work.compared + work.orientations));
-        let log = (n as f64).ln();
-        let row = [sites.size() as f64 / n as f64, visited, visited / log, compared, compared / log / log];
-        counts.row([vec![n.to_string()], row.map(short).to_vec()].concat());
-        planes.push((n as f64, visited));
-        comparisons.push((n as f64, compared));
-
         let mut d = Delaunay2::from_points(&points)?;
         let tree: ImmutableKdTree<f64, u32, 2, 32> = ImmutableKdTree::new_from_slice(&points);
         let each =
@@ -57,32 +137,19 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
             by_tree,
             each(&|q| _ = black_box(tree.nearest_one::<SquaredEuclidean>(&q))),
         ];
-        times.row([vec![n.to_string()], row.map(short).to_vec()].concat());
+        table.row([vec![n.to_string()], row.map(short).to_vec()].concat());
         for (curve, ns) in curves.iter_mut().zip(row) {
             curve.push((n as f64, ns));
         }
-        n *= 10;
     }
-    let mut work_plot = Plot::new(
-        "radial-counts",
-        "Nearest sites by radial triangles: work of a query",
-        ["sites n", "mean of 20,000 queries"],
-    );
-    let (first, last) = (planes[0], comparisons[0]);
-    let logs = |power: i32, (n0, y0): (f64, f64)| {
-        planes.iter().map(move |&(n, _)| (n, y0 * (n.ln() / n0.ln()).powi(power))).collect::<Vec<_>>()
-    };
-    let (by_log, by_square) = (logs(1, first), logs(2, last));
-    work_plot.curve("planes visited", planes.iter().copied());
-    work_plot.curve("proportional to ln n", by_log);
-    work_plot.curve("comparisons and rays", comparisons);
-    work_plot.curve("proportional to ln^2 n", by_square);
-    let mut time_plot =
+    let mut plot =
         Plot::new("radial-times", "Nearest of n uniform sites", ["sites n", "nanoseconds a query"]);
     for (name, curve) in
         ["radial triangles", "hierarchy", "hint tree", "kiddo's k-d tree"].into_iter().zip(curves)
     {
-        time_plot.curve(name, curve);
+        plot.curve(name, curve);
     }
-    Ok(Findings { tables: vec![counts, times], plots: vec![work_plot, time_plot] })
+    findings.tables.push(table);
+    findings.plots.push(plot);
+    Ok(())
 }

@@ -33,7 +33,7 @@ pub(crate) enum Place<const D: usize> {
 }
 
 /// Strategies of location; those of space come first.
-pub(crate) fn strategies(seed: u64) -> [Locate; 10] {
+pub(crate) fn strategies(seed: u64) -> [Locate; 12] {
     let hierarchy = Hierarchy::default();
     let steep = Hierarchy { ratio: 2.0, smallest_level: 2, seed, ..hierarchy };
     [
@@ -49,6 +49,7 @@ pub(crate) fn strategies(seed: u64) -> [Locate; 10] {
             with_replacement: true,
             ..steep
         }),
+        Locate::DelaunayTree,
         Locate::Walk(Walk::Stochastic { seed }),
         Locate::Walk(Walk::Straight),
         Locate::Hierarchy(Hierarchy {
@@ -57,6 +58,7 @@ pub(crate) fn strategies(seed: u64) -> [Locate; 10] {
             ..steep
         }),
         Locate::History,
+        Locate::Stars,
     ]
 }
 
@@ -178,7 +180,7 @@ macro_rules! shared {
 }
 
 impl Engine<2> for Delaunay2 {
-    const STRATEGIES: usize = 10;
+    const STRATEGIES: usize = 12;
 
     shared!(2);
 
@@ -216,7 +218,7 @@ impl Engine<2> for Delaunay2 {
 }
 
 impl Engine<3> for Delaunay3 {
-    const STRATEGIES: usize = 6;
+    const STRATEGIES: usize = 7;
 
     shared!(3);
 

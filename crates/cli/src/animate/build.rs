@@ -160,16 +160,7 @@ pub(super) fn lists(points: &[[f64; 2]], seed: u64, most: usize) -> Result<Vec<S
 }
 
 /// An instance inserted in the order of its hints: each point is found from the instance of its hint.
-pub(super) fn hints(
-    centres: &[[f64; 2]],
-    radius: Option<f64>,
-    seed: u64,
-    most: usize,
-) -> Result<Vec<Sketch>, Error> {
-    let radius = match radius {
-        Some(radius) => radius,
-        None => half_of_the_nearest(centres)?,
-    };
+pub(super) fn hints(centres: &[[f64; 2]], radius: f64, seed: u64, most: usize) -> Result<Vec<Sketch>, Error> {
     let instance = moved(centres, radius, &mut Random::new(seed));
     let mut hints = Hints2::from_points(centres, HintOrder::Random { seed })?;
     let mut seen = Seen::default();
@@ -196,7 +187,7 @@ pub(super) fn hints(
             marks.push(Mark::Ring(centres[i], radius, Tone::Goal));
             marks.push(Mark::Line([instance[from[k]], instance[i]], Tone::Goal));
             marks.push(Mark::Dot(instance[i], Tone::Goal));
-            let caption = format!("{k} inserted: {} triangles visited from the hint", sights.len());
+            let caption = format!("{k} inserted, visited from the hint: {}", sights.len());
             sketches.push(Sketch { marks, caption });
         }
         d.insert_observed(instance[i], &mut ())?;
@@ -209,8 +200,8 @@ pub(super) fn triangle(corners: &[[f64; 2]], tone: Tone) -> Option<Mark> {
     (corners.len() == 3).then(|| Mark::Area(corners.to_vec(), tone))
 }
 
-/// A radius with which disks are disjoint.
-fn half_of_the_nearest(centres: &[[f64; 2]]) -> Result<f64, Error> {
+/// A radius with which disks are disjoint: half of the least distance.
+pub(super) fn half_of_the_nearest(centres: &[[f64; 2]]) -> Result<f64, Error> {
     let d = Delaunay2::from_points(centres)?;
     let mut least = f64::INFINITY;
     for &p in centres {

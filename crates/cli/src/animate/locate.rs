@@ -33,7 +33,10 @@ pub(super) fn descents(
     let mut random = Random::new(seed);
     let mut sketches = Vec::new();
     while sketches.len() < most && d.vertex_count() > 2 {
-        let q = [0, 1].map(|k| low[k] + random.unit() * (high[k] - low[k]));
+        let q = [0, 1].map(|k| {
+            let share = random.unit();
+            low[k] * (1.0 - share) + high[k] * share
+        });
         let mut seen = Seen::default();
         d.find_observed(q, &mut seen)?;
         sketches.extend(search(&base, &seen, q, show));
@@ -60,18 +63,15 @@ fn search(base: &[Mark], seen: &Seen, q: [f64; 2], show: Show) -> Vec<Sketch> {
             current.push(Mark::Dot(p, Tone::Goal));
         } else {
             visited += 1;
-            match show {
-                Show::Levels => {
-                    if sight.len() == 3 {
-                        below.push(Mark::Patch(sight.clone(), *level));
-                    }
-                    let sides = (0..sight.len()).map(|k| [sight[k], sight[(k + 1) % sight.len()]]);
-                    current.extend(sides.map(|side| Mark::Line(side, Tone::Goal)));
+            if show == Show::Levels {
+                if sight.len() == 3 {
+                    below.push(Mark::Patch(sight.clone(), *level));
                 }
-                _ => {
-                    below.extend(triangle(sight, Tone::Seen));
-                    current.extend(triangle(sight, Tone::Old));
-                }
+                let sides = (0..sight.len()).map(|k| [sight[k], sight[(k + 1) % sight.len()]]);
+                current.extend(sides.map(|side| Mark::Line(side, Tone::Goal)));
+            } else {
+                below.extend(triangle(sight, Tone::Seen));
+                current.extend(triangle(sight, Tone::Old));
             }
         }
         let mut marks = below.clone();
@@ -85,8 +85,8 @@ fn search(base: &[Mark], seen: &Seen, q: [f64; 2], show: Show) -> Vec<Sketch> {
         marks.push(Mark::Dot(q, Tone::Goal));
         let caption = match (show, visited) {
             (Show::Jump, 0) => "vertices drawn at random".to_owned(),
-            (Show::Levels, _) => format!("level {level}: {visited} triangles visited"),
-            _ => format!("{visited} triangles visited"),
+            (Show::Levels, _) => format!("level {level}, triangles visited: {visited}"),
+            _ => format!("triangles visited: {visited}"),
         };
         sketches.push(Sketch { marks, caption });
     }

@@ -37,12 +37,12 @@ pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
     let cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");
     if args.show != Show::Motion {
-        let sketches =
-            scene::sketches(&cloud.xy, args).map_err(|error| Failure::points(&args.input.label(), &error))?;
+        let scene =
+            scene::of(&cloud.xy, args).map_err(|error| Failure::points(&args.input.label(), &error))?;
         stats.phase("build");
         stats.set("points", cloud.xy.len());
-        stats.set("pictures", sketches.len());
-        write_sketches(&sketches, motion::window(&cloud.xy), args, is_series.then_some(&outputs), quiet)?;
+        stats.set("pictures", scene.sketches.len());
+        write_sketches(&scene, args, is_series.then_some(&outputs), quiet)?;
         stats.phase("write");
         return stats.write(stats_path);
     }
@@ -95,24 +95,24 @@ fn write_motion(
 
 /// The same for sketches.
 fn write_sketches(
-    sketches: &[picture::Sketch],
-    window: [[f64; 2]; 2],
+    scene: &scene::Scene,
     args: &AnimateArgs,
     series: Series<'_>,
     quiet: bool,
 ) -> Result<(), Failure> {
+    let scene::Scene { sketches, window } = scene;
     let phase = Phase::count(quiet, "drawing", sketches.len() as u64);
     if let Some(files) = series {
         for (sketch, (path, format)) in sketches.iter().zip(files) {
             phase.advance();
-            files::write(path, |out| picture::write_sketch(out, *format, sketch, window, args.size))?;
+            files::write(path, |out| picture::write_sketch(out, *format, sketch, *window, args.size))?;
         }
         return Ok(());
     }
     files::write(&args.output, |out| {
         let options = picture::Options { size: args.size, ..picture::Options::default() };
         let count = sketches.len() as u32;
-        let mut animation = picture::Animation::start(out, window, count, args.delay(), options)?;
+        let mut animation = picture::Animation::start(out, *window, count, args.delay(), options)?;
         for sketch in sketches {
             phase.advance();
             animation.sketch(sketch)?;

@@ -3,17 +3,34 @@
 use delone::{Delaunay2, Error, Tally, Triangulation, VertexId};
 use delone_io::picture::{Mark, Sketch, Tone};
 
+use super::motion::window;
 use super::{build, locate};
 use crate::args::{AnimateArgs, Show};
 
+/// What is shown, and in which window.
+pub(super) struct Scene {
+    pub(super) sketches: Vec<Sketch>,
+    pub(super) window: [[f64; 2]; 2],
+}
+
 /// The pictures of a scene, at most one more than steps.
-pub(super) fn sketches(points: &[[f64; 2]], args: &AnimateArgs) -> Result<Vec<Sketch>, Error> {
+pub(super) fn of(points: &[[f64; 2]], args: &AnimateArgs) -> Result<Scene, Error> {
+    let mut window = window(points);
+    // Disks reach beyond their centres, and points as far again.
+    let radius = match args.radius {
+        Some(radius) => radius,
+        None => build::half_of_the_nearest(points)?,
+    };
+    if args.show == Show::Hints {
+        window = [window[0].map(|x| x - radius), window[1].map(|x| x + radius)];
+        window = window.map(|corner| corner.map(|x| x.clamp(f64::MIN, f64::MAX)));
+    }
     let most = args.steps as usize + 1;
     let mut sketches = match args.show {
         Show::Motion => Vec::new(),
         Show::Flips => build::flips(points, args.seed, most)?,
         Show::Lists => build::lists(points, args.seed, most)?,
-        Show::Hints => build::hints(points, args.radius, args.seed, most)?,
+        Show::Hints => build::hints(points, radius, args.seed, most)?,
         Show::Walk | Show::Jump | Show::Levels => locate::descents(points, args.show, args.seed, most)?,
     };
     sketches.truncate(most);
@@ -22,7 +39,7 @@ pub(super) fn sketches(points: &[[f64; 2]], args: &AnimateArgs) -> Result<Vec<Sk
         let d = Delaunay2::from_points(points)?;
         sketches.push(Sketch { marks: mesh(&d, Tone::Plain), caption: "nothing to show".to_owned() });
     }
-    Ok(sketches)
+    Ok(Scene { sketches, window })
 }
 
 /// The edges and vertices of a triangulation.

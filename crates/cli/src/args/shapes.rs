@@ -49,6 +49,8 @@ pub(crate) enum HullAlgorithm {
     Quickhull,
     /// Random order, located by history (Guibas, Knuth & Sharir 1992, §4.1).
     History,
+    /// Random order, edges flipped one by one (the same).
+    Flips,
 }
 
 /// Where a picture in space is seen from.

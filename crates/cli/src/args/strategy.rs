@@ -60,6 +60,10 @@ pub(crate) enum LocateName {
     Hierarchy,
     /// Trace all triangles that ever were; no removal.
     History,
+    /// The same without triangles that came and went in one insertion, by binary search; no removal.
+    Stars,
+    /// Search all triangles that ever were by their circles (the Delaunay tree).
+    DelaunayTree,
     /// Triangles keep lists of the points to come; bulk only.
     Conflict,
     /// Walk from the previous point in spatial order; bulk only.
@@ -133,6 +137,8 @@ impl StrategyArgs {
             }),
             LocateName::Hierarchy => Locate::Hierarchy(self.hierarchy()),
             LocateName::History => Locate::History,
+            LocateName::Stars => Locate::Stars,
+            LocateName::DelaunayTree => Locate::DelaunayTree,
             LocateName::Conflict | LocateName::Spatial => return Ok(None),
         }))
     }

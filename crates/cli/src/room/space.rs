@@ -44,10 +44,10 @@ impl Room for Delaunay3 {
             ));
         }
         let (locate, seed) = (strategy.name_or(LocateName::Spatial), strategy.seed);
-        if matches!(locate, LocateName::Conflict | LocateName::History) {
+        if matches!(locate, LocateName::Conflict | LocateName::History | LocateName::Stars) {
             return Err(Failure::usage(
                 "location by history and by conflict lists is for the plane",
-                "choose --locate spatial, tree, walk, jump-and-walk or hierarchy",
+                "choose --locate spatial, tree, walk, jump-and-walk, hierarchy or delaunay-tree",
             ));
         }
         let algorithm = match located::<Self>(strategy, LocateName::Spatial)? {

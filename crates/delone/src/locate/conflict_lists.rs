@@ -7,13 +7,18 @@
 //! Cost: O(n log n) expected over random orders: at the r-th of n insertions, about 12 (n - r) / r points move
 //! at most. Needs all points beforehand. Choose it to study it.
 
-use super::history::Observer;
+use super::history::{Fork, Observer};
 use crate::ids::TriangleId;
+use crate::tally::Tally;
 
-/// What the lists must know of the geometry.
-pub(crate) trait Contains {
-    /// Whether a triangle contains the point with this number, in its inside or on its border.
-    fn contains(&self, t: TriangleId, point: u32) -> bool;
+/// What lists and histories must know of the geometry.
+pub(crate) trait Branch {
+    /// The point with this number.
+    fn numbered(&self, point: u32) -> [f64; 2];
+
+    /// Which of the triangles that took the place of one that contained a point contains it now, in its inside or on its
+    /// border.
+    fn branch<T: Tally>(&self, fork: Fork, q: [f64; 2], tally: &mut T) -> TriangleId;
 }
 
 /// The end of a list.
@@ -45,15 +50,12 @@ impl ConflictLists {
         self.home[point as usize]
     }
 
-    /// Puts the points of a list, except for one that has been inserted, into the first triangle that contains
-    /// them.
-    fn deal<S: Contains>(&mut self, shape: &S, list: u32, new: &[TriangleId]) {
+    /// Puts the points of a list, except for one that has been inserted, into a triangle that contains them.
+    fn deal<S: Branch, T: Tally>(&mut self, shape: &S, list: u32, fork: Fork, tally: &mut T) {
         let mut point = list;
         while point != END {
             let following = self.next[point as usize];
-            let inside = |t: &&TriangleId| shape.contains(**t, point);
-            let (last, others) = new.split_last().expect("triangles are replaced by triangles");
-            let t = *others.iter().find(inside).unwrap_or(last);
+            let t = shape.branch(fork, shape.numbered(point), tally);
             self.next[point as usize] = std::mem::replace(&mut self.first[t.index()], point);
             self.home[point as usize] = t;
             self.moved += 1;
@@ -88,19 +90,19 @@ impl ConflictLists {
     }
 }
 
-impl<S: Contains> Observer<S> for ConflictLists {
+impl<S: Branch> Observer<S> for ConflictLists {
     const KEEPS: bool = false;
 
-    fn split(&mut self, shape: &S, old: TriangleId, new: [TriangleId; 3]) {
+    fn split<T: Tally>(&mut self, shape: &S, old: TriangleId, new: [TriangleId; 3], tally: &mut T) {
         self.reserve(&new);
         let list = self.take(old);
-        self.deal(shape, list, &new);
+        self.deal(shape, list, Fork::Split(new), tally);
     }
 
-    fn flip(&mut self, shape: &S, old: [TriangleId; 2], new: [TriangleId; 2]) {
+    fn flip<T: Tally>(&mut self, shape: &S, old: [TriangleId; 2], new: [TriangleId; 2], tally: &mut T) {
         let lists = old.map(|t| self.take(t));
         for list in lists {
-            self.deal(shape, list, &new);
+            self.deal(shape, list, Fork::Flip(new), tally);
         }
     }
 }

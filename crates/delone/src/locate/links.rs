@@ -145,7 +145,7 @@ mod tests {
                 match up.get(&below).copied() {
                     None if up.len() < most => {
                         let here =
-                            (0..most).find(|here| up.values().all(|other| other != here)).expect("free");
+                            (0..=up.len()).find(|here| up.values().all(|other| other != here)).expect("free");
                         links.join(Place::new(here), Place::new(below));
                         up.insert(below, here);
                     }

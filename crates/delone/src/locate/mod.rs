@@ -14,8 +14,11 @@
 //! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
 //! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n), for any data with [`Nearest::InCircle`], queries like the points | adversarial data that change a lot |
 //! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
+//! | [`Locate::Stars`] | the same | O(log n) stars, random order | to study it; insertion only |
+//! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
 
 pub(crate) mod conflict_lists;
+pub(crate) mod delaunay_tree;
 pub(crate) mod from_last;
 pub(crate) mod hierarchy;
 pub(crate) mod history;
@@ -52,6 +55,11 @@ pub enum Locate {
     Hierarchy(Hierarchy),
     /// A descent through all triangles that ever were. Removal is an error.
     History,
+    /// The same without the triangles that came and went in one insertion: those that an insertion left are searched by
+    /// binary search around the new vertex. Removal is an error.
+    Stars,
+    /// A search by circles through all triangles that ever were; those of a vertex that is removed are forgotten.
+    DelaunayTree,
 }
 
 impl Locate {
@@ -60,7 +68,7 @@ impl Locate {
         match self {
             Self::JumpAndWalk(options) => options.validate(),
             Self::Hierarchy(options) => options.validate(),
-            Self::Tree | Self::Walk(_) | Self::History => Ok(()),
+            Self::Tree | Self::Walk(_) | Self::History | Self::Stars | Self::DelaunayTree => Ok(()),
         }
     }
 }
@@ -75,7 +83,7 @@ pub struct Footprint {
     pub strategy: usize,
     /// Vertices of each level of a hierarchy above the triangulation, the largest first.
     pub levels: Vec<usize>,
-    /// Triangles of a history, past and present, those at the dummies included.
+    /// Triangles of a history, past and present, those at the dummies or ghosts included; tetrahedra in space.
     pub versions: usize,
 }
 

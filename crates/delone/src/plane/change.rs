@@ -74,7 +74,8 @@ impl Delaunay2 {
     /// a line or to nothing is fine.
     ///
     /// # Errors
-    /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::InsertOnly`] with [`Locate::History`].
+    /// [`Error::NoSuchVertex`] if it is no vertex (any more); [`Error::InsertOnly`] with [`Locate::History`] and
+    /// [`Locate::Stars`].
     pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
         self.remove_vertex(v, &mut ())
     }
@@ -238,7 +239,10 @@ impl Delaunay2 {
     /// The place of a vertex, if it can be removed.
     fn removable(&self, v: VertexId) -> Result<Place, Error> {
         let place = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
-        if self.locate == Locate::History { Err(Error::InsertOnly) } else { Ok(place) }
+        match self.locate {
+            Locate::History | Locate::Stars => Err(Error::InsertOnly),
+            _ => Ok(place),
+        }
     }
 
     /// Removes what is at a place.

@@ -109,17 +109,22 @@ impl Delaunay2 {
             Algorithm2::DivideAndConquer => construct::divide_and_conquer(points)?,
             Algorithm2::Incremental { seed } => construct::incremental(points, seed),
             Algorithm2::ConflictLists { seed } => construct::conflict_lists(points, seed),
-            Algorithm2::Located { locate, seed } => return Self::located(&points, locate, seed),
+            Algorithm2::Located { locate, seed } => return Self::located(points, locate, seed),
         }))
     }
 
     /// Inserts points one by one in random order.
-    fn located(points: &[[f64; 2]], locate: Locate, seed: u64) -> Result<Self, Error> {
+    fn located(points: Vec<[f64; 2]>, locate: Locate, seed: u64) -> Result<Self, Error> {
+        if locate == Locate::History {
+            let (built, versions) = construct::history(points, seed);
+            let locator = OnceLock::from(Locator::Versions(Box::new(versions)));
+            return Ok(Self { locate, locator, ..Self::assemble(built) });
+        }
         let mut triangulation = Self::with_strategy(locate)?;
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         SplitMix(seed).shuffle(&mut order);
         let mut work = Work::default();
-        triangulation.extend_in_order(points, &order, true, &mut work)?;
+        triangulation.extend_in_order(&points, &order, true, &mut work)?;
         triangulation.counters = Counters::Incremental(work);
         Ok(triangulation)
     }

@@ -23,8 +23,8 @@
 use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 
 use crate::ids::{EdgeId, Place, TriangleId};
-use crate::locate::conflict_lists::Contains;
-use crate::locate::history::Observer;
+use crate::locate::conflict_lists::Branch;
+use crate::locate::history::{Fork, Observer};
 use crate::mesh::Mesh2;
 use crate::tally::Tally;
 
@@ -77,7 +77,7 @@ impl Flips {
     }
 
     /// On which side of the line from a to b a point is, a and b corners of the triangulation, not both dummies.
-    fn side(&self, a: Place, b: Place, q: [f64; 2]) -> Sign {
+    pub(super) fn side(&self, a: Place, b: Place, q: [f64; 2]) -> Sign {
         match (is_dummy(a), is_dummy(b)) {
             (false, false) => orient2d(self.point(a), self.point(b), q),
             (true, false) => towards(self.point(b), q, a),
@@ -86,10 +86,15 @@ impl Flips {
         }
     }
 
-    /// Whether a triangle contains a point, in its inside or on its border.
-    pub(super) fn holds(&self, t: TriangleId, q: [f64; 2]) -> bool {
-        let [a, b, c] = self.corners(t);
-        [[a, b], [b, c], [c, a]].iter().all(|&[u, v]| !self.side(u, v, q).is_negative())
+    /// The same where also the point may be a dummy, for a that is none.
+    pub(super) fn turn(&self, a: Place, b: Place, c: Place) -> Sign {
+        match (is_dummy(b), is_dummy(c)) {
+            (_, false) => self.side(a, b, self.point(c)),
+            (false, true) => towards(self.point(a), self.point(b), c),
+            // They are around everything in their order.
+            (true, true) if (b.index() + 1) % DUMMIES == c.index() => Sign::Positive,
+            (true, true) => Sign::Negative,
+        }
     }
 
     /// Whether the circle of a triangle with a finite corner contains a point.
@@ -118,7 +123,7 @@ impl Flips {
         }
     }
 
-    /// The present triangle beside another one, if that has a corner here already: the vertex of an equal point.
+    /// The corner of a triangle that is at a point: the vertex of an equal point.
     pub(super) fn equal(&self, t: TriangleId, q: [f64; 2]) -> Option<Place> {
         self.corners(t).into_iter().find(|&p| !is_dummy(p) && self.point(p) == q)
     }
@@ -137,7 +142,7 @@ impl Flips {
         self.mesh.fill_star(p, &border, &new);
         tally.destroyed(1);
         tally.created(3);
-        observer.split(self, t, new);
+        observer.split(self, t, new, tally);
         self.pending.extend(new.map(|t| t.edge(0)));
         let q = self.point(p);
         while let Some(e) = self.pending.pop() {
@@ -147,7 +152,7 @@ impl Flips {
             }
             tally.in_circle();
             if self.conflicts(f.triangle(), q) {
-                self.flip(e, f, observer);
+                self.flip(e, f, observer, tally);
                 tally.destroyed(2);
                 tally.created(2);
             }
@@ -163,11 +168,11 @@ impl Flips {
     ///      \   /                \ | /
     ///        z                    z
     /// ```
-    fn flip<O: Observer<Self>>(&mut self, e: EdgeId, f: EdgeId, observer: &mut O) {
+    fn flip<O: Observer<Self>, T: Tally>(&mut self, e: EdgeId, f: EdgeId, observer: &mut O, tally: &mut T) {
         let old = [e.triangle(), f.triangle()];
         let [left, right] = if O::KEEPS { [self.allocate(), self.allocate()] } else { old };
         self.mesh.flip_into(e, [left.edge(1), right.edge(2)]);
-        observer.flip(self, old, [left, right]);
+        observer.flip(self, old, [left, right], tally);
         self.pending.extend([left.edge(0), right.edge(0)]);
     }
 
@@ -187,8 +192,35 @@ fn towards(a: [f64; 2], b: [f64; 2], dummy: Place) -> Sign {
     }
 }
 
-impl Contains for Flips {
-    fn contains(&self, t: TriangleId, point: u32) -> bool {
-        self.holds(t, self.points[DUMMIES + point as usize])
+impl Branch for Flips {
+    fn numbered(&self, point: u32) -> [f64; 2] {
+        self.points[DUMMIES + point as usize]
+    }
+
+    /// Each triangle of a split has the new point p last, and the corners a, b, c of the old one turn around it: the ray from p
+    /// to b tells on which side of it to ask for another. What is on that ray is not left of it, so that it is right also where
+    /// p is on the border, and one of the three flat. A flip made the edge z -> p, which decides.
+    fn branch<T: Tally>(&self, fork: Fork, q: [f64; 2], tally: &mut T) -> TriangleId {
+        let mut side = |a: Place, b: Place| {
+            tally.orientation();
+            self.side(a, b, q)
+        };
+        match fork {
+            Fork::Split([a_b, b_c, c_a]) => {
+                let [a, b, p] = self.corners(a_b);
+                let c = self.mesh.tail(c_a.edge(0));
+                if side(p, b).is_positive() {
+                    if side(p, c).is_negative() { b_c } else { c_a }
+                } else if side(p, a).is_negative() {
+                    c_a
+                } else {
+                    a_b
+                }
+            }
+            Fork::Flip([left, right]) => {
+                let e = left.edge(1);
+                if side(self.mesh.tail(e), self.mesh.head(e)).is_negative() { right } else { left }
+            }
+        }
     }
 }

@@ -3,16 +3,16 @@
 use std::sync::OnceLock;
 
 use super::Delaunay2;
-use super::flips::{DUMMIES, Flips};
 use super::layer::Layer;
 use super::layer::insert::Spot;
-use crate::ids::{EdgeId, Place, TriangleId};
+use super::stars::Stars;
+use super::versions::Versions;
+use crate::ids::{EdgeId, Place};
+use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
-use crate::locate::history::History;
 use crate::locate::levels::Levels;
 use crate::locate::tree::Tree;
-use crate::locate::{Footprint, Ground, Hierarchy, JumpAndWalk, Locate, Start, Strategy, Walk};
-use crate::order::random::SplitMix;
+use crate::locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Start, Strategy};
 use crate::tally::Tally;
 
 /// The structure behind a [`Locate`].
@@ -22,7 +22,9 @@ pub(super) enum Locator {
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
+    DelaunayTree(Box<DelaunayTree<[f64; 2], 3>>),
     Versions(Box<Versions>),
+    Stars(Box<Stars>),
 }
 
 impl Locator {
@@ -33,7 +35,9 @@ impl Locator {
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+            Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
             Locate::History => Self::Versions(Box::new(Versions::build(layer))),
+            Locate::Stars => Self::Stars(Box::new(Stars::build(layer))),
         }
     }
 }
@@ -45,7 +49,9 @@ macro_rules! each {
             Locator::FromLast($strategy) => $do,
             Locator::JumpAndWalk($strategy) => $do,
             Locator::Hierarchy($strategy) => $do,
+            Locator::DelaunayTree($strategy) => $do,
             Locator::Versions($strategy) => $do,
+            Locator::Stars($strategy) => $do,
         }
     };
 }
@@ -136,37 +142,6 @@ impl Strategy<Layer> for Hints {
     }
 }
 
-/// All versions of the triangulation, made by splits and flips, with the history that leads through them.
-#[derive(Clone, Debug)]
-pub(super) struct Versions {
-    flips: Flips,
-    history: History,
-    /// For each point of the versions the place of its vertex.
-    places: Vec<Place>,
-}
-
-impl Versions {
-    /// Inserts the vertices that there are in random order, as the analysis wants it.
-    fn build(layer: &Layer) -> Self {
-        let mut versions = Self { flips: Flips::new(), history: History::default(), places: Vec::new() };
-        let mut order: Vec<Place> = layer.mesh.inhabited().collect();
-        SplitMix(0).shuffle(&mut order);
-        for v in order {
-            versions.inserted(layer, v, Start::Anywhere, &mut ());
-        }
-        versions
-    }
-
-    fn bytes(&self) -> usize {
-        let Self { flips, history, places } = self;
-        flips.bytes() + size_of_val(&**places) + history.bytes()
-    }
-
-    fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
-        self.history.trace(|t| self.flips.holds(t, q), tally)
-    }
-}
-
 impl Delaunay2 {
     /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
     pub fn footprint(&self) -> Footprint {
@@ -184,37 +159,20 @@ impl Delaunay2 {
                 footprint.levels = levels.sizes();
                 footprint.strategy = levels.bytes(Layer::bytes);
             }
+            Locator::DelaunayTree(tree) => {
+                footprint.versions = tree.count();
+                footprint.strategy = tree.bytes();
+            }
             Locator::Versions(versions) => {
-                footprint.versions = versions.flips.count();
+                footprint.versions = versions.count();
                 footprint.strategy = versions.bytes();
+            }
+            Locator::Stars(stars) => {
+                footprint.versions = stars.count();
+                footprint.strategy = stars.bytes();
             }
         }
         footprint
-    }
-}
-
-impl Strategy<Layer> for Versions {
-    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
-        let corners = self.flips.corners(self.trace(q, tally));
-        let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
-        place.map_or(Start::Anywhere, |v| Start::At(layer.mesh.incident[v.index()], Walk::Visibility))
-    }
-
-    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, _: Start, _: &mut T) {
-        let q = layer.point(v);
-        let t = self.trace(q, &mut ());
-        self.flips.points.push(q);
-        self.places.push(v);
-        let p = Place::new(self.flips.points.len() - 1);
-        self.flips.insert(p, t, &mut self.history, &mut ());
-    }
-
-    fn removing<T: Tally>(&mut self, _: &Layer, _: Place, _: &mut T) {
-        debug_assert!(false, "nothing is removed from a history");
-    }
-
-    fn rearranged(&mut self, _: &Layer, moved: &[Place]) {
-        self.places.iter_mut().for_each(|place| *place = moved[place.index()]);
     }
 }
 
@@ -223,7 +181,7 @@ mod tests {
     use delone_generators::Kind;
 
     use super::*;
-    use crate::{Nearest, Work};
+    use crate::{Nearest, Walk, Work};
 
     fn with(n: usize, locate: Locate) -> Delaunay2 {
         let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, 1)).expect("finite");
@@ -267,9 +225,9 @@ mod tests {
         let levels = with(1000, Locate::Hierarchy(STEEP)).footprint();
         let least: usize = levels.levels.iter().map(|&size| bytes(size)).sum();
         assert!(levels.strategy >= least && levels.strategy < 2 * least, "{levels:?}");
-        // The triangle of the dummies, the one behind it, and the three that a point makes, each with three to follow.
+        // The triangle of the dummies, the one behind it, and the three that a point makes, each with what follows.
         let history = with(1, Locate::History).footprint();
-        let bytes = 5 * 32 + (3 + 1) * (16 + 4) + 4 + 5 * 24;
+        let bytes = 5 * 32 + (3 + 1) * (16 + 4) + 4 + 5 * 4;
         assert_eq!((history.versions, history.strategy), (4, bytes));
     }
 

@@ -15,8 +15,10 @@ mod nearest;
 mod radial;
 mod rectangle;
 mod region;
+mod stars;
 mod triangulation;
 pub mod verify;
+mod versions;
 mod voronoi;
 
 pub use construct::Algorithm2;

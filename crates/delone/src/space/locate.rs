@@ -84,8 +84,8 @@ impl Delaunay3 {
     /// Chooses the strategy of location; the structure is made when it is needed.
     ///
     /// # Errors
-    /// [`Error::Parameter`] names a parameter that is out of range; [`Error::OnlyInThePlane`] for [`Locate::History`] and
-    /// for other walks than the visibility walk, and for [`Nearest::InCircle`](crate::Nearest::InCircle).
+    /// [`Error::Parameter`] names a parameter that is out of range; [`Error::OnlyInThePlane`] for [`Locate::History`],
+    /// [`Locate::Stars`], other walks than the visibility walk, and [`Nearest::InCircle`](crate::Nearest::InCircle).
     pub fn set_strategy(&mut self, locate: Locate) -> Result<(), Error> {
         Locator::validate(locate)?;
         self.locate = locate;

@@ -4,6 +4,7 @@ use super::Delaunay3;
 use super::layer::Layer;
 use crate::error::Error;
 use crate::ids::{Place, TetrahedronId};
+use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
 use crate::locate::levels::Levels;
 use crate::locate::tree::Tree;
@@ -17,6 +18,7 @@ pub(super) enum Locator {
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
+    DelaunayTree(Box<DelaunayTree<[f64; 3], 4>>),
 }
 
 impl Locator {
@@ -24,6 +26,7 @@ impl Locator {
     pub(super) fn validate(locate: Locate) -> Result<(), Error> {
         match locate {
             Locate::History
+            | Locate::Stars
             | Locate::Walk(Walk::Stochastic { .. } | Walk::Straight)
             | Locate::Hierarchy(
                 Hierarchy { walk: Some(Walk::Stochastic { .. } | Walk::Straight), .. }
@@ -36,10 +39,11 @@ impl Locator {
     /// The structure for the vertices that there are.
     pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
         match locate {
-            Locate::Tree | Locate::History => Self::Tree(Tree::build(layer)),
+            Locate::Tree | Locate::History | Locate::Stars => Self::Tree(Tree::build(layer)),
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+            Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
         }
     }
 }
@@ -51,6 +55,7 @@ macro_rules! each {
             Locator::FromLast($strategy) => $do,
             Locator::JumpAndWalk($strategy) => $do,
             Locator::Hierarchy($strategy) => $do,
+            Locator::DelaunayTree($strategy) => $do,
         }
     };
 }
@@ -95,6 +100,10 @@ impl Delaunay3 {
             Locator::Hierarchy(levels) => {
                 footprint.levels = levels.sizes();
                 footprint.strategy = levels.bytes(Layer::bytes);
+            }
+            Locator::DelaunayTree(tree) => {
+                footprint.versions = tree.count();
+                footprint.strategy = tree.bytes();
             }
         }
         footprint

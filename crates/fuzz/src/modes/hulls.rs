@@ -139,9 +139,14 @@ impl Attack for Spatial {
         let mut random = Random::new(seed);
         let text = |error: delone::Error| error.to_string();
         let history = HullHistory3::from_points(points, seed).map_err(text)?;
-        for (name, hull) in
-            [("Hull3", &Hull3::from_points(points).map_err(text)?), ("HullHistory", history.hull())]
-        {
+        let mut grown = HullHistory3::new();
+        points.iter().try_for_each(|&p| grown.insert(p).map(drop)).map_err(text)?;
+        for (name, hull) in [
+            ("Hull3", &Hull3::from_points(points).map_err(text)?),
+            ("HullHistory", history.hull()),
+            ("a hull that grows", grown.hull()),
+            ("by_flips", &Hull3::by_flips(points, seed).map_err(text)?.0),
+        ] {
             judge_hull(points, hull).map_err(|message| format!("{name}: {message}"))?;
         }
         for _ in 0..QUERIES / 3 {

@@ -13,6 +13,8 @@
 //! Cost: O(n log n) expected to build, O(n) expected facets that ever were (Theorem 4.1); O(log n) expected for a
 //! query inside of the hull. For the hull alone, [`Hull3::from_points`] is faster.
 
+use std::sync::OnceLock;
+
 use delone_predicates::{are_collinear3, lexicographic3, orient3d};
 
 use super::faces::Faces;
@@ -39,15 +41,16 @@ use crate::tally::{Counters, Tally, Work};
 /// ```
 #[derive(Clone, Debug)]
 pub struct HullHistory3 {
-    hull: Hull3,
+    /// The hull, once it was asked for.
+    hull: OnceLock<Hull3>,
     facets: Facets,
     work: Work,
 }
 
 #[derive(Clone, Debug)]
 enum Facets {
-    /// The points do not span space; the corners of what they span.
-    None(Vec<[f64; 3]>),
+    /// The points do not span space: all of them, and the first ones that span what they span.
+    None(Vec<[f64; 3]>, Vec<usize>),
     /// All facets that ever were.
     Some(Box<History>),
 }
@@ -75,29 +78,80 @@ impl HullHistory3 {
     /// # Errors
     /// As [`Hull3::from_points`].
     pub fn from_points<P: Position3>(points: &[P], seed: u64) -> Result<Self, Error> {
-        let (points, mut work) = (&*P::all(points), Work::default());
-        let tally = &mut work;
+        let points = &*P::all(points);
         check(points)?;
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
         order.dedup_by(|later, first| points[*later] == points[*first]);
         SplitMix(seed).shuffle(&mut order);
-        let Some(first) = first_four(points, &order) else {
-            let hull = Hull3::from_points(points)?;
-            let corners = hull.corners.iter().map(|&i| points[i]).collect();
-            return Ok(Self { hull, facets: Facets::None(corners), work });
-        };
-        let mut history = History { shell: Shell::new(points.to_vec(), first), links: Vec::new() };
-        tally.created(4);
-        for p in order.into_iter().filter(|p| !first.contains(p)) {
-            if let Some(f) = history.seen_from(points[p], tally) {
-                history.insert(p as u32, f);
-                tally.created(history.shell.fresh.len());
-                tally.destroyed(history.shell.seen.len());
+        let mut work = Work::default();
+        let base = base(points, &order);
+        let facets = match base[..] {
+            [a, b, c, d] => {
+                Facets::Some(Box::new(History::of(points.to_vec(), [a, b, c, d], order, &mut work)))
             }
+            _ => Facets::None(points.to_vec(), base),
+        };
+        Ok(Self { hull: OnceLock::new(), facets, work })
+    }
+
+    /// The hull of no points.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a point, whose index is the number of points given before; says whether it was outside of the hull.
+    ///
+    /// Cost: O(log n) expected for a descent, and O(1) new facets, if the points come in random order; in another order up to
+    /// n facets each time, as right as in that. All planes are made anew when the box around the points has doubled. While
+    /// the points do not span space, nothing is kept, and it costs O(n log n).
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] if a coordinate is NaN or infinite; [`Error::TooManyPoints`]. Nothing has changed then.
+    ///
+    /// ```
+    /// use delone::HullHistory3;
+    ///
+    /// let mut history = HullHistory3::new();
+    /// for p in [[0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]] {
+    ///     assert!(history.insert(p)?);
+    /// }
+    /// assert!(!history.insert([1.0; 3])?);
+    /// assert!(history.insert([2.0; 3])?);
+    /// assert_eq!(history.hull().corners(), [0, 1, 2, 3, 5]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn insert<P: Position3>(&mut self, point: P) -> Result<bool, Error> {
+        let q = points::finite(point.xyz())?;
+        let given = match &self.facets {
+            Facets::None(points, _) => points.len(),
+            Facets::Some(history) => history.shell.points.len(),
+        };
+        points::check_count(given + 1, crate::MAX_POINTS)?;
+        let is_flat_outside = matches!(self.facets, Facets::None(..)) && !self.contains(q)?;
+        let is_outside = match &mut self.facets {
+            Facets::None(points, base) => {
+                points.push(q);
+                if widens(points, base, given) {
+                    base.push(given);
+                }
+                if let [a, b, c, d] = base[..] {
+                    let points = std::mem::take(points);
+                    let order = (0..points.len()).collect();
+                    let first = oriented(&points, [a, b, c, d]);
+                    self.facets = Facets::Some(Box::new(History::of(points, first, order, &mut self.work)));
+                }
+                is_flat_outside
+            }
+            Facets::Some(history) => {
+                let p = history.shell.add(q);
+                history.settle(p, &mut self.work)
+            }
+        };
+        if is_outside {
+            self.hull.take();
         }
-        let hull = Hull3::solid(Faces::of(&history.shell));
-        Ok(Self { hull, facets: Facets::Some(Box::new(history)), work })
+        Ok(is_outside)
     }
 
     /// What the construction did: facets visited by descents, created and destroyed.
@@ -107,13 +161,16 @@ impl HullHistory3 {
 
     /// The hull, equal to what [`Hull3::from_points`] makes.
     pub fn hull(&self) -> &Hull3 {
-        &self.hull
+        self.hull.get_or_init(|| match &self.facets {
+            Facets::None(points, _) => Hull3::of(points),
+            Facets::Some(history) => Hull3::solid(Faces::of(&history.shell)),
+        })
     }
 
     /// The number of facets that ever were.
     pub fn size(&self) -> usize {
         match &self.facets {
-            Facets::None(_) => 0,
+            Facets::None(..) => 0,
             Facets::Some(history) => history.shell.facets.len(),
         }
     }
@@ -133,21 +190,53 @@ impl HullHistory3 {
     pub fn contains_observed<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Result<bool, Error> {
         let q = points::finite(q)?;
         Ok(match &self.facets {
-            Facets::None(corners) => lies_in(self.hull.span, corners, q),
+            Facets::None(points, _) => {
+                let hull = self.hull();
+                let corners: Vec<[f64; 3]> = hull.corners.iter().map(|&i| points[i]).collect();
+                lies_in(hull.span, &corners, q)
+            }
             Facets::Some(history) => history.shell.is_in_box(q) && history.seen_from(q, tally).is_none(),
         })
     }
 }
 
+impl Default for HullHistory3 {
+    fn default() -> Self {
+        Self { hull: OnceLock::new(), facets: Facets::None(Vec::new(), Vec::new()), work: Work::default() }
+    }
+}
+
 impl History {
+    /// Points inserted in their order, after four that span space.
+    fn of(points: Vec<[f64; 3]>, first: [usize; 4], order: Vec<usize>, tally: &mut Work) -> Self {
+        let mut history = Self { shell: Shell::new(points, first), links: Vec::new() };
+        tally.created(4);
+        for p in order.into_iter().filter(|p| !first.contains(p)) {
+            history.settle(p as u32, tally);
+        }
+        history
+    }
+
+    /// Makes a point a corner, if it is outside.
+    fn settle<T: Tally>(&mut self, p: u32, tally: &mut T) -> bool {
+        let seen = self.seen_from(self.shell.points[p as usize], tally);
+        if let Some(f) = seen {
+            self.insert(p, f);
+            tally.created(self.shell.fresh.len());
+            tally.destroyed(self.shell.seen.len());
+        }
+        seen.is_some()
+    }
+
     /// A facet of today's hull that a point in the box sees, if there is one.
     fn seen_from<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<u32> {
-        let mut sees = |f: u32| {
+        let sees = |f: u32, tally: &mut T| {
             tally.orientation();
             self.shell.sees(q, f)
         };
-        let mut stack: Vec<u32> = (0..4).filter(|&f| sees(f)).collect();
+        let mut stack: Vec<u32> = (0..4).filter(|&f| sees(f, tally)).collect();
         while let Some(f) = stack.pop() {
+            tally.visited();
             let facet = &self.shell.facets[f as usize];
             if facet.alive {
                 return Some(f);
@@ -155,7 +244,7 @@ impl History {
             let mut next = facet.head;
             while next != NONE {
                 let link = self.links[next as usize];
-                if sees(link.to) && (link.unless == NONE || !sees(link.unless)) {
+                if sees(link.to, tally) && (link.unless == NONE || !sees(link.unless, tally)) {
                     stack.push(link.to);
                 }
                 next = link.next;
@@ -178,13 +267,36 @@ impl History {
     }
 }
 
-/// The first four points of an order that span space, the last one on the positive side of the others.
-fn first_four(points: &[[f64; 3]], order: &[usize]) -> Option<[usize; 4]> {
-    let [&a, &b] = [order.first()?, order.get(1)?];
-    let c = order.iter().copied().find(|&c| !are_collinear3(points[a], points[b], points[c]))?;
-    let side = |&d: &usize| orient3d(points[a], points[b], points[c], points[d]);
-    let d = order.iter().copied().find(|d| !side(d).is_zero())?;
-    Some(if side(&d).is_positive() { [a, b, c, d] } else { [b, a, c, d] })
+/// Whether a point is not in the span of the first ones.
+fn widens(points: &[[f64; 3]], base: &[usize], p: usize) -> bool {
+    let of = |i: usize| points[i];
+    match *base {
+        [] => true,
+        [a] => of(a) != of(p),
+        [a, b] => !are_collinear3(of(a), of(b), of(p)),
+        [a, b, c] => !orient3d(of(a), of(b), of(c), of(p)).is_zero(),
+        _ => false,
+    }
+}
+
+/// The first points of an order that span what all span; of four the last one is on the positive side of the others.
+fn base(points: &[[f64; 3]], order: &[usize]) -> Vec<usize> {
+    let mut base = Vec::new();
+    for &p in order {
+        if base.len() < 4 && widens(points, &base, p) {
+            base.push(p);
+        }
+    }
+    match base[..] {
+        [a, b, c, d] => oriented(points, [a, b, c, d]).to_vec(),
+        _ => base,
+    }
+}
+
+/// The last one of four points on the positive side of the others.
+fn oriented(points: &[[f64; 3]], [a, b, c, d]: [usize; 4]) -> [usize; 4] {
+    let side = orient3d(points[a], points[b], points[c], points[d]);
+    if side.is_positive() { [a, b, c, d] } else { [b, a, c, d] }
 }
 
 /// Whether a point is in what corners span that do not span space.

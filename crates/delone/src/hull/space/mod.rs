@@ -1,11 +1,13 @@
 //! The convex hull in space: what the points span, its flat faces, their corners.
 //!
-//! Two algorithms make the same hull, and judge each other: quickhull (`quickhull.rs`), which [`Hull3::from_points`] uses, and
-//! randomized incremental construction located by history (`history.rs`), which answers queries later. Both cap a
-//! shell of triangles (`shell.rs`) by exact decisions; `faces.rs` joins coplanar triangles in the end, so that the
+//! Three algorithms make the same hull, and judge each other: quickhull (`quickhull.rs`), which [`Hull3::from_points`] uses,
+//! randomized incremental construction located by history (`history.rs`), which grows and answers queries, and the same by
+//! flips (`flips.rs`). The first two cap a
+//! shell of triangles (`shell.rs`), the third one flips its edges, by exact decisions; `faces.rs` joins coplanar triangles in the end, so that the
 //! result is a function of the set.
 
 mod faces;
+mod flips;
 mod history;
 mod quickhull;
 mod shell;
@@ -46,11 +48,16 @@ impl Hull3 {
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         let points = &*P::all(points);
         check(points)?;
-        Ok(match Start::of(points) {
+        Ok(Self::of(points))
+    }
+
+    /// The hull of points that are finite.
+    fn of(points: &[[f64; 3]]) -> Self {
+        match Start::of(points) {
             Start::Lower(span, corners) => Self { span, corners, faces: Vec::new() },
             Start::Flat(corners) => Self { span: Dimension::Plane, faces: vec![corners.clone()], corners },
             Start::Tetrahedron(_) => Self::solid(quickhull::faces(points)),
-        })
+        }
     }
 
     /// The hull with given faces.

@@ -91,10 +91,32 @@ impl Shell {
         shell
     }
 
-    fn facet(&self, corners: [u32; 3], across: [u32; 3]) -> Facet {
+    pub(super) fn facet(&self, corners: [u32; 3], across: [u32; 3]) -> Facet {
         let [a, b, c] = corners.map(|i| self.points[i as usize]);
         let plane = Plane::new(a, b, c, self.extent);
         Facet { corners, across, head: NONE, asked: NONE, seen: false, alive: true, plane }
+    }
+
+    /// Adds a point. Where it is outside of the box, that grows to twice the size, and all planes are for the larger box.
+    pub(super) fn add(&mut self, q: [f64; 3]) -> u32 {
+        self.points.push(q);
+        self.starting.push(NONE);
+        if !self.is_in_box(q) {
+            for (&x, (low, high)) in q.iter().zip(&mut self.limits) {
+                let size = *high - *low;
+                if x < *low {
+                    *low = (x - size).max(f64::MIN);
+                } else if x > *high {
+                    *high = (x + size).min(f64::MAX);
+                }
+            }
+            self.extent = self.limits.map(|(low, high)| high - low);
+            for facet in &mut self.facets {
+                let [a, b, c] = facet.corners.map(|i| self.points[i as usize]);
+                facet.plane = Plane::new(a, b, c, self.extent);
+            }
+        }
+        self.points.len() as u32 - 1
     }
 
     /// Whether a point is in the box around the points.

@@ -199,11 +199,17 @@ impl Mesh2 {
         }
     }
 
-    /// A copy of the triangles of another mesh that have only corners with a place here, closed with ghosts; together they
-    /// are convex. None if there are no such triangles.
-    pub(crate) fn closed(places: usize, other: &Self, place: impl Fn(Place) -> Place) -> Option<Self> {
+    /// A copy of those triangles of another mesh that are present and have only corners with a place here, closed with ghosts;
+    /// together they are convex. None if there are no such triangles.
+    pub(crate) fn closed(
+        places: usize,
+        other: &Self,
+        is_present: impl Fn(TriangleId) -> bool,
+        place: impl Fn(Place) -> Place,
+    ) -> Option<Self> {
         let mut mesh = Self::empty(places);
-        let used = (0..other.slot_count()).map(TriangleId::new).filter(|&t| other.is_triangle(t));
+        let slots = (0..other.slot_count()).map(TriangleId::new);
+        let used = slots.filter(|&t| other.is_triangle(t) && is_present(t));
         let corners = |t: TriangleId| other.places(t).map(&place);
         let kept: Vec<TriangleId> = used.filter(|&t| !corners(t).contains(&Place::GHOST)).collect();
         let mut image = vec![None; other.slot_count()];

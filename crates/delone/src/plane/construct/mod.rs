@@ -1,7 +1,7 @@
 //! Bulk construction in the plane. Every algorithm gives the same set of triangles.
 
 mod builder;
-mod conflict_lists;
+mod by_flips;
 mod divide_and_conquer;
 pub(super) mod incremental;
 mod leaf;
@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::ids::Duplicate;
 use crate::locate::Locate;
 use crate::mesh::Mesh2;
+use crate::plane::versions::Versions;
 use crate::points::{check_finite, survey};
 use crate::tally::{Counters, Work};
 
@@ -31,7 +32,8 @@ pub enum Algorithm2 {
         /// Decides the random order.
         seed: u64,
     },
-    /// Insertion one by one in random order, each point located by a strategy: the papers' algorithms.
+    /// Insertion one by one in random order, each point located by a strategy: the papers' algorithms. By
+    /// [`Locate::History`] points are inserted by splits and flips, by the others with cavities.
     Located {
         /// The strategy, which stays with the triangulation.
         locate: Locate,
@@ -71,8 +73,14 @@ pub(super) fn incremental(points: Vec<[f64; 2]>, seed: u64) -> Built {
 }
 
 pub(super) fn conflict_lists(points: Vec<[f64; 2]>, seed: u64) -> Built {
-    let (mesh, duplicates, work, moved) = conflict_lists::triangulate(&points, seed);
+    let (mesh, duplicates, work, moved) = by_flips::by_lists(&points, seed);
     Built { points, mesh, duplicates, counters: Counters::ConflictLists { work, moved } }
+}
+
+/// By history, which stays.
+pub(super) fn history(points: Vec<[f64; 2]>, seed: u64) -> (Built, Versions) {
+    let (mesh, duplicates, work, versions) = by_flips::by_history(&points, seed);
+    (Built { points, mesh, duplicates, counters: Counters::Incremental(work) }, versions)
 }
 
 #[cfg(test)]

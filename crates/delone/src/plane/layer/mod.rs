@@ -10,6 +10,7 @@ pub(in crate::plane) mod kernel;
 pub(in crate::plane) mod line;
 mod remove;
 mod search;
+mod simplices;
 pub(in crate::plane) mod walk;
 
 use std::cmp::Ordering;

@@ -7,6 +7,7 @@ mod ground;
 pub(in crate::space) mod hole;
 mod remove;
 pub(in crate::space) mod scaffold;
+mod simplices;
 
 use delone_predicates::{Filter3, Grid};
 

@@ -1,0 +1,86 @@
+//! All versions of the triangulation, made by splits and flips, with the history that leads through them.
+//!
+//! Source: Guibas, Knuth & Sharir, Algorithmica 1992, §3. In bulk this is the paper's algorithm: a point is traced, and
+//! its triangle split and flipped (`construct/by_flips.rs`). Beside a triangulation that changes, the versions get each new
+//! vertex where the search for it has ended.
+//!
+//! Cost: see `locate/history.rs`; nine triangles a point of 36 bytes each.
+
+use super::flips::{DUMMIES, Flips};
+use super::layer::Layer;
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::locate::history::History;
+use crate::locate::{Ground, Start, Strategy};
+use crate::order::random::SplitMix;
+use crate::tally::Tally;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(super) struct Versions {
+    pub(super) flips: Flips,
+    pub(super) history: History,
+    /// For each point of the versions the place of its vertex.
+    pub(super) places: Vec<Place>,
+}
+
+impl Versions {
+    /// Those of no vertices.
+    pub(super) fn new() -> Self {
+        Self { flips: Flips::new(), history: History::default(), places: Vec::new() }
+    }
+
+    /// Inserts the vertices that there are in random order, as the analysis wants it.
+    pub(super) fn build(layer: &Layer) -> Self {
+        let mut versions = Self::new();
+        let mut order: Vec<Place> = layer.mesh.inhabited().collect();
+        SplitMix(0).shuffle(&mut order);
+        for v in order {
+            versions.inserted(layer, v, Start::Anywhere, &mut ());
+        }
+        versions
+    }
+
+    /// Triangles past and present, those at the dummies included.
+    pub(super) fn count(&self) -> usize {
+        self.flips.count()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        let Self { flips, history, places } = self;
+        flips.bytes() + size_of_val(&**places) + history.bytes()
+    }
+
+    pub(super) fn trace<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> TriangleId {
+        self.history.trace(&self.flips, q, tally)
+    }
+}
+
+impl Strategy<Layer> for Versions {
+    /// The walk starts at a corner of the triangle of the last version; the number is that triangle's.
+    fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
+        let t = self.trace(q, tally);
+        let corners = self.flips.corners(t);
+        let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
+        Start::Hint(place.map_or(EdgeId::NONE, |v| layer.mesh.incident[v.index()]), t.index() as u32)
+    }
+
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, _: &mut T) {
+        let q = layer.point(v);
+        let t = match start {
+            Start::Hint(_, number) => TriangleId::new(number as usize),
+            _ => self.trace(q, &mut ()),
+        };
+        self.flips.points.push(q);
+        self.places.push(v);
+        let p = Place::new(self.flips.points.len() - 1);
+        self.flips.insert(p, t, &mut self.history, &mut ());
+    }
+
+    fn removing<T: Tally>(&mut self, _: &Layer, _: Place, _: &mut T) {
+        debug_assert!(false, "nothing is removed from a history");
+    }
+
+    fn rearranged(&mut self, _: &Layer, moved: &[Place]) {
+        self.places.iter_mut().for_each(|place| *place = moved[place.index()]);
+    }
+}

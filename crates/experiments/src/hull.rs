@@ -1,0 +1,92 @@
+//! Hulls in space by random order: Guibas, Knuth & Sharir 1992, §4.1. Theorem 4.1: O(n) facets ever; 4.2: O(n log n) time.
+//!
+//! Where all points are corners, a new one brings 6 - 12 / r facets to a hull of r points on average, whatever the points; the
+//! harmonic sum of that is beside. In a ball most points are inside when they come.
+
+use delone::{Counters, Hull3, HullHistory3};
+use delone_generators::{Kind3, Random};
+
+use super::table::{Table, short};
+use super::trials::Trials;
+use super::{Error, Findings, Options, sizes};
+
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let mut table = Table::new(
+        "hull",
+        "Facets that ever were, and what locating a point takes, by caps with a history of all that is seen and by flips with \
+         a traced ray (the paper: O(n) facets, O(log n) steps a point)",
+        &[
+            "set",
+            "points",
+            "corners / n",
+            "caps: facets / n",
+            "6 - 12 H_n / n",
+            "visited",
+            "visited / ln n",
+            "planes asked / ln n",
+            "flips: facets / n",
+            "traced",
+            "traced / ln n",
+            "orientations / ln n",
+        ],
+    );
+    for (set, make) in
+        [("ball", ball as fn(usize, u64) -> Vec<[f64; 3]>), ("sphere", sphere), ("moment curve", moment)]
+    {
+        for n in sizes(100, options.largest.min(300_000)) {
+            let mut trials: [Trials; 7] = Default::default();
+            for trial in 0..options.trials as u64 {
+                let seed = options.seed + trial;
+                let points = make(n, seed);
+                let history = HullHistory3::from_points(&points, seed)?;
+                let (_, flips) = Hull3::by_flips(&points, seed)?;
+                let per = |total: u64| total as f64 / n as f64;
+                let of = |counters: Counters| {
+                    let work = counters.work().unwrap_or_default();
+                    [work.created, work.visited, work.orientations].map(per)
+                };
+                let corners = history.hull().corners().len() as f64 / n as f64;
+                let [caps, visited, asked] = of(history.counters());
+                let [flipped, traced, sides] = of(flips);
+                let values = [corners, caps, visited, asked, flipped, traced, sides];
+                trials.iter_mut().zip(values).for_each(|(trials, value)| trials.add(value));
+            }
+            let log = (n as f64).ln();
+            let harmonic: f64 = (1..=n).map(|i| 1.0 / i as f64).sum();
+            let [corners, caps, visited, asked, flipped, traced, sides] = &trials;
+            table.row([
+                set.to_owned(),
+                n.to_string(),
+                short(corners.mean()),
+                caps.to_string(),
+                short(6.0 - 12.0 * harmonic / n as f64),
+                visited.to_string(),
+                short(visited.mean() / log),
+                short(asked.mean() / log),
+                flipped.to_string(),
+                traced.to_string(),
+                short(traced.mean() / log),
+                short(sides.mean() / log),
+            ]);
+        }
+    }
+    Ok(Findings { tables: vec![table], plots: Vec::new() })
+}
+
+fn ball(n: usize, seed: u64) -> Vec<[f64; 3]> {
+    Kind3::Ball.points(n, seed)
+}
+
+fn sphere(n: usize, seed: u64) -> Vec<[f64; 3]> {
+    Kind3::Sphere.points(n, seed)
+}
+
+/// Points (t, t^2, t^3): all are corners, and the hull has edges from the ends to all others.
+fn moment(n: usize, seed: u64) -> Vec<[f64; 3]> {
+    let mut random = Random::new(seed);
+    let mut point = |_| {
+        let t = random.between(-1.0, 1.0);
+        [t, t * t, t * t * t]
+    };
+    (0..n).map(&mut point).collect()
+}
