@@ -14,6 +14,7 @@ mod imprecise;
 mod jump_and_walk;
 mod plot;
 mod radial;
+mod space;
 mod table;
 mod trials;
 
@@ -108,6 +109,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "Hulls in space in random order: facets that ever were, and what locating costs (the same, §4.1)",
         smallest: 100,
         run: hull::run,
+    },
+    Experiment {
+        name: "history-in-space",
+        about: "What ever appears in space, and flips that trace each point through it (the same, §4.3)",
+        smallest: 100,
+        run: space::run,
     },
     Experiment {
         name: "radial",

@@ -78,7 +78,7 @@ pub(crate) enum LocateName {
     JumpAndWalk,
     /// Descend through triangulations of random samples (the Delaunay hierarchy).
     Hierarchy,
-    /// Trace all triangles that ever were; no removal.
+    /// Split, flip, and trace all triangles that ever were; no removal.
     History,
     /// The same without triangles that came and went in one insertion, by binary search; no removal.
     Stars,

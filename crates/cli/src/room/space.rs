@@ -50,10 +50,11 @@ impl Room for Delaunay3 {
         let locate = locate.unwrap_or(LocateName::Spatial);
         let algorithm = match (locate, locate.strategy(seed)) {
             (LocateName::Spatial, _) => Algorithm3::Incremental { seed },
-            (LocateName::Conflict | LocateName::History | LocateName::Stars, _) | (_, None) => {
+            (LocateName::History, _) => Algorithm3::Flips { seed },
+            (LocateName::Conflict | LocateName::Stars, _) | (_, None) => {
                 return Err(Failure::usage(
-                    "location by history and by conflict lists is for the plane",
-                    "choose --locate spatial, tree, walk, jump-and-walk, hierarchy or delaunay-tree",
+                    "location by stars and by conflict lists is for the plane",
+                    "choose --locate spatial, tree, walk, jump-and-walk, hierarchy, history or delaunay-tree",
                 ));
             }
             (_, Some(locate)) => Algorithm3::Located { locate, seed },
