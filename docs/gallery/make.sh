@@ -39,6 +39,16 @@ $delone draw "$work/ball.csv" --dim 3 --view -60,40 --cut 0,0,1,0.1 -o $here/bal
 $delone generate disks -n 60 --seed 3 -o "$work/disks.csv"
 $delone draw "$work/disks.csv" --disks 1 --hints -o $here/hints.png --size 700
 $delone animate "$work/disks.csv" --radius 0.3 --steps 40 --size 400 -o $here/motion.png
+# What the algorithms of the papers do.
+$delone generate uniform -n 14 --seed 3 -o "$work/few.csv"
+$delone generate uniform -n 48 --seed 3 -o "$work/some.csv"
+$delone generate uniform -n 300 --seed 3 -o "$work/several.csv"
+$delone generate disks -n 30 --seed 3 -o "$work/thirty.csv"
+$delone animate "$work/few.csv" --show flips --size 400 -o $here/flips.png
+$delone animate "$work/some.csv" --show lists --steps 23 --size 400 -o $here/lists.png
+$delone animate "$work/several.csv" --show levels --steps 30 --size 400 -o $here/levels.png
+$delone animate "$work/several.csv" --show jump --steps 30 --size 400 -o $here/jump.png
+$delone animate "$work/thirty.csv" --show hints --size 400 -o $here/walks.png
 # A scanned head, if there is one.
 scan=${SCAN:-../shared/data/igea.ply}
 if [ -e "$scan" ]; then

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use delone_generators::{Kind, Kind3};
+use delone_generators::{Kind, Kind3, Random, moved};
 use delone_io::Format;
 
 use crate::args::GenerateArgs;
@@ -37,16 +37,28 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
             format!("at most {} fit one triangulation", delone::MAX_POINTS),
         ));
     }
+    if !args.noise.is_finite() {
+        return Err(Failure::usage("--noise is a length", "as in --noise 0.5, in coordinate units"));
+    }
     let mut stats = Stats::start();
     let outputs = files::outputs(args.output.as_slice(), args.to, args.stats.as_deref(), &[])?;
     if let Some(kind) = plane {
-        make(|| kind.points(args.n, args.seed), &outputs, &mut stats, quiet)?;
+        make(|| noisy(kind.points(args.n, args.seed), args), &outputs, &mut stats, quiet)?;
     } else if let Some(kind) = space {
-        make(|| kind.points(args.n, args.seed), &outputs, &mut stats, quiet)?;
+        make(|| noisy(kind.points(args.n, args.seed), args), &outputs, &mut stats, quiet)?;
     }
     stats.phase("write");
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.stats.as_deref())
+}
+
+/// The points, each moved at random if that is asked for.
+fn noisy<const D: usize>(points: Vec<[f64; D]>, args: &GenerateArgs) -> Vec<[f64; D]> {
+    if args.noise == 0.0 {
+        return points;
+    }
+    // Numbers that have nothing to do with those that made the points.
+    moved(&points, args.noise, &mut Random::new(args.seed ^ 0x6e6f_6973))
 }
 
 /// Makes points of D coordinates and writes them.

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use delone::{HintOrder, Imprecise, Work};
+use delone::{HintOrder, Imprecise, Tally, Work};
 use delone_io::Format;
 use serde_json::{Map, Value, json};
 
-use crate::args::{InputArgs, TriangulateArgs};
+use crate::args::{HintOrderName, InputArgs, TriangulateArgs};
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::room::{self, Room};
-use crate::stats::Stats;
+use crate::stats::{Stats, work_done};
 use crate::{files, outcome};
 
 /// What stands for the name of an instance in the name of an output.
@@ -27,7 +27,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
     let mut stats = Stats::start();
     let mut hints = preprocess::<R>(args, centres, quiet)?;
     stats.phase("preprocess");
-    let mut visited = 0;
+    let mut all_work = Work::default();
     let mut records = Vec::new();
     for (input, outputs) in inputs.iter().zip(all.chunks(each)) {
         let one = InputArgs { input: vec![input.to_path_buf()], ..args.input.clone() };
@@ -50,10 +50,11 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
         record.insert("visited_triangles".to_owned(), json!(work.visited));
         record.insert("gave_up".to_owned(), json!(hints.gave_up()));
         records.push(record);
-        visited += work.visited;
+        all_work.add(&work);
     }
     stats.set("algorithm", "hints");
-    stats.set("visited_triangles", visited);
+    stats.set("visited_triangles", all_work.visited);
+    stats.set("counters", work_done(&all_work));
     stats.set("gave_up", records.iter().any(|record| record["gave_up"] == json!(true)));
     if records.len() > 1 {
         for key in COUNTS {
@@ -68,7 +69,12 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
 fn preprocess<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) -> Result<R::Hints, Failure> {
     let points = room::queries::<R>(centres, quiet)?;
     let _phase = Phase::start(quiet, "preprocessing");
-    let hints = R::Hints::from_centres(&points, HintOrder::Spatial { seed: args.seed });
+    let seed = args.strategy.seed;
+    let order = match args.hint_order {
+        None | Some(HintOrderName::Spatial) => HintOrder::Spatial { seed },
+        Some(HintOrderName::Random) => HintOrder::Random { seed },
+    };
+    let hints = R::Hints::from_centres(&points, order);
     hints.map_err(|error| Failure::points(centres, &error))
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn answer<R: Room>(
     quiet: bool,
     ask: impl Fn(&R, R::Point, &mut Work) -> Result<Vec<usize>, delone::Error>,
 ) -> Result<(), Failure> {
-    let strategy = room::strategy(query.locate, query.seed, "queries")?;
+    let strategy = room::strategy::<R>(&query.strategy, "queries")?;
     let format = files::index_format(&query.output, query.to)?;
     files::keep_apart(
         &input.paths_and(&query.queries),
@@ -29,7 +29,7 @@ pub(crate) fn answer<R: Room>(
     stats.phase("read");
     let mut d: R = room::build(&points, R::FASTEST, &input.label(), quiet)?;
     drop(points);
-    d.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
+    d.set_strategy(strategy).map_err(|error| query.strategy.refused(&error))?;
     stats.phase("build");
     room::remark(&d, quiet);
     let mut rows = Vec::with_capacity(columns * queries.len());

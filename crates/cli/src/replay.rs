@@ -28,12 +28,12 @@ enum Operation<P> {
 }
 
 pub(crate) fn run<R: Room>(args: &ReplayArgs, quiet: bool) -> Result<(), Failure> {
-    let strategy = room::strategy(args.locate, args.seed, "changes")?;
+    let strategy = room::strategy::<R>(&args.strategy, "changes")?;
     let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &[&args.operations])?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
     let mut d = R::default();
-    d.set_strategy(strategy).map_err(|error| Failure::usage(error, "see delone --help"))?;
+    d.set_strategy(strategy).map_err(|error| args.strategy.refused(&error))?;
     let replayed = replay(args, &mut d, &mut stats, quiet)?;
     stats.triangulation(&d, d.counters());
     stats.set("counters", work_done(&replayed.work));

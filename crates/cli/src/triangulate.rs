@@ -13,6 +13,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
         return Err(Failure::usage("--max-edge is for the plane", "leave it or --dim 3 out"));
     }
     if let Some(centres) = &args.hints {
+        args.strategy.refuse("--hints")?;
         return instances::run::<R>(args, centres, quiet);
     }
     if let Some(path) = args.output.iter().find(|path| path.to_string_lossy().contains(instances::NAME)) {
@@ -21,7 +22,10 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
             "name their centres with --hints, or choose another name: several inputs are one set",
         ));
     }
-    let plan = R::plan(args.algorithm, args.locate, args.seed)?;
+    if args.hint_order.is_some() {
+        return Err(Failure::usage("--hint-order is for --hints", "name the file of centres with --hints"));
+    }
+    let plan = R::plan(args.algorithm, &args.strategy)?;
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
     room::check_formats::<R>(&outputs)?;

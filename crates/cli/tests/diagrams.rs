@@ -191,6 +191,22 @@ fn motions_are_shown() {
     place.file("bad.csv", "1,nan\n");
     place.fail("animate bad.csv -o x.png", 1, "NaN");
     place.fail("animate p.csv -o x.svg", 2, "no moving picture");
+    place.fail("animate p.csv --show waltz -o x.png", 2, "waltz");
+    // What algorithms do, of all sets: a picture at least.
+    place.succeed("generate grid -n 25 -o grid.csv -q");
+    for show in ["flips", "lists", "walk", "jump", "levels", "hints"] {
+        for set in ["p", "grid", "odd"] {
+            place.succeed(&format!("animate {set}.csv --show {show} -o {show}.png --steps 6 --size 120 -q"));
+            let png = std::fs::read(place.path(&format!("{show}.png"))).expect("written");
+            assert!(png.windows(4).any(|chunk| chunk == b"acTL"), "{show}");
+        }
+        place.succeed(&format!("animate p.csv --show {show} -o s{{}}.svg --steps 3 -q --stats s.json"));
+        let svg = std::fs::read_to_string(place.path("s0.svg")).expect("written");
+        assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>"), "{show}");
+        let stats = std::fs::read(place.path("s.json")).expect("written");
+        let stats: Value = serde_json::from_slice(&stats).expect("JSON");
+        assert!(stats["pictures"].as_u64().is_some_and(|count| (1..=4).contains(&count)), "{show}");
+    }
     place.fail("animate p.csv -o x.png --radius inf", 2, "--radius");
 }
 
@@ -206,7 +222,7 @@ fn disks_and_hints_are_drawn() {
     place.fail("draw p.csv --dim 3 --hints -o x.svg", 2, "for the plane");
     place.succeed("generate cube -n 200 --seed 1 -o model.ply");
     let table = place.succeed("experiment scan model.ply --largest 200");
-    assert!(table.contains("Noisy samples of model"), "{table}");
+    assert!(table.contains("Noisy samples of a scanned model"), "{table}");
     place.fail("experiment scan", 2, "needs a file");
     place.fail("experiment imprecise model.ply", 2, "only scan");
     place.file("few.csv", "1,2,3\n");

@@ -435,9 +435,10 @@ fn experiments_leave_tables_and_plots() {
     let place = Place::new();
     let table = place.succeed("experiment jump-and-walk --largest 3000 -o out --stats s.json");
     assert!(table.contains("about 36"));
-    let table = place.succeed("experiment history --largest 300 -o out");
+    let table = place.succeed("experiment scopes -o out");
     assert!(table.contains("6/((k+1)(k+2)(k+3))"));
-    let table = place.succeed("experiment hierarchy --largest 5000 -o out");
+    place.succeed("experiment history --largest 300 -o out");
+    let table = place.succeed("experiment hierarchy --largest 5000 --trials 1 -o out");
     assert!(table.contains("parabola  5000"));
     for name in ["jump-and-walk-sample", "history-growth", "hierarchy-random"] {
         let svg = std::fs::read_to_string(place.path(&format!("out/{name}.svg"))).expect("a plot");
@@ -446,5 +447,17 @@ fn experiments_leave_tables_and_plots() {
     let csv = std::fs::read_to_string(place.path("out/hierarchy-seconds.csv")).expect("a table");
     assert_eq!(csv.lines().count(), 6);
     place.fail("experiment nothing", 2, "nothing");
-    place.fail("experiment history --largest 3", 2, "--largest");
+    place.fail("experiment history --trials 0", 2, "--trials");
+    place.file("taken", "a file");
+    place.fail("experiment conflicts -o taken", 1, "cannot write into the folder");
+    // Below the smallest set of each there is no empty table, and with it no bug.
+    for (name, smallest) in
+        [("history", 100), ("jump-and-walk", 1000), ("hierarchy", 5000), ("imprecise", 10_000)]
+    {
+        place.fail(
+            &format!("experiment {name} --largest {}", smallest - 1),
+            2,
+            &format!("--largest {smallest}"),
+        );
+    }
 }

@@ -61,8 +61,11 @@ pub enum Error {
         /// The number of points.
         found: usize,
     },
-    /// There is no such strategy of location in space: no history, and of walks only the visibility walk.
-    #[error("location by history, and walks but for the visibility walk, are for the plane")]
+    /// There is no such strategy of location in space: no history, of walks only the visibility walk, and no nearest vertex by
+    /// circles.
+    #[error(
+        "location by history, walks but for the visibility walk and the nearest vertex by circles are for the plane"
+    )]
     OnlyInThePlane,
     /// A region has no proper border.
     #[error("ring {ring} of the region, at corner {corner}: {problem}")]

@@ -87,7 +87,7 @@ pub use ids::{
     Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, MAX_POINTS_IN_SPACE, TetrahedronId, TriangleId,
     VertexId,
 };
-pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Walk};
+pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use order::HintOrder;
 pub use plane::{
@@ -96,7 +96,7 @@ pub use plane::{
 };
 pub use points::{Bounds, Position2, Position3};
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Step3};
-pub use tally::{Counters, Merges, Tally, Work};
+pub use tally::{Counters, Merges, Phase, Tally, Work};
 pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Triangulation};
 pub use verdict::Verdict;
 pub use vertex_map::VertexMap;

@@ -6,6 +6,9 @@ pub trait Tally {
     fn visited(&mut self) {}
     /// A vertex was compared with others for its distance.
     fn compared(&mut self) {}
+    /// A triangle that was visited, or a vertex that was compared, by its corners; those of a ghost are the ends of its hull
+    /// edge. For those who draw what is done: a walk tells all of them, in order.
+    fn saw(&mut self, _corners: impl FnOnce() -> Vec<Vec<f64>>) {}
     /// The orientation of three points was asked for.
     fn orientation(&mut self) {}
     /// A triangle was tested for conflict with a point.
@@ -14,6 +17,10 @@ pub trait Tally {
     fn created(&mut self, _count: usize) {}
     /// Triangles were destroyed, ghosts included.
     fn destroyed(&mut self, _count: usize) {}
+    /// What follows is done on this level of a hierarchy; 0 is the triangulation itself.
+    fn level(&mut self, _level: usize) {}
+    /// What follows belongs to this phase of a search.
+    fn phase(&mut self, _phase: Phase) {}
     /// Another part of the operation did this.
     fn add(&mut self, _other: &Self)
     where
@@ -23,6 +30,21 @@ pub trait Tally {
 }
 
 impl Tally for () {}
+
+/// A phase of a search: those of the Delaunay hierarchy (Devillers 1998, §2.2), and the one before. Every search has the
+/// third.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Phase {
+    /// Vertices are drawn at random.
+    Sample,
+    /// Triangles around a vertex, up to the line to the goal.
+    Turn,
+    /// Triangles on the way to the goal.
+    Walk,
+    /// The nearest vertex.
+    Nearest,
+}
 
 /// The work of operations, added up.
 ///

@@ -1,7 +1,8 @@
 //! Insertions, removals and moves in any order: what is left is the triangulation of what is left.
 
 use delone::{
-    Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk,
+    Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Nearest,
+    VertexId, Walk,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::brute;
@@ -12,14 +13,20 @@ fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
 }
 
 /// Strategies under which vertices can go.
-fn strategies() -> [Locate; 7] {
+fn strategies() -> [Locate; 8] {
     [
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
         Locate::Walk(Walk::Straight),
         Locate::JumpAndWalk(JumpAndWalk::default()),
         Locate::Hierarchy(Hierarchy { ratio: 2.5, smallest_level: 3, ..Hierarchy::default() }),
-        Locate::Hierarchy(Hierarchy { exact_nearest: true, ratio: 4.0, ..Hierarchy::only_levels() }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, ratio: 4.0, ..Hierarchy::only_levels() }),
+        Locate::Hierarchy(Hierarchy {
+            ratio: 1.25,
+            smallest_level: 0,
+            walk: Some(Walk::Visibility),
+            ..Hierarchy::default()
+        }),
         Locate::DelaunayTree,
     ]
 }

@@ -1,7 +1,7 @@
 //! One suite for every algorithm on every named generator: the same triangles, checked, and for small sets
 //! those of the oracle.
 
-use delone::{Algorithm2, Delaunay2, Dimension, Hierarchy, JumpAndWalk, Locate, Walk};
+use delone::{Algorithm2, Delaunay2, Dimension, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 use delone_generators::{Kind, Random};
 use delone_oracle::brute;
 
@@ -29,7 +29,8 @@ fn strategies() -> Vec<Locate> {
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(Hierarchy::only_levels()),
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy { exact_nearest: true, levels: Some(3), ..steep }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, levels: Some(3), ..steep }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, walk: Some(Walk::Visibility), ..steep }),
         Locate::History,
         Locate::Stars,
         Locate::DelaunayTree,

@@ -3,7 +3,8 @@
 use std::cmp::Ordering;
 
 use delone::{
-    Algorithm2, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location2, VertexId, Walk, Work,
+    Algorithm2, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location2, Nearest, VertexId,
+    Walk, Work,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::exact;
@@ -16,10 +17,18 @@ fn strategies() -> Vec<Locate> {
         Locate::Walk(Walk::Stochastic { seed: 4 }),
         Locate::Walk(Walk::Straight),
         Locate::JumpAndWalk(JumpAndWalk::default()),
-        Locate::JumpAndWalk(JumpAndWalk { sample: Some(1), seed: 3, rho: 1.0 }),
+        Locate::JumpAndWalk(JumpAndWalk { rho: 1e9, with_replacement: true, ..JumpAndWalk::default() }),
+        Locate::JumpAndWalk(JumpAndWalk { sample: Some(usize::MAX), ..JumpAndWalk::default() }),
+        Locate::JumpAndWalk(JumpAndWalk { sample: Some(1), seed: 3, ..JumpAndWalk::default() }),
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy { exact_nearest: true, ..steep }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, walk: Some(Walk::Visibility), ..steep }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, ..steep }),
+        Locate::Hierarchy(Hierarchy {
+            walk: Some(Walk::Stochastic { seed: 2 }),
+            with_replacement: true,
+            ..steep
+        }),
         Locate::History,
         Locate::Stars,
         Locate::DelaunayTree,

@@ -1,7 +1,10 @@
 //! The papers' figures, as counts: seeds are fixed and no clock is asked.
 
-use delone::{Algorithm2, Ask, Counters, Delaunay2, Hierarchy, JumpAndWalk, Locate, VertexId, Work};
-use delone_generators::{Kind, Random};
+use delone::{
+    Algorithm2, Ask, Change, Counters, Delaunay2, Delaunay3, Hierarchy, JumpAndWalk, Locate, Nearest, Phase,
+    Tally, VertexId, Work,
+};
+use delone_generators::{Kind, Kind3, Random};
 
 fn uniform(n: usize) -> Vec<[f64; 2]> {
     Kind::Uniform.points(n, 12)
@@ -59,6 +62,29 @@ fn jump_and_walk_grows_with_the_cube_root() {
     assert!(costs[1] < 0.75 * costs[0] && costs[1] < 0.3 * costs[2], "{costs:?}");
 }
 
+/// The same, remark 2: near the border a walk is half as long again. Remark 7: in space the cost is O(n^(1/4)).
+#[test]
+fn jump_and_walk_at_the_border_and_in_space() {
+    let d = located(30_000, Locate::JumpAndWalk(JumpAndWalk::default()));
+    let mut random = Random::new(5);
+    let mut work = Work::default();
+    for _ in 0..4_000 {
+        d.find_observed([random.between(0.1, 0.9), random.between(0.0, 0.01)], &mut work).expect("finite");
+    }
+    near(work.visited as f64 / 4_000.0 / mean(&d, |work| work.visited), 1.42, 0.12);
+    for n in [1_000, 16_000] {
+        let mut d = Delaunay3::from_points(&Kind3::Cube.points(n, 3)).expect("finite");
+        d.set_strategy(Locate::JumpAndWalk(JumpAndWalk::default())).expect("in range");
+        let mut work = Work::default();
+        for _ in 0..2_000 {
+            let q = [(); 3].map(|()| random.between(0.1, 0.9));
+            d.find_observed(q, &mut work).expect("finite");
+        }
+        let cost = (work.visited + work.compared) as f64 / 2_000.0;
+        near(cost / (n as f64).powf(0.25), 3.5, 0.1);
+    }
+}
+
 /// Devillers 1998, §4: levels shrink by the ratio, a level costs about 2 sqrt(4 ratio / pi) triangles and the turn at
 /// its start at most, and the memory is ratio / (ratio - 1) of the triangulation's.
 #[test]
@@ -109,6 +135,132 @@ fn the_four_modes_rank_as_in_the_paper() {
         assert!(walk > 1.6 * sample && sample > 1.1 * levels, "{kind:?}: {walk} {sample} {levels}");
         near(both, levels, 0.35);
     }
+}
+
+/// The same, §5.4: the highest level that is used has twenty vertices or more, so that there is something to sample.
+#[test]
+fn the_sample_at_the_top_saves_a_walk() {
+    let visited = |options| {
+        let algorithm = Algorithm2::Located { locate: Locate::Hierarchy(options), seed: 1 };
+        let d = Delaunay2::with_algorithm(&uniform(50_000), algorithm).expect("finite");
+        d.counters().work().map_or(f64::NAN, |work| work.visited as f64 / 50_000.0)
+    };
+    let [levels, both] = [Hierarchy::only_levels(), Hierarchy::default()].map(visited);
+    assert!(both < 0.9 * levels, "{both} with the sample, {levels} without");
+}
+
+/// Counts by phase: sample, turn, walk, nearest.
+#[derive(Default)]
+struct Phases {
+    phase: usize,
+    counts: [Work; 4],
+}
+
+impl Tally for Phases {
+    fn visited(&mut self) {
+        self.counts[self.phase].visited();
+    }
+
+    fn orientation(&mut self) {
+        self.counts[self.phase].orientation();
+    }
+
+    fn in_circle(&mut self) {
+        self.counts[self.phase].in_circle();
+    }
+
+    fn phase(&mut self, phase: Phase) {
+        self.phase = match phase {
+            Phase::Sample => 0,
+            Phase::Turn => 1,
+            Phase::Nearest => 3,
+            _ => 2,
+        };
+    }
+}
+
+/// The same, §4.1 to §4.3: a level costs three orientations to turn, less than 2 sqrt(ratio / pi) edges to cross, and fewer than
+/// eight triangles in phase 3, whichever it is.
+#[test]
+fn phases_cost_what_the_paper_expects() {
+    let queries = Kind::Uniform.points(4_000, 5);
+    for (nearest, triangles) in [(Nearest::Corner, 0.0), (Nearest::Exact, 3.4), (Nearest::InCircle, 2.95)] {
+        let options = Hierarchy { ratio: 30.0, levels: Some(3), nearest, ..Hierarchy::default() };
+        let d = located(60_000, Locate::Hierarchy(options));
+        let mut phases = Phases::default();
+        for &q in &queries {
+            d.find_observed(q, &mut phases).expect("finite");
+        }
+        let each = |count: u64, levels: u64| count as f64 / (levels * queries.len() as u64) as f64;
+        let [_, turn, walk, search] = phases.counts;
+        near(each(turn.orientations, 3), 3.05, 0.05);
+        let crossed = (each(walk.orientations, 3) - 1.0) / 2.0;
+        assert!(
+            crossed > 3.5 && crossed < 2.0 * (30.0 / std::f64::consts::PI).sqrt(),
+            "{crossed} edges crossed"
+        );
+        let found = each(search.visited, 2);
+        assert!((found - triangles).abs() < 0.4, "{found} triangles, {nearest:?}");
+        assert_eq!(search.in_circles > 0, nearest == Nearest::InCircle);
+    }
+}
+
+/// The same, appendix: the modified phase 3 leads to a hub of linear degree; so does the exact one by angles, and by circles it does not.
+#[test]
+fn a_hub_misleads_phase_three() {
+    let visited = |n: usize, nearest| {
+        let all = Kind::Hub.points(n, 1);
+        let is_asked = |i: &usize| *i > 0 && i % 20 == 10;
+        let points: Vec<_> = (0..n).filter(|i| !is_asked(i)).map(|i| all[i]).collect();
+        let mut d = Delaunay2::from_points(&points).expect("finite");
+        assert!(d.neighbors(VertexId::new(0)).count() >= n / 2);
+        let mut work = Work::default();
+        for seed in 0..4 {
+            let options = Hierarchy { ratio: 2.0, nearest, seed, ..Hierarchy::only_levels() };
+            d.set_strategy(Locate::Hierarchy(options)).expect("in range");
+            for i in (0..n).filter(is_asked) {
+                d.find_observed(all[i], &mut work).expect("finite");
+            }
+        }
+        work.visited as f64 / (4 * (0..n).filter(is_asked).count()) as f64
+    };
+    let growth = |nearest| visited(1_600, nearest) / visited(200, nearest);
+    // Eight times the points.
+    let [corner, angles, circles] = [Nearest::Corner, Nearest::Exact, Nearest::InCircle].map(growth);
+    assert!(corner > 4.0 && angles > 3.0 && circles < 2.5, "{corner} {angles} {circles}");
+}
+
+/// The same, §2.3 and §5.1: a new vertex is located once for all its levels; a random vertex is removed by five to six in-circle tests,
+/// and not many more on all its levels.
+#[test]
+fn changes_are_cheap_on_all_levels() {
+    let options = Hierarchy { ratio: 3.0, ..Hierarchy::default() };
+    let mut d = located(20_000, Locate::Hierarchy(options));
+    d.find([0.5, 0.5]).expect("finite");
+    let sizes = |d: &Delaunay2| d.footprint().levels.iter().sum::<usize>() as u64;
+    let (before, mut found, mut inserted) = (sizes(&d), Work::default(), Work::default());
+    for p in Kind::Uniform.points(3_000, 8) {
+        d.find_observed(p, &mut found).expect("finite");
+        d.insert_observed(p, &mut inserted).expect("finite");
+    }
+    let lifted = sizes(&d) - before;
+    assert!(lifted > 1_000, "{lifted} vertices in samples");
+    // A triangle or two on each level, which the descent has found.
+    let more = (inserted.visited - found.visited) as f64 / lifted as f64;
+    assert!((1.0..2.0).contains(&more), "{more} triangles for each new vertex of a sample");
+    let removal = |locate| {
+        let mut d = located(20_000, locate);
+        d.find([0.5, 0.5]).expect("finite");
+        let mut work = Work::default();
+        let mut vertices: Vec<_> = d.vertices().collect();
+        Random::new(3).shuffle(&mut vertices);
+        vertices[..5_000].iter().for_each(|&v| d.remove_observed(v, &mut work).expect("a vertex"));
+        work.in_circles as f64 / 5_000.0
+    };
+    let plain = removal(Locate::Tree);
+    near(plain, 5.45, 0.03);
+    near(removal(Locate::Hierarchy(options)), plain * 1.5, 0.05);
+    near(removal(Locate::Hierarchy(Hierarchy::default())), plain * 30.0 / 29.0, 0.03);
 }
 
 /// Guibas, Knuth & Sharir 1992: a new point of a random order creates about six triangles (at most 22 by their bound),

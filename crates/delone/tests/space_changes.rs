@@ -2,8 +2,8 @@
 //! against brute force.
 
 use delone::{
-    Delaunay2, Delaunay3, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location3, VertexId,
-    Walk,
+    Delaunay2, Delaunay3, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location3, Nearest,
+    VertexId, Walk,
 };
 use delone_generators::{Kind3, Random};
 use delone_oracle::exact;
@@ -18,7 +18,7 @@ fn strategies() -> Vec<Locate> {
         Locate::JumpAndWalk(JumpAndWalk::default()),
         Locate::Hierarchy(Hierarchy::default()),
         Locate::Hierarchy(steep),
-        Locate::Hierarchy(Hierarchy { exact_nearest: true, levels: Some(3), ..steep }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::Exact, levels: Some(3), ..steep }),
         Locate::DelaunayTree,
     ]
 }
@@ -146,7 +146,15 @@ fn every_strategy_locates_what_is_there() {
         }
     }
     let mut d = Delaunay3::new();
-    assert_eq!(d.set_strategy(Locate::History), Err(Error::OnlyInThePlane));
+    let hierarchy = Hierarchy::default();
+    for flat in [
+        Locate::History,
+        Locate::Walk(Walk::Straight),
+        Locate::Hierarchy(Hierarchy { walk: Some(Walk::Stochastic { seed: 1 }), ..hierarchy }),
+        Locate::Hierarchy(Hierarchy { nearest: Nearest::InCircle, ..hierarchy }),
+    ] {
+        assert_eq!(d.set_strategy(flat), Err(Error::OnlyInThePlane));
+    }
     assert!(d.locate([0.0, f64::NAN, 0.0]).is_err());
     assert_eq!(d.locate([0.0; 3]), Ok(Location3::LowerDimensional(Dimension::Empty)));
 }

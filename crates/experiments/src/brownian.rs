@@ -2,18 +2,18 @@
 
 use std::hint::black_box;
 
-use delone::{
-    Algorithm2, Counters, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Moving3, Step2, Step3, Work,
-};
-use delone_generators::{Kind, Kind3, Random};
+use delone::{Algorithm2, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Moving3, Step2, Step3, Work};
+use delone_generators::{Kind, Kind3, Random, moved};
 
-use super::imprecise::moved;
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Error, Findings, Options, timed};
+use super::trials::Trials;
+use super::{Error, Findings, Options, decades, timed};
 
-/// Steps of a motion.
-const STEPS: usize = 10;
+/// Steps of a motion: as many as in the paper, but few of many points.
+const STEPS: usize = 100;
+const FEW_STEPS: usize = 10;
+const MANY: usize = 1_000_000;
 /// What the paper found: points, nanoseconds a point and step and triangles visited by spatial sort, and by hints.
 const PUBLISHED: [(usize, [f64; 4]); 5] = [
     (1_000, [780.0, 3.81, 730.0, 2.77]),
@@ -45,43 +45,41 @@ fn brownian(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Er
         &["points", "spatial sort", "visited", "hints of the last step", "visited", "automatic", "rebuilt"],
     );
     let mut curves: [Vec<(f64, f64)>; 3] = Default::default();
-    for n in (3..).map(|k| 10_usize.pow(k)).take_while(|&n| n <= largest) {
+    for n in decades(1000, largest) {
         let side = 4.0 * (n as f64).sqrt();
         let mut random = Random::new(seed);
         let mut points: Vec<[f64; 2]> =
             Kind::Uniform.points(n, seed).into_iter().map(|p| p.map(|x| x * side)).collect();
         let mut hints = Hints2::from_points(&points, HintOrder::Spatial { seed })?;
         let mut moving = Moving2::from_points(&points)?;
-        let (mut seconds, mut visited, mut rebuilt) = ([0.0; 3], [0, 0], 0);
-        for _ in 0..STEPS {
+        let steps = if n < MANY { STEPS } else { FEW_STEPS };
+        let [mut sort, mut by_sort, mut follow, mut by_hint, mut automatic] = <[Trials; 5]>::default();
+        let mut rebuilt = 0;
+        let each = |total: f64| total / n as f64;
+        for _ in 0..steps {
             points = moved(&points, 1.0, &mut random);
             let (d, time) = timed(|| Delaunay2::with_algorithm(&points, Algorithm2::Incremental { seed }));
-            seconds[0] += time;
-            if let Counters::Incremental(work) = d?.counters() {
-                visited[0] += work.visited;
-            }
+            sort.add(each(time) * 1e9);
+            by_sort.extend(d?.counters().work().map(|work| each(work.visited as f64)));
             let mut work = Work::default();
-            let follow = || hints.follow_observed(&points, &mut work).map(|d| black_box(d.vertex_count()));
-            let (done, time) = timed(follow);
+            let to_follow = || hints.follow_observed(&points, &mut work).map(|d| black_box(d.vertex_count()));
+            let (done, time) = timed(to_follow);
             done?;
-            seconds[1] += time;
-            visited[1] += work.visited;
+            follow.add(each(time) * 1e9);
+            by_hint.add(each(work.visited as f64));
             let (step, time) = timed(|| moving.step(&points));
             rebuilt += usize::from(step? == Step2::Rebuilt);
-            seconds[2] += time;
+            automatic.add(each(time) * 1e9);
         }
-        let each = |total: f64| total / (n * STEPS) as f64;
-        let [sort, follow, automatic] = seconds.map(|total| each(total) * 1e9);
-        let [by_sort, by_hint] = visited.map(|count| each(count as f64));
-        let cells = [sort, by_sort, follow, by_hint, automatic].map(short);
-        table.row([vec![n.to_string()], cells.to_vec(), vec![format!("{rebuilt} of {STEPS}")]].concat());
+        let cells = [&sort, &by_sort, &follow, &by_hint, &automatic].map(|trials| trials.to_string());
+        table.row([vec![n.to_string()], cells.to_vec(), vec![format!("{rebuilt} of {steps}")]].concat());
         if let Some((_, published)) = PUBLISHED.iter().find(|row| row.0 == n) {
             let none = || "-".to_owned();
             let cells = published.map(short);
             table.row([vec![format!("{n} in 2011")], cells.to_vec(), vec![none(), none()]].concat());
         }
         for (curve, ns) in curves.iter_mut().zip([sort, follow, automatic]) {
-            curve.push((n as f64, ns));
+            curve.push((n as f64, ns.mean()));
         }
     }
     let mut plot = Plot::new("brownian", "Brownian motion", ["points n", "nanoseconds a point and step"]);
@@ -164,7 +162,7 @@ fn time_steps(
     mut step: impl FnMut() -> Result<(String, f64, f64), Error>,
 ) -> Result<Motion, Error> {
     let mut motion = Motion { ns: f64::INFINITY, from_nothing: f64::INFINITY, how: String::new() };
-    for _ in 0..STEPS / 2 {
+    for _ in 0..FEW_STEPS / 2 {
         let (how, time, whole) = step()?;
         let each = |seconds: f64| seconds * 1e9 / n as f64;
         motion.ns = motion.ns.min(each(time));

@@ -1,11 +1,14 @@
-//! Construction time by mode of the Delaunay hierarchy: Devillers 1998, §5.5.2.
+//! `delone experiment hierarchy`: constructions by the modes of the Delaunay hierarchy and other ways, and the hierarchy in space.
+//!
+//! Source: Devillers 1998, §5.5.2 and §6.
 
-use delone::{Algorithm2, Counters, Delaunay2, Hierarchy, Locate};
-use delone_generators::{Kind, Random};
+use delone::{Algorithm2, Ask, Counters, Delaunay2, Delaunay3, Hierarchy, Locate, Work};
+use delone_generators::{Kind, Kind3, Random};
 
 use super::plot::Plot;
 use super::table::{Table, short};
-use super::{Error, Findings, Options, timed};
+use super::trials::Trials;
+use super::{Error, Findings, Options, sizes, timed};
 
 const SIZES: [usize; 3] = [5_000, 50_000, 500_000];
 
@@ -32,31 +35,30 @@ const PAPER: [(Kind, &str, [[f64; 4]; 3]); 5] = [
 
 /// A mode that is expected to take longer is not run, and called long as in the paper.
 const PATIENCE: f64 = 60.0;
+/// What takes longer is run once.
+const ONCE: f64 = 10.0;
+const WAYS: [&str; 8] =
+    ["walk", "MSZ", "hierarchy", "hierarchy+MSZ", "tree", "history", "conflict lists", "divide&conquer"];
+/// Queries in space.
+const QUERIES: usize = 10_000;
 
-fn ways() -> [(&'static str, Algorithm2); 8] {
-    let located = |locate| Algorithm2::Located { locate, seed: 1 };
-    let hierarchy = |options| located(Locate::Hierarchy(options));
+fn ways(seed: u64) -> [Algorithm2; WAYS.len()] {
+    let located = |locate| Algorithm2::Located { locate, seed };
+    let hierarchy = |options| located(Locate::Hierarchy(Hierarchy { seed, ..options }));
     [
-        ("walk", hierarchy(Hierarchy::only_walk())),
-        ("MSZ", hierarchy(Hierarchy::only_sample())),
-        ("hierarchy", hierarchy(Hierarchy::only_levels())),
-        ("hierarchy+MSZ", hierarchy(Hierarchy::default())),
-        ("tree", located(Locate::Tree)),
-        ("history", located(Locate::History)),
-        ("conflict lists", Algorithm2::ConflictLists { seed: 1 }),
-        ("divide&conquer", Algorithm2::DivideAndConquer),
+        hierarchy(Hierarchy::only_walk()),
+        hierarchy(Hierarchy::only_sample()),
+        hierarchy(Hierarchy::only_levels()),
+        hierarchy(Hierarchy::default()),
+        located(Locate::Tree),
+        located(Locate::History),
+        Algorithm2::ConflictLists { seed },
+        Algorithm2::DivideAndConquer,
     ]
 }
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let (largest, seed) = (options.largest, options.seed);
-    let ways = ways();
-    let heads = |extra: &[&'static str]| -> Vec<&'static str> {
-        let mut heads = vec!["set", "size"];
-        heads.extend(ways.iter().map(|way| way.0));
-        heads.extend(extra);
-        heads
-    };
+    let heads = |extra: &[&'static str]| [&["set", "size"], &WAYS[..], extra].concat();
     let beside = ["paper walk", "paper MSZ", "paper hier.", "paper hier.+MSZ"];
     let mut seconds = Table::new(
         "hierarchy-seconds",
@@ -68,39 +70,85 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     for (kind, name, paper) in PAPER {
         let title = format!("{name}: nanoseconds per point");
         let mut plot = Plot::new(&format!("hierarchy-{name}"), &title, ["points", "ns per point"]);
-        let mut curves = vec![Vec::new(); ways.len()];
-        for (size, paper) in SIZES.into_iter().zip(paper).filter(|(size, _)| *size <= largest) {
-            let mut points = kind.points(size, seed);
-            Random::new(seed).shuffle(&mut points);
-            let mut cells =
-                [vec![name.to_owned(), size.to_string()], vec![name.to_owned(), size.to_string()]];
-            for (i, (_, algorithm)) in ways.iter().enumerate() {
-                let before: &Vec<(f64, f64)> = &curves[i];
+        let mut curves = vec![Vec::new(); WAYS.len()];
+        for (size, paper) in SIZES.into_iter().zip(paper).filter(|(size, _)| *size <= options.largest) {
+            let mut cells = [(); 2].map(|()| vec![name.to_owned(), size.to_string()]);
+            for (way, curve) in curves.iter_mut().enumerate() {
                 // From one size to the next the time of a bad mode grows at most with the square.
-                let last = before.last().map_or(0.0, |&(n, ns)| n * ns * 1e-9);
-                let skipped = before.len() < SIZES.iter().filter(|&&s| s < size).count();
+                let last = curve.last().map_or(0.0, |&(n, ns): &(f64, f64)| n * ns * 1e-9);
+                let skipped = curve.len() < SIZES.iter().filter(|&&s| s < size).count();
                 if skipped || last * 40.0 > PATIENCE {
                     cells.iter_mut().for_each(|cells| cells.push("long".to_owned()));
                     continue;
                 }
-                let (d, time) = timed(|| Delaunay2::with_algorithm(&points, *algorithm));
-                curves[i].push((size as f64, time * 1e9 / size as f64));
-                cells[0].push(short(time));
-                cells[1].push(match d?.counters() {
-                    Counters::Incremental(work) => short(work.visited as f64 / size as f64),
-                    _ => "-".to_owned(),
-                });
+                let [times, visits] = build(kind, size, way, options)?;
+                curve.push((size as f64, times.mean() * 1e9 / size as f64));
+                cells
+                    .iter_mut()
+                    .zip([times, visits])
+                    .for_each(|(cells, trials)| cells.push(trials.to_string()));
             }
             let [mut times, visits] = cells;
             times.extend(paper.map(|s| if s.is_nan() { "long".to_owned() } else { short(s) }));
             seconds.row(times);
             visited.row(visits);
         }
-        for ((name, _), curve) in ways.iter().zip(curves) {
+        for (name, curve) in WAYS.iter().zip(curves) {
             plot.curve(name, curve);
         }
         findings.plots.push(plot);
     }
-    findings.tables = vec![seconds, visited];
+    findings.tables = vec![seconds, visited, in_space(options)?];
     Ok(findings)
+}
+
+/// Seconds of a construction, and triangles visited a point, each time from other points in another order.
+fn build(kind: Kind, size: usize, way: usize, options: &Options<'_>) -> Result<[Trials; 2], Error> {
+    let mut trials: [Trials; 2] = Default::default();
+    for seed in (0..options.trials as u64).map(|trial| options.seed + trial) {
+        let mut points = kind.points(size, seed);
+        Random::new(seed).shuffle(&mut points);
+        let (d, time) = timed(|| Delaunay2::with_algorithm(&points, ways(seed)[way]));
+        trials[0].add(time);
+        if let Counters::Incremental(work) = d?.counters() {
+            trials[1].add(work.visited as f64 / size as f64);
+        }
+        if time > ONCE {
+            break;
+        }
+    }
+    Ok(trials)
+}
+
+/// The hierarchy in space, to which the paper says that it generalizes (§6).
+fn in_space(options: &Options<'_>) -> Result<Table, Error> {
+    let title =
+        "Tetrahedra visited per query in a cube, and vertices compared by the hierarchy (Devillers 1998, 6)";
+    let heads = ["points", "walk", "MSZ", "hierarchy", "hierarchy+MSZ", "compared", "ratio 8+MSZ"];
+    let mut table = Table::new("hierarchy-space", title, &heads);
+    for n in sizes(1_000, options.largest.min(300_000)) {
+        let mut trials: [Trials; 6] = Default::default();
+        for seed in (0..options.trials as u64).map(|trial| options.seed + trial) {
+            let mut d = Delaunay3::from_points(&Kind3::Cube.points(n, seed))?;
+            let queries = Kind3::Cube.points(QUERIES, seed + 1000);
+            let mut visited = |hierarchy| -> Result<Work, Error> {
+                d.set_strategy(Locate::Hierarchy(Hierarchy { seed, ..hierarchy }))?;
+                let mut work = Work::default();
+                queries.iter().try_for_each(|&q| d.find_observed(q, &mut work).map(drop))?;
+                Ok(work)
+            };
+            let both = visited(Hierarchy::default())?;
+            let counts = [
+                visited(Hierarchy::only_walk())?.visited,
+                visited(Hierarchy::only_sample())?.visited,
+                visited(Hierarchy::only_levels())?.visited,
+                both.visited,
+                both.compared,
+                visited(Hierarchy { ratio: 8.0, ..Hierarchy::default() })?.visited,
+            ];
+            trials.iter_mut().zip(counts).for_each(|(trial, x)| trial.add(x as f64 / QUERIES as f64));
+        }
+        table.row([n.to_string()].into_iter().chain(trials.map(|trial| trial.to_string())));
+    }
+    Ok(table)
 }

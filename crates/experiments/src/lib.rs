@@ -4,19 +4,27 @@
 //! and plots ([`Findings`]). Counts depend on the seed alone and are the same on every machine. `docs/papers.md` says which
 //! experiment shows what.
 
+mod appear;
 mod brownian;
+mod conflicts;
 mod delaunay_tree;
+mod deletion;
+mod disks;
 mod growth;
 mod hierarchy;
 mod history;
 mod hull;
 mod imprecise;
 mod jump_and_walk;
+mod order;
+mod phases;
 mod plot;
 mod radial;
+mod scopes;
 mod space;
 mod table;
 mod trials;
+mod tuning;
 
 use std::time::Instant;
 
@@ -92,6 +100,26 @@ pub struct Experiment {
 /// All experiments.
 pub const EXPERIMENTS: &[Experiment] = &[
     Experiment {
+        name: "scopes",
+        about: "Which triangles, edges and tetrahedra ever appear, by the points in their circles, simulated and computed \
+                (Guibas, Knuth & Sharir 1992, §2, §4.2 and §4.3)",
+        smallest: 100,
+        run: scopes::run,
+    },
+    Experiment {
+        name: "order",
+        about: "What the order of insertion does: bad orders, variance, adding to a set, sorting (the same, \
+                §2.1, §2.3 and §3)",
+        smallest: 100,
+        run: order::run,
+    },
+    Experiment {
+        name: "conflicts",
+        about: "The equations of the analysis of conflict lists, step by step (lecture notes)",
+        smallest: 100,
+        run: conflicts::run,
+    },
+    Experiment {
         name: "history",
         about: "What ever appears in randomized incremental construction, and what locating costs (Guibas, Knuth & Sharir \
                 1992, §2 and §3)",
@@ -130,6 +158,19 @@ pub const EXPERIMENTS: &[Experiment] = &[
         run: hierarchy::run,
     },
     Experiment {
+        name: "tuning",
+        about: "What a level of the hierarchy costs, by phase and by the ratio between levels; crossovers; a set that misleads \
+                (the same, §3, §4 and appendix)",
+        smallest: 1000,
+        run: tuning::run,
+    },
+    Experiment {
+        name: "deletion",
+        about: "What removing random vertices costs, with and without a hierarchy (the same, §5.1)",
+        smallest: 1000,
+        run: deletion::run,
+    },
+    Experiment {
         name: "jump-and-walk",
         about: "Triangles visited by jump-and-walk, and its cost against the sample size (Devroye, Mücke & Zhu 1998)",
         smallest: 1000,
@@ -140,6 +181,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "Triangulate instances of imprecise points by hints, in the plane and in space (Devillers 2011, §5)",
         smallest: 10_000,
         run: imprecise::run,
+    },
+    Experiment {
+        name: "disks",
+        about: "What the analysis of hints counts, and disks that overlap, differ or mislead (the same, §4 and §6)",
+        smallest: 1000,
+        run: disks::run,
     },
     Experiment {
         name: "brownian",

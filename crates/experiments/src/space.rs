@@ -11,6 +11,9 @@ use super::table::{Table, short};
 use super::trials::Trials;
 use super::{Error, Findings, Options, sizes};
 
+/// So many points from a seed.
+type Make = fn(usize, u64) -> Vec<[f64; 3]>;
+
 /// The skew lines have a quadratic number of tetrahedra.
 const MOST_ON_LINES: usize = 1000;
 
@@ -31,7 +34,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
             "conflict tests",
         ],
     );
-    let sets: [(&str, fn(usize, u64) -> Vec<[f64; 3]>, usize); 4] = [
+    let sets: [(&str, Make, usize); 4] = [
         ("ball", |n, seed| Kind3::Ball.points(n, seed), 100_000),
         ("sphere", |n, seed| Kind3::Sphere.points(n, seed), 100_000),
         ("skew lines", skew, MOST_ON_LINES),

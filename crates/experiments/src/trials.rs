@@ -27,9 +27,15 @@ impl Trials {
         (squares / (self.values.len().max(2) - 1) as f64).sqrt()
     }
 
-    /// The least.
-    pub(crate) fn least(&self) -> f64 {
-        self.values.iter().copied().fold(f64::INFINITY, f64::min)
+    /// The largest.
+    pub(crate) fn most(&self) -> f64 {
+        self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+impl Extend<f64> for Trials {
+    fn extend<I: IntoIterator<Item = f64>>(&mut self, values: I) {
+        self.values.extend(values);
     }
 }
 
@@ -70,7 +76,7 @@ mod tests {
     fn mean_and_deviation() {
         let trials: Trials = [2.0, 4.0, 6.0].into_iter().collect();
         assert_eq!(trials.to_string(), "4.00 ± 2.00");
-        assert_eq!(trials.least(), 2.0);
+        assert_eq!(trials.most(), 6.0);
         assert_eq!(Trials::default().to_string(), "-");
         assert_eq!([7.25].into_iter().collect::<Trials>().to_string(), "7.25");
     }

@@ -46,7 +46,7 @@ mod random;
 mod space;
 
 pub use plane::Kind;
-pub use random::Random;
+pub use random::{Random, in_ball, moved};
 pub use space::Kind3;
 
 /// A point of the plane.

@@ -64,6 +64,8 @@ kinds! {
     Nested = "nested", |n, _| nested(n, false);
     /// An instance of `nested`, row by row, for which hints mislead.
     NestedInstance = "nested-instance", |n, _| nested(n, true);
+    /// A hub and pairs of points on a spiral into it: nearest corners of triangles mislead (Devillers 1998, appendix).
+    Hub = "hub", |n, _| hub(n);
     /// Uniform in a square kilometre at a UTM-like offset, in millimetres.
     Utm = "utm", |n, r| repeat(n, || {
         [500_000.0 + (r.unit() * 1e6).floor() / 1e3, 5_400_000.0 + (r.unit() * 1e6).floor() / 1e3]
@@ -200,10 +202,30 @@ fn nested(n: usize, is_instance: bool) -> Vec<Point2> {
     (0..n).map(|i| if i == 0 { [3.0 * scale(0), 0.0] } else { pair(i) }).collect()
 }
 
+/// The hub at the origin; then pairs, each in much the same direction from it, the second less than half as far away and a
+/// little to the right; each pair is 4.5 times nearer than the one before, while there is room for it, and a little further to
+/// the left. The hub is joined to the second ones. Without its own second point a pair has a triangle there, with the hub and
+/// a point of a pair further away, and of these three corners the hub is nearest to the missing point; but of all points
+/// one of the next pair is.
+fn hub(n: usize) -> Vec<Point2> {
+    let pairs = (n / 2).max(1) as f64;
+    let shrink = 4.5_f64.min(libm::exp2(1990.0 / pairs));
+    let point = |i: usize| {
+        if i == 0 {
+            return [0.0, 0.0];
+        }
+        let (pair, is_second) = (((i - 1) / 2) as f64, i.is_multiple_of(2));
+        let radius = libm::pow(shrink, pairs / 2.0 - pair) / if is_second { 2.1 } else { 1.0 };
+        let angle = (pair + if is_second { 0.0 } else { 0.01 }) / pairs;
+        [radius * libm::cos(angle), radius * libm::sin(angle)]
+    };
+    (0..n).map(point).collect()
+}
+
 impl Kind {
     /// Whether coordinates span so many magnitudes that hardly a decision can be made in floating point.
     pub fn is_extreme(self) -> bool {
-        matches!(self, Self::HugeSpan | Self::Octaves | Self::Nested | Self::NestedInstance)
+        matches!(self, Self::HugeSpan | Self::Octaves | Self::Nested | Self::NestedInstance | Self::Hub)
     }
 }
 

@@ -62,6 +62,27 @@ impl Random {
     }
 }
 
+/// A random point of the unit ball of D dimensions.
+pub fn in_ball<const D: usize>(random: &mut Random) -> [f64; D] {
+    loop {
+        let mut u = [0.0; D];
+        u.iter_mut().for_each(|x| *x = random.between(-1.0, 1.0));
+        if u.iter().map(|x| x * x).sum::<f64>() <= 1.0 {
+            return u;
+        }
+    }
+}
+
+/// Each point moved at random inside of a ball around it.
+pub fn moved<const D: usize>(points: &[[f64; D]], radius: f64, random: &mut Random) -> Vec<[f64; D]> {
+    let shift = |p: &[f64; D]| {
+        let (mut q, u) = (*p, in_ball::<D>(random));
+        q.iter_mut().zip(u).for_each(|(x, u)| *x += radius * u);
+        q
+    };
+    points.iter().map(shift).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::Random;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use delone_io::Format;
 
-use super::{DimArgs, InputArgs, LocateName};
+use super::{DimArgs, InputArgs, StrategyArgs};
 
 /// How queries are read and answers are written.
 #[derive(Debug, Args)]
@@ -19,19 +19,15 @@ pub(crate) struct QueryArgs {
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// Point location; the answers are the same.
-    #[arg(long, value_name = "NAME", default_value = "tree")]
-    pub(crate) locate: LocateName,
-    /// Seed of randomized strategies.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) strategy: StrategyArgs,
 }
 
 /// Locate points.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   delone locate points.npy --queries queries.npy -o triangles.npy
-  delone locate points.csv --queries queries.csv -o - --to csv --locate hierarchy
+  delone locate points.csv --queries queries.csv -o - --to csv --locate hierarchy --ratio 8 --phase3 exact
 
 Row i holds the vertices, counter-clockwise, of the triangle that contains query i; of one such triangle if the
 query is on an edge or a vertex; -1 -1 -1 if it is outside of the convex hull. With --dim 3 likewise of a tetrahedron,
@@ -115,12 +111,6 @@ pub(crate) struct ReplayArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// Point location; the answers are the same.
-    #[arg(long, value_name = "NAME", default_value = "tree")]
-    pub(crate) locate: LocateName,
-    /// Seed of randomized strategies.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub(crate) seed: u64,
     /// Prove the triangulation with exact arithmetic after every operation up to 1,000 vertices, after every
     /// thousandth beyond, and at the end.
     #[arg(long)]
@@ -128,4 +118,6 @@ pub(crate) struct ReplayArgs {
     /// Write what was counted and timed to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) strategy: StrategyArgs,
 }

@@ -4,6 +4,7 @@
 mod ask;
 mod points;
 mod shapes;
+mod strategy;
 mod triangulate;
 
 use std::path::{Path, PathBuf};
@@ -14,8 +15,9 @@ use delone_io::{Format, LAS_CLASSES};
 
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
-pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, VoronoiArgs};
-pub(crate) use triangulate::{AlgorithmName, LocateName, TriangulateArgs};
+pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
+pub(crate) use strategy::{LocateName, StrategyArgs};
+pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]
@@ -55,7 +57,7 @@ pub(crate) enum Command {
     Generate(GenerateArgs),
     /// Draw points, triangles and hull as SVG or PNG.
     Draw(DrawArgs),
-    /// Show points in Brownian motion as a moving picture.
+    /// Show points in motion, or what an algorithm does, as a moving picture.
     Animate(AnimateArgs),
     /// Tell what is in a file of points: counts, bounds, duplicates, degeneracies.
     Info(InfoArgs),

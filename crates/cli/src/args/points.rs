@@ -7,13 +7,15 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use delone_experiments::{EXPERIMENTS, Experiment};
 use delone_io::Format;
 
-use super::{DimArgs, InputArgs, count};
+use super::{DimArgs, InputArgs, count, length};
 
 /// Make points.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   delone generate uniform -n 1000000 --seed 1 -o points.npy
   delone generate ellipse2 -n 5000 -o points.csv
+  delone generate disks -n 5000 -o centres.npy
+  delone generate disks -n 5000 --noise 1 -o measured.npy
   delone generate list")]
 pub(crate) struct GenerateArgs {
     /// Name of the set, or `list` to see them all.
@@ -25,6 +27,9 @@ pub(crate) struct GenerateArgs {
     /// Seed of the random numbers.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
+    /// Move each point at random, by this at most: an instance of the same set, row by row, as imprecise points have them.
+    #[arg(long, value_name = "RADIUS", default_value_t = 0.0, value_parser = length)]
+    pub(crate) noise: f64,
     /// Output file (csv xyz txt npy bin node ply obj geojson), or - for standard output.
     #[arg(long, short, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,

@@ -1,12 +1,11 @@
-//! What `triangulate` takes, and names of algorithms and strategies.
+//! What `triangulate` takes, and names of algorithms.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone::{Hierarchy, JumpAndWalk, Locate, Walk};
 use delone_io::Format;
 
-use super::{DimArgs, InputArgs, length};
+use super::{DimArgs, InputArgs, StrategyArgs, length};
 
 /// Triangulate points.
 #[derive(Debug, Args)]
@@ -15,6 +14,7 @@ use super::{DimArgs, InputArgs, length};
   delone triangulate tile.laz --class ground --max-edge 50 -o terrain.ply -o terrain.png
   delone triangulate north.laz south.laz -o both.ply
   delone triangulate points.npy -o triangles.npy --check --stats stats.json
+  delone triangulate points.npy -o triangles.npy --algorithm incremental --locate hierarchy --ratio 8 --stats stats.json
   delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
   delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
   delone triangulate measured.npy --hints nominal.npy -o triangles.npy --stats stats.json
@@ -39,16 +39,13 @@ pub(crate) struct TriangulateArgs {
     /// Algorithm; the result is the same [default: divide-conquer in the plane, incremental in space].
     #[arg(long, value_name = "NAME")]
     pub(crate) algorithm: Option<AlgorithmName>,
-    /// Point location of the incremental algorithm [default: spatial].
-    #[arg(long, value_name = "NAME")]
-    pub(crate) locate: Option<LocateName>,
     /// File of approximate positions, row by row those of the points: they are preprocessed, and the points located from
     /// their hints.
     #[arg(long, value_name = "CENTRES", conflicts_with_all = ["algorithm", "locate"])]
     pub(crate) hints: Option<PathBuf>,
-    /// Seed of randomized algorithms; it changes their course, not their result.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub(crate) seed: u64,
+    /// The order in which --hints inserts points [default: spatial].
+    #[arg(long, value_name = "ORDER")]
+    pub(crate) hint_order: Option<HintOrderName>,
     /// In the plane, leave out triangles with an edge longer than this, from the hull inwards: what bridges bays and
     /// gaps at the border of the data.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
@@ -56,6 +53,8 @@ pub(crate) struct TriangulateArgs {
     /// Prove the result with exact arithmetic before writing it.
     #[arg(long)]
     pub(crate) check: bool,
+    #[command(flatten)]
+    pub(crate) strategy: StrategyArgs,
 }
 
 /// Bulk algorithms.
@@ -67,41 +66,11 @@ pub(crate) enum AlgorithmName {
     Incremental,
 }
 
-/// Point location strategies.
+/// Orders in which the centres of imprecise points are inserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum LocateName {
-    /// A k-d tree of hints: the fastest for any set and any change.
-    Tree,
-    /// Walk from the vertex inserted last.
-    Walk,
-    /// Walk from the nearest of n^(1/3) random vertices.
-    JumpAndWalk,
-    /// Descend through triangulations of random samples (the Delaunay hierarchy).
-    Hierarchy,
-    /// Split, flip, and trace all triangles that ever were; no removal.
-    History,
-    /// The same without triangles that came and went in one insertion, by binary search; no removal.
-    Stars,
-    /// Search all triangles that ever were by their circles (the Delaunay tree).
-    DelaunayTree,
-    /// Triangles keep lists of the points to come; bulk only.
-    Conflict,
-    /// Walk from the previous point in spatial order; bulk only.
+pub(crate) enum HintOrderName {
+    /// Along a curve, in biased random rounds: the cache knows it.
     Spatial,
-}
-
-impl LocateName {
-    /// The strategy of a triangulation that changes, if this is one.
-    pub(crate) fn strategy(self, seed: u64) -> Option<Locate> {
-        Some(match self {
-            Self::Tree => Locate::Tree,
-            Self::Walk => Locate::Walk(Walk::Visibility),
-            Self::JumpAndWalk => Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
-            Self::Hierarchy => Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() }),
-            Self::History => Locate::History,
-            Self::Stars => Locate::Stars,
-            Self::DelaunayTree => Locate::DelaunayTree,
-            Self::Conflict | Self::Spatial => return None,
-        })
-    }
+    /// At random, as in the analysis.
+    Random,
 }

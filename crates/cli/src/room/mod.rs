@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use delone::{Change, Coordinates, Counters, Dimension, Imprecise, Locate, Triangulation, Verdict, VertexId};
 use delone_io::{Cloud, Drawable, Format, Mesh, Source, Trim};
 
-use crate::args::{AlgorithmName, InputArgs, LocateName};
+use crate::args::{AlgorithmName, InputArgs, LocateName, StrategyArgs};
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
@@ -38,8 +38,7 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// How to build, by the names of options.
     fn plan(
         algorithm: Option<AlgorithmName>,
-        locate: Option<LocateName>,
-        seed: u64,
+        strategy: &StrategyArgs,
     ) -> Result<Plan<Self::Algorithm>, Failure>;
 
     fn build(points: &[Self::Point], algorithm: Self::Algorithm) -> Result<Self, delone::Error>;
@@ -118,13 +117,20 @@ pub(crate) fn build<R: Room>(
 }
 
 /// The strategy of a triangulation that is asked or changed, as `purpose` says.
-pub(crate) fn strategy(locate: LocateName, seed: u64, purpose: &str) -> Result<Locate, Failure> {
-    locate.strategy(seed).ok_or_else(|| {
+pub(crate) fn strategy<R: Room>(args: &StrategyArgs, purpose: &str) -> Result<Locate, Failure> {
+    located::<R>(args, LocateName::Tree)?.ok_or_else(|| {
         Failure::usage(
             format!("that strategy is for building in bulk, not for {purpose}"),
             "choose --locate tree, walk, jump-and-walk, hierarchy or delaunay-tree; in the plane history too",
         )
     })
+}
+
+/// The strategy of choice, or else this one, with parameters in range; `None` if it is for building in bulk.
+fn located<R: Room>(args: &StrategyArgs, default: LocateName) -> Result<Option<Locate>, Failure> {
+    let Some(locate) = args.strategy(default)? else { return Ok(None) };
+    R::default().set_strategy(locate).map_err(|error| args.refused(&error))?;
+    Ok(Some(locate))
 }
 
 /// Notes on what might surprise.

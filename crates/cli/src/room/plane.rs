@@ -7,8 +7,8 @@ use delone::{Algorithm2, Counters, Delaunay2, Hints2, Verdict};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
 
-use super::{Objection, Plan, Room, Words};
-use crate::args::{AlgorithmName, LocateName};
+use super::{Objection, Plan, Room, Words, located};
+use crate::args::{AlgorithmName, LocateName, StrategyArgs};
 use crate::message::Failure;
 use crate::stats::Stats;
 
@@ -28,23 +28,20 @@ impl Room for Delaunay2 {
         Ok(std::mem::take(&mut cloud.xy))
     }
 
-    fn plan(
-        algorithm: Option<AlgorithmName>,
-        locate: Option<LocateName>,
-        seed: u64,
-    ) -> Result<Plan<Algorithm2>, Failure> {
+    fn plan(algorithm: Option<AlgorithmName>, strategy: &StrategyArgs) -> Result<Plan<Algorithm2>, Failure> {
         let name = algorithm.unwrap_or(AlgorithmName::DivideConquer);
         if name == AlgorithmName::DivideConquer {
-            if locate.is_some() {
+            if strategy.locate.is_some() {
                 return Err(Failure::usage(
                     "--locate is for the incremental algorithm",
                     "add --algorithm incremental",
                 ));
             }
-            return Ok(Plan { algorithm: Self::FASTEST, name, locate });
+            strategy.refuse("divide and conquer")?;
+            return Ok(Plan { algorithm: Self::FASTEST, name, locate: None });
         }
-        let locate = locate.unwrap_or(LocateName::Spatial);
-        let algorithm = match (locate.strategy(seed), locate) {
+        let (locate, seed) = (strategy.name_or(LocateName::Spatial), strategy.seed);
+        let algorithm = match (located::<Self>(strategy, LocateName::Spatial)?, locate) {
             (Some(locate), _) => Algorithm2::Located { locate, seed },
             (None, LocateName::Conflict) => Algorithm2::ConflictLists { seed },
             (None, _) => Algorithm2::Incremental { seed },

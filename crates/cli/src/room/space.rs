@@ -7,8 +7,8 @@ use delone::{Algorithm3, Counters, Delaunay3, Hints3, Verdict};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::in_sphere_with_ties;
 
-use super::{Objection, Plan, Room, Words};
-use crate::args::{AlgorithmName, LocateName};
+use super::{Objection, Plan, Room, Words, located};
+use crate::args::{AlgorithmName, LocateName, StrategyArgs};
 use crate::message::Failure;
 use crate::stats::Stats;
 
@@ -36,28 +36,28 @@ impl Room for Delaunay3 {
         }
     }
 
-    fn plan(
-        algorithm: Option<AlgorithmName>,
-        locate: Option<LocateName>,
-        seed: u64,
-    ) -> Result<Plan<Algorithm3>, Failure> {
+    fn plan(algorithm: Option<AlgorithmName>, strategy: &StrategyArgs) -> Result<Plan<Algorithm3>, Failure> {
         if algorithm == Some(AlgorithmName::DivideConquer) {
             return Err(Failure::usage(
                 "divide and conquer is for the plane",
                 "leave --algorithm out: in space points are inserted one by one in spatial order",
             ));
         }
-        let locate = locate.unwrap_or(LocateName::Spatial);
-        let algorithm = match (locate, locate.strategy(seed)) {
-            (LocateName::Spatial, _) => Algorithm3::Incremental { seed },
-            (LocateName::History, _) => Algorithm3::Flips { seed },
-            (LocateName::Conflict | LocateName::Stars, _) | (_, None) => {
-                return Err(Failure::usage(
-                    "location by stars and by conflict lists is for the plane",
-                    "choose --locate spatial, tree, walk, jump-and-walk, hierarchy, history or delaunay-tree",
-                ));
+        let (locate, seed) = (strategy.name_or(LocateName::Spatial), strategy.seed);
+        if matches!(locate, LocateName::Conflict | LocateName::Stars) {
+            return Err(Failure::usage(
+                "location by stars and by conflict lists is for the plane",
+                "choose --locate spatial, tree, walk, jump-and-walk, hierarchy, history or delaunay-tree",
+            ));
+        }
+        let algorithm = if locate == LocateName::History {
+            strategy.strategy(LocateName::Spatial)?;
+            Algorithm3::Flips { seed }
+        } else {
+            match located::<Self>(strategy, LocateName::Spatial)? {
+                Some(locate) => Algorithm3::Located { locate, seed },
+                None => Algorithm3::Incremental { seed },
             }
-            (_, Some(locate)) => Algorithm3::Located { locate, seed },
         };
         Ok(Plan { algorithm, name: AlgorithmName::Incremental, locate: Some(locate) })
     }

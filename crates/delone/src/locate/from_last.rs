@@ -1,4 +1,4 @@
-//! No structure: each search walks from the vertex inserted last.
+//! No structure: each search walks from the vertex inserted last, or from some vertex of what was built in bulk.
 //!
 //! Source: Devillers, Pion & Teillaud, "Walking in a triangulation", IJFCS 2002, for the walks. Choose this when every
 //! query is near the one before, or near the vertex inserted last; it takes no memory.
@@ -38,17 +38,18 @@ impl FromLast {
 
 impl<G: Ground> Strategy<G> for FromLast {
     fn start<T: Tally>(&self, ground: &G, _: G::Point, _: &mut T) -> Start<G::Hint> {
-        match self.last.map(|v| ground.hint(v)) {
+        let from = self.last.or_else(|| ground.any_vertex());
+        match from.map(|v| ground.hint(v)) {
             Some(hint) if hint != G::NOWHERE => Start::At(hint, self.walk),
             _ => Start::Anywhere,
         }
     }
 
-    fn inserted(&mut self, _: &G, v: Place, _: Start<G::Hint>) {
+    fn inserted<T: Tally>(&mut self, _: &G, v: Place, _: Start<G::Hint>, _: &mut T) {
         self.last = Some(v);
     }
 
-    fn removing(&mut self, ground: &G, v: Place) {
+    fn removing<T: Tally>(&mut self, ground: &G, v: Place, _: &mut T) {
         if self.last == Some(v) {
             self.last = ground.neighbor(v);
         }

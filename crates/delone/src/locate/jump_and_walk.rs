@@ -13,7 +13,7 @@ use super::{Ground, Start, Strategy};
 use crate::error::Error;
 use crate::ids::Place;
 use crate::order::random::SplitMix;
-use crate::tally::Tally;
+use crate::tally::{Phase, Tally};
 
 /// Parameters of jump-and-walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,13 +22,15 @@ pub struct JumpAndWalk {
     pub rho: f64,
     /// A fixed sample size instead, not zero.
     pub sample: Option<usize>,
+    /// Whether a vertex may be drawn twice, which saves remembering what has been drawn. The paper draws without replacement.
+    pub with_replacement: bool,
     /// Decides the samples, together with the query: the same query has the same sample.
     pub seed: u64,
 }
 
 impl Default for JumpAndWalk {
     fn default() -> Self {
-        Self { rho: 1.0, sample: None, seed: 0 }
+        Self { rho: 1.0, sample: None, with_replacement: false, seed: 0 }
     }
 }
 
@@ -49,23 +51,26 @@ impl JumpAndWalk {
         self.sample.unwrap_or(size as usize).clamp(1, n.max(1))
     }
 
-    /// The nearest to `q` of vertices drawn at random, with replacement.
+    /// The nearest to `q` of vertices drawn at random.
     pub(super) fn jump<G: Ground, T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Option<Place> {
         let places = ground.place_count();
         if places == 0 {
             return None;
         }
+        tally.phase(Phase::Sample);
         let mix = |seed: u64, axis| SplitMix(seed ^ G::coordinate(q, axis).to_bits()).next();
         let mut random = SplitMix((0..G::DIMENSIONS).fold(self.seed, mix));
         let mut best: Option<Place> = None;
         let mut left = self.sample_size(ground.vertex_count(), G::DIMENSIONS);
-        // Free places are skipped. Where nearly all are free, fewer draws have to do: any start is right.
+        let mut drawn = Drawn::new(if self.with_replacement { 0 } else { left });
+        // Free places are skipped. Where nearly all are free, or all have been drawn, fewer draws have to do: any start is right.
         for _ in 0..16 * left {
             let v = Place::new(random.below(places));
-            if ground.hint(v) == G::NOWHERE {
+            if ground.hint(v) == G::NOWHERE || !drawn.is_new(v) {
                 continue;
             }
             tally.compared();
+            tally.saw(|| vec![(0..G::DIMENSIONS).map(|axis| G::coordinate(ground.point(v), axis)).collect()]);
             if best.is_none_or(|b| ground.compare_distances(q, v, b) == Ordering::Less) {
                 best = Some(v);
             }
@@ -78,14 +83,83 @@ impl JumpAndWalk {
     }
 }
 
+/// The places that have been drawn, hashed by linear probing; those of small samples without a memory to be asked for.
+struct Drawn {
+    few: [Place; Self::FEW],
+    many: Vec<Place>,
+    /// The number of slots, a power of two, at most half full; 1 if nothing is remembered.
+    slots: usize,
+}
+
+impl Drawn {
+    const FEW: usize = 32;
+
+    /// Remembers at most so many; nothing, if that is zero.
+    fn new(most: usize) -> Self {
+        let slots = (2 * most).next_power_of_two();
+        let many = if slots > Self::FEW { vec![Place::GHOST; slots] } else { Vec::new() };
+        Self { few: [Place::GHOST; Self::FEW], many, slots }
+    }
+
+    /// Remembers a place, unless it has been drawn before.
+    #[inline]
+    fn is_new(&mut self, v: Place) -> bool {
+        if self.slots == 1 {
+            return true;
+        }
+        let slots = if self.many.is_empty() { &mut self.few[..self.slots] } else { &mut self.many[..] };
+        let hash = (v.index() as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut slot = (hash >> (64 - slots.len().trailing_zeros())) as usize;
+        while !slots[slot].is_ghost() {
+            if slots[slot] == v {
+                return false;
+            }
+            slot = (slot + 1) & (slots.len() - 1);
+        }
+        slots[slot] = v;
+        true
+    }
+}
+
 impl<G: Ground> Strategy<G> for JumpAndWalk {
     fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint> {
         self.jump(ground, q, tally).map_or(Start::Anywhere, Start::Vertex)
     }
 
-    fn inserted(&mut self, _: &G, _: Place, _: Start<G::Hint>) {}
+    fn inserted<T: Tally>(&mut self, _: &G, _: Place, _: Start<G::Hint>, _: &mut T) {}
 
-    fn removing(&mut self, _: &G, _: Place) {}
+    fn removing<T: Tally>(&mut self, _: &G, _: Place, _: &mut T) {}
 
     fn rearranged(&mut self, _: &G, _: &[Place]) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Drawn, JumpAndWalk, Place};
+
+    #[test]
+    fn what_has_been_drawn_is_not_new() {
+        for most in [1, 2, 16, 17, 1000] {
+            let mut drawn = Drawn::new(most);
+            for k in 0..most {
+                assert!(drawn.is_new(Place::new(7 * k)) && !drawn.is_new(Place::new(7 * k)), "{k} of {most}");
+            }
+            assert!((0..most).all(|k| !drawn.is_new(Place::new(7 * k))));
+        }
+        let mut none = Drawn::new(0);
+        assert!(none.is_new(Place::new(1)) && none.is_new(Place::new(1)));
+    }
+
+    #[test]
+    fn samples_are_as_large_as_asked() {
+        let size = |rho, sample, n, dimensions| {
+            JumpAndWalk { rho, sample, ..JumpAndWalk::default() }.sample_size(n, dimensions)
+        };
+        assert_eq!((size(1.0, None, 1001, 2), size(1.0, None, 10_001, 3)), (11, 11));
+        assert_eq!((size(2.5, None, 27, 2), size(1e300, None, 27, 2), size(1e-300, None, 27, 2)), (8, 27, 1));
+        assert_eq!(
+            (size(1.0, Some(32), 100, 2), size(1.0, Some(32), 10, 2), size(1.0, None, 0, 2)),
+            (32, 10, 1)
+        );
+    }
 }

@@ -12,7 +12,7 @@
 //! | [`Locate::Tree`] | Bentley 1975, Devillers 1998 | O(log n) | always, unless there is a reason |
 //! | [`Locate::Walk`] | Devillers, Pion & Teillaud 2002 | O(sqrt n), O(1) from nearby | queries follow each other in space |
 //! | [`Locate::JumpAndWalk`] | Devroye, Mücke & Zhu 1998 | O(n^(1/3)) | no memory to spare |
-//! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n) for any data, queries like the points | adversarial data that change a lot |
+//! | [`Locate::Hierarchy`] | Devillers 1998 | O(log n), for any data with [`Nearest::InCircle`], queries like the points | adversarial data that change a lot |
 //! | [`Locate::History`] | Guibas, Knuth & Sharir 1992 | O(log n), random order | to study it; insertion only |
 //! | [`Locate::Stars`] | the same | O(log n) stars, random order | to study it; insertion only |
 //! | [`Locate::DelaunayTree`] | Boissonnat & Teillaud 1986 | O(log n), random order | to study it; a history that forgets |
@@ -23,14 +23,17 @@ pub(crate) mod from_last;
 pub(crate) mod hierarchy;
 pub(crate) mod history;
 pub(crate) mod jump_and_walk;
+pub(crate) mod levels;
+mod links;
 pub(crate) mod nearest;
 pub(crate) mod tree;
 
 pub use from_last::Walk;
-pub use hierarchy::Hierarchy;
+pub use hierarchy::{Hierarchy, Nearest};
 pub use jump_and_walk::JumpAndWalk;
 
 use std::cmp::Ordering;
+use std::fmt::Debug;
 
 use crate::error::Error;
 use crate::ids::{EdgeId, Place};
@@ -87,9 +90,9 @@ pub struct Footprint {
 /// A triangulation as strategies of location see it, of the plane or of space.
 pub(crate) trait Ground {
     /// A point that is looked for.
-    type Point: Copy + PartialEq;
+    type Point: Copy + Debug + PartialEq;
     /// Where a walk can start: an edge in the plane, a tetrahedron in space.
-    type Hint: Copy + PartialEq + Send + Sync;
+    type Hint: Copy + Debug + PartialEq + Send + Sync;
     /// The number of coordinates.
     const DIMENSIONS: usize;
     /// No hint.
@@ -131,18 +134,23 @@ pub(crate) trait Ground {
     /// Compares the distances of two vertices from `q`.
     fn compare_distances(&self, q: Self::Point, a: Place, b: Place) -> Ordering;
 
-    /// The vertex nearest to `q`; or only the nearest corner of where a walk ends.
-    fn near<T: Tally>(&self, start: Start<Self::Hint>, q: Self::Point, exactly: bool, tally: &mut T)
-    -> Place;
+    /// Walks to `q`, then finds a vertex near it. Returns it, and a hint where `q` falls.
+    fn near<T: Tally>(
+        &self,
+        start: Start<Self::Hint>,
+        q: Self::Point,
+        nearest: Nearest,
+        tally: &mut T,
+    ) -> (Place, Self::Hint);
 }
 
 /// A triangulation that changes: what a level of the hierarchy must be able to do.
 pub(crate) trait Level: Ground + Default {
     /// Makes a point a vertex, and returns its place, if there is room; `start` is near it. The point is not a vertex yet.
-    fn add(&mut self, q: Self::Point, start: Start<Self::Hint>) -> Option<Place>;
+    fn add<T: Tally>(&mut self, q: Self::Point, start: Start<Self::Hint>, tally: &mut T) -> Option<Place>;
 
     /// Removes the vertex at a place, if there is room for what takes its place.
-    fn take(&mut self, v: Place) -> Option<()>;
+    fn take<T: Tally>(&mut self, v: Place, tally: &mut T) -> Option<()>;
 }
 
 /// Where a walk starts, and which walk.
@@ -163,11 +171,16 @@ pub(crate) trait Strategy<G: Ground> {
     /// Where to start the walk to `q`.
     fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint>;
 
+    /// The same for a point that will be inserted if it is no vertex yet: the way may be remembered.
+    fn start_to_insert<T: Tally>(&mut self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint> {
+        self.start(ground, q, tally)
+    }
+
     /// A vertex has appeared, found from this start.
-    fn inserted(&mut self, ground: &G, v: Place, start: Start<G::Hint>);
+    fn inserted<T: Tally>(&mut self, ground: &G, v: Place, start: Start<G::Hint>, tally: &mut T);
 
     /// A vertex is about to go.
-    fn removing(&mut self, ground: &G, v: Place);
+    fn removing<T: Tally>(&mut self, ground: &G, v: Place, tally: &mut T);
 
     /// The ground has been laid out anew: `moved` gives for each old place the new one.
     fn rearranged(&mut self, ground: &G, moved: &[Place]);

@@ -213,7 +213,7 @@ impl<G: Ground> Strategy<G> for Tree<G::Hint> {
     }
 
     #[inline]
-    fn inserted(&mut self, ground: &G, v: Place, start: Start<G::Hint>) {
+    fn inserted<T: Tally>(&mut self, ground: &G, v: Place, start: Start<G::Hint>, _: &mut T) {
         if self.lowest.is_empty() {
             return;
         }
@@ -224,7 +224,7 @@ impl<G: Ground> Strategy<G> for Tree<G::Hint> {
         self.lowest[line].hints[leaf] = ground.hint(v);
     }
 
-    fn removing(&mut self, _: &G, _: Place) {}
+    fn removing<T: Tally>(&mut self, _: &G, _: Place, _: &mut T) {}
 
     fn rearranged(&mut self, ground: &G, _: &[Place]) {
         *self = Self::build(ground);

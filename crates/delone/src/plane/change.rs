@@ -56,7 +56,7 @@ impl Delaunay2 {
 
     /// Inserts a point that is finite, and tells each step.
     pub(super) fn insert_finite<T: Tally>(&mut self, q: [f64; 2], tally: &mut T) -> Result<Inserted, Error> {
-        let found = self.spot(q, tally);
+        let found = self.spot_to_insert(q, tally);
         if let Spot::Vertex(place) = found.spot {
             return Ok(Inserted::Existing(self.base.mesh.name(place)));
         }
@@ -101,7 +101,7 @@ impl Delaunay2 {
     pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
         let q = finite(point.xy())?;
         let old = self.removable(v)?;
-        let Found { spot, steps, start } = self.spot(q, &mut ());
+        let Found { spot, steps, start } = self.spot_to_insert(q, &mut ());
         match spot {
             Spot::Vertex(place) if place == old => {}
             Spot::Vertex(place) => return Err(Error::Occupied { vertex: self.base.mesh.name(place) }),
@@ -111,7 +111,7 @@ impl Delaunay2 {
                 let new = self.base.insert(spot, q, &mut ()).unwrap_or(old);
                 self.base.mesh.names().bind(v, new);
                 if let Some(locator) = self.locator.get_mut() {
-                    locator.inserted(&self.base, new, start);
+                    locator.inserted(&self.base, new, start, &mut ());
                 }
                 self.displace(old, &mut ());
                 self.duplicates.vertex_moves(v, self.points().len());
@@ -182,7 +182,7 @@ impl Delaunay2 {
                     let (spot, steps) = self.base.spot(start, q, tally);
                     Found { spot, steps, start }
                 }
-                _ => self.spot(q, tally),
+                _ => self.spot_to_insert(q, tally),
             };
             if let Spot::Vertex(place) = found.spot {
                 let duplicate = self.names().coincide(v, place);
@@ -231,7 +231,7 @@ impl Delaunay2 {
         self.base.mesh.names().bind(v, place);
         self.base.insert_at(place, found.spot, tally);
         if let Some(locator) = self.locator.get_mut() {
-            locator.inserted(&self.base, place, found.start);
+            locator.inserted(&self.base, place, found.start, tally);
         }
         self.note_walk(found.steps);
     }
@@ -248,7 +248,7 @@ impl Delaunay2 {
     /// Removes what is at a place.
     fn displace<T: Tally>(&mut self, place: Place, tally: &mut T) {
         if let Some(locator) = self.locator.get_mut() {
-            locator.removing(&self.base, place);
+            locator.removing(&self.base, place, tally);
         }
         self.base.remove(place, tally);
     }

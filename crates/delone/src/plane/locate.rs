@@ -120,6 +120,19 @@ impl Delaunay2 {
         Found { spot, steps, start }
     }
 
+    /// Finds a point that will be inserted, if it is no vertex yet, by the strategy.
+    #[inline]
+    pub(super) fn spot_to_insert<T: Tally>(&mut self, q: [f64; 2], tally: &mut T) -> Found {
+        match self.locator.get_mut() {
+            None | Some(Locator::Tree(_)) => self.spot(q, tally),
+            Some(locator) => {
+                let start = locator.start_to_insert(&self.base, q, tally);
+                let (spot, steps) = self.base.spot(start, q, tally);
+                Found { spot, steps, start }
+            }
+        }
+    }
+
     fn classify(&self, spot: Spot, q: [f64; 2]) -> Location2 {
         let mesh = &self.base.mesh;
         match spot {

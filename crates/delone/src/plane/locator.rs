@@ -10,7 +10,7 @@ use super::versions::Versions;
 use crate::ids::{EdgeId, Place};
 use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
-use crate::locate::hierarchy::Levels;
+use crate::locate::levels::Levels;
 use crate::locate::tree::Tree;
 use crate::locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Start, Strategy};
 use crate::tally::Tally;
@@ -63,12 +63,17 @@ impl Strategy<Layer> for Locator {
     }
 
     #[inline]
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
-        each!(self, strategy => strategy.inserted(layer, v, start));
+    fn start_to_insert<T: Tally>(&mut self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
+        each!(self, strategy => strategy.start_to_insert(layer, q, tally))
     }
 
-    fn removing(&mut self, layer: &Layer, v: Place) {
-        each!(self, strategy => strategy.removing(layer, v));
+    #[inline]
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, tally: &mut T) {
+        each!(self, strategy => strategy.inserted(layer, v, start, tally));
+    }
+
+    fn removing<T: Tally>(&mut self, layer: &Layer, v: Place, tally: &mut T) {
+        each!(self, strategy => strategy.removing(layer, v, tally));
     }
 
     fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
@@ -116,16 +121,16 @@ impl Strategy<Layer> for Hints {
     }
 
     #[inline]
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
-        self.tree.inserted(layer, v, start);
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, tally: &mut T) {
+        self.tree.inserted(layer, v, start, tally);
         if let Some(levels) = self.levels.get_mut() {
-            levels.inserted(layer, v, start);
+            levels.inserted(layer, v, start, tally);
         }
     }
 
-    fn removing(&mut self, layer: &Layer, v: Place) {
+    fn removing<T: Tally>(&mut self, layer: &Layer, v: Place, tally: &mut T) {
         if let Some(levels) = self.levels.get_mut() {
-            levels.removing(layer, v);
+            levels.removing(layer, v, tally);
         }
     }
 
@@ -176,7 +181,7 @@ mod tests {
     use delone_generators::Kind;
 
     use super::*;
-    use crate::{Walk, Work};
+    use crate::{Nearest, Walk, Work};
 
     fn with(n: usize, locate: Locate) -> Delaunay2 {
         let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, 1)).expect("finite");
@@ -194,9 +199,11 @@ mod tests {
         ratio: 4.0,
         levels: None,
         smallest_level: 20,
-        rho: 1.0,
         smallest_sampled: None,
-        exact_nearest: false,
+        rho: 1.0,
+        with_replacement: false,
+        nearest: Nearest::Corner,
+        walk: None,
         seed: 1,
     };
 

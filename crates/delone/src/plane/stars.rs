@@ -93,7 +93,7 @@ impl Stars {
         let mut order: Vec<Place> = layer.mesh.inhabited().collect();
         SplitMix(0).shuffle(&mut order);
         for v in order {
-            stars.inserted(layer, v, Start::Anywhere);
+            stars.inserted(layer, v, Start::Anywhere, &mut ());
         }
         stars
     }
@@ -184,7 +184,7 @@ impl Strategy<Layer> for Stars {
         }
     }
 
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, _: &mut T) {
         let q = layer.point(v);
         let t = match start {
             Start::Hint(_, number) => TriangleId::new(number as usize),
@@ -198,7 +198,7 @@ impl Strategy<Layer> for Stars {
         self.add_star(point);
     }
 
-    fn removing(&mut self, _: &Layer, _: Place) {
+    fn removing<T: Tally>(&mut self, _: &Layer, _: Place, _: &mut T) {
         debug_assert!(false, "nothing is removed from a history");
     }
 

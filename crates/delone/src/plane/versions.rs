@@ -35,7 +35,7 @@ impl Versions {
         let mut order: Vec<Place> = layer.mesh.inhabited().collect();
         SplitMix(0).shuffle(&mut order);
         for v in order {
-            versions.inserted(layer, v, Start::Anywhere);
+            versions.inserted(layer, v, Start::Anywhere, &mut ());
         }
         versions
     }
@@ -64,7 +64,7 @@ impl Strategy<Layer> for Versions {
         Start::Hint(place.map_or(EdgeId::NONE, |v| layer.mesh.incident[v.index()]), t.index() as u32)
     }
 
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start) {
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, _: &mut T) {
         let q = layer.point(v);
         let t = match start {
             Start::Hint(_, number) => TriangleId::new(number as usize),
@@ -76,7 +76,7 @@ impl Strategy<Layer> for Versions {
         self.flips.insert(p, t, &mut self.history, &mut ());
     }
 
-    fn removing(&mut self, _: &Layer, _: Place) {
+    fn removing<T: Tally>(&mut self, _: &Layer, _: Place, _: &mut T) {
         debug_assert!(false, "nothing is removed from a history");
     }
 

@@ -216,12 +216,16 @@ impl Delaunay3 {
     /// Makes a point a vertex without a name; or says why not.
     fn insert_unnamed<T: Tally>(&mut self, q: [f64; 3], tally: &mut T) -> Result<Place, Refusal> {
         let in_span = self.base.is_in_span(q);
-        let start = if in_span { self.locator().start(&self.base, q, tally) } else { Start::Anywhere };
+        let start = match self.locator.get_mut() {
+            _ if !in_span => Start::Anywhere,
+            Some(locator) => locator.start_to_insert(&self.base, q, tally),
+            None => self.locator().start(&self.base, q, tally),
+        };
         let from = self.base.start_cell(start);
         let place = self.base.add_point(from, q, tally)?;
         if in_span {
             if let Some(locator) = self.locator.get_mut() {
-                locator.inserted(&self.base, place, start);
+                locator.inserted(&self.base, place, start, tally);
             }
         } else {
             // Everything was made anew.
@@ -235,7 +239,7 @@ impl Delaunay3 {
     fn displace<T: Tally>(&mut self, place: Place, tally: &mut T) -> Result<(), Error> {
         let before = self.dimension();
         if let Some(locator) = self.locator.get_mut() {
-            locator.removing(&self.base, place);
+            locator.removing(&self.base, place, tally);
         }
         let removed = self.base.remove(place, tally);
         if self.dimension() != before || removed.is_none() {

@@ -85,7 +85,7 @@ impl Delaunay3 {
     ///
     /// # Errors
     /// [`Error::Parameter`] names a parameter that is out of range; [`Error::OnlyInThePlane`] for [`Locate::History`],
-    /// [`Locate::Stars`] and other walks than the visibility walk.
+    /// [`Locate::Stars`], other walks than the visibility walk, and [`Nearest::InCircle`](crate::Nearest::InCircle).
     pub fn set_strategy(&mut self, locate: Locate) -> Result<(), Error> {
         Locator::validate(locate)?;
         self.locate = locate;

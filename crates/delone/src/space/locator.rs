@@ -6,9 +6,9 @@ use crate::error::Error;
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
-use crate::locate::hierarchy::Levels;
+use crate::locate::levels::Levels;
 use crate::locate::tree::Tree;
-use crate::locate::{Footprint, JumpAndWalk, Locate, Start, Strategy, Walk};
+use crate::locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Start, Strategy, Walk};
 use crate::tally::Tally;
 
 /// The structure behind a [`Locate`].
@@ -25,9 +25,13 @@ impl Locator {
     /// Whether there is such a strategy in space.
     pub(super) fn validate(locate: Locate) -> Result<(), Error> {
         match locate {
-            Locate::History | Locate::Stars | Locate::Walk(Walk::Stochastic { .. } | Walk::Straight) => {
-                Err(Error::OnlyInThePlane)
-            }
+            Locate::History
+            | Locate::Stars
+            | Locate::Walk(Walk::Stochastic { .. } | Walk::Straight)
+            | Locate::Hierarchy(
+                Hierarchy { walk: Some(Walk::Stochastic { .. } | Walk::Straight), .. }
+                | Hierarchy { nearest: Nearest::InCircle, .. },
+            ) => Err(Error::OnlyInThePlane),
             _ => locate.validate(),
         }
     }
@@ -63,12 +67,22 @@ impl Strategy<Layer> for Locator {
     }
 
     #[inline]
-    fn inserted(&mut self, layer: &Layer, v: Place, start: Start<TetrahedronId>) {
-        each!(self, strategy => strategy.inserted(layer, v, start));
+    fn start_to_insert<T: Tally>(
+        &mut self,
+        layer: &Layer,
+        q: [f64; 3],
+        tally: &mut T,
+    ) -> Start<TetrahedronId> {
+        each!(self, strategy => strategy.start_to_insert(layer, q, tally))
     }
 
-    fn removing(&mut self, layer: &Layer, v: Place) {
-        each!(self, strategy => strategy.removing(layer, v));
+    #[inline]
+    fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start<TetrahedronId>, tally: &mut T) {
+        each!(self, strategy => strategy.inserted(layer, v, start, tally));
+    }
+
+    fn removing<T: Tally>(&mut self, layer: &Layer, v: Place, tally: &mut T) {
+        each!(self, strategy => strategy.removing(layer, v, tally));
     }
 
     fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {

@@ -14,7 +14,7 @@ use super::layer::Layer;
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::{self, Metric};
-use crate::locate::{Ground, Strategy};
+use crate::locate::{Ground, Nearest, Strategy};
 use crate::points::{Position3, finite};
 use crate::tally::Tally;
 
@@ -98,7 +98,7 @@ impl Delaunay3 {
         let layer = &self.base;
         // Below space the walk may lead to the scaffold; the way along edges is short enough.
         let start = if layer.is_spanned() {
-            layer.near(self.locator().start(layer, q, tally), q, false, tally)
+            layer.near(self.locator().start(layer, q, tally), q, Nearest::Corner, tally).0
         } else {
             layer.any_vertex()?
         };

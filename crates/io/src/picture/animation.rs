@@ -5,7 +5,7 @@ use std::io::Write;
 use delone::Triangulation;
 
 use super::view::View;
-use super::{Layers, Options, check_size, png};
+use super::{Layers, Options, Sketch, check_size, png};
 use crate::{Error, Mesh};
 
 /// An animated PNG being written, picture by picture.
@@ -15,6 +15,8 @@ pub struct Animation<W: Write> {
     /// Made from the first picture and kept, so that nothing jumps.
     style: Option<(View, Layers)>,
     size: [u32; 2],
+    /// The colours of the last picture.
+    last: Vec<u8>,
 }
 
 fn failed(error: ::png::EncodingError) -> Error {
@@ -47,7 +49,7 @@ impl<W: Write> Animation<W> {
         encoder.set_frame_delay(milliseconds, 1000).map_err(failed)?;
         let writer = encoder.write_header().map_err(failed)?;
         let options = Options { window: Some(window), ..options };
-        Ok(Self { writer, options, style: None, size: [view.width, view.height] })
+        Ok(Self { writer, options, style: None, size: [view.width, view.height], last: Vec::new() })
     }
 
     /// Adds a picture.
@@ -61,7 +63,45 @@ impl<W: Write> Animation<W> {
         });
         debug_assert_eq!([view.width, view.height], self.size);
         let canvas = png::draw(mesh, &view, layers, &self.options)?;
-        self.writer.write_image_data(&canvas.colours()).map_err(failed)
+        self.write(canvas.colours())
+    }
+
+    /// Adds a sketch.
+    ///
+    /// # Errors
+    /// As [`Self::add`].
+    pub fn sketch(&mut self, sketch: &Sketch) -> Result<(), Error> {
+        let window = self.options.window.into_iter().flatten();
+        let canvas = sketch.draw(&View::around(window, self.options.size))?;
+        self.write(canvas.colours())
+    }
+
+    /// Writes what has changed since the last picture: the smallest box around it.
+    fn write(&mut self, colours: Vec<u8>) -> Result<(), Error> {
+        let width = self.size[0] as usize;
+        if self.last.is_empty() {
+            self.writer.write_image_data(&colours).map_err(failed)?;
+        } else {
+            let old = self.last.chunks_exact(3);
+            let changed = colours.chunks_exact(3).zip(old).enumerate().filter(|(_, (new, old))| new != old);
+            // A picture has a pixel at least.
+            let (mut low, mut high) = ([width - 1, self.size[1] as usize - 1], [0, 0]);
+            for (i, _) in changed {
+                let at = [i % width, i / width];
+                low = [low[0].min(at[0]), low[1].min(at[1])];
+                high = [high[0].max(at[0]), high[1].max(at[1])];
+            }
+            let (low, high) = if low[0] > high[0] { ([0, 0], [0, 0]) } else { (low, high) };
+            let [across, down] = [high[0] - low[0] + 1, high[1] - low[1] + 1];
+            self.writer.set_frame_position(0, 0).map_err(failed)?;
+            self.writer.set_frame_dimension(across as u32, down as u32).map_err(failed)?;
+            self.writer.set_frame_position(low[0] as u32, low[1] as u32).map_err(failed)?;
+            let rows = (low[1]..=high[1]).map(|y| 3 * (y * width + low[0])..3 * (y * width + high[0] + 1));
+            let part: Vec<u8> = rows.flat_map(|row| colours[row].iter().copied()).collect();
+            self.writer.write_image_data(&part).map_err(failed)?;
+        }
+        self.last = colours;
+        Ok(())
     }
 
     /// Ends the file.

@@ -12,12 +12,14 @@ mod colour;
 mod png;
 mod raster;
 mod relief;
+mod sketch;
 mod solid;
 mod svg;
 mod view;
 
 pub use animation::Animation;
 pub(crate) use cells::write as write_cells;
+pub use sketch::{Mark, Sketch, Tone, write_sketch};
 pub use solid::Camera;
 pub(crate) use solid::write as write_solid;
 

@@ -229,7 +229,7 @@ impl Canvas {
         }
     }
 
-    fn text(&mut self, [x, y]: [f64; 2], text: &str) {
+    pub(super) fn text(&mut self, [x, y]: [f64; 2], text: &str) {
         let (width, height) = (self.0.width() as usize, self.0.height() as usize);
         let mut left = x.max(0.0) as usize;
         for character in text.chars() {

@@ -299,8 +299,8 @@ impl<G: Simplices<N>, const N: usize> Strategy<G> for DelaunayTree<G::Point, N> 
         Start::Hint(hint, t)
     }
 
-    fn inserted(&mut self, ground: &G, v: Place, start: Start<G::Hint>) {
-        self.below.inserted(ground, v, start);
+    fn inserted<T: Tally>(&mut self, ground: &G, v: Place, start: Start<G::Hint>, _: &mut T) {
+        self.below.inserted(ground, v, start, &mut ());
         let q = ground.point(v);
         if self.root.is_none() {
             return self.plant(ground, |_| true);
@@ -314,8 +314,8 @@ impl<G: Simplices<N>, const N: usize> Strategy<G> for DelaunayTree<G::Point, N> 
         }
     }
 
-    fn removing(&mut self, ground: &G, v: Place) {
-        self.below.removing(ground, v);
+    fn removing<T: Tally>(&mut self, ground: &G, v: Place, _: &mut T) {
+        self.below.removing(ground, v, &mut ());
         let Some(root) = self.root else { return };
         let site = self.site_at[v.index()];
         if root.contains(&site) {

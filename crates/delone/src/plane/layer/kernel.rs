@@ -49,9 +49,9 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
 
 /// Delaunay triangles: no site is inside of a circle.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::plane) struct Nearest;
+pub(in crate::plane) struct NearestSites;
 
-impl Kernel for Nearest {
+impl Kernel for NearestSites {
     #[inline]
     fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool {
         in_circle(a, b, c, q).is_positive()

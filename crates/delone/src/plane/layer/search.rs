@@ -9,27 +9,73 @@ use super::Layer;
 use super::kernel::Kernel;
 use super::walk::walk;
 use crate::ids::{EdgeId, Place, TriangleId};
-use crate::locate::{Ground, Start};
-use crate::tally::Tally;
+use crate::locate::{Ground, Nearest, Start};
+use crate::tally::{Phase, Tally};
 
-/// Walks to `q`; then the nearest corner of the triangle found or, exactly, the nearest vertex.
+/// Walks to `q`; then the nearest corner of the triangle found or, exactly, the nearest vertex. Returns that triangle too.
 pub(in crate::plane) fn near<K: Kernel, T: Tally>(
     layer: &Layer<K>,
     start: Start,
     q: [f64; 2],
-    exactly: bool,
+    nearest: Nearest,
     tally: &mut T,
-) -> Place {
+) -> (Place, EdgeId) {
     let triangle = walk(layer, start, q, tally).triangle;
+    tally.phase(Phase::Nearest);
     let corners = layer.mesh.places(triangle).into_iter().filter(|v| !v.is_ghost());
     let nearer = |a: Place, b: Place| if layer.compare_distances(q, b, a) == Ordering::Less { b } else { a };
     let best = corners.reduce(nearer).expect("a triangle has a finite corner");
     (0..3).for_each(|_| tally.compared());
-    if exactly { search(layer, triangle, best, q, tally) } else { best }
+    let is_outside = || layer.mesh.places(triangle).iter().any(|v| v.is_ghost());
+    let nearest = match nearest {
+        Nearest::Corner => best,
+        // Beyond the hull no triangle contains `q`.
+        Nearest::Exact if is_outside() => descend(layer, best, q, tally),
+        Nearest::Exact => search(layer, triangle, best, q, tally),
+        Nearest::InCircle => search_conflicts(layer, triangle, best, q, tally),
+    };
+    (nearest, triangle.edge(0))
+}
+
+/// Phase 3, exactly: outwards from the triangle that contains `q`, across edges behind which the circle contains it. The
+/// corners of these triangles would be the neighbours of `q`, and the nearest vertex is one of them.
+fn search_conflicts<K: Kernel, T: Tally>(
+    layer: &Layer<K>,
+    triangle: TriangleId,
+    corner: Place,
+    q: [f64; 2],
+    tally: &mut T,
+) -> Place {
+    let (mesh, points) = (&layer.mesh, &layer.points);
+    if points[corner.index()] == q {
+        return corner;
+    }
+    let mut best = corner;
+    // No vertex is inside of their union: none is met twice.
+    let mut pending: Vec<EdgeId> = [0, 1, 2].map(|k| triangle.edge(k)).to_vec();
+    while let Some(e) = pending.pop() {
+        let entered = mesh.twin(e);
+        let tip = mesh.tip(entered);
+        let corners = [mesh.tail(entered), mesh.head(entered), tip];
+        tally.in_circle();
+        if !K::conflicts(corners, |k| points[corners[k].index()], q) {
+            continue;
+        }
+        tally.visited();
+        if !tip.is_ghost() {
+            tally.compared();
+            if layer.compare_distances(q, tip, best) == Ordering::Less {
+                best = tip;
+            }
+        }
+        pending.extend([entered.next(), entered.previous()]);
+    }
+    best
 }
 
 /// Phase 3, exactly: outwards from the triangle that contains `q`, across the edges at the nearest vertex known
-/// and across those whose nearer end sees the query and the other end at an acute angle.
+/// and across those whose nearer end sees the query and the other end at an acute angle. At a vertex of large degree these may
+/// be many: the triangles there need no corner in the disk in which the proof of Lemma 5 counts them.
 fn search<K: Kernel, T: Tally>(
     layer: &Layer<K>,
     triangle: TriangleId,
@@ -73,4 +119,21 @@ fn search<K: Kernel, T: Tally>(
         }
     }
     best
+}
+
+/// The nearest vertex, down along edges from another one.
+fn descend<K: Kernel, T: Tally>(layer: &Layer<K>, from: Place, q: [f64; 2], tally: &mut T) -> Place {
+    let mut best = from;
+    loop {
+        let before = best;
+        for w in layer.mesh.spokes(before).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost()) {
+            tally.compared();
+            if layer.compare_distances(q, w, best) == Ordering::Less {
+                best = w;
+            }
+        }
+        if best == before {
+            return best;
+        }
+    }
 }

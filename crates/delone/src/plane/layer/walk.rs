@@ -20,7 +20,7 @@ use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
-use crate::tally::Tally;
+use crate::tally::{Phase, Tally};
 
 /// The end of a walk.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +68,18 @@ pub(in crate::plane) fn walk_within<K: Kernel, T: Tally>(
     visibility(layer, start, q, most, |_| false, tally)
 }
 
+/// Tells of a triangle.
+#[inline]
+fn visit<K: Kernel, T: Tally>(layer: &Layer<K>, t: TriangleId, tally: &mut T) {
+    tally.visited();
+    tally.saw(|| corners(layer, t));
+}
+
+fn corners<K: Kernel>(layer: &Layer<K>, t: TriangleId) -> Vec<Vec<f64>> {
+    let corners = layer.mesh.places(t).into_iter().filter(|v| !v.is_ghost());
+    corners.map(|v| layer.points[v.index()].to_vec()).collect()
+}
+
 /// The edge itself, or for an edge of a ghost triangle the hull edge, from inside.
 fn finite_side(mesh: &Mesh2, e: EdgeId) -> EdgeId {
     let t = e.triangle();
@@ -88,14 +100,15 @@ fn visibility<K: Kernel, T: Tally>(
     tally: &mut T,
 ) -> Goal {
     let mesh = &layer.mesh;
+    tally.phase(Phase::Walk);
     let mut from = finite_side(mesh, start);
     let mut steps = 1;
-    tally.visited();
+    visit(layer, from.triangle(), tally);
     tally.orientation();
     if layer.is_beyond(from, q) {
         from = mesh.twin(from);
         steps += 1;
-        tally.visited();
+        visit(layer, from.triangle(), tally);
         if mesh.tip(from).is_ghost() {
             return Goal { triangle: from.triangle(), steps };
         }
@@ -120,7 +133,7 @@ fn visibility<K: Kernel, T: Tally>(
         };
         from = mesh.twin(crossed);
         steps += 1;
-        tally.visited();
+        visit(layer, from.triangle(), tally);
         if mesh.tip(from).is_ghost() || steps > most {
             return Goal { triangle: from.triangle(), steps };
         }
@@ -131,6 +144,7 @@ fn visibility<K: Kernel, T: Tally>(
 fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally: &mut T) -> Goal {
     let mesh = &layer.mesh;
     let from = layer.points[v.index()];
+    tally.phase(Phase::Turn);
     let mut steps = 0;
     let mut is_left = |w: Place| {
         tally.orientation();
@@ -149,6 +163,7 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
         let head = mesh.head(next);
         steps += 1;
         if next == first || head.is_ghost() || mesh.head(spoke).is_ghost() {
+            (1..steps).for_each(|_| tally.visited());
             return walk_within(layer, spoke, q, usize::MAX, tally);
         }
         if is_left(head) == turns_left {
@@ -157,6 +172,8 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
         spoke = next;
     };
     (0..steps).for_each(|_| tally.visited());
+    tally.phase(Phase::Walk);
+    tally.saw(|| corners(layer, side.triangle()));
     loop {
         tally.orientation();
         if !layer.is_beyond(side, q) {
@@ -164,7 +181,7 @@ fn straight<K: Kernel, T: Tally>(layer: &Layer<K>, v: Place, q: [f64; 2], tally:
         }
         let entered = mesh.twin(side);
         steps += 1;
-        tally.visited();
+        visit(layer, entered.triangle(), tally);
         let tip = mesh.tip(entered);
         if tip.is_ghost() {
             return Goal { triangle: entered.triangle(), steps };

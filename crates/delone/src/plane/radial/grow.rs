@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::ids::{EdgeId, Place};
 use crate::locate::Start;
 use crate::plane::layer::insert::Spot;
-use crate::plane::layer::kernel::{Kernel, Nearest};
+use crate::plane::layer::kernel::{Kernel, NearestSites};
 
 /// Where a point falls.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +99,7 @@ impl NearestSites2 {
         let q = points[site.index()];
         let is_hit = |e: EdgeId| {
             let corners = mesh.places(e.triangle());
-            Nearest::conflicts(corners, |k| points[corners[k].index()], q)
+            NearestSites::conflicts(corners, |k| points[corners[k].index()], q)
         };
         let seed = if is_hit(e) { e } else { mesh.twin(e) };
         debug_assert!(is_hit(seed), "a site in a radial triangle is in one of two circles");

@@ -5,7 +5,7 @@ use delone_predicates::Filter3;
 
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::tetrahedra::Tetrahedron;
-use crate::tally::Tally;
+use crate::tally::{Phase, Tally};
 
 /// What decisions look at.
 #[derive(Clone, Copy)]
@@ -114,6 +114,7 @@ impl View<'_> {
         q: [f64; 3],
         tally: &mut T,
     ) -> TetrahedronId {
+        tally.phase(Phase::Walk);
         let mut t = from;
         if self.corners(t)[3].is_ghost() {
             t = self.cells[t.index()].across[3].tetrahedron();

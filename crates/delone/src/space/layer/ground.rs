@@ -6,10 +6,10 @@ use delone_predicates::compare_distances3;
 
 use super::{Layer, Refusal};
 use crate::ids::{Place, TetrahedronId};
-use crate::locate::{Ground, Level, Start, nearest};
+use crate::locate::{Ground, Level, Nearest, Start, nearest};
 use crate::mesh::Dimension;
 use crate::prefetch::prefetch;
-use crate::tally::Tally;
+use crate::tally::{Phase, Tally};
 
 impl Layer {
     /// The tetrahedron where a walk starts.
@@ -103,28 +103,29 @@ impl Ground for Layer {
         &self,
         start: Start<TetrahedronId>,
         q: [f64; 3],
-        exactly: bool,
+        nearest: Nearest,
         tally: &mut T,
-    ) -> Place {
+    ) -> (Place, TetrahedronId) {
         let t = self.walk(self.start_cell(start), q, tally);
+        tally.phase(Phase::Nearest);
         let nearer = |a: Place, b: Place| if self.compare_distances(q, b, a).is_lt() { b } else { a };
         let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !p.is_ghost());
         let best = corners.reduce(nearer).expect("a tetrahedron has a finite corner");
         (0..4).for_each(|_| tally.compared());
-        if exactly { nearest::descend(self, best, q, tally) } else { best }
+        (if nearest == Nearest::Corner { best } else { nearest::descend(self, best, q, tally) }, t)
     }
 }
 
 impl Level for Layer {
-    fn add(&mut self, q: [f64; 3], start: Start<TetrahedronId>) -> Option<Place> {
+    fn add<T: Tally>(&mut self, q: [f64; 3], start: Start<TetrahedronId>, tally: &mut T) -> Option<Place> {
         let from = self.start_cell(start);
-        match self.add_point(from, q, &mut ()) {
+        match self.add_point(from, q, tally) {
             Ok(place) | Err(Refusal::Vertex(place)) => Some(place),
             Err(Refusal::Full) => None,
         }
     }
 
-    fn take(&mut self, v: Place) -> Option<()> {
-        self.remove(v, &mut ())
+    fn take<T: Tally>(&mut self, v: Place, tally: &mut T) -> Option<()> {
+        self.remove(v, tally)
     }
 }

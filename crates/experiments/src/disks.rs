@@ -1,0 +1,181 @@
+//! `delone experiment disks`: what the analysis of hints counts, and disks beyond its assumptions.
+//!
+//! Source: Devillers 2011: Lemma 1 and the claims of Theorem 3 (§4), disks that overlap (§6.1), disks of different radii
+//! (§6.2), balls in space (§6.3).
+
+use delone::{Delaunay2, Error as Refusal, HintOrder, Hints2, Hints3, Imprecise, VertexId, Work};
+use delone_generators::{Kind, Kind3, Random, in_ball, moved};
+
+use super::plot::Plot;
+use super::table::{Table, short};
+use super::trials::Trials;
+use super::{Error, Findings, Options, decades};
+
+/// The largest set of which neighbourhoods are counted.
+const COUNTED: usize = 100_000;
+/// Radii of disks whose centres are at least two apart.
+const RADII: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
+
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let mut findings = Findings::default();
+    findings.tables.push(claims(options)?);
+    overlaps(options, &mut findings)?;
+    findings.tables.push(radii(options)?);
+    findings.tables.push(misled(options)?);
+    Ok(findings)
+}
+
+/// What the proof of Theorem 3 bounds, measured: all constants of the linear expected cost.
+fn claims(options: &Options<'_>) -> Result<Table, Error> {
+    let mut table = Table::new(
+        "disks-claims",
+        "Disjoint unit disks: disks whose D(p) holds an instance, degree of a hint, sum of degrees in D(p) (bounds 22, 36, 132)",
+        &["points", "most |W|", "mean |W|", "degree of a hint", "sum of degrees"],
+    );
+    for n in decades(1000, options.largest.min(COUNTED)) {
+        let [mut most, mut mean, mut degree, mut sum] = <[Trials; 4]>::default();
+        for trial in 0..options.trials as u64 {
+            let seed = options.seed + trial;
+            let centres = Kind::Disks.points(n, seed);
+            let instance = moved(&centres, 1.0, &mut Random::new(seed + 1000));
+            let of_centres = Delaunay2::from_points(&centres)?;
+            let d = Delaunay2::from_points(&instance)?;
+            let degree_of = |v: VertexId| d.mesh().star(v).count() as f64;
+            let mut held = vec![0_u32; n];
+            let (mut hints, mut sums) = (0.0, 0.0);
+            for (i, &p) in centres.iter().enumerate() {
+                let nearest = of_centres.k_nearest(p, 2)?[1];
+                let q = of_centres.point(nearest);
+                hints += degree_of(nearest);
+                for v in d.within(p, (p[0] - q[0]).hypot(p[1] - q[1]) + 1.0)? {
+                    sums += degree_of(v);
+                    held[v.index()] += u32::from(v.index() != i);
+                }
+            }
+            most.add(f64::from(held.iter().copied().max().unwrap_or(0)));
+            mean.add(f64::from(held.iter().sum::<u32>()) / n as f64);
+            degree.add(hints / n as f64);
+            sum.add(sums / n as f64);
+        }
+        table.row([n.to_string()].into_iter().chain([most, mean, degree, sum].map(|t| t.to_string())));
+    }
+    Ok(table)
+}
+
+/// Triangles visited a point by hints in random order.
+fn visited(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64) -> Result<(f64, bool), Refusal> {
+    let mut work = Work::default();
+    let mut hints = Hints2::from_points(centres, HintOrder::Random { seed })?;
+    hints.triangulate_observed(instance, &mut work)?;
+    Ok((work.visited as f64 / centres.len() as f64, hints.gave_up()))
+}
+
+/// The same in space.
+fn visited_in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<f64, Refusal> {
+    let mut work = Work::default();
+    Hints3::from_points(centres, HintOrder::Random { seed })?.triangulate_observed(instance, &mut work)?;
+    Ok(work.visited as f64 / centres.len() as f64)
+}
+
+/// Unit disks and balls that grow until they overlap: the cost is O(k n) if k of them have a point in common.
+fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let (n, m) = (options.largest.min(100_000), options.largest.min(20_000));
+    let mut table = Table::new(
+        "disks-overlap",
+        &format!("{n} disks and {m} balls, centres at least two apart: visited a point by the radius"),
+        &["radius", "disks over a centre, at most", "visited", "visited / k", "visited in space"],
+    );
+    let mut plot =
+        Plot::new("disks-overlap", "Overlapping disks: cost of hints", ["radius", "visited a point"]);
+    let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
+    for radius in RADII {
+        let [mut in_plane, mut in_space] = <[Trials; 2]>::default();
+        let mut most = 0;
+        for trial in 0..options.trials as u64 {
+            let seed = options.seed + trial;
+            let mut random = Random::new(seed + 1000);
+            let centres = Kind::Disks.points(n, seed);
+            in_plane.add(visited(&centres, &moved(&centres, radius, &mut random), seed)?.0);
+            let d = Delaunay2::from_points(&centres)?;
+            for &p in centres.iter().take(1000) {
+                most = most.max(d.within(p, radius)?.len());
+            }
+            let centres = Kind3::Balls.points(m, seed);
+            in_space.add(visited_in_space(&centres, &moved(&centres, radius, &mut random), seed)?);
+        }
+        table.row([
+            short(radius),
+            most.to_string(),
+            in_plane.to_string(),
+            short(in_plane.mean() / most as f64),
+            in_space.to_string(),
+        ]);
+        for (curve, trials) in curves.iter_mut().zip([&in_plane, &in_space]) {
+            curve.push((radius, trials.mean()));
+        }
+    }
+    for (name, curve) in ["disks", "balls in space"].into_iter().zip(curves) {
+        plot.curve(name, curve);
+    }
+    findings.tables.push(table);
+    findings.plots.push(plot);
+    Ok(())
+}
+
+/// Disjoint disks of very different radii: each reaches a random share of the way to the middle between its centre and
+/// the nearest other one. The paper leaves their analysis open.
+fn radii(options: &Options<'_>) -> Result<Table, Error> {
+    let mut table = Table::new(
+        "disks-radii",
+        "Disjoint disks of different radii: visited a point",
+        &["centres", "points", "largest / smallest radius", "visited"],
+    );
+    for kind in [Kind::Uniform, Kind::Clusters, Kind::LogNormal, Kind::HugeSpan] {
+        for n in decades(1000, options.largest.min(COUNTED)) {
+            let mut counts = Trials::default();
+            let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+            for trial in 0..options.trials as u64 {
+                let seed = options.seed + trial;
+                let mut random = Random::new(seed + 1000);
+                let centres = kind.points(n, seed);
+                let d = Delaunay2::from_points(&centres)?;
+                let mut instance = Vec::with_capacity(n);
+                for &p in &centres {
+                    let near = d.k_nearest(p, 2)?;
+                    let q = near.get(1).map_or(p, |&v| d.point(v));
+                    let radius = random.unit() * (p[0] / 2.0 - q[0] / 2.0).hypot(p[1] / 2.0 - q[1] / 2.0);
+                    (least, most) = (least.min(radius), most.max(radius));
+                    let shift: [f64; 2] = in_ball(&mut random);
+                    instance.push([p[0] + radius * shift[0], p[1] + radius * shift[1]]);
+                }
+                counts.add(visited(&centres, &instance, seed)?.0);
+            }
+            let span = (most / least.max(f64::MIN_POSITIVE)).min(f64::MAX);
+            table.row([kind.name().to_owned(), n.to_string(), format!("{span:.0e}"), counts.to_string()]);
+        }
+    }
+    Ok(table)
+}
+
+/// Disks whose radii fall by tenths and that overlap two by two: walks are quadratic, until they are given up.
+fn misled(options: &Options<'_>) -> Result<Table, Error> {
+    let mut table = Table::new(
+        "disks-misled",
+        "Nested disks that overlap two by two, hints in random order: visited a point, and whether hints were given up",
+        &["points", "visited", "in n", "given up"],
+    );
+    for n in [51, 101, 201, 401, 601, 801, 1201] {
+        let centres = Kind::Nested.points(n, 0);
+        let instance = Kind::NestedInstance.points(n, 0);
+        let mut counts = Trials::default();
+        let mut given_up = 0;
+        for trial in 0..options.trials as u64 {
+            let (count, gave_up) = visited(&centres, &instance, options.seed + trial)?;
+            counts.add(count);
+            given_up += usize::from(gave_up);
+        }
+        let share = short(counts.mean() / n as f64);
+        table.row([n.to_string(), counts.to_string(), share, format!("{given_up} of {}", options.trials)]);
+    }
+    Ok(table)
+}

@@ -1,0 +1,209 @@
+//! Edges by their symmetric scope: zig-zag paths, Lemmas 2.4 and 2.5, and the pair of §4.2.
+//!
+//! The circles through the ends of an edge sweep over all other points: those on the left leave one by one, those on the
+//! right enter. The path of the numbers inside, right and left, decides how likely the edge is to appear.
+
+use std::cmp::Ordering;
+
+use delone_generators::Kind;
+use delone_predicates::{in_circle, orient2d};
+
+use super::super::appear;
+use super::super::plot::Plot;
+use super::super::table::{Table, short};
+use super::super::{Error, Findings};
+use super::{ORDERS, in_orders};
+
+/// Points of the set that is simulated, and of the one whose scopes are only counted.
+const SIMULATED: usize = 28;
+const COUNTED: usize = 120;
+
+/// The probability that one of two given points comes last of the two and before k others: a_k of the paper.
+fn a(k: usize) -> f64 {
+    2.0 / ((k + 1) * (k + 2)) as f64
+}
+
+/// The same with a third one before: b_k.
+fn b(k: usize) -> f64 {
+    a(k) - a(k + 1)
+}
+
+/// The sides on which the circles through x and y meet the other points, in the order of the sweep: true for a point on the
+/// left, which leaves; false for one on the right, which enters.
+fn sweep(points: &[[f64; 2]], x: usize, y: usize) -> Vec<bool> {
+    let (px, py) = (points[x], points[y]);
+    let is_left = |&q: &usize| orient2d(px, py, points[q]).is_positive();
+    let mut others: Vec<usize> = (0..points.len()).filter(|q| ![x, y].contains(q)).collect();
+    others.sort_unstable_by(|p, q| {
+        if p == q {
+            return Ordering::Equal;
+        }
+        // Whether q is inside of the circle through x, y and p; if so it has entered, or is still to leave.
+        let (u, v) = if is_left(p) { (px, py) } else { (py, px) };
+        let is_inside = in_circle(u, v, points[*p], points[*q]).is_positive();
+        if is_inside == is_left(q) { Ordering::Less } else { Ordering::Greater }
+    });
+    others.iter().map(is_left).collect()
+}
+
+/// The symmetric scope of an edge, and the probability that it appears, from its sweep (equation (4) of §2.2).
+fn scope_and_probability(sweep: &[bool]) -> (usize, f64) {
+    let mut left = sweep.iter().filter(|is_left| **is_left).count();
+    let (mut right, mut scope) = (0, usize::MAX);
+    // How far to the right each step down is, the last one first in the end.
+    let mut steps = Vec::new();
+    if left == right {
+        scope = left;
+    }
+    for &is_left in sweep {
+        if is_left {
+            left -= 1;
+            steps.push(right);
+        } else {
+            right += 1;
+        }
+        if left == right {
+            scope = left;
+        }
+    }
+    let probability = a(steps.len()) + steps.iter().rev().enumerate().map(|(k, x)| b(x + k)).sum::<f64>();
+    (scope, probability)
+}
+
+/// Scope and probability of all edges.
+fn all(points: &[[f64; 2]]) -> Vec<([usize; 2], usize, f64)> {
+    let n = points.len();
+    let pairs = (0..n).flat_map(|x| (x + 1..n).map(move |y| [x, y]));
+    pairs
+        .map(|[x, y]| {
+            let (scope, probability) = scope_and_probability(&sweep(points, x, y));
+            ([x, y], scope, probability)
+        })
+        .collect()
+}
+
+pub(super) fn run(seed: u64, findings: &mut Findings) -> Result<(), Error> {
+    let points = Kind::Uniform.points(SIMULATED, seed);
+    let edges = all(&points);
+    let mut scope_of = vec![vec![0; SIMULATED]; SIMULATED];
+    for &([x, y], scope, _) in &edges {
+        (scope_of[x][y], scope_of[y][x]) = (scope, scope);
+    }
+    let mut appeared = [0_u64; SIMULATED];
+    in_orders(SIMULATED, seed, |order| {
+        appear::edges(&points, order, |[x, y]| appeared[scope_of[x][y]] += 1)
+    })?;
+    let mut table = Table::new(
+        "scopes-edges",
+        &format!(
+            "How often an edge of symmetric scope w appears ({SIMULATED} points, {ORDERS} random orders; Lemma 2.4)"
+        ),
+        &["w", "edges", "appeared", "by zig-zag paths", "at most 2 a(w) - a(2w)", "at least a(2w)"],
+    );
+    let mut plot = Plot::new(
+        "scopes-edges",
+        "The probability that an edge of symmetric scope w appears",
+        ["w + 1", "probability"],
+    );
+    let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
+    let mut sums = [0.0; 2];
+    for (w, &appeared) in appeared.iter().enumerate() {
+        let of_scope: Vec<f64> =
+            edges.iter().filter(|(_, scope, _)| *scope == w).map(|(.., probability)| *probability).collect();
+        if of_scope.is_empty() {
+            continue;
+        }
+        let total = of_scope.len() as f64;
+        let simulated = appeared as f64 / ORDERS as f64;
+        let computed: f64 = of_scope.iter().sum();
+        sums = [sums[0] + simulated, sums[1] + computed];
+        let row = [simulated / total, computed / total, 2.0 * a(w) - a(2 * w), a(2 * w)];
+        table.row([vec![w.to_string(), of_scope.len().to_string()], row.map(short).to_vec()].concat());
+        for (curve, value) in curves.iter_mut().zip(row) {
+            curve.push((w as f64 + 1.0, value));
+        }
+    }
+    let [simulated, computed] = sums.map(short);
+    table.row(["all", &edges.len().to_string(), &simulated, &computed, "-", "-"].map(str::to_owned));
+    for (name, curve) in
+        ["simulated", "by zig-zag paths", "upper bound", "lower bound"].into_iter().zip(curves)
+    {
+        plot.curve(name, curve);
+    }
+    findings.tables.extend([table, growth(seed), pairs(seed)]);
+    findings.plots.push(plot);
+    Ok(())
+}
+
+/// How many edges have a scope of at most k, in units of n (k + 1).
+fn growth(seed: u64) -> Table {
+    let mut table = Table::new(
+        "scopes-lemma-2-5",
+        &format!(
+            "Edges of symmetric scope at most k, {COUNTED} points; the analysis allows about 16 n (k+1) (Lemma 2.5)"
+        ),
+        &["k", "edges", "in units of n (k+1)", "bound"],
+    );
+    let edges = all(&Kind::Uniform.points(COUNTED, seed));
+    for k in [0, 1, 2, 4, 8, 16, 32, 59] {
+        let total = edges.iter().filter(|(_, scope, _)| *scope <= k).count();
+        let units = total as f64 / COUNTED as f64 / (k + 1) as f64;
+        table.row([k.to_string(), total.to_string(), short(units), short(16.0)]);
+    }
+    table
+}
+
+/// The fewest points in any circle through a pair, for the pair for which these are the most (§4.2).
+fn pairs(seed: u64) -> Table {
+    let mut table = Table::new(
+        "scopes-pair",
+        "Some pair has a share of all points in every circle through it (§4.2)",
+        &["points", "uniform", "share", "log-normal", "share"],
+    );
+    for n in [15, 30, 60, COUNTED] {
+        let mut cells = vec![n.to_string()];
+        for kind in [Kind::Uniform, Kind::LogNormal] {
+            let points = kind.points(n, seed);
+            let pairs = (0..n).flat_map(|x| (x + 1..n).map(move |y| (x, y)));
+            let fewest = |(x, y): (usize, usize)| {
+                let sweep = sweep(&points, x, y);
+                let mut inside = sweep.iter().filter(|is_left| **is_left).count();
+                let mut fewest = inside;
+                for is_left in sweep {
+                    inside = if is_left { inside - 1 } else { inside + 1 };
+                    fewest = fewest.min(inside);
+                }
+                fewest
+            };
+            let most = pairs.map(fewest).max().unwrap_or(0);
+            cells.extend([most.to_string(), short(most as f64 / n as f64)]);
+        }
+        table.row(cells);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{scope_and_probability, sweep};
+
+    /// The paper's order of the points around its edge N-B: L G A C E H J D M I K F, with A E J K F on the left.
+    #[test]
+    fn the_papers_edge() {
+        let sweep: Vec<bool> = "LGACEHJDMIKF".chars().map(|c| "AEJKF".contains(c)).collect();
+        let (scope, probability) = scope_and_probability(&sweep);
+        assert_eq!(scope, 3);
+        let b = |k: usize| 4.0 / ((k + 1) * (k + 2) * (k + 3)) as f64;
+        let expected = b(7) + b(8) + b(6) + b(6) + b(6) + 2.0 / 42.0;
+        assert!((probability - expected).abs() < 1e-12, "{probability} {expected}");
+    }
+
+    #[test]
+    fn circles_through_an_edge() {
+        // Left of the edge from (0, 0) to (0, 2) is x < 0. A far point leaves early, a near one late.
+        let points = [[0.0, 0.0], [0.0, 2.0], [-9.0, 1.0], [-0.1, 1.0], [5.0, 1.0], [0.5, 1.1]];
+        assert_eq!(sweep(&points, 0, 1), [true, false, false, true]);
+        let delaunay = [[0.0, 0.0], [0.0, 2.0], [-3.0, 1.0], [3.0, 1.0]];
+        assert_eq!(scope_and_probability(&sweep(&delaunay, 0, 1)).0, 0);
+    }
+}

@@ -1,0 +1,44 @@
+//! `delone experiment scopes`: which triangles, edges and tetrahedra ever appear, by how many points are in their circles.
+//!
+//! Source: Guibas, Knuth & Sharir 1992, §2.1, §2.2 and §4.3. On small sets all scopes are counted by exact decisions, what
+//! appears is simulated in random orders, and both stand beside the lemmas.
+
+mod edges;
+mod space;
+mod triangles;
+
+use delone_generators::Random;
+
+use super::{Error, Findings, Options};
+
+/// Random orders of a simulation.
+const ORDERS: usize = 4_000;
+
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let mut findings = Findings::default();
+    triangles::run(options.seed, &mut findings)?;
+    edges::run(options.seed, &mut findings)?;
+    space::run(options, &mut findings)?;
+    Ok(findings)
+}
+
+/// Does something in each of many random orders of so many points.
+fn in_orders(
+    points: usize,
+    seed: u64,
+    mut each: impl FnMut(&[usize]) -> Result<(), delone::Error>,
+) -> Result<(), Error> {
+    let mut random = Random::new(seed);
+    let mut order: Vec<usize> = (0..points).collect();
+    for _ in 0..ORDERS {
+        random.shuffle(&mut order);
+        each(&order)?;
+    }
+    Ok(())
+}
+
+/// The probability that k + 1, k + 2, ... k + m are all passed: m! / ((k + 1) ... (k + m)). With m = 3 a triangle of scope
+/// k appears with it (Lemma 2.1), with m = 4 a tetrahedron (Lemma 4.4).
+fn first(m: usize, k: usize) -> f64 {
+    (1..=m).map(|i| i as f64 / (k + i) as f64).product()
+}

@@ -1,0 +1,235 @@
+//! Sketches: areas, lines, dots and a caption, for pictures of what an algorithm does.
+
+use std::io::Write;
+
+use super::colour::{EDGE, INK, LINK, POINT, Rgb};
+use super::png::Canvas;
+use super::raster::Raster;
+use super::svg::{hex, open};
+use super::view::View;
+use super::{check_size, colour};
+use crate::{Error, Format};
+
+/// What something in a sketch means, and so its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Tone {
+    /// There, and of no interest now.
+    Faint,
+    /// There.
+    Plain,
+    /// Looked at.
+    Seen,
+    /// About to go.
+    Old,
+    /// Just made.
+    New,
+    /// What it is all about.
+    Goal,
+}
+
+impl Tone {
+    /// Told apart by everyone (Okabe and Ito's palette).
+    fn colour(self) -> Rgb {
+        match self {
+            Self::Faint => [205, 214, 219],
+            Self::Plain => EDGE,
+            Self::Seen => [240, 228, 66],
+            Self::Old => [230, 159, 0],
+            Self::New => [86, 180, 233],
+            Self::Goal => [213, 94, 0],
+        }
+    }
+}
+
+/// Something drawn.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Mark {
+    /// A filled polygon.
+    Area(Vec<[f64; 2]>, Tone),
+    /// A polygon in a colour of its own, by a number.
+    Patch(Vec<[f64; 2]>, usize),
+    /// A segment.
+    Line([[f64; 2]; 2], Tone),
+    /// A point.
+    Dot([f64; 2], Tone),
+    /// A point in a colour of its own, by a number.
+    Spot([f64; 2], usize),
+    /// A circle around a point.
+    Ring([f64; 2], f64, Tone),
+}
+
+/// What is drawn, from the bottom to the top.
+#[derive(Clone, Debug, Default)]
+pub struct Sketch {
+    /// The marks.
+    pub marks: Vec<Mark>,
+    /// A line below.
+    pub caption: String,
+}
+
+/// Widths in pixels, of a picture 600 pixels wide.
+const LINE: f64 = 1.2;
+const DOT: f64 = 3.0;
+
+/// Light colours of many kinds.
+fn numbered(k: usize) -> Rgb {
+    // Steps of the golden ratio around the circle of colours never come back.
+    let turn = |offset: f64| {
+        let t = (k as f64 * 0.618_034 + offset).fract();
+        let wave = (std::f64::consts::TAU * t).cos();
+        (200.0 + 50.0 * wave) as u8
+    };
+    [turn(0.0), turn(1.0 / 3.0), turn(2.0 / 3.0)]
+}
+
+fn dark(colour: Rgb) -> Rgb {
+    colour::shade(colour, 0.6)
+}
+
+impl Sketch {
+    /// Adds a mark.
+    pub fn add(&mut self, mark: Mark) {
+        self.marks.push(mark);
+    }
+
+    pub(super) fn draw(&self, view: &View) -> Result<Canvas, Error> {
+        let mut canvas = Canvas::from(&Raster::new(view.width, view.height, colour::PAPER))?;
+        let scale = f64::from(view.width.max(view.height)) / 600.0;
+        let ring = |corners: &[[f64; 2]]| vec![corners.iter().map(|&p| view.place(p)).collect::<Vec<_>>()];
+        for mark in &self.marks {
+            match mark {
+                Mark::Area(corners, tone) => {
+                    canvas.fill(&ring(corners), colour::mix(tone.colour(), colour::PAPER, 0.35));
+                }
+                Mark::Patch(corners, k) => canvas.fill(&ring(corners), numbered(*k)),
+                Mark::Line(ends, tone) => {
+                    let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE };
+                    let line = ends.map(|p| view.place(p));
+                    canvas.lines(std::iter::once(line), line_colour(*tone), 255, width * scale);
+                }
+                Mark::Dot(p, tone) => {
+                    let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT };
+                    canvas.dots(std::iter::once(view.place(*p)), radius * scale, dot_colour(*tone), 255);
+                }
+                Mark::Spot(p, k) => {
+                    canvas.dots(std::iter::once(view.place(*p)), DOT * scale, dark(numbered(*k)), 255);
+                }
+                Mark::Ring(p, radius, tone) => {
+                    let circle = polygon(*p, *radius).map(|p| view.place(p));
+                    let sides = (0..circle.len()).map(|k| [circle[k], circle[(k + 1) % circle.len()]]);
+                    canvas.lines(sides, line_colour(*tone), 255, LINE * scale);
+                }
+            }
+        }
+        if let Some(top) = view.strip() {
+            canvas.text([24.0, top + 14.0], &self.caption);
+        }
+        Ok(canvas)
+    }
+
+    fn svg(&self, out: &mut dyn Write, view: &View) -> std::io::Result<()> {
+        open(out, view)?;
+        let scale = f64::from(view.width.max(view.height)) / 600.0;
+        for mark in &self.marks {
+            match mark {
+                Mark::Area(corners, tone) => area(out, view, corners, tone.colour(), 0.65)?,
+                Mark::Patch(corners, k) => area(out, view, corners, numbered(*k), 1.0)?,
+                Mark::Line(ends, tone) => {
+                    let [[ax, ay], [bx, by]] = ends.map(|p| view.place(p));
+                    let width = if *tone == Tone::Goal { 2.0 * LINE } else { LINE } * scale;
+                    let colour = hex(line_colour(*tone));
+                    writeln!(
+                        out,
+                        r#"<path stroke="{colour}" stroke-width="{width:.2}" stroke-linecap="round" d="M{ax:.2} {ay:.2}L{bx:.2} {by:.2}"/>"#
+                    )?;
+                }
+                Mark::Dot(p, tone) => {
+                    let radius = if *tone == Tone::Goal { 1.6 * DOT } else { DOT } * scale;
+                    dot(out, view, *p, radius, dot_colour(*tone))?;
+                }
+                Mark::Spot(p, k) => dot(out, view, *p, DOT * scale, dark(numbered(*k)))?,
+                Mark::Ring(p, radius, tone) => {
+                    let [x, y] = view.place(*p);
+                    let (r, colour) = (view.length(*radius), hex(line_colour(*tone)));
+                    writeln!(
+                        out,
+                        r#"<circle cx="{x:.2}" cy="{y:.2}" r="{r:.2}" fill="none" stroke="{colour}" stroke-width="{:.2}"/>"#,
+                        LINE * scale
+                    )?;
+                }
+            }
+        }
+        if let Some(top) = view.strip() {
+            writeln!(
+                out,
+                r#"<text x="24" y="{:.1}" font-family="sans-serif" font-size="18">{}</text>"#,
+                top + 30.0,
+                self.caption.replace('&', "&amp;").replace('<', "&lt;")
+            )?;
+        }
+        writeln!(out, "</svg>")
+    }
+}
+
+/// The corners of a circle that looks round.
+fn polygon(centre: [f64; 2], radius: f64) -> [[f64; 2]; 64] {
+    std::array::from_fn(|k| {
+        let (sin, cos) = (std::f64::consts::TAU * k as f64 / 64.0).sin_cos();
+        [centre[0] + radius * cos, centre[1] + radius * sin]
+    })
+}
+
+fn line_colour(tone: Tone) -> Rgb {
+    match tone {
+        Tone::Seen => LINK,
+        other => other.colour(),
+    }
+}
+
+fn dot_colour(tone: Tone) -> Rgb {
+    match tone {
+        Tone::Plain => POINT,
+        Tone::Seen => LINK,
+        Tone::New => INK,
+        other => other.colour(),
+    }
+}
+
+fn area(
+    out: &mut dyn Write,
+    view: &View,
+    corners: &[[f64; 2]],
+    colour: Rgb,
+    opacity: f64,
+) -> std::io::Result<()> {
+    let path: Vec<String> =
+        corners.iter().map(|&p| view.place(p)).map(|[x, y]| format!("{x:.2} {y:.2}")).collect();
+    let fill = hex(colour);
+    writeln!(out, r#"<path fill="{fill}" fill-opacity="{opacity}" d="M{}Z"/>"#, path.join("L"))
+}
+
+fn dot(out: &mut dyn Write, view: &View, p: [f64; 2], radius: f64, colour: Rgb) -> std::io::Result<()> {
+    let [x, y] = view.place(p);
+    writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{}"/>"#, hex(colour))
+}
+
+/// Writes a sketch of a window as a picture: SVG or PNG.
+///
+/// # Errors
+/// For a size that no picture can have, and when writing fails.
+pub fn write_sketch(
+    out: &mut dyn Write,
+    format: Format,
+    sketch: &Sketch,
+    window: [[f64; 2]; 2],
+    size: u32,
+) -> Result<(), Error> {
+    check_size(size)?;
+    let view = View::around(window.into_iter(), size);
+    match format {
+        Format::Svg => Ok(sketch.svg(out, &view)?),
+        _ => sketch.draw(&view)?.encode(out),
+    }
+}

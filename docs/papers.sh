@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Every number of docs/papers.md and docs/experiments.md: runs all experiments and leaves their tables and plots in a folder.
+#
+#   docs/papers.sh                    the committed results (docs/results), an hour on two cores
+#   docs/papers.sh FOLDER small       the smallest sizes, a minute
+#   docs/papers.sh FOLDER long        up to a hundred million points, hours, 24 GB
+#
+# Then: BLESS=1 cargo test -p delone-experiments --test page
+set -euo pipefail
+cd "$(dirname "$0")/.."
+folder=${1:-docs/results}
+size=${2:-usual}
+mkdir -p "$folder"
+cargo build --release -q
+delone=target/release/delone
+
+# Name, and the largest set of each size.
+experiment() {
+    local name=$1 small=$2 usual=$3 long=$4
+    shift 4
+    local largest=${!size}
+    echo "== $name up to $largest"
+    $delone -q experiment "$name" "$@" --largest "$largest" -o "$folder" > /dev/null
+}
+
+experiment scopes 100 1000 1000
+experiment order 100 3000 3000
+experiment conflicts 100 1000 1000
+experiment history 100 200000 200000 --trials 1
+experiment radial 1000 1000000 1000000
+experiment hierarchy 5000 500000 500000
+experiment tuning 1000 300000 300000
+experiment deletion 1000 1000000 1000000
+experiment jump-and-walk 1000 1000000 1000000
+experiment imprecise 10000 10000000 100000000
+experiment disks 1000 100000 100000
+experiment brownian 1000 1000000 100000000
+experiment growth 1000 10000000 100000000
+scan=${SCAN:-../shared/data/igea.ply}
+if [ -e "$scan" ]; then
+    experiment scan 1000 1000000 1000000 "$scan"
+else
+    echo "== scan: skipped, there is no $scan"
+fi
+
+# Cache misses a point of a whole run, as the paper counted them (2011, §5: 4 MB of cache).
+if command -v valgrind > /dev/null; then
+    sizes="1000 10000 100000"
+    [ "$size" = small ] && sizes=1000
+    [ "$size" = long ] && sizes="$sizes 1000000"
+    work=$(mktemp -d)
+    trap 'rm -rf "$work"' EXIT
+    misses() {
+        valgrind --tool=cachegrind --cache-sim=yes --LL=4194304,16,64 --cachegrind-out-file=/dev/null \
+            $delone -q --threads 1 triangulate "$work/instance.npy" "$@" -o "$work/t.npy" 2>&1 |
+            awk -v n="$n" '/LL misses/ { gsub(",", "", $4); printf "%.1f", $4 / n }'
+    }
+    table=$folder/imprecise-cache.csv
+    echo 'points,"hints, random order","hints, spatial order",spatial sort,divide and conquer' > "$table"
+    for n in $sizes; do
+        echo "== cache misses at $n"
+        $delone -q generate disks -n "$n" --seed 1 -o "$work/centres.npy"
+        $delone -q generate disks -n "$n" --seed 1 --noise 1 -o "$work/instance.npy"
+        echo "$n,$(misses --hints "$work/centres.npy" --hint-order random),$(misses --hints "$work/centres.npy"),$(misses --algorithm incremental),$(misses)" >> "$table"
+    done
+else
+    echo "== cache misses: skipped, there is no valgrind"
+fi
+ls "$folder"
