@@ -241,7 +241,9 @@ impl<'a> Flips<'a> {
             let cell = self.cells[t as usize];
             cell.is_present() && self.is_hit(cell.across[i], q)
         };
-        (!waiting.iter().any(is_stuck)).then_some(())
+        let is_done = !waiting.iter().any(is_stuck);
+        debug_assert!(is_done, "a conflict is left, and no flip ends it");
+        is_done.then_some(())
     }
 
     /// Flips the facet of a tetrahedron across from the new point, its corner `i`, or an edge of that facet, if one can be.
