@@ -62,9 +62,8 @@ fn follow<D: Change>(
     let [tests, visited] = ask(&d)?;
     let n = d.vertex_count();
     let all = ever(&d) as f64 / n as f64;
-    for i in 0..n / 2 {
-        d.remove_observed(VertexId::new(i), &mut ())?;
-    }
+    let first: Vec<VertexId> = d.vertices().take(n / 2).collect();
+    first.into_iter().try_for_each(|v| d.remove_observed(v, &mut ()))?;
     let left = ever(&d) as f64 / d.vertex_count() as f64;
     let [tests_left, _] = ask(&d)?;
     Ok([all, tests, visited, left, tests_left])
