@@ -457,7 +457,7 @@ fn experiments_leave_tables_and_plots() {
         place.fail(
             &format!("experiment {name} --largest {}", smallest - 1),
             2,
-            &format!("--largest {smallest}"),
+            &format!("is below {smallest}"),
         );
     }
 }
