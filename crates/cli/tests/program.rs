@@ -208,7 +208,7 @@ fn wrong_usage() {
         ("triangulate p.csv -o m.ply --dim 4", "4"),
         ("triangulate p.csv -o m.ply --dim 3 --algorithm divide-conquer", "for the plane"),
         ("triangulate p.csv -o m.geojson --dim 3", "triangulations of space are not written"),
-        ("triangulate p.csv -o m.ply --dim 3 --locate history", "for the plane"),
+        ("triangulate p.csv -o m.ply --dim 3 --locate stars", "for the plane"),
         ("triangulate p.csv -o m.ply --threads 0", "0"),
         ("triangulate p.csv -o m.ply --class 2", "--class"),
         ("triangulate p.csv -o m.ply --class two", "two"),
@@ -457,7 +457,7 @@ fn experiments_leave_tables_and_plots() {
         place.fail(
             &format!("experiment {name} --largest {}", smallest - 1),
             2,
-            &format!("--largest {smallest}"),
+            &format!("is below {smallest}"),
         );
     }
 }

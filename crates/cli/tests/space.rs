@@ -39,8 +39,9 @@ fn points_become_tetrahedra_in_every_format() {
         assert_eq!(verdict, format!("Delaunay, and the canonical triangulation: {cells} tetrahedra\n"));
     }
     // The same tetrahedra, whatever the strategy.
-    for (k, locate) in
-        ["tree", "walk", "jump-and-walk", "hierarchy", "delaunay-tree", "spatial"].into_iter().enumerate()
+    for (k, locate) in ["tree", "walk", "jump-and-walk", "hierarchy", "history", "delaunay-tree", "spatial"]
+        .into_iter()
+        .enumerate()
     {
         place.succeed(&format!("triangulate ball.npy --dim 3 --locate {locate} --seed 3 -o l{k}.ele -q"));
         let lines = |name: &str| {

@@ -68,6 +68,7 @@ fn large_sets_agree_across_orders() {
         for algorithm in [
             Algorithm3::Incremental { seed: 1 },
             Algorithm3::Located { locate: Locate::Tree, seed: 2 },
+            Algorithm3::Flips { seed: 3 },
             Algorithm3::Located { locate: Locate::DelaunayTree, seed: 3 },
             Algorithm3::Located { locate: hierarchy, seed: 3 },
         ] {

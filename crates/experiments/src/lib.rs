@@ -21,6 +21,7 @@ mod phases;
 mod plot;
 mod radial;
 mod scopes;
+mod space;
 mod table;
 mod trials;
 mod tuning;
@@ -136,6 +137,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "Hulls in space in random order: facets that ever were, and what locating costs (the same, §4.1)",
         smallest: 100,
         run: hull::run,
+    },
+    Experiment {
+        name: "history-in-space",
+        about: "What ever appears in space, and flips that trace each point through it (the same, §4.3)",
+        smallest: 100,
+        run: space::run,
     },
     Experiment {
         name: "radial",

@@ -227,8 +227,9 @@ impl Engine<3> for Delaunay3 {
     }
 
     fn others(points: &[[f64; 3]], seed: u64) -> Vec<(String, Result<Self, Error>)> {
-        let algorithm = Algorithm3::Incremental { seed };
-        vec![(format!("{algorithm:?}"), Self::with_algorithm(points, algorithm))]
+        [Algorithm3::Incremental { seed }, Algorithm3::Flips { seed }]
+            .map(|algorithm| (format!("{algorithm:?}"), Self::with_algorithm(points, algorithm)))
+            .into()
     }
 
     fn simplices(&self) -> Simplices<3> {

@@ -35,7 +35,7 @@ pub(crate) struct HullArgs {
     /// Algorithm in space; the hull is the same.
     #[arg(long, value_name = "NAME", default_value = "quickhull")]
     pub(crate) algorithm: HullAlgorithm,
-    /// Seed of the random order of `history`.
+    /// Seed of the random order of `history` and `flips`.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
     #[command(flatten)]

@@ -58,7 +58,7 @@ pub(crate) enum LocateName {
     JumpAndWalk,
     /// Descend through triangulations of random samples (the Delaunay hierarchy).
     Hierarchy,
-    /// Trace all triangles that ever were; no removal.
+    /// Split, flip, and trace all triangles that ever were; no removal. In space in bulk only.
     History,
     /// The same without triangles that came and went in one insertion, by binary search; no removal.
     Stars,

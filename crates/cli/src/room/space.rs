@@ -44,15 +44,20 @@ impl Room for Delaunay3 {
             ));
         }
         let (locate, seed) = (strategy.name_or(LocateName::Spatial), strategy.seed);
-        if matches!(locate, LocateName::Conflict | LocateName::History | LocateName::Stars) {
+        if matches!(locate, LocateName::Conflict | LocateName::Stars) {
             return Err(Failure::usage(
-                "location by history and by conflict lists is for the plane",
-                "choose --locate spatial, tree, walk, jump-and-walk, hierarchy or delaunay-tree",
+                "location by stars and by conflict lists is for the plane",
+                "choose --locate spatial, tree, walk, jump-and-walk, hierarchy, history or delaunay-tree",
             ));
         }
-        let algorithm = match located::<Self>(strategy, LocateName::Spatial)? {
-            Some(locate) => Algorithm3::Located { locate, seed },
-            None => Algorithm3::Incremental { seed },
+        let algorithm = if locate == LocateName::History {
+            strategy.strategy(LocateName::Spatial)?;
+            Algorithm3::Flips { seed }
+        } else {
+            match located::<Self>(strategy, LocateName::Spatial)? {
+                Some(locate) => Algorithm3::Located { locate, seed },
+                None => Algorithm3::Incremental { seed },
+            }
         };
         Ok(Plan { algorithm, name: AlgorithmName::Incremental, locate: Some(locate) })
     }

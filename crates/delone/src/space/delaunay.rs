@@ -23,6 +23,12 @@ pub enum Algorithm3 {
         /// Decides the rounds.
         seed: u64,
     },
+    /// One by one in random order by bistellar flips, each point traced through all tetrahedra that ever were: for study. Where
+    /// the points do not span space, or the first four are too flat to have a number inside, as [`Self::Incremental`].
+    Flips {
+        /// Decides the order.
+        seed: u64,
+    },
     /// One by one in random order, located by a strategy.
     Located {
         /// The strategy.
@@ -109,6 +115,10 @@ impl Delaunay3 {
         match algorithm {
             Algorithm3::Incremental { seed } => {
                 let built = construct::triangulate(points, seed, &mut work);
+                Ok(Self::assemble(with_room(built)?, work))
+            }
+            Algorithm3::Flips { seed } => {
+                let built = construct::by_flips(&P::all(points), seed, &mut work);
                 Ok(Self::assemble(with_room(built)?, work))
             }
             Algorithm3::Located { locate, seed } => {

@@ -1,6 +1,6 @@
 //! Hulls, nearest and furthest sites, the smallest circle around points: against definitions.
 
-use delone::{Delaunay2, Dimension, Hull2, NearestSites2};
+use delone::{Delaunay2, Dimension, Hull2, Inserted, NearestSites2};
 use delone::{Hull3, HullHistory3};
 use delone_generators::Random;
 
@@ -44,12 +44,25 @@ impl Attack for Planar {
             return Err(format!("the corners of furthest: {corners:?} instead of {expected:?}"));
         }
         let sites = NearestSites2::from_points(points, seed).map_err(text)?;
+        let (mut grown, mut given) = (NearestSites2::new(), Vec::new());
+        for &p in points {
+            if let Inserted::New(v) = grown.insert(p).map_err(text)? {
+                if v.index() != given.len() {
+                    return Err(format!("NearestSites: {v:?} is the {}th", given.len()));
+                }
+                given.push(p);
+            }
+        }
         for _ in 0..QUERIES {
             let q = nasty::query(&mut random, points);
             let found = sites.nearest(q).map_err(text)?;
             let expected = by_distance(points, q, false);
             if found != expected {
                 return Err(format!("NearestSites of {q:?}: {found:?} instead of {expected:?}"));
+            }
+            let found = grown.nearest(q).map_err(text)?.map(|i| given[i]);
+            if found != expected.map(|i| points[i]) {
+                return Err(format!("NearestSites on line, of {q:?}: {found:?} instead of {expected:?}"));
             }
             let found = furthest.furthest(q).map_err(text)?.map(|v| v.index());
             let expected = by_distance(points, q, true);

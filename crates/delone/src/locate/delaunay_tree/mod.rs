@@ -200,6 +200,7 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
                 }
             }
         }
+        debug_assert!(false, "who is in conflict with no present triangle is a vertex");
         None
     }
 

@@ -8,6 +8,7 @@
 
 mod apart;
 mod cut;
+mod flips;
 mod part;
 
 use std::ops::Range;
@@ -48,6 +49,15 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     let (mut layer, duplicates) = triangulate_runs(scaled, runs, seed, tally)?;
     layer.scale(1.0 / scale);
     Some((layer, duplicates))
+}
+
+/// The same by flips in random order; by cavities where flips cannot be begun.
+pub(super) fn by_flips<T: Tally + Default + Send>(
+    points: &[[f64; 3]],
+    seed: u64,
+    tally: &mut T,
+) -> Option<(Layer, Vec<Duplicate>)> {
+    flips::triangulate(points, seed, tally).or_else(|| triangulate(points, seed, tally))
 }
 
 /// Sizes of sets whose products are in the range of the filters: 2^-130 to 2^90.

@@ -1,0 +1,90 @@
+//! Randomized incremental construction in space: Guibas, Knuth & Sharir 1992, §4.3.
+//!
+//! What ever appears is O(n^2) (Theorem 4.6), and for sets whose samples of r points have F(r) tetrahedra O of the sum of
+//! F(n / k) / k (4.7): linear where F is. The paper's example says that the size of the result says nothing: two skew lines have
+//! a quadratic triangulation, and one more point between them makes it linear, but not what appears before it comes.
+
+use delone::{Algorithm3, Delaunay3, Locate};
+use delone_generators::{Kind3, Random};
+
+use super::table::{Table, short};
+use super::trials::Trials;
+use super::{Error, Findings, Options, sizes};
+
+/// So many points from a seed.
+type Make = fn(usize, u64) -> Vec<[f64; 3]>;
+
+/// The skew lines have a quadratic number of tetrahedra.
+const MOST_ON_LINES: usize = 1000;
+
+pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
+    let mut table = Table::new(
+        "history-space",
+        "Per point, in random order: tetrahedra that ever were Delaunay (the paper: O(n) of them in all for a ball, O(n^2) on skew \
+         lines, also with the point between them), and flips that trace each point through all",
+        &[
+            "set",
+            "points",
+            "in the end / n",
+            "ever / n",
+            "made by flips / n",
+            "traced",
+            "traced / ln n",
+            "orientations",
+            "conflict tests",
+        ],
+    );
+    let sets: [(&str, Make, usize); 4] = [
+        ("ball", |n, seed| Kind3::Ball.points(n, seed), 100_000),
+        ("sphere", |n, seed| Kind3::Sphere.points(n, seed), 100_000),
+        ("skew lines", skew, MOST_ON_LINES),
+        ("and a point between", |n, seed| [skew(n - 1, seed), vec![[0.0, 0.0, 0.5]]].concat(), MOST_ON_LINES),
+    ];
+    for (set, make, most) in sets {
+        for n in sizes(100, options.largest.min(most)) {
+            let mut trials: [Trials; 6] = Default::default();
+            for trial in 0..options.trials as u64 {
+                let seed = options.seed + trial;
+                let points = make(n, seed);
+                let d = Delaunay3::with_algorithm(&points, Algorithm3::Flips { seed })?;
+                let work = d.counters().work().unwrap_or_default();
+                let mut tree = Delaunay3::from_points(&points)?;
+                tree.set_strategy(Locate::DelaunayTree)?;
+                let ever = tree.footprint().versions as u64;
+                let counts = [
+                    d.tetrahedron_count() as u64,
+                    ever,
+                    work.created,
+                    work.visited,
+                    work.orientations,
+                    work.in_circles,
+                ];
+                trials.iter_mut().zip(counts).for_each(|(trials, count)| trials.add(count as f64 / n as f64));
+            }
+            let [end, ever, made, traced, orientations, tests] = &trials;
+            table.row([
+                set.to_owned(),
+                n.to_string(),
+                short(end.mean()),
+                ever.to_string(),
+                made.to_string(),
+                traced.to_string(),
+                short(traced.mean() / (n as f64).ln()),
+                orientations.to_string(),
+                tests.to_string(),
+            ]);
+        }
+    }
+    Ok(Findings { tables: vec![table], plots: Vec::new() })
+}
+
+/// Points on the x axis, and on a line along y above it: so near the middle of both, for the distance of the lines, that all
+/// spheres of theirs hold the point halfway.
+fn skew(n: usize, seed: u64) -> Vec<[f64; 3]> {
+    let mut random = Random::new(seed);
+    let mut point = |i: usize| {
+        let x = random.between(-0.4, 0.4);
+        if i.is_multiple_of(2) { [x, 0.0, 0.0] } else { [0.0, x, 1.0] }
+    };
+    (0..n).map(&mut point).collect()
+}
