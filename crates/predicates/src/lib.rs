@@ -28,6 +28,7 @@ mod clear;
 pub mod counters;
 #[cfg(test)]
 mod decided;
+mod disks;
 mod distance;
 mod exact;
 mod filter;
@@ -48,6 +49,7 @@ mod stages;
 pub use centre::{centre_direction, centre_side};
 pub use circumcentre::circumcentre;
 pub use clear::keeps_clear;
+pub use disks::{DiskPair, End, Stretch};
 pub use distance::{angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3};
 pub use filter::{Filter, Filter3, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};
