@@ -30,6 +30,7 @@
 //! | --- | --- | --- | --- |
 //! | points, all at once or coming and going | [`Delaunay2`] | [`Delaunay3`] | O(n log n), in space where the result is linear; a change O(log n) on average |
 //! | points known nearly beforehand, in many instances | [`Hints2`] | [`Hints3`] | O(n) an instance |
+//! | edges of points known by disks, in every and in some instance | [`DiskEdges2`] | | O(n) for few overlaps |
 //! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
@@ -91,8 +92,8 @@ pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use order::HintOrder;
 pub use plane::{
-    Algorithm2, Cells2, Delaunay2, EnclosingCircle, Furthest2, Hints2, Location2, Moving2, NearestSites2,
-    Region2, Relaxation2, Ring, Step2, Voronoi2, VoronoiEdge2,
+    Algorithm2, Cells2, Delaunay2, DiskEdges2, EnclosingCircle, Furthest2, Hints2, Location2, Moving2,
+    NearestSites2, Region2, Relaxation2, Ring, Step2, Voronoi2, VoronoiEdge2,
 };
 pub use points::{Bounds, Position2, Position3};
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Step3};

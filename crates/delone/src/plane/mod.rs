@@ -4,6 +4,7 @@ mod change;
 pub mod check;
 mod construct;
 mod delaunay;
+mod disk_edges;
 mod flips;
 mod furthest;
 mod imprecise;
@@ -23,6 +24,7 @@ mod voronoi;
 
 pub use construct::Algorithm2;
 pub use delaunay::Delaunay2;
+pub use disk_edges::DiskEdges2;
 pub use furthest::{EnclosingCircle, Furthest2};
 pub use imprecise::Hints2;
 pub use locate::Location2;
