@@ -5,6 +5,7 @@ use delone::{
     Tally, VertexId, Work,
 };
 use delone_generators::{Kind, Kind3, Random};
+use delone_oracle::exact;
 
 fn uniform(n: usize) -> Vec<[f64; 2]> {
     Kind::Uniform.points(n, 12)
@@ -368,4 +369,43 @@ fn the_hint_tree_starts_next_door() {
     assert!(visited < 4.5, "{visited} triangles from the hint");
     let jump = located(100_000, Locate::JumpAndWalk(JumpAndWalk::default()));
     assert!(visited < mean(&jump, |work| work.visited) / 8.0);
+}
+
+/// Lecture notes: of all triangulations the Delaunay triangulation has the largest least angle. Flips lead to all of them.
+#[test]
+fn the_least_angle_is_the_largest() {
+    let angle = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        let (u, v) = ([q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]);
+        (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1])
+    };
+    for seed in 0..40 {
+        let points = Kind::Uniform.points(9, seed);
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let mut triangles: Vec<[usize; 3]> = d.triangles().map(|t| t.map(VertexId::index)).collect();
+        let least = |triangles: &[[usize; 3]]| {
+            let corners = triangles.iter().flat_map(|&[a, b, c]| [[a, b, c], [b, c, a], [c, a, b]]);
+            corners
+                .map(|t| t.map(|i| points[i]))
+                .map(|[p, q, r]| angle(p, q, r))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let best = least(&triangles);
+        let mut random = Random::new(seed);
+        for _ in 0..300 {
+            // An edge from u to v on the left of a triangle; across it from v to u, if it is no hull edge.
+            let t = random.below(triangles.len());
+            triangles[t].rotate_left(random.below(3));
+            let [u, v, w] = triangles[t];
+            let across =
+                |t: &[usize; 3]| (0..3).find(|&k| t[k] == v && t[(k + 1) % 3] == u).map(|k| t[(k + 2) % 3]);
+            let Some((s, x)) = (0..triangles.len()).find_map(|s| Some((s, across(&triangles[s])?))) else {
+                continue;
+            };
+            let turns = |a: usize, b: usize, c: usize| exact::orient2d(points[a], points[b], points[c]) > 0;
+            if turns(w, u, x) && turns(x, v, w) {
+                (triangles[t], triangles[s]) = ([w, u, x], [x, v, w]);
+                assert!(least(&triangles) <= best + 1e-12, "seed {seed}: {triangles:?}");
+            }
+        }
+    }
 }

@@ -30,7 +30,7 @@ fn claims(options: &Options<'_>) -> Result<Table, Error> {
     let mut table = Table::new(
         "disks-claims",
         "Disjoint unit disks: disks whose D(p) holds an instance, degree of a hint, sum of degrees in D(p) (bounds 22, 36, 132)",
-        &["points", "most |W|", "mean |W|", "degree of a hint", "sum of degrees"],
+        &["points", "most in W(q)", "mean in W(q)", "degree of a hint", "sum of degrees"],
     );
     for n in decades(1000, options.largest.min(COUNTED)) {
         let [mut most, mut mean, mut degree, mut sum] = <[Trials; 4]>::default();

@@ -57,8 +57,8 @@ fn uniform(n: usize, sample: Option<usize>, seed: u64) -> Result<Delaunay2, Erro
     Ok(d)
 }
 
-/// At least a tenth of the side away from the border. The theorem wants 2 sqrt(ln n / m), which for all samples here is wider
-/// than the square; what it guards against is seen at the border alone.
+/// At least a tenth of the side away from the border. The theorem wants 2 sqrt(ln n / m), which for a sample of n^(1/3) leaves
+/// nothing of the square up to a million points and more; what it guards against is seen at the border alone.
 fn inside(seed: u64) -> Vec<[f64; 2]> {
     let mut random = Random::new(seed + 1000);
     (0..QUERIES).map(|_| [random.between(0.1, 0.9), random.between(0.1, 0.9)]).collect()

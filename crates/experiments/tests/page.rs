@@ -1,6 +1,6 @@
 //! `docs/papers.md` says what the committed results say, names tests that exist and experiments that run.
 //!
-//! A number of ours is a link to its table, with row and column as the title: `[2.79 ± 0.03](results/t.csv "row | column")`.
+//! A number of ours is a link to its table, with row and column as the title: `[2.79 ± 0.03](results/t.csv "row :: column")`.
 //! A row is named by its first cells, separated by `; `. `BLESS=1 cargo test -p delone-experiments --test page` writes the
 //! numbers of new results into the pages.
 
@@ -56,12 +56,16 @@ fn numbers(page: &str) -> Vec<Number<'_>> {
     for (at, _) in page.match_indices(LINK) {
         let start = page[..at].rfind('[').expect("a link") + 1;
         let inside = at + LINK.len();
-        let Some(length) = page[inside..].find(')').filter(|&k| page[inside..][..k].ends_with('"')) else {
+        let link = &page[inside..];
+        let name = link.find([' ', ')']).expect("the end of a name");
+        if link[name..].starts_with(')') {
             continue; // a link to a whole table
-        };
-        let (file, title) = page[inside..][..length - 1].split_once(" \"").expect("a title");
-        let (row, column) = title.rsplit_once(" | ").expect("row | column");
-        numbers.push(Number { text: &page[start..at], start, end: inside + length + 1, file, row, column });
+        }
+        let length = link.find("\")").expect("the end of a title");
+        let title = link[name..length].strip_prefix(" \"").expect("a title");
+        let (row, column) = title.rsplit_once(" :: ").expect("row :: column");
+        let end = inside + length + 2;
+        numbers.push(Number { text: &page[start..at], start, end, file: &link[..name], row, column });
     }
     numbers
 }

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use delone::{
     Algorithm2, Algorithm3, Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted,
-    JumpAndWalk, Locate, Location2, Location3, VertexId, Walk,
+    JumpAndWalk, Locate, Location2, Location3, Nearest, VertexId, Walk,
 };
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -33,18 +33,30 @@ pub(crate) enum Place<const D: usize> {
 }
 
 /// Strategies of location; those of space come first.
-pub(crate) fn strategies(seed: u64) -> [Locate; 10] {
+pub(crate) fn strategies(seed: u64) -> [Locate; 12] {
     let hierarchy = Hierarchy::default();
+    let steep = Hierarchy { ratio: 2.0, smallest_level: 2, seed, ..hierarchy };
     [
         Locate::Tree,
         Locate::Walk(Walk::Visibility),
         Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }),
         Locate::Hierarchy(hierarchy),
         // Levels even for few vertices.
-        Locate::Hierarchy(Hierarchy { ratio: 2.0, smallest_level: 2, ..hierarchy }),
+        Locate::Hierarchy(steep),
+        Locate::Hierarchy(Hierarchy {
+            ratio: 1.25,
+            nearest: Nearest::Exact,
+            with_replacement: true,
+            ..steep
+        }),
         Locate::DelaunayTree,
         Locate::Walk(Walk::Stochastic { seed }),
         Locate::Walk(Walk::Straight),
+        Locate::Hierarchy(Hierarchy {
+            nearest: Nearest::InCircle,
+            walk: Some(Walk::Stochastic { seed }),
+            ..steep
+        }),
         Locate::History,
         Locate::Stars,
     ]
@@ -168,7 +180,7 @@ macro_rules! shared {
 }
 
 impl Engine<2> for Delaunay2 {
-    const STRATEGIES: usize = 10;
+    const STRATEGIES: usize = 12;
 
     shared!(2);
 
@@ -206,7 +218,7 @@ impl Engine<2> for Delaunay2 {
 }
 
 impl Engine<3> for Delaunay3 {
-    const STRATEGIES: usize = 6;
+    const STRATEGIES: usize = 7;
 
     shared!(3);
 

@@ -157,8 +157,12 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             let seed = options.seed + trial;
             let queries = Kind::Uniform.points(QUERIES, seed + 1000);
             let each = |count: u64| count as f64 / QUERIES as f64;
-            let (mut d, insertion) = uniform(n, Hierarchy { ratio, seed, ..Hierarchy::default() }, seed)?;
+            let hierarchy = Hierarchy { ratio, seed, ..Hierarchy::default() };
+            // Built in bulk, without room for more.
+            let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
+            d.set_strategy(Locate::Hierarchy(hierarchy))?;
             let footprint = d.footprint();
+            let (mut d, insertion) = uniform(n, hierarchy, seed)?;
             let (sampled, ns) = ask(&d, &queries)?;
             d.set_strategy(Locate::Hierarchy(Hierarchy { ratio, seed, ..Hierarchy::only_levels() }))?;
             let levels = count(&d, &queries)?;
