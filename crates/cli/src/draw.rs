@@ -1,6 +1,6 @@
 //! `delone draw`: pictures.
 
-use delone::{Coordinates, HintOrder, Hints2};
+use delone::{Coordinates, Delaunay2, HintOrder, Hints2, VertexId};
 use delone_io::{Cut, Format, Trim, picture, write_mesh};
 
 use crate::args::{Choice, DrawArgs};
@@ -27,6 +27,10 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     stats.phase("read");
     if args.hints {
         options.links = links(&points, args)?;
+    }
+    if let (true, Some(radius)) = (args.certain, args.disks) {
+        [options.links, options.faint] = disk_edges(&points, radius, args)?;
+        options.edges = Some(false);
     }
     let d: R = room::build(&points, R::FASTEST, &args.input.label(), quiet)?;
     room::remark(&d, quiet);
@@ -85,9 +89,28 @@ fn cut(args: &DrawArgs) -> Result<Option<Cut>, Failure> {
     }
 }
 
+fn flat<P: Coordinates>(points: &[P]) -> Vec<[f64; 2]> {
+    points.iter().map(|p| [0, 1].map(|k| p.as_ref()[k])).collect()
+}
+
+/// The edges of all sets with a point in each disk, and those of some only.
+fn disk_edges<P: Coordinates>(
+    points: &[P],
+    radius: f64,
+    args: &DrawArgs,
+) -> Result<[Vec<[[f64; 2]; 2]>; 2], Failure> {
+    let refused = |error| Failure::points(&args.input.label(), &error);
+    let d = Delaunay2::from_points(&flat(points)).map_err(refused)?;
+    let edges = d.disk_edges(radius).map_err(refused)?;
+    let is_uncertain = |edge: &&[VertexId; 2]| edges.certain().binary_search(edge).is_err();
+    let segment = |edge: &[VertexId; 2]| edge.map(|v| d.point(v));
+    let faint = edges.possible().iter().filter(is_uncertain).map(segment).collect();
+    Ok([edges.certain().iter().map(segment).collect(), faint])
+}
+
 /// From each point of the plane to its hint.
 fn links<P: Coordinates>(points: &[P], args: &DrawArgs) -> Result<Vec<[[f64; 2]; 2]>, Failure> {
-    let points: Vec<[f64; 2]> = points.iter().map(|p| [0, 1].map(|k| p.as_ref()[k])).collect();
+    let points = flat(points);
     let hints = Hints2::from_points(&points, HintOrder::Random { seed: args.seed })
         .map_err(|error| Failure::points(&args.input.label(), &error))?;
     Ok(hints.order().zip(hints.hints()).skip(1).map(|(i, j)| [points[i], points[j]]).collect())

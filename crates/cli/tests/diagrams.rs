@@ -220,6 +220,17 @@ fn disks_and_hints_are_drawn() {
     assert_eq!(svg.matches("fill-opacity").count(), 1);
     place.fail("draw p.csv --disks=-1 -o x.svg", 2, "--disks");
     place.fail("draw p.csv --dim 3 --hints -o x.svg", 2, "for the plane");
+    place.file("square.csv", "0,0\n4,0\n4,4\n0,4\n");
+    place.succeed("draw square.csv --disks 0.25 --certain -o c.svg -o c.png --size 300 -q");
+    let svg = std::fs::read_to_string(place.path("c.svg")).expect("written");
+    let strokes = |colour: &str| {
+        let path = svg.lines().find(|line| line.contains(&format!(r#"stroke="{colour}""#))).expect("lines");
+        path.matches('M').count()
+    };
+    // The sides are certain, both diagonals possible.
+    assert_eq!((strokes("#2e7d32"), strokes("#cfd8dc")), (4, 2));
+    place.fail("draw p.csv --certain -o x.svg", 2, "--disks");
+    place.fail("draw p.csv --disks 1e308 --certain -o x.svg", 1, "radius");
     place.succeed("generate cube -n 200 --seed 1 -o model.ply");
     let table = place.succeed("experiment scan model.ply --largest 200");
     assert!(table.contains("Noisy samples of a scanned model"), "{table}");

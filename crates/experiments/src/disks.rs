@@ -1,7 +1,9 @@
 //! `delone experiment disks`: what the analysis of hints counts, and disks beyond its assumptions.
 //!
 //! Source: Devillers 2011: Lemma 1 and the claims of Theorem 3 (§4), disks that overlap (§6.1), disks of different radii
-//! (§6.2), balls in space (§6.3).
+//! (§6.2), balls in space (§6.3); what is the same in all instances, the strong and the weak problem (§1).
+
+use std::collections::BTreeMap;
 
 use delone::{Delaunay2, Error as Refusal, HintOrder, Hints2, Hints3, Imprecise, VertexId, Work};
 use delone_generators::{Kind, Kind3, Random, in_ball, moved};
@@ -13,6 +15,9 @@ use super::{Error, Findings, Options, decades};
 
 /// The largest set of which neighbourhoods are counted.
 const COUNTED: usize = 100_000;
+/// The largest set of which instances are compared, and how many of them.
+const COMPARED: usize = 2000;
+const INSTANCES: usize = 100;
 /// Radii of disks whose centres are at least two apart.
 const RADII: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
@@ -22,6 +27,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     overlaps(options, &mut findings)?;
     findings.tables.push(radii(options)?);
     findings.tables.push(misled(options)?);
+    findings.tables.push(edges(options)?);
     Ok(findings)
 }
 
@@ -176,6 +182,42 @@ fn misled(options: &Options<'_>) -> Result<Table, Error> {
         }
         let share = short(counts.mean() / n as f64);
         table.row([n.to_string(), counts.to_string(), share, format!("{given_up} of {}", options.trials)]);
+    }
+    Ok(table)
+}
+
+/// Edges that every instance has, and that some instance has, beside those of random instances.
+fn edges(options: &Options<'_>) -> Result<Table, Error> {
+    let n = options.largest.min(COMPARED);
+    let mut table = Table::new(
+        "disks-edges",
+        &format!(
+            "{n} disks, centres at least two apart: edges a point in every, all of 100, any of 100, and some instance"
+        ),
+        &["radius", "certain", "in all of 100", "in any of 100", "possible"],
+    );
+    for radius in [0.0, 0.0625, 0.125, 0.25, 0.5, 1.0] {
+        let mut counts = <[Trials; 4]>::default();
+        for trial in 0..options.trials as u64 {
+            let seed = options.seed + trial;
+            let centres = Kind::Disks.points(n, seed);
+            let of_centres = Delaunay2::from_points(&centres)?;
+            let edges = of_centres.disk_edges(radius)?;
+            let mut random = Random::new(seed + 1000);
+            let mut seen: BTreeMap<[VertexId; 2], usize> = BTreeMap::new();
+            for _ in 0..INSTANCES {
+                let instance = Delaunay2::from_points(&moved(&centres, radius, &mut random))?;
+                for [v, w] in instance.edges() {
+                    *seen.entry([v.min(w), v.max(w)]).or_default() += 1;
+                }
+            }
+            let all = seen.values().filter(|&&times| times == INSTANCES).count();
+            let numbers = [edges.certain().len(), all, seen.len(), edges.possible().len()];
+            for (count, number) in counts.iter_mut().zip(numbers) {
+                count.add(number as f64 / n as f64);
+            }
+        }
+        table.row([short(radius)].into_iter().chain(counts.map(|t| t.to_string())));
     }
     Ok(table)
 }

@@ -115,6 +115,14 @@ fn hints_cost_what_is_proved() {
     assert_eq!(overlap.lines().count(), 7);
     let visited = Cells::of(&findings, "disks-radii").column("visited");
     assert!(visited.iter().all(|visited| *visited < 5.0), "{visited:?}");
+    // What all instances have, what a hundred have, what one of them has, what any can have.
+    let edges = Cells::of(&findings, "disks-edges");
+    let heads = ["certain", "in all of 100", "in any of 100", "possible"].map(|head| edges.column(head));
+    assert_eq!(heads[0].len(), 6);
+    assert!(
+        heads.windows(2).all(|two| two[0].iter().zip(&two[1]).all(|(less, more)| less <= more)),
+        "{heads:?}"
+    );
     let misled = Cells::of(&findings, "disks-misled").column("visited");
     assert!(misled[3] > 3.0 * misled[0], "{misled:?}");
 }

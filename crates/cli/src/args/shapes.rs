@@ -131,6 +131,7 @@ pub(crate) struct VoronoiArgs {
   delone draw tile.laz --class 2 -o relief.png --size 3000 --edges=no
   delone draw model.ply --dim 3 --view 200,30 --cut 1,0,0,0.5 -o inside.png
   delone draw centres.csv --disks 1 --hints -o imprecise.svg
+  delone draw centres.csv --disks 0.5 --certain -o certain.svg
 
 What is drawn follows from the room there is; --edges, --points and --fill decide otherwise. With --dim 3 the hull is
 drawn, or what a cut leaves of the tetrahedra.")]
@@ -171,6 +172,10 @@ pub(crate) struct DrawArgs {
     /// In the plane, join each point to its hint: the nearest of those before it in a random order.
     #[arg(long)]
     pub(crate) hints: bool,
+    /// Instead of the edges of the points those of points anywhere in the disks: strongly what all such sets have, faintly what
+    /// some have.
+    #[arg(long, requires = "disks", conflicts_with_all = ["hints", "edges"])]
+    pub(crate) certain: bool,
     /// Seed of the random order of --hints.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,

@@ -6,6 +6,7 @@ pub(super) type Rgb = [u8; 3];
 pub(super) const PAPER: Rgb = [255, 255, 255];
 pub(super) const INK: Rgb = [38, 50, 56];
 pub(super) const EDGE: Rgb = [96, 125, 139];
+pub(super) const FAINT: Rgb = [207, 216, 220];
 pub(super) const HULL: Rgb = [216, 67, 21];
 pub(super) const POINT: Rgb = [26, 35, 126];
 pub(super) const DISK: Rgb = [187, 222, 251];

@@ -47,6 +47,8 @@ pub struct Options {
     pub disks: Option<f64>,
     /// In the plane, lines to draw, such as those from points to their hints.
     pub links: Vec<[[f64; 2]; 2]>,
+    /// In the plane, lines to draw faintly below all others.
+    pub faint: Vec<[[f64; 2]; 2]>,
     /// In the plane, the corners of the box that is shown, if it is not that of the points.
     pub window: Option<[[f64; 2]; 2]>,
 }
@@ -61,6 +63,7 @@ impl Default for Options {
             fill: None,
             disks: None,
             links: Vec::new(),
+            faint: Vec::new(),
             window: None,
         }
     }

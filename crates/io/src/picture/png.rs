@@ -9,7 +9,7 @@ use tiny_skia::{
     Transform,
 };
 
-use super::colour::{DISK, EDGE, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
+use super::colour::{DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
 use super::raster::Raster;
 use super::relief::{Paint, area};
 use super::view::View;
@@ -35,6 +35,8 @@ pub(super) fn draw(
     if let Some(radius) = options.disks {
         canvas.dots(vertices(), view.length(radius), DISK, 180);
     }
+    let faint = options.faint.iter().map(|line| line.map(|p| view.place(p)));
+    canvas.lines(faint, FAINT, 255, layers.line_width());
     if layers.edges {
         let alpha = if mesh.heights.is_some() { 90 } else { 255 };
         canvas.edges(mesh, view, layers.line_width(), alpha);

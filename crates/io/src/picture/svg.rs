@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::Triangulation;
 
-use super::colour::{DISK, EDGE, HULL, LINK, POINT, Rgb};
+use super::colour::{DISK, EDGE, FAINT, HULL, LINK, POINT, Rgb};
 use super::relief::{Paint, area};
 use super::view::View;
 use super::{Layers, Options};
@@ -35,6 +35,9 @@ pub(super) fn write(
     if let Some(radius) = options.disks {
         writeln!(out, r#"<g fill="{}" fill-opacity="0.7">"#, hex(DISK))?;
         circles(out, view, d.vertices().map(|v| (mesh.point(v), v.index())), view.length(radius))?;
+    }
+    if !options.faint.is_empty() {
+        segments(out, view, options.faint.iter().copied(), FAINT, layers.line_width())?;
     }
     if layers.edges {
         let edges = mesh.edges().map(|(ends, _)| ends.map(|v| mesh.point(v)));
