@@ -29,7 +29,7 @@ fn cap(i: [f64; 2], j: [f64; 2], k: [f64; 2], radius: f64, sign: f64) -> Option<
     let u = [j[0] - i[0], j[1] - i[1]];
     let length = u[0].hypot(u[1]);
     // In units of half the distance of i and j, with both on an axis: (-1, 0) and (1, 0).
-    let m = [k[0] - (i[0] + j[0]) / 2.0, k[1] - (i[1] + j[1]) / 2.0];
+    let m = [k[0] - f64::midpoint(i[0], j[0]), k[1] - f64::midpoint(i[1], j[1])];
     let x = 2.0 * (m[0] * u[0] + m[1] * u[1]) / (length * length);
     let y = 2.0 * (m[1] * u[0] - m[0] * u[1]) / (length * length);
     let e = 4.0 * radius / length;
@@ -152,7 +152,10 @@ fn what_is_not_certain_is_missing_somewhere() {
             let (p, q) = (centres[i], centres[j]);
             let is_missing = (-400..=400).any(|t| {
                 let s = (f64::from(t) / 401.0 * FRAC_PI_2).tan() / 2.0;
-                let c = [(p[0] + q[0]) / 2.0 - s * (q[1] - p[1]), (p[1] + q[1]) / 2.0 + s * (q[0] - p[0])];
+                let c = [
+                    f64::midpoint(p[0], q[0]) - s * (q[1] - p[1]),
+                    f64::midpoint(p[1], q[1]) + s * (q[0] - p[0]),
+                ];
                 let instance: Vec<[f64; 2]> = (0..centres.len())
                     .map(|k| {
                         let to = [centres[k][0] - c[0], centres[k][1] - c[1]];
