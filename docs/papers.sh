@@ -31,7 +31,7 @@ experiment() {
 }
 
 experiment scopes 100 1000 1000
-experiment order 100 3000 3000
+experiment order 100 100000 100000
 experiment conflicts 100 1000 1000
 experiment history 100 200000 200000 --trials 1
 experiment delaunay-tree 100 100000 100000
@@ -75,5 +75,12 @@ if command -v valgrind > /dev/null; then
     done
 else
     echo "== cache misses: skipped, there is no valgrind"
+fi
+# The pages show some of the plots; tables are kept.
+if [ "$folder" = docs/results ]; then
+    for plot in "$folder"/*.svg; do
+        shown=docs/figures/$(basename "$plot")
+        if [ -e "$shown" ]; then mv "$plot" "$shown"; else rm "$plot"; fi
+    done
 fi
 ls "$folder"

@@ -10,7 +10,7 @@
 //! The same in the plane and in space: facets are edges or triangles. Orders are random where the tree is built; later sites
 //! follow as they come. As long as the sites do not span the space there is no tree, and walks start at the last vertex.
 //!
-//! Cost in the plane, expected over random orders: O(n) memory, about 140 bytes a triangle, and O(log n) conflict tests a
+//! Cost in the plane, expected over random orders: O(n) memory, about 86 bytes a triangle, and O(log n) conflict tests a
 //! search. In space as many tetrahedra as ever were.
 
 mod remove;

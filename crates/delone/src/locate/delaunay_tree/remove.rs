@@ -9,9 +9,9 @@
 //! Across a facet of the border there are a node of the fill, one of the star, and one outside: what of them x killed, and
 //! what not, says whether x has made a node there that only loses a parent, or makes one that was not there because of p.
 //!
-//! Cost: for each such x the size of the fill then: O(1) expected for a random vertex of a random order in the plane, where a
-//! vertex has 18 nodes in the course of time on average. A vertex of the first simplex, one of three among all, costs a new
-//! tree: O(n log n), O(log n) expected if what is removed does not hang on the random order.
+//! Cost: O(k log k) for k nodes of the star in the course of time, their children, and what x kills and makes in the fill: O(1)
+//! expected for a random vertex of a random order in the plane, where k is 18 on average. A vertex of the first simplex, one of
+//! three among all, costs a new tree: O(n log n), O(log n) expected if what is removed does not hang on the random order.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,28 +26,56 @@ struct Fill<const N: usize> {
     star: BTreeSet<u32>,
     /// The present ones by their facet of the border.
     border: BTreeMap<Facet<N>, u32>,
-    /// Those of the fill.
-    nodes: Vec<u32>,
+    /// The facets of the nodes of the fill, each with one side on its border, or two.
+    facets: BTreeMap<Facet<N>, Vec<Side>>,
 }
 
 impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
     /// Removes a site that is not one of the first.
     pub(super) fn remove<G: Simplices<N, Point = P>>(&mut self, p: u32) {
-        let star = self.star(p);
-        let mut fill = Fill { star, border: BTreeMap::new(), nodes: self.killed_by(p) };
-        for &t in &fill.nodes {
+        let mut fill = Fill { star: self.star(p), border: BTreeMap::new(), facets: BTreeMap::new() };
+        for t in self.killed_by(p) {
             self.nodes[t as usize].killer = NONE;
+            self.enter(t, &mut fill);
         }
-        self.turn(p, p, &mut fill);
-        let children = fill.star.iter().flat_map(|&t| &self.nodes[t as usize].children);
-        let makers = fill.star.iter().chain(children).map(|&t| self.nodes[t as usize].maker);
-        let changes: BTreeMap<u64, u32> =
-            makers.filter(|&x| x != p).map(|x| (self.sites[x as usize].time, x)).collect();
-        for x in changes.into_values() {
-            self.replay::<G>(p, x, &mut fill);
+        // For each later site what it had to do with the star: by time, the site, and the nodes that it killed or made others on.
+        let mut changes: BTreeMap<u64, (u32, Vec<u32>)> = BTreeMap::new();
+        for &t in &fill.star {
+            let node = &self.nodes[t as usize];
+            let makers = node.children.iter().map(|&child| self.nodes[child as usize].maker);
+            for x in makers.chain([node.killer]).filter(|&x| x != NONE) {
+                let touched = &mut changes.entry(self.sites[x as usize].time).or_insert((x, Vec::new())).1;
+                if touched.last() != Some(&t) {
+                    touched.push(t);
+                }
+            }
+        }
+        self.turn(p, p, &[], &mut fill);
+        for (x, touched) in changes.into_values() {
+            self.replay::<G>(p, x, &touched, &mut fill);
         }
         self.close(p, &fill);
         self.forget(p, &fill);
+    }
+
+    /// A node of the fill comes.
+    fn enter(&self, t: u32, fill: &mut Fill<N>) {
+        for k in 0..N {
+            fill.facets.entry(self.facet(t, k)).or_default().push((t, k));
+        }
+    }
+
+    /// A node of the fill goes.
+    fn leave(&self, t: u32, fill: &mut Fill<N>) {
+        for k in 0..N {
+            let facet = self.facet(t, k);
+            if let Some(sides) = fill.facets.get_mut(&facet) {
+                sides.retain(|side| side.0 != t);
+                if sides.is_empty() {
+                    fill.facets.remove(&facet);
+                }
+            }
+        }
     }
 
     /// All nodes that ever had a site as a corner: those that it made, and what hangs on them.
@@ -77,25 +105,18 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
         killed.into_iter().collect()
     }
 
-    /// The star of p as the site x leaves it.
-    fn turn(&self, p: u32, x: u32, fill: &mut Fill<N>) {
-        fill.border.retain(|_, t| self.nodes[*t as usize].killer != x);
+    /// The border of the star of p as the site x leaves it, which killed some of these nodes of the star.
+    fn turn(&self, p: u32, x: u32, touched: &[u32], fill: &mut Fill<N>) {
+        for &t in touched.iter().filter(|t| self.nodes[**t as usize].killer == x) {
+            if let Some(k) = self.nodes[t as usize].corner(p) {
+                fill.border.remove(&self.facet(t, k));
+            }
+        }
         for &t in &self.sites[x as usize].made {
             if let Some(k) = self.nodes[t as usize].corner(p) {
                 fill.border.insert(self.facet(t, k), t);
             }
         }
-    }
-
-    /// The facets of the fill, each with one side on its border, or two.
-    fn facets(&self, fill: &Fill<N>) -> BTreeMap<Facet<N>, Vec<Side>> {
-        let mut facets: BTreeMap<Facet<N>, Vec<Side>> = BTreeMap::new();
-        for &t in &fill.nodes {
-            for k in 0..N {
-                facets.entry(self.facet(t, k)).or_default().push((t, k));
-            }
-        }
-        facets
     }
 
     /// What is across a facet of the border outside, when the site x comes: the node of the star, the node outside.
@@ -116,16 +137,42 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
         Some((s, (o, j)))
     }
 
-    /// Inserts the site x again, in the fill.
-    fn replay<G: Simplices<N, Point = P>>(&mut self, p: u32, x: u32, fill: &mut Fill<N>) {
+    /// The nodes of the fill in conflict with the site x die: all are found from where x killed the star. Returns them, and the
+    /// facets at which something may have changed.
+    fn kill<G: Simplices<N, Point = P>>(
+        &mut self,
+        p: u32,
+        x: u32,
+        touched: &[u32],
+        fill: &Fill<N>,
+    ) -> (Vec<u32>, BTreeSet<Facet<N>>) {
         let q = self.sites[x as usize].point;
-        for &t in &fill.nodes {
-            if self.is_hit::<G>(t, q) {
-                self.nodes[t as usize].killer = x;
+        let corner = |t: u32| self.nodes[t as usize].corner(p).map(|k| self.facet(t, k));
+        let mut facets: BTreeSet<Facet<N>> = touched.iter().filter_map(|&t| corner(t)).collect();
+        let mut pending: Vec<Facet<N>> = facets.iter().copied().collect();
+        let mut dead = Vec::new();
+        while let Some(facet) = pending.pop() {
+            for &(t, _) in fill.facets.get(&facet).into_iter().flatten() {
+                if self.nodes[t as usize].killer != x && self.is_hit::<G>(t, q) {
+                    self.nodes[t as usize].killer = x;
+                    dead.push(t);
+                    let around = (0..N).map(|k| self.facet(t, k));
+                    pending.extend(around.filter(|&facet| facets.insert(facet)));
+                }
             }
         }
+        (dead, facets)
+    }
+
+    /// Inserts the site x again, in the fill.
+    fn replay<G: Simplices<N, Point = P>>(&mut self, p: u32, x: u32, touched: &[u32], fill: &mut Fill<N>) {
+        let (dead, facets) = self.kill::<G>(p, x, touched, fill);
         let mut new = Vec::new();
-        for (facet, sides) in self.facets(fill) {
+        for facet in facets {
+            let Some(sides) = fill.facets.get(&facet) else {
+                debug_assert!(false, "what the star has on its border, the fill has");
+                continue;
+            };
             let inner @ (d, k) = sides[0];
             let is_dead = |tree: &Self, t: u32| tree.nodes[t as usize].killer == x;
             if let Some(&other) = sides.get(1) {
@@ -167,9 +214,9 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
                 new.push(self.bear(x, father.0, father.1, step.0));
             }
         }
-        fill.nodes.retain(|&t| self.nodes[t as usize].killer != x);
-        fill.nodes.append(&mut new);
-        self.turn(p, x, fill);
+        dead.into_iter().for_each(|t| self.leave(t, fill));
+        new.into_iter().for_each(|t| self.enter(t, fill));
+        self.turn(p, x, touched, fill);
     }
 
     /// Makes two sides of a facet neighbours.
@@ -180,9 +227,9 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
 
     /// Glues the fill of today to what is around.
     fn close(&mut self, p: u32, fill: &Fill<N>) {
-        for (facet, sides) in self.facets(fill) {
+        for (facet, sides) in &fill.facets {
             let across = sides.get(1).copied();
-            let across = across.or_else(|| Some(self.outside(p, None, &facet, fill)?.1));
+            let across = across.or_else(|| Some(self.outside(p, None, facet, fill)?.1));
             if let Some(across) = across {
                 self.meet(sides[0], across);
             }
