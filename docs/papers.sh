@@ -10,6 +10,13 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${1:-docs/results}
 size=${2:-usual}
+case $size in
+small | usual | long) ;;
+*)
+    echo "papers.sh: there is no size $size: small, usual or long" >&2
+    exit 2
+    ;;
+esac
 mkdir -p "$folder"
 cargo build --release -q
 delone=target/release/delone

@@ -49,6 +49,11 @@ $delone animate "$work/some.csv" --show lists --steps 23 --size 400 -o $here/lis
 $delone animate "$work/several.csv" --show levels --steps 30 --size 400 -o $here/levels.png
 $delone animate "$work/several.csv" --show jump --steps 30 --size 400 -o $here/jump.png
 $delone animate "$work/thirty.csv" --show hints --size 400 -o $here/walks.png
+# The five sets of the paper of the Delaunay hierarchy (Devillers 1998, Figure 5).
+for kind in uniform ellipse2 ellipse parabola circle; do
+    $delone generate $kind -n 400 --seed 1 -o "$work/$kind.csv"
+    $delone draw "$work/$kind.csv" --fill=no -o $here/set-$kind.png --size 360
+done
 # A scanned head, if there is one.
 scan=${SCAN:-../shared/data/igea.ply}
 if [ -e "$scan" ]; then

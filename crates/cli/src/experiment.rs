@@ -74,6 +74,8 @@ fn failure(experiment: &Experiment, error: &Error, args: &ExperimentArgs) -> Fai
         Error::TooSmall { smallest, .. } => {
             Failure::usage(error, format!("give at least --largest {smallest} to {}", experiment.name))
         }
+        Error::LargeSeed(_) => Failure::usage(error, "give a smaller --seed"),
+        Error::WideModel => Failure::new(error, "scan needs coordinates whose squares are finite"),
         Error::SmallModel(_) | Error::Library(_) => match &args.model {
             Some(path) => {
                 Failure::new(format!("{}: {error}", path.display()), "give a model of some thousand points")

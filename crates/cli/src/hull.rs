@@ -16,6 +16,19 @@ pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
     let mut stats = Stats::start();
+    let is_random = !matches!(args.algorithm, None | Some(HullAlgorithm::Quickhull));
+    if !args.dim.is_space() && args.algorithm.is_some() {
+        return Err(Failure::usage(
+            "--algorithm is for hulls in space",
+            "leave --algorithm out, or give --dim 3",
+        ));
+    }
+    if args.seed.is_some() && !is_random {
+        return Err(Failure::usage(
+            "--seed is for random orders",
+            "choose --dim 3 --algorithm history or flips, or leave --seed out",
+        ));
+    }
     if args.dim.is_space() {
         space(args, &outputs, &mut stats, quiet)?;
     } else {
@@ -77,15 +90,16 @@ fn space(
     stats.phase("read");
     stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
-    let hull = match args.algorithm {
+    let seed = args.seed.unwrap_or_default();
+    let hull = match args.algorithm.unwrap_or(HullAlgorithm::Quickhull) {
         HullAlgorithm::Quickhull => Hull3::from_points(&points),
         HullAlgorithm::History => {
-            let history = HullHistory3::from_points(&points, args.seed);
+            let history = HullHistory3::from_points(&points, seed);
             let work = history.as_ref().ok().and_then(|history| history.counters().work());
             stats.set("counters", work_done(&work.unwrap_or_default()));
             history.map(|history| history.hull().clone())
         }
-        HullAlgorithm::Flips => Hull3::by_flips(&points, args.seed).map(|(hull, counters)| {
+        HullAlgorithm::Flips => Hull3::by_flips(&points, seed).map(|(hull, counters)| {
             stats.set("counters", work_done(&counters.work().unwrap_or_default()));
             hull
         }),

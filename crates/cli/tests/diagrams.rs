@@ -135,6 +135,14 @@ fn hulls_and_furthest_points() {
     place.fail("hull bad.csv -o h.npy", 1, "point 1");
     place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");
     place.fail("hull p.csv -o h.png", 2, "npy or csv");
+    // What would change nothing is refused.
+    place.fail("hull p.csv --algorithm flips -o h.npy", 2, "--algorithm is for hulls in space");
+    place.fail("hull p.csv --seed 3 -o h.npy", 2, "--seed is for random orders");
+    place.fail(
+        "hull p.csv --dim 3 --algorithm quickhull --seed 3 -o h.npy",
+        2,
+        "--seed is for random orders",
+    );
     place.fail("hull p.csv --dim 3 -o h.laz", 2, "no hull in space");
     place.fail("hull p.csv --dim 3 -o h.svg --view 10,100", 2, "two angles");
     place.fail("hull p.csv --dim 3 -o h.npy", 1, "no third coordinate");
@@ -208,6 +216,8 @@ fn motions_are_shown() {
         assert!(stats["pictures"].as_u64().is_some_and(|count| (1..=4).contains(&count)), "{show}");
     }
     place.fail("animate p.csv -o x.png --radius inf", 2, "--radius");
+    place.fail("animate p.csv -o x.png --radius -1", 2, "--radius is a length");
+    place.fail("animate p.csv -o x.png --show levels --radius 1", 2, "for points that move");
 }
 
 #[test]
@@ -236,6 +246,19 @@ fn disks_and_hints_are_drawn() {
     assert!(table.contains("Noisy samples of a scanned model"), "{table}");
     place.fail("experiment scan", 2, "needs a file");
     place.fail("experiment imprecise model.ply", 2, "only scan");
+    let last = u64::MAX;
+    place.fail(&format!("experiment scopes --largest 100 --seed {last}"), 2, "seed");
     place.file("few.csv", "1,2,3\n");
     place.fail("experiment scan few.csv", 1, "too few");
+    // Points are named as they are in the file, and the file is not blamed for sums that overflow.
+    let model = |wide: &str| -> String {
+        let row = |i: i32| {
+            if i == 77 { format!("{wide} 1 2\n") } else { format!("{i} {} {}\n", i * i % 17, i % 5) }
+        };
+        (0..150).map(row).collect()
+    };
+    place.file("nan.xyz", model("nan"));
+    place.fail("experiment scan nan.xyz", 1, "point 77 has the x coordinate NaN");
+    place.file("wide.xyz", model("1e300"));
+    place.fail("experiment scan wide.xyz", 1, "the model is too large");
 }

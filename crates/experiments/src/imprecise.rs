@@ -118,6 +118,12 @@ pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
     if model.len() < 100 {
         return Err(Error::SmallModel(model.len()));
     }
+    // Named by their place in the model, which is shuffled below.
+    for (index, p) in model.iter().enumerate() {
+        if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
+            return Err(delone::Error::NotFinite { index, axis, value: p[axis] }.into());
+        }
+    }
     let mut findings = Findings::default();
     let mut report = Report::new("scan", "Noisy samples of a scanned model", &METHODS[..4], &SCAN);
     let mut random = Random::new(seed);
@@ -134,6 +140,9 @@ pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
             });
             let radius = far.sum::<f64>() / n as f64;
             let instance = moved(centres, radius, &mut random);
+            if instance.iter().flatten().any(|x| !x.is_finite()) {
+                return Err(Error::WideModel);
+            }
             in_space(centres, &instance, seed, &mut row)?;
         }
         report.row(n, row);

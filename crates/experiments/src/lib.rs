@@ -54,12 +54,18 @@ pub enum Error {
         /// The smallest set of the experiment.
         smallest: usize,
     },
+    /// Trials take the seeds that follow this one, and there would be none.
+    #[error("--seed {0} is above 2^63: trials take the seeds that follow it")]
+    LargeSeed(u64),
     /// The experiment needs points in space.
     #[error("this experiment needs the points of a scanned model")]
     NoModel,
     /// The model has too few points.
     #[error("{0} points are too few for an experiment")]
     SmallModel(usize),
+    /// The model is so large that sums of distances, or points with noise, are not finite.
+    #[error("the model is too large for noise around its points: scale it down")]
+    WideModel,
     /// The library refused.
     #[error(transparent)]
     Library(#[from] delone::Error),
@@ -224,6 +230,9 @@ impl Experiment {
         let (largest, smallest) = (options.largest, self.smallest);
         if largest < smallest {
             return Err(Error::TooSmall { largest, smallest });
+        }
+        if options.seed > 1 << 63 {
+            return Err(Error::LargeSeed(options.seed));
         }
         if self.takes_model() && options.model.is_empty() {
             return Err(Error::NoModel);

@@ -33,6 +33,12 @@ pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
     if args.radius.is_some_and(|radius| !radius.is_finite() || radius < 0.0) {
         return Err(Failure::usage("--radius is a length", "as in --radius 0.5, in coordinate units"));
     }
+    if args.radius.is_some() && !matches!(args.show, Show::Motion | Show::Hints) {
+        return Err(Failure::usage(
+            "--radius is for points that move",
+            "choose --show motion or hints, or leave --radius out",
+        ));
+    }
     let mut stats = Stats::start();
     let cloud = files::points(&args.input, 2, quiet)?;
     stats.phase("read");

@@ -28,7 +28,7 @@ pub(crate) struct GenerateArgs {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Move each point at random, by this at most: an instance of the same set, row by row, as imprecise points have them.
-    #[arg(long, value_name = "RADIUS", default_value_t = 0.0, value_parser = length)]
+    #[arg(long, value_name = "RADIUS", default_value_t = 0.0, value_parser = length, allow_negative_numbers = true)]
     pub(crate) noise: f64,
     /// Output file (csv xyz txt npy bin node ply obj geojson), or - for standard output.
     #[arg(long, short, value_name = "OUT")]

@@ -32,12 +32,12 @@ pub(crate) struct HullArgs {
     pub(crate) to: Option<Format>,
     #[command(flatten)]
     pub(crate) dim: DimArgs,
-    /// Algorithm in space; the hull is the same.
-    #[arg(long, value_name = "NAME", default_value = "quickhull")]
-    pub(crate) algorithm: HullAlgorithm,
-    /// Seed of the random order of `history` and `flips`.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub(crate) seed: u64,
+    /// Algorithm in space; the hull is the same [default: quickhull].
+    #[arg(long, value_name = "NAME")]
+    pub(crate) algorithm: Option<HullAlgorithm>,
+    /// Seed of the random order of `history` and `flips` [default: 0].
+    #[arg(long, value_name = "S")]
+    pub(crate) seed: Option<u64>,
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
 }
@@ -207,8 +207,9 @@ pub(crate) struct AnimateArgs {
     /// Number of steps, at most.
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(..10_000))]
     pub(crate) steps: u32,
-    /// How far a point goes in a step at most [default: a fifth of the distance of neighbours in an even set].
-    #[arg(long, value_name = "RADIUS")]
+    /// Of motion: how far a point goes in a step at most [default: a fifth of the distance of neighbours in an even set]; of
+    /// hints: how far an instance is from its hint at most [default: half of the least distance of two points].
+    #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
     pub(crate) radius: Option<f64>,
     /// Milliseconds a picture is shown [default: 40, where an algorithm is shown 600].
     #[arg(long, value_name = "MS")]
@@ -216,7 +217,7 @@ pub(crate) struct AnimateArgs {
     /// The longer side in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,
-    /// Seed of the motion.
+    /// Seed of the motion, and of whatever is random in an algorithm.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
 }

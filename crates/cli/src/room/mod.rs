@@ -121,7 +121,7 @@ pub(crate) fn strategy<R: Room>(args: &StrategyArgs, purpose: &str) -> Result<Lo
     located::<R>(args, LocateName::Tree)?.ok_or_else(|| {
         Failure::usage(
             format!("that strategy is for building in bulk, not for {purpose}"),
-            "choose --locate tree, walk, jump-and-walk, hierarchy or delaunay-tree; in the plane history too",
+            "choose --locate tree, walk, jump-and-walk, hierarchy or delaunay-tree; in the plane history or stars too",
         )
     })
 }
