@@ -30,7 +30,7 @@
 //! | --- | --- | --- | --- |
 //! | points, all at once or coming and going | [`Delaunay2`] | [`Delaunay3`] | O(n log n), in space where the result is linear; a change O(log n) on average |
 //! | points known nearly beforehand, in many instances | [`Hints2`] | [`Hints3`] | O(n) an instance |
-//! | edges of points known by disks, in every and in some instance | [`DiskEdges2`] | | O(n) for few overlaps |
+//! | edges of points known by disks, in every and in some instance | [`DiskEdges2`] | | about O(n) where disks overlap little |
 //! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
