@@ -7,8 +7,10 @@
 #
 # Then: BLESS=1 cargo test -p delone-experiments --test page
 set -euo pipefail
+# The folder is the caller's.
+folder=${1:+$(realpath -m "$1")}
+folder=${folder:-docs/results}
 cd "$(dirname "$0")/.."
-folder=${1:-docs/results}
 size=${2:-usual}
 case $size in
 small | usual | long) ;;
