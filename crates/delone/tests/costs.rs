@@ -68,41 +68,50 @@ fn counted(operation: impl FnOnce(&mut Work)) -> Work {
     work
 }
 
+/// Queries among so many points of each kind.
+fn queries_visit_few_triangles(n: usize) {
+    for (name, points) in all(n) {
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let mut random = Random::new(1);
+        let (mut visited, mut compared) = (Counts::default(), Counts::default());
+        for _ in 0..2000 {
+            let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
+            let middle = [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0);
+            visited.add(counted(|work| _ = d.find_observed(middle, work).expect("finite")).visited);
+            compared.add(counted(|work| _ = d.nearest_observed(middle, work).expect("finite")).compared);
+        }
+        let calm = ["uniform", "grid"].contains(&&*name);
+        let average = if calm { 6.0 } else { 400.0_f64.max(beside_a_line(&name, n) as f64 / 20.0) };
+        let straight = ["two sloped lines", "two vertical lines", "cross", "parabola", "two circles"];
+        let most = if calm {
+            40
+        } else if straight.contains(&&*name) {
+            600
+        } else {
+            4000
+        };
+        visited.hold(
+            &format!("{name}, {n} points: triangles of a query"),
+            average,
+            most.max(beside_a_line(&name, n)),
+        );
+        compared.hold(
+            &format!("{name}, {n} points: comparisons for the nearest"),
+            if calm { 12.0 } else { n as f64 },
+            u64::MAX,
+        );
+    }
+}
+
 #[test]
 fn queries_visit_few_triangles_on_any_points() {
-    for n in [20_000, 100_000] {
-        for (name, points) in all(n) {
-            let d = Delaunay2::from_points(&points).expect("finite");
-            let mut random = Random::new(1);
-            let (mut visited, mut compared) = (Counts::default(), Counts::default());
-            for _ in 0..2000 {
-                let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
-                let middle = [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0);
-                visited.add(counted(|work| _ = d.find_observed(middle, work).expect("finite")).visited);
-                compared.add(counted(|work| _ = d.nearest_observed(middle, work).expect("finite")).compared);
-            }
-            let calm = ["uniform", "grid"].contains(&&*name);
-            let average = if calm { 6.0 } else { 400.0_f64.max(beside_a_line(&name, n) as f64 / 20.0) };
-            let straight = ["two sloped lines", "two vertical lines", "cross", "parabola", "two circles"];
-            let most = if calm {
-                40
-            } else if straight.contains(&&*name) {
-                600
-            } else {
-                4000
-            };
-            visited.hold(
-                &format!("{name}, {n} points: triangles of a query"),
-                average,
-                most.max(beside_a_line(&name, n)),
-            );
-            compared.hold(
-                &format!("{name}, {n} points: comparisons for the nearest"),
-                if calm { 12.0 } else { n as f64 },
-                u64::MAX,
-            );
-        }
-    }
+    queries_visit_few_triangles(20_000);
+}
+
+#[test]
+#[ignore = "long: .ci/run"]
+fn queries_visit_few_triangles_on_many_points() {
+    queries_visit_few_triangles(100_000);
 }
 
 #[test]
