@@ -116,8 +116,10 @@ pub struct Split {
     pub points: Vec<Point2>,
     /// For each segment the vertices along it, of equal points the first; one alone if its ends are equal.
     pub chains: Vec<Vec<usize>>,
-    /// The rounds in which some edge was replaced.
+    /// The rounds in which edges crossed.
     pub rounds: usize,
+    /// How many pairs of edges crossed, in all rounds.
+    pub crossings: usize,
 }
 
 impl Split {
@@ -130,11 +132,13 @@ impl Split {
             chain.dedup();
             chain
         };
-        let mut split =
-            Self { points: points.to_vec(), chains: segments.iter().map(chain).collect(), rounds: 0 };
-        while split.round() {
-            split.rounds += 1;
-        }
+        let mut split = Self {
+            points: points.to_vec(),
+            chains: segments.iter().map(chain).collect(),
+            rounds: 0,
+            crossings: 0,
+        };
+        while split.round() {}
         split
     }
 
@@ -166,14 +170,23 @@ impl Split {
         let is_first = |&v: &usize| !self.points[..v].contains(&self.points[v]);
         let vertices: Vec<usize> = (0..self.points.len()).filter(is_first).collect();
         // What is on each edge, with the part of the way where it is: vertices and rounded crossings, by coordinates.
+        let mut crossings = 0;
         let on_edge = |&edge: &[usize; 2]| {
-            let mut found: Vec<(Fraction, Point2)> = Vec::new();
-            for &v in vertices.iter().filter(|&&v| exact.is_on(v, edge)) {
-                found.push((exact.part(v, edge), self.points[v]));
-            }
+            let is_on = |v: &usize| exact.is_on(*v, edge);
+            let mut found: Vec<(Fraction, Point2)> = vertices
+                .iter()
+                .copied()
+                .filter(is_on)
+                .map(|v| (exact.part(v, edge), self.points[v]))
+                .collect();
+            let on_it = found.len();
             for &other in edges.iter().filter(|&&other| exact.cross(edge, other)) {
                 let (part, place) = exact.crossing(edge, other);
-                found.push((part, place.map(|fraction| nearest(&fraction, exact.exponent) + 0.0)));
+                // A crossing at a vertex is none.
+                if !found[..on_it].iter().any(|((a, b), _)| a * &part.1 == &part.0 * b) {
+                    crossings += 1;
+                    found.push((part, place.map(|fraction| nearest(&fraction, exact.exponent) + 0.0)));
+                }
             }
             found.sort_by(|((a, b), _), ((c, d), _)| (a * d).cmp(&(c * b)));
             found.into_iter().map(|(_, p)| p).collect::<Vec<Point2>>()
@@ -182,6 +195,9 @@ impl Split {
         if found.iter().all(Vec::is_empty) {
             return false;
         }
+        // Each was met from both sides.
+        self.crossings += crossings / 2;
+        self.rounds += usize::from(crossings > 0);
         let mut new: Vec<Point2> =
             found.iter().flatten().filter(|p| !self.points.contains(p)).copied().collect();
         new.sort_by(|p, q| p.partial_cmp(q).expect("finite"));
@@ -262,7 +278,7 @@ mod tests {
         let split = Split::new(&points, &[[4, 1], [2, 3], [0, 4], [1, 0]]);
         assert_eq!(split.points[5..], [[1.0, 1.0]]);
         assert_eq!(split.chains, [vec![0, 5, 1], vec![2, 5, 3], vec![0], vec![1, 5, 0]]);
-        assert_eq!((split.rounds, split.edges().len()), (1, 4));
+        assert_eq!((split.rounds, split.crossings, split.edges().len()), (1, 1, 4));
         assert_eq!(split.covering([0, 5]), [(0, true), (3, false)]);
     }
 
