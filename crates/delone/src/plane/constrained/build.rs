@@ -1,0 +1,313 @@
+//! Points and segments to a constrained triangulation.
+//!
+//! The points first, by divide and conquer on all threads. Segments that are edges already are found on all threads and
+//! fixed; the rest is forced in biased random rounds, each along a curve, so that k segments in n points take O(n log n + n
+//! log^2 k) expected whatever they are.
+//!
+//! Source of the order: Shewchuk & Brown, CGTA 2015; Agarwal, Arge & Yi, "I/O-efficient construction of constrained Delaunay
+//! triangulations", ESA 2005. A walk that begins at the end with fewer triangles makes hubs linear.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use super::crossings::{self, Crossing};
+use super::segments::Segments;
+use super::{Constrained2, ConstraintReport2, split};
+use crate::error::Error;
+use crate::ids::{EdgeId, MAX_POINTS, Place, VertexId};
+use crate::mesh::Mesh2;
+use crate::mesh::triangles::channel::Channel;
+use crate::order::plane::insertion_order;
+use crate::parallel;
+use crate::plane::layer::Layer;
+use crate::plane::{Delaunay2, construct};
+use crate::points::{Position2, check_count, check_finite};
+use crate::prefetch::prefetch;
+
+/// What happens where two segments cross.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Crossings {
+    /// It is an error: a crossing may be a mistake in the data, and to split it moves geometry a little.
+    #[default]
+    Refuse,
+    /// All that cross are split at the crossing, computed exactly and rounded once to the nearest coordinates, in rounds
+    /// until nothing crosses. Vertices of the input stay where they are; the result is a function of the set of points and of
+    /// the union of the segments.
+    Split,
+}
+
+/// Seed of the order of segments; the result does not depend on it.
+const ANY_SEED: u64 = 1;
+/// Segments ahead whose ends are asked of memory, and whose stars then.
+const AHEAD: [usize; 2] = [16, 8];
+
+impl Constrained2 {
+    /// The triangulation of no points.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Triangulates points and segments between them, given by the indices of their ends.
+    ///
+    /// O(n log n + n log^2 k) expected for n points and k segments; some 110 bytes a point above the input.
+    ///
+    /// # Errors
+    /// [`Error::SegmentsCross`] if two segments cross at no vertex, [`Error::NoSuchPoint`] for an index that is none,
+    /// [`Error::NotFinite`] and [`Error::TooManyPoints`] as [`Delaunay2::from_points`].
+    pub fn from_parts<P: Position2>(points: &[P], segments: &[[usize; 2]]) -> Result<Self, Error> {
+        Self::with_crossings(points, segments, Crossings::Refuse)
+    }
+
+    /// Triangulates points and segments, with a choice of what happens where segments cross.
+    ///
+    /// # Errors
+    /// As [`Self::from_parts`]; segments that cross are none with [`Crossings::Split`].
+    ///
+    /// ```
+    /// use delone::{Constrained2, Crossings};
+    ///
+    /// let (points, segments) = ([[0, 0], [2, 2], [0, 2], [2, 0]], [[0, 1], [2, 3]]);
+    /// assert!(Constrained2::from_parts(&points, &segments).is_err());
+    /// let c = Constrained2::with_crossings(&points, &segments, Crossings::Split)?;
+    /// assert_eq!(c.points()[4], [1.0, 1.0]);
+    /// assert_eq!(c.constraints().count(), 4);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn with_crossings<P: Position2>(
+        points: &[P],
+        segments: &[[usize; 2]],
+        crossings: Crossings,
+    ) -> Result<Self, Error> {
+        check_count(points.len(), MAX_POINTS)?;
+        Self::assemble(parallel::collect(points.len(), |i| points[i].xy()), segments, crossings)
+    }
+
+    /// The same with coordinates that it may keep.
+    pub(in crate::plane) fn assemble(
+        points: Vec<[f64; 2]>,
+        segments: &[[usize; 2]],
+        crossings: Crossings,
+    ) -> Result<Self, Error> {
+        check_count(segments.len(), MAX_POINTS)?;
+        let mut report = ConstraintReport2::default();
+        let count = points.len();
+        for (segment, ends) in segments.iter().enumerate() {
+            if let Some(&index) = ends.iter().find(|&&index| index >= count) {
+                return Err(Error::NoSuchPoint { segment, index, count });
+            }
+        }
+        check_finite(points.iter().copied())?;
+        let (mut graph, ends, built) = constrained(points, segments, &mut report);
+        let mut bent = BTreeMap::new();
+        if built.is_err() {
+            if crossings == Crossings::Refuse {
+                return Err(refusal(&graph, &ends));
+            }
+            let split = split::resolve(graph, &ends)?;
+            (bent, report) = (split.bent, split.counts);
+            let pieces: Vec<[usize; 2]> = split.pieces.iter().map(|ends| ends.map(VertexId::index)).collect();
+            (graph, _, _) = constrained(split.points, &pieces, &mut report);
+        }
+        Ok(Self {
+            graph,
+            segments: Segments::new(ends, bent),
+            cover: OnceLock::new(),
+            report,
+            channel: Channel::default(),
+        })
+    }
+}
+
+/// Triangulates points and makes segments constraints, as far as none crosses another one. Gives the ends of all segments as
+/// vertices too, and where one crosses a constraint, that one as the error.
+///
+/// Until the end vertices are at their positions in Morton order, where their neighbours are near them in memory.
+fn constrained(
+    points: Vec<[f64; 2]>,
+    segments: &[[usize; 2]],
+    report: &mut ConstraintReport2,
+) -> (Delaunay2, Vec<[VertexId; 2]>, Result<(), EdgeId>) {
+    let mut ordered = construct::in_order(&points);
+    let mut positions = parallel::filled(Place::GHOST, points.len());
+    for (position, &i) in ordered.indices.iter().enumerate() {
+        positions[i as usize] = Place::new(position);
+    }
+    for duplicate in &ordered.duplicates {
+        positions[duplicate.point] = positions[duplicate.vertex.index()];
+    }
+    let ends: Vec<[Place; 2]> = parallel::collect(segments.len(), |s| segments[s].map(|i| positions[i]));
+    let mut layer = Layer::new(
+        std::mem::replace(&mut ordered.mesh, Mesh2::empty(0)),
+        std::mem::take(&mut ordered.points),
+    );
+    let built = constrain(&mut layer, &ends, report);
+    let index = |place: Place| VertexId::new(ordered.indices[place.index()] as usize);
+    let ends = ends.into_iter().map(|ends| ends.map(index)).collect();
+    ordered.mesh = layer.mesh;
+    (Delaunay2::assemble(ordered.numbered(points)), ends, built)
+}
+
+/// Makes segments constraints. One that is crossed is the error. Completes the report.
+fn constrain(
+    layer: &mut Layer,
+    segments: &[[Place; 2]],
+    report: &mut ConstraintReport2,
+) -> Result<(), EdgeId> {
+    let mut order: Vec<u32> = (0..segments.len() as u32).collect();
+    let is_near = are_near(segments, layer.points.len());
+    if !is_near {
+        order = along_curve(&layer.points, segments, &order);
+    }
+    let mut shared = Shared::default();
+    let mut rest = fix_edges(layer, segments, &order, report, &mut shared);
+    if is_near {
+        rest = along_curve(&layer.points, segments, &rest);
+    }
+    let mut channel = Channel::default();
+    for s in rest {
+        let twice = &mut shared.edges;
+        let forced = layer.force(segments[s as usize], &mut channel, |mesh, e, is_new| {
+            twice.extend((!is_new).then(|| [mesh.tail(e), mesh.head(e)]));
+        })?;
+        if forced > 0 {
+            shared.through.push(s);
+        }
+    }
+    report.through_vertices = shared.through.len();
+    if !shared.edges.is_empty() {
+        shared.count(layer, segments, report);
+    }
+    Ok(())
+}
+
+/// Segments in a biased random order along a curve.
+fn along_curve(points: &[[f64; 2]], segments: &[[Place; 2]], some: &[u32]) -> Vec<u32> {
+    let middle = |&s: &u32| {
+        let [p, q] = segments[s as usize].map(|v| points[v.index()]);
+        [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)
+    };
+    let middles: Vec<[f64; 2]> = some.iter().map(middle).collect();
+    insertion_order(&middles, ANY_SEED).into_iter().map(|i| some[i as usize]).collect()
+}
+
+/// Whether segments that follow each other are mostly near each other in memory, as along a polygon.
+fn are_near(segments: &[[Place; 2]], places: usize) -> bool {
+    const SAMPLE: usize = 1000;
+    let step = segments.len() / SAMPLE + 1;
+    let pairs = segments.windows(2).step_by(step).map(|w| w[0][0].index().abs_diff(w[1][0].index()));
+    let far = pairs.filter(|&distance| distance > places / 64).count();
+    10 * far * step < segments.len() || segments.len() < SAMPLE
+}
+
+/// Fixes the segments that are edges, in an order, and returns the others.
+fn fix_edges(
+    layer: &mut Layer,
+    segments: &[[Place; 2]],
+    order: &[u32],
+    report: &mut ConstraintReport2,
+    shared: &mut Shared,
+) -> Vec<u32> {
+    let ends = parallel::even_ends(order.len(), parallel::parts(order.len()));
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end).collect();
+    let found = parallel::map(runs, |run: std::ops::Range<usize>| {
+        let mesh = &layer.mesh;
+        let ahead = |i: usize| order.get(i).map(|&s| segments[s as usize][0].index());
+        let edge = |i: usize| {
+            if let Some(a) = ahead(i + AHEAD[0]) {
+                prefetch(&mesh.incident, a);
+            }
+            if let Some(a) = ahead(i + AHEAD[1]) {
+                prefetch(&mesh.edges, mesh.incident[a].index());
+            }
+            let [a, b] = segments[order[i] as usize];
+            if a == b { None } else { Some(mesh.edge_between(a, b).unwrap_or(EdgeId::NONE)) }
+        };
+        run.map(edge).collect::<Vec<Option<EdgeId>>>()
+    });
+    let mut rest = Vec::new();
+    for (&s, edge) in order.iter().zip(found.into_iter().flatten()) {
+        match edge {
+            None => report.zero_length += 1,
+            Some(EdgeId::NONE) => rest.push(s),
+            Some(e) => {
+                if layer.mesh.is_fixed(e) {
+                    shared.edges.push(segments[s as usize]);
+                }
+                layer.mesh.set_fixed(e, true);
+            }
+        }
+    }
+    rest
+}
+
+/// What tells segments that share a part of their length.
+#[derive(Default)]
+struct Shared {
+    /// Edges that were fixed more than once.
+    edges: Vec<[Place; 2]>,
+    /// Segments with vertices inside of them.
+    through: Vec<u32>,
+}
+
+impl Shared {
+    /// Counts segments that repeat others, and that overlap others. A segment that is one edge does neither, unless that edge
+    /// is shared.
+    fn count(mut self, layer: &Layer, segments: &[[Place; 2]], report: &mut ConstraintReport2) {
+        let sorted = |[v, w]: [Place; 2]| [v.min(w), v.max(w)];
+        self.edges.iter_mut().for_each(|edge| *edge = sorted(*edge));
+        self.edges.sort_unstable();
+        let whole = (0..segments.len() as u32).map(|s| (s, sorted(segments[s as usize])));
+        let whole = whole.filter(|(_, ends)| ends[0] != ends[1] && self.edges.binary_search(ends).is_ok());
+        let mut covering: Vec<([Place; 2], u32)> = whole.map(|(s, ends)| (ends, s)).collect();
+        let mut candidates: Vec<u32> =
+            covering.iter().map(|c| c.1).chain(self.through.iter().copied()).collect();
+        let ground = layer.ground();
+        for &s in &self.through {
+            let edges = ground.chain(segments[s as usize]).into_iter();
+            covering.extend(edges.map(|e| (sorted([layer.mesh.tail(e), layer.mesh.head(e)]), s)));
+        }
+        candidates.sort_unstable();
+        candidates.dedup();
+        let mut pairs: Vec<_> = candidates.iter().map(|&s| sorted(segments[s as usize])).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        report.repeated = candidates.len() - pairs.len();
+        covering.sort_unstable();
+        let mut overlapping: Vec<u32> = Vec::new();
+        for of_edge in covering.chunk_by(|c, d| c.0 == d.0) {
+            let ends = |c: &([Place; 2], u32)| sorted(segments[c.1 as usize]);
+            if of_edge.iter().any(|c| ends(c) != ends(&of_edge[0])) {
+                overlapping.extend(of_edge.iter().map(|c| c.1));
+            }
+        }
+        overlapping.sort_unstable();
+        overlapping.dedup();
+        report.overlapping = overlapping.len();
+    }
+}
+
+/// The error that names the first of all crossings: by the points, so that it does not depend on the order of the input.
+fn refusal(graph: &Delaunay2, segments: &[[VertexId; 2]]) -> Error {
+    let found = crossings::between(graph, segments);
+    let point = |v: VertexId| graph.points()[v.index()];
+    let key = |s: u32| {
+        let [v, w] = segments[s as usize].map(point);
+        if v <= w { [v, w] } else { [w, v] }
+    };
+    let keys = |c: &Crossing| {
+        let [first, second] = [key(c.first), key(c.second)];
+        if first <= second { [first, second] } else { [second, first] }
+    };
+    let less = |a: &&Crossing, b: &&Crossing| {
+        keys(a).partial_cmp(&keys(b)).expect("finite").then((a.first, a.second).cmp(&(b.first, b.second)))
+    };
+    let first = found.iter().min_by(less).expect("one was found");
+    let near = crossings::place(graph, segments[first.first as usize], segments[first.second as usize]);
+    Error::SegmentsCross {
+        first: first.first as usize,
+        second: first.second as usize,
+        near,
+        count: found.len(),
+    }
+}
