@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use super::Set;
-use crate::engines::{Indexed, indexed, timed};
+use crate::engines::{Indexed, POOLS, indexed, timed};
 #[cfg(cgal)]
 use std::ptr;
 
@@ -25,6 +25,9 @@ pub struct Engine {
 
 /// All of them, ours first.
 pub const ENGINES: &[Engine] = &[
+    Engine { name: "delone", run: |set, wanted| delone(set, wanted, 1) },
+    Engine { name: "delone-2-threads", run: |set, wanted| delone(set, wanted, 2) },
+    Engine { name: "delone-inside", run: delone_inside },
     #[cfg(cgal)]
     Engine { name: "cgal", run: |set, wanted| cgal(set, wanted, cgal_graph) },
     #[cfg(cgal)]
@@ -34,6 +37,32 @@ pub const ENGINES: &[Engine] = &[
     Engine { name: "earcut", run: earcut },
     Engine { name: "earcutr", run: earcutr },
 ];
+
+fn delone(set: &Set, wanted: bool, threads: usize) -> Result<Output, String> {
+    let build = || timed(|| delone::Constrained2::from_parts(&set.points, &set.segments));
+    let (time, result) = POOLS[threads - 1].install(build);
+    let c = result.map_err(|error| error.to_string())?;
+    let triangles = c.triangles().filter(|_| wanted).map(|t| t.map(|v| v.index())).collect();
+    Ok(Output { time, triangles, is_inside: false })
+}
+
+/// By the even-odd rule.
+fn delone_inside(set: &Set, wanted: bool) -> Result<Output, String> {
+    if set.polygons.is_empty() {
+        return Err("(knows polygons only)".to_owned());
+    }
+    let (time, result) = timed(|| inside(&set.points, &set.segments));
+    let triangles = if wanted { result? } else { Vec::new() };
+    Ok(Output { time, triangles, is_inside: true })
+}
+
+/// The triangles inside of rings.
+pub fn inside(points: &[[f64; 2]], segments: &[[usize; 2]]) -> Result<Vec<[usize; 3]>, String> {
+    let c = delone::Constrained2::from_parts(points, segments).map_err(|error| error.to_string())?;
+    let domains = c.domains(&delone::Fill::EvenOdd).map_err(|error| error.to_string())?;
+    let corners = c.triangle_ids().zip(c.triangles()).filter(|(t, _)| domains.is_inside(*t));
+    Ok(corners.map(|(_, t)| t.map(|v| v.index())).collect())
+}
 
 #[cfg(cgal)]
 type CgalGraph = unsafe extern "C" fn(*const f64, usize, *const u32, usize, *mut u32, *mut f64) -> isize;

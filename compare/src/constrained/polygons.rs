@@ -4,12 +4,15 @@ use std::time::{Duration, Instant};
 
 use delone_generators::{Graph, Random};
 
+use super::engines::inside;
+
 type Rings = [Vec<[f64; 2]>];
 
 /// Seconds, and the number of triangles.
 type Engine = (&'static str, fn(&Rings) -> Option<(Duration, usize)>);
 
 const ENGINES: &[Engine] = &[
+    ("delone", delone),
     #[cfg(cgal)]
     ("cgal", cgal),
     ("earcut", earcut),
@@ -67,6 +70,17 @@ fn rings(graph: Graph, corners: usize, count: usize) -> Vec<Vec<[f64; 2]>> {
         points.into_iter().map(|p| [p[0] + at[0], p[1] + at[1]]).collect()
     };
     (0..count).map(&mut ring).collect()
+}
+
+fn delone(rings: &Rings) -> Option<(Duration, usize)> {
+    let start = Instant::now();
+    let mut count = 0;
+    for ring in rings {
+        let n = ring.len();
+        let segments: Vec<[usize; 2]> = (0..n).map(|i| [i, (i + 1) % n]).collect();
+        count += inside(ring, &segments).ok()?.len();
+    }
+    Some((start.elapsed(), count))
 }
 
 fn earcut(rings: &Rings) -> Option<(Duration, usize)> {
