@@ -7,6 +7,7 @@ fn main() {
     println!("cargo::rerun-if-changed=src/cgal.cpp");
     println!("cargo::rerun-if-changed=/usr/include/CGAL");
     if Path::new("/usr/include/CGAL/Delaunay_triangulation_2.h").exists() {
+        println!("cargo::rerun-if-changed=src/cgal_constrained.cpp");
         cc::Build::new()
             .cpp(true)
             .std("c++17")
@@ -14,6 +15,7 @@ fn main() {
             .define("NDEBUG", None)
             .warnings(false)
             .file("src/cgal.cpp")
+            .file("src/cgal_constrained.cpp")
             .compile("cgal_shim");
         println!("cargo::rustc-cfg=cgal");
         println!("cargo::rustc-link-lib=gmp");

@@ -40,7 +40,7 @@ pub const ENGINES: &[Engine] = &[
     Engine { name: "startin", is_peer_crate: true, most: 50_000, run: startin },
 ];
 
-fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
+pub fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     let start = Instant::now();
     let result = black_box(work());
     (start.elapsed(), result)
@@ -70,10 +70,12 @@ fn delone(
 ) -> Result<Run, String> {
     let own = points.to_vec();
     let pool = &POOLS[threads - 1];
-    let (time, result) = pool.install(|| timed(|| match algorithm {
+    let (time, result) = pool.install(|| {
+        timed(|| match algorithm {
             delone::Algorithm2::DivideAndConquer => delone::Delaunay2::from_vec(own),
             _ => delone::Delaunay2::with_algorithm(&own, algorithm),
-        }));
+        })
+    });
     let d = result.map_err(|error| error.to_string())?;
     let triangles =
         if wanted { d.triangles().map(|t| t.map(|v| v.index() as u64)).collect() } else { Vec::new() };
@@ -122,9 +124,13 @@ fn cgal_indexed(points: &Points, wanted: bool) -> Result<Run, String> {
 
 /// A point that knows its index.
 #[derive(Clone, Copy)]
-struct Indexed {
+pub struct Indexed {
     at: spade::Point2<f64>,
-    index: u32,
+    pub index: u32,
+}
+
+pub fn indexed((index, p): (usize, &[f64; 2])) -> Indexed {
+    Indexed { at: spade::Point2::new(p[0], p[1]), index: index as u32 }
 }
 
 impl spade::HasPosition for Indexed {
@@ -142,8 +148,6 @@ fn spade_with(
     wanted: bool,
     load: fn(Vec<Indexed>) -> Result<Spade, spade::InsertionError>,
 ) -> Result<Run, String> {
-    let indexed =
-        |(index, p): (usize, &[f64; 2])| Indexed { at: spade::Point2::new(p[0], p[1]), index: index as u32 };
     let own: Vec<_> = points.iter().enumerate().map(indexed).collect();
     let (time, result) = timed(|| load(own));
     let d = result.map_err(|error| format!("{error:?}"))?;

@@ -3,6 +3,7 @@
 //! `cargo run --release --manifest-path compare/Cargo.toml -- --help`
 
 mod changes;
+mod constrained;
 mod engines;
 mod hull;
 mod memory;
@@ -52,6 +53,18 @@ struct Args {
     /// Time triangulations of space of these sets (cube, sphere, ...; or a PLY file) instead.
     #[arg(long, value_delimiter = ',')]
     space: Vec<String>,
+    /// Time constrained triangulations of these graphs (planar-subset, koch, ...; or a GeoJSON file of polygons) instead; of
+    /// four when empty.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        num_args = 0..,
+        default_missing_value = "planar-subset,planar-grid,long,koch"
+    )]
+    constrained: Option<Vec<String>>,
+    /// Time the inside of many polygons instead of building.
+    #[arg(long)]
+    polygons: bool,
     /// Measure peak memory too (one more process for each engine and set).
     #[arg(long)]
     memory: bool,
@@ -104,6 +117,15 @@ fn compare(args: &Args) {
             |name: &String| args.size.iter().all(|&size| space::run(name, size, args.runs, args.memory));
         let wrong = args.space.iter().filter(|name| !each(name)).count();
         std::process::exit(i32::from(wrong > 0));
+    }
+    if let Some(names) = &args.constrained {
+        panic::set_hook(Box::new(|_| {}));
+        let all_right = constrained::run(names, &args.size, &args.engines, args.runs);
+        std::process::exit(i32::from(!all_right));
+    }
+    if args.polygons {
+        args.size.iter().for_each(|&size| constrained::polygons(size, args.runs));
+        return;
     }
     if args.voronoi {
         panic::set_hook(Box::new(|_| {}));

@@ -6,7 +6,7 @@ use crate::{Point2, Random, repeat};
 
 kinds! {
     /// A named family of point sets in the plane.
-    Kind of Point2:
+    Kind, points -> Vec<Point2>:
     /// Uniform in the unit square.
     Uniform = "uniform", |n, r| repeat(n, || [r.unit(), r.unit()]);
     /// Log-normal coordinates: dense near the origin, with far tails.

@@ -4,7 +4,7 @@ use crate::{Point3, Random, repeat};
 
 kinds! {
     /// A named family of point sets in space.
-    Kind3 of Point3:
+    Kind3, points -> Vec<Point3>:
     /// Uniform in the unit cube.
     Cube = "cube", |n, r| repeat(n, || [r.unit(), r.unit(), r.unit()]);
     /// Uniform in the unit ball.

@@ -10,10 +10,18 @@ pub type Point2 = [f64; 2];
 /// A point of space.
 pub type Point3 = [f64; 3];
 
+/// The exponent that [`integers`] takes out of every number: the least one. That of 2^-1074, of which all are multiples, is 1.
+pub(crate) fn common_exponent<const D: usize>(points: &[[f64; D]]) -> i64 {
+    points.iter().flatten().filter(|x| **x != 0.0).map(|x| exponent(*x)).min().unwrap_or(0)
+}
+
+fn exponent(x: f64) -> i64 {
+    ((x.to_bits() >> 52) & 0x7ff).max(1) as i64
+}
+
 /// Coordinates as integers: every `f64` of the tuple divided by one common power of two.
 pub(crate) fn integers<const D: usize>(points: &[[f64; D]]) -> Vec<[BigInt; D]> {
-    let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff).max(1) as i64;
-    let scale = points.iter().flatten().filter(|x| **x != 0.0).map(|x| exponent(*x)).min().unwrap_or(0);
+    let scale = common_exponent(points);
     let integer = |x: f64| {
         assert!(x.is_finite(), "the oracle was given {x}");
         let normal = (x.to_bits() >> 52) & 0x7ff != 0;

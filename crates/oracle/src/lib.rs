@@ -6,8 +6,17 @@
 //! - [`exact`]: orientation and lifted determinants over the integers, by Laplace expansion;
 //! - [`brute`]: the canonical triangulation of up to 64 points and of all their subsets, by trying all
 //!   triples against all points;
-//! - [`lines`]: where lines meet, as fractions.
+//! - [`lines`]: where lines meet, as fractions;
+//! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
+//! - [`crossings`]: which segments cross, where, and what is left once they are split;
+//! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
 pub mod brute;
+pub mod certificate;
+pub mod constrained;
+pub mod crossings;
 pub mod exact;
 pub mod lines;
+mod quick;
+#[cfg(test)]
+mod samples;

@@ -1,0 +1,311 @@
+//! Which segments cross, where, and what is left of them once they are split in rounds: by trying all pairs.
+//!
+//! A round finds all crossings of the edges and all vertices inside of edges, rounds every crossing once to the nearest point
+//! of doubles, and replaces each edge by the chain through what was found on it. Rounds follow until one finds nothing.
+//! Cost: O(m^2 + m n) exact decisions a round.
+
+use num_bigint::BigInt;
+
+use crate::constrained::{is_between, side};
+use crate::exact::{Point2, common_exponent, integers};
+
+/// A fraction with a positive denominator.
+type Fraction = (BigInt, BigInt);
+
+/// Points on a common scale, and what the scale is.
+struct Exact {
+    points: Vec<[BigInt; 2]>,
+    /// Coordinates are integers times two to the power of this.
+    exponent: i64,
+}
+
+impl Exact {
+    fn new(points: &[Point2]) -> Self {
+        Self { points: integers(points), exponent: common_exponent(points).max(1) - 1075 }
+    }
+
+    /// Whether two edges cross inside of both.
+    fn cross(&self, [a, b]: [usize; 2], [c, d]: [usize; 2]) -> bool {
+        let [a, b, c, d] = [a, b, c, d].map(|v| &self.points[v]);
+        side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0
+    }
+
+    /// Whether a point is inside of an edge.
+    fn is_on(&self, v: usize, [a, b]: [usize; 2]) -> bool {
+        let [v, a, b] = [v, a, b].map(|v| &self.points[v]);
+        side(a, b, v) == 0 && is_between(a, b, v)
+    }
+
+    /// Where two edges cross: the part of the way along the first, and the place.
+    fn crossing(&self, [a, b]: [usize; 2], [c, d]: [usize; 2]) -> (Fraction, [Fraction; 2]) {
+        let [a, b, c, d] = [a, b, c, d].map(|v| &self.points[v]);
+        let u = [&b[0] - &a[0], &b[1] - &a[1]];
+        let v = [&d[0] - &c[0], &d[1] - &c[1]];
+        let mut below = &u[0] * &v[1] - &u[1] * &v[0];
+        let mut along = (&c[0] - &a[0]) * &v[1] - (&c[1] - &a[1]) * &v[0];
+        if below < BigInt::ZERO {
+            (below, along) = (-below, -along);
+        }
+        let place = [0, 1].map(|k| (&a[k] * &below + &along * &u[k], below.clone()));
+        ((along, below), place)
+    }
+
+    /// The part of the way along an edge at which a point on it is.
+    fn part(&self, v: usize, [a, b]: [usize; 2]) -> Fraction {
+        let [v, a, b] = [v, a, b].map(|v| &self.points[v]);
+        let k = usize::from(a[0] == b[0]);
+        let (above, below) = (&v[k] - &a[k], &b[k] - &a[k]);
+        if below < BigInt::ZERO { (-above, -below) } else { (above, below) }
+    }
+}
+
+/// The nearest double to a fraction times a power of two, ties to even. It must be in range.
+fn nearest((above, below): &Fraction, exponent: i64) -> f64 {
+    let magnitude = BigInt::from(above.magnitude().clone());
+    if magnitude == BigInt::ZERO {
+        return 0.0;
+    }
+    let shifted = |x: &BigInt, by: i64| if by > 0 { x << by } else { x.clone() };
+    // The largest power of two that is not above it, from the lengths or one less.
+    let mut power = magnitude.bits() as i64 - below.bits() as i64;
+    if shifted(&magnitude, -power) < shifted(below, power) {
+        power -= 1;
+    }
+    let unit = (power + exponent - 52).max(-1074);
+    let above_units = shifted(&magnitude, exponent - unit);
+    let below_units = shifted(below, unit - exponent);
+    let (mut digits, rest) = (&above_units / &below_units, (&above_units % &below_units) * 2);
+    let is_odd = &digits % 2 != BigInt::ZERO;
+    if rest > below_units || rest == below_units && is_odd {
+        digits += 1;
+    }
+    let digits = u64::try_from(&digits).expect("53 bits");
+    // Below 2^52 only numbers of the least unit come here, whose bits are their digits.
+    let bits = if digits < 1 << 52 { digits } else { digits - (1 << 52) + (((unit + 1075) as u64) << 52) };
+    f64::from_bits(bits).copysign(if *above < BigInt::ZERO { -1.0 } else { 1.0 })
+}
+
+/// The crossing of two segments that cross inside of both, each coordinate rounded once; `None` if they do not.
+pub fn crossing([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> Option<Point2> {
+    let exact = Exact::new(&[a, b, c, d]);
+    exact.cross([0, 1], [2, 3]).then(|| {
+        let (_, place) = exact.crossing([0, 1], [2, 3]);
+        place.map(|fraction| nearest(&fraction, exact.exponent))
+    })
+}
+
+/// All pairs of segments that cross inside of both, where no point of the set is, the lesser index first, sorted.
+pub fn crossing_pairs(points: &[Point2], segments: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let exact = Exact::new(points);
+    let mut pairs = Vec::new();
+    for i in 0..segments.len() {
+        for j in i + 1..segments.len() {
+            let (first, second) = (segments[i], segments[j]);
+            let is_common = |v: usize| exact.is_on(v, first) && exact.is_on(v, second);
+            if exact.cross(first, second) && !(0..points.len()).any(is_common) {
+                pairs.push([i, j]);
+            }
+        }
+    }
+    pairs
+}
+
+/// Segments cut until none crosses another and none has a vertex inside of it.
+pub struct Split {
+    /// The points given, then those added, of each round in lexicographic order.
+    pub points: Vec<Point2>,
+    /// For each segment the vertices along it, of equal points the first; one alone if its ends are equal.
+    pub chains: Vec<Vec<usize>>,
+    /// The rounds in which edges crossed.
+    pub rounds: usize,
+    /// How many pairs of edges crossed, in all rounds.
+    pub crossings: usize,
+}
+
+impl Split {
+    /// Splits all segments.
+    pub fn new(points: &[Point2], segments: &[[usize; 2]]) -> Self {
+        let first_of = |points: &[Point2], p: Point2| points.iter().position(|q| *q == p);
+        let vertex = |i: usize| first_of(points, points[i]).expect("itself");
+        let chain = |&[a, b]: &[usize; 2]| {
+            let mut chain = vec![vertex(a), vertex(b)];
+            chain.dedup();
+            chain
+        };
+        let mut split = Self {
+            points: points.to_vec(),
+            chains: segments.iter().map(chain).collect(),
+            rounds: 0,
+            crossings: 0,
+        };
+        while split.round() {}
+        split
+    }
+
+    /// The edges of all chains, each once, the lesser index first, sorted.
+    pub fn edges(&self) -> Vec<[usize; 2]> {
+        let links = self.chains.iter().flat_map(|chain| chain.windows(2));
+        let mut edges: Vec<_> = links.map(|link| [link[0].min(link[1]), link[0].max(link[1])]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// The segments that cover an edge, and whether they go from its first vertex to its second.
+    pub fn covering(&self, [a, b]: [usize; 2]) -> Vec<(usize, bool)> {
+        let has = |chain: &Vec<usize>, link: [usize; 2]| chain.windows(2).any(|w| *w == link);
+        let mut covering = Vec::new();
+        for (i, chain) in self.chains.iter().enumerate() {
+            if has(chain, [a, b]) || has(chain, [b, a]) {
+                covering.push((i, has(chain, [a, b])));
+            }
+        }
+        covering
+    }
+
+    /// One round; false if it found nothing.
+    fn round(&mut self) -> bool {
+        let exact = Exact::new(&self.points);
+        let edges = self.edges();
+        let is_first = |&v: &usize| !self.points[..v].contains(&self.points[v]);
+        let vertices: Vec<usize> = (0..self.points.len()).filter(is_first).collect();
+        // What is on each edge, with the part of the way where it is: vertices and rounded crossings, by coordinates.
+        let mut crossings = 0;
+        let on_edge = |&edge: &[usize; 2]| {
+            let is_on = |v: &usize| exact.is_on(*v, edge);
+            let mut found: Vec<(Fraction, Point2)> = vertices
+                .iter()
+                .copied()
+                .filter(is_on)
+                .map(|v| (exact.part(v, edge), self.points[v]))
+                .collect();
+            let on_it = found.len();
+            for &other in edges.iter().filter(|&&other| exact.cross(edge, other)) {
+                let (part, place) = exact.crossing(edge, other);
+                // A crossing at a vertex is none.
+                if !found[..on_it].iter().any(|((a, b), _)| a * &part.1 == &part.0 * b) {
+                    crossings += 1;
+                    found.push((part, place.map(|fraction| nearest(&fraction, exact.exponent) + 0.0)));
+                }
+            }
+            found.sort_by(|((a, b), _), ((c, d), _)| (a * d).cmp(&(c * b)));
+            found.into_iter().map(|(_, p)| p).collect::<Vec<Point2>>()
+        };
+        let found: Vec<Vec<Point2>> = edges.iter().map(on_edge).collect();
+        if found.iter().all(Vec::is_empty) {
+            return false;
+        }
+        // Each was met from both sides.
+        self.crossings += crossings / 2;
+        self.rounds += usize::from(crossings > 0);
+        let mut new: Vec<Point2> =
+            found.iter().flatten().filter(|p| !self.points.contains(p)).copied().collect();
+        new.sort_by(|p, q| p.partial_cmp(q).expect("finite"));
+        new.dedup();
+        self.points.extend(new);
+        let vertex = |p: &Point2| self.points.iter().position(|q| q == p).expect("was added");
+        let inner: Vec<Vec<usize>> = found.iter().map(|places| places.iter().map(vertex).collect()).collect();
+        for chain in &mut self.chains {
+            let mut longer = vec![chain[0]];
+            for link in chain.windows(2) {
+                let edge = [link[0].min(link[1]), link[0].max(link[1])];
+                let on_it = &inner[edges.binary_search(&edge).expect("an edge")];
+                if link[0] == edge[0] {
+                    longer.extend(on_it);
+                } else {
+                    longer.extend(on_it.iter().rev());
+                }
+                longer.push(link[1]);
+            }
+            longer.dedup();
+            *chain = longer;
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Split, crossing, crossing_pairs, nearest};
+    use crate::samples::Numbers;
+
+    #[test]
+    fn fractions_are_rounded_as_doubles_are_divided() {
+        let mut numbers = Numbers(1);
+        for _ in 0..20_000 {
+            let mut below =
+                |bits: u32| (numbers.below(1 << 26) << (bits - 26) | numbers.below(1 << 26)) as i64;
+            let (a, b) = (below(53) - (1 << 52), below(27) + 1);
+            let fraction = (a.into(), b.into());
+            assert_eq!(nearest(&fraction, 0), a as f64 / b as f64);
+            assert_eq!(nearest(&fraction, -60), a as f64 / b as f64 * 2_f64.powi(-60));
+            // Half of a double with an odd digit is a tie.
+            assert_eq!(nearest(&((2 * a + 1).into(), 2.into()), 0), (2 * a + 1) as f64 / 2.0);
+        }
+        // Subnormal ones: 3/2 and 5/2 of the least go to the even one.
+        let least = f64::from_bits(1);
+        assert_eq!(nearest(&(3.into(), 2.into()), -1074), 2.0 * least);
+        assert_eq!(nearest(&(5.into(), 2.into()), -1074), 2.0 * least);
+        assert_eq!(nearest(&(1.into(), 2.into()), -1074), 0.0);
+        assert_eq!(nearest(&((-1).into(), 3.into()), -1074).to_bits(), (-0.0_f64).to_bits());
+        // From the largest subnormal number up to the least normal one.
+        assert_eq!(nearest(&(((1_i64 << 53) - 1).into(), 2.into()), -1074), f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn segments_cross_where_they_do() {
+        assert_eq!(crossing([[0.0, 0.0], [3.0, 1.0]], [[1.0, 0.0], [1.0, 1.0]]), Some([1.0, 1.0 / 3.0]));
+        assert_eq!(crossing([[0.0, 0.0], [1.0, 1.0]], [[1.0, 1.0], [1.0, 2.0]]), None);
+        let huge = 1e308;
+        assert_eq!(
+            crossing([[-huge, -huge], [huge, huge]], [[-huge, huge], [huge, -huge]]),
+            Some([0.0, 0.0])
+        );
+        let tiny = 5e-324;
+        assert_eq!(crossing([[0.0, 0.0], [tiny, tiny]], [[0.0, tiny], [tiny, 0.0]]), Some([0.0, 0.0]));
+    }
+
+    #[test]
+    fn a_crossing_at_a_point_is_none() {
+        let points = [[0.0, 0.0], [2.0, 2.0], [0.0, 2.0], [2.0, 0.0], [1.0, 1.0], [0.0, 1.0], [1.0, 0.0]];
+        assert_eq!(crossing_pairs(&points, &[[0, 1], [2, 3], [5, 6]]), [[0, 2]]);
+        assert_eq!(crossing_pairs(&points[..4], &[[0, 1], [2, 3], [1, 0]]), [[0, 1], [1, 2]]);
+    }
+
+    #[test]
+    fn a_cross_gets_its_middle() {
+        let points = [[0.0, 0.0], [2.0, 2.0], [0.0, 2.0], [2.0, 0.0], [0.0, 0.0]];
+        let split = Split::new(&points, &[[4, 1], [2, 3], [0, 4], [1, 0]]);
+        assert_eq!(split.points[5..], [[1.0, 1.0]]);
+        assert_eq!(split.chains, [vec![0, 5, 1], vec![2, 5, 3], vec![0], vec![1, 5, 0]]);
+        assert_eq!((split.rounds, split.crossings, split.edges().len()), (1, 1, 4));
+        assert_eq!(split.covering([0, 5]), [(0, true), (3, false)]);
+    }
+
+    /// Neighbouring doubles: chains collapse onto what is there, and rounds follow rounds.
+    #[test]
+    fn nothing_crosses_in_the_end() {
+        let mut numbers = Numbers(7);
+        let mut most = 0;
+        for _ in 0..40 {
+            let mut coordinate = || f64::from_bits(1.0_f64.to_bits() + numbers.below(12) as u64);
+            let points: Vec<[f64; 2]> = (0..24).map(|_| [coordinate(), coordinate()]).collect();
+            let segments: Vec<[usize; 2]> = (0..12).map(|i| [2 * i, 2 * i + 1]).collect();
+            let split = Split::new(&points, &segments);
+            let edges = split.edges();
+            assert!(crossing_pairs(&split.points, &edges).is_empty());
+            for (chain, &[a, b]) in split.chains.iter().zip(&segments) {
+                assert_eq!(split.points[chain[0]], points[a]);
+                assert_eq!(split.points[chain[chain.len() - 1]], points[b]);
+            }
+            // Neither the order nor the direction of segments shows.
+            let turned: Vec<[usize; 2]> = segments.iter().rev().map(|&[a, b]| [b, a]).collect();
+            let again = Split::new(&points, &turned);
+            assert_eq!((again.points, again.rounds), (split.points, split.rounds));
+            let back = again.chains.into_iter().rev().map(|chain| chain.into_iter().rev().collect());
+            assert_eq!(back.collect::<Vec<Vec<usize>>>(), split.chains);
+            most = most.max(split.rounds);
+        }
+        assert!(most > 1, "no set needed a second round");
+    }
+}
