@@ -6,13 +6,13 @@
 
 mod columns;
 mod fields;
-mod wkt;
 
 use std::io::{self, Write};
 
 use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use super::lines::Lines;
+use super::wkt;
 use crate::error::excerpt;
 use crate::{Cloud, Error, Source};
 
@@ -232,16 +232,19 @@ impl<'a> Table<'a> {
     }
 
     fn geometry(&mut self, text: &str) -> Result<(), String> {
-        for position in wkt::positions(text)? {
-            if self.cloud.xy.is_empty() && position.len() > 2 {
-                self.cloud.z = Some(Vec::new());
-            }
-            match (position.get(2), &self.cloud.z) {
-                (None, Some(_)) => return Err("a position without height after some with heights".to_owned()),
-                (Some(_), None) => return Err("a position with height after some without".to_owned()),
-                (z, _) => self.cloud.push([position[0], position[1]], z.copied().unwrap_or_default()),
-            }
+        let (xy, heights) = wkt::read_one(text)?.positions();
+        let heights = heights.ok_or("a position without height beside one with height")?;
+        if self.cloud.xy.is_empty() && heights.is_some() {
+            self.cloud.z = Some(Vec::new());
         }
+        match (heights, &mut self.cloud.z) {
+            _ if xy.is_empty() => {}
+            (None, Some(_)) => return Err("a position without height after some with heights".to_owned()),
+            (Some(_), None) => return Err("a position with height after some without".to_owned()),
+            (Some(mut more), Some(z)) => z.append(&mut more),
+            (None, None) => {}
+        }
+        self.cloud.xy.extend(xy);
         Ok(())
     }
 
