@@ -79,6 +79,7 @@ fn end(line: &Line, word: Option<&str>, base: usize, points: usize) -> Result<us
     let number: usize = line.number(word, "an end of the segment")?;
     match number.checked_sub(base) {
         None => Err(line.error("a segment ends at point 0 in a file that counts from 1")),
+        Some(_) if points == 0 => Err(line.error("a segment, but there are no points")),
         Some(index) if index >= points => {
             let counts =
                 format!("there is no point {number}: they are numbered from {base} to {}", points - 1 + base);
