@@ -40,7 +40,7 @@ impl Scene {
         }
         let in_hole = |t| middle(t).iter().all(|x| (3.0..6.0).contains(x));
         let trim = Trim::keeping(&triangulation, |t| !in_hole(t));
-        Self { points, edges, regions, trim, triangulation }
+        Self { points, triangulation, edges, regions, trim }
     }
 
     fn written(&self, format: Format) -> Vec<u8> {

@@ -15,6 +15,14 @@ pub(super) struct Shapes {
     lines: usize,
 }
 
+/// The heights of positions.
+#[derive(Debug, PartialEq)]
+pub(super) enum Heights {
+    None,
+    OfSome,
+    OfAll(Vec<f64>),
+}
+
 #[derive(Debug)]
 struct Part {
     positions: Range<usize>,
@@ -81,11 +89,13 @@ impl Shapes {
         self.parts.push(Part { positions: start..self.xy.len(), kind });
     }
 
-    /// The positions, and their heights; `None` in their place if only some have one.
-    pub(super) fn positions(self) -> (Vec<[f64; 2]>, Option<Option<Vec<f64>>>) {
-        let heights = match self.z.first() {
-            Some(Some(_)) => self.z.into_iter().collect::<Option<Vec<f64>>>().map(Some),
-            _ => self.z.iter().all(Option::is_none).then_some(None),
+    /// The positions, and what heights they have.
+    pub(super) fn positions(self) -> (Vec<[f64; 2]>, Heights) {
+        let count = self.z.iter().filter(|z| z.is_some()).count();
+        let heights = match count {
+            0 => Heights::None,
+            _ if count < self.z.len() => Heights::OfSome,
+            _ => Heights::OfAll(self.z.into_iter().flatten().collect()),
         };
         (self.xy, heights)
     }
@@ -110,8 +120,11 @@ impl Shapes {
         let (xy, heights) = self.positions();
         let mut cloud = Cloud { xy, ..Cloud::default() };
         match heights {
-            Some(heights) => cloud.z = heights,
-            None => cloud.remarks.push("heights are left out: not all positions have them".to_owned()),
+            Heights::None => {}
+            Heights::OfAll(heights) => cloud.z = Some(heights),
+            Heights::OfSome => {
+                cloud.remarks.push("heights are left out: not all positions have them".to_owned());
+            }
         }
         cloud
     }

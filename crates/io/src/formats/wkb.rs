@@ -109,7 +109,7 @@ fn collect(geometry: &Wkb, shapes: &mut Shapes) {
         GeometryType::MultiLineString(lines) => lines.line_strings().for_each(|line| chain(&line, shapes)),
         GeometryType::Polygon(polygon) => area(polygon, shapes),
         GeometryType::MultiPolygon(polygons) => {
-            polygons.polygons().for_each(|polygon| area(&polygon, shapes))
+            polygons.polygons().for_each(|polygon| area(&polygon, shapes));
         }
         GeometryType::GeometryCollection(all) => all.geometries().for_each(|one| collect(one, shapes)),
         // Kinds that the format does not have.

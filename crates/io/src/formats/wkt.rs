@@ -275,16 +275,17 @@ pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; 
 #[cfg(test)]
 mod tests {
     use super::{is_geometry, read_graph, read_one};
+    use crate::formats::shapes::Heights;
     use std::io::Cursor;
 
-    type Positions = (Vec<[f64; 2]>, Option<Option<Vec<f64>>>);
+    type Positions = (Vec<[f64; 2]>, Heights);
 
     fn flat(xy: &[[f64; 2]]) -> Positions {
-        (xy.to_vec(), Some(None))
+        (xy.to_vec(), Heights::None)
     }
 
     fn high(xy: &[[f64; 2]], z: &[f64]) -> Positions {
-        (xy.to_vec(), Some(Some(z.to_vec())))
+        (xy.to_vec(), Heights::OfAll(z.to_vec()))
     }
 
     #[test]
@@ -306,7 +307,10 @@ mod tests {
             ("GEOMETRYCOLLECTION (POINT (1 2), POINT (3 4))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
             ("MULTIPOLYGON (EMPTY, ((1 2, 3 4, 1 2)))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
             ("POINT EMPTY", flat(&[])),
-            ("GEOMETRYCOLLECTION (POINT (1 2), POINT Z (3 4 5))", (vec![[1.0, 2.0], [3.0, 4.0]], None)),
+            (
+                "GEOMETRYCOLLECTION (POINT (1 2), POINT Z (3 4 5))",
+                (vec![[1.0, 2.0], [3.0, 4.0]], Heights::OfSome),
+            ),
         ] {
             assert_eq!(read_one(text).map(|shapes| shapes.positions()), Ok(expected), "{text}");
         }

@@ -12,6 +12,7 @@ use std::io::{self, Write};
 use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use super::lines::Lines;
+use super::shapes::Heights;
 use super::wkt;
 use crate::error::excerpt;
 use crate::{Cloud, Error, Source};
@@ -233,16 +234,17 @@ impl<'a> Table<'a> {
 
     fn geometry(&mut self, text: &str) -> Result<(), String> {
         let (xy, heights) = wkt::read_one(text)?.positions();
-        let heights = heights.ok_or("a position without height beside one with height")?;
-        if self.cloud.xy.is_empty() && heights.is_some() {
-            self.cloud.z = Some(Vec::new());
-        }
+        let is_first = self.cloud.xy.is_empty();
         match (heights, &mut self.cloud.z) {
             _ if xy.is_empty() => {}
-            (None, Some(_)) => return Err("a position without height after some with heights".to_owned()),
-            (Some(_), None) => return Err("a position with height after some without".to_owned()),
-            (Some(mut more), Some(z)) => z.append(&mut more),
-            (None, None) => {}
+            (Heights::OfAll(mut more), Some(z)) => z.append(&mut more),
+            (Heights::OfAll(more), z) if is_first => *z = Some(more),
+            (Heights::OfAll(_), None) => return Err("a position with height after some without".to_owned()),
+            (Heights::None, None) => {}
+            (Heights::None, Some(_)) => {
+                return Err("a position without height after some with heights".to_owned());
+            }
+            (Heights::OfSome, _) => return Err("a position without height beside one with height".to_owned()),
         }
         self.cloud.xy.extend(xy);
         Ok(())
