@@ -157,17 +157,21 @@ fn broken_polys_are_named() {
     assert!(good(Format::Poly, "1 2 0 0\n0 nan inf\n0 0\n1\n0 nan 0\n").cloud.xy[0][0].is_nan());
 }
 
-/// A square with a triangular hole beside a line, twice.
-fn square_and_line() -> (Vec<[f64; 2]>, Vec<[usize; 2]>, Vec<bool>, Vec<GraphRing>) {
+/// A square with a triangular hole, beside a line.
+fn square_and_line() -> Graph {
     let xy = [[0, 0], [8, 0], [8, 8], [0, 8], [2, 2], [2, 4], [4, 2], [9, 9], [10, 9], [10, 10]];
-    let segments = vec![[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4], [7, 8], [8, 9]];
     let mut is_border = vec![true; 7];
     is_border.resize(9, false);
-    let rings = vec![
-        GraphRing { polygon: 0, ring: 0, segments: 0..4 },
-        GraphRing { polygon: 0, ring: 1, segments: 4..7 },
-    ];
-    (xy.iter().map(|p| p.map(f64::from)).collect(), segments, is_border, rings)
+    Graph {
+        cloud: Cloud { xy: xy.iter().map(|p| p.map(f64::from)).collect(), ..Cloud::default() },
+        segments: vec![[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 4], [7, 8], [8, 9]],
+        is_border,
+        rings: vec![
+            GraphRing { polygon: 0, ring: 0, segments: 0..4 },
+            GraphRing { polygon: 0, ring: 1, segments: 4..7 },
+        ],
+        ..Graph::default()
+    }
 }
 
 /// Well-known binary, little or big endian, with a system or not.
@@ -196,7 +200,7 @@ impl Binary {
 }
 
 fn binary(big: bool, system: Option<u32>, closed: bool) -> Vec<u8> {
-    let xy = square_and_line().0;
+    let xy = square_and_line().cloud.xy;
     let mut out = Binary { bytes: Vec::new(), big };
     out.begin(3, system);
     out.number(2);
@@ -243,9 +247,9 @@ fn geometries_have_one_meaning_in_all_formats() {
         assert_eq!(points.remarks, ["the corners of 2 lines and polygons were taken as points"]);
         let rings = read_rings(source(&content), format).expect("rings");
         assert_eq!(rings, [&points.xy[..4], &points.xy[4..7]], "{format}");
-        let (xy, segments, is_border, rings) = square_and_line();
-        assert_eq!((found.cloud.xy, found.segments), (xy, segments), "{format}");
-        assert_eq!((found.is_border, found.rings, found.markers), (is_border, rings, None), "{format}");
+        let mut expected = square_and_line();
+        expected.cloud.crs = system;
+        assert_eq!(found, expected, "{format}");
     }
 }
 
