@@ -67,6 +67,63 @@ pub enum Error {
         "location by history, walks but for the visibility walk and the nearest vertex by circles are for the plane"
     )]
     OnlyInThePlane,
+    /// A segment whose end is no point of the input.
+    #[error("segment {segment} ends at point {index}, and there are {count} points, counted from 0")]
+    NoSuchPoint {
+        /// The index of the segment.
+        segment: usize,
+        /// The index that is none of a point.
+        index: usize,
+        /// The number of points.
+        count: usize,
+    },
+    /// Two segments cross strictly inside of both.
+    #[error("segments {first} and {second} cross near ({}, {}){}", .near[0], .near[1], others(*.count))]
+    SegmentsCross {
+        /// The index of one of them.
+        first: usize,
+        /// The index of the other one.
+        second: usize,
+        /// Where they cross, rounded.
+        near: [f64; 2],
+        /// The number of pairs of segments that cross.
+        count: usize,
+    },
+    /// A segment between a vertex and itself.
+    #[error("a segment from vertex {} to itself has no length", .vertex.index())]
+    NoLength {
+        /// The vertex.
+        vertex: VertexId,
+    },
+    /// A segment that was removed, has no length, or was never given here.
+    #[error("there is no segment {segment} in this triangulation")]
+    NoSuchSegment {
+        /// Its index.
+        segment: usize,
+    },
+    /// A vertex was to be removed at which segments end, bend or cross.
+    #[error("{count} segments end or meet at vertex {}", .vertex.index())]
+    ConstraintsEnd {
+        /// The vertex.
+        vertex: VertexId,
+        /// The number of segments.
+        count: usize,
+    },
+    /// A seed of a hole or a region that is in no part of the triangulation, or between two.
+    #[error("the seed of {what} {index} at ({}, {}) is {place}", .at[0], .at[1])]
+    Seed {
+        /// A hole or a region.
+        what: &'static str,
+        /// Its index.
+        index: usize,
+        /// The seed.
+        at: [f64; 2],
+        /// Where it is.
+        place: &'static str,
+    },
+    /// Location by history or by the Delaunay tree is for Delaunay triangulations.
+    #[error("a triangulation with constraints cannot be located by history or by the Delaunay tree")]
+    OnlyDelaunay,
     /// A region has no proper border.
     #[error("ring {ring} of the region, at corner {corner}: {problem}")]
     Region {
@@ -87,6 +144,15 @@ pub enum Error {
         /// What it must be.
         range: &'static str,
     },
+}
+
+/// What is said of other pairs.
+fn others(count: usize) -> String {
+    match count {
+        0 | 1 => String::new(),
+        2 => ", and so does another pair".to_owned(),
+        _ => format!(", and so do {} other pairs", count - 1),
+    }
 }
 
 /// What can be wrong with the border of a region.

@@ -50,6 +50,55 @@ pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering {
     compared(squared(q, a), radius * radius).unwrap_or_else(|| exact::compare_with_radius(q, a, radius))
 }
 
+/// Whether a segment surely has no point nearer to `q` than `p`, or at most `radius` away: floating point with a proven bound,
+/// after which `false` is no answer. For searches that pass by what they need not look at.
+///
+/// O(1).
+#[inline]
+pub fn segment_keeps_away(q: Point2, [a, b]: [Point2; 2], reach: Reach) -> bool {
+    let limit = match reach {
+        Reach::To(p) => squared(q, p),
+        Reach::Radius(radius) => radius * radius,
+    };
+    // The nearest point is an end, or on the line.
+    if !angle(a, q, b).is_positive() {
+        return reach.is_short_of(q, a);
+    }
+    if !angle(b, q, a).is_positive() {
+        return reach.is_short_of(q, b);
+    }
+    let (dx, dy, ex, ey) = (b[0] - a[0], b[1] - a[1], q[0] - a[0], q[1] - a[1]);
+    let (left, right) = (dx * ey, dy * ex);
+    let height = (left - right).abs() - ERROR * (left.abs() + right.abs());
+    let length = dx * dx + dy * dy;
+    // Products below could underflow, and overflow gives no answer.
+    height > SMALLEST
+        && limit > SMALLEST
+        && length > SMALLEST
+        && height * height > SMALLEST
+        && limit * length < f64::INFINITY
+        && height * height * (1.0 - 4.0 * ERROR) > limit * length
+}
+
+/// How far a search reaches around a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// As far as this point, which is not looked for.
+    To(Point2),
+    /// So far, that distance included.
+    Radius(f64),
+}
+
+impl Reach {
+    /// Whether a point is out of reach.
+    fn is_short_of(self, q: Point2, a: Point2) -> bool {
+        match self {
+            Self::To(p) => compare_distances(q, a, p).is_ge(),
+            Self::Radius(radius) => compare_with_radius(q, a, radius).is_gt(),
+        }
+    }
+}
+
 /// [`compare_distances`] in space.
 #[inline]
 pub fn compare_distances3(q: Point3, a: Point3, b: Point3) -> Ordering {

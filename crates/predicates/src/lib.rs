@@ -50,7 +50,10 @@ pub use centre::{centre_direction, centre_side};
 pub use circumcentre::circumcentre;
 pub use clear::keeps_clear;
 pub use disks::{DiskPair, End, Stretch};
-pub use distance::{angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3};
+pub use distance::{
+    Reach, angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
+    segment_keeps_away,
+};
 pub use filter::{Filter, Filter3, Grid};
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};

@@ -210,7 +210,10 @@ impl Delaunay2 {
     }
 
     /// New names for points that are to be inserted; returns the first.
-    fn new_names(&mut self, points: impl ExactSizeIterator<Item = [f64; 2]>) -> Result<VertexId, Error> {
+    pub(super) fn new_names(
+        &mut self,
+        points: impl ExactSizeIterator<Item = [f64; 2]>,
+    ) -> Result<VertexId, Error> {
         let given = self.points().len();
         let count = given + points.len();
         if count > MAX_POINTS {
@@ -225,7 +228,7 @@ impl Delaunay2 {
 
     /// Makes a named point a vertex. Where it falls there is none.
     #[inline]
-    fn insert_named<T: Tally>(&mut self, v: VertexId, found: Found, q: [f64; 2], tally: &mut T) {
+    pub(super) fn insert_named<T: Tally>(&mut self, v: VertexId, found: Found, q: [f64; 2], tally: &mut T) {
         let place = self.base.place_for(found.spot, q);
         // First the name: memory takes it while the cavity is dug.
         self.base.mesh.names().bind(v, place);

@@ -3,7 +3,7 @@
 //! A sphere of triangles (`mesh::check`) is the canonical Delaunay triangulation of its vertices if every finite
 //! triangle is counter-clockwise, the hull turns left or goes straight everywhere and only once around, and no
 //! edge has the vertex across it inside the circle of its triangle (Delaunay's lemma: local implies global, for
-//! the perturbed points too). Cost: O(n).
+//! the perturbed points too), fixed edges apart. Cost: O(n).
 //!
 //! That every point is a vertex or a duplicate holds where no site hides another; a hidden site would be neither.
 
@@ -144,7 +144,8 @@ fn check_triangles(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
         }
         for e in [0, 1, 2].map(|k| t.edge(k)) {
             let across = mesh.tip(mesh.twin(e));
-            if !across.is_ghost() && in_circle(a, b, c, points[across.index()]).is_positive() {
+            let may_be_inside = across.is_ghost() || mesh.is_fixed(e);
+            if !may_be_inside && in_circle(a, b, c, points[across.index()]).is_positive() {
                 return Err(Flaw2::Delaunay(e));
             }
         }

@@ -2,6 +2,7 @@
 
 mod change;
 pub mod check;
+mod constrained;
 mod construct;
 mod delaunay;
 mod disk_edges;
@@ -22,6 +23,10 @@ pub mod verify;
 mod versions;
 mod voronoi;
 
+pub use constrained::{
+    Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Part2,
+    RegionSeed2, Seeds2, SegmentEnds, SegmentId,
+};
 pub use construct::Algorithm2;
 pub use delaunay::Delaunay2;
 pub use disk_edges::DiskEdges2;

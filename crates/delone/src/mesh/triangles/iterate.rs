@@ -40,6 +40,22 @@ impl Mesh2 {
         Star { mesh: self, first, next: first }
     }
 
+    /// The edge from one place to another, if there is one: both stars are looked through at once, so that the smaller one
+    /// decides what it costs.
+    pub(crate) fn edge_between(&self, a: Place, b: Place) -> Option<EdgeId> {
+        let (mut from_a, mut from_b) = (self.spokes(a), self.spokes(b));
+        loop {
+            let e = from_a.next()?;
+            if self.head(e) == b {
+                return Some(e);
+            }
+            let f = from_b.next()?;
+            if self.head(f) == a {
+                return Some(self.twin(f));
+            }
+        }
+    }
+
     /// The edges with the same origin as one, counter-clockwise from there.
     pub fn star_from(&self, e: EdgeId) -> Star<'_> {
         Star { mesh: self, first: e, next: e }

@@ -28,6 +28,7 @@
 //! Inside, a vertex is known by its *place*, where its star and its coordinates are kept; outside, by its
 //! [`VertexId`]. `names` translates, `slots` finds free triangles near others, `layout` brings order into memory.
 
+pub(crate) mod channel;
 mod check;
 mod iterate;
 mod layout;

@@ -61,8 +61,7 @@ impl Mesh2 {
     }
 
     /// Fixes an edge and its twin, or lets them go.
-    #[cold]
-    pub(super) fn set_fixed(&mut self, e: EdgeId, fixed: bool) {
+    pub(crate) fn set_fixed(&mut self, e: EdgeId, fixed: bool) {
         self.is_tagged |= fixed;
         for e in [e, self.twin(e)] {
             self.set_tags(e.triangle(), self.tags(e.triangle()).with(e, fixed));

@@ -4,6 +4,10 @@
 //! tessellation", The Computer Journal 1981. With the canonical in-circle test the cavity is that of points in
 //! general position: connected, without an inner vertex, and star-shaped around the new point.
 //!
+//! What is behind a fixed edge is not seen, and not in conflict. The cavity is what flips would make then: an edge is passed
+//! only if the point is in the circle behind it, so the corner there makes a convex quadrilateral with it, and every border
+//! edge is strictly seen from the point. Both sides of a fixed edge are never in it: its line would pass through the point.
+//!
 //! Cost: O(k) for k triangles in the cavity, about four on average over random insertions; nothing is
 //! allocated once the buffers have grown.
 
@@ -68,9 +72,12 @@ impl Cavity {
             if mesh.is_marked(t) {
                 continue;
             }
-            tally.in_circle();
             let corners = [mesh.tail(outside), mesh.head(outside), tip];
-            if K::conflicts(corners, |k| points[corners[k].index()], q) {
+            let conflicts = !mesh.is_fixed(outside) && {
+                tally.in_circle();
+                K::conflicts(corners, |k| points[corners[k].index()], q)
+            };
+            if conflicts {
                 self.enter(mesh, t);
                 self.pending.extend([outside.previous(), outside.next()].map(|e| look(mesh, points, e)));
             } else {

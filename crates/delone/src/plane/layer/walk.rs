@@ -22,6 +22,9 @@ use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
 use crate::tally::{Phase, Tally};
 
+/// For walks that must be random and need not be chosen.
+const ANY_SEED: u64 = 1;
+
 /// The end of a walk.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plane) struct Goal {
@@ -56,7 +59,8 @@ pub(in crate::plane) fn walk<K: Kernel, T: Tally>(
     }
 }
 
-/// A visibility walk, which ends, anywhere, after more steps than `most`, at least 2.
+/// A visibility walk, which ends, anywhere, after more steps than `most`, at least 2. Where edges are fixed the triangulation
+/// need not be Delaunay, and the walk is stochastic.
 #[inline]
 pub(in crate::plane) fn walk_within<K: Kernel, T: Tally>(
     layer: &Layer<K>,
@@ -65,6 +69,10 @@ pub(in crate::plane) fn walk_within<K: Kernel, T: Tally>(
     most: usize,
     tally: &mut T,
 ) -> Goal {
+    if layer.mesh.is_tagged {
+        let mut random = SplitMix(ANY_SEED);
+        return visibility(layer, start, q, most, move |_| random.next() & 1 == 1, tally);
+    }
     visibility(layer, start, q, most, |_| false, tally)
 }
 

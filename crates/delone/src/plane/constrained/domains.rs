@@ -1,0 +1,300 @@
+//! What is inside: parts of the hull, bounded by constraints, and what each of them is.
+//!
+//! A flood over edges that are no constraints gives the parts. Across a constraint the winding number changes by the segments
+//! that cover it, those in one direction less those in the other; their number decides parity. So one search from infinity over
+//! the parts tells how deep each is.
+//!
+//! Cost: O(n), and O(m log m) for m constraint edges where segments overlap, have directions or are no borders. Four bytes a
+//! triangle.
+
+use super::{Constrained2, SegmentId};
+use crate::error::Error;
+use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::plane::Location2;
+use crate::points::finite;
+
+/// What is inside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub enum Fill<'a> {
+    /// Everything in the hull.
+    #[default]
+    All,
+    /// What an odd number of segments is around. Rings may come in any direction.
+    EvenOdd,
+    /// What segments wind around in sum, counter-clockwise less clockwise.
+    NonZero,
+    /// What is left of the hull without holes, given by a point in each, and without what no constraint parts from the
+    /// outside; as Triangle has it.
+    Seeds(&'a Seeds2),
+}
+
+/// Points in holes and regions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Seeds2 {
+    /// A point in each hole.
+    pub holes: Vec<[f64; 2]>,
+    /// A point in each region, and what is known of it.
+    pub regions: Vec<RegionSeed2>,
+    /// Whether bays of the hull stay that no constraint closes.
+    pub keep_concavities: bool,
+}
+
+/// A point in a region, and what is known of the region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionSeed2 {
+    /// The point.
+    pub at: [f64; 2],
+    /// A value for all triangles of the region.
+    pub attribute: f64,
+    /// The largest area that a triangle of the region should have, for refinement.
+    pub max_area: Option<f64>,
+}
+
+/// A part of the hull that constraints bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Part2 {
+    /// Whether it is inside, as the fill says.
+    pub is_inside: bool,
+    /// How often the segments that are borders wind around it, counter-clockwise less clockwise; 0 where nobody asked.
+    pub winding: i32,
+    /// The region whose seed is in it, by index.
+    pub region: Option<usize>,
+    /// The number of its triangles.
+    pub triangles: usize,
+}
+
+/// The parts of a constrained triangulation at some time. Triangles of later changes are in none.
+#[derive(Clone, Debug, Default)]
+pub struct Domains2 {
+    /// For each triangle its part; [`NONE`] for ghosts.
+    of: Vec<u32>,
+    parts: Vec<Part2>,
+    attributes: Vec<f64>,
+    /// Pairs of regions that claim one part; the first one has it.
+    rivals: Vec<[usize; 2]>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Domains2 {
+    /// The part that a triangle is in; `None` for a ghost.
+    pub fn part(&self, t: TriangleId) -> Option<usize> {
+        self.of.get(t.index()).filter(|&&part| part != NONE).map(|&part| part as usize)
+    }
+
+    /// All parts. They are numbered by their triangles with the least vertices.
+    pub fn parts(&self) -> &[Part2] {
+        &self.parts
+    }
+
+    /// Whether a triangle is inside.
+    pub fn is_inside(&self, t: TriangleId) -> bool {
+        self.part(t).is_some_and(|part| self.parts[part].is_inside)
+    }
+
+    /// The region that a triangle is in, by the index of its seed.
+    pub fn region(&self, t: TriangleId) -> Option<usize> {
+        self.part(t).and_then(|part| self.parts[part].region)
+    }
+
+    /// The attribute of the region that a triangle is in.
+    pub fn attribute(&self, t: TriangleId) -> Option<f64> {
+        self.region(t).map(|region| self.attributes[region])
+    }
+
+    /// Pairs of regions whose seeds are in one part. The first of each pair has it.
+    pub fn rivals(&self) -> &[[usize; 2]] {
+        &self.rivals
+    }
+}
+
+/// What changes across a constraint edge from its right to its left.
+type Weight = (EdgeId, i32, usize);
+
+impl Constrained2 {
+    /// The parts of the hull, and which of them are inside. All segments are borders.
+    ///
+    /// # Errors
+    /// [`Error::Seed`] for a seed on a constraint or outside of the hull, [`Error::Coordinate`] for one that is not finite.
+    pub fn domains(&self, fill: &Fill) -> Result<Domains2, Error> {
+        self.domains_within(fill, |_| true)
+    }
+
+    /// The same, but only some segments are borders for [`Fill::EvenOdd`] and [`Fill::NonZero`]; the others are constraints
+    /// with the same on both sides.
+    ///
+    /// # Errors
+    /// As [`Self::domains`].
+    pub fn domains_within(
+        &self,
+        fill: &Fill,
+        is_border: impl Fn(SegmentId) -> bool,
+    ) -> Result<Domains2, Error> {
+        let mut domains = self.parts();
+        let count = domains.parts.len();
+        match fill {
+            Fill::All => domains.parts.iter_mut().for_each(|part| part.is_inside = true),
+            Fill::EvenOdd | Fill::NonZero => {
+                let weights = self.weights(is_border);
+                let depths = self.depths(&domains, &weights);
+                for (part, (winding, covered)) in domains.parts.iter_mut().zip(depths) {
+                    part.winding = winding;
+                    part.is_inside = if *fill == Fill::EvenOdd { covered % 2 == 1 } else { winding != 0 };
+                }
+            }
+            Fill::Seeds(seeds) => {
+                let mut outside = vec![false; count];
+                if !seeds.keep_concavities {
+                    for e in self.hull_edges().filter(|&e| !self.is_constraint(e)) {
+                        outside[domains.of[e.triangle().index()] as usize] = true;
+                    }
+                }
+                for (index, &at) in seeds.holes.iter().enumerate() {
+                    outside[self.seeded(&domains, "hole", index, at)?] = true;
+                }
+                for (index, seed) in seeds.regions.iter().enumerate() {
+                    let part = self.seeded(&domains, "region", index, seed.at)?;
+                    match domains.parts[part].region {
+                        None => domains.parts[part].region = Some(index),
+                        Some(first) => domains.rivals.push([first, index]),
+                    }
+                }
+                domains.attributes = seeds.regions.iter().map(|seed| seed.attribute).collect();
+                domains.parts.iter_mut().zip(outside).for_each(|(part, outside)| part.is_inside = !outside);
+            }
+        }
+        Ok(domains)
+    }
+
+    /// The part that a seed is in.
+    fn seeded(
+        &self,
+        domains: &Domains2,
+        what: &'static str,
+        index: usize,
+        at: [f64; 2],
+    ) -> Result<usize, Error> {
+        let refused = |place| Err(Error::Seed { what, index, at, place });
+        finite(at)?;
+        let mesh = self.mesh();
+        let of = |e: EdgeId| [e, mesh.twin(e)].into_iter().find_map(|e| domains.part(e.triangle()));
+        let part = match self.locate(at)? {
+            Location2::Triangle(t) => domains.part(t),
+            Location2::Edge(e) if self.is_constraint(e) => return refused("on a constraint"),
+            Location2::Edge(e) => of(e),
+            Location2::Vertex(v) if mesh.star(v).any(|e| self.is_constraint(e)) => {
+                return refused("on an end of a constraint");
+            }
+            Location2::Vertex(v) => mesh.star(v).find_map(of),
+            Location2::Outside(_) | Location2::LowerDimensional(_) => None,
+        };
+        part.map_or_else(|| refused("outside of the hull"), Ok)
+    }
+
+    /// The edges of the hull, seen from inside.
+    fn hull_edges(&self) -> impl Iterator<Item = EdgeId> + '_ {
+        let mesh = self.mesh();
+        let spanned = self.graph.base.spanned;
+        mesh.star_from(mesh.ghost_edge).filter(move |_| spanned).map(|e| mesh.twin(e.next()))
+    }
+
+    /// The parts, not told apart yet.
+    fn parts(&self) -> Domains2 {
+        let mesh = self.mesh();
+        let mut of = vec![NONE; mesh.slot_count()];
+        let mut found: Vec<([VertexId; 3], Part2)> = Vec::new();
+        let mut pending = Vec::new();
+        for first in mesh.triangles() {
+            if of[first.index()] != NONE {
+                continue;
+            }
+            let number = found.len() as u32;
+            let mut part = Part2 { is_inside: false, winding: 0, region: None, triangles: 0 };
+            let mut least = [VertexId::GHOST; 3];
+            of[first.index()] = number;
+            pending.push(first);
+            while let Some(t) = pending.pop() {
+                part.triangles += 1;
+                let mut corners = mesh.corners(t);
+                corners.sort_unstable();
+                least = least.min(corners);
+                for e in [0, 1, 2].map(|k| t.edge(k)) {
+                    let next = mesh.twin(e).triangle();
+                    if of[next.index()] == NONE && !mesh.is_fixed(e) && !mesh.is_ghost(next) {
+                        of[next.index()] = number;
+                        pending.push(next);
+                    }
+                }
+            }
+            found.push((least, part));
+        }
+        let mut order: Vec<u32> = (0..found.len() as u32).collect();
+        order.sort_unstable_by_key(|&part| found[part as usize].0);
+        let mut number = vec![0; found.len()];
+        order.iter().enumerate().for_each(|(new, &old)| number[old as usize] = new as u32);
+        of.iter_mut().filter(|part| **part != NONE).for_each(|part| *part = number[*part as usize]);
+        let parts = order.iter().map(|&part| found[part as usize].1).collect();
+        Domains2 { of, parts, ..Domains2::default() }
+    }
+
+    /// For each constraint edge, in one of its directions, the segments that cover it: those along it less those against it,
+    /// and their number. Only those that are borders count.
+    fn weights(&self, is_border: impl Fn(SegmentId) -> bool) -> Vec<Weight> {
+        let mut all: Vec<Weight> = Vec::new();
+        for (s, _) in self.segments().filter(|&(s, _)| is_border(s)) {
+            self.edges_of(s, |_, e| {
+                let twin = self.mesh().twin(e);
+                all.push(if e < twin { (e, 1, 1) } else { (twin, -1, 1) });
+            });
+        }
+        all.sort_unstable_by_key(|weight| weight.0);
+        all.dedup_by(|later, first| {
+            let same = later.0 == first.0;
+            if same {
+                first.1 = first.1.saturating_add(later.1);
+                first.2 += later.2;
+            }
+            same
+        });
+        all
+    }
+
+    /// For each part how often borders wind around it, and a number of borders between it and infinity.
+    fn depths(&self, domains: &Domains2, weights: &[Weight]) -> Vec<(i32, usize)> {
+        let mesh = self.mesh();
+        // Left of the edge is more than right of it.
+        let across = |e: EdgeId| {
+            let twin = mesh.twin(e);
+            let found = weights.binary_search_by_key(&e.min(twin), |weight| weight.0);
+            let (along, count) = found.map_or((0, 0), |at| (weights[at].1, weights[at].2));
+            (if e < twin { along } else { -along }, count)
+        };
+        let borders = self.borders(domains);
+        let mut depths: Vec<Option<(i32, usize)>> = vec![None; domains.parts.len()];
+        // From a side to the other one: the edge is seen from what is entered.
+        let mut pending: Vec<(EdgeId, (i32, usize))> = self.hull_edges().map(|e| (e, (0, 0))).collect();
+        while let Some((entered, (winding, count))) = pending.pop() {
+            let Some(part) = domains.part(entered.triangle()).filter(|&part| depths[part].is_none()) else {
+                continue;
+            };
+            let (more, covering) = across(entered);
+            let depth = (winding.saturating_add(more), count + covering);
+            depths[part] = Some(depth);
+            let start = borders.partition_point(|border| (border.0 as usize) < part);
+            let of_part = borders[start..].iter().take_while(|border| border.0 as usize == part);
+            pending.extend(of_part.map(|border| (mesh.twin(border.1), depth)));
+        }
+        depths.into_iter().map(Option::unwrap_or_default).collect()
+    }
+
+    /// The constraint edges around each part, seen from inside, part by part.
+    fn borders(&self, domains: &Domains2) -> Vec<(u32, EdgeId)> {
+        let mesh = self.mesh();
+        let both = self.constraint_edges().flat_map(|e| [e, mesh.twin(e)]);
+        let mut borders: Vec<_> = both.map(|e| (domains.of[e.triangle().index()], e)).collect();
+        borders.sort_unstable();
+        borders
+    }
+}

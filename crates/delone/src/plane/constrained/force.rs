@@ -1,0 +1,125 @@
+//! A segment becomes an edge, or a chain of edges through the vertices on it.
+//!
+//! What it crosses between two vertices is a channel of triangles, whose two sides are filled anew. The apex of a side of such
+//! a polygon is the vertex of its chain whose circle with the side contains no other: all of a chain see the segment across the
+//! side, through the edges that they had across it, so that no visibility has to be asked. Where a chain comes to one vertex
+//! twice, around what hangs into the channel, either occurrence may be the apex of a side only if the other one is not between
+//! the side's ends: what hangs between them is in the circle.
+//!
+//! Sources: Anglada, "An improved incremental algorithm for constructing restricted Delaunay triangulations", Computers &
+//! Graphics 1997; Shewchuk & Brown, "Fast segment insertion and incremental construction of constrained Delaunay
+//! triangulations", CGTA 2015, for the order of segments and for what hangs into a channel.
+//!
+//! Cost: for k edges crossed O(k) for k up to two, O(k log k) where apexes are in the middle of chains, as of random points,
+//! O(k^2) at worst.
+
+use delone_predicates::{in_circle, orient2d};
+
+use super::trace::{Beginning, Ground, Leaves};
+use crate::ids::{EdgeId, Place};
+use crate::mesh::Mesh2;
+use crate::mesh::triangles::channel::Channel;
+use crate::mesh::triangles::surgery::BorderEdge;
+use crate::plane::layer::Layer;
+
+/// What was found on the way of a segment that was made a constraint.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Forced {
+    /// Whether an edge of it was one already.
+    pub(super) overlaps: bool,
+    /// Vertices on it.
+    pub(super) through: usize,
+}
+
+impl Layer {
+    fn ground(&self) -> Ground<'_> {
+        Ground { mesh: &self.mesh, points: &self.points }
+    }
+
+    /// Makes the segment between two different vertices a chain of fixed edges, each of which is told in the
+    /// segment's direction. The channel is a buffer.
+    ///
+    /// # Errors
+    /// The first fixed edge found that it crosses. What comes before it is fixed then.
+    pub(super) fn force(
+        &mut self,
+        [mut a, mut b]: [Place; 2],
+        channel: &mut Channel,
+        mut each: impl FnMut(&Mesh2, EdgeId),
+    ) -> Result<Forced, EdgeId> {
+        let mut forced = Forced::default();
+        loop {
+            let Beginning { leaves, at_second } = self.ground().begin(a, b);
+            let [near, far] = if at_second { [b, a] } else { [a, b] };
+            let e = match leaves {
+                Leaves::Along(e) => e,
+                Leaves::Across(across) => self.dig([near, far], across, channel)?,
+            };
+            forced.overlaps |= self.mesh.is_fixed(e);
+            self.mesh.set_fixed(e, true);
+            let reached = self.mesh.head(e);
+            each(&self.mesh, if at_second { self.mesh.twin(e) } else { e });
+            if reached == far {
+                return Ok(forced);
+            }
+            forced.through += 1;
+            *(if at_second { &mut b } else { &mut a }) = reached;
+        }
+    }
+
+    /// Replaces the edges that a segment crosses up to the first vertex on it. Returns its edge, from the near end on.
+    fn dig(&mut self, [a, b]: [Place; 2], across: EdgeId, channel: &mut Channel) -> Result<EdgeId, EdgeId> {
+        let end = self.ground().channel([a, b], across, channel)?;
+        if channel.triangles.len() == 2 {
+            // Both sides are triangles: nothing is to be tested.
+            self.mesh.flip(across);
+            let e = across;
+            return Ok(if self.mesh.tail(e) == a { e } else { self.mesh.twin(e) });
+        }
+        let points = &self.points;
+        let e = self
+            .mesh
+            .fill_channel([a, end], channel, |border, first, last| apex(points, border, first, last));
+        Ok(if self.mesh.tail(e) == a { e } else { self.mesh.twin(e) })
+    }
+
+    /// The fixed edges that the segment between two vertices crosses.
+    pub(super) fn obstacles(&self, ends: [Place; 2]) -> Vec<EdgeId> {
+        let mut found = Vec::new();
+        self.ground().follow(
+            ends,
+            |_, _| {},
+            |e| {
+                found.extend(Some(e).filter(|&e| self.mesh.is_fixed(e)));
+                true
+            },
+        );
+        found
+    }
+
+    /// Whether a point is on the line of an edge.
+    pub(super) fn is_on(&self, e: EdgeId, q: [f64; 2]) -> bool {
+        let [a, b] = [self.mesh.tail(e), self.mesh.head(e)].map(|v| self.points[v.index()]);
+        orient2d(a, b, q).is_zero()
+    }
+}
+
+/// The apex of the side from `last` to `first` among the vertices of the chain between them.
+fn apex(points: &[[f64; 2]], border: &[BorderEdge], first: usize, last: usize) -> usize {
+    let place = |k: usize| border[k].0;
+    let point = |k: usize| points[place(k).index()];
+    let (from, to) = (point(last), point(first));
+    let mut best = None;
+    for k in first + 1..last {
+        if place(k) == place(first) || place(k) == place(last) {
+            continue;
+        }
+        let is_better = best.is_none_or(|best: usize| {
+            place(k) != place(best) && in_circle(from, to, point(best), point(k)).is_positive()
+        });
+        if is_better {
+            best = Some(k);
+        }
+    }
+    best.expect("a side has an apex, unless it is a side of what hangs in the channel")
+}

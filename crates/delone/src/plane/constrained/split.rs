@@ -1,0 +1,149 @@
+//! Segments that cross are split, in rounds, until nothing crosses.
+//!
+//! A round finds all crossings of the edges that there are, and all vertices inside of edges; rounds each crossing, computed
+//! exactly from its two edges, once to the nearest coordinates; and replaces every edge at once by the chain through what lies
+//! on it, in the order along it.
+//!
+//! *It ends*: rounding is monotone, so a chain is monotone in x and in y inside of the box of its edge. With an inner vertex
+//! other than its ends each link has both extents at most those of the edge, and one of them less: it is shorter. Where two
+//! edges cross, the rounded point is no end of both, since they would share it, so at least one of them is replaced by shorter
+//! ones. All vertices are coordinates of `f64` in the bounding box; so lengths are from a finite set, and the multiset of them
+//! goes down in every round (Dershowitz & Manna, "Proving termination with multiset orderings", CACM 1979).
+//!
+//! *It is canonical*: a round is a function of the set of edges. Vertices of the input never move, and a chain strays from its
+//! edge by at most half a unit in the last place of its coordinates in each round. Every segment keeps a chain of its own, so
+//! where chains collapse on each other the number of segments on an edge, which even-odd filling counts, is right.
+//!
+//! Cost: a round follows every edge through the triangulation (see `crossings`); mostly one round changes something.
+
+use std::collections::BTreeMap;
+
+use delone_predicates::{Line, Spot, lexicographic};
+
+use super::ConstraintReport2;
+use super::crossings::{self, Met};
+use super::segments::SegmentId;
+use crate::error::Error;
+use crate::ids::VertexId;
+use crate::plane::Delaunay2;
+
+/// Segments without crossings.
+pub(super) struct Split {
+    /// The points, those added last; no edge is fixed.
+    pub(super) graph: Delaunay2,
+    /// The pieces of all segments, each between two vertices.
+    pub(super) pieces: Vec<[VertexId; 2]>,
+    /// The chains of segments that were split at a crossing.
+    pub(super) bent: BTreeMap<SegmentId, Vec<VertexId>>,
+    pub(super) counts: ConstraintReport2,
+}
+
+type Ends = [VertexId; 2];
+
+fn sorted([v, w]: Ends) -> Ends {
+    [v.min(w), v.max(w)]
+}
+
+/// Splits segments until nothing crosses.
+pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Error> {
+    let mut points = graph.points().to_vec();
+    drop(graph);
+    let given = points.len();
+    let mut chains: Vec<Vec<VertexId>> = segments.iter().map(|ends| ends.to_vec()).collect();
+    let mut is_bent = vec![false; segments.len()];
+    let mut counts = ConstraintReport2::default();
+    loop {
+        let graph = Delaunay2::from_points(&points)?;
+        let links = || chains.iter().flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]));
+        let mut edges: Vec<Ends> = links().map(sorted).filter(|[v, w]| v != w).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let met = crossings::meet(&graph, &edges);
+        if met.crossings.is_empty() {
+            counts.added_points = points.len() - given;
+            let pieces = links().collect();
+            let bent = chains.into_iter().zip(is_bent).enumerate();
+            let bent =
+                bent.filter(|(_, (_, is_bent))| *is_bent).map(|(s, (chain, _))| (SegmentId::new(s), chain));
+            return Ok(Split { graph, pieces, bent: bent.collect(), counts });
+        }
+        counts.crossings += met.crossings.len();
+        counts.rounds += 1;
+        let round = Round::new(&graph, &edges, met, &mut points);
+        for (chain, is_bent) in chains.iter_mut().zip(&mut is_bent) {
+            *is_bent |= round.extend(chain);
+        }
+    }
+}
+
+/// What lies on the edges of a round.
+struct Round<'a> {
+    edges: &'a [Ends],
+    /// An edge, a vertex inside of it, in the order from the lesser end, and whether it is rounded.
+    on: Vec<(u32, VertexId, bool)>,
+}
+
+impl<'a> Round<'a> {
+    /// Adds the rounded crossings that are no vertices yet to the points, in lexicographic order.
+    fn new(graph: &Delaunay2, edges: &'a [Ends], met: Met, points: &mut Vec<[f64; 2]>) -> Self {
+        let Met { crossings, through } = met;
+        let places: Vec<[f64; 2]> = crossings
+            .iter()
+            .map(|c| crossings::place(graph, edges[c.first as usize], edges[c.second as usize]))
+            .collect();
+        // By place: an old vertex before a new one that equals it.
+        let mut known: Vec<([f64; 2], Option<VertexId>)> = places.iter().map(|&p| (p, None)).collect();
+        known.extend(graph.vertices().map(|v| (graph.point(v), Some(v))));
+        known.sort_by(|p, q| lexicographic(p.0, q.0).then_with(|| q.1.cmp(&p.1)));
+        known.dedup_by(|later, earlier| later.0 == earlier.0);
+        for (p, vertex) in &mut known {
+            vertex.get_or_insert_with(|| {
+                points.push(*p);
+                VertexId::new(points.len() - 1)
+            });
+        }
+        let vertex_at = |p: [f64; 2]| {
+            let at = known.binary_search_by(|entry| lexicographic(entry.0, p));
+            at.ok().and_then(|at| known[at].1).expect("a vertex now")
+        };
+        let mut on: Vec<(u32, Spot, VertexId, bool)> = Vec::new();
+        for (c, &p) in crossings.iter().zip(&places) {
+            let [first, second] = [c.first, c.second].map(|e| crossings::line(graph, edges[e as usize]));
+            on.push((c.first, Spot::Meeting(second, first), vertex_at(p), true));
+            on.push((c.second, Spot::Meeting(first, second), vertex_at(p), true));
+        }
+        on.extend(through.into_iter().map(|(e, v)| (e, Spot::Point(graph.point(v)), v, false)));
+        on.sort_by(|p, q| {
+            let line: &dyn Fn() -> Line = &|| crossings::line(graph, edges[p.0 as usize]);
+            p.0.cmp(&q.0).then_with(|| line().compare(&p.1, &q.1)).then_with(|| p.2.cmp(&q.2))
+        });
+        Self { edges, on: on.into_iter().map(|(e, _, v, is_rounded)| (e, v, is_rounded)).collect() }
+    }
+
+    /// Replaces each link of a chain. Returns whether a rounded point has come to it.
+    fn extend(&self, chain: &mut Vec<VertexId>) -> bool {
+        let mut is_bent = false;
+        let mut longer = vec![chain[0]];
+        for link in chain.windows(2) {
+            let ends = [link[0], link[1]];
+            if let Ok(e) = self.edges.binary_search(&sorted(ends)) {
+                let start = self.on.partition_point(|on| (on.0 as usize) < e);
+                let end = self.on.partition_point(|on| (on.0 as usize) <= e);
+                let inner = &self.on[start..end];
+                is_bent |= inner.iter().any(|on| on.2);
+                if ends[0] < ends[1] {
+                    longer.extend(inner.iter().map(|on| on.1));
+                } else {
+                    longer.extend(inner.iter().rev().map(|on| on.1));
+                }
+            }
+            longer.push(ends[1]);
+        }
+        longer.dedup();
+        if longer.len() == 1 {
+            longer.push(longer[0]); // of no length
+        }
+        *chain = longer;
+        is_bent
+    }
+}

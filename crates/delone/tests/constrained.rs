@@ -1,0 +1,209 @@
+//! Constrained triangulations: one set of points and segments, one triangulation.
+
+use std::collections::BTreeSet;
+
+use delone::{Constrained2, Crossings, Error, SegmentEnds, SegmentId, VertexId};
+use delone_generators::{Kind, Random};
+
+type Points = Vec<[f64; 2]>;
+type Segments = Vec<[usize; 2]>;
+
+/// The triangles by coordinates, each from its least corner on, sorted.
+fn triangles(c: &Constrained2) -> Vec<[[f64; 2]; 3]> {
+    let mut all: Vec<_> = c
+        .triangles()
+        .map(|t| {
+            let mut corners = t.map(|v| c.point(v));
+            let least = (0..3).min_by(|&i, &j| corners[i].partial_cmp(&corners[j]).expect("finite"));
+            corners.rotate_left(least.expect("three"));
+            corners
+        })
+        .collect();
+    all.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
+    all
+}
+
+/// Random segments that cross none before them.
+fn planar(points: &[[f64; 2]], tries: usize, random: &mut Random) -> Segments {
+    let mut c = Constrained2::from_parts(points, &[]).expect("no segments");
+    let mut kept = Vec::new();
+    for _ in 0..tries {
+        let ends = [random.below(points.len()), random.below(points.len())];
+        let vertex = |i: usize| {
+            let same = c.duplicates().find(|d| d.point == i).map(|d| d.vertex);
+            same.unwrap_or(VertexId::new(i))
+        };
+        let [v, w] = ends.map(vertex);
+        match c.insert_segment(v, w) {
+            Ok(_) | Err(Error::NoLength { .. }) => kept.push(ends),
+            Err(Error::SegmentsCross { .. }) => {}
+            Err(other) => panic!("{other}"),
+        }
+        c.check().expect("canonical");
+    }
+    kept
+}
+
+fn shuffled(points: &[[f64; 2]], segments: &[[usize; 2]], random: &mut Random) -> (Points, Segments) {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    for i in (1..order.len()).rev() {
+        order.swap(i, random.below(i + 1));
+    }
+    let mut place = vec![0; points.len()];
+    order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
+    let points = order.iter().map(|&i| points[i]).collect();
+    let mut segments: Segments = segments.iter().map(|ends| ends.map(|i| place[i])).collect();
+    for i in (1..segments.len()).rev() {
+        segments.swap(i, random.below(i + 1));
+        if random.below(2) == 0 {
+            segments[i].reverse();
+        }
+    }
+    (points, segments)
+}
+
+#[test]
+fn order_and_direction_do_not_show() {
+    let mut random = Random::new(1);
+    for &kind in Kind::ALL {
+        for n in [3, 6, 12, 40] {
+            let points = kind.points(n, 5);
+            let segments = planar(&points, 2 * n, &mut random);
+            let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+            c.check().expect("canonical");
+            let expected = triangles(&c);
+            for _ in 0..3 {
+                let (p, s) = shuffled(&points, &segments, &mut random);
+                let other = Constrained2::from_parts(&p, &s).expect("nothing crosses");
+                other.check().expect("canonical");
+                assert_eq!(triangles(&other), expected, "{} {n}", kind.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn long_segments_among_many_points() {
+    let mut random = Random::new(7);
+    for kind in [Kind::Uniform, Kind::Grid, Kind::Circle, Kind::Parabola, Kind::Clusters, Kind::HugeSpan] {
+        let points = kind.points(600, 3);
+        let segments = planar(&points, 150, &mut random);
+        let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+        c.check().expect("canonical");
+        let (p, s) = shuffled(&points, &segments, &mut random);
+        let other = Constrained2::from_parts(&p, &s).expect("nothing crosses");
+        assert_eq!(triangles(&other), triangles(&c), "{}", kind.name());
+    }
+}
+
+#[test]
+fn what_is_taken_away_has_never_been() {
+    let mut random = Random::new(11);
+    for &kind in Kind::ALL {
+        let points = kind.points(40, 2);
+        let plain = Constrained2::from_parts(&points, &[]).expect("no segments");
+        let segments = planar(&points, 60, &mut random);
+        let mut c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+        let ids: Vec<SegmentId> = c.segments().map(|(s, _)| s).collect();
+        for s in ids {
+            c.remove_segment(s).expect("there");
+            c.check().expect("canonical");
+        }
+        assert_eq!(triangles(&c), triangles(&plain), "{}", kind.name());
+    }
+}
+
+/// Points and segments come and go; what is there is what a construction of the same gives.
+#[test]
+fn lives() {
+    let mut random = Random::new(3);
+    for &kind in Kind::ALL {
+        let mut c = Constrained2::new();
+        let points = kind.points(60, 4);
+        for step in 0..300 {
+            let vertices: Vec<VertexId> = c.vertices().collect();
+            let any = |random: &mut Random| vertices[random.below(vertices.len())];
+            match random.below(8) {
+                _ if vertices.len() < 4 => _ = c.insert(points[random.below(points.len())]).expect("finite"),
+                0..3 => _ = c.insert(points[random.below(points.len())]).expect("finite"),
+                3 | 4 => _ = c.insert_segment(any(&mut random), any(&mut random)),
+                5 => {
+                    let ids: Vec<SegmentId> = c.segments().map(|(s, _)| s).collect();
+                    if !ids.is_empty() {
+                        c.remove_segment(ids[random.below(ids.len())]).expect("there");
+                    }
+                }
+                6 => {
+                    let ends = [SegmentEnds::Refuse, SegmentEnds::Join, SegmentEnds::Drop][random.below(3)];
+                    _ = c.remove_with(any(&mut random), ends);
+                }
+                _ => {
+                    // In the middle of a constraint.
+                    let segments: Vec<_> = c.segments().collect();
+                    if let Some(&(_, [v, w])) = segments.get(random.below(segments.len() + 1)) {
+                        let [p, q] = [c.point(v), c.point(w)];
+                        c.insert([0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)).expect("finite");
+                    }
+                }
+            }
+            if let Err(flaw) = c.check() {
+                panic!("{} step {step}: {flaw}", kind.name());
+            }
+            if step % 10 == 0 {
+                let alive: Vec<VertexId> = c.vertices().collect();
+                let place = |v: VertexId| alive.binary_search(&v).expect("a vertex");
+                let p: Points = alive.iter().map(|&v| c.point(v)).collect();
+                let s: Segments = c.segments().map(|(_, ends)| ends.map(place)).collect();
+                let anew = Constrained2::from_parts(&p, &s).expect("nothing crosses");
+                assert_eq!(triangles(&c), triangles(&anew), "{} step {step}", kind.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn crossings_are_named_or_split() {
+    let points = [[0, 0], [4, 4], [0, 4], [4, 0], [2, 7], [2, -7], [9, 9]];
+    let segments = [[6, 1], [0, 1], [2, 3], [4, 5]];
+    let refused = Constrained2::from_parts(&points, &segments).expect_err("they cross");
+    assert_eq!(refused, Error::SegmentsCross { first: 1, second: 2, near: [2.0, 2.0], count: 3 });
+    let c = Constrained2::with_crossings(&points, &segments, Crossings::Split).expect("split");
+    c.check().expect("canonical");
+    assert_eq!((c.report().crossings, c.report().added_points), (3, 1));
+    assert_eq!(c.chain(SegmentId::new(1)).map(|v| v.len()), Some(3));
+}
+
+#[test]
+fn splitting_ends_and_does_not_depend_on_order() {
+    let mut random = Random::new(5);
+    for scale in [1.0, 1e-300, 1e300, f64::EPSILON] {
+        for side in [4, 24, 1000] {
+            for _ in 0..20 {
+                let offset = if scale == f64::EPSILON { 1.0 } else { 0.0 };
+                let mut coordinate = || offset + scale * random.below(side) as f64;
+                let points: Points = (0..30).map(|_| [coordinate(), coordinate()]).collect();
+                let segments: Segments = (0..30).map(|_| [random.below(30), random.below(30)]).collect();
+                let split = |p: &Points, s: &Segments| {
+                    let c = Constrained2::with_crossings(p, s, Crossings::Split).expect("it ends");
+                    c.check().expect("canonical");
+                    c
+                };
+                let c = split(&points, &segments);
+                let (p, s) = shuffled(&points, &segments, &mut random);
+                let other = split(&p, &s);
+                assert_eq!(triangles(&c), triangles(&other));
+                let constraints = |c: &Constrained2| -> BTreeSet<_> {
+                    c.constraints()
+                        .map(|ends| {
+                            let mut ends =
+                                ends.map(|v| c.point(v).map(|x| if x == 0.0 { 0 } else { x.to_bits() }));
+                            ends.sort_unstable();
+                            ends
+                        })
+                        .collect()
+                };
+                assert_eq!(constraints(&c), constraints(&other));
+            }
+        }
+    }
+}
