@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use delone::RegionSeed2;
+
 use crate::{Cloud, Error};
 
 /// Points with segments, and what a file says of them: the input of constrained triangulations.
@@ -25,20 +27,9 @@ pub struct Graph {
     /// Points in areas that are left out.
     pub holes: Vec<[f64; 2]>,
     /// Points in areas that have an attribute and perhaps a largest area of their triangles.
-    pub regions: Vec<RegionSeed>,
+    pub regions: Vec<RegionSeed2>,
     /// Which ring of which polygon segments are, where the file has polygons.
     pub rings: Vec<GraphRing>,
-}
-
-/// A point that says something of the area that it is in, up to the next segments.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RegionSeed {
-    /// Where it is.
-    pub at: [f64; 2],
-    /// What the triangles there are given.
-    pub attribute: f64,
-    /// The largest area that they may have.
-    pub max_area: Option<f64>,
 }
 
 /// A ring of a polygon, closed. One that has fewer than two distinct positions one after the other may have no segments.

@@ -26,7 +26,7 @@ pub use error::Error;
 pub use format::Format;
 pub use formats::las::LAS_CLASSES;
 pub use formats::poly::Beside;
-pub use graph::{Attributes, Graph, GraphRing, RegionSeed};
+pub use graph::{Attributes, Graph, GraphRing};
 pub use input::decompressed;
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};

@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::io::Write;
 
-use delone::{Coordinates, Corners, Triangulation, VertexId};
+use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::{geojson, npy, obj, ply, poly, stl, triangle, vtu, wkb, wkt};
-use crate::{Crs, Error, Format, RegionSeed, Remark, Shape, Trim, picture, write_solid};
+use crate::{Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
 /// A triangulation to be written, with what lies beside it.
 ///
@@ -42,6 +42,27 @@ pub struct Mesh<'a, T: Triangulation> {
 }
 
 /// The constraints of a triangulation, and what a `.poly` file says beside them.
+///
+/// ```
+/// use std::io::Cursor;
+/// use delone::{Constrained2, Fill, Seeds2, Triangulation};
+/// use delone_io::{Constraints, Format, Mesh, ReadOptions, Trim, picture, read_graph, write_mesh};
+///
+/// // A triangle with a triangular hole.
+/// let text = "6 2 0 0\n0 0 0\n1 9 0\n2 0 9\n3 1 1\n4 4 1\n5 1 4\n6 0\n0 0 1\n1 1 2\n2 2 0\n3 3 4\n4 4 5\n5 5 3\n1\n0 2 2\n";
+/// let graph = read_graph(Box::new(Cursor::new(text)), Format::Poly, &ReadOptions::default(), None)?;
+/// let c = Constrained2::from_parts(&graph.cloud.xy, &graph.segments)?;
+/// let seeds = Seeds2 { holes: graph.holes.clone(), ..Seeds2::default() };
+/// let domains = c.domains(&Fill::Seeds(&seeds))?;
+/// let trim = Trim::keeping(&c, |t| domains.is_inside(t));
+/// let edges: Vec<_> = c.constraints().collect();
+/// let constraints = Constraints { edges: &edges, holes: &graph.holes, ..Constraints::default() };
+/// let mesh = Mesh { trim: Some(&trim), constraints: Some(&constraints), ..Mesh::new(&c, &graph.cloud.xy) };
+/// let mut file = Vec::new();
+/// write_mesh(&mut file, Format::Svg, &mesh, &picture::Options::default())?;
+/// assert_eq!((mesh.simplex_count(), trim.count()), (6, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Constraints<'a> {
     /// The edges, each once.
@@ -51,7 +72,7 @@ pub struct Constraints<'a> {
     /// Points in areas that are left out.
     pub holes: &'a [[f64; 2]],
     /// Points in areas that have an attribute.
-    pub regions: &'a [RegionSeed],
+    pub regions: &'a [RegionSeed2],
 }
 
 impl<'a, T: Triangulation> Mesh<'a, T> {

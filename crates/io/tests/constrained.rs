@@ -2,9 +2,9 @@
 
 use std::io::Cursor;
 
-use delone::{Delaunay2, Triangulation, VertexId};
+use delone::{Delaunay2, RegionSeed2, Triangulation, VertexId};
 use delone_io::{
-    Constraints, Format, Mesh, ReadOptions, RegionSeed, Source, Trim, picture, read_graph, read_points,
+    Constraints, Format, Mesh, ReadOptions, Source, Trim, picture, read_graph, read_points,
     read_triangle_attributes, read_triangles, write_mesh,
 };
 
@@ -44,7 +44,7 @@ impl Scene {
     }
 
     fn written(&self, format: Format) -> Vec<u8> {
-        let seeds = [RegionSeed { at: [0.5, 0.5], attribute: 1.5, max_area: None }];
+        let seeds = [RegionSeed2 { at: [0.5, 0.5], attribute: 1.5, max_area: None }];
         let constraints = Constraints {
             edges: &self.edges,
             markers: Some(&MARKERS),

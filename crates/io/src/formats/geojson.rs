@@ -1,4 +1,4 @@
-//! GeoJSON, one document or many: points are read by the `geojson` crate, triangles written as polygons.
+//! GeoJSON, one document or many, or bare coordinates: read by the `geojson` crate; triangles are written as polygons.
 
 use std::io::{self, Read, Write};
 

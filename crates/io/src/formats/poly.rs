@@ -3,11 +3,11 @@
 
 use std::io::{self, Write};
 
-use delone::Triangulation;
+use delone::{RegionSeed2, Triangulation};
 
 use super::lines::{Line, Lines};
 use super::triangle::{AHEAD, Nodes, count, write_node};
-use crate::{Attributes, Cloud, Constraints, Error, Graph, Mesh, RegionSeed, Source};
+use crate::{Attributes, Cloud, Constraints, Error, Graph, Mesh, Source};
 
 /// What opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
@@ -90,12 +90,14 @@ fn end(line: &Line, word: Option<&str>, base: usize, points: usize) -> Result<us
     }
 }
 
+/// Segments, and their markers where there are any.
+type Marked = (Vec<[usize; 2]>, Option<Vec<i64>>);
+
 /// Segments: `count markers`, then `index from to marker` each.
-#[expect(clippy::type_complexity, reason = "segments, and their markers where there are any")]
 fn segments(
     lines: &mut Lines,
     mut end: impl FnMut(&Line, Option<&str>) -> Result<usize, Error>,
-) -> Result<(Vec<[usize; 2]>, Option<Vec<i64>>), Error> {
+) -> Result<Marked, Error> {
     let Some(line) = lines.next()? else {
         return Err(Error::Truncated("before the number of segments".to_owned()));
     };
@@ -140,7 +142,7 @@ fn holes(lines: &mut Lines) -> Result<Vec<[f64; 2]>, Error> {
 
 /// Regions, if there are any: `count`, then `index x y attribute area` each. As in Triangle, one value alone is both, and an
 /// area that is not positive is none.
-fn regions(lines: &mut Lines, remarks: &mut Vec<String>) -> Result<Vec<RegionSeed>, Error> {
+fn regions(lines: &mut Lines, remarks: &mut Vec<String>) -> Result<Vec<RegionSeed2>, Error> {
     let Some(line) = lines.next()? else { return Ok(Vec::new()) };
     let words: Vec<&str> = line.text.split_whitespace().collect();
     let number = heading(&line, &words, 1, "regions")?;
@@ -160,7 +162,7 @@ fn regions(lines: &mut Lines, remarks: &mut Vec<String>) -> Result<Vec<RegionSee
         };
         let max_area = (area > 0.0).then_some(area);
         alone += usize::from(words.next().is_none() && line.text.split_whitespace().count() == 4);
-        regions.push(RegionSeed { at, attribute, max_area });
+        regions.push(RegionSeed2 { at, attribute, max_area });
     }
     if alone > 0 {
         remarks.push(format!("the one value of {alone} regions was taken as attribute and as largest area"));
@@ -234,7 +236,7 @@ struct Rest<'a> {
     segments: &'a [[usize; 2]],
     markers: Option<&'a [i64]>,
     holes: &'a [[f64; 2]],
-    regions: &'a [RegionSeed],
+    regions: &'a [RegionSeed2],
 }
 
 impl Rest<'_> {
@@ -256,7 +258,7 @@ impl Rest<'_> {
         if !self.regions.is_empty() {
             writeln!(out, "{}", self.regions.len())?;
         }
-        for (i, RegionSeed { at: [x, y], attribute, max_area }) in self.regions.iter().enumerate() {
+        for (i, RegionSeed2 { at: [x, y], attribute, max_area }) in self.regions.iter().enumerate() {
             writeln!(out, "{} {x:?} {y:?} {attribute:?} {:?}", base + i, max_area.unwrap_or(-1.0))?;
         }
         Ok(())

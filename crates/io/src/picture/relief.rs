@@ -2,7 +2,7 @@
 
 use delone::Triangulation;
 
-use super::colour::{DENSITY, HEIGHT, Ramp, Rgb, numbered, shade};
+use super::colour::{DENSITY, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
 use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
@@ -78,7 +78,10 @@ impl<'a> Paint<'a> {
     /// The colour of a value and a brightness.
     pub(super) fn colour(&self, [value, light]: [f64; 2]) -> Rgb {
         // The mean of equal numbers may be off by a little.
-        self.ramp().map_or_else(|| numbered(value.round() as usize), |ramp| shade(ramp.at(value), light))
+        self.ramp().map_or_else(
+            || mix(numbered(value.round() as usize), PAPER, 0.3),
+            |ramp| shade(ramp.at(value), light),
+        )
     }
 }
 
