@@ -124,12 +124,15 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
         Some(self.simplices().map(of))
     }
 
-    /// The markers of the constraints that have them, by their ends in order.
-    pub(crate) fn constraint_markers(&self) -> HashMap<[VertexId; 2], i64> {
-        let Some(Constraints { edges, markers: Some(markers), .. }) = self.constraints else {
-            return HashMap::new();
-        };
-        edges.iter().map(|&ends| ordered(ends)).zip(markers.iter().copied()).collect()
+    /// The edges with their markers: that of the constraint that the edge is, or else 1 on the border and 0 inside.
+    pub(crate) fn marked_edges(&self) -> impl Iterator<Item = ([VertexId; 2], i64)> + '_ {
+        let Constraints { edges, markers, .. } = self.constraints.copied().unwrap_or_default();
+        let marked = edges.iter().zip(markers.unwrap_or_default());
+        let markers: HashMap<_, i64> = marked.map(|(&ends, &marker)| (ordered(ends), marker)).collect();
+        self.edges().map(move |(ends, is_border)| {
+            let marker = markers.get(&ordered(ends)).copied().filter(|&marker| marker != 0);
+            (ends, marker.unwrap_or(i64::from(is_border)))
+        })
     }
 
     /// The constraints that are edges of what is not left out.
@@ -197,7 +200,7 @@ fn pairs<C: Corners>(corners: C) -> impl Iterator<Item = [VertexId; 2]> {
 }
 
 /// The ends of an edge, the lesser first.
-pub(crate) fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
+fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
     [v.min(w), v.max(w)]
 }
 

@@ -6,7 +6,6 @@ use std::io::{self, Write};
 use delone::Triangulation;
 
 use super::lines::Lines;
-use crate::mesh::ordered;
 use crate::{Attributes, Cloud, Error, Graph, Mesh, Source};
 
 /// Rows there is room for before they are read: what a header claims is not believed beyond.
@@ -198,12 +197,10 @@ pub(crate) fn write_neigh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>)
 
 /// Edges with a marker: that of the constraint that the edge is, or else 1 on the border.
 pub(crate) fn write_edge<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
-    let markers = mesh.constraint_markers();
     writeln!(out, "{} 1", mesh.edges().count())?;
-    for (i, (ends, is_border)) in mesh.edges().enumerate() {
+    for (i, (ends, marker)) in mesh.marked_edges().enumerate() {
         let [from, to] = ends.map(|v| mesh.base + v.index());
-        let marker = markers.get(&ordered(ends)).copied().filter(|&marker| marker != 0);
-        writeln!(out, "{} {from} {to} {}", mesh.base + i, marker.unwrap_or(i64::from(is_border)))?;
+        writeln!(out, "{} {from} {to} {marker}", mesh.base + i)?;
     }
     Ok(())
 }
