@@ -268,7 +268,7 @@ impl Delaunay2 {
 
     /// Becomes the triangulation of other points, with vertices at places along a curve.
     pub(super) fn rebuild(&mut self, positions: Vec<[f64; 2]>) {
-        let InOrder { mut mesh, points, indices, duplicates } = construct::in_order(&positions);
+        let InOrder { mut mesh, points, indices, duplicates, .. } = construct::in_order(&positions);
         let mut names = Names::default();
         names.reserve(positions.len());
         indices.iter().enumerate().for_each(|(k, &i)| names.bind(VertexId::new(i as usize), Place::new(k)));

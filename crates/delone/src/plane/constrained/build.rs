@@ -11,16 +11,17 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::crossings::{self, Crossing};
-use super::segments::{SegmentId, Segments};
+use super::segments::Segments;
 use super::{Constrained2, ConstraintReport2, split};
 use crate::error::Error;
-use crate::ids::{EdgeId, MAX_POINTS, VertexId};
+use crate::ids::{EdgeId, MAX_POINTS, Place, VertexId};
+use crate::mesh::Mesh2;
 use crate::mesh::triangles::channel::Channel;
 use crate::order::plane::insertion_order;
 use crate::parallel;
-use crate::plane::Delaunay2;
 use crate::plane::layer::Layer;
-use crate::points::{Position2, check_count};
+use crate::plane::{Delaunay2, construct};
+use crate::points::{Position2, check_count, check_finite};
 use crate::prefetch::prefetch;
 
 /// What happens where two segments cross.
@@ -88,126 +89,202 @@ impl Constrained2 {
         crossings: Crossings,
     ) -> Result<Self, Error> {
         check_count(segments.len(), MAX_POINTS)?;
+        let mut report = ConstraintReport2::default();
         let count = points.len();
         for (segment, ends) in segments.iter().enumerate() {
             if let Some(&index) = ends.iter().find(|&&index| index >= count) {
                 return Err(Error::NoSuchPoint { segment, index, count });
             }
         }
-        let mut graph = Delaunay2::from_vec(points)?;
-        let ends = vertices(&graph, segments);
-        let mut report = ConstraintReport2::default();
+        check_finite(points.iter().copied())?;
+        let (mut graph, ends, built) = constrained(points, segments, &mut report);
         let mut bent = BTreeMap::new();
-        if constrain(&mut graph, &ends, &mut report).is_err() {
+        if built.is_err() {
             if crossings == Crossings::Refuse {
                 return Err(refusal(&graph, &ends));
             }
             let split = split::resolve(graph, &ends)?;
-            (graph, bent, report) = (split.graph, split.bent, split.counts);
-            let built = constrain(&mut graph, &split.pieces, &mut report);
-            debug_assert!(built.is_ok(), "nothing crosses any more");
+            (bent, report) = (split.bent, split.counts);
+            let pieces: Vec<[usize; 2]> = split.pieces.iter().map(|ends| ends.map(VertexId::index)).collect();
+            (graph, _, _) = constrained(split.points, &pieces, &mut report);
         }
-        let mut c = Self {
+        Ok(Self {
             graph,
             segments: Segments::new(ends, bent),
             cover: OnceLock::new(),
             report,
             channel: Channel::default(),
-        };
-        c.count_overlaps();
-        Ok(c)
-    }
-
-    /// Completes the report.
-    fn count_overlaps(&mut self) {
-        let mut distinct: Vec<[VertexId; 2]> =
-            self.segments.iter().map(|(_, [v, w])| [v.min(w), v.max(w)]).collect();
-        self.report.zero_length = self.segments.len() - distinct.len();
-        if self.report.repeated == 0 {
-            return; // no edge was fixed twice
-        }
-        let all = distinct.len();
-        distinct.sort_unstable();
-        distinct.dedup();
-        self.report.repeated = all - distinct.len();
-        let mut overlapping = vec![false; self.segments.len()];
-        let ends = |s: SegmentId| self.segments.ends(s).map(|[v, w]| [v.min(w), v.max(w)]);
-        let cover = self.cover();
-        for edge in cover.edges() {
-            let covering = cover.of(*edge);
-            let first = covering[0].segment;
-            if covering.iter().any(|c| ends(c.segment) != ends(first)) {
-                covering.iter().for_each(|c| overlapping[c.segment.index()] = true);
-            }
-        }
-        self.report.overlapping = overlapping.iter().filter(|&&overlaps| overlaps).count();
+        })
     }
 }
 
-/// The ends of segments as vertices.
-fn vertices(graph: &Delaunay2, segments: &[[usize; 2]]) -> Vec<[VertexId; 2]> {
-    let duplicates: Vec<_> = graph.duplicates().collect();
-    let vertex = |i: usize| {
-        let found = duplicates.binary_search_by_key(&i, |d| d.point);
-        found.map_or(VertexId::new(i), |at| duplicates[at].vertex)
-    };
-    parallel::collect(segments.len(), |s| segments[s].map(vertex))
+/// Triangulates points and makes segments constraints, as far as none crosses another one. Gives the ends of all segments as
+/// vertices too, and where one crosses a constraint, that one as the error.
+///
+/// Until the end vertices are at their positions in Morton order, where their neighbours are near them in memory.
+fn constrained(
+    points: Vec<[f64; 2]>,
+    segments: &[[usize; 2]],
+    report: &mut ConstraintReport2,
+) -> (Delaunay2, Vec<[VertexId; 2]>, Result<(), EdgeId>) {
+    let mut ordered = construct::in_order(&points);
+    let mut positions = parallel::filled(Place::GHOST, points.len());
+    for (position, &i) in ordered.indices.iter().enumerate() {
+        positions[i as usize] = Place::new(position);
+    }
+    for duplicate in &ordered.duplicates {
+        positions[duplicate.point] = positions[duplicate.vertex.index()];
+    }
+    let ends: Vec<[Place; 2]> = parallel::collect(segments.len(), |s| segments[s].map(|i| positions[i]));
+    let mut layer = Layer::new(
+        std::mem::replace(&mut ordered.mesh, Mesh2::empty(0)),
+        std::mem::take(&mut ordered.points),
+    );
+    let built = constrain(&mut layer, &ends, report);
+    let index = |place: Place| VertexId::new(ordered.indices[place.index()] as usize);
+    let ends = ends.into_iter().map(|ends| ends.map(index)).collect();
+    ordered.mesh = layer.mesh;
+    (Delaunay2::assemble(ordered.numbered(points)), ends, built)
 }
 
-/// Makes segments constraints of a triangulation in which places are indices. A constraint that is crossed is the error.
-/// Whether any edge was fixed twice is put into the report as repetition.
+/// Makes segments constraints. One that is crossed is the error. Completes the report.
 fn constrain(
-    graph: &mut Delaunay2,
-    segments: &[[VertexId; 2]],
+    layer: &mut Layer,
+    segments: &[[Place; 2]],
     report: &mut ConstraintReport2,
 ) -> Result<(), EdgeId> {
-    let rest = fix_edges(&mut graph.base, segments, report);
-    let middle = |&s: &u32| {
-        let [p, q] = segments[s as usize].map(|v| graph.base.points[v.index()]);
-        [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)
-    };
-    let middles: Vec<[f64; 2]> = rest.iter().map(middle).collect();
+    let mut order: Vec<u32> = (0..segments.len() as u32).collect();
+    let is_near = are_near(segments, layer.points.len());
+    if !is_near {
+        order = along_curve(&layer.points, segments, &order);
+    }
+    let mut shared = Shared::default();
+    let mut rest = fix_edges(layer, segments, &order, report, &mut shared);
+    if is_near {
+        rest = along_curve(&layer.points, segments, &rest);
+    }
     let mut channel = Channel::default();
-    for i in insertion_order(&middles, ANY_SEED) {
-        let ends = segments[rest[i as usize] as usize].map(VertexId::same);
-        let forced = graph.base.force(ends, &mut channel, |_, _| {})?;
-        report.repeated += usize::from(forced.overlaps);
-        report.through_vertices += usize::from(forced.through > 0);
+    for s in rest {
+        let twice = &mut shared.edges;
+        let forced = layer.force(segments[s as usize], &mut channel, |mesh, e, is_new| {
+            twice.extend((!is_new).then(|| [mesh.tail(e), mesh.head(e)]));
+        })?;
+        if forced > 0 {
+            shared.through.push(s);
+        }
+    }
+    report.through_vertices = shared.through.len();
+    if !shared.edges.is_empty() {
+        shared.count(layer, segments, report);
     }
     Ok(())
 }
 
-/// Fixes the segments that are edges, and returns the others.
-fn fix_edges(layer: &mut Layer, segments: &[[VertexId; 2]], report: &mut ConstraintReport2) -> Vec<u32> {
-    let ends = parallel::even_ends(segments.len(), parallel::parts(segments.len()));
+/// Segments in a biased random order along a curve.
+fn along_curve(points: &[[f64; 2]], segments: &[[Place; 2]], some: &[u32]) -> Vec<u32> {
+    let middle = |&s: &u32| {
+        let [p, q] = segments[s as usize].map(|v| points[v.index()]);
+        [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)
+    };
+    let middles: Vec<[f64; 2]> = some.iter().map(middle).collect();
+    insertion_order(&middles, ANY_SEED).into_iter().map(|i| some[i as usize]).collect()
+}
+
+/// Whether segments that follow each other are mostly near each other in memory, as along a polygon.
+fn are_near(segments: &[[Place; 2]], places: usize) -> bool {
+    const SAMPLE: usize = 1000;
+    let step = segments.len() / SAMPLE + 1;
+    let pairs = segments.windows(2).step_by(step).map(|w| w[0][0].index().abs_diff(w[1][0].index()));
+    let far = pairs.filter(|&distance| distance > places / 64).count();
+    10 * far * step < segments.len() || segments.len() < SAMPLE
+}
+
+/// Fixes the segments that are edges, in an order, and returns the others.
+fn fix_edges(
+    layer: &mut Layer,
+    segments: &[[Place; 2]],
+    order: &[u32],
+    report: &mut ConstraintReport2,
+    shared: &mut Shared,
+) -> Vec<u32> {
+    let ends = parallel::even_ends(order.len(), parallel::parts(order.len()));
     let starts = std::iter::once(0).chain(ends.iter().copied());
     let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end).collect();
     let found = parallel::map(runs, |run: std::ops::Range<usize>| {
         let mesh = &layer.mesh;
-        let edge = |s: usize| {
-            if let Some(&[a, _]) = segments.get(s + AHEAD[0]) {
-                prefetch(&mesh.incident, a.index());
+        let ahead = |i: usize| order.get(i).map(|&s| segments[s as usize][0].index());
+        let edge = |i: usize| {
+            if let Some(a) = ahead(i + AHEAD[0]) {
+                prefetch(&mesh.incident, a);
             }
-            if let Some(&[a, _]) = segments.get(s + AHEAD[1]) {
-                prefetch(&mesh.edges, mesh.incident[a.index()].index());
+            if let Some(a) = ahead(i + AHEAD[1]) {
+                prefetch(&mesh.edges, mesh.incident[a].index());
             }
-            let [a, b] = segments[s].map(VertexId::same);
+            let [a, b] = segments[order[i] as usize];
             if a == b { None } else { Some(mesh.edge_between(a, b).unwrap_or(EdgeId::NONE)) }
         };
         run.map(edge).collect::<Vec<Option<EdgeId>>>()
     });
     let mut rest = Vec::new();
-    for (s, edge) in found.into_iter().flatten().enumerate() {
+    for (&s, edge) in order.iter().zip(found.into_iter().flatten()) {
         match edge {
-            None => {}
-            Some(EdgeId::NONE) => rest.push(s as u32),
+            None => report.zero_length += 1,
+            Some(EdgeId::NONE) => rest.push(s),
             Some(e) => {
-                report.repeated += usize::from(layer.mesh.is_fixed(e));
+                if layer.mesh.is_fixed(e) {
+                    shared.edges.push(segments[s as usize]);
+                }
                 layer.mesh.set_fixed(e, true);
             }
         }
     }
     rest
+}
+
+/// What tells segments that share a part of their length.
+#[derive(Default)]
+struct Shared {
+    /// Edges that were fixed more than once.
+    edges: Vec<[Place; 2]>,
+    /// Segments with vertices inside of them.
+    through: Vec<u32>,
+}
+
+impl Shared {
+    /// Counts segments that repeat others, and that overlap others. A segment that is one edge does neither, unless that edge
+    /// is shared.
+    fn count(mut self, layer: &Layer, segments: &[[Place; 2]], report: &mut ConstraintReport2) {
+        let sorted = |[v, w]: [Place; 2]| [v.min(w), v.max(w)];
+        self.edges.iter_mut().for_each(|edge| *edge = sorted(*edge));
+        self.edges.sort_unstable();
+        let whole = (0..segments.len() as u32).map(|s| (s, sorted(segments[s as usize])));
+        let whole = whole.filter(|(_, ends)| ends[0] != ends[1] && self.edges.binary_search(ends).is_ok());
+        let mut covering: Vec<([Place; 2], u32)> = whole.map(|(s, ends)| (ends, s)).collect();
+        let mut candidates: Vec<u32> =
+            covering.iter().map(|c| c.1).chain(self.through.iter().copied()).collect();
+        let ground = layer.ground();
+        for &s in &self.through {
+            let edges = ground.chain(segments[s as usize]).into_iter();
+            covering.extend(edges.map(|e| (sorted([layer.mesh.tail(e), layer.mesh.head(e)]), s)));
+        }
+        candidates.sort_unstable();
+        candidates.dedup();
+        let mut pairs: Vec<_> = candidates.iter().map(|&s| sorted(segments[s as usize])).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        report.repeated = candidates.len() - pairs.len();
+        covering.sort_unstable();
+        let mut overlapping: Vec<u32> = Vec::new();
+        for of_edge in covering.chunk_by(|c, d| c.0 == d.0) {
+            let ends = |c: &([Place; 2], u32)| sorted(segments[c.1 as usize]);
+            if of_edge.iter().any(|c| ends(c) != ends(&of_edge[0])) {
+                overlapping.extend(of_edge.iter().map(|c| c.1));
+            }
+        }
+        overlapping.sort_unstable();
+        overlapping.dedup();
+        report.overlapping = overlapping.len();
+    }
 }
 
 /// The error that names the first of all crossings: by the points, so that it does not depend on the order of the input.

@@ -22,22 +22,13 @@ use crate::mesh::triangles::channel::Channel;
 use crate::mesh::triangles::surgery::BorderEdge;
 use crate::plane::layer::Layer;
 
-/// What was found on the way of a segment that was made a constraint.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Forced {
-    /// Whether an edge of it was one already.
-    pub(super) overlaps: bool,
-    /// Vertices on it.
-    pub(super) through: usize,
-}
-
 impl Layer {
-    fn ground(&self) -> Ground<'_> {
+    pub(super) fn ground(&self) -> Ground<'_> {
         Ground { mesh: &self.mesh, points: &self.points }
     }
 
     /// Makes the segment between two different vertices a chain of fixed edges, each of which is told in the
-    /// segment's direction. The channel is a buffer.
+    /// segment's direction, with whether it was free. Returns the number of vertices inside of it. The channel is a buffer.
     ///
     /// # Errors
     /// The first fixed edge found that it crosses. What comes before it is fixed then.
@@ -45,9 +36,9 @@ impl Layer {
         &mut self,
         [mut a, mut b]: [Place; 2],
         channel: &mut Channel,
-        mut each: impl FnMut(&Mesh2, EdgeId),
-    ) -> Result<Forced, EdgeId> {
-        let mut forced = Forced::default();
+        mut each: impl FnMut(&Mesh2, EdgeId, bool),
+    ) -> Result<usize, EdgeId> {
+        let mut through = 0;
         loop {
             let Beginning { leaves, at_second } = self.ground().begin(a, b);
             let [near, far] = if at_second { [b, a] } else { [a, b] };
@@ -55,14 +46,14 @@ impl Layer {
                 Leaves::Along(e) => e,
                 Leaves::Across(across) => self.dig([near, far], across, channel)?,
             };
-            forced.overlaps |= self.mesh.is_fixed(e);
+            let is_new = !self.mesh.is_fixed(e);
             self.mesh.set_fixed(e, true);
             let reached = self.mesh.head(e);
-            each(&self.mesh, if at_second { self.mesh.twin(e) } else { e });
+            each(&self.mesh, if at_second { self.mesh.twin(e) } else { e }, is_new);
             if reached == far {
-                return Ok(forced);
+                return Ok(through);
             }
-            forced.through += 1;
+            through += 1;
             *(if at_second { &mut b } else { &mut a }) = reached;
         }
     }

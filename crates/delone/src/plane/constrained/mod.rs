@@ -75,7 +75,7 @@ pub struct Constrained2 {
     channel: Channel,
 }
 
-/// What became of the segments that a triangulation was built of.
+/// What became of the segments that a triangulation was built of. Where crossings were split, their pieces are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ConstraintReport2 {

@@ -51,10 +51,6 @@ impl Segments {
         Self { ends, bent }
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.ends.len()
-    }
-
     /// Both ends, if the segment is there.
     pub(super) fn ends(&self, s: SegmentId) -> Option<[VertexId; 2]> {
         self.ends.get(s.index()).copied().filter(|ends| !ends[0].is_ghost())
@@ -154,9 +150,5 @@ impl Cover {
                 self.add(c.segment, if c.is_forward { edge } else { [edge[1], edge[0]] });
             }
         }
-    }
-
-    pub(super) fn edges(&self) -> impl Iterator<Item = &Ends> {
-        self.0.keys()
     }
 }

@@ -29,8 +29,8 @@ use crate::plane::Delaunay2;
 
 /// Segments without crossings.
 pub(super) struct Split {
-    /// The points, those added last; no edge is fixed.
-    pub(super) graph: Delaunay2,
+    /// The points, those added last.
+    pub(super) points: Vec<[f64; 2]>,
     /// The pieces of all segments, each between two vertices.
     pub(super) pieces: Vec<[VertexId; 2]>,
     /// The chains of segments that were split at a crossing.
@@ -65,7 +65,7 @@ pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Erro
             let bent = chains.into_iter().zip(is_bent).enumerate();
             let bent =
                 bent.filter(|(_, (_, is_bent))| *is_bent).map(|(s, (chain, _))| (SegmentId::new(s), chain));
-            return Ok(Split { graph, pieces, bent: bent.collect(), counts });
+            return Ok(Split { points, pieces, bent: bent.collect(), counts });
         }
         counts.crossings += met.crossings.len();
         counts.rounds += 1;

@@ -24,6 +24,7 @@ use std::ops::Range;
 
 use delone_predicates::{Filter, Grid, lexicographic};
 
+use super::Built;
 use super::builder::Builder;
 use super::leaf::Leaf;
 use super::merge::Part;
@@ -34,7 +35,7 @@ use crate::order::morton::{self, Cut, KeyBox, Sorted};
 use crate::order::quantize::scaled;
 use crate::parallel;
 use crate::points::{Bounds, survey};
-use crate::tally::Merges;
+use crate::tally::{Counters, Merges};
 
 /// Triangulates points within their bounds, all finite and at most [`crate::MAX_POINTS`]. Vertices are at the places of
 /// their indices.
@@ -57,17 +58,27 @@ pub(in crate::plane) struct InOrder {
     /// Their indices.
     pub(in crate::plane) indices: Vec<u32>,
     pub(in crate::plane) duplicates: Vec<Duplicate>,
+    counters: Merges,
+}
+
+impl InOrder {
+    /// The same with vertices at the places of their indices among all points, its fixed edges kept.
+    pub(in crate::plane) fn numbered(self, points: Vec<[f64; 2]>) -> Built {
+        let Self { mut mesh, indices, duplicates, counters, .. } = self;
+        mesh.move_vertices(points.len(), |position| Place::new(indices[position.index()] as usize));
+        Built { points, mesh, duplicates, counters: Counters::DivideAndConquer(counters) }
+    }
 }
 
 /// The same as `triangulate`, in the order of memory.
 pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
     let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points, &survey(points).0);
-    let (edges, _) = build(&points, &cuts, &boxes);
+    let (edges, counters) = build(&points, &cuts, &boxes);
     let n = points.len();
     let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
     mesh.number_vertices(n, |position| position);
-    InOrder { mesh, points, indices, duplicates: sorted(duplicates) }
+    InOrder { mesh, points, indices, duplicates: sorted(duplicates), counters }
 }
 
 fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {

@@ -55,6 +55,28 @@ impl Mesh2 {
     }
 }
 
+impl Mesh2 {
+    /// Moves each vertex to another place, one of so many. Triangles stay as they are, fixed edges too.
+    pub(super) fn move_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
+        let ends: Vec<usize> = parallel::even_ends(self.slot_count(), parallel::parts(self.slot_count()))
+            .into_iter()
+            .map(|end| 4 * end)
+            .collect();
+        parallel::map(parallel::split_at(&mut self.edges, &ends), |edges| {
+            let records = edges.chunks_exact_mut(4).flat_map(|records| &mut records[..3]);
+            for record in records.filter(|record| !record.origin.is_ghost()) {
+                record.origin = place(record.origin);
+            }
+        });
+        let mut incident = parallel::filled(EdgeId::NONE, places);
+        for (position, &e) in self.incident.iter().enumerate() {
+            incident[place(Place::new(position)).index()] = e;
+        }
+        self.incident = incident;
+        self.lone = self.lone.map(place);
+    }
+}
+
 /// Puts the vertices of triangles, the first of which has a number, from their positions to their places, and notes position,
 /// place and edge of each corner. Returns the last edge that starts at the ghost.
 fn number(
