@@ -87,8 +87,8 @@ pub(crate) enum Command {
 /// How points are read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
-    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl
-    /// vtk vtu pcd geojson, each also with .gz. Several files are one set.
+    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off
+    /// stl vtk vtu pcd geojson wkt wkb, each also with .gz. Several files are one set.
     #[arg(value_name = "IN", required = true)]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.

@@ -27,7 +27,7 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy node ele neigh edge ply obj stl vtu geojson svg png), or - for standard output; may be
+    /// Output file (npy node ele neigh edge poly ply obj stl vtu geojson wkt wkb svg png), or - for standard output; may be
     /// repeated. For several instances {} stands for the name of each.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
