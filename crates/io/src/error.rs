@@ -89,7 +89,7 @@ impl Error {
             }
             Self::OpenRing { .. } => "repeat the first position of the ring at its end",
             Self::PointsElsewhere => {
-                "give the .node file beside it the same name, or put its points into the file"
+                "read the points from the .node file of the same name, or put them into this file"
             }
             Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
             Self::NotAGraph(_) => "graphs are written to: poly",
