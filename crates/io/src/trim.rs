@@ -74,7 +74,7 @@ impl Trim {
     }
 
     /// Whether the simplex of an index stays.
-    pub(crate) fn keeps(&self, index: usize) -> bool {
+    pub fn keeps(&self, index: usize) -> bool {
         !self.left_out[index]
     }
 

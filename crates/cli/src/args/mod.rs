@@ -2,6 +2,7 @@
 //! its own.
 
 mod ask;
+mod graph;
 mod points;
 mod shapes;
 mod strategy;
@@ -14,6 +15,7 @@ use clap_complete::Shell;
 use delone_io::{Format, LAS_CLASSES};
 
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
+pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
