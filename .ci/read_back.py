@@ -1,4 +1,4 @@
-"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas, Pillow.
+"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas, shapely, Pillow.
 
 Usage: python read_back.py DELONE FOLDER: the program, and a folder to work in. Every format is written from the same points,
 and every reader must see the same triangles.
@@ -15,6 +15,7 @@ import meshio
 import numpy as np
 import pandas
 import pyvista
+import shapely
 import trimesh
 from PIL import Image
 
@@ -48,7 +49,7 @@ corners = np.round(points[triangles][..., :2], 4)
 expected = sorted(sorted(map(tuple, triangle)) for triangle in corners.tolist())
 
 for source in ["points", "flat"]:
-    for kind in ["ply", "obj", "stl", "vtu", "geojson", "svg", "png", "node", "ele"]:
+    for kind in ["ply", "obj", "stl", "vtu", "geojson", "wkt", "wkb", "svg", "png", "node", "ele"]:
         run("triangulate", f"{source}.npy", "-o", f"{source}.{kind}")
     heights = points[:, 2] if source == "points" else np.zeros(len(points))
     for kind in ["ply", "obj", "vtu"]:
@@ -66,9 +67,13 @@ for source in ["points", "flat"]:
         assert mesh.n_cells == len(triangles), f"pyvista: {kind}"
         print(f"pyvista reads {source}.{kind}")
     frame = geopandas.read_file(folder / f"{source}.geojson")
-    rings = [np.array(polygon.exterior.coords)[:3] for polygon in frame.geometry]
-    same(np.arange(3 * len(rings)).reshape(-1, 3), np.concatenate(rings), expected)
-    print(f"geopandas reads {source}.geojson")
+    text, binary = (folder / f"{source}.{kind}" for kind in ["wkt", "wkb"])
+    collections = [shapely.from_wkt(text.read_text()), shapely.from_wkb(binary.read_bytes())]
+    for polygons in [frame.geometry, *(collection.geoms for collection in collections)]:
+        rings = [np.array(polygon.exterior.coords)[:3] for polygon in polygons]
+        same(np.arange(3 * len(rings)).reshape(-1, 3), np.concatenate(rings), expected)
+    assert all(collection.has_z == (source == "points") for collection in collections)
+    print(f"geopandas reads {source}.geojson, shapely {text.name} and {binary.name}")
     with Image.open(folder / f"{source}.png") as picture:
         picture.verify()
     print(f"Pillow reads {source}.png")
@@ -123,13 +128,17 @@ table.to_csv(folder / "decimal.csv", sep=";", decimal=",", encoding="utf-8-sig")
 known = geopandas.GeoDataFrame(geometry=geopandas.points_from_xy(*points.T), crs=25832)
 known.to_file(folder / "other.geojson", driver="GeoJSON")
 known.to_wkt().to_csv(folder / "wkt.csv")
+shape = shapely.MultiPoint(points)
+(folder / "other.wkt").write_text(shapely.to_wkt(shape, rounding_precision=-1))
+(folder / "other.wkb").write_bytes(shapely.to_wkb(shapely.set_srid(shape, 25832), include_srid=True, byte_order=0))
 las = laspy.create(point_format=6, file_version="1.4")
 las.header.offsets, las.header.scales = points.min(0), [0.001] * 3
 las.xyz = points
 las.write(folder / "other.las")
 las.write(folder / "other.laz")
 names = "other.vtp other.vtu other-legacy.vtk other-text.vtk other.ply other.off meshio.vtu other.npz packed.npz columns.npy"
-for name in [*names.split(), *"fortran.npy other.csv.gz decimal.csv other.geojson wkt.csv other.las other.laz".split()]:
+names += " fortran.npy other.csv.gz decimal.csv other.geojson wkt.csv other.wkt other.wkb other.las other.laz"
+for name in names.split():
     run("triangulate", name, "-o", "again.ply")
     read = meshio.read(folder / "again.ply").points
     # This writer of PLY has single precision, tiles have steps.

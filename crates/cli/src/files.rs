@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, Output, ReadOptions, Remark, Source, decompressed, followed};
+use delone_io::{Cloud, Format, Graph, Output, ReadOptions, Remark, Source, decompressed, followed};
 
 use crate::args::InputArgs;
 use crate::message::{Failure, note};
@@ -162,6 +162,45 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
         let told = all.remarks.len() + cloud.remarks.len();
         all.join(cloud).map_err(failed)?;
         all.remarks[told..].iter().for_each(|remark| note(quiet, remark));
+    }
+    Ok(all)
+}
+
+/// Reads the points and segments of a command.
+pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> Result<Graph, Failure> {
+    let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension: 2 };
+    let mut all = Graph::default();
+    for path in &args.input {
+        let format = format(path, args.from, "--from")?;
+        let failed = |error| Failure::file(path, &error);
+        let (source, _phase) = open(path, format, quiet)?;
+        let mut beside = |extension: &str| {
+            let file = File::open(path.with_extension(extension))?;
+            Ok(Box::new(BufReader::new(file)) as Box<dyn Source>)
+        };
+        let graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
+        for remark in &graph.cloud.remarks {
+            note(quiet, format_args!("{}: {remark}", path.display()));
+        }
+        let told = all.cloud.remarks.len() + graph.cloud.remarks.len();
+        all.join(graph).map_err(failed)?;
+        all.cloud.remarks[told..].iter().for_each(|remark| note(quiet, remark));
+    }
+    if let Some(path) = segments {
+        let format = format(path, None, "the extension")?;
+        let failed = |error| Failure::file(path, &error);
+        let (source, _phase) = open(path, format, quiet)?;
+        let more = delone_io::read_segments(source, format).map_err(failed)?;
+        let count = all.cloud.xy.len();
+        let wrong = |(s, ends): (usize, &[usize; 2])| ends.iter().find(|&&i| i >= count).map(|&i| (s, i));
+        if let Some((segment, index)) = more.iter().enumerate().find_map(wrong) {
+            return Err(Failure::graph(path, &delone::Error::NoSuchPoint { segment, index, count }));
+        }
+        if let Some(markers) = &mut all.markers {
+            markers.resize(markers.len() + more.len(), 0);
+        }
+        all.is_border.resize(all.is_border.len() + more.len(), true);
+        all.segments.extend(more);
     }
     Ok(all)
 }

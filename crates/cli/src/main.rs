@@ -4,6 +4,7 @@ mod about;
 mod animate;
 mod args;
 mod check;
+mod constrained;
 mod draw;
 mod experiment;
 mod files;

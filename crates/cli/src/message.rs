@@ -60,6 +60,19 @@ impl Failure {
         Self::new(format!("{}: {error}", path.display()), help)
     }
 
+    /// Something wrong with points and segments.
+    pub(crate) fn graph(path: &Path, error: &delone::Error) -> Self {
+        let help = match error {
+            delone::Error::SegmentsCross { .. } => {
+                "repair the data, or split segments with --crossings split"
+            }
+            delone::Error::NoSuchPoint { .. } => "segments name points by index, from 0",
+            delone::Error::Seed { .. } => "move the seed into the hole or region, or choose another --fill",
+            _ => return Self::points(path, error),
+        };
+        Self::new(format!("{}: {error}", path.display()), help)
+    }
+
     /// Prints the failure and gives the exit status.
     pub(crate) fn report(&self) -> ExitCode {
         tell(format_args!("error: {}\nhelp: {}", one_line(&self.message), one_line(&self.help)));

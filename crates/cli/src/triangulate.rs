@@ -6,11 +6,22 @@ use crate::args::{AlgorithmName, TriangulateArgs};
 use crate::message::Failure;
 use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::{files, instances, outcome};
+use crate::{constrained, files, instances, outcome};
 
 pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     if args.max_edge.is_some() && R::is_space() {
         return Err(Failure::usage("--max-edge is for the plane", "leave it or --dim 3 out"));
+    }
+    let by_points = args.algorithm.is_some() || args.strategy.locate.is_some() || args.hints.is_some();
+    if args.graph.is_given() && (R::is_space() || by_points) {
+        return Err(Failure::usage(
+            "segments are for the plane and the default algorithm",
+            "leave --segments, --crossings and --fill out, or --dim 3, --algorithm, --locate and --hints",
+        ));
+    }
+    if !R::is_space() && !by_points && constrained::is_meant(&args.input, &args.graph) {
+        args.strategy.refuse("segments")?;
+        return constrained::triangulate(args, quiet);
     }
     if let Some(centres) = &args.hints {
         args.strategy.refuse("--hints")?;

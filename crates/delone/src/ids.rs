@@ -45,6 +45,11 @@ impl VertexId {
         self.0 as usize
     }
 
+    /// The index in 32 bits.
+    pub(crate) fn bits(self) -> u32 {
+        self.0
+    }
+
     /// Whether this is the vertex at infinity.
     #[inline]
     pub fn is_ghost(self) -> bool {

@@ -207,3 +207,25 @@ fn splitting_ends_and_does_not_depend_on_order() {
         }
     }
 }
+
+/// Segments across curves, whose sides are long and have their apexes at the ends.
+#[test]
+fn long_channels_are_no_trouble() {
+    for n in [100, 1000, 20_000] {
+        // Two parabolas bent towards each other, and a segment between them.
+        let curve = |i: usize, sign: f64| {
+            let x = i as f64 - n as f64 / 2.0;
+            [x, sign * (x * x / n as f64 + 1.0)]
+        };
+        let mut points: Points = (0..n).flat_map(|i| [curve(i, 1.0), curve(i, -1.0)]).collect();
+        points.extend([[-(n as f64), 0.0], [n as f64, 0.0]]);
+        let segments = [[2 * n, 2 * n + 1]];
+        let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+        c.check().expect("canonical");
+        assert_eq!(c.constraints().count(), 1);
+        let mut other = Constrained2::from_parts(&points, &[]).expect("no segments");
+        let [v, w] = segments[0].map(VertexId::new);
+        other.insert_segment(v, w).expect("nothing crosses");
+        assert_eq!(triangles(&other), triangles(&c));
+    }
+}

@@ -63,7 +63,7 @@ pub(crate) enum Mode {
     Mixtures,
     /// Readers: columns of text.
     ReadText,
-    /// Readers: GeoJSON.
+    /// Readers: GeoJSON, well-known text and binary.
     ReadGeojson,
     /// Readers: NumPy arrays and archives.
     ReadArrays,

@@ -23,6 +23,30 @@ pub enum Error {
     /// The content contradicts the format.
     #[error("{}", clipped(.0))]
     Content(String),
+    /// A ring of a polygon does not end where it begins.
+    #[error(
+        "ring {ring} of polygon {polygon} is not closed: it begins at {:?} {:?} and ends at {:?} {:?}",
+        first[0], first[1], last[0], last[1]
+    )]
+    OpenRing {
+        /// The polygon, from 0 in the file.
+        polygon: usize,
+        /// The ring of that polygon, 0 for the outer one.
+        ring: usize,
+        /// Its first position.
+        first: [f64; 2],
+        /// Its last position.
+        last: [f64; 2],
+    },
+    /// The points are in a `.node` file, which is not known here.
+    #[error("the file has no points of its own: they are in the .node file beside it")]
+    PointsElsewhere,
+    /// The format holds no segments by themselves.
+    #[error("segments are not read from {0} files")]
+    NotSegments(Format),
+    /// The format holds no graphs.
+    #[error("graphs are not written to {0} files")]
+    NotAGraph(Format),
     /// No format has this extension.
     #[error("{0}: no format has this extension")]
     UnknownExtension(String),
@@ -63,9 +87,15 @@ impl Error {
             Self::Content(_) => {
                 "check that the file is what its extension says, or name the format with --from"
             }
+            Self::OpenRing { .. } => "repeat the first position of the ring at its end",
+            Self::PointsElsewhere => {
+                "read the points from the .node file of the same name, or put them into this file"
+            }
+            Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
+            Self::NotAGraph(_) => "graphs are written to: poly",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {
-                "points: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl vtk vtu pcd geojson"
+                "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu pcd geojson wkt wkb"
             }
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off",
             Self::NotCells(_) => "cells: geojson svg png",
@@ -74,7 +104,9 @@ impl Error {
                 "tetrahedra: npy ele neigh node edge vtu; their hull: ply obj stl; pictures: svg png"
             }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
-            Self::NotAMesh(_) => "meshes: npy node ele neigh edge ply obj stl vtu geojson svg png",
+            Self::NotAMesh(_) => {
+                "meshes: npy node ele neigh edge poly ply obj stl vtu geojson wkt wkb svg png"
+            }
         }
     }
 }

@@ -22,6 +22,10 @@ pub enum Format {
     Raw,
     /// Triangle's points.
     Node,
+    /// Triangle's graphs: points, segments, holes and regions.
+    Poly,
+    /// Triangle's largest areas of triangles.
+    Area,
     /// Triangle's triangles.
     Ele,
     /// Triangle's neighbours.
@@ -48,6 +52,10 @@ pub enum Format {
     Pcd,
     /// GeoJSON.
     GeoJson,
+    /// Well-known text of geometries.
+    Wkt,
+    /// Well-known binary of geometries.
+    Wkb,
     /// Vector pictures.
     Svg,
     /// Pixel pictures.
@@ -66,6 +74,8 @@ const NAMES: &[(&str, Format)] = &[
     ("npz", Format::Npz),
     ("bin", Format::Raw),
     ("node", Format::Node),
+    ("poly", Format::Poly),
+    ("area", Format::Area),
     ("ele", Format::Ele),
     ("neigh", Format::Neigh),
     ("edge", Format::Edge),
@@ -85,6 +95,10 @@ const NAMES: &[(&str, Format)] = &[
     ("geojsonl", Format::GeoJson),
     ("geojsons", Format::GeoJson),
     ("ndjson", Format::GeoJson),
+    ("wkt", Format::Wkt),
+    ("ewkt", Format::Wkt),
+    ("wkb", Format::Wkb),
+    ("ewkb", Format::Wkb),
     ("svg", Format::Svg),
     ("png", Format::Png),
 ];

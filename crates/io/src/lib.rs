@@ -1,6 +1,6 @@
 //! Files in and out: points, meshes and pictures, one file of code for each format.
 //!
-//! Reading gives a [`Cloud`]; writing takes a [`Mesh`], a triangulation of any kind with what lies beside it.
+//! Reading gives a [`Cloud`], or a [`Graph`] of points with segments; writing takes a [`Mesh`], a triangulation of any kind with what lies beside it.
 //! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
 //! ([`Output`]), so no reader ever sees half a file.
 
@@ -10,6 +10,7 @@ mod diagram;
 mod error;
 mod format;
 mod formats;
+mod graph;
 mod guard;
 mod input;
 mod mesh;
@@ -24,8 +25,10 @@ pub use diagram::Diagram;
 pub use error::Error;
 pub use format::Format;
 pub use formats::las::LAS_CLASSES;
+pub use formats::poly::Beside;
+pub use graph::{Attributes, Graph, GraphRing};
 pub use input::decompressed;
-pub use mesh::{Drawable, Mesh, write_mesh};
+pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};
 pub use solid::{Solid, write_solid};
 pub use trim::{Cut, Trim};
@@ -57,7 +60,9 @@ pub struct ReadOptions {
 ///
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
-    use formats::{e57, geojson, las, npy, obj, off, pcd, ply, raw, stl, text, triangle, vtk};
+    use formats::{
+        e57, geojson, las, npy, obj, off, pcd, ply, poly, raw, stl, text, triangle, vtk, wkb, wkt,
+    };
     match format {
         Format::Text => text::read(source, &options.columns),
         Format::Pts => text::read_pts(source),
@@ -65,6 +70,7 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Npz => npy::read_archive(source),
         Format::Raw => raw::read(source, options.dimension),
         Format::Node => triangle::read_node(source),
+        Format::Poly => poly::read_points(source),
         Format::Las => las::read(source, &options.classes),
         Format::E57 => e57::read(source),
         Format::Ply => ply::read_points(source),
@@ -72,6 +78,8 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Off => off::read_points(source),
         Format::Stl => stl::read_points(source),
         Format::GeoJson => geojson::read(source),
+        Format::Wkt => wkt::read_points(source),
+        Format::Wkb => wkb::read_points(source),
         Format::Vtu => vtk::read_xml(source),
         Format::Vtk => vtk::read_legacy(source),
         Format::Pcd => pcd::read(source),
@@ -85,7 +93,7 @@ pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u6
     match format {
         Format::Off => off::read_triangles(source),
         Format::Npy => npy::read_simplices(source),
-        Format::Ele => triangle::read_ele(source),
+        Format::Ele => Ok(triangle::read_ele(source, false)?.0),
         Format::Ply => ply::read_triangles(source),
         Format::Obj => obj::read_triangles(source),
         _ => Err(Error::NotTriangles(format)),
@@ -96,8 +104,84 @@ pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u6
 pub fn read_tetrahedra(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 4]>, Error> {
     match format {
         Format::Npy => formats::npy::read_simplices(source),
-        Format::Ele => formats::triangle::read_ele(source),
+        Format::Ele => Ok(formats::triangle::read_ele(source, false)?.0),
         _ => Err(Error::NotTetrahedra(format)),
+    }
+}
+
+/// Reads points with segments: those of `.poly` files, the lines and rings of GeoJSON, well-known text and well-known binary;
+/// other formats give points alone.
+///
+/// A `.poly` file may leave its points to the `.node` file of the same name; `beside` opens it, given that extension. Rings
+/// share their first point with their last. JSON may also be bare coordinates: arrays of rings (a polygon), or arrays of
+/// those, whose rings are closed whether or not they repeat their first position. Ends of segments are in range, and count
+/// from 0 whatever the file counts from; coordinates are not judged.
+///
+/// Costs time and memory linear in the file; what a header claims takes no memory.
+///
+/// # Errors
+/// What is wrong with the file, and in which line or ring.
+///
+/// ```
+/// use std::io::Cursor;
+/// use delone_io::{Format, ReadOptions, read_graph};
+///
+/// // A square with a hole in its middle.
+/// let poly = "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 2 2\n";
+/// let graph = read_graph(Box::new(Cursor::new(poly)), Format::Poly, &ReadOptions::default(), None)?;
+/// assert_eq!(graph.segments, [[0, 1], [1, 2], [2, 3], [3, 0]]);
+/// assert_eq!(graph.holes, [[2.0, 2.0]]);
+/// # Ok::<(), delone_io::Error>(())
+/// ```
+pub fn read_graph(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    beside: Option<Beside>,
+) -> Result<Graph, Error> {
+    use formats::{geojson, poly, triangle, wkb, wkt};
+    match format {
+        Format::Poly => poly::read(source, beside),
+        Format::Node => triangle::read_graph(source),
+        Format::GeoJson => geojson::read_graph(source),
+        Format::Wkt => wkt::read_graph(source),
+        Format::Wkb => wkb::read_graph(source),
+        _ => read_points(source, format, options).map(Graph::of_points),
+    }
+}
+
+/// Reads segments alone, as indices of points from 0: text with two columns, a NumPy array of shape (m, 2), a `.poly` or an
+/// `.edge` file. Whether there are such points is for the reader of these to ask, except in a `.poly` file that has them.
+pub fn read_segments(source: Box<dyn Source>, format: Format) -> Result<Vec<[usize; 2]>, Error> {
+    use formats::{npy, pairs, poly};
+    match format {
+        Format::Text => pairs::read(source),
+        Format::Npy => {
+            let rows = npy::read_simplices::<2>(source)?;
+            Ok(rows
+                .into_iter()
+                .map(|ends| ends.map(|end| usize::try_from(end).unwrap_or(usize::MAX)))
+                .collect())
+        }
+        Format::Poly => poly::read_segments(source),
+        Format::Edge => poly::read_edges(source),
+        _ => Err(Error::NotSegments(format)),
+    }
+}
+
+/// Reads the attributes of the triangles of an `.ele` file, a row each; other formats have none.
+pub fn read_triangle_attributes(source: Box<dyn Source>, format: Format) -> Result<Attributes, Error> {
+    match format {
+        Format::Ele => Ok(formats::triangle::read_ele::<3>(source, true)?.1),
+        _ => Ok(Attributes::default()),
+    }
+}
+
+/// Reads the largest area that each triangle may have, where there is a bound, from an `.area` file.
+pub fn read_areas(source: Box<dyn Source>, format: Format) -> Result<Vec<Option<f64>>, Error> {
+    match format {
+        Format::Area => formats::poly::read_areas(source),
+        _ => Err(Error::NotTriangles(format)),
     }
 }
 
@@ -109,16 +193,22 @@ trait Shape {
     fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send;
     /// A value for each point.
     fn heights(&self) -> Option<&[f64]>;
+    /// The region of each triangle, where there are any.
+    fn region_values(&self) -> Option<impl Iterator<Item = f64>> {
+        None::<std::iter::Empty<f64>>
+    }
     /// What the coordinates mean.
     fn crs(&self) -> Option<&Crs> {
         None
     }
 }
 
-/// Reads the rings of polygons: those of GeoJSON polygons, or all points of another format as one ring.
+/// Reads the rings of polygons: those of GeoJSON, well-known text and well-known binary, or all points of another format as one ring.
 pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     match format {
         Format::GeoJson => formats::geojson::read_rings(source),
+        Format::Wkt => formats::wkt::read_rings(source),
+        Format::Wkb => formats::wkb::read_rings(source),
         _ => {
             Ok(vec![read_points(source, format, &ReadOptions { dimension: 2, ..ReadOptions::default() })?.xy])
         }
@@ -147,7 +237,7 @@ pub fn write_points<const D: usize>(
     format: Format,
     points: &[[f64; D]],
 ) -> Result<(), Error> {
-    use formats::{geojson, npy, obj, ply, raw, text, triangle};
+    use formats::{geojson, npy, obj, ply, raw, text, triangle, wkb, wkt};
     match format {
         Format::Text => text::write(out, points)?,
         Format::Npy => npy::write_points(out, points)?,
@@ -156,9 +246,19 @@ pub fn write_points<const D: usize>(
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,
+        Format::Wkt => wkt::write_points(out, points)?,
+        Format::Wkb => wkb::write_points(out, points)?,
         _ => return Err(Error::NotPoints(format)),
     }
     Ok(())
+}
+
+/// Writes a graph, as a `.poly` file: points with all attributes and markers, segments, holes and regions.
+pub fn write_graph(out: &mut dyn std::io::Write, format: Format, graph: &Graph) -> Result<(), Error> {
+    match format {
+        Format::Poly => Ok(formats::poly::write_graph(out, graph)?),
+        _ => Err(Error::NotAGraph(format)),
+    }
 }
 
 /// Writes indices, -1 where there is none: npy (int64, one dimension) or text (a line each).

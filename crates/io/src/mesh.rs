@@ -1,10 +1,11 @@
 //! A triangulation of any kind to be written, whole or without what is left out of it.
 
+use std::collections::HashMap;
 use std::io::Write;
 
-use delone::{Coordinates, Corners, Triangulation, VertexId};
+use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, npy, obj, ply, stl, triangle, vtu};
+use crate::formats::{geojson, npy, obj, ply, poly, stl, triangle, vtu, wkb, wkt};
 use crate::{Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
 /// A triangulation to be written, with what lies beside it.
@@ -34,6 +35,44 @@ pub struct Mesh<'a, T: Triangulation> {
     pub base: usize,
     /// What is left out.
     pub trim: Option<&'a Trim>,
+    /// The edges that were asked for.
+    pub constraints: Option<&'a Constraints<'a>>,
+    /// The region of each simplex, by its index.
+    pub regions: Option<&'a [f64]>,
+}
+
+/// The constraints of a triangulation, and what a `.poly` file says beside them.
+///
+/// ```
+/// use std::io::Cursor;
+/// use delone::{Constrained2, Fill, Seeds2, Triangulation};
+/// use delone_io::{Constraints, Format, Mesh, ReadOptions, Trim, picture, read_graph, write_mesh};
+///
+/// // A triangle with a triangular hole.
+/// let text = "6 2 0 0\n0 0 0\n1 9 0\n2 0 9\n3 1 1\n4 4 1\n5 1 4\n6 0\n0 0 1\n1 1 2\n2 2 0\n3 3 4\n4 4 5\n5 5 3\n1\n0 2 2\n";
+/// let graph = read_graph(Box::new(Cursor::new(text)), Format::Poly, &ReadOptions::default(), None)?;
+/// let c = Constrained2::from_parts(&graph.cloud.xy, &graph.segments)?;
+/// let seeds = Seeds2 { holes: graph.holes.clone(), ..Seeds2::default() };
+/// let domains = c.domains(&Fill::Seeds(&seeds))?;
+/// let trim = Trim::keeping(&c, |t| domains.is_inside(t));
+/// let edges: Vec<_> = c.constraints().collect();
+/// let constraints = Constraints { edges: &edges, holes: &graph.holes, ..Constraints::default() };
+/// let mesh = Mesh { trim: Some(&trim), constraints: Some(&constraints), ..Mesh::new(&c, &graph.cloud.xy) };
+/// let mut file = Vec::new();
+/// write_mesh(&mut file, Format::Svg, &mesh, &picture::Options::default())?;
+/// assert_eq!((mesh.simplex_count(), trim.count()), (6, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Constraints<'a> {
+    /// The edges, each once.
+    pub edges: &'a [[VertexId; 2]],
+    /// A number for each of them.
+    pub markers: Option<&'a [i64]>,
+    /// Points in areas that are left out.
+    pub holes: &'a [[f64; 2]],
+    /// Points in areas that have an attribute.
+    pub regions: &'a [RegionSeed2],
 }
 
 impl<'a, T: Triangulation> Mesh<'a, T> {
@@ -42,7 +81,16 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
 
     /// All of a triangulation.
     pub fn new(triangulation: &'a T, points: &'a [T::Point]) -> Self {
-        Self { triangulation, points, heights: None, crs: None, base: 0, trim: None }
+        Self {
+            triangulation,
+            points,
+            heights: None,
+            crs: None,
+            base: 0,
+            trim: None,
+            constraints: None,
+            regions: None,
+        }
     }
 
     fn keeps(&self, s: T::Simplex) -> bool {
@@ -67,6 +115,39 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
     /// The corners of each simplex as indices of points.
     pub(crate) fn rows(&self) -> impl Iterator<Item = impl Iterator<Item = usize>> + Send + '_ {
         self.simplices().map(|s| self.triangulation.corners(s).indices())
+    }
+
+    /// The region of each simplex that is not left out.
+    pub(crate) fn region_values(&self) -> Option<impl Iterator<Item = f64> + '_> {
+        let regions = self.regions?;
+        let of = |s| regions.get(self.triangulation.index(s)).copied().unwrap_or_default();
+        Some(self.simplices().map(of))
+    }
+
+    /// The edges with their markers: that of the constraint that the edge is, or else 1 on the border and 0 inside.
+    pub(crate) fn marked_edges(&self) -> impl Iterator<Item = ([VertexId; 2], i64)> + '_ {
+        let Constraints { edges, markers, .. } = self.constraints.copied().unwrap_or_default();
+        let marked = edges.iter().zip(markers.unwrap_or_default());
+        let markers: HashMap<_, i64> = marked.map(|(&ends, &marker)| (ordered(ends), marker)).collect();
+        self.edges().map(move |(ends, is_border)| {
+            let marker = markers.get(&ordered(ends)).copied().filter(|&marker| marker != 0);
+            (ends, marker.unwrap_or(i64::from(is_border)))
+        })
+    }
+
+    /// The constraints that are edges of what is not left out.
+    pub(crate) fn constraint_edges(&self) -> Vec<[VertexId; 2]> {
+        let edges = self.constraints.map_or(&[][..], |constraints| constraints.edges);
+        let mut wanted: Vec<[VertexId; 2]> = edges.iter().map(|&ends| ordered(ends)).collect();
+        wanted.sort_unstable();
+        let is_wanted = |ends: &[VertexId; 2]| wanted.binary_search(&ordered(*ends)).is_ok();
+        if wanted.is_empty() { wanted } else { self.edges().map(|edge| edge.0).filter(is_wanted).collect() }
+    }
+
+    /// The edges of what is left out, those between it and the rest too.
+    pub(crate) fn edges_left_out(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        let t = self.triangulation;
+        t.simplices().filter(|&s| !self.keeps(s)).flat_map(move |s| pairs(t.corners(s)))
     }
 
     /// The coordinates of a vertex.
@@ -118,6 +199,7 @@ fn pairs<C: Corners>(corners: C) -> impl Iterator<Item = [VertexId; 2]> {
     each.map(move |(i, j)| ordered([corners.as_ref()[i], corners.as_ref()[j]]))
 }
 
+/// The ends of an edge, the lesser first.
 fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
     [v.min(w), v.max(w)]
 }
@@ -136,6 +218,10 @@ impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {
 
     fn heights(&self) -> Option<&[f64]> {
         self.heights
+    }
+
+    fn region_values(&self) -> Option<impl Iterator<Item = f64>> {
+        self.region_values()
     }
 
     fn crs(&self) -> Option<&Crs> {
@@ -168,8 +254,8 @@ pub trait Drawable: Coordinates {
 
 impl Drawable for [f64; 2] {
     const FORMATS: &'static [Format] = &{
-        use Format::{Edge, Ele, GeoJson, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
-        [Npy, Node, Ele, Neigh, Edge, Vtu, Ply, Obj, Stl, GeoJson, Svg, Png]
+        use Format::{Edge, Ele, GeoJson, Neigh, Node, Npy, Obj, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt};
+        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Ply, Obj, Stl, GeoJson, Wkt, Wkb, Svg, Png]
     };
 
     fn refusal(format: Format) -> Error {
@@ -187,6 +273,9 @@ impl Drawable for [f64; 2] {
             Format::Obj => obj::write(out, mesh)?,
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
+            Format::Poly => poly::write(out, mesh)?,
+            Format::Wkt => wkt::write(out, mesh)?,
+            Format::Wkb => wkb::write(out, mesh)?,
             Format::Svg | Format::Png => picture::write(out, format, mesh, options)?,
             _ => return Err(Self::refusal(format)),
         }
@@ -235,7 +324,7 @@ pub fn write_mesh<T: Triangulation<Point: Drawable>>(
         Format::Vtu => {
             let (points, cells) = (mesh.points.len(), mesh.simplex_count());
             let grid = vtu::Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH };
-            grid.write(out, mesh.positions(), mesh.rows())?;
+            grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values())?;
         }
         _ => return T::Point::write_triangles(out, format, mesh, options),
     }

@@ -61,13 +61,20 @@ impl Trim {
         trim
     }
 
+    /// Leaves out the simplices that are not to stay, such as those outside of a domain.
+    pub fn keeping<T: Triangulation>(t: &T, stays: impl Fn(T::Simplex) -> bool) -> Self {
+        let mut trim = Self { left_out: vec![false; t.slot_count()], count: 0 };
+        t.simplices().filter(|&s| !stays(s)).for_each(|s| trim.leave_out(t.index(s)));
+        trim
+    }
+
     fn leave_out(&mut self, index: usize) {
         self.left_out[index] = true;
         self.count += 1;
     }
 
     /// Whether the simplex of an index stays.
-    pub(crate) fn keeps(&self, index: usize) -> bool {
+    pub fn keeps(&self, index: usize) -> bool {
         !self.left_out[index]
     }
 

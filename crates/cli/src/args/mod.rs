@@ -2,6 +2,7 @@
 //! its own.
 
 mod ask;
+mod graph;
 mod points;
 mod shapes;
 mod strategy;
@@ -14,6 +15,7 @@ use clap_complete::Shell;
 use delone_io::{Format, LAS_CLASSES};
 
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
+pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
@@ -87,8 +89,8 @@ pub(crate) enum Command {
 /// How points are read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
-    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node las laz e57 ply obj off stl
-    /// vtk vtu pcd geojson, each also with .gz. Several files are one set.
+    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off
+    /// stl vtk vtu pcd geojson wkt wkb, each also with .gz. Several files are one set.
     #[arg(value_name = "IN", required = true)]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use delone_io::Format;
 
-use super::{DimArgs, InputArgs, StrategyArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, length};
 
 /// Triangulate points.
 #[derive(Debug, Args)]
@@ -19,15 +19,19 @@ use super::{DimArgs, InputArgs, StrategyArgs, length};
   delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
   delone triangulate measured.npy --hints nominal.npy -o triangles.npy --stats stats.json
   delone triangulate run-*.npy --hints nominal.npy -o 'mesh-{}.npy'
+  delone triangulate lakes.geojson -o lakes.ply -o lakes.png
+  delone triangulate plan.poly --fill all --crossings split -o plan.1.node -o plan.1.ele -o plan.svg
+  delone triangulate survey.laz --segments breaklines.csv -o terrain.ply
 
-x and y are triangulated; heights are kept. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
+x and y are triangulated; heights are kept. Segments of poly, geojson, wkt and wkb files and of --segments are edges of
+the triangulation, and what is inside is written, as --fill says. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
 seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
 from 0.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy node ele neigh edge ply obj stl vtu geojson svg png), or - for standard output; may be
+    /// Output file (npy node ele neigh edge poly ply obj stl vtu geojson wkt wkb svg png), or - for standard output; may be
     /// repeated. For several instances {} stands for the name of each.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
@@ -53,6 +57,8 @@ pub(crate) struct TriangulateArgs {
     /// Prove the result with exact arithmetic before writing it.
     #[arg(long)]
     pub(crate) check: bool,
+    #[command(flatten)]
+    pub(crate) graph: GraphArgs,
     #[command(flatten)]
     pub(crate) strategy: StrategyArgs,
 }

@@ -134,7 +134,7 @@ fn located<R: Room>(args: &StrategyArgs, default: LocateName) -> Result<Option<L
 }
 
 /// Notes on what might surprise.
-pub(crate) fn remark<R: Room>(d: &R, quiet: bool) {
+pub(crate) fn remark(d: &impl Triangulation, quiet: bool) {
     let (points, duplicates) = (d.ids_given(), d.duplicates().count());
     if duplicates > 0 {
         let text = match duplicates {
@@ -143,14 +143,22 @@ pub(crate) fn remark<R: Room>(d: &R, quiet: bool) {
         };
         note(quiet, format_args!("{duplicates} of {points} points {text}"));
     }
+    let is_space = coordinates(d) == 3;
     let what = match d.dimension() {
         Dimension::Empty => "there are no points",
         Dimension::Point => "there is only one distinct point",
         Dimension::Line => "all points are on one line",
-        Dimension::Plane if R::is_space() => "all points are in one plane",
+        Dimension::Plane if is_space => "all points are in one plane",
         Dimension::Plane | Dimension::Space => return,
     };
-    note(quiet, format_args!("{what}, so there are no {}", R::WORDS.simplex[1]));
+    note(
+        quiet,
+        format_args!("{what}, so there are no {}", if is_space { "tetrahedra" } else { "triangles" }),
+    );
+}
+
+fn coordinates<T: Triangulation>(_: &T) -> usize {
+    T::Point::COUNT
 }
 
 /// What is left out for its length.

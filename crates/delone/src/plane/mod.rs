@@ -25,7 +25,7 @@ mod voronoi;
 
 pub use constrained::{
     Constrained2, ConstrainedFlaw2, ConstraintReport2, Covering2, Crossings, Domains2, Fill, Part2,
-    RegionSeed2, Seeds2, SegmentEnds, SegmentId,
+    PolygonTriangles2, Polygons2, RegionSeed2, Seeds2, SegmentEnds, SegmentId,
 };
 pub use construct::Algorithm2;
 pub use delaunay::Delaunay2;

@@ -1,47 +1,65 @@
-//! GeoJSON, one document or many: points are read by the `geojson` crate, triangles written as polygons.
+//! GeoJSON, one document or many, or bare coordinates: read by the `geojson` crate; triangles are written as polygons.
 
 use std::io::{self, Read, Write};
 
 use delone::{Ring, Triangulation};
-use geojson::{GeoJson, Geometry, GeometryValue};
+use geojson::{GeoJson, Geometry, GeometryValue, Position};
 
-use crate::{Cloud, Crs, Diagram, Error, Mesh, Shape, Source};
+use super::shapes::Shapes;
+use crate::{Cloud, Crs, Diagram, Error, Graph, Mesh, Shape, Source};
+
+mod coordinates;
 
 /// Reads the positions of all geometries, in their order; the last of a ring, which is the first again, is left out.
 /// Several documents may follow each other, as in text sequences and lines of GeoJSON.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let documents = parse(source)?;
-    let mut found = Found::default();
-    let all = documents.iter().flat_map(geometries);
-    all.for_each(|geometry| found.collect(geometry));
-    let positions = found.positions;
-    let high = positions.iter().filter(|p| p.len() > 2).count();
-    let with_heights = high > 0 && high == positions.len();
-    let mut cloud = Cloud::with_capacity(positions.len(), with_heights);
-    for (i, position) in positions.into_iter().enumerate() {
-        let &[x, y, ..] = position else {
-            return Err(Error::content(format!("GeoJSON: position {i} has fewer than two numbers")));
-        };
-        cloud.push([x, y], position.get(2).copied().unwrap_or_default());
-    }
-    if high > 0 && !with_heights {
-        cloud.remarks.push("heights are left out: not all positions have them".to_owned());
-    }
-    if found.shapes > 0 {
-        cloud
-            .remarks
-            .push(format!("the corners of {} lines and polygons were taken as points", found.shapes));
-    }
-    cloud.crs = documents.iter().find_map(system);
-    Ok(cloud)
+    let (shapes, crs) = read_shapes(source, true)?;
+    Ok(Cloud { crs, ..shapes.cloud() })
 }
 
-/// All documents of a file.
-fn parse(mut source: Box<dyn Source>) -> Result<Vec<GeoJson>, Error> {
+/// Reads all geometries with the segments of their lines and rings.
+pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    let (shapes, crs) = read_shapes(source, false)?;
+    let mut graph = shapes.graph()?;
+    graph.cloud.crs = crs;
+    Ok(graph)
+}
+
+/// Reads the rings of all Polygon and MultiPolygon geometries.
+pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    Ok(read_shapes(source, false)?.0.rings())
+}
+
+fn read_shapes(mut source: Box<dyn Source>, as_points: bool) -> Result<(Shapes, Option<Crs>), Error> {
+    if is_bare(&mut source)? {
+        return Ok((coordinates::read(source, as_points)?, None));
+    }
+    let documents = parse(source)?;
+    let mut shapes = Shapes::default();
+    for geometry in documents.iter().flat_map(geometries) {
+        collect(geometry, &mut shapes)?;
+    }
+    Ok((shapes, documents.iter().find_map(system)))
+}
+
+/// Whether a file begins as an array does, not as a document.
+fn is_bare(source: &mut Box<dyn Source>) -> Result<bool, Error> {
+    skip_mark(source)?;
+    let first = source.fill_buf()?.iter().find(|byte| !byte.is_ascii_whitespace());
+    Ok(first == Some(&b'['))
+}
+
+/// Passes over the sign that some programs begin UTF-8 with.
+fn skip_mark(source: &mut Box<dyn Source>) -> Result<(), Error> {
     const MARK: &[u8] = b"\xef\xbb\xbf";
     if source.fill_buf()?.starts_with(MARK) {
         source.consume(MARK.len());
     }
+    Ok(())
+}
+
+/// All documents of a file.
+fn parse(source: Box<dyn Source>) -> Result<Vec<GeoJson>, Error> {
     let documents = serde_json::Deserializer::from_reader(Sequence(source)).into_iter();
     let documents: Result<Vec<GeoJson>, _> = documents.collect();
     let documents = documents.map_err(|error| Error::content(format!("GeoJSON: {error}")))?;
@@ -88,67 +106,51 @@ fn geometries(content: &GeoJson) -> Vec<&Geometry> {
     }
 }
 
-/// Positions, and how many lines and polygons they are the corners of.
-#[derive(Default)]
-struct Found<'a> {
-    positions: Vec<&'a [f64]>,
-    shapes: usize,
-}
-
-impl<'a> Found<'a> {
-    fn collect(&mut self, geometry: &'a Geometry) {
-        match &geometry.value {
-            GeometryValue::Point { coordinates } => self.positions.push(coordinates.as_slice()),
-            GeometryValue::MultiPoint { coordinates } => self.line(coordinates),
-            GeometryValue::LineString { coordinates } => {
-                self.shapes += 1;
-                self.line(coordinates);
-            }
-            GeometryValue::MultiLineString { coordinates } => {
-                self.shapes += coordinates.len();
-                coordinates.iter().for_each(|line| self.line(line));
-            }
-            GeometryValue::Polygon { coordinates } => self.polygon(coordinates),
-            GeometryValue::MultiPolygon { coordinates } => {
-                coordinates.iter().for_each(|polygon| self.polygon(polygon));
-            }
-            GeometryValue::GeometryCollection { geometries } => {
-                geometries.iter().for_each(|g| self.collect(g));
-            }
+fn collect(geometry: &Geometry, shapes: &mut Shapes) -> Result<(), Error> {
+    match &geometry.value {
+        GeometryValue::Point { coordinates } => position(coordinates, shapes),
+        GeometryValue::MultiPoint { coordinates } => positions(coordinates, shapes).map(|_| ()),
+        GeometryValue::LineString { coordinates } => line(coordinates, shapes),
+        GeometryValue::MultiLineString { coordinates } => {
+            coordinates.iter().try_for_each(|each| line(each, shapes))
         }
-    }
-
-    fn line(&mut self, positions: &'a [geojson::Position]) {
-        self.positions.extend(positions.iter().map(|p| p.as_slice()));
-    }
-
-    fn polygon(&mut self, rings: &'a [Vec<geojson::Position>]) {
-        self.shapes += 1;
-        for ring in rings {
-            match ring.split_last() {
-                Some((last, rest)) if rest.first() == Some(last) => self.line(rest),
-                _ => self.line(ring),
-            }
+        GeometryValue::Polygon { coordinates } => polygon(coordinates, shapes),
+        GeometryValue::MultiPolygon { coordinates } => {
+            coordinates.iter().try_for_each(|each| polygon(each, shapes))
+        }
+        GeometryValue::GeometryCollection { geometries } => {
+            geometries.iter().try_for_each(|each| collect(each, shapes))
         }
     }
 }
 
-/// Reads the rings of all Polygon and MultiPolygon geometries.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    let documents = parse(source)?;
-    let mut rings = Vec::new();
-    for geometry in documents.iter().flat_map(geometries) {
-        match &geometry.value {
-            GeometryValue::Polygon { coordinates } => rings.extend(coordinates),
-            GeometryValue::MultiPolygon { coordinates } => rings.extend(coordinates.iter().flatten()),
-            _ => {}
-        }
+fn position(position: &Position, shapes: &mut Shapes) -> Result<(), Error> {
+    let at = shapes.len();
+    let is_whole = shapes.position(position.as_slice());
+    let wrong = || Error::content(format!("GeoJSON: position {at} has fewer than two numbers"));
+    is_whole.then_some(()).ok_or_else(wrong)
+}
+
+/// Takes positions, and tells where they begin.
+fn positions(all: &[Position], shapes: &mut Shapes) -> Result<usize, Error> {
+    let start = shapes.len();
+    all.iter().try_for_each(|each| position(each, shapes))?;
+    Ok(start)
+}
+
+fn line(all: &[Position], shapes: &mut Shapes) -> Result<(), Error> {
+    let start = positions(all, shapes)?;
+    shapes.line(start);
+    Ok(())
+}
+
+fn polygon(rings: &[Vec<Position>], shapes: &mut Shapes) -> Result<(), Error> {
+    shapes.polygon();
+    for ring in rings {
+        let start = positions(ring, shapes)?;
+        shapes.ring(start, false);
     }
-    let corner = |position: &geojson::Position| match position.as_slice() {
-        &[x, y, ..] => Ok([x, y]),
-        _ => Err(Error::content("GeoJSON: a position has fewer than two numbers")),
-    };
-    rings.into_iter().map(|ring| ring.iter().map(corner).collect()).collect()
+    Ok(())
 }
 
 /// Writes a feature for each site, with its index and the area of its cell; without geometry where the cell is
@@ -200,7 +202,7 @@ fn write_polygon(out: &mut dyn Write, rings: &[Ring]) -> io::Result<()> {
     write!(out, "]")
 }
 
-/// Writes a feature for each triangle, with the indices of its corners.
+/// Writes a feature for each triangle, with the indices of its corners and its region.
 pub(crate) fn write(
     out: &mut dyn Write,
     mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
@@ -209,9 +211,15 @@ pub(crate) fn write(
     write_system(out, mesh.crs)?;
     write!(out, "\"features\":[")?;
     let positions: Vec<_> = mesh.positions().collect();
+    let mut regions = mesh.region_values();
     for (i, triangle) in mesh.triangles().enumerate() {
         let separator = if i == 0 { "" } else { "," };
-        write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{triangle:?}}},")?;
+        write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{triangle:?}")?;
+        match regions.as_mut().and_then(Iterator::next) {
+            Some(region) if region.is_finite() => write!(out, ",\"region\":{region:?}}},")?,
+            Some(_) => write!(out, ",\"region\":null}},")?,
+            None => write!(out, "}},")?,
+        }
         write!(out, "\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[")?;
         for (k, corner) in [0, 1, 2, 0].into_iter().enumerate() {
             let [x, y, z] = positions[triangle[corner]];

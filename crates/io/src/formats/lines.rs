@@ -138,4 +138,17 @@ impl Line<'_> {
             self.error(format!("{meaning} is {:?}, not a number of the kind expected", excerpt(word)))
         })
     }
+
+    /// The next so many words as numbers.
+    pub(super) fn more<'a>(
+        &self,
+        words: &mut impl Iterator<Item = &'a str>,
+        count: usize,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        for _ in 0..count {
+            values.push(self.number(words.next(), "an attribute")?);
+        }
+        Ok(())
+    }
 }

@@ -8,14 +8,19 @@ pub(crate) mod npy;
 mod numbers;
 pub(crate) mod obj;
 pub(crate) mod off;
+pub(crate) mod pairs;
 pub(crate) mod pcd;
 pub(crate) mod ply;
+pub(crate) mod poly;
 pub(crate) mod raw;
+mod shapes;
 pub(crate) mod stl;
 pub(crate) mod text;
 pub(crate) mod triangle;
 pub(crate) mod vtk;
 pub(crate) mod vtu;
+pub(crate) mod wkb;
+pub(crate) mod wkt;
 
 /// A point of the plane or of space, in space.
 fn in_space(p: &impl AsRef<[f64]>) -> [f64; 3] {

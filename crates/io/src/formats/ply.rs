@@ -161,7 +161,8 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let (points, faces) = (shape.positions().count(), shape.triangles().count());
-    header(out, points, Some(faces), shape.crs())?;
+    let mut regions = shape.region_values();
+    header(out, points, Some((faces, regions.is_some())), shape.crs())?;
     for position in shape.positions() {
         write_position(out, position)?;
     }
@@ -169,6 +170,9 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
         out.write_all(&[3])?;
         for corner in triangle {
             out.write_all(&(corner as u32).to_le_bytes())?;
+        }
+        if let Some(region) = regions.as_mut().and_then(Iterator::next) {
+            out.write_all(&region.to_le_bytes())?;
         }
     }
     Ok(())
@@ -179,15 +183,22 @@ pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; 
     points.iter().try_for_each(|p| write_position(out, in_space(p)))
 }
 
-fn header(out: &mut dyn Write, points: usize, faces: Option<usize>, crs: Option<&Crs>) -> io::Result<()> {
+/// Of so many points, and of so many faces that have regions or not.
+fn header(
+    out: &mut dyn Write,
+    points: usize,
+    faces: Option<(usize, bool)>,
+    crs: Option<&Crs>,
+) -> io::Result<()> {
     write!(out, "ply\nformat binary_little_endian 1.0\n")?;
     if let Some(number) = crs.and_then(|crs| crs.epsg) {
         writeln!(out, "comment crs EPSG:{number}")?;
     }
     writeln!(out, "element vertex {points}")?;
     write!(out, "property double x\nproperty double y\nproperty double z\n")?;
-    if let Some(faces) = faces {
-        write!(out, "element face {faces}\nproperty list uchar uint vertex_indices\n")?;
+    if let Some((count, have_regions)) = faces {
+        write!(out, "element face {count}\nproperty list uchar uint vertex_indices\n")?;
+        write!(out, "{}", if have_regions { "property double region\n" } else { "" })?;
     }
     writeln!(out, "end_header")
 }

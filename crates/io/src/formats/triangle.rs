@@ -1,57 +1,107 @@
 //! The files of Shewchuk's Triangle, and of TetGen: `.node`, `.ele`, `.neigh`, `.edge`. Read with indices from 0 or from 1,
-//! written with the base of the points that were read.
+//! written with the base of the points that were read. `.poly` and `.area` have a file of their own.
 
 use std::io::{self, Write};
 
 use delone::Triangulation;
 
 use super::lines::Lines;
-use crate::{Cloud, Error, Mesh, Source};
+use crate::{Attributes, Cloud, Error, Graph, Mesh, Source};
 
-/// Points there is room for before they are read: what a header claims is not believed beyond.
-const AHEAD: usize = 1 << 16;
+/// Rows there is room for before they are read: what a header claims is not believed beyond.
+pub(super) const AHEAD: usize = 1 << 16;
 
 /// Points: `count dimension attributes markers`, then `index x y ...` each. A dimension of 3 (as TetGen has it)
 /// or else the first attribute gives the height.
 pub(crate) fn read_node(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let mut lines = Lines::new(source);
+    Ok(Nodes::read(&mut Lines::new(source), false)?.cloud)
+}
+
+/// Points with their attributes and markers.
+pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    Ok(Nodes::read(&mut Lines::new(source), true)?.graph())
+}
+
+/// The number that begins a file.
+pub(super) fn count(lines: &mut Lines, what: &str) -> Result<usize, Error> {
     let Some(line) = lines.next()? else {
         return Err(Error::content("the file has no header line"));
     };
-    let mut words = line.text.split_whitespace();
-    let count: usize = line.number(words.next(), "the number of points")?;
-    let dimension: usize = line.number(words.next(), "the dimension")?;
-    if !(2..=3).contains(&dimension) {
-        return Err(line.error(format!("the dimension is {dimension}, not 2 or 3")));
-    }
-    let attributes: usize =
-        words.next().map_or(Ok(0), |word| line.number(Some(word), "the number of attributes"))?;
-    let with_heights = dimension == 3 || attributes > 0;
-    let mut cloud = Cloud::with_capacity(count.min(AHEAD), with_heights);
-    if dimension == 2 && attributes > 0 {
-        cloud.remarks.push(format!("the first of {attributes} attributes was taken as height"));
-    }
-    for i in 0..count {
-        let Some(line) = lines.next()? else {
-            return Err(Error::Truncated(format!("after {i} of {count} points")));
-        };
-        let mut words = line.text.split_whitespace();
-        let index: usize = line.number(words.next(), "the index")?;
-        if i == 0 {
-            cloud.base = index.min(1);
-        }
-        if index != cloud.base + i {
-            return Err(line.error(format!("the index is {index} where {} follows", cloud.base + i)));
-        }
-        let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
-        cloud.push(xy, if with_heights { line.number(words.next(), "z")? } else { 0.0 });
-    }
-    Ok(cloud)
+    line.number(line.text.split_whitespace().next(), &format!("the number of {what}"))
 }
 
-/// Triangles: `count corners attributes`, then `index a b c ...` each. The first index tells whether the file
-/// counts from 0 or from 1.
-pub(crate) fn read_ele<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
+/// The points of a file.
+pub(super) struct Nodes {
+    pub(super) cloud: Cloud,
+    pub(super) is_in_space: bool,
+    attributes: Attributes,
+    markers: Option<Vec<i64>>,
+}
+
+impl Nodes {
+    /// Reads points, and their attributes and markers if these are wanted. As in Triangle, a marker that is missing is 0.
+    pub(super) fn read(lines: &mut Lines, wants_all: bool) -> Result<Self, Error> {
+        let Some(line) = lines.next()? else {
+            return Err(Error::content("the file has no header line"));
+        };
+        let mut words = line.text.split_whitespace();
+        let count: usize = line.number(words.next(), "the number of points")?;
+        let dimension: usize = line.number(words.next(), "the dimension")?;
+        if !(2..=3).contains(&dimension) {
+            return Err(line.error(format!("the dimension is {dimension}, not 2 or 3")));
+        }
+        let width: usize =
+            words.next().map_or(Ok(0), |word| line.number(Some(word), "the number of attributes"))?;
+        let has_markers = wants_all && words.next().is_some_and(|word| word != "0");
+        let is_in_space = dimension == 3;
+        let with_heights = is_in_space || width > 0;
+        let mut cloud = Cloud::with_capacity(count.min(AHEAD), with_heights);
+        if !is_in_space && width > 0 {
+            cloud.remarks.push(format!("the first of {width} attributes was taken as height"));
+        }
+        let mut values = Vec::new();
+        let mut markers = has_markers.then(Vec::new);
+        for i in 0..count {
+            let Some(line) = lines.next()? else {
+                return Err(Error::Truncated(format!("after {i} of {count} points")));
+            };
+            let mut words = line.text.split_whitespace();
+            let index: usize = line.number(words.next(), "the index")?;
+            if i == 0 {
+                cloud.base = index.min(1);
+            }
+            if index != cloud.base + i {
+                return Err(line.error(format!("the index is {index} where {} follows", cloud.base + i)));
+            }
+            let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
+            let z = if with_heights { line.number(words.next(), "z")? } else { 0.0 };
+            cloud.push(xy, z);
+            if !wants_all {
+                continue;
+            }
+            let first = usize::from(!is_in_space && width > 0);
+            values.extend((first > 0).then_some(z));
+            line.more(&mut words, width - first, &mut values)?;
+            if let Some(markers) = &mut markers {
+                markers.push(words.next().map_or(Ok(0), |word| line.number(Some(word), "the marker"))?);
+            }
+        }
+        let attributes = Attributes { width: if wants_all { width } else { 0 }, values };
+        Ok(Self { cloud, is_in_space, attributes, markers })
+    }
+
+    pub(super) fn graph(self) -> Graph {
+        let Self { cloud, attributes, markers, .. } = self;
+        Graph { cloud, attributes, point_markers: markers, ..Graph::default() }
+    }
+}
+
+/// Simplices, and their attributes: `count corners attributes`, then `index a b c ...` each. The first index tells whether
+/// the file counts from 0 or from 1. Attributes are passed over if they are not wanted.
+pub(crate) fn read_ele<const N: usize>(
+    source: Box<dyn Source>,
+    wants_attributes: bool,
+) -> Result<(Vec<[u64; N]>, Attributes), Error> {
     let mut lines = Lines::new(source);
     let Some(line) = lines.next()? else {
         return Err(Error::content("the file has no header line"));
@@ -62,7 +112,12 @@ pub(crate) fn read_ele<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u
     if corners < N {
         return Err(line.error(format!("simplices of {corners} corners, not {N}")));
     }
-    let mut triangles = Vec::new();
+    let width = match words.next().filter(|_| wants_attributes) {
+        Some(word) => line.number(Some(word), "the number of attributes")?,
+        None => 0,
+    };
+    let mut simplices = Vec::new();
+    let mut values = Vec::new();
     let mut base = 0;
     for i in 0..count {
         let Some(line) = lines.next()? else {
@@ -77,13 +132,16 @@ pub(crate) fn read_ele<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u
             let corner: u64 = line.number(words.next(), "a corner")?;
             corner.checked_sub(base).ok_or_else(|| line.error("corner 0 in a file that counts from 1"))
         };
-        let mut corners = [0; N];
-        for slot in &mut corners {
+        let mut ends = [0; N];
+        for slot in &mut ends {
             *slot = corner()?;
         }
-        triangles.push(corners);
+        simplices.push(ends);
+        // Points on edges, as curved elements have them, are passed over.
+        let mut rest = words.skip(corners - N);
+        line.more(&mut rest, width, &mut values)?;
     }
-    Ok(triangles)
+    Ok((simplices, Attributes { width, values }))
 }
 
 /// Writes points of `columns` coordinates, and their heights if they have some besides; they count from `base`.
@@ -104,12 +162,16 @@ pub(crate) fn write_node<P: AsRef<[f64]>>(
     Ok(())
 }
 
-/// Simplices; they and the points count from the base.
+/// Simplices, with the numbers of their regions; they and the points count from the base.
 pub(crate) fn write_ele<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
-    writeln!(out, "{} {} 0", mesh.simplex_count(), Mesh::<T>::WIDTH)?;
+    writeln!(out, "{} {} {}", mesh.simplex_count(), Mesh::<T>::WIDTH, u8::from(mesh.regions.is_some()))?;
+    let mut regions = mesh.region_values();
     for (i, mut corners) in mesh.rows().enumerate() {
         write!(out, "{}", mesh.base + i)?;
         corners.try_for_each(|corner| write!(out, " {}", mesh.base + corner))?;
+        if let Some(region) = regions.as_mut().and_then(Iterator::next) {
+            write!(out, " {region:?}")?;
+        }
         writeln!(out)?;
     }
     Ok(())
@@ -133,12 +195,12 @@ pub(crate) fn write_neigh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>)
     Ok(())
 }
 
-/// Edges with a marker that is 1 on the border.
+/// Edges with a marker: that of the constraint that the edge is, or else 1 on the border.
 pub(crate) fn write_edge<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
     writeln!(out, "{} 1", mesh.edges().count())?;
-    for (i, (ends, is_border)) in mesh.edges().enumerate() {
+    for (i, (ends, marker)) in mesh.marked_edges().enumerate() {
         let [from, to] = ends.map(|v| mesh.base + v.index());
-        writeln!(out, "{} {from} {to} {}", mesh.base + i, u8::from(is_border))?;
+        writeln!(out, "{} {from} {to} {marker}", mesh.base + i)?;
     }
     Ok(())
 }

@@ -10,10 +10,10 @@ const KINDS: [(usize, u8); 2] = [(3, 5), (4, 10)];
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let (points, cells) = (shape.positions().count(), shape.triangles().count());
     let grid = Grid { points, heights: shape.heights(), cells, width: 3 };
-    grid.write(out, shape.positions(), shape.triangles())
+    grid.write(out, shape.positions(), shape.triangles(), shape.region_values())
 }
 
-/// What a file holds: so many points, a value for each, and so many cells of so many corners.
+/// What a file holds: so many points, a value for each, and so many cells of so many corners, perhaps in regions.
 pub(crate) struct Grid<'a> {
     pub(crate) points: usize,
     pub(crate) heights: Option<&'a [f64]>,
@@ -27,6 +27,7 @@ impl Grid<'_> {
         out: &mut dyn Write,
         positions: impl Iterator<Item = [f64; 3]>,
         corners: impl Iterator<Item: IntoIterator<Item = usize>>,
+        regions: Option<impl Iterator<Item = f64>>,
     ) -> io::Result<()> {
         let Self { points, heights, cells, width } = *self;
         let kind = KINDS.into_iter().find(|kind| kind.0 == width).map_or(0, |kind| kind.1);
@@ -43,6 +44,7 @@ impl Grid<'_> {
             place(8 * width * cells),
             place(8 * cells),
             place(cells),
+            regions.as_ref().map_or(0, |_| place(8 * cells)),
         ];
         writeln!(
             out,
@@ -55,6 +57,10 @@ impl Grid<'_> {
         if heights.is_some() {
             let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
             writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
+        }
+        if regions.is_some() {
+            let array = r#"<DataArray type="Float64" Name="region" format="appended""#;
+            writeln!(out, r#"<CellData Scalars="region">{array} offset="{}"/></CellData>"#, offsets[5])?;
         }
         writeln!(
             out,
@@ -72,6 +78,9 @@ impl Grid<'_> {
         array(out, width * cells, corners.flatten().map(|index| (index as i64).to_le_bytes()))?;
         array(out, cells, (1..=cells).map(|end| ((width * end) as i64).to_le_bytes()))?;
         array(out, cells, (0..cells).map(|_| [kind]))?;
+        if let Some(regions) = regions {
+            array(out, cells, regions.map(f64::to_le_bytes))?;
+        }
         writeln!(out, "\n</AppendedData>\n</VTKFile>")
     }
 }

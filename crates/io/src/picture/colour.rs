@@ -11,6 +11,18 @@ pub(super) const HULL: Rgb = [216, 67, 21];
 pub(super) const POINT: Rgb = [26, 35, 126];
 pub(super) const DISK: Rgb = [187, 222, 251];
 pub(super) const LINK: Rgb = [46, 125, 50];
+pub(super) const CONSTRAINT: Rgb = [33, 33, 33];
+
+/// Light colours of many kinds.
+pub(super) fn numbered(k: usize) -> Rgb {
+    // Steps of the golden ratio around the circle of colours never come back.
+    let turn = |offset: f64| {
+        let t = (k as f64 * 0.618_034 + offset).fract();
+        let wave = (std::f64::consts::TAU * t).cos();
+        (200.0 + 50.0 * wave) as u8
+    };
+    [turn(0.0), turn(1.0 / 3.0), turn(2.0 / 3.0)]
+}
 
 /// Equally spaced colours, interpolated.
 pub(super) struct Ramp(&'static [Rgb]);

@@ -4,6 +4,8 @@
 //! do not touch, and otherwise the triangles alone, coloured by height with shading (a relief) or, without
 //! heights, by how dense the points are.
 //!
+//! Constraints are heavier lines, regions have soft colours of their own.
+//!
 //! A series of pictures with one window is a motion: see [`Animation`].
 
 mod animation;
@@ -49,6 +51,8 @@ pub struct Options {
     pub links: Vec<[[f64; 2]; 2]>,
     /// In the plane, lines to draw faintly below all others.
     pub faint: Vec<[[f64; 2]; 2]>,
+    /// In the plane, draw the edges of what is left out faintly.
+    pub outside: bool,
     /// In the plane, the corners of the box that is shown, if it is not that of the points.
     pub window: Option<[[f64; 2]; 2]>,
 }
@@ -64,6 +68,7 @@ impl Default for Options {
             disks: None,
             links: Vec::new(),
             faint: Vec::new(),
+            outside: false,
             window: None,
         }
     }
@@ -85,7 +90,9 @@ impl Layers {
         let spacing = (f64::from(view.width) * f64::from(view.height) / n as f64).sqrt();
         let relief = mesh.heights.is_some();
         Self {
-            fill: options.fill.unwrap_or(relief || (spacing < 60.0 && options.disks.is_none())),
+            fill: options
+                .fill
+                .unwrap_or(relief || mesh.regions.is_some() || (spacing < 60.0 && options.disks.is_none())),
             edges: options.edges.unwrap_or(spacing > if relief { 14.0 } else { 5.0 }),
             points: options.points.unwrap_or(spacing > if relief { 40.0 } else { 12.0 }),
             spacing,
@@ -95,6 +102,11 @@ impl Layers {
     /// A width that looks right for the spacing: of edges in pixels.
     fn line_width(&self) -> f64 {
         (self.spacing / 40.0).clamp(0.4, 1.6)
+    }
+
+    /// Constraints stand out, also where no other edges are drawn.
+    fn constraint_width(&self) -> f64 {
+        (2.5 * self.line_width()).max(1.4)
     }
 
     fn point_radius(&self) -> f64 {

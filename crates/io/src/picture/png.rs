@@ -9,7 +9,7 @@ use tiny_skia::{
     Transform,
 };
 
-use super::colour::{DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
+use super::colour::{CONSTRAINT, DISK, EDGE, FAINT, HULL, INK, LINK, PAPER, POINT, Ramp, Rgb};
 use super::raster::Raster;
 use super::relief::{Paint, area};
 use super::view::View;
@@ -37,6 +37,10 @@ pub(super) fn draw(
     }
     let faint = options.faint.iter().map(|line| line.map(|p| view.place(p)));
     canvas.lines(faint, FAINT, 255, layers.line_width());
+    if options.outside {
+        let outside = mesh.edges_left_out().map(|ends| ends.map(|v| view.place(mesh.point(v))));
+        canvas.lines(outside, FAINT, 255, layers.line_width());
+    }
     if layers.edges {
         let alpha = if mesh.heights.is_some() { 90 } else { 255 };
         canvas.edges(mesh, view, layers.line_width(), alpha);
@@ -44,6 +48,8 @@ pub(super) fn draw(
     let links = options.links.iter().map(|link| link.map(|p| view.place(p)));
     canvas.lines(links, LINK, 255, 2.0 * layers.line_width());
     canvas.border(mesh, view, layers.line_width() * 1.5);
+    let constraints = mesh.constraint_edges().into_iter().map(|ends| ends.map(|v| view.place(mesh.point(v))));
+    canvas.lines(constraints, CONSTRAINT, 255, layers.constraint_width());
     if layers.points || d.vertex_count() < 3 {
         canvas.dots(vertices(), layers.point_radius(), POINT, 255);
     }
@@ -52,10 +58,10 @@ pub(super) fn draw(
 }
 
 fn fill(raster: &mut Raster, mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>, view: &View, paint: &Paint) {
-    for triangle in mesh.triangles() {
+    for (i, triangle) in mesh.triangles().enumerate() {
         let points = triangle.map(|i| mesh.points[i]);
         let corners = points.map(|p| view.place(p));
-        let values = paint.corners(triangle, area(points));
+        let values = paint.corners(i, triangle, area(points));
         raster.dot(corners[0], paint.colour(values[0]));
         raster.triangle(corners, values, |value| paint.colour(value));
     }
@@ -187,12 +193,12 @@ impl Canvas {
 
     /// Legend and scale below the drawing.
     fn strip(&mut self, view: &View, paint: &Paint, filled: bool) {
-        if filled {
+        if let Some(ramp) = paint.ramp().filter(|_| filled) {
             let (low, high) = match paint {
                 Paint::Relief(relief) => (Short(relief.low).to_string(), Short(relief.high).to_string()),
-                Paint::Density { .. } => ("sparse".to_owned(), "dense".to_owned()),
+                _ => ("sparse".to_owned(), "dense".to_owned()),
             };
-            self.legend(view, paint.ramp(), &low, &high);
+            self.legend(view, ramp, &low, &high);
         }
         self.scale(view);
     }

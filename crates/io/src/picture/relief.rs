@@ -1,8 +1,8 @@
-//! What colour a triangle has: shaded height, or density.
+//! What colour a triangle has: that of its region, shaded height, or density.
 
 use delone::Triangulation;
 
-use super::colour::{DENSITY, HEIGHT, Ramp, Rgb, shade};
+use super::colour::{DENSITY, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
 use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
@@ -16,6 +16,8 @@ pub(super) enum Paint<'a> {
         low: f64,
         high: f64,
     },
+    /// By the number of the region of each triangle.
+    Regions(Vec<usize>),
 }
 
 /// Height colours and light at each point.
@@ -29,6 +31,9 @@ pub(super) struct Relief<'a> {
 
 impl<'a> Paint<'a> {
     pub(super) fn of(mesh: &'a Mesh<impl Triangulation<Point = [f64; 2]>>) -> Self {
+        if let Some(regions) = mesh.region_values() {
+            return Self::regions(regions.collect());
+        }
         match mesh.heights {
             Some(heights) if !heights.is_empty() => Self::Relief(Relief::of(mesh, heights)),
             _ => Self::density(mesh),
@@ -42,16 +47,29 @@ impl<'a> Paint<'a> {
         Self::Density { low, high }
     }
 
-    pub(super) fn ramp(&self) -> &'static Ramp {
+    /// Regions in the order of their values.
+    fn regions(values: Vec<f64>) -> Self {
+        let mut known = values.clone();
+        known.sort_unstable_by(f64::total_cmp);
+        known.dedup_by(|a, b| a.total_cmp(b).is_eq());
+        let number = |value: &f64| known.binary_search_by(|other| other.total_cmp(value)).unwrap_or_default();
+        Self::Regions(values.iter().map(number).collect())
+    }
+
+    /// The colours and what the ends of them mean, if there is an order.
+    pub(super) fn ramp(&self) -> Option<&'static Ramp> {
         match self {
-            Self::Relief(_) => &HEIGHT,
-            Self::Density { .. } => &DENSITY,
+            Self::Relief(_) => Some(&HEIGHT),
+            Self::Density { .. } => Some(&DENSITY),
+            Self::Regions(_) => None,
         }
     }
 
-    /// Colour and light at the corners of a triangle of `area`: the value on the ramp, and the brightness.
-    pub(super) fn corners(&self, triangle: [usize; 3], area: f64) -> [[f64; 2]; 3] {
+    /// Colour and light at the corners of triangle `i`, of `area`: the value on the ramp or the number of the region, and
+    /// the brightness.
+    pub(super) fn corners(&self, i: usize, triangle: [usize; 3], area: f64) -> [[f64; 2]; 3] {
         match self {
+            Self::Regions(numbers) => [[numbers[i] as f64, 1.0]; 3],
             Self::Relief(relief) => triangle.map(|i| [relief.value(i), relief.light[i]]),
             Self::Density { low, high } => [[1.0 - fraction(area.ln(), *low, *high), 1.0]; 3],
         }
@@ -59,7 +77,11 @@ impl<'a> Paint<'a> {
 
     /// The colour of a value and a brightness.
     pub(super) fn colour(&self, [value, light]: [f64; 2]) -> Rgb {
-        shade(self.ramp().at(value), light)
+        // The mean of equal numbers may be off by a little.
+        self.ramp().map_or_else(
+            || mix(numbered(value.round() as usize), PAPER, 0.3),
+            |ramp| shade(ramp.at(value), light),
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use super::colour::{EDGE, INK, LINK, POINT, Rgb};
+use super::colour::{EDGE, INK, LINK, POINT, Rgb, numbered};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::{hex, open};
@@ -72,17 +72,6 @@ pub struct Sketch {
 /// Widths in pixels, of a picture 600 pixels wide.
 const LINE: f64 = 1.2;
 const DOT: f64 = 3.0;
-
-/// Light colours of many kinds.
-fn numbered(k: usize) -> Rgb {
-    // Steps of the golden ratio around the circle of colours never come back.
-    let turn = |offset: f64| {
-        let t = (k as f64 * 0.618_034 + offset).fract();
-        let wave = (std::f64::consts::TAU * t).cos();
-        (200.0 + 50.0 * wave) as u8
-    };
-    [turn(0.0), turn(1.0 / 3.0), turn(2.0 / 3.0)]
-}
 
 fn dark(colour: Rgb) -> Rgb {
     colour::shade(colour, 0.6)

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::Triangulation;
 
-use super::colour::{DISK, EDGE, FAINT, HULL, LINK, POINT, Rgb};
+use super::colour::{CONSTRAINT, DISK, EDGE, FAINT, HULL, LINK, POINT, Rgb};
 use super::relief::{Paint, area};
 use super::view::View;
 use super::{Layers, Options};
@@ -22,9 +22,9 @@ pub(super) fn write(
     if layers.fill {
         let paint = Paint::of(mesh);
         writeln!(out, r#"<g stroke-width="0.6" stroke-linejoin="round">"#)?;
-        for triangle in mesh.triangles() {
+        for (i, triangle) in mesh.triangles().enumerate() {
             let corners = triangle.map(|i| mesh.points[i]);
-            let values = paint.corners(triangle, area(corners));
+            let values = paint.corners(i, triangle, area(corners));
             let mean = [0, 1].map(|k| values.iter().map(|value| value[k]).sum::<f64>() / 3.0);
             let colour = hex(paint.colour(mean));
             let [a, b, c] = corners.map(|p| place(view, p));
@@ -39,6 +39,10 @@ pub(super) fn write(
     if !options.faint.is_empty() {
         segments(out, view, options.faint.iter().copied(), FAINT, layers.line_width())?;
     }
+    if options.outside {
+        let outside = mesh.edges_left_out().map(|ends| ends.map(|v| mesh.point(v)));
+        segments(out, view, outside, FAINT, layers.line_width())?;
+    }
     if layers.edges {
         let edges = mesh.edges().map(|(ends, _)| ends.map(|v| mesh.point(v)));
         segments(out, view, edges, EDGE, layers.line_width())?;
@@ -49,6 +53,12 @@ pub(super) fn write(
     let border = mesh.edges().filter(|edge| edge.1);
     let sides = border.map(|(ends, _)| ends.map(|v| mesh.point(v)));
     segments(out, view, sides, HULL, 1.5 * layers.line_width())?;
+    if mesh.constraints.is_some() {
+        let constraints = mesh.constraint_edges().into_iter().map(|ends| ends.map(|v| mesh.point(v)));
+        writeln!(out, r#"<g stroke-linecap="round">"#)?;
+        segments(out, view, constraints, CONSTRAINT, layers.constraint_width())?;
+        writeln!(out, "</g>")?;
+    }
     if layers.points || d.vertex_count() < 3 {
         writeln!(out, r#"<g fill="{}">"#, hex(POINT))?;
         circles(out, view, d.vertices().map(|v| (mesh.point(v), v.index())), layers.point_radius())?;

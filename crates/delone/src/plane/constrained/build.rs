@@ -128,13 +128,7 @@ fn constrained(
     report: &mut ConstraintReport2,
 ) -> (Delaunay2, Vec<[VertexId; 2]>, Result<(), EdgeId>) {
     let mut ordered = construct::in_order(&points);
-    let mut positions = parallel::filled(Place::GHOST, points.len());
-    for (position, &i) in ordered.indices.iter().enumerate() {
-        positions[i as usize] = Place::new(position);
-    }
-    for duplicate in &ordered.duplicates {
-        positions[duplicate.point] = positions[duplicate.vertex.index()];
-    }
+    let positions = ordered.positions(points.len());
     let ends: Vec<[Place; 2]> = parallel::collect(segments.len(), |s| segments[s].map(|i| positions[i]));
     let mut layer = Layer::new(
         std::mem::replace(&mut ordered.mesh, Mesh2::empty(0)),

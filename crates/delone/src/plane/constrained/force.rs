@@ -10,17 +10,20 @@
 //! Graphics 1997; Shewchuk & Brown, "Fast segment insertion and incremental construction of constrained Delaunay
 //! triangulations", CGTA 2015, for the order of segments and for what hangs into a channel.
 //!
-//! Cost: for k edges crossed O(k) for k up to two, O(k log k) where apexes are in the middle of chains, as of random points,
-//! O(k^2) at worst.
+//! Cost: O(k) for k edges crossed up to two, O(k log k) for more: large sides have a triangulation of their own (see `patch`).
 
 use delone_predicates::{in_circle, orient2d};
 
+use super::patch::Patch;
 use super::trace::{Beginning, Ground, Leaves};
 use crate::ids::{EdgeId, Place};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::channel::Channel;
 use crate::mesh::triangles::surgery::BorderEdge;
 use crate::plane::layer::Layer;
+
+/// From this many vertices on a side has a triangulation of its own; below, looking at all of them takes less.
+const LARGE: usize = 64;
 
 impl Layer {
     pub(super) fn ground(&self) -> Ground<'_> {
@@ -68,9 +71,14 @@ impl Layer {
             return Ok(if self.mesh.tail(e) == a { e } else { self.mesh.twin(e) });
         }
         let points = &self.points;
-        let e = self
-            .mesh
-            .fill_channel([a, end], channel, |border, first, last| apex(points, border, first, last));
+        let mut patch = None;
+        let e = self.mesh.fill_channel([a, end], channel, |border, first, last| {
+            if (first, last) == (0, border.len() - 1) {
+                patch = (border.len() > LARGE).then(|| Patch::new(points, border)).flatten();
+            }
+            let known = patch.as_ref().and_then(|patch| patch.apex(first, last));
+            known.unwrap_or_else(|| apex(points, border, first, last))
+        });
         Ok(if self.mesh.tail(e) == a { e } else { self.mesh.twin(e) })
     }
 
@@ -96,7 +104,7 @@ impl Layer {
 }
 
 /// The apex of the side from `last` to `first` among the vertices of the chain between them.
-fn apex(points: &[[f64; 2]], border: &[BorderEdge], first: usize, last: usize) -> usize {
+pub(super) fn apex(points: &[[f64; 2]], border: &[BorderEdge], first: usize, last: usize) -> usize {
     let place = |k: usize| border[k].0;
     let point = |k: usize| points[place(k).index()];
     let (from, to) = (point(last), point(first));

@@ -24,6 +24,8 @@ mod flips;
 mod force;
 mod locate;
 mod nearest;
+mod patch;
+mod polygons;
 mod segments;
 mod sight;
 mod split;
@@ -36,6 +38,7 @@ pub use build::Crossings;
 pub use change::SegmentEnds;
 pub use check::ConstrainedFlaw2;
 pub use domains::{Domains2, Fill, Part2, RegionSeed2, Seeds2};
+pub use polygons::{PolygonTriangles2, Polygons2};
 pub use segments::{Covering2, SegmentId};
 
 use super::Delaunay2;
@@ -105,6 +108,11 @@ impl Constrained2 {
     /// duplicates, and those since removed, too.
     pub fn points(&self) -> &[[f64; 2]] {
         self.graph.points()
+    }
+
+    /// Gives the points away.
+    fn into_points(self) -> Vec<[f64; 2]> {
+        self.graph.named.unwrap_or(self.graph.base.points)
     }
 
     /// What became of the segments of the construction.

@@ -62,6 +62,18 @@ pub(in crate::plane) struct InOrder {
 }
 
 impl InOrder {
+    /// For each of so many points the place of its vertex.
+    pub(in crate::plane) fn positions(&self, count: usize) -> Vec<Place> {
+        let mut positions = parallel::filled(Place::GHOST, count);
+        for (position, &i) in self.indices.iter().enumerate() {
+            positions[i as usize] = Place::new(position);
+        }
+        for duplicate in &self.duplicates {
+            positions[duplicate.point] = positions[duplicate.vertex.index()];
+        }
+        positions
+    }
+
     /// The same with vertices at the places of their indices among all points, its fixed edges kept.
     pub(in crate::plane) fn numbered(self, points: Vec<[f64; 2]>) -> Built {
         let Self { mut mesh, indices, duplicates, counters, .. } = self;

@@ -112,6 +112,10 @@ fn documents() -> Seeds {
     let mut seeds = vec![written(Format::GeoJson), mesh(Format::GeoJson)];
     seeds.extend([all, sequence].map(|text| (Format::GeoJson, text.as_bytes().to_vec())));
     seeds.push((Format::GeoJson, gzip(all.as_bytes())));
+    seeds.push((Format::GeoJson, b"[[[0,0],[4,0,1],[0,4]],[[1,1],[1,2],[2,1]]]".to_vec()));
+    seeds.extend([written(Format::Wkt), mesh(Format::Wkt), written(Format::Wkb), mesh(Format::Wkb)]);
+    let geometries = [Format::Wkt, Format::Wkt, Format::Wkb].into_iter().zip(GEOMETRIES);
+    seeds.extend(geometries.map(|(format, text)| (format, text.as_bytes().to_vec())));
     seeds
 }
 
@@ -200,7 +204,8 @@ fn meshes() -> Seeds {
     seeds.push((Format::Stl, solid.as_bytes().to_vec()));
     seeds.push((Format::Off, off.as_bytes().to_vec()));
     seeds.push(written(Format::Node));
-    seeds.push(mesh(Format::Vtu));
+    seeds.extend(GRAPHS.map(|(format, text)| (format, text.as_bytes().to_vec())));
+    seeds.extend([Format::Poly, Format::Edge, Format::Vtu].map(mesh));
     let legacy = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 3 4\n5 6\n";
     seeds.push((Format::Vtk, legacy.as_bytes().to_vec()));
     let xml = "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece><Points>\
@@ -214,6 +219,26 @@ fn meshes() -> Seeds {
     seeds.push((Format::Pcd, [format!("{cloud}DATA binary_compressed\n").as_bytes(), &packed].concat()));
     seeds
 }
+
+/// Graphs of Triangle, with all that they can have, and what lies beside them.
+const GRAPHS: [(Format, &str); 4] = [
+    (
+        Format::Poly,
+        "# by hand\n4 2 2 1\n1 0 0 1 2 9\n2 4 0 1 2 9\n3 4 4 1 2\n4 0 4 1 2 9\n4 1\n1 1 2 5\n2 2 3 5\n3 3 4\n4 4 1 6\n1\n\
+         1 3 1\n2\n1 1 2 7 0.5\n2 1 3 0.25\n",
+    ),
+    (Format::Poly, "0 2 0 0\n2 0\n0 0 1\n1 1 2\n0\n"),
+    (Format::Area, "3\n1 0.5\n2 -1\n3 1e9\n"),
+    (Format::Ele, "2 6 1\n1 1 2 3 4 5 6 0.5\n2 2 3 4 5 6 7 1.5\n"),
+];
+
+/// Geometries as text and as bytes.
+const GEOMETRIES: [&str; 3] = [
+    "SRID=25832;POLYGON ((0 0, 8 0, 8 8, 0 0), (2 2, 3 2, 3 3, 2 2))\n# a line\nLINESTRING ZM (0 0 1 2, 1e9 -1 2 3)\n",
+    "GEOMETRYCOLLECTION (MULTIPOINT ((1 2), (3 4)), MULTIPOLYGON (EMPTY, ((0 0, 1 0, 0 1, 0 0))), POINT EMPTY)",
+    "0103000020E6640000010000000400000000000000000000000000000000000000000000000000F03F0000000000000000\
+     0000000000000000000000000000F03F00000000000000000000000000000000\n",
+];
 
 fn scans() -> Seeds {
     debug_assert_eq!(E57, 6);

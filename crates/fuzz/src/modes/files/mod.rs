@@ -8,7 +8,7 @@ use std::fs;
 use std::io::Cursor;
 
 use delone_generators::Random;
-use delone_io::{Format, ReadOptions, Source, decompressed};
+use delone_io::{Format, Graph, ReadOptions, Source, decompressed};
 
 use self::mutation::Mutation;
 use crate::attack::{Attack, Judgement};
@@ -64,14 +64,43 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
             Err(error) => said.push(error.to_string()),
         }
     }
+    // What a .poly file has beside it may be as broken as the file.
+    let mut beside = |_: &str| source();
+    let graph = source()
+        .and_then(|source| delone_io::read_graph(source, format, &options(2, vec![]), Some(&mut beside)));
+    match graph {
+        Ok(graph) if !is_sound(&graph) => return Err("a graph whose lists do not fit".to_owned()),
+        Ok(graph) => said.extend(graph.cloud.remarks),
+        Err(error) => said.push(error.to_string()),
+    }
     let message = |outcome: Result<(), delone_io::Error>| outcome.err().map(|error| error.to_string());
     said.extend(message(source().and_then(|source| delone_io::read_triangles(source, format).map(|_| ()))));
     said.extend(message(source().and_then(|source| delone_io::read_tetrahedra(source, format).map(|_| ()))));
     said.extend(message(source().and_then(|source| delone_io::read_rings(source, format).map(|_| ()))));
+    said.extend(message(source().and_then(|source| delone_io::read_segments(source, format).map(|_| ()))));
+    said.extend(message(source().and_then(|source| delone_io::read_areas(source, format).map(|_| ()))));
+    let attributes =
+        source().and_then(|source| delone_io::read_triangle_attributes(source, format).map(|_| ()));
+    said.extend(message(attributes));
     match said.iter().find(|text| text.len() > LONGEST_MESSAGE) {
         Some(text) => Err(format!("a message of {} bytes", text.len())),
         None => Ok(()),
     }
+}
+
+/// Whether all indices are in range and all lists as long as they are to be.
+fn is_sound(graph: &Graph) -> bool {
+    let (points, segments) = (graph.cloud.xy.len(), graph.segments.len());
+    let fits = |markers: &Option<Vec<i64>>, count| markers.as_ref().is_none_or(|all| all.len() == count);
+    graph.segments.as_flattened().iter().all(|&i| i < points)
+        && graph.is_border.len() == segments
+        && fits(&graph.markers, segments)
+        && fits(&graph.point_markers, points)
+        && graph.attributes.values.len() == points * graph.attributes.width
+        && graph
+            .rings
+            .iter()
+            .all(|ring| ring.segments.start <= ring.segments.end && ring.segments.end <= segments)
 }
 
 /// Does work with so much more memory than there is already; more ends the process, which is a finding.

@@ -2,6 +2,7 @@
 //! do not tell are refused, never guessed at.
 
 use super::fields::Separator;
+use crate::formats::wkt::is_geometry;
 
 /// Columns by number from 0.
 #[derive(Debug, PartialEq, Eq)]
@@ -82,10 +83,10 @@ impl Columns {
         if header && let Some(numbers) = by_names(fields)? {
             return Ok(Self::Numbers(numbers));
         }
-        let is_geometry = |field: &String| {
-            if header { names_geometry(field) } else { super::wkt::is_geometry(field) }
+        let holds_geometry = |field: &String| {
+            if header { names_geometry(field) } else { is_geometry(field) }
         };
-        if let Some(column) = fields.iter().position(is_geometry) {
+        if let Some(column) = fields.iter().position(holds_geometry) {
             return Ok(Self::Geometry(column));
         }
         if header {
@@ -131,7 +132,7 @@ pub(super) fn is_header(fields: &[String]) -> bool {
         let name = field.trim_start_matches(['#', '%', '/', ' ', '"']).to_lowercase();
         name.starts_with(|c: char| c.is_alphabetic() || c == '_') && !MISSING.contains(&name.as_str())
     };
-    if fields.iter().any(|field| super::wkt::is_geometry(field)) {
+    if fields.iter().any(|field| is_geometry(field)) {
         return false;
     }
     let is_fraction =

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::wkt;
+use crate::formats::wkt;
 
 /// A sign that is in no text, between the fields of lines that are one field.
 const WHOLE: char = '\u{1f}';

@@ -6,13 +6,14 @@
 
 mod columns;
 mod fields;
-mod wkt;
 
 use std::io::{self, Write};
 
 use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use super::lines::Lines;
+use super::shapes::Heights;
+use super::wkt;
 use crate::error::excerpt;
 use crate::{Cloud, Error, Source};
 
@@ -232,16 +233,20 @@ impl<'a> Table<'a> {
     }
 
     fn geometry(&mut self, text: &str) -> Result<(), String> {
-        for position in wkt::positions(text)? {
-            if self.cloud.xy.is_empty() && position.len() > 2 {
-                self.cloud.z = Some(Vec::new());
+        let (xy, heights) = wkt::read_one(text)?.positions();
+        let is_first = self.cloud.xy.is_empty();
+        match (heights, &mut self.cloud.z) {
+            _ if xy.is_empty() => {}
+            (Heights::OfAll(mut more), Some(z)) => z.append(&mut more),
+            (Heights::OfAll(more), z) if is_first => *z = Some(more),
+            (Heights::OfAll(_), None) => return Err("a position with height after some without".to_owned()),
+            (Heights::None, None) => {}
+            (Heights::None, Some(_)) => {
+                return Err("a position without height after some with heights".to_owned());
             }
-            match (position.get(2), &self.cloud.z) {
-                (None, Some(_)) => return Err("a position without height after some with heights".to_owned()),
-                (Some(_), None) => return Err("a position with height after some without".to_owned()),
-                (z, _) => self.cloud.push([position[0], position[1]], z.copied().unwrap_or_default()),
-            }
+            (Heights::OfSome, _) => return Err("a position without height beside one with height".to_owned()),
         }
+        self.cloud.xy.extend(xy);
         Ok(())
     }
 

@@ -1,0 +1,49 @@
+//! What commands take that know segments.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+/// Segments, and what they mean.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Segments")]
+pub(crate) struct GraphArgs {
+    /// File of segments between the points: two indices a line from 0 (csv npy edge poly).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) segments: Option<PathBuf>,
+    /// What happens where segments cross [default: refuse].
+    #[arg(long, value_name = "HOW")]
+    pub(crate) crossings: Option<CrossingsName>,
+    /// What is inside [default: seeds for .poly, even-odd for polygons, all for lines].
+    #[arg(long, value_name = "RULE")]
+    pub(crate) fill: Option<FillName>,
+}
+
+impl GraphArgs {
+    /// Whether anything was asked for that needs segments.
+    pub(crate) fn is_given(&self) -> bool {
+        self.segments.is_some() || self.crossings.is_some() || self.fill.is_some()
+    }
+}
+
+/// What happens where segments cross.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CrossingsName {
+    /// It is an error, which names two segments and the place.
+    Refuse,
+    /// They are split there: points are added, which follow those of the input.
+    Split,
+}
+
+/// What is inside.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FillName {
+    /// What an odd number of rings is around.
+    EvenOdd,
+    /// What rings wind around in sum, counter-clockwise less clockwise.
+    Nonzero,
+    /// What segments part from the outside, without the holes of a .poly file.
+    Seeds,
+    /// Everything in the convex hull.
+    All,
+}

@@ -1,0 +1,214 @@
+//! Points with segments: read, triangulated, told of and written.
+
+mod heights;
+
+use std::path::PathBuf;
+
+use delone::{
+    Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
+    VertexId,
+};
+use delone_io::{Constraints, Format, Graph, Mesh, Trim, picture, write_mesh};
+
+use crate::args::{CrossingsName, FillName, GraphArgs, InputArgs, TriangulateArgs};
+use crate::files;
+use crate::message::{Failure, note};
+use crate::progress::Phase;
+use crate::room;
+use crate::stats::Stats;
+
+/// Whether a command is about segments: they were asked for, or files hold them.
+pub(crate) fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
+    let holds = |path: &PathBuf| {
+        let format = input.from.or_else(|| Format::of(path).ok());
+        matches!(format, Some(Format::Poly | Format::GeoJson | Format::Wkt | Format::Wkb))
+    };
+    graph.is_given() || input.input.iter().any(holds)
+}
+
+/// `delone triangulate`, with segments.
+pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    let stats_path = args.input.stats.as_deref();
+    let mut inputs = args.input.paths();
+    inputs.extend(args.graph.segments.as_deref());
+    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    room::check_formats::<delone::Delaunay2>(&outputs)?;
+    let mut stats = Stats::start();
+    let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
+    if args.check {
+        let _phase = Phase::start(quiet, "checking");
+        c.triangulation.check().map_err(|flaw| {
+            Failure::new(
+                format!("the triangulation is wrong: {flaw}"),
+                "please report this with the input: it is a bug",
+            )
+        })?;
+        stats.phase("check");
+        note(quiet, "checked: this is the canonical constrained Delaunay triangulation");
+    }
+    c.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
+    stats.tell(quiet, ["triangle", "triangles"]);
+    stats.write(stats_path)
+}
+
+/// A triangulation with segments, and what is inside of it.
+pub(crate) struct Constrained {
+    pub(crate) triangulation: Constrained2,
+    graph: Graph,
+    inside: Domains2,
+    /// What the regions of the input are, if there are some.
+    regions: Option<Domains2>,
+    /// The height of every point, those added too.
+    heights: Option<Vec<f64>>,
+}
+
+impl Constrained {
+    /// Reads and triangulates, and tells what a user should know.
+    pub(crate) fn read(
+        input: &InputArgs,
+        args: &GraphArgs,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let graph = files::graph(input, args.segments.as_deref(), quiet)?;
+        stats.phase("read");
+        let label = input.label();
+        let refused = |error: delone::Error| Failure::graph(&label, &error);
+        let crossings = match args.crossings {
+            Some(CrossingsName::Split) => Crossings::Split,
+            _ => Crossings::Refuse,
+        };
+        let phase = Phase::start(quiet, "triangulating");
+        let triangulation =
+            Constrained2::with_crossings(&graph.cloud.xy, &graph.segments, crossings).map_err(refused)?;
+        let seeds =
+            Seeds2 { holes: graph.holes.clone(), regions: graph.regions.clone(), keep_concavities: false };
+        let is_border = |s: SegmentId| graph.is_border.get(s.index()).copied().unwrap_or(true);
+        let name = args.fill.unwrap_or_else(|| usual(input, &graph));
+        let fill = match name {
+            FillName::All => Fill::All,
+            FillName::EvenOdd => Fill::EvenOdd,
+            FillName::Nonzero => Fill::NonZero,
+            FillName::Seeds => Fill::Seeds(&seeds),
+        };
+        let inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
+        let regions = if graph.regions.is_empty() {
+            None
+        } else {
+            Some(triangulation.domains(&Fill::Seeds(&seeds)).map_err(refused)?)
+        };
+        drop(phase);
+        stats.phase("build");
+        let heights = heights::of_all(&triangulation, graph.cloud.z.as_deref(), quiet);
+        let c = Self { triangulation, graph, inside, regions, heights };
+        c.tell(stats, quiet);
+        Ok(c)
+    }
+
+    /// Remarks and counts.
+    fn tell(&self, stats: &mut Stats, quiet: bool) {
+        let (c, report) = (&self.triangulation, self.triangulation.report());
+        room::remark(c, quiet);
+        stats.triangulation(c, Counters::DivideAndConquer(Merges::default()));
+        let counts = [
+            ("zero_length", report.zero_length, "of no length", "left out"),
+            ("repeated", report.repeated, "the same as others", "taken once"),
+            ("overlapping", report.overlapping, "overlapping others", "joined"),
+            ("through_vertices", report.through_vertices, "with vertices inside of them", "cut there"),
+        ];
+        for (name, count, what, done) in counts {
+            stats.set(name, count);
+            if count > 0 {
+                note(quiet, format_args!("segments {what}: {count}, {done}"));
+            }
+        }
+        stats.set("crossings", report.crossings);
+        stats.set("added_points", report.added_points);
+        stats.set("rounds", report.rounds);
+        if report.crossings > 0 {
+            let (count, added) = (report.crossings, report.added_points);
+            note(
+                quiet,
+                format_args!("crossings of segments: {count}, split at {added} points that were added"),
+            );
+        }
+        stats.set("segments", self.graph.segments.len());
+        stats.set("constraints", c.constraint_edges().count());
+        stats.set("parts", self.inside.parts().len());
+        for [first, second] in self.regions.iter().flat_map(|regions| regions.rivals()) {
+            note(
+                quiet,
+                format_args!("regions {first} and {second} are in one part, which region {first} has"),
+            );
+        }
+    }
+
+    /// Writes all outputs.
+    pub(crate) fn write(
+        &self,
+        outputs: &[(PathBuf, Format)],
+        longest: Option<f64>,
+        options: &picture::Options,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<(), Failure> {
+        let (c, graph) = (&self.triangulation, &self.graph);
+        let long = longest.map(|longest| Trim::long_edges(c, longest));
+        let stays = |t: TriangleId| {
+            self.inside.is_inside(t) && long.as_ref().is_none_or(|long| long.keeps(c.index(t)))
+        };
+        let trim = Trim::keeping(c, stays);
+        stats.set("left_out", trim.count());
+        let edges: Vec<[VertexId; 2]> = c.constraints().collect();
+        let markers = graph.markers.as_deref().map(|markers| self.markers(markers));
+        let constraints = Constraints {
+            edges: &edges,
+            markers: markers.as_deref(),
+            holes: &graph.holes,
+            regions: &graph.regions,
+        };
+        let mut regions = vec![0.0; c.slot_count()];
+        if let Some(known) = &self.regions {
+            for t in c.triangle_ids() {
+                regions[c.index(t)] = known.attribute(t).unwrap_or_default();
+            }
+        }
+        let mesh = Mesh {
+            heights: self.heights.as_deref(),
+            crs: graph.cloud.crs.as_ref(),
+            base: graph.cloud.base,
+            trim: (trim.count() > 0).then_some(&trim),
+            constraints: Some(&constraints),
+            regions: self.regions.is_some().then_some(&regions[..]),
+            ..Mesh::new(c, c.points())
+        };
+        let phase = Phase::start(quiet, "writing");
+        for (path, format) in outputs {
+            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, options))?;
+        }
+        drop(phase);
+        stats.phase("write");
+        Ok(())
+    }
+
+    /// The marker of each constraint: that of the first segment on it.
+    fn markers(&self, of_segments: &[i64]) -> Vec<i64> {
+        let c = &self.triangulation;
+        let first = |e| c.covering(e).first().map(|covering| covering.segment.index());
+        c.constraint_edges()
+            .map(|e| first(e).and_then(|s| of_segments.get(s)).copied().unwrap_or(0))
+            .collect()
+    }
+}
+
+/// What is inside where nothing else is said.
+fn usual(input: &InputArgs, graph: &Graph) -> FillName {
+    let is_poly = |path: &PathBuf| input.from.or_else(|| Format::of(path).ok()) == Some(Format::Poly);
+    if input.input.iter().any(is_poly) {
+        FillName::Seeds
+    } else if graph.rings.is_empty() {
+        FillName::All
+    } else {
+        FillName::EvenOdd
+    }
+}

@@ -1,0 +1,156 @@
+//! What GeoJSON, well-known text and well-known binary have in common: positions, and lines and rings through them.
+
+use std::ops::Range;
+
+use crate::{Cloud, Error, Graph, GraphRing};
+
+/// The geometries of a file, in its order. The last position of a ring, which is the first again, is left out.
+#[derive(Debug, Default)]
+pub(super) struct Shapes {
+    xy: Vec<[f64; 2]>,
+    /// The height of each, if it has one.
+    z: Vec<Option<f64>>,
+    parts: Vec<Part>,
+    polygons: usize,
+    lines: usize,
+}
+
+/// The heights of positions.
+#[derive(Debug, PartialEq)]
+pub(super) enum Heights {
+    None,
+    OfSome,
+    OfAll(Vec<f64>),
+}
+
+#[derive(Debug)]
+struct Part {
+    positions: Range<usize>,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    Line,
+    /// A ring of a polygon, from 0; where it ends if that is not where it begins.
+    Ring {
+        polygon: usize,
+        ring: usize,
+        open: Option<[f64; 2]>,
+    },
+}
+
+impl Shapes {
+    /// How many positions there are.
+    pub(super) fn len(&self) -> usize {
+        self.xy.len()
+    }
+
+    /// Takes a position: x, y, and perhaps a height. False if there are fewer than two numbers.
+    pub(super) fn position(&mut self, numbers: &[f64]) -> bool {
+        let &[x, y, ..] = numbers else { return false };
+        self.xy.push([x, y]);
+        self.z.push(numbers.get(2).copied());
+        true
+    }
+
+    /// Makes a line of the positions since `start`.
+    pub(super) fn line(&mut self, start: usize) {
+        self.lines += 1;
+        self.parts.push(Part { positions: start..self.xy.len(), kind: Kind::Line });
+    }
+
+    /// Begins a polygon, whose rings follow.
+    pub(super) fn polygon(&mut self) {
+        self.polygons += 1;
+    }
+
+    /// Makes the positions since `start` the next ring of the polygon. Whether one that does not end where it begins is
+    /// closed all the same is for the format to say.
+    pub(super) fn ring(&mut self, start: usize, closes_itself: bool) {
+        let ends = (self.xy.get(start).copied(), self.xy.last().copied());
+        let mut open = None;
+        if let (Some(first), Some(last)) = ends
+            && self.xy.len() > start + 1
+        {
+            if first == last {
+                self.xy.pop();
+                self.z.pop();
+            } else if !closes_itself {
+                open = Some(last);
+            }
+        }
+        let polygon = self.polygons.saturating_sub(1);
+        let ring = match self.parts.last().map(|part| &part.kind) {
+            Some(Kind::Ring { polygon: before, ring, .. }) if *before == polygon => ring + 1,
+            _ => 0,
+        };
+        let kind = Kind::Ring { polygon, ring, open };
+        self.parts.push(Part { positions: start..self.xy.len(), kind });
+    }
+
+    /// The positions, and what heights they have.
+    pub(super) fn positions(self) -> (Vec<[f64; 2]>, Heights) {
+        let count = self.z.iter().filter(|z| z.is_some()).count();
+        let heights = match count {
+            0 => Heights::None,
+            _ if count < self.z.len() => Heights::OfSome,
+            _ => Heights::OfAll(self.z.into_iter().flatten().collect()),
+        };
+        (self.xy, heights)
+    }
+
+    /// The rings of all polygons.
+    pub(super) fn rings(&self) -> Vec<Vec<[f64; 2]>> {
+        let rings = self.parts.iter().filter(|part| matches!(part.kind, Kind::Ring { .. }));
+        rings.map(|part| self.xy[part.positions.clone()].to_vec()).collect()
+    }
+
+    /// All positions as points.
+    pub(super) fn cloud(self) -> Cloud {
+        let shapes = self.lines + self.polygons;
+        let mut cloud = self.points();
+        if shapes > 0 {
+            cloud.remarks.push(format!("the corners of {shapes} lines and polygons were taken as points"));
+        }
+        cloud
+    }
+
+    fn points(self) -> Cloud {
+        let (xy, heights) = self.positions();
+        let mut cloud = Cloud { xy, ..Cloud::default() };
+        match heights {
+            Heights::None => {}
+            Heights::OfAll(heights) => cloud.z = Some(heights),
+            Heights::OfSome => {
+                cloud.remarks.push("heights are left out: not all positions have them".to_owned());
+            }
+        }
+        cloud
+    }
+
+    /// The positions with the segments between them: those of rings are borders.
+    pub(super) fn graph(mut self) -> Result<Graph, Error> {
+        let mut graph = Graph::default();
+        for part in std::mem::take(&mut self.parts) {
+            let Range { start, end } = part.positions;
+            let chain = (start..end).zip(start + 1..end).map(|(i, j)| [i, j]);
+            let before = graph.segments.len();
+            graph.segments.extend(chain);
+            if let Kind::Ring { polygon, ring, open } = part.kind {
+                if let Some(last) = open {
+                    return Err(Error::OpenRing { polygon, ring, first: self.xy[start], last });
+                }
+                if end > start + 1 {
+                    graph.segments.push([end - 1, start]);
+                }
+                let segments = before..graph.segments.len();
+                graph.rings.push(GraphRing { polygon, ring, segments });
+                graph.is_border.resize(graph.segments.len(), true);
+            }
+            graph.is_border.resize(graph.segments.len(), false);
+        }
+        graph.cloud = self.points();
+        Ok(graph)
+    }
+}

@@ -1,0 +1,360 @@
+//! Well-known text of geometries: points, lines and polygons, one after another, each perhaps with the number of its system
+//! before it (`SRID=25832;POINT (1 2)`).
+//!
+//! Lists in lists are bounded here, so that no text fills the stack.
+
+use std::io::{self, Read, Write};
+
+use super::shapes::Shapes;
+use crate::error::excerpt;
+use crate::{Cloud, Crs, Error, Graph, Shape, Source};
+
+/// What geometries are called, and how deep their positions are in lists.
+const KINDS: [(&str, usize); 6] = [
+    ("POINT", 0),
+    ("MULTIPOINT", 0),
+    ("LINESTRING", 0),
+    ("MULTILINESTRING", 1),
+    ("POLYGON", 1),
+    ("MULTIPOLYGON", 2),
+];
+
+/// What has geometries in it.
+const COLLECTION: &str = "GEOMETRYCOLLECTION";
+
+/// No geometry is in more collections.
+const DEEPEST: usize = 16;
+
+/// Reads the positions of all geometries, in their order.
+pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    let (shapes, crs) = read(source)?;
+    Ok(Cloud { crs, ..shapes.cloud() })
+}
+
+/// Reads all geometries with the segments of their lines and rings.
+pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    let (shapes, crs) = read(source)?;
+    let mut graph = shapes.graph()?;
+    graph.cloud.crs = crs;
+    Ok(graph)
+}
+
+/// Reads the rings of all polygons.
+pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    Ok(read(source)?.0.rings())
+}
+
+fn read(mut source: Box<dyn Source>) -> Result<(Shapes, Option<Crs>), Error> {
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes)?;
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let line = |at: usize| 1 + memchr::memchr_iter(b'\n', &bytes[..at]).count();
+    let text = std::str::from_utf8(bytes).map_err(|error| Error::Line {
+        line: line(error.valid_up_to()),
+        what: "it is not UTF-8 text".to_owned(),
+    })?;
+    let mut reader = Reader { rest: text };
+    let mut shapes = Shapes::default();
+    let mut crs: Option<Crs> = None;
+    loop {
+        reader.skip_remarks();
+        let begin = reader.rest;
+        if begin.is_empty() {
+            return Ok((shapes, crs));
+        }
+        let system = reader.system();
+        if reader.geometry(&mut shapes, 0).is_none() {
+            let what = no_geometry(begin);
+            return Err(Error::Line { line: line(text.len() - reader.rest.len()), what });
+        }
+        // No number, or 0, is no system.
+        let system = system.filter(|&number| number > 0).map(Crs::of_epsg);
+        if let (Some(before), Some(now)) = (&crs, &system)
+            && before != now
+        {
+            let what = format!("its coordinates are {now}, those before it {before}");
+            return Err(Error::Line { line: line(text.len() - begin.len()), what });
+        }
+        crs = crs.or(system);
+    }
+}
+
+fn no_geometry(text: &str) -> String {
+    format!(
+        "{:?} is no geometry such as POINT (1 2)",
+        excerpt(text.lines().next().unwrap_or_default().trim())
+    )
+}
+
+/// Whether a text begins like a geometry: its kind, and a list or the word that there is none.
+pub(super) fn is_geometry(text: &str) -> bool {
+    let mut reader = Reader { rest: text.trim() };
+    reader.system();
+    reader.kind().is_some()
+}
+
+/// Reads a text that is one geometry.
+pub(super) fn read_one(text: &str) -> Result<Shapes, String> {
+    let mut reader = Reader { rest: text.trim() };
+    reader.system();
+    let mut shapes = Shapes::default();
+    let complete = reader.geometry(&mut shapes, 0).is_some() && reader.rest.trim().is_empty();
+    complete.then_some(shapes).ok_or_else(|| no_geometry(text.trim()))
+}
+
+/// A kind of geometry.
+#[derive(Clone, Copy)]
+struct Kind {
+    name: &'static str,
+    /// How deep positions are in lists.
+    depth: usize,
+    /// The last number of a position is a measure.
+    measured: bool,
+    empty: bool,
+}
+
+/// What is left of a text. A part that is not as it should be is `None`.
+struct Reader<'a> {
+    rest: &'a str,
+}
+
+impl<'a> Reader<'a> {
+    fn skip_remarks(&mut self) {
+        self.rest = self.rest.trim_start();
+        while self.rest.starts_with('#') {
+            let (_, after) = self.rest.split_once('\n').unwrap_or_default();
+            self.rest = after.trim_start();
+        }
+    }
+
+    /// The number of a system that stands before a geometry.
+    fn system(&mut self) -> Option<u32> {
+        const NAME: &str = "SRID=";
+        let name = self.rest.get(..NAME.len())?;
+        let (number, after) = self.rest[NAME.len()..].split_once(';')?;
+        if !name.eq_ignore_ascii_case(NAME) || number.len() > 20 {
+            return None;
+        }
+        self.rest = after.trim_start();
+        number.trim().parse().ok()
+    }
+
+    fn word(&mut self) -> &'a str {
+        let rest = self.rest.trim_start();
+        let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+        self.rest = rest[end..].trim_start();
+        &rest[..end]
+    }
+
+    fn sign(&mut self, sign: char) -> Option<()> {
+        self.rest = self.rest.trim_start().strip_prefix(sign)?.trim_start();
+        Some(())
+    }
+
+    fn kind(&mut self) -> Option<Kind> {
+        let word = self.word().to_ascii_uppercase();
+        let (name, mut dimensions) = ["ZM", "Z", "M", ""].into_iter().find_map(|end| {
+            let name = word.strip_suffix(end)?;
+            let known = KINDS.iter().map(|kind| kind.0).chain([COLLECTION]).find(|&known| known == name);
+            known.map(|name| (name, end.to_owned()))
+        })?;
+        let mut empty = false;
+        if !self.rest.starts_with('(') {
+            match self.word().to_ascii_uppercase().as_str() {
+                "EMPTY" => empty = true,
+                word @ ("Z" | "M" | "ZM") => {
+                    word.clone_into(&mut dimensions);
+                    empty = !self.rest.starts_with('(') && self.word().eq_ignore_ascii_case("EMPTY");
+                }
+                _ => return None,
+            }
+        }
+        (empty || self.rest.starts_with('(')).then_some(())?;
+        let depth = KINDS.iter().find(|kind| kind.0 == name).map_or(0, |kind| kind.1);
+        Some(Kind { name, depth, measured: dimensions.ends_with('M'), empty })
+    }
+
+    fn geometry(&mut self, shapes: &mut Shapes, collections: usize) -> Option<()> {
+        let kind = self.kind()?;
+        if kind.empty {
+            return Some(());
+        }
+        if kind.name != COLLECTION {
+            return self.list(kind, kind.depth, shapes);
+        }
+        (collections < DEEPEST).then_some(())?;
+        self.sign('(')?;
+        loop {
+            self.geometry(shapes, collections + 1)?;
+            if self.sign(',').is_none() {
+                return self.sign(')');
+            }
+        }
+    }
+
+    /// Positions, or lists of them.
+    fn list(&mut self, kind: Kind, depth: usize, shapes: &mut Shapes) -> Option<()> {
+        if !self.rest.starts_with('(') {
+            return self.word().eq_ignore_ascii_case("EMPTY").then_some(());
+        }
+        self.sign('(')?;
+        let is_area = kind.name.ends_with("POLYGON");
+        if is_area && depth == 1 {
+            shapes.polygon();
+        }
+        let start = shapes.len();
+        loop {
+            if depth > 0 {
+                self.list(kind, depth - 1, shapes)?;
+            } else if kind.name == "MULTIPOINT" && self.sign('(').is_some() {
+                // Each point has brackets of its own, or none.
+                self.position(kind, shapes)?;
+                self.sign(')')?;
+            } else {
+                self.position(kind, shapes)?;
+            }
+            if self.sign(',').is_none() {
+                break;
+            }
+        }
+        if depth == 0 && is_area {
+            shapes.ring(start, false);
+        } else if depth == 0 && kind.name.ends_with("LINESTRING") {
+            shapes.line(start);
+        }
+        self.sign(')')
+    }
+
+    fn position(&mut self, kind: Kind, shapes: &mut Shapes) -> Option<()> {
+        let end = self.rest.find([',', '(', ')'])?;
+        let mut numbers = [0.0; 4];
+        let mut count = 0;
+        for word in self.rest[..end].split_whitespace() {
+            *numbers.get_mut(count)? = word.parse().ok()?;
+            count += 1;
+        }
+        let kept = count.checked_sub(usize::from(kind.measured))?;
+        self.rest = &self.rest[end..];
+        shapes.position(&numbers[..kept.min(3)]).then_some(())
+    }
+}
+
+/// Writes a collection of triangles.
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    let positions: Vec<_> = shape.positions().collect();
+    let high = shape.heights().is_some();
+    let (sign, mut count) = (if high { " Z" } else { "" }, 0);
+    write!(out, "{COLLECTION}{sign}")?;
+    for triangle in shape.triangles() {
+        write!(out, "{}\nPOLYGON{sign} ((", if count == 0 { " (" } else { "," })?;
+        for (k, corner) in [0, 1, 2, 0].into_iter().enumerate() {
+            let [x, y, z] = positions[triangle[corner]];
+            write!(out, "{}{x:?} {y:?}", if k == 0 { "" } else { ", " })?;
+            if high {
+                write!(out, " {z:?}")?;
+            }
+        }
+        write!(out, "))")?;
+        count += 1;
+    }
+    writeln!(out, "{}", if count == 0 { " EMPTY" } else { "\n)" })
+}
+
+pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
+    write!(out, "MULTIPOINT{}", if D == 3 { " Z" } else { "" })?;
+    for (i, p) in points.iter().enumerate() {
+        write!(out, "{}\n(", if i == 0 { " (" } else { "," })?;
+        for (k, x) in p.iter().enumerate() {
+            write!(out, "{}{x:?}", if k == 0 { "" } else { " " })?;
+        }
+        write!(out, ")")?;
+    }
+    writeln!(out, "{}", if points.is_empty() { " EMPTY" } else { "\n)" })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_geometry, read_graph, read_one};
+    use crate::formats::shapes::Heights;
+    use std::io::Cursor;
+
+    type Positions = (Vec<[f64; 2]>, Heights);
+
+    fn flat(xy: &[[f64; 2]]) -> Positions {
+        (xy.to_vec(), Heights::None)
+    }
+
+    fn high(xy: &[[f64; 2]], z: &[f64]) -> Positions {
+        (xy.to_vec(), Heights::OfAll(z.to_vec()))
+    }
+
+    #[test]
+    fn geometries_of_all_kinds() {
+        for (text, expected) in [
+            ("POINT (1 2)", flat(&[[1.0, 2.0]])),
+            ("point z(1 2 3)", high(&[[1.0, 2.0]], &[3.0])),
+            ("POINTZ (1 2 3)", high(&[[1.0, 2.0]], &[3.0])),
+            ("POINT M (1 2 3)", flat(&[[1.0, 2.0]])),
+            ("POINTZM(1 2 3 4)", high(&[[1.0, 2.0]], &[3.0])),
+            ("SRID=4326;POINT(7.5 -3e1)", flat(&[[7.5, -30.0]])),
+            ("MULTIPOINT ((1 2), (3 4))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
+            ("MULTIPOINT (1 2, 3 4)", flat(&[[1.0, 2.0], [3.0, 4.0]])),
+            ("POLYGON ((0 0, 1 0, 0 1, 0 0))", flat(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])),
+            (
+                "POLYGON Z ((0 0 1, 1 0 2, 0 1 3, 0 0 1))",
+                high(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], &[1.0, 2.0, 3.0]),
+            ),
+            ("GEOMETRYCOLLECTION (POINT (1 2), POINT (3 4))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
+            ("MULTIPOLYGON (EMPTY, ((1 2, 3 4, 1 2)))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
+            ("POINT EMPTY", flat(&[])),
+            (
+                "GEOMETRYCOLLECTION (POINT (1 2), POINT Z (3 4 5))",
+                (vec![[1.0, 2.0], [3.0, 4.0]], Heights::OfSome),
+            ),
+        ] {
+            assert_eq!(read_one(text).map(|shapes| shapes.positions()), Ok(expected), "{text}");
+        }
+        for text in [
+            "POINT (1)",
+            "POINT (a b)",
+            "CIRCLE (1 2)",
+            "",
+            "(",
+            "POINT 1 2",
+            "POINT ()",
+            "POINT (1 2 3 4 5)",
+            "MULTIPOINT ((((",
+            "POLYGON ((0 0, 5 0, 5 5",
+            "POLYGON (0 0, 5 0, 5 5, 0 0)",
+            "LINESTRING ((1 2, 3 4))",
+            "POINT (1 2))",
+            "POINT(1 2 )x",
+            "LINESTRING (1 2,, 3 4)",
+            "POINT (1 2) POINT (3 4)",
+            "GEOMETRYCOLLECTION(GEOMETRYCOLLECTION(",
+        ] {
+            assert!(read_one(text).is_err(), "{text}");
+        }
+        assert!(read_one(&"GEOMETRYCOLLECTION(".repeat(100_000)).is_err());
+        assert!(read_one(&format!("POINT {}", "(".repeat(100_000))).is_err());
+        for text in ["points", "Point", "Point Number", "POINT_X", "Polygon"] {
+            assert!(!is_geometry(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_name_the_line() {
+        for (text, message) in [
+            ("POINT (1 2)\n\nPOLYGON ((0 0,\n1 0, x 1, 0 0))", "line 4: \"POLYGON ((0 0,\" is no geometry"),
+            ("# a remark\nCIRCLE (1 2)", "line 2: \"CIRCLE (1 2)\" is no geometry"),
+            ("SRID=1;POINT (1 2)\nSRID=2;POINT (1 2)", "line 2: its coordinates are EPSG:2, those before it"),
+            (
+                "POLYGON ((0 0, 1 0, 0 1, 0 0), (0 0, 1 0, 0 1))",
+                "ring 1 of polygon 0 is not closed: it begins at 0.0 0.0 and ends at 0.0 1.0",
+            ),
+        ] {
+            let error = read_graph(Box::new(Cursor::new(text))).expect_err(text).to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
+    }
+}
