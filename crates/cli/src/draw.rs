@@ -4,14 +4,23 @@ use delone::{Coordinates, Delaunay2, HintOrder, Hints2, VertexId};
 use delone_io::{Cut, Format, Trim, picture, write_mesh};
 
 use crate::args::{Choice, DrawArgs};
-use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
+use crate::{constrained, files};
 
 pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
-    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &args.input.paths())?;
+    let by_points = args.disks.is_some() || args.hints;
+    if args.graph.is_given() && (R::is_space() || by_points) {
+        return Err(Failure::usage(
+            "segments are for the plane, and for points that are where they are",
+            "leave --segments, --crossings and --fill out, or --dim 3, --disks and --hints",
+        ));
+    }
+    let mut inputs = args.input.paths();
+    inputs.extend(args.graph.segments.as_deref());
+    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
     if let Some((path, format)) =
         outputs.iter().find(|(_, format)| !matches!(format, Format::Svg | Format::Png))
     {
@@ -22,6 +31,10 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     }
     let mut options = options(args, R::is_space())?;
     let cut = cut(args)?;
+    if !R::is_space() && !by_points && constrained::is_meant(&args.input, &args.graph) {
+        options.outside = args.max_edge.is_none();
+        return constrained::draw(args, &outputs, &options, quiet);
+    }
     let mut stats = Stats::start();
     let (points, about) = room::read::<R>(&args.input, quiet)?;
     stats.phase("read");
@@ -69,7 +82,7 @@ fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure>
         camera: picture::Camera { wireframe: args.wireframe, ..camera },
         edges: yes(args.edges),
         points: yes(args.points),
-        fill: yes(args.fill),
+        fill: yes(args.colours),
         disks: args.disks,
         ..picture::Options::default()
     })

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use delone_io::Format;
 use delone_io::picture::Camera;
 
-use super::{DimArgs, InputArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, length};
 use crate::message::Failure;
 
 /// Convex hull.
@@ -132,9 +132,11 @@ pub(crate) struct VoronoiArgs {
   delone draw model.ply --dim 3 --view 200,30 --cut 1,0,0,0.5 -o inside.png
   delone draw centres.csv --disks 1 --hints -o imprecise.svg
   delone draw centres.csv --disks 0.5 --certain -o certain.svg
+  delone draw plan.poly --crossings split -o plan.svg
 
-What is drawn follows from the room there is; --edges, --points and --fill decide otherwise. With --dim 3 the hull is
-drawn, or what a cut leaves of the tetrahedra.")]
+What is drawn follows from the room there is; --edges, --points and --colours decide otherwise. Segments are heavier
+lines, regions have colours, and what is outside is faint. With --dim 3 the hull is drawn, or what a cut leaves of the
+tetrahedra.")]
 pub(crate) struct DrawArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -160,9 +162,9 @@ pub(crate) struct DrawArgs {
     /// Draw vertices.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
     pub(crate) points: Option<Choice>,
-    /// Fill triangles by height or density.
+    /// Colour triangles by region, height or density.
     #[arg(long, value_name = "YES", require_equals = true, num_args = 0..=1, default_missing_value = "yes")]
-    pub(crate) fill: Option<Choice>,
+    pub(crate) colours: Option<Choice>,
     /// In the plane, leave out triangles with an edge longer than this, from the hull inwards.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) max_edge: Option<f64>,
@@ -179,6 +181,8 @@ pub(crate) struct DrawArgs {
     /// Seed of the random order of --hints.
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) graph: GraphArgs,
 }
 
 /// Show a motion, or what an algorithm does.

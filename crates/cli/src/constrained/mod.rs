@@ -10,7 +10,7 @@ use delone::{
 };
 use delone_io::{Constraints, Format, Graph, Mesh, Trim, picture, write_mesh};
 
-use crate::args::{CrossingsName, FillName, GraphArgs, InputArgs, TriangulateArgs};
+use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
@@ -49,6 +49,20 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     c.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(stats_path)
+}
+
+/// `delone draw`, with segments.
+pub(crate) fn draw(
+    args: &DrawArgs,
+    outputs: &[(PathBuf, Format)],
+    options: &picture::Options,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let mut stats = Stats::start();
+    let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
+    c.write(outputs, args.max_edge, options, &mut stats, quiet)?;
+    stats.tell(quiet, ["triangle", "triangles"]);
+    stats.write(args.input.stats.as_deref())
 }
 
 /// A triangulation with segments, and what is inside of it.
