@@ -1,13 +1,13 @@
-//! `delone generate`: named sets of points.
+//! `delone generate`: named sets of points, and graphs.
 
 use std::path::PathBuf;
 
-use delone_generators::{Kind, Kind3, Random, moved};
-use delone_io::Format;
+use delone_generators::{Graph, Kind, Kind3, Random, moved};
+use delone_io::{Cloud, Format, GraphRing};
 
 use crate::args::GenerateArgs;
 use crate::files;
-use crate::message::{Failure, answer};
+use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
 
@@ -16,10 +16,12 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
         let line = |name: &str, about: &str| format!("{name:15} {about}\n");
         let plane = Kind::ALL.iter().map(|kind| line(kind.name(), kind.about()));
         let space = Kind3::ALL.iter().map(|kind| line(kind.name(), kind.about()));
-        return answer(&plane.chain(["\nIn space:\n".to_owned()]).chain(space).collect::<String>());
+        let graphs = Graph::ALL.iter().map(|graph| line(graph.name(), graph.about()));
+        let lines = plane.chain(["\nIn space:\n".to_owned()]).chain(space);
+        return answer(&lines.chain(["\nWith segments:\n".to_owned()]).chain(graphs).collect::<String>());
     }
-    let (plane, space) = (Kind::named(&args.kind), Kind3::named(&args.kind));
-    if plane.is_none() && space.is_none() {
+    let (plane, space, graph) = (Kind::named(&args.kind), Kind3::named(&args.kind), Graph::named(&args.kind));
+    if plane.is_none() && space.is_none() && graph.is_none() {
         return Err(Failure::usage(
             format!("there is no set named {:?}", args.kind),
             "see delone generate list",
@@ -46,6 +48,8 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
         make(|| noisy(kind.points(args.n, args.seed), args), &outputs, &mut stats, quiet)?;
     } else if let Some(kind) = space {
         make(|| noisy(kind.points(args.n, args.seed), args), &outputs, &mut stats, quiet)?;
+    } else if let Some(graph) = graph {
+        make_graph(graph, args, &outputs, &mut stats, quiet)?;
     }
     stats.phase("write");
     stats.tell(quiet, ["triangle", "triangles"]);
@@ -77,6 +81,44 @@ fn make<const D: usize>(
     let _phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
         files::write(path, |out| delone_io::write_points(out, *format, &points))?;
+    }
+    Ok(())
+}
+
+/// Makes a graph and writes it; formats that hold no segments get the points.
+fn make_graph(
+    kind: Graph,
+    args: &GenerateArgs,
+    outputs: &[(PathBuf, Format)],
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
+    if args.noise != 0.0 {
+        return Err(Failure::usage("--noise is for points", "leave it out: segments would cross"));
+    }
+    let (xy, segments) = {
+        let _phase = Phase::start(quiet, "generating");
+        kind.parts(args.n, args.seed)
+    };
+    stats.set("points", xy.len());
+    stats.set("segments", segments.len());
+    stats.phase("build");
+    let ring = GraphRing { polygon: 0, ring: 0, segments: 0..segments.len() };
+    let graph = delone_io::Graph {
+        is_border: vec![true; segments.len()],
+        rings: if kind.is_polygon() { vec![ring] } else { Vec::new() },
+        segments,
+        cloud: Cloud { xy, ..Cloud::default() },
+        ..delone_io::Graph::default()
+    };
+    let _phase = Phase::start(quiet, "writing");
+    for (path, format) in outputs {
+        if matches!(format, Format::Poly | Format::GeoJson | Format::Wkt) {
+            files::write(path, |out| delone_io::write_graph(out, *format, &graph))?;
+        } else {
+            files::write(path, |out| delone_io::write_points(out, *format, &graph.cloud.xy))?;
+            note(quiet, format_args!("{}: {format} files hold no segments", path.display()));
+        }
     }
     Ok(())
 }

@@ -33,9 +33,9 @@ kinds! {
     /// A polygon that winds around itself.
     Spiral = "spiral", |n, _| polygon(spiral(n));
     /// Squares in squares.
-    Nested = "nested", |n, _| nested(n);
+    Nested = "nested-squares", |n, _| nested(n);
     /// Segments through one point, which is the middle of each.
-    Hub = "hub", hub;
+    Hub = "hub-segments", hub;
     /// The square integer grid with segments along its lines: through points, on one another, some without length.
     GridSegments = "grid-segments", grid_segments;
     /// Segments between random points of a small integer grid, which cross a lot.

@@ -92,7 +92,7 @@ impl Error {
                 "read the points from the .node file of the same name, or put them into this file"
             }
             Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
-            Self::NotAGraph(_) => "graphs are written to: poly",
+            Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {
                 "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu pcd geojson wkt wkb"

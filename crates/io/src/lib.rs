@@ -253,10 +253,13 @@ pub fn write_points<const D: usize>(
     Ok(())
 }
 
-/// Writes a graph, as a `.poly` file: points with all attributes and markers, segments, holes and regions.
+/// Writes a graph: as a `.poly` file with all attributes and markers, holes and regions; as GeoJSON or well-known text with its
+/// polygons, lines of all other segments, and points that no segment joins.
 pub fn write_graph(out: &mut dyn std::io::Write, format: Format, graph: &Graph) -> Result<(), Error> {
     match format {
         Format::Poly => Ok(formats::poly::write_graph(out, graph)?),
+        Format::GeoJson => Ok(formats::graphs::write_geojson(out, graph)?),
+        Format::Wkt => Ok(formats::graphs::write_wkt(out, graph)?),
         _ => Err(Error::NotAGraph(format)),
     }
 }

@@ -55,7 +55,7 @@ pub(crate) enum Command {
     Replay(ReplayArgs),
     /// Judge triangles from any program: Delaunay? canonical?
     Check(CheckArgs),
-    /// Make a named set of points; the same seed gives the same bytes on every machine.
+    /// Make a named set of points, or of points and segments; the same seed gives the same bytes on every machine.
     Generate(GenerateArgs),
     /// Draw points, triangles and hull as SVG or PNG.
     Draw(DrawArgs),

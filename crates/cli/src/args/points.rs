@@ -16,6 +16,8 @@ use super::{DimArgs, InputArgs, count, length};
   delone generate ellipse2 -n 5000 -o points.csv
   delone generate disks -n 5000 -o centres.npy
   delone generate disks -n 5000 --noise 1 -o measured.npy
+  delone generate koch -n 3000 -o koch.poly
+  delone generate planar-subset -n 100000 -o graph.geojson
   delone generate list")]
 pub(crate) struct GenerateArgs {
     /// Name of the set, or `list` to see them all.
@@ -30,7 +32,7 @@ pub(crate) struct GenerateArgs {
     /// Move each point at random, by this at most: an instance of the same set, row by row, as imprecise points have them.
     #[arg(long, value_name = "RADIUS", default_value_t = 0.0, value_parser = length, allow_negative_numbers = true)]
     pub(crate) noise: f64,
-    /// Output file (csv xyz txt npy bin node ply obj geojson), or - for standard output.
+    /// Output file (csv xyz txt npy bin node ply obj geojson wkt wkb; with segments poly geojson wkt), or - for standard output.
     #[arg(long, short, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
     /// Format of the output, if its extension does not tell.

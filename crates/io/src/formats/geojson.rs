@@ -89,7 +89,7 @@ fn system(document: &GeoJson) -> Option<Crs> {
 }
 
 /// The member that names a system.
-fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result<()> {
+pub(super) fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result<()> {
     match crs.and_then(Crs::urn) {
         Some(name) => write!(out, r#""crs":{{"type":"name","properties":{{"name":"{name}"}}}},"#),
         None => Ok(()),

@@ -2,6 +2,7 @@
 
 pub(crate) mod e57;
 pub(crate) mod geojson;
+pub(crate) mod graphs;
 pub(crate) mod las;
 mod lines;
 pub(crate) mod npy;
