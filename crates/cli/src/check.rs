@@ -1,14 +1,26 @@
 //! `delone check`: an exact verdict on anyone's simplices.
 
-use crate::args::CheckArgs;
-use crate::files;
+use delone::plane::verify::{Objection2, verify_constrained};
+use delone::{Constrained2, Delaunay2, Verdict};
+
+use crate::args::{CheckArgs, GraphArgs};
 use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
-use crate::room::{self, Objection, Room};
+use crate::room::{self, Objection, Room, Words};
 use crate::stats::Stats;
+use crate::{constrained, files};
 
 pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
-    files::keep_apart(&args.input.paths_and(&args.mesh), args.input.stats.as_deref())?;
+    let mut inputs = args.input.paths_and(&args.mesh);
+    inputs.extend(args.segments.as_deref());
+    files::keep_apart(&inputs, args.input.stats.as_deref())?;
+    if args.segments.is_some() && R::is_space() {
+        return Err(Failure::usage("--segments is for the plane", "leave it or --dim 3 out"));
+    }
+    let asked = GraphArgs { segments: args.segments.clone(), ..GraphArgs::default() };
+    if !R::is_space() && constrained::is_meant(&args.input, &asked) {
+        return with_segments(args, quiet);
+    }
     let mut stats = Stats::start();
     let (points, _) = room::read::<R>(&args.input, quiet)?;
     let simplices = files::simplices(&args.mesh, quiet, R::read_simplices)?;
@@ -18,9 +30,50 @@ pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure>
         R::verify(&points, &simplices)
     };
     stats.phase("check");
-    let words = R::WORDS;
-    let (count, many) = (simplices.len(), words.simplex[1]);
     stats.set("points", points.len());
+    let many = R::WORDS.simplex[1];
+    let help = format!("{many} and points are counted from 0");
+    tell(args, &R::WORDS, (verdict, simplices.len()), &help, stats, quiet)
+}
+
+/// Judges triangles of points and segments, all of the hull.
+fn with_segments(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+    let mut stats = Stats::start();
+    let graph = files::graph(&args.input, args.segments.as_deref(), quiet)?;
+    let triangles = files::simplices(&args.mesh, quiet, Delaunay2::read_simplices)?;
+    stats.phase("read");
+    let (points, segments) = (&graph.cloud.xy, &graph.segments);
+    let verdict = {
+        let _phase = Phase::start(quiet, "checking");
+        verify_constrained(points, segments, &triangles)
+    };
+    stats.phase("check");
+    stats.set("points", points.len());
+    stats.set("segments", segments.len());
+    let verdict = verdict.map_err(|objection| match objection {
+        Objection2::Points(error) => Objection::Points(error),
+        // Where segments cross, that is why one is missing.
+        Objection2::Segment { .. } => match Constrained2::from_parts(points, segments) {
+            Err(error) => Objection::Points(error),
+            Ok(_) => Objection::Simplices(objection.to_string()),
+        },
+        other => Objection::Simplices(other.to_string()),
+    });
+    let help = "triangles, points and segments are counted from 0; all triangles of the hull are wanted, as \
+                triangulate --fill all writes them";
+    tell(args, &Delaunay2::WORDS, (verdict, triangles.len()), help, stats, quiet)
+}
+
+/// Says what was found of so many simplices.
+fn tell(
+    args: &CheckArgs,
+    words: &Words,
+    (verdict, count): (Result<Verdict, Objection>, usize),
+    help: &str,
+    mut stats: Stats,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let many = words.simplex[1];
     stats.set("simplices", count);
     stats.set("delaunay", verdict.is_ok());
     stats.set("canonical", verdict.as_ref().is_ok_and(|verdict| verdict.is_canonical()));
@@ -32,11 +85,10 @@ pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure>
     }
     stats.write(args.input.stats.as_deref())?;
     let verdict = verdict.map_err(|objection| match objection {
-        Objection::Points(error) => Failure::points(&args.input.label(), &error),
-        Objection::Simplices(what) => Failure::new(
-            format!("{}: not Delaunay: {what}", args.mesh.display()),
-            format!("{many} and points are counted from 0"),
-        ),
+        Objection::Points(error) => Failure::graph(&args.input.label(), &error),
+        Objection::Simplices(what) => {
+            Failure::new(format!("{}: not Delaunay: {what}", args.mesh.display()), help)
+        }
     })?;
     let text = if verdict.is_canonical() {
         format!("Delaunay, and the canonical triangulation: {count} {many}\n")

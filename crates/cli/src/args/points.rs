@@ -60,6 +60,10 @@ pub(crate) struct InfoArgs {
   delone check points.npy triangles.npy
   delone check points.node other.1.ele
   delone check points.npy tetrahedra.npy --dim 3
+  delone check plan.poly other.1.ele
+  delone check points.csv triangles.npy --segments segments.csv
+
+Of points with segments all triangles of the hull are judged: whether they are the constrained Delaunay triangulation.
 
 Exit status: 0 Delaunay (the answer says whether canonical too), 1 not Delaunay or bad data, 2 wrong usage.")]
 pub(crate) struct CheckArgs {
@@ -70,6 +74,9 @@ pub(crate) struct CheckArgs {
     /// File of triangles (npy ele ply obj) or of tetrahedra (npy ele).
     #[arg(value_name = "MESH")]
     pub(crate) mesh: PathBuf,
+    /// In the plane, file of segments between the points: two indices a line from 0 (csv npy edge poly).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) segments: Option<PathBuf>,
 }
 
 /// Shrink points.

@@ -4,6 +4,8 @@
 //! Nothing is believed: indices, orientation, edges, hull and circles are proved with exact predicates, as in
 //! `check`, but from bare triples and with sentences that name the culprit. Cost: O(n log n).
 
+mod segments;
+
 use delone_predicates::{Sign, in_circle, in_circle_with_ties, lexicographic, orient2d, strictly_between};
 
 use crate::error::Error;
@@ -45,6 +47,14 @@ pub enum Objection2 {
         /// The corner of that triangle inside the circle.
         point: usize,
     },
+    /// A segment that is not there, or only in part.
+    #[error("segment {segment} is missing: from point {point} on no edge runs along it")]
+    Segment {
+        /// The segment.
+        segment: usize,
+        /// The corner up to which it is there.
+        point: usize,
+    },
     /// A border that is not the convex hull.
     #[error("the border is not the convex hull: it turns inwards at point {0}")]
     Dent(usize),
@@ -61,14 +71,48 @@ pub enum Objection2 {
 
 /// Judges `triangles`, corners as indices of `points`, in either orientation.
 pub fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection2> {
+    verify_constrained(points, &[], triangles)
+}
+
+/// Judges whether `triangles`, all of the hull, are a constrained Delaunay triangulation of points and segments, which are given
+/// by the indices of their ends. A segment may run along several edges; of equal points any may be named.
+///
+/// Segments that cross at no vertex are objected to: one of them is missing.
+///
+/// Cost: O(n log n), and O(log n) for each edge that a segment runs along.
+///
+/// ```
+/// use delone::Constrained2;
+/// use delone::plane::verify::verify_constrained;
+///
+/// let points = [[0.0, 0.0], [8.0, 0.0], [4.0, 1.0], [4.0, -1.0]];
+/// let verdict = verify_constrained(&points, &[[0, 1]], &[[0, 1, 2], [0, 3, 1]])?;
+/// assert!(verdict.is_canonical());
+/// let objection = verify_constrained(&points, &[[0, 1]], &[[0, 3, 2], [3, 1, 2]]).unwrap_err();
+/// assert_eq!(objection.to_string(), "segment 0 is missing: from point 0 on no edge runs along it");
+/// # Ok::<(), delone::plane::verify::Objection2>(())
+/// ```
+pub fn verify_constrained(
+    points: &[[f64; 2]],
+    segments: &[[usize; 2]],
+    triangles: &[[u64; 3]],
+) -> Result<Verdict, Objection2> {
     check_finite(points.iter().copied())?;
+    let count = points.len();
+    for (segment, ends) in segments.iter().enumerate() {
+        if let Some(&index) = ends.iter().find(|&&index| index >= count) {
+            return Err(Error::NoSuchPoint { segment, index, count }.into());
+        }
+    }
     let (triangles, clockwise) = oriented(points, triangles)?;
-    let duplicates = check_coverage(points, &triangles)?;
+    let (duplicates, corner) = check_coverage(points, &triangles)?;
     if triangles.is_empty() {
         return Ok(Verdict { other_ties: 0, negative: 0, duplicates, hull: 0 });
     }
     let sides = sides(&triangles);
-    let other_ties = check_pairs(points, &triangles, &sides)?;
+    check_overlap(&sides)?;
+    let fixed = segments::fixed_edges(points, segments, &corner, &sides)?;
+    let other_ties = check_pairs(points, &triangles, &sides, &fixed)?;
     let hull = check_border(points, &triangles, &sides)?;
     let mut corners: Vec<usize> = triangles.as_flattened().to_vec();
     corners.sort_unstable();
@@ -102,15 +146,15 @@ fn oriented(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<(Vec<[usize; 
 }
 
 /// Every point is a corner or equals one; without triangles all points must be collinear. Returns the number of
-/// points that are no corner.
-fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<usize, Objection2> {
+/// points that are no corner, and for each point the corner that is there.
+fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<(usize, Vec<usize>), Objection2> {
     if triangles.is_empty() {
         let mut distinct = points.iter().copied();
-        let Some(a) = distinct.next() else { return Ok(0) };
-        let Some(b) = distinct.find(|&p| p != a) else { return Ok(points.len() - 1) };
+        let Some(a) = distinct.next() else { return Ok((0, Vec::new())) };
+        let Some(b) = distinct.find(|&p| p != a) else { return Ok((points.len() - 1, Vec::new())) };
         return match points.iter().position(|&c| !orient2d(a, b, c).is_zero()) {
             Some(off) => Err(Objection2::Missing(off)),
-            None => Ok(0),
+            None => Ok((0, Vec::new())),
         };
     }
     let mut used = vec![false; points.len()];
@@ -118,17 +162,19 @@ fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<usize
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_unstable_by(|&i, &j| lexicographic(points[i], points[j]).then(used[j].cmp(&used[i])));
     let mut duplicates = 0;
-    let mut corner = None;
+    let mut corner: Vec<usize> = (0..points.len()).collect();
+    let mut last = None;
     for i in order {
         if used[i] {
-            corner = Some(points[i]);
-        } else if corner == Some(points[i]) {
+            last = Some(i);
+        } else if let Some(here) = last.filter(|&last| points[last] == points[i]) {
+            corner[i] = here;
             duplicates += 1;
         } else {
             return Err(Objection2::Missing(i));
         }
     }
-    Ok(duplicates)
+    Ok((duplicates, corner))
 }
 
 /// A side of a triangle: its ends, the smaller index first, whether it runs from the smaller to the larger, and
@@ -153,15 +199,31 @@ fn edges(sides: &[Side]) -> impl Iterator<Item = &[Side]> {
     sides.chunk_by(|s, t| (s.0, s.1) == (t.0, t.1))
 }
 
-/// Each edge has one triangle on each side at most, and neither contains the other's apex in its circle.
-/// Returns the number of ties that were broken in another way.
-fn check_pairs(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection2> {
+/// Each edge has one triangle on each side at most.
+fn check_overlap(sides: &[Side]) -> Result<(), Objection2> {
+    let same_side = |edge: &[Side]| {
+        edge.windows(2).find(|pair| pair[0].2 == pair[1].2).map(|pair| [pair[0].3, pair[1].3])
+    };
+    match edges(sides).find_map(same_side) {
+        Some([first, second]) => Err(Objection2::Overlap(first, second)),
+        None => Ok(()),
+    }
+}
+
+/// Neither triangle at an edge contains the other's apex in its circle, but where the edge is fixed. Returns the number of ties
+/// that were broken in another way.
+fn check_pairs(
+    points: &[[f64; 2]],
+    triangles: &[[usize; 3]],
+    sides: &[Side],
+    fixed: &[[usize; 2]],
+) -> Result<usize, Objection2> {
     let mut other_ties = 0;
     for edge in edges(sides) {
-        if let Some(pair) = edge.windows(2).find(|pair| pair[0].2 == pair[1].2) {
-            return Err(Objection2::Overlap(pair[0].3, pair[1].3));
+        let &[(v, w, _, triangle, _), (.., neighbor, k)] = edge else { continue };
+        if fixed.binary_search(&[v, w]).is_ok() {
+            continue;
         }
-        let &[(.., triangle, _), (.., neighbor, k)] = edge else { continue };
         let [a, b, c] = triangles[triangle].map(|corner| points[corner]);
         let point = triangles[neighbor][(k + 2) % 3];
         match in_circle_with_ties(a, b, c, points[point]) {
