@@ -18,6 +18,7 @@ mod memory;
 mod message;
 mod nearest;
 mod outcome;
+mod polygons;
 mod progress;
 mod queries;
 mod reduce;
@@ -57,6 +58,7 @@ fn main() -> ExitCode {
     start_threads(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
+        Command::Polygons(args) => polygons::run(&args, quiet),
         Command::Check(args) => in_room!(check, args, quiet),
         Command::Generate(args) => generate::run(&args, quiet),
         Command::Draw(args) => in_room!(draw, args, quiet),

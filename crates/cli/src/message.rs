@@ -41,6 +41,7 @@ impl Failure {
                 | Error::NotTriangles(_)
                 | Error::NotAMesh(_)
                 | Error::NotCells(_)
+                | Error::NotPatches(_)
                 | Error::NotASolid(_)
                 | Error::NotTetrahedra(_)
                 | Error::NotABody(_)

@@ -67,6 +67,8 @@ impl Stats {
     /// Says in one line what was done; `simplices` are called so, one and many.
     pub(crate) fn tell(&self, quiet: bool, simplices: [&str; 2]) {
         let names = [
+            ("polygons", ["polygon", "polygons"]),
+            ("refused", ["left out", "left out"]),
             ("points", ["point", "points"]),
             ("simplices", simplices),
             ("left_out", ["left out", "left out"]),

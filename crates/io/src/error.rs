@@ -62,6 +62,9 @@ pub enum Error {
     /// The format holds no Voronoi cells.
     #[error("Voronoi cells are not written to {0} files")]
     NotCells(Format),
+    /// The format holds no triangles of polygons.
+    #[error("triangles of polygons are not written to {0} files")]
+    NotPatches(Format),
     /// The format holds no tetrahedra.
     #[error("tetrahedra are not read from {0} files")]
     NotTetrahedra(Format),
@@ -99,6 +102,7 @@ impl Error {
             }
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off",
             Self::NotCells(_) => "cells: geojson svg png",
+            Self::NotPatches(_) => "triangles of polygons: npy csv ply obj stl vtu geojson wkt wkb svg png",
             Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele",
             Self::NotABody(_) => {
                 "tetrahedra: npy ele neigh node edge vtu; their hull: ply obj stl; pictures: svg png"

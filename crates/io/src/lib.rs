@@ -15,6 +15,7 @@ mod guard;
 mod input;
 mod mesh;
 mod output;
+mod patches;
 pub mod picture;
 mod solid;
 mod trim;
@@ -30,6 +31,7 @@ pub use graph::{Attributes, Graph, GraphRing};
 pub use input::decompressed;
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};
+pub use patches::{Patches, write_patches};
 pub use solid::{Solid, write_solid};
 pub use trim::{Cut, Trim};
 

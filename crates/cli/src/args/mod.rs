@@ -4,6 +4,7 @@
 mod ask;
 mod graph;
 mod points;
+mod polygons;
 mod shapes;
 mod strategy;
 mod triangulate;
@@ -17,6 +18,7 @@ use delone_io::{Format, LAS_CLASSES};
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
+pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
@@ -41,6 +43,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Triangulate points.
     Triangulate(TriangulateArgs),
+    /// Triangulate the insides of polygons, each alone.
+    Polygons(PolygonsArgs),
     /// Find the triangle that contains each of many points.
     Locate(LocateArgs),
     /// Find the vertices nearest to each of many points.
@@ -108,6 +112,11 @@ pub(crate) struct InputArgs {
 }
 
 impl InputArgs {
+    /// Files that nothing else is said of.
+    pub(crate) fn of(paths: &[PathBuf]) -> Self {
+        Self { input: paths.to_vec(), from: None, class: Vec::new(), columns: Vec::new(), stats: None }
+    }
+
     /// The files that are read.
     pub(crate) fn paths(&self) -> Vec<&Path> {
         self.input.iter().map(PathBuf::as_path).collect()

@@ -207,24 +207,40 @@ pub(crate) fn write(
     out: &mut dyn Write,
     mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
 ) -> io::Result<()> {
+    write_triangles(out, mesh, |out, region| match region {
+        region if region.is_finite() => write!(out, ",\"region\":{region:?}"),
+        _ => write!(out, ",\"region\":null"),
+    })
+}
+
+/// Writes a feature for each triangle of polygons, with the indices of its corners and its polygon.
+pub(crate) fn write_polygons(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    write_triangles(out, shape, |out, polygon| write!(out, ",\"polygon\":{polygon}"))
+}
+
+/// Writes a feature for each triangle, with the indices of its corners and what its value tells.
+fn write_triangles(
+    out: &mut dyn Write,
+    shape: &impl Shape,
+    property: impl Fn(&mut dyn Write, f64) -> io::Result<()>,
+) -> io::Result<()> {
     write!(out, "{{\"type\":\"FeatureCollection\",")?;
-    write_system(out, mesh.crs)?;
+    write_system(out, shape.crs())?;
     write!(out, "\"features\":[")?;
-    let positions: Vec<_> = mesh.positions().collect();
-    let mut regions = mesh.region_values();
-    for (i, triangle) in mesh.triangles().enumerate() {
+    let positions: Vec<_> = shape.positions().collect();
+    let mut values = shape.region_values();
+    for (i, triangle) in shape.triangles().enumerate() {
         let separator = if i == 0 { "" } else { "," };
         write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{triangle:?}")?;
-        match regions.as_mut().and_then(Iterator::next) {
-            Some(region) if region.is_finite() => write!(out, ",\"region\":{region:?}}},")?,
-            Some(_) => write!(out, ",\"region\":null}},")?,
-            None => write!(out, "}},")?,
+        if let Some(value) = values.as_mut().and_then(Iterator::next) {
+            property(out, value)?;
         }
+        write!(out, "}},")?;
         write!(out, "\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[")?;
         for (k, corner) in [0, 1, 2, 0].into_iter().enumerate() {
             let [x, y, z] = positions[triangle[corner]];
             let separator = if k == 0 { "" } else { "," };
-            match mesh.heights {
+            match shape.heights() {
                 Some(_) => write!(out, "{separator}[{x:?},{y:?},{z:?}]")?,
                 None => write!(out, "{separator}[{x:?},{y:?}]")?,
             }

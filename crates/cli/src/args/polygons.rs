@@ -1,0 +1,59 @@
+//! What `polygons` takes.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use delone_io::Format;
+
+use super::CrossingsName;
+
+/// Triangulate polygons.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone polygons buildings.geojson -o buildings.ply
+  delone polygons countries.wkt --crossings split --keep-going -o triangles.npy --stats stats.json
+  delone polygons a.geojson b.geojson -o both.geojson -o both.png
+
+Each polygon is triangulated alone: the triangles of its inside, without its holes, are those of the constrained Delaunay
+triangulation of its corners. Indices are those of all corners in the order of the files, without the last of each ring, which is the first
+again; points that were added where sides cross follow. GeoJSON has the polygon of each triangle as property `polygon`, PLY
+and VTK as its region.
+Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
+pub(crate) struct PolygonsArgs {
+    /// Files of polygons (geojson json wkt wkb), or - for standard input. Several files are one list.
+    #[arg(value_name = "IN", required = true)]
+    pub(crate) input: Vec<PathBuf>,
+    /// Format of the input, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) from: Option<Format>,
+    /// Output file (npy csv ply obj stl vtu geojson wkt wkb svg png), or - for standard output; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// What is inside of a polygon.
+    #[arg(long, value_name = "RULE", default_value = "even-odd")]
+    pub(crate) fill: PolygonFill,
+    /// What happens where sides of a polygon cross [default: refuse].
+    #[arg(long, value_name = "HOW")]
+    pub(crate) crossings: Option<CrossingsName>,
+    /// Leave out polygons that are refused, and say which, instead of failing.
+    #[arg(long)]
+    pub(crate) keep_going: bool,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// What is inside of a polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PolygonFill {
+    /// What an odd number of rings is around.
+    EvenOdd,
+    /// What rings wind around in sum, counter-clockwise less clockwise.
+    Nonzero,
+}

@@ -1,0 +1,117 @@
+//! `delone polygons`: many polygons in, the triangles inside of each out.
+
+use std::path::PathBuf;
+
+use delone::{Crossings, PolygonTriangles2, Polygons2};
+use delone_io::{Graph, Patches, write_patches};
+
+use crate::args::{CrossingsName, InputArgs, PolygonFill, PolygonsArgs};
+use crate::files;
+use crate::message::{Failure, note};
+use crate::progress::Phase;
+use crate::stats::Stats;
+
+/// So many polygons that are left out are named.
+const NAMED: usize = 10;
+
+pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
+    let inputs: Vec<_> = args.input.iter().map(PathBuf::as_path).collect();
+    let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &inputs)?;
+    for (path, format) in &outputs {
+        Patches::check(*format).map_err(|error| Failure::file(path, &error))?;
+    }
+    let mut stats = Stats::start();
+    let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
+    let graph = files::graph(&input, None, quiet)?;
+    let polygons = corners(&graph);
+    if graph.is_border.contains(&false) {
+        note(quiet, "lines are left out: they are no polygons");
+    }
+    stats.phase("read");
+    let phase = Phase::start(quiet, "triangulating");
+    let crossings = match args.crossings {
+        Some(CrossingsName::Split) => Crossings::Split,
+        _ => Crossings::Refuse,
+    };
+    let how = Polygons2::default().with_crossings(crossings).with_nonzero(args.fill == PolygonFill::Nonzero);
+    let place = |ring: &Vec<usize>| -> Vec<[f64; 2]> { ring.iter().map(|&i| graph.cloud.xy[i]).collect() };
+    let rings: Vec<Vec<Vec<[f64; 2]>>> =
+        polygons.iter().map(|rings| rings.iter().map(place).collect()).collect();
+    let results = how.triangulate_all(&rings);
+    drop(phase);
+    let mut patches = Patches { crs: graph.cloud.crs, points: graph.cloud.xy, ..Patches::default() };
+    let given = patches.points.len();
+    let mut refused = 0;
+    for (index, (result, rings)) in results.into_iter().zip(&polygons).enumerate() {
+        match result {
+            Ok(inside) => add(&mut patches, index, inside, &rings.concat()),
+            Err(error) if args.keep_going => {
+                refused += 1;
+                if refused <= NAMED {
+                    note(quiet, format_args!("polygon {index} is left out: {error}"));
+                }
+            }
+            Err(error) => {
+                let help = match error {
+                    delone::Error::SegmentsCross { .. } => {
+                        "repair the data, split sides with --crossings split, or leave such polygons out with --keep-going"
+                    }
+                    _ => "repair that polygon, or leave such polygons out with --keep-going",
+                };
+                let file = input.label();
+                return Err(Failure::new(format!("{}: polygon {index}: {error}", file.display()), help));
+            }
+        }
+    }
+    if refused > NAMED {
+        note(quiet, format_args!("{} more polygons are left out", refused - NAMED));
+    }
+    let added = patches.points.len() - given;
+    if added == 0 {
+        patches.heights = graph.cloud.z;
+    } else {
+        note(quiet, format_args!("sides that cross were split: {added} points were added"));
+        if graph.cloud.z.is_some() {
+            note(quiet, "heights are left out: points that were added have none");
+        }
+    }
+    stats.phase("build");
+    stats.set("polygons", polygons.len());
+    if args.keep_going {
+        stats.set("refused", refused);
+    }
+    stats.set("points", patches.points.len());
+    stats.set("added_points", added);
+    stats.set("simplices", patches.triangles.len());
+    let phase = Phase::start(quiet, "writing");
+    for (path, format) in &outputs {
+        files::write_mesh(path, quiet, |out| write_patches(out, *format, &patches, args.size))?;
+    }
+    drop(phase);
+    stats.phase("write");
+    stats.tell(quiet, ["triangle", "triangles"]);
+    stats.write(args.stats.as_deref())
+}
+
+/// The rings of each polygon, as indices of points.
+fn corners(graph: &Graph) -> Vec<Vec<Vec<usize>>> {
+    let count = graph.rings.iter().map(|ring| ring.polygon + 1).max().unwrap_or(0);
+    let mut polygons = vec![Vec::new(); count];
+    for ring in &graph.rings {
+        let sides = &graph.segments[ring.segments.clone()];
+        polygons[ring.polygon].push(sides.iter().map(|side| side[0]).collect());
+    }
+    polygons
+}
+
+/// Adds the triangles of a polygon, whose corners are these points; what was split follows them.
+fn add(patches: &mut Patches, polygon: usize, inside: PolygonTriangles2, corners: &[usize]) {
+    let first = patches.points.len();
+    patches.points.extend(&inside.points[corners.len()..]);
+    let index = |i: u32| {
+        let i = i as usize;
+        corners.get(i).copied().unwrap_or_else(|| first + i - corners.len())
+    };
+    patches.polygons.resize(patches.triangles.len() + inside.triangles.len(), polygon);
+    patches.triangles.extend(inside.triangles.into_iter().map(|triangle| triangle.map(index)));
+}
