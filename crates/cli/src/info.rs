@@ -1,19 +1,28 @@
-//! `delone info`: what is in a file of points.
+//! `delone info`: what is in a file of points, and of segments.
 
-use delone::{Coordinates, Dimension};
-use delone_io::{Cloud, LAS_CLASSES};
+use delone::{Constrained2, Coordinates, Dimension, Error};
+use delone_io::{Cloud, Graph, LAS_CLASSES};
 use serde_json::{Map, Value};
 
-use crate::args::InfoArgs;
-use crate::files;
+use crate::args::{GraphArgs, InfoArgs};
 use crate::message::{Failure, answer};
 use crate::room::{self, Room};
 use crate::stats::Stats;
+use crate::{constrained, files};
 
 pub(crate) fn run<R: Room>(args: &InfoArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&args.input.paths(), args.input.stats.as_deref())?;
     let mut stats = Stats::start();
-    let (points, about) = room::read::<R>(&args.input, quiet)?;
+    let mut graph = Graph::default();
+    let mut segments = None;
+    let (points, about) = if !R::is_space() && constrained::is_meant(&args.input, &GraphArgs::default()) {
+        graph = files::graph(&args.input, None, quiet)?;
+        segments = Some(judged(&graph));
+        let mut cloud = std::mem::take(&mut graph.cloud);
+        (R::take_points(&mut cloud, &args.input.label())?, cloud)
+    } else {
+        room::read::<R>(&args.input, quiet)?
+    };
     stats.phase("read");
     let d: R = room::build(&points, R::FASTEST, &args.input.label(), quiet)?;
     stats.phase("build");
@@ -40,6 +49,9 @@ pub(crate) fn run<R: Room>(args: &InfoArgs, quiet: bool) -> Result<(), Failure> 
         range.into_iter().for_each(|range| line(axis, range));
     }
     file(&about, &mut line, &mut stats);
+    if let Some(counts) = segments.filter(|_| !graph.segments.is_empty()) {
+        describe(&graph, &counts, &mut line, &mut stats);
+    }
     let simplices = d.simplex_count();
     if simplices > 0 {
         line(R::WORDS.simplex[1], simplices.to_string());
@@ -76,6 +88,39 @@ fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
         let counts: Map<String, Value> =
             cloud.classes.iter().map(|&(class, count)| (class.to_string(), count.into())).collect();
         stats.set("classes", counts);
+    }
+}
+
+/// What is remarkable of segments, by name: nothing but crossings where there are some.
+fn judged(graph: &Graph) -> Vec<(&'static str, usize)> {
+    match Constrained2::from_parts(&graph.cloud.xy, &graph.segments) {
+        Ok(c) => {
+            let report = c.report();
+            vec![
+                ("crossings", 0),
+                ("of no length", report.zero_length),
+                ("repeated", report.repeated),
+                ("overlapping", report.overlapping),
+                ("through vertices", report.through_vertices),
+                ("constraint edges", c.constraint_edges().count()),
+            ]
+        }
+        Err(Error::SegmentsCross { count, .. }) => vec![("crossings", count)],
+        // The points are not valid, which is told next.
+        Err(_) => Vec::new(),
+    }
+}
+
+/// The segments, and what files say beside them.
+fn describe(graph: &Graph, counts: &[(&str, usize)], line: &mut impl FnMut(&str, String), stats: &mut Stats) {
+    let polygons = graph.rings.iter().filter(|ring| ring.ring == 0).count();
+    let ours = [("segments", graph.segments.len())];
+    let rest = [("polygons", polygons), ("holes", graph.holes.len()), ("regions", graph.regions.len())];
+    for &(name, count) in ours.iter().chain(counts).chain(&rest) {
+        stats.set(&name.replace(' ', "_"), count);
+        if count > 0 || matches!(name, "segments" | "crossings") {
+            line(name, count.to_string());
+        }
     }
 }
 

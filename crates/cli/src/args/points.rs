@@ -46,7 +46,8 @@ pub(crate) struct GenerateArgs {
 /// Describe points.
 #[derive(Debug, Args)]
 #[command(after_help = "Example:
-  delone info tile.laz --class 2")]
+  delone info tile.laz --class 2
+  delone info plan.poly")]
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
