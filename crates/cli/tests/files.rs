@@ -64,7 +64,7 @@ fn columns_are_told() {
         ("savetxt.txt", "# lat lon\n50 7\n51 8\n", "columns lon, lat were taken"),
         ("r.txt", "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3 4\n", "the first column, which has no name, was left out"),
         ("wkt.csv", "id,wkt\n1,POINT (1 2)\n2,\"MULTIPOINT (3 4, 5 6)\"\n", "column wkt was taken"),
-        ("ring.geojson", RING, "the corners of 1 lines and polygons"),
+        ("ring.geojson", RING, ""),
         (
             "text.geojsons",
             "\u{1e}{\"type\":\"Point\",\"coordinates\":[1,2]}\n\u{1e}{\"type\":\"Point\",\"coordinates\":[3,4]}\n",
@@ -86,6 +86,9 @@ fn columns_are_told() {
         assert!(remark.is_empty() == told.is_empty(), "{name}: {told}");
         assert!(points(&place, name) >= 2, "{name}");
     }
+    // A command that knows no segments says that it takes points alone.
+    let told = text(&place.run("hull ring.geojson -o hull.npy").stderr);
+    assert!(told.contains("the corners of 1 lines and polygons were taken as points"), "{told}");
     place.file("foo.csv", "id,foo,bar\n1,2,3\n");
     place.fail("info foo.csv", 1, "none of the columns id, foo, bar is called x or y");
     assert_eq!(points(&place, "foo.csv --columns foo,bar"), 1);
