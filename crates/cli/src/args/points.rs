@@ -84,9 +84,11 @@ pub(crate) struct CheckArgs {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   delone reduce points.csv -o small.csv
+  delone reduce plan.poly -o small.poly
   delone reduce points.npy --against 'python3 other.py {points} {triangles}'
 
-Without --against, points fail on which Delone's algorithms disagree or a check fails. With it, points fail for
+Without --against, points fail on which Delone's algorithms disagree or a check fails; with segments also where the order of
+the input makes a difference. With it, points fail for
 which the command fails, or writes triangles that are not Delaunay; {points} and {triangles} are .npy files.")]
 pub(crate) struct ReduceArgs {
     #[command(flatten)]
@@ -94,7 +96,10 @@ pub(crate) struct ReduceArgs {
     /// Another program to judge instead.
     #[arg(long, value_name = "COMMAND")]
     pub(crate) against: Option<String>,
-    /// File for the reduced points.
+    /// File of segments between the points: two indices a line from 0 (csv npy edge poly).
+    #[arg(long, value_name = "FILE")]
+    pub(crate) segments: Option<PathBuf>,
+    /// File for the reduced points (with segments: poly geojson wkt).
     #[arg(long, short, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 }

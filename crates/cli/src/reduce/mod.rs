@@ -3,6 +3,8 @@
 //! Delta debugging (Zeller & Hildebrandt, "Simplifying and isolating failure-inducing input", TSE 2002): drop
 //! ever smaller pieces as long as the rest still fails. O(n log n) trials when few points matter.
 
+mod graph;
+
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -11,15 +13,19 @@ use delone::plane::verify::verify;
 use delone::{Algorithm2, Delaunay2};
 use delone_io::Format;
 
-use crate::args::ReduceArgs;
-use crate::files;
+use crate::args::{GraphArgs, ReduceArgs};
 use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
+use crate::{constrained, files};
 
 type Points = [[f64; 2]];
 
 pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
+    let asked = GraphArgs { segments: args.segments.clone(), ..GraphArgs::default() };
+    if args.segments.is_some() || (args.against.is_none() && constrained::is_meant(&args.input, &asked)) {
+        return graph::run(args, quiet);
+    }
     let outputs =
         files::outputs(args.output.as_slice(), None, args.input.stats.as_deref(), &args.input.paths())?;
     let mut stats = Stats::start();
@@ -65,29 +71,29 @@ fn reduced() {{
     stats.write(args.input.stats.as_deref())
 }
 
-/// A subset that fails, no point of which can be left out.
-fn reduce(mut points: Vec<[f64; 2]>, fails: impl Fn(&Points) -> bool) -> Vec<[f64; 2]> {
-    let mut piece = points.len() / 2;
+/// A subset that fails, nothing of which can be left out.
+fn reduce<T: Copy>(mut all: Vec<T>, fails: impl Fn(&[T]) -> bool) -> Vec<T> {
+    let mut piece = all.len() / 2;
     while piece > 0 {
         let mut at = 0;
-        let before = points.len();
-        while at < points.len() {
-            let end = (at + piece).min(points.len());
-            let rest: Vec<_> = points[..at].iter().chain(&points[end..]).copied().collect();
+        let before = all.len();
+        while at < all.len() {
+            let end = (at + piece).min(all.len());
+            let rest: Vec<_> = all[..at].iter().chain(&all[end..]).copied().collect();
             if fails(&rest) {
-                points = rest;
+                all = rest;
             } else {
                 at = end;
             }
         }
-        // Single points are tried again until none goes.
+        // Single ones are tried again until none goes.
         if piece > 1 {
             piece /= 2;
-        } else if points.len() == before {
+        } else if all.len() == before {
             break;
         }
     }
-    points
+    all
 }
 
 /// The same triangle from its least corner, so that it has one form: negative zero compares as zero.
