@@ -80,7 +80,7 @@ fn rounds_to([a, b]: [Point2; 2], p: Point2) -> bool {
         if above[k] == p2[k] {
             high = &p2[k] * 3 - &below[k];
         }
-        let is_even = p[k].to_bits() % 2 == 0;
+        let is_even = p[k].to_bits().is_multiple_of(2);
         let (start, way): (BigInt, BigInt) = (&a[k] * 2, (&b[k] - &a[k]) * 2);
         if way == BigInt::ZERO {
             if start < low || start > high || (!is_even && (start == low || start == high)) {
