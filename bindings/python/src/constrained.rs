@@ -253,7 +253,7 @@ impl Constrained {
         PyArray1::from_vec(py, found?.into_flattened()).reshape([lines.len(), 2])
     }
 
-    /// Inserts points one after the other; the vertex of each.
+    /// Inserts points one after the other, all or none; the vertex of each.
     fn insert<'py>(
         &mut self,
         py: Python<'py>,
@@ -261,6 +261,10 @@ impl Constrained {
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let points: Vec<[f64; 2]> = coordinates(&points)?;
         TRIANGULATION.check(2, points.len())?;
+        let (count, most) = (self.made().points().len() + points.len(), delone::MAX_POINTS);
+        if count > most {
+            return Err(python_error(delone::Error::TooManyPoints { count, most }));
+        }
         let is_long = self.state.change(points.len());
         let c = &mut self.state.triangulation;
         let insert = |p| match c.insert(p)? {

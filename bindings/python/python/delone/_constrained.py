@@ -58,7 +58,7 @@ class ConstrainedDelaunay:
     >>> tri = delone.ConstrainedDelaunay(points, segments, holes=[[2, 2]])
     >>> tri.nsimplex, len(tri.all_triangles), len(tri.constraints)
     (7, 8, 7)
-    >>> tri.find_simplex([2, 2]).tolist(), tri.sees(0, [1, 4, 6]).tolist()
+    >>> tri.find_simplex([2, 2]).tolist(), tri.sees(0, [1, 4, 2]).tolist()
     (-1, [False, True, False])
     """
 
@@ -364,13 +364,12 @@ class ConstrainedDelaunay:
 
     def insert(self, points: ArrayLike) -> NDArray[np.int64]:
         """Inserts a point, or rows of points, and returns their indices: new ones, or those of vertices that are there
-        already. A constraint that a point is on is split."""
+        already. A constraint that a point is on is split. All or none."""
         more, shape = as_queries(points, 2, "points")
         more = np.array(more)
-        try:
-            return self._core.insert(more).reshape(shape)
-        finally:
-            self._changed("insert", more)
+        vertices = self._core.insert(more)
+        self._changed("insert", more)
+        return vertices.reshape(shape)
 
     def remove(self, vertex: int, ends: str = "refuse") -> None:
         """Removes a vertex; indices of others stay as they are. Segments that pass straight through it stay.
