@@ -278,7 +278,7 @@ def test_changes_one_by_one():
     assert tri.insert_segment(0, 1) == 2 and tri.insert_segment(1, 2) == 3
     tri.remove_segment(0)
     tri.remove(1, ends="join")
-    assert tri.segments.tolist() == [[-1, -1], [-1, -1], [0, 2], [-1, -1]] and tri.nsimplex == 2
+    assert tri.segments.tolist() == [[-1, -1], [-1, -1], [0, 2], [-1, -1]] and tri.nsimplex == 1
 
 
 def test_lines_of_sight():

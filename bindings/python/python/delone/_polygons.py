@@ -230,11 +230,17 @@ def _rings_of_mapping(mapping: Mapping[str, Any], what: str) -> _Rings:
     if kind in ("Polygon", "MultiPolygon"):
         coordinates = _required(mapping, "coordinates", what)
         polygons = coordinates if kind == "MultiPolygon" else [coordinates]
+        wrong = [polygon for polygon in polygons if not isinstance(polygon, (list, tuple, np.ndarray))]
+        if wrong:
+            raise TypeError(f"{what}: a {kind} must have lists of rings, not {wrong[0]!r}")
         return [_plane(ring) for polygon in polygons for ring in polygon]
     raise TypeError(f"{what}: a {kind} has no inside" if isinstance(kind, str) else f"{what}: a mapping that is no geometry")
 
 
 def _plane(ring: Any) -> Any:
-    """Without heights."""
-    array = np.asarray(ring)
+    """Without heights. What is no array is for those who say so."""
+    try:
+        array = np.asarray(ring)
+    except ValueError:
+        return ring
     return array[:, :2] if array.ndim == 2 and array.shape[1] > 2 else ring
