@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
-use crate::pool::detached;
+use crate::pool::{FEW, detached};
 use crate::triangulation::{Rows, State, coordinates, table};
 
 /// Bytes that a segment takes, the input apart.
@@ -53,9 +53,7 @@ impl Constrained {
         let segments: Vec<[usize; 2]> = pairs(&segments)?.iter().map(|ends| ends.map(index)).collect();
         let segment_ids = segments.len();
         TRIANGULATION.check_with(2, points.len(), segments.len().saturating_mul(SEGMENT))?;
-        // All may cross all, and then there are more points than were given.
-        let crossings = if split { segments.len().saturating_mul(segments.len()) / 2 } else { 0 };
-        let size = (points.len() + segments.len()).saturating_add(crossings);
+        let size = work(points.len(), segments.len(), split);
         let how = if split { Crossings::Split } else { Crossings::Refuse };
         let built = interruptible(py, size, move || Constrained2::with_crossings(&points, &segments, how))?;
         Ok(Self { state: State::of(built.map_err(python_error)?), segment_ids })
@@ -298,7 +296,8 @@ impl Constrained {
     }
 
     fn check(&self, py: Python<'_>) -> PyResult<()> {
-        py.detach(|| self.made().check()).map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
+        let checked = detached(py, self.made().vertex_count() >= FEW / 2, || self.made().check())?;
+        checked.map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
     }
 
     fn copy(&self) -> Self {
@@ -320,6 +319,13 @@ impl Constrained {
         let is_long = self.state.change(1);
         detached(py, is_long, || change(&mut self.state.triangulation))?.map_err(python_error)
     }
+}
+
+/// How much work points and segments are, for those who count items. The library counts triangles, two a point; and where
+/// crossings are split, all segments may cross all, and then there are more points than were given.
+pub fn work(points: usize, segments: usize, split: bool) -> usize {
+    let crossings = if split { segments.saturating_mul(segments) / 2 } else { 0 };
+    points.saturating_add(crossings).saturating_mul(2).saturating_add(segments)
 }
 
 /// The rows of an array of two columns.

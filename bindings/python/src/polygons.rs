@@ -5,6 +5,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArra
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::constrained::work;
 use crate::errors::error_in;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
@@ -35,8 +36,7 @@ pub fn triangulate_polygons<'py>(
     let rings = offsets(&rings, corners.len())?;
     let polygons = offsets(&polygons, rings.len() - 1)?;
     TRIANGULATION.check_with(2, 0, corners.len().saturating_mul(40))?;
-    let crossings = if split { corners.len().saturating_mul(corners.len()) / 2 } else { 0 };
-    let size = corners.len().saturating_add(crossings);
+    let size = work(corners.len(), corners.len(), split);
     let how = Polygons2::default().with_nonzero(nonzero);
     let how = how.with_crossings(if split { Crossings::Split } else { Crossings::Refuse });
     let done = interruptible(py, size, move || {

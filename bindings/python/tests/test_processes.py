@@ -41,6 +41,7 @@ def work(n):
     tri = delone.ConstrainedDelaunay(given, edges, fill="even-odd")
     tri.insert([2.0, 2.0])
     tri.remove_segment(0)
+    tri.check()
     digest.update(tri.triangles.tobytes() + tri.find_simplex(points(n // 2, 2)).tobytes())
     digest.update(tri.sees(np.arange(n // 2), np.arange(n // 2) + 1).tobytes())
     triangles = given[: n // 3 * 3].reshape(-1, 3, 2)
@@ -224,6 +225,7 @@ def test_there_are_as_many_threads_as_asked_for(run):
         work(100)
         # Little work starts none.
         print(len(os.listdir("/proc/self/task")) - before)
+        work(19_000)
         answer = work({N})
         names = [open(f"/proc/self/task/{{task}}/comm").read().strip() for task in os.listdir("/proc/self/task")]
         # And none but these, or there would be a second pool, which nobody makes anew.
