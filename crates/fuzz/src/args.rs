@@ -53,6 +53,8 @@ pub(crate) enum Mode {
     Motion,
     /// Voronoi cells clipped to regions.
     Cells,
+    /// Segments between points: building, crossings, changes.
+    Graphs,
     /// Hulls, furthest and nearest sites, the smallest circle.
     Hulls,
     /// Predicates and filters on hostile operands.
@@ -97,12 +99,13 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 15] = [
+    pub(crate) const REAL: [Self; 16] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
         Self::Motion,
         Self::Cells,
+        Self::Graphs,
         Self::Hulls,
         Self::Predicates,
         Self::Mixtures,

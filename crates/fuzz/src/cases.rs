@@ -6,7 +6,9 @@ use delone_generators::Random;
 
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
-use crate::modes::{broken, cells, files, hulls, lives, mixtures, motion, plane, predicates, space};
+use crate::modes::{
+    broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, plane, predicates, space,
+};
 
 /// An input of some attack.
 pub(crate) trait Case {
@@ -66,6 +68,8 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Motion, 0) => made::<motion::Motion<2>>(seed),
         (Mode::Motion, _) => made::<motion::Motion<3>>(seed),
         (Mode::Cells, _) => made::<cells::Cells>(seed),
+        (Mode::Graphs, 0) => made::<graphs::Graphs>(seed),
+        (Mode::Graphs, _) => made::<graph_lives::GraphLives>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
         (Mode::Predicates, _) => made::<predicates::Predicates>(seed),

@@ -2,7 +2,8 @@
 //!
 //! A round finds all crossings of the edges and all vertices inside of edges, rounds every crossing once to the nearest point
 //! of doubles, and replaces each edge by the chain through what was found on it. Rounds follow until one finds nothing.
-//! Cost: O(m^2 + m n) exact decisions a round.
+//! Cost: O(m^2 + m n) exact decisions a round. Mostly there are a few rounds, but near zero a crossing can move by a power of two
+//! in each, and of segments that nearly coincide the pieces grow from round to round for longer than anybody waits.
 
 use num_bigint::BigInt;
 

@@ -4,6 +4,8 @@ pub(crate) mod broken;
 pub(crate) mod builds;
 pub(crate) mod cells;
 pub(crate) mod files;
+pub(crate) mod graph_lives;
+pub(crate) mod graphs;
 pub(crate) mod hulls;
 pub(crate) mod lives;
 pub(crate) mod mixtures;

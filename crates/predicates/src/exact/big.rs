@@ -151,17 +151,28 @@ pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {
 pub(crate) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> f64 {
     /// Bits of the quotient that are computed; the last one stands for all that follow.
     const BITS: i64 = 80;
+    /// The exponent of the least number.
+    const LEAST: i64 = -1074;
+    /// From so many bits below it on a quotient is subnormal.
+    const SUBNORMAL: i64 = BITS + 1 - 53;
     let (n, d) = (numerator.magnitude(), denominator.magnitude());
     let shift = BITS - (n.bits() as i64 - d.bits() as i64);
     let (n, d) = if shift >= 0 { (n << shift, d.clone()) } else { (n.clone(), d << -shift) };
     let whole = &n / &d;
     let sticky = u128::from(&whole * &d != n);
-    let value = (u128::try_from(whole).expect("81 bits at most") | sticky) as f64;
-    let negative = (numerator.sign() == BigSign::Minus) != (denominator.sign() == BigSign::Minus);
-    let value = if negative { -value } else { value };
-    // In steps, because the power of two itself may be out of range.
+    let whole = u128::try_from(whole).expect("81 bits at most") | sticky;
     let mut exponent = i64::from(scale) - shift;
-    let mut value = value;
+    let mut value = if let cut @ (SUBNORMAL..) = LEAST - exponent {
+        // Where steps are wider than those of 53 bits, rounding to these first would be once too often.
+        exponent = 0;
+        f64::from_bits(shortened(whole, cut))
+    } else {
+        whole as f64
+    };
+    if (numerator.sign() == BigSign::Minus) != (denominator.sign() == BigSign::Minus) {
+        value = -value;
+    }
+    // In steps, because the power of two itself may be out of range.
     while exponent != 0 && value != 0.0 && value.is_finite() {
         let step = exponent.clamp(-1000, 1000);
         value *= 2f64.powi(step as i32);
@@ -171,11 +182,34 @@ pub(crate) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> 
     value + 0.0
 }
 
+/// A number of at most 81 bits without its last ones, rounded to the nearest, ties to even.
+fn shortened(whole: u128, bits: i64) -> u64 {
+    if bits > 100 {
+        return 0;
+    }
+    let (kept, rest, half) = (whole >> bits, whole & ((1 << bits) - 1), 1 << (bits - 1));
+    (kept + u128::from(rest > half || (rest == half && kept % 2 == 1))) as u64
+}
+
 #[cfg(test)]
 mod tests {
     use num_bigint::BigInt;
 
     use super::quotient;
+
+    /// Two thirds of the least normal number, and what is next to half of a step.
+    #[test]
+    fn subnormal_quotients_are_rounded_once() {
+        let third = |n: u64| quotient(&BigInt::from(n), &BigInt::from(3), -1074);
+        assert_eq!(third(1 << 53), f64::from_bits(((1 << 53) + 1) / 3));
+        assert_eq!([1, 2, 3, 4, 5].map(third), [0, 1, 1, 1, 2].map(f64::from_bits));
+        let halves = |n: u64| quotient(&BigInt::from(n), &BigInt::from(2), -1074);
+        assert_eq!([1, 3, 5].map(halves), [0, 2, 2].map(f64::from_bits));
+        // 2^60 + 1 of 2^61 steps are more than half of one.
+        let half = BigInt::from((1_u64 << 60) + 1);
+        assert_eq!(quotient(&-half, &(BigInt::from(1) << 61), -1074), -f64::from_bits(1));
+        assert_eq!(quotient(&BigInt::from(1), &BigInt::from(1), -4000), 0.0);
+    }
 
     /// 81 bits that are half a step of a number and one more, and then a remainder: up, and not to the even one.
     #[test]

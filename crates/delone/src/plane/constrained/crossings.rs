@@ -12,7 +12,7 @@ use super::trace::Ground;
 use crate::ids::{EdgeId, TriangleId, VertexId};
 use crate::plane::Delaunay2;
 
-/// Two segments that cross strictly inside of both.
+/// Two segments that cross strictly inside of both, at no vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Crossing {
     pub(super) first: u32,
@@ -27,7 +27,16 @@ pub(super) struct Met {
     pub(super) through: Vec<(u32, VertexId)>,
 }
 
-/// All pairs of segments that cross, each once, in increasing order.
+impl Met {
+    /// Whether two segments pass through one vertex: there they are cut, and do not cross.
+    fn have_vertex(&self, Crossing { first, second }: Crossing) -> bool {
+        let start = self.through.partition_point(|through| through.0 < first);
+        let on_first = self.through[start..].iter().take_while(|through| through.0 == first);
+        on_first.into_iter().any(|&(_, v)| self.through.binary_search(&(second, v)).is_ok())
+    }
+}
+
+/// All pairs of segments that cross at no vertex, each once, in increasing order.
 pub(super) fn between(graph: &Delaunay2, segments: &[[VertexId; 2]]) -> Vec<Crossing> {
     meet(graph, segments).crossings
 }
@@ -55,13 +64,17 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]]) -> Met {
         let inner = ground.vertices_on([a, b]);
         met.through.extend(inner.into_iter().map(|v| (s, mesh.name(v))));
     }
+    met.through.sort_unstable();
     passes.sort_unstable();
     passes.dedup();
     for at_one in passes.chunk_by(|p, q| p.0 == q.0) {
         for (i, &(_, first)) in at_one.iter().enumerate() {
             for &(_, second) in &at_one[i + 1..] {
-                if cross(graph, segments[first as usize], segments[second as usize]) {
-                    met.crossings.push(Crossing { first, second });
+                let crossing = Crossing { first, second };
+                if cross(graph, segments[first as usize], segments[second as usize])
+                    && !met.have_vertex(crossing)
+                {
+                    met.crossings.push(crossing);
                 }
             }
         }
