@@ -437,17 +437,16 @@ class ConstrainedDelaunay:
 
 
 def _seeds(seeds: ArrayLike | None, what: str) -> NDArray[np.float64]:
-    if seeds is None or (not hasattr(seeds, "shape") and isinstance(seeds, (list, tuple)) and not seeds):
-        return np.empty((0, 2))
-    return as_points(seeds, what, 2)
+    array = np.empty((0, 2)) if seeds is None else as_numbers(seeds, what)
+    return as_points(array.reshape(0, 2) if array.shape == (0,) else array, what, 2)
 
 
 def _regions(regions: ArrayLike | None) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Seeds and attributes."""
-    array: Any = _seeds(None, "regions") if regions is None else as_numbers(regions, "regions")
+    array = np.empty((0, 2)) if regions is None else as_numbers(regions, "regions")
     if array.ndim == 2 and array.shape[1] == 4:
         raise ValueError("regions of 4 columns: largest areas are for refinement; give regions[:, :3]")
     if array.ndim == 2 and array.shape[1] == 3:
         return np.array(as_points(array[:, :2], "regions", 2)), np.array(array[:, 2], dtype=np.float64)
-    seeds = np.array(_seeds([] if array.shape == (0,) else array, "regions"))
+    seeds = np.array(_seeds(array, "regions"))
     return seeds, np.arange(len(seeds), dtype=np.float64)
