@@ -229,3 +229,24 @@ fn long_channels_are_no_trouble() {
         assert_eq!(triangles(&other), triangles(&c));
     }
 }
+
+/// Without regard to cells, pieces of these grow from round to round, or a crossing moves by a power of two in each.
+#[test]
+fn splits_of_what_nearly_coincides_end_soon() {
+    let third = 1.0 / 3.0;
+    let coincide = [
+        [[28.0 * third, -10.0], [14.0 * third, -3.0]],
+        [[6.0, -5.0], [4.0 * third, 2.0]],
+        [[28.0 * third, -10.0], [2.0 * third, 3.0]],
+        [[6.0, -5.0], [2.0 * third, 3.0]],
+        [[14.0 * third, -3.0], [4.0 * third, 2.0]],
+    ];
+    let near_zero = [[[4.0, 2.0], [1e-200, -2.0]], [[-2.0, -4.0], [4.0, 2.0]], [[4.0, 4.0], [1e-200, -2.0]]];
+    for (segments, most) in [(&coincide[..], 2), (&near_zero[..], 2)] {
+        let points: Points = segments.concat();
+        let ends: Segments = (0..segments.len()).map(|s| [2 * s, 2 * s + 1]).collect();
+        let c = Constrained2::with_crossings(&points, &ends, Crossings::Split).expect("it ends");
+        c.check().expect("canonical");
+        assert!(c.report().rounds <= most, "{:?}", c.report());
+    }
+}
