@@ -61,3 +61,8 @@ if [ -e "$scan" ]; then
 else
     echo "no $scan: its picture stays as it is"
 fi
+
+# Constraints: the Great Lakes, and a snowflake.
+$delone draw data/great_lakes.geojson -o $here/lakes.png --size 1200
+$delone generate koch -n 768 -o "$work/koch.poly"
+$delone draw "$work/koch.poly" -o $here/koch.png --size 640

@@ -5,11 +5,11 @@ use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::{HINTS, TRIANGULATION};
 use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, State, Triangulation, coordinates};
-use crate::value_error;
 
 enum Either {
     Plane(Box<Hints2>),
@@ -30,7 +30,7 @@ fn preprocess<H: Imprecise + 'static>(
     let centres: Vec<Point<H>> = coordinates(centres)?;
     HINTS.check(Point::<H>::COUNT, centres.len())?;
     let hints = interruptible(py, centres.len(), move || H::from_centres(&centres, HintOrder::default()))?;
-    hints.map(Box::new).map_err(value_error)
+    hints.map(Box::new).map_err(python_error)
 }
 
 #[pymethods]
@@ -61,5 +61,5 @@ fn instance<H: Imprecise>(
     let points: Vec<Point<H>> = coordinates(points)?;
     TRIANGULATION.check(Point::<H>::COUNT, points.len())?;
     let made = detached(py, points.len() >= FEW, || hints.triangulate_observed(&points, &mut ()).cloned())?;
-    made.map_err(value_error)
+    made.map_err(python_error)
 }

@@ -6,10 +6,10 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArray
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::HULL;
 use crate::triangulation::coordinates;
-use crate::value_error;
 
 /// The facets of the hull as rows of indices, and what the points span.
 #[pyfunction]
@@ -22,7 +22,7 @@ pub fn convex_hull<'py>(
             let points: Vec<[f64; 2]> = coordinates(&points)?;
             HULL.check(2, points.len())?;
             let hull = interruptible(py, points.len(), move || delone::Hull2::from_points(&points))?;
-            let hull = hull.map_err(value_error)?;
+            let hull = hull.map_err(python_error)?;
             let edges: Vec<i32> = hull.facets().flatten().map(|v| v as i32).collect();
             let count = edges.len() / 2;
             PyArray1::from_vec(py, edges).reshape([count, 2])
@@ -30,8 +30,8 @@ pub fn convex_hull<'py>(
         3 => {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
             HULL.check(3, points.len())?;
-            let hull =
-                interruptible(py, points.len(), move || Hull3::from_points(&points))?.map_err(value_error)?;
+            let hull = interruptible(py, points.len(), move || Hull3::from_points(&points))?
+                .map_err(python_error)?;
             let is_body = hull.dimension() == delone::Dimension::Space;
             let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);
             let facets: Vec<i32> = facets.collect();

@@ -4,26 +4,26 @@
 //! Everything long runs without Python's lock, on all cores (`pool.rs`). A simplex is known to Python by its row; rows count the
 //! finite simplices by increasing id, and are made anew after a change.
 
+mod constrained;
+mod errors;
 mod hints;
 mod hull;
 mod interrupt;
 mod memory;
+mod polygons;
 mod pool;
 mod triangulation;
 mod voronoi;
 
 use pyo3::prelude::*;
 
-/// An error of the library as a `ValueError`.
-fn value_error(error: delone::Error) -> PyErr {
-    pyo3::exceptions::PyValueError::new_err(error.to_string())
-}
-
 #[pymodule]
 #[pyo3(name = "_delone")]
 fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<triangulation::Triangulation>()?;
     m.add_class::<hints::Hints>()?;
+    m.add_class::<constrained::Constrained>()?;
+    m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;
     m.add_function(wrap_pyfunction!(hull::convex_hull, m)?)?;
     m.add_function(wrap_pyfunction!(hull::sides, m)?)?;

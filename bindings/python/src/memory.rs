@@ -16,7 +16,12 @@ pub const HULL: Need = Need([50, 100]);
 impl Need {
     /// Refuses work on so many points if there is no memory for it.
     pub fn check(&self, dimension: usize, points: usize) -> PyResult<()> {
-        let bytes = points.saturating_mul(self.0[dimension - 2]);
+        self.check_with(dimension, points, 0)
+    }
+
+    /// The same with so many bytes more for what else there is.
+    pub fn check_with(&self, dimension: usize, points: usize, more: usize) -> PyResult<()> {
+        let bytes = points.saturating_mul(self.0[dimension - 2]).saturating_add(more);
         let mut room = Vec::<u8>::new();
         if black_box(&mut room).try_reserve_exact(bytes).is_err() {
             let megabytes = bytes >> 20;

@@ -5,23 +5,24 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use delone::{Change, Coordinates, Corners, Delaunay2, Delaunay3, Error, VertexId};
+use delone::{Ask, Change, Coordinates, Corners, Delaunay2, Delaunay3, Error, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
+use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
 use crate::pool::{FEW, detached, generation};
-use crate::value_error;
 
 /// Queries that one task answers.
 const QUERIES: usize = 1024;
 /// Of so many points a sample, which a question may ask for at any time, is large enough for threads.
 const MANY: usize = 500_000;
 
-type Rows<'py> = Bound<'py, PyArray2<i32>>;
+/// Rows of indices.
+pub type Rows<'py> = Bound<'py, PyArray2<i32>>;
 
 /// A triangulation and the rows of its simplices.
 pub struct State<T> {
@@ -159,7 +160,7 @@ impl Triangulation {
     }
 }
 
-impl<T: Change + 'static> State<T> {
+impl<T: Ask> State<T> {
     /// Corners of a simplex.
     const WIDTH: usize = T::Point::COUNT + 1;
 
@@ -168,14 +169,8 @@ impl<T: Change + 'static> State<T> {
         Self { triangulation, rows: OnceLock::new(), is_asked, first_asked_by }
     }
 
-    fn build(py: Python<'_>, points: Vec<T::Point>) -> PyResult<Self> {
-        TRIANGULATION.check(T::Point::COUNT, points.len())?;
-        let built = interruptible(py, points.len(), move || T::from_vec(points))?;
-        Ok(Self::of(built.map_err(value_error)?))
-    }
-
     /// For each number of a simplex its row.
-    fn rows(&self) -> &[i32] {
+    pub fn rows(&self) -> &[i32] {
         if let Some(rows) = self.rows.get() {
             return rows;
         }
@@ -188,12 +183,12 @@ impl<T: Change + 'static> State<T> {
     }
 
     /// The row of a simplex; -1 for none.
-    fn row(&self, rows: &[i32], simplex: Option<T::Simplex>) -> i32 {
+    pub fn row(&self, rows: &[i32], simplex: Option<T::Simplex>) -> i32 {
         simplex.map_or(-1, |simplex| rows[self.triangulation.index(simplex)])
     }
 
     /// The answers to queries, in their order. The first error that any query has.
-    fn answers<A: Send>(
+    pub fn answers<A: Send>(
         &self,
         py: Python<'_>,
         queries: &[T::Point],
@@ -221,17 +216,17 @@ impl<T: Change + 'static> State<T> {
             }
         })?;
         self.is_asked.fetch_or(!queries.is_empty(), Ordering::Release);
-        found.map_err(value_error)
+        found.map_err(python_error)
     }
 
     /// Forgets what is not so any more after a change, and says whether changes by so many points are worth threads.
-    fn change(&mut self, points: usize) -> bool {
+    pub fn change(&mut self, points: usize) -> bool {
         self.rows.take();
         (*self.is_asked.get_mut(), *self.first_asked_by.get_mut()) = (false, 0);
         points + self.triangulation.vertex_count() >= FEW
     }
 
-    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
+    pub fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
         let (corners, neighbors) = py.detach(|| {
             let rows = self.rows();
             let (mut corners, mut neighbors): (Vec<i32>, Vec<i32>) = (Vec::new(), Vec::new());
@@ -247,40 +242,77 @@ impl<T: Change + 'static> State<T> {
         Ok((array(corners)?, array(neighbors)?))
     }
 
-    fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+    pub fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
         // Coplanar points have facets, but no hull that is a body.
         let is_spanned = self.span() as usize == T::Point::COUNT;
         let facets = self.triangulation.hull_facets().filter(|_| is_spanned);
         table(py, T::Point::COUNT, facets)
     }
 
-    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+    pub fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
         let edges: Vec<[VertexId; 2]> = py.detach(|| self.triangulation.edges().collect());
         table(py, 2, edges.into_iter())
     }
 
-    fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+    pub fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
         let duplicates = self.triangulation.duplicates().map(|d| [VertexId::new(d.point), d.vertex]);
         table(py, 2, duplicates)
     }
 
-    fn vertex_count(&self) -> usize {
+    pub fn vertex_count(&self) -> usize {
         self.triangulation.vertex_count()
     }
 
-    fn span(&self) -> i32 {
+    pub fn span(&self) -> i32 {
         // Nothing is -1, a point 0.
         self.triangulation.dimension() as i32 - 1
     }
 
-    fn is_vertex(&self, v: VertexId) -> bool {
+    pub fn is_vertex(&self, v: VertexId) -> bool {
         self.triangulation.position(v).is_some()
+    }
+
+    fn find<'py>(&self, py: Python<'py>, queries: Vec<T::Point>) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        let rows = py.detach(|| self.rows());
+        let row = |q| self.triangulation.find(q).map(|found| self.row(rows, found.simplex));
+        Ok(PyArray1::from_vec(py, self.answers(py, &queries, row)?))
+    }
+
+    pub fn nearest(&self, py: Python<'_>, queries: Vec<T::Point>) -> PyResult<Vec<i64>> {
+        let vertex =
+            |q| self.triangulation.nearest_observed(q, &mut ()).map(|v| v.map_or(-1, |v| v.index() as i64));
+        self.answers(py, &queries, vertex)
+    }
+
+    pub fn k_nearest(&self, py: Python<'_>, queries: Vec<T::Point>, k: usize) -> PyResult<Vec<i64>> {
+        // The answer may be larger than memory.
+        let mut padded = Vec::new();
+        let size = queries.len().checked_mul(k);
+        if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
+            return Err(PyMemoryError::new_err(format!("{} times {k} neighbours", queries.len())));
+        }
+        let most = k.min(self.triangulation.vertex_count());
+        let found = self.answers(py, &queries, |q| self.triangulation.k_nearest(q, most))?;
+        for found in found {
+            let missing = k - found.len();
+            padded.extend(found.into_iter().map(|v| v.index() as i64));
+            padded.extend(std::iter::repeat_n(-1, missing));
+        }
+        Ok(padded)
+    }
+}
+
+impl<T: Change + 'static> State<T> {
+    fn build(py: Python<'_>, points: Vec<T::Point>) -> PyResult<Self> {
+        TRIANGULATION.check(T::Point::COUNT, points.len())?;
+        let built = interruptible(py, points.len(), move || T::from_vec(points))?;
+        Ok(Self::of(built.map_err(python_error)?))
     }
 
     fn extend(&mut self, py: Python<'_>, points: Vec<T::Point>) -> PyResult<()> {
         TRIANGULATION.check(T::Point::COUNT, points.len())?;
         let is_long = self.change(points.len());
-        detached(py, is_long, || self.triangulation.extend(&points, 0))?.map(drop).map_err(value_error)
+        detached(py, is_long, || self.triangulation.extend(&points, 0))?.map(drop).map_err(python_error)
     }
 
     /// All or none.
@@ -301,36 +333,7 @@ impl<T: Change + 'static> State<T> {
         detached(py, is_long, || {
             wanted.into_iter().try_for_each(|v| self.triangulation.remove_observed(v, &mut ()))
         })?
-        .map_err(value_error)
-    }
-
-    fn find<'py>(&self, py: Python<'py>, queries: Vec<T::Point>) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        let rows = py.detach(|| self.rows());
-        let row = |q| self.triangulation.find(q).map(|found| self.row(rows, found.simplex));
-        Ok(PyArray1::from_vec(py, self.answers(py, &queries, row)?))
-    }
-
-    fn nearest(&self, py: Python<'_>, queries: Vec<T::Point>) -> PyResult<Vec<i64>> {
-        let vertex =
-            |q| self.triangulation.nearest_observed(q, &mut ()).map(|v| v.map_or(-1, |v| v.index() as i64));
-        self.answers(py, &queries, vertex)
-    }
-
-    fn k_nearest(&self, py: Python<'_>, queries: Vec<T::Point>, k: usize) -> PyResult<Vec<i64>> {
-        // The answer may be larger than memory.
-        let mut padded = Vec::new();
-        let size = queries.len().checked_mul(k);
-        if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
-            return Err(PyMemoryError::new_err(format!("{} times {k} neighbours", queries.len())));
-        }
-        let most = k.min(self.triangulation.vertex_count());
-        let found = self.answers(py, &queries, |q| self.triangulation.k_nearest(q, most))?;
-        for found in found {
-            let missing = k - found.len();
-            padded.extend(found.into_iter().map(|v| v.index() as i64));
-            padded.extend(std::iter::repeat_n(-1, missing));
-        }
-        Ok(padded)
+        .map_err(python_error)
     }
 }
 
@@ -356,7 +359,11 @@ pub fn coordinates<P: Coordinates>(points: &PyReadonlyArray2<'_, f64>) -> PyResu
 }
 
 /// Vertices as rows of so many numbers.
-fn table<C: Corners>(py: Python<'_>, columns: usize, rows: impl Iterator<Item = C>) -> PyResult<Rows<'_>> {
+pub fn table<C: Corners>(
+    py: Python<'_>,
+    columns: usize,
+    rows: impl Iterator<Item = C>,
+) -> PyResult<Rows<'_>> {
     let values: Vec<i32> = rows.flat_map(Corners::indices).map(|i| i as i32).collect();
     let count = values.len() / columns;
     PyArray1::from_vec(py, values).reshape([count, columns])

@@ -6,9 +6,9 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArra
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::errors::python_error;
 use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, Triangulation, coordinates};
-use crate::value_error;
 
 /// Corners, the starts of rings among them, and the starts of points among the rings.
 type Polygons<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);
@@ -27,7 +27,7 @@ pub fn clipped_cells<'py>(
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
     let d = &state.triangulation;
     let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
-        let region = Region2::polygon(&rings).map_err(value_error)?;
+        let region = Region2::polygon(&rings).map_err(python_error)?;
         let cells = d.voronoi().clip(&region);
         let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
         for v in (0..points).map(VertexId::new) {

@@ -111,6 +111,8 @@ def calls(x):
     return {
         "Delaunay": lambda: delone.Delaunay(x).simplices,
         "Voronoi": lambda: delone.Voronoi(x).vertices,
+        "ConstrainedDelaunay": lambda: delone.ConstrainedDelaunay(x, [[0, 1]]).simplices,
+        "insert": lambda: [c := delone.ConstrainedDelaunay(POINTS), c.insert(x), c.points][2],
         "ConvexHull": lambda: delone.ConvexHull(x).simplices,
         "Hints": lambda: delone.Hints(x).triangulate(POINTS).simplices,
         "triangulate": lambda: delone.Hints(POINTS).triangulate(x).simplices,

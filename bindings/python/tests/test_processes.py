@@ -36,6 +36,19 @@ def work(n):
         hints = delone.Hints(points(n // 4, ndim))
         digest.update(hints.triangulate(points(n // 4, ndim) + 1e-3).simplices.tobytes())
     delone.Voronoi(points(n // 2, 2)).cells()
+    given = points(n, 2)
+    edges = delone.Delaunay(given).edges[::5]
+    tri = delone.ConstrainedDelaunay(given, edges, fill="even-odd")
+    tri.insert([2.0, 2.0])
+    tri.remove_segment(0)
+    tri.check()
+    digest.update(tri.triangles.tobytes() + tri.find_simplex(points(n // 2, 2)).tobytes())
+    digest.update(tri.sees(np.arange(n // 2), np.arange(n // 2) + 1).tobytes())
+    triangles = given[: n // 3 * 3].reshape(-1, 3, 2)
+    digest.update(delone.triangulate_polygons(triangles, ragged=True).triangles.tobytes())
+    wild = np.arange(2 * min(n, 600)).reshape(-1, 2)
+    tri = delone.ConstrainedDelaunay(points(2 * min(n, 600), 2), wild, crossings="split")
+    digest.update(tri.points.tobytes())
     return digest.hexdigest()
 """
 
@@ -212,6 +225,7 @@ def test_there_are_as_many_threads_as_asked_for(run):
         work(100)
         # Little work starts none.
         print(len(os.listdir("/proc/self/task")) - before)
+        work(19_000)
         answer = work({N})
         names = [open(f"/proc/self/task/{{task}}/comm").read().strip() for task in os.listdir("/proc/self/task")]
         # And none but these, or there would be a second pool, which nobody makes anew.
@@ -223,9 +237,11 @@ def test_there_are_as_many_threads_as_asked_for(run):
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="no /proc here")
-@pytest.mark.parametrize("what", ["Delaunay", "ConvexHull", "Hints", "add_points"])
+@pytest.mark.parametrize("what", ["Delaunay", "ConvexHull", "Hints", "add_points", "ConstrainedDelaunay"])
 @pytest.mark.parametrize("ndim", [2, 3])
 def test_no_memory_is_an_error_of_python(run, what, ndim):
+    if what == "ConstrainedDelaunay" and ndim == 3:
+        pytest.skip("for the plane")
     program = f"""
         import resource
         import numpy as np

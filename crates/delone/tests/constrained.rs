@@ -113,51 +113,71 @@ fn what_is_taken_away_has_never_been() {
     }
 }
 
-/// Points and segments come and go; what is there is what a construction of the same gives.
+/// Points and segments come and go among some points; after each step it is proved, and now and then compared with a
+/// construction of the same.
+fn live(name: &str, points: &[[f64; 2]], steps: usize, random: &mut Random) {
+    let mut c = Constrained2::new();
+    for step in 0..steps {
+        let vertices: Vec<VertexId> = c.vertices().collect();
+        let any = |random: &mut Random| vertices[random.below(vertices.len())];
+        match random.below(8) {
+            _ if vertices.len() < 4 => _ = c.insert(points[random.below(points.len())]).expect("finite"),
+            0..3 => _ = c.insert(points[random.below(points.len())]).expect("finite"),
+            3 | 4 => _ = c.insert_segment(any(random), any(random)),
+            5 => {
+                let ids: Vec<SegmentId> = c.segments().map(|(s, _)| s).collect();
+                if !ids.is_empty() {
+                    c.remove_segment(ids[random.below(ids.len())]).expect("there");
+                }
+            }
+            6 => {
+                let ends = [SegmentEnds::Refuse, SegmentEnds::Join, SegmentEnds::Drop][random.below(3)];
+                _ = c.remove_with(any(random), ends);
+            }
+            _ => {
+                // In the middle of a constraint.
+                let segments: Vec<_> = c.segments().collect();
+                if let Some(&(_, [v, w])) = segments.get(random.below(segments.len() + 1)) {
+                    let [p, q] = [c.point(v), c.point(w)];
+                    c.insert([0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)).expect("finite");
+                }
+            }
+        }
+        if let Err(flaw) = c.check() {
+            panic!("{name} step {step}: {flaw}");
+        }
+        if step % 10 == 0 {
+            let alive: Vec<VertexId> = c.vertices().collect();
+            let place = |v: VertexId| alive.binary_search(&v).expect("a vertex");
+            let p: Points = alive.iter().map(|&v| c.point(v)).collect();
+            let s: Segments = c.segments().map(|(_, ends)| ends.map(place)).collect();
+            let anew = Constrained2::from_parts(&p, &s).expect("nothing crosses");
+            assert_eq!(triangles(&c), triangles(&anew), "{name} step {step}");
+        }
+    }
+}
+
 #[test]
 fn lives() {
     let mut random = Random::new(3);
     for &kind in Kind::ALL {
-        let mut c = Constrained2::new();
-        let points = kind.points(60, 4);
-        for step in 0..300 {
-            let vertices: Vec<VertexId> = c.vertices().collect();
-            let any = |random: &mut Random| vertices[random.below(vertices.len())];
-            match random.below(8) {
-                _ if vertices.len() < 4 => _ = c.insert(points[random.below(points.len())]).expect("finite"),
-                0..3 => _ = c.insert(points[random.below(points.len())]).expect("finite"),
-                3 | 4 => _ = c.insert_segment(any(&mut random), any(&mut random)),
-                5 => {
-                    let ids: Vec<SegmentId> = c.segments().map(|(s, _)| s).collect();
-                    if !ids.is_empty() {
-                        c.remove_segment(ids[random.below(ids.len())]).expect("there");
-                    }
-                }
-                6 => {
-                    let ends = [SegmentEnds::Refuse, SegmentEnds::Join, SegmentEnds::Drop][random.below(3)];
-                    _ = c.remove_with(any(&mut random), ends);
-                }
-                _ => {
-                    // In the middle of a constraint.
-                    let segments: Vec<_> = c.segments().collect();
-                    if let Some(&(_, [v, w])) = segments.get(random.below(segments.len() + 1)) {
-                        let [p, q] = [c.point(v), c.point(w)];
-                        c.insert([0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)).expect("finite");
-                    }
-                }
-            }
-            if let Err(flaw) = c.check() {
-                panic!("{} step {step}: {flaw}", kind.name());
-            }
-            if step % 10 == 0 {
-                let alive: Vec<VertexId> = c.vertices().collect();
-                let place = |v: VertexId| alive.binary_search(&v).expect("a vertex");
-                let p: Points = alive.iter().map(|&v| c.point(v)).collect();
-                let s: Segments = c.segments().map(|(_, ends)| ends.map(place)).collect();
-                let anew = Constrained2::from_parts(&p, &s).expect("nothing crosses");
-                assert_eq!(triangles(&c), triangles(&anew), "{} step {step}", kind.name());
-            }
-        }
+        live(kind.name(), &kind.points(60, 4), 300, &mut random);
+    }
+}
+
+/// So many changes of small sets, a million or `DELONE_CHANGES`.
+#[test]
+#[ignore = "long: .ci/run"]
+fn long_lives() {
+    let changes =
+        std::env::var("DELONE_CHANGES").ok().and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
+    let mut random = Random::new(17);
+    let mut done = 0;
+    while done < changes {
+        let kind = Kind::ALL[random.below(Kind::ALL.len())];
+        let points = kind.points(5 + random.below(25), random.bits());
+        live(kind.name(), &points, 1000, &mut random);
+        done += 1000;
     }
 }
 
@@ -227,5 +247,26 @@ fn long_channels_are_no_trouble() {
         let [v, w] = segments[0].map(VertexId::new);
         other.insert_segment(v, w).expect("nothing crosses");
         assert_eq!(triangles(&other), triangles(&c));
+    }
+}
+
+/// Without regard to cells, pieces of these grow from round to round, or a crossing moves by a power of two in each.
+#[test]
+fn splits_of_what_nearly_coincides_end_soon() {
+    let third = 1.0 / 3.0;
+    let coincide = [
+        [[28.0 * third, -10.0], [14.0 * third, -3.0]],
+        [[6.0, -5.0], [4.0 * third, 2.0]],
+        [[28.0 * third, -10.0], [2.0 * third, 3.0]],
+        [[6.0, -5.0], [2.0 * third, 3.0]],
+        [[14.0 * third, -3.0], [4.0 * third, 2.0]],
+    ];
+    let near_zero = [[[4.0, 2.0], [1e-200, -2.0]], [[-2.0, -4.0], [4.0, 2.0]], [[4.0, 4.0], [1e-200, -2.0]]];
+    for (segments, most) in [(&coincide[..], 2), (&near_zero[..], 2)] {
+        let points: Points = segments.concat();
+        let ends: Segments = (0..segments.len()).map(|s| [2 * s, 2 * s + 1]).collect();
+        let c = Constrained2::with_crossings(&points, &ends, Crossings::Split).expect("it ends");
+        c.check().expect("canonical");
+        assert!(c.report().rounds <= most, "{:?}", c.report());
     }
 }

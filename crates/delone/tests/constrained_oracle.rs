@@ -66,8 +66,7 @@ fn crossings_are_those_of_all_pairs_and_splits_those_of_the_judge() {
     for _ in 0..300 {
         let n = 4 + random.below(16);
         let points = hostile(&mut random, n);
-        let segments: Segments =
-            (0..1 + random.below(12)).map(|_| [random.below(n), random.below(n)]).collect();
+        let segments: Segments = (0..=random.below(12)).map(|_| [random.below(n), random.below(n)]).collect();
         let pairs = crossings::crossing_pairs(&points, &segments);
         match Constrained2::from_parts(&points, &segments) {
             Ok(_) => assert!(pairs.is_empty(), "{points:?} {segments:?}"),
@@ -98,7 +97,7 @@ fn crossings_are_those_of_all_pairs_and_splits_those_of_the_judge() {
 fn what_is_inside_is_what_rays_say() {
     let mut random = Random::new(3);
     for _ in 0..200 {
-        let rings: Vec<Points> = (0..1 + random.below(4))
+        let rings: Vec<Points> = (0..=random.below(4))
             .map(|_| (0..3 + random.below(6)).map(|_| [(); 2].map(|()| random.below(40) as f64)).collect())
             .collect();
         let points: Points = rings.concat();

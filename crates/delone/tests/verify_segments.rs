@@ -8,7 +8,9 @@ fn triangles(c: &Constrained2) -> Vec<[u64; 3]> {
     c.triangles().map(|t| t.map(|v| v.index() as u64)).collect()
 }
 
-fn built(graph: Graph, n: usize) -> (Vec<[f64; 2]>, Vec<[usize; 2]>, Vec<[u64; 3]>) {
+type Built = (Vec<[f64; 2]>, Vec<[usize; 2]>, Vec<[u64; 3]>);
+
+fn built(graph: Graph, n: usize) -> Built {
     let (points, segments) = graph.parts(n, 5);
     let c = Constrained2::from_parts(&points, &segments).expect("planar");
     (points, segments, triangles(&c))

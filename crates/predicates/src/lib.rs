@@ -22,6 +22,7 @@
 //! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
 //! ```
 
+mod cell;
 mod centre;
 mod circumcentre;
 mod clear;
@@ -46,6 +47,7 @@ mod sign;
 #[cfg(test)]
 mod stages;
 
+pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
 pub use circumcentre::circumcentre;
 pub use clear::keeps_clear;

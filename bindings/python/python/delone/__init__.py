@@ -6,16 +6,22 @@ tri = delone.Delaunay(points)      # as scipy.spatial.Delaunay
 tri.simplices, tri.neighbors, tri.find_simplex(queries)
 tri.add_points(more)
 tri.remove([17, 4])
+
+delone.ConstrainedDelaunay(points, segments).triangles
+delone.triangulate_polygons(geometries)
 """
 
 import os
 
 from . import _delone
+from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
+from ._errors import CrossingError
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
 from ._plot import plot
+from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
 from ._voronoi import Voronoi
 
 # Threads do not survive a fork.
@@ -23,4 +29,17 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_delone.after_fork)
 
 __version__ = "0.1.0"
-__all__ = ["ConvexHull", "Delaunay", "Hints", "LinearInterpolator", "Voronoi", "plot"]
+__all__ = [
+    "ConstrainedDelaunay",
+    "ConvexHull",
+    "CrossingError",
+    "Delaunay",
+    "Hints",
+    "LinearInterpolator",
+    "PolygonTriangles",
+    "RaggedTriangles",
+    "Voronoi",
+    "plot",
+    "triangulate_polygon",
+    "triangulate_polygons",
+]

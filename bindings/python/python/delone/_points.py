@@ -92,6 +92,35 @@ def as_indices(values: int | Iterable[int] | ArrayLike, count: int) -> list[int]
     return [int(v) for v in array.ravel().tolist()]
 
 
+def as_segments(segments: ArrayLike | None, count: int) -> NDArray[np.int64]:
+    """Pairs of indices of so many points as a C-contiguous array of shape (m, 2); None for no segments.
+
+    Raises TypeError for what holds no integers, ValueError for wrong shapes, IndexError for what is no index of a point.
+    """
+    if segments is None:
+        return np.empty((0, 2), dtype=np.int64)
+    array = as_numbers(segments, "segments")
+    if array.shape == (0,):
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise ValueError(f"segments must have the shape (m, 2), two indices of points each, not {array.shape}")
+    if array.dtype.kind not in "iu" and array.size:
+        raise TypeError(f"segments must hold integers, which are indices of points, not {array.dtype}")
+    wrong = (array < 0) | (array >= count)
+    if wrong.any():
+        row, column = np.argwhere(wrong)[0]
+        index = int(array[row, column])
+        raise IndexError(f"segment {row} ends at point {index}, and there are {count} points, counted from 0")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def as_choice(value: Any, choices: tuple[str, ...], what: str) -> str:
+    """One of some words."""
+    if isinstance(value, str) and value in choices:
+        return value
+    raise ValueError(f"{what} must be one of {', '.join(map(repr, choices))}, not {value!r}")
+
+
 def as_index(value: Any, what: str) -> int:
     """An integer that is no boolean."""
     if not isinstance(value, (bool, np.bool_)):

@@ -149,7 +149,9 @@ impl Constrained2 {
             passing.dedup();
             return Err(Error::ConstraintsEnd { vertex: v, count: passing.len() });
         };
-        self.free([[u, v], [v, w]]);
+        // Removal fills a star that is Delaunay, but for constraints around it.
+        let pending = self.free([[u, v], [v, w]]);
+        self.graph.base.legalize(pending);
         self.graph.remove(v)?;
         let ends = [u, w].map(|v| self.mesh().place(v).expect("a vertex"));
         let forced = self.graph.base.force(ends, &mut self.channel, |_, _, _| {});

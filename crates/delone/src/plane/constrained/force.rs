@@ -12,7 +12,7 @@
 //!
 //! Cost: O(k) for k edges crossed up to two, O(k log k) for more: large sides have a triangulation of their own (see `patch`).
 
-use delone_predicates::{in_circle, orient2d};
+use delone_predicates::{Filter, Pencil, orient2d};
 
 use super::patch::Patch;
 use super::trace::{Beginning, Ground, Leaves};
@@ -71,13 +71,14 @@ impl Layer {
             return Ok(if self.mesh.tail(e) == a { e } else { self.mesh.twin(e) });
         }
         let points = &self.points;
+        let filter = filter(points, channel);
         let mut patch = None;
         let e = self.mesh.fill_channel([a, end], channel, |border, first, last| {
             if (first, last) == (0, border.len() - 1) {
                 patch = (border.len() > LARGE).then(|| Patch::new(points, border)).flatten();
             }
             let known = patch.as_ref().and_then(|patch| patch.apex(first, last));
-            known.unwrap_or_else(|| apex(points, border, first, last))
+            known.unwrap_or_else(|| apex(points, &filter, border, first, last))
         });
         Ok(if self.mesh.tail(e) == a { e } else { self.mesh.twin(e) })
     }
@@ -103,22 +104,43 @@ impl Layer {
     }
 }
 
-/// The apex of the side from `last` to `first` among the vertices of the chain between them.
-pub(super) fn apex(points: &[[f64; 2]], border: &[BorderEdge], first: usize, last: usize) -> usize {
-    let place = |k: usize| border[k].0;
-    let point = |k: usize| points[place(k).index()];
-    let (from, to) = (point(last), point(first));
-    let mut best = None;
-    for k in first + 1..last {
-        if place(k) == place(first) || place(k) == place(last) {
-            continue;
-        }
-        let is_better = best.is_none_or(|best: usize| {
-            place(k) != place(best) && in_circle(from, to, point(best), point(k)).is_positive()
-        });
-        if is_better {
-            best = Some(k);
+/// Bounds for all points of a channel.
+fn filter(points: &[[f64; 2]], channel: &Channel) -> Filter {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for (v, _) in channel.left.iter().chain(&channel.right) {
+        let p = points[v.index()];
+        for k in 0..2 {
+            low[k] = low[k].min(p[k]);
+            high[k] = high[k].max(p[k]);
         }
     }
-    best.expect("a side has an apex, unless it is a side of what hangs in the channel")
+    Filter::for_box(high[0] - low[0], high[1] - low[1], None)
+}
+
+/// The apex of the side from `last` to `first` among the vertices of the chain between them.
+pub(super) fn apex(
+    points: &[[f64; 2]],
+    filter: &Filter,
+    border: &[BorderEdge],
+    first: usize,
+    last: usize,
+) -> usize {
+    let ends = [border[first].0, border[last].0];
+    let point = |v: Place| points[v.index()];
+    let pencil = Pencil::new(point(ends[1]), point(ends[0]));
+    let mut best = None;
+    for k in first + 1..last {
+        let place = border[k].0;
+        if ends.contains(&place) {
+            continue;
+        }
+        let candidate = pencil.member(point(place));
+        let is_better = best.is_none_or(|(at, member): (usize, _)| {
+            border[at].0 != place && pencil.in_circle(&member, &candidate, filter).is_positive()
+        });
+        if is_better {
+            best = Some((k, candidate));
+        }
+    }
+    best.expect("a side has an apex, unless it is a side of what hangs in the channel").0
 }

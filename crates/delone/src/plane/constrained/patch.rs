@@ -56,6 +56,7 @@ impl Patch {
 #[cfg(test)]
 mod tests {
     use delone_generators::{Kind, Random};
+    use delone_predicates::Filter;
 
     use super::Patch;
     use crate::ids::{EdgeId, Place};
@@ -82,6 +83,7 @@ mod tests {
             }
             let ground = c.ground();
             let mut channel = Channel::default();
+            let unknown = Filter::for_box(f64::INFINITY, f64::INFINITY, None);
             for _ in 0..8000 {
                 let [a, b] = [(); 2].map(|()| c.mesh().place(any(&mut random)).expect("a vertex"));
                 if a == b {
@@ -99,7 +101,7 @@ mod tests {
                     let mut pending = vec![(0, border.len() - 1)];
                     while let Some((first, last)) = pending.pop() {
                         if last > first + 1 {
-                            let found = apex(ground.points, border, first, last);
+                            let found = apex(ground.points, &unknown, border, first, last);
                             assert_eq!(patch.apex(first, last), Some(found), "{} {border:?}", kind.name());
                             pending.extend([(first, found), (found, last)]);
                         }

@@ -7,7 +7,7 @@
 
 use super::{Constrained2, Crossings, Fill};
 use crate::error::Error;
-use crate::ids::VertexId;
+use crate::ids::{TriangleId, VertexId};
 use crate::parallel;
 
 /// How polygons are triangulated.
@@ -80,9 +80,14 @@ impl Polygons2 {
             );
         }
         let c = Constrained2::assemble(points, &sides, self.crossings)?;
-        let domains = c.domains(&if self.nonzero { Fill::NonZero } else { Fill::EvenOdd })?;
-        let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
-        let triangles = inside.map(|t| c.mesh().corners(t).map(VertexId::bits)).collect();
+        let report = c.report();
+        let triangles = if !self.nonzero && report.repeated == 0 && report.overlapping == 0 {
+            c.triangles_of_odd_depth()
+        } else {
+            let domains = c.domains(&if self.nonzero { Fill::NonZero } else { Fill::EvenOdd })?;
+            let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
+            inside.map(|t| c.mesh().corners(t).map(VertexId::bits)).collect()
+        };
         Ok(PolygonTriangles2 { points: c.into_points(), triangles })
     }
 
@@ -101,6 +106,33 @@ impl Polygons2 {
             run.iter().map(|polygon| self.triangulate(polygon.as_ref())).collect::<Vec<_>>()
         });
         results.into_iter().flatten().collect()
+    }
+}
+
+impl Constrained2 {
+    /// The triangles with an odd number of constraints between them and infinity, if every edge is of one segment at most: by
+    /// one flood.
+    fn triangles_of_odd_depth(&self) -> Vec<[u32; 3]> {
+        let mesh = self.mesh();
+        let mut triangles = Vec::new();
+        if !self.graph.base.spanned {
+            return triangles;
+        }
+        let mut seen = vec![false; mesh.slot_count()];
+        let mut pending: Vec<(TriangleId, bool)> = vec![(mesh.ghost_edge.triangle(), false)];
+        seen[mesh.ghost_edge.triangle().index()] = true;
+        while let Some((t, is_odd)) = pending.pop() {
+            if is_odd {
+                triangles.push(mesh.corners(t).map(VertexId::bits));
+            }
+            for e in [0, 1, 2].map(|k| t.edge(k)) {
+                let next = mesh.twin(e).triangle();
+                if !std::mem::replace(&mut seen[next.index()], true) {
+                    pending.push((next, is_odd ^ mesh.is_fixed(e)));
+                }
+            }
+        }
+        triangles
     }
 }
 

@@ -1,27 +1,35 @@
 //! Segments that cross are split, in rounds, until nothing crosses.
 //!
 //! A round finds all crossings of the edges that there are, and all vertices inside of edges; rounds each crossing, computed
-//! exactly from its two edges, once to the nearest coordinates; and replaces every edge at once by the chain through what lies
-//! on it, in the order along it.
+//! exactly from its two edges, once to the nearest coordinates; and replaces every edge at once by the chain of vertices on it,
+//! in their order. What is on an edge: vertices exactly inside of it; the rounded crossings of it; where it passes through the
+//! cell of any rounded crossing, that is through points that are rounded to it, that one; and if it is crossed itself, all
+//! vertices through whose cells it passes. Without the cells, edges that nearly coincide would cross again and again: it is snap
+//! rounding on the grid of all numbers.
 //!
-//! *It ends*: rounding is monotone, so a chain is monotone in x and in y inside of the box of its edge. With an inner vertex
-//! other than its ends each link has both extents at most those of the edge, and one of them less: it is shorter. Where two
-//! edges cross, the rounded point is no end of both, since they would share it, so at least one of them is replaced by shorter
-//! ones. All vertices are coordinates of `f64` in the bounding box; so lengths are from a finite set, and the multiset of them
-//! goes down in every round (Dershowitz & Manna, "Proving termination with multiset orderings", CACM 1979).
+//! *It ends*: every vertex of a chain is a point of the edge, rounded, and rounding is monotone, so a chain is monotone in x and
+//! in y inside of the box of its edge. With an inner vertex each link has both extents at most those of the edge, and one of
+//! them less: it is shorter. Where two edges cross, the rounded point is no end of both, since they would share it, so at least
+//! one of them is replaced by shorter ones. All vertices are coordinates of `f64` in the bounding box; so lengths are from a
+//! finite set, and the multiset of them goes down in every round (Dershowitz & Manna, "Proving termination with multiset
+//! orderings", CACM 1979). Mostly one round does it.
 //!
 //! *It is canonical*: a round is a function of the set of edges. Vertices of the input never move, and a chain strays from its
 //! edge by at most half a unit in the last place of its coordinates in each round. Every segment keeps a chain of its own, so
 //! where chains collapse on each other the number of segments on an edge, which even-odd filling counts, is right.
 //!
-//! Cost: a round follows every edge through the triangulation (see `crossings`); mostly one round changes something.
+//! Sources: Hobby, "Practical segment intersection with finite precision output", CGTA 1999; Guibas & Marimont, "Rounding
+//! arrangements dynamically", IJCGA 1998.
+//!
+//! Cost: a round follows every edge twice through the triangulation (see `crossings`).
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-use delone_predicates::{Line, Spot, lexicographic};
+use delone_predicates::{lexicographic, orient2d};
 
 use super::ConstraintReport2;
-use super::crossings::{self, Met};
+use super::crossings::{self, Crossing, Met};
 use super::segments::SegmentId;
 use crate::error::Error;
 use crate::ids::VertexId;
@@ -52,8 +60,8 @@ pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Erro
     let mut chains: Vec<Vec<VertexId>> = segments.iter().map(|ends| ends.to_vec()).collect();
     let mut is_bent = vec![false; segments.len()];
     let mut counts = ConstraintReport2::default();
+    let mut graph = Delaunay2::from_points(&points)?;
     loop {
-        let graph = Delaunay2::from_points(&points)?;
         let links = || chains.iter().flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]));
         let mut edges: Vec<Ends> = links().map(sorted).filter(|[v, w]| v != w).collect();
         edges.sort_unstable();
@@ -69,58 +77,86 @@ pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Erro
         }
         counts.crossings += met.crossings.len();
         counts.rounds += 1;
-        let round = Round::new(&graph, &edges, met, &mut points);
+        let rounded = round(&graph, &edges, &met, &mut points);
+        graph = Delaunay2::from_points(&points)?;
+        let on = On::new(&graph, &edges, &met, &rounded);
         for (chain, is_bent) in chains.iter_mut().zip(&mut is_bent) {
-            *is_bent |= round.extend(chain);
+            *is_bent |= on.extend(chain);
         }
     }
 }
 
-/// What lies on the edges of a round.
-struct Round<'a> {
+/// Rounds crossings, and adds those that are no vertices yet to the points, in lexicographic order. Gives the vertex of each.
+fn round(graph: &Delaunay2, edges: &[Ends], met: &Met, points: &mut Vec<[f64; 2]>) -> Vec<VertexId> {
+    let place = |c: &Crossing| crossings::place(graph, edges[c.first as usize], edges[c.second as usize]);
+    let places: Vec<[f64; 2]> = met.crossings.iter().map(place).collect();
+    // By place: an old vertex before a new one that equals it.
+    let mut known: Vec<([f64; 2], Option<VertexId>)> = places.iter().map(|&p| (p, None)).collect();
+    known.extend(graph.vertices().map(|v| (graph.point(v), Some(v))));
+    known.sort_by(|p, q| lexicographic(p.0, q.0).then_with(|| q.1.cmp(&p.1)));
+    known.dedup_by(|later, earlier| later.0 == earlier.0);
+    for (p, vertex) in &mut known {
+        vertex.get_or_insert_with(|| {
+            points.push(*p);
+            VertexId::new(points.len() - 1)
+        });
+    }
+    let vertex_at = |p: &[f64; 2]| {
+        let at = known.binary_search_by(|entry| lexicographic(entry.0, *p));
+        at.ok().and_then(|at| known[at].1).expect("a vertex now")
+    };
+    places.iter().map(vertex_at).collect()
+}
+
+/// What lies on the edges of a round: an edge, a vertex inside of it, in the order from its lesser end, and whether it is off the
+/// line.
+struct On<'a> {
     edges: &'a [Ends],
-    /// An edge, a vertex inside of it, in the order from the lesser end, and whether it is rounded.
     on: Vec<(u32, VertexId, bool)>,
 }
 
-impl<'a> Round<'a> {
-    /// Adds the rounded crossings that are no vertices yet to the points, in lexicographic order.
-    fn new(graph: &Delaunay2, edges: &'a [Ends], met: Met, points: &mut Vec<[f64; 2]>) -> Self {
-        let Met { crossings, through } = met;
-        let places: Vec<[f64; 2]> = crossings
-            .iter()
-            .map(|c| crossings::place(graph, edges[c.first as usize], edges[c.second as usize]))
-            .collect();
-        // By place: an old vertex before a new one that equals it.
-        let mut known: Vec<([f64; 2], Option<VertexId>)> = places.iter().map(|&p| (p, None)).collect();
-        known.extend(graph.vertices().map(|v| (graph.point(v), Some(v))));
-        known.sort_by(|p, q| lexicographic(p.0, q.0).then_with(|| q.1.cmp(&p.1)));
-        known.dedup_by(|later, earlier| later.0 == earlier.0);
-        for (p, vertex) in &mut known {
-            vertex.get_or_insert_with(|| {
-                points.push(*p);
-                VertexId::new(points.len() - 1)
-            });
+impl<'a> On<'a> {
+    fn new(graph: &Delaunay2, edges: &'a [Ends], met: &Met, rounded: &[VertexId]) -> Self {
+        let mut on: Vec<(u32, VertexId)> = met.through.clone();
+        let mut crosses = vec![false; edges.len()];
+        for (c, &v) in met.crossings.iter().zip(rounded) {
+            for e in [c.first, c.second] {
+                crosses[e as usize] = true;
+                on.push((e, v));
+            }
         }
-        let vertex_at = |p: [f64; 2]| {
-            let at = known.binary_search_by(|entry| lexicographic(entry.0, p));
-            at.ok().and_then(|at| known[at].1).expect("a vertex now")
+        let mut hot = rounded.to_vec();
+        hot.sort_unstable();
+        for (e, &ends) in edges.iter().enumerate() {
+            let is_wanted = |v: &VertexId| crosses[e] || hot.binary_search(v).is_ok();
+            on.extend(crossings::touched(graph, ends, is_wanted).into_iter().map(|v| (e as u32, v)));
+        }
+        on.retain(|&(e, v)| !edges[e as usize].contains(&v));
+        let along = |e: u32, v: VertexId, w: VertexId| {
+            let [a, b] = edges[e as usize].map(|v| graph.point(v));
+            let (p, q) = (graph.point(v), graph.point(w));
+            let axis = |k: usize| {
+                let order = p[k].total_cmp(&q[k]);
+                if p[k] == q[k] {
+                    Ordering::Equal
+                } else if b[k] < a[k] {
+                    order.reverse()
+                } else {
+                    order
+                }
+            };
+            axis(0).then_with(|| axis(1))
         };
-        let mut on: Vec<(u32, Spot, VertexId, bool)> = Vec::new();
-        for (c, &p) in crossings.iter().zip(&places) {
-            let [first, second] = [c.first, c.second].map(|e| crossings::line(graph, edges[e as usize]));
-            on.push((c.first, Spot::Meeting(second, first), vertex_at(p), true));
-            on.push((c.second, Spot::Meeting(first, second), vertex_at(p), true));
-        }
-        on.extend(through.into_iter().map(|(e, v)| (e, Spot::Point(graph.point(v)), v, false)));
-        on.sort_by(|p, q| {
-            let line: &dyn Fn() -> Line = &|| crossings::line(graph, edges[p.0 as usize]);
-            p.0.cmp(&q.0).then_with(|| line().compare(&p.1, &q.1)).then_with(|| p.2.cmp(&q.2))
-        });
-        Self { edges, on: on.into_iter().map(|(e, _, v, is_rounded)| (e, v, is_rounded)).collect() }
+        on.sort_by(|p, q| p.0.cmp(&q.0).then_with(|| along(p.0, p.1, q.1)));
+        on.dedup();
+        let is_off = |e: u32, v: VertexId| {
+            let [a, b] = edges[e as usize].map(|v| graph.point(v));
+            !orient2d(a, b, graph.point(v)).is_zero()
+        };
+        Self { edges, on: on.into_iter().map(|(e, v)| (e, v, is_off(e, v))).collect() }
     }
 
-    /// Replaces each link of a chain. Returns whether a rounded point has come to it.
+    /// Replaces each link of a chain. Returns whether it bends anywhere.
     fn extend(&self, chain: &mut Vec<VertexId>) -> bool {
         let mut is_bent = false;
         let mut longer = vec![chain[0]];
@@ -138,10 +174,6 @@ impl<'a> Round<'a> {
                 }
             }
             longer.push(ends[1]);
-        }
-        longer.dedup();
-        if longer.len() == 1 {
-            longer.push(longer[0]); // of no length
         }
         *chain = longer;
         is_bent

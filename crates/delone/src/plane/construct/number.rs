@@ -58,7 +58,7 @@ impl Mesh2 {
 impl Mesh2 {
     /// Moves each vertex to another place, one of so many. Triangles stay as they are, fixed edges too.
     pub(super) fn move_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
-        let ends: Vec<usize> = parallel::even_ends(self.slot_count(), parallel::parts(self.slot_count()))
+        let ends: Vec<usize> = parallel::even_ends(self.slot_count(), parallel::parts(self.incident.len()))
             .into_iter()
             .map(|end| 4 * end)
             .collect();

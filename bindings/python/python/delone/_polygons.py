@@ -1,0 +1,246 @@
+"""Polygons with holes to triangles: arrays, shapely's geometries, GeoJSON."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping
+from itertools import pairwise
+from typing import Any, Literal, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _delone
+from ._points import as_choice, as_flag, as_points
+
+#: Rings of a polygon, as they are given.
+_Rings = list[Any]
+#: Corners, and where rings begin, and where polygons begin among the rings.
+_Flat = tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]
+
+
+class PolygonTriangles(NamedTuple):
+    """The triangles inside of a polygon."""
+
+    #: The corners of all rings as they were given, one ring after the other, and then points made where sides crossed: (n, 2).
+    points: NDArray[np.float64]
+    #: Triangles by indices of points, counter-clockwise, (m, 3); of equal points the first one is meant.
+    triangles: NDArray[np.int32]
+
+    @property
+    def area(self) -> float:
+        """The sum of the areas, rounded."""
+        a, b, c = (self.points[self.triangles[:, k]] for k in range(3))
+        (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+        return float((ux * vy - uy * vx).sum() / 2)
+
+
+class RaggedTriangles(NamedTuple):
+    """The triangles inside of many polygons, in arrays of all."""
+
+    #: The points of all polygons, (n, 2).
+    points: NDArray[np.float64]
+    #: Triangles by indices among the points of all polygons, (m, 3).
+    triangles: NDArray[np.int64]
+    #: Where the points of each polygon begin, and where all end: (number of polygons + 1,).
+    point_offsets: NDArray[np.int64]
+    #: Where the triangles of each polygon begin, and where all end.
+    triangle_offsets: NDArray[np.int64]
+
+
+def triangulate_polygon(polygon: Any, *, fill: str = "even-odd", crossings: str = "refuse") -> PolygonTriangles:
+    """Triangulates the inside of one polygon. Its triangles are those of the constrained Delaunay triangulation.
+
+    Parameters
+    ----------
+    polygon
+        A ring as an array of shape (n, 2); a list of rings, in any order and direction; or what has a `__geo_interface__`, as
+        shapely's geometries, or is such a mapping, as in GeoJSON: Polygon, MultiPolygon, Feature, or a GeometryCollection of
+        these, which is taken as one. Rings may be closed or not, touch, and share sides. Heights are left out.
+    fill : str
+        What is inside: "even-odd" what an odd number of rings is around, "nonzero" what rings wind around in sum,
+        counter-clockwise less clockwise.
+    crossings : str
+        What happens where sides cross: "refuse" is a CrossingError, "split" makes points there.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square, hole = [[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [3, 1], [3, 3], [1, 3]]
+    >>> inside = delone.triangulate_polygon([square, hole])
+    >>> len(inside.triangles), inside.area
+    (8, 12.0)
+    """
+    flat = _flat([_rings_of(polygon, "polygon")], ["polygon"])
+    points, triangles, _, _ = _triangulated(flat, fill, crossings, True)
+    return PolygonTriangles(points, triangles)
+
+
+@overload
+def triangulate_polygons(
+    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", ragged: Literal[False] = False
+) -> list[PolygonTriangles]: ...
+@overload
+def triangulate_polygons(
+    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", ragged: Literal[True]
+) -> RaggedTriangles: ...
+def triangulate_polygons(
+    polygons: Any, *, fill: str = "even-odd", crossings: str = "refuse", ragged: bool = False
+) -> list[PolygonTriangles] | RaggedTriangles:
+    """Triangulates the insides of many polygons, each alone, on all cores.
+
+    Parameters
+    ----------
+    polygons
+        What holds polygons: a list, an array, geopandas' GeoSeries, a FeatureCollection. Each of them as for
+        `triangulate_polygon`. Lists and arrays of shapely's geometries are fastest.
+    fill, crossings : str
+        As for `triangulate_polygon`. Errors name the polygon.
+    ragged : bool
+        All in arrays, instead of a list of PolygonTriangles, whose arrays are parts of these.
+
+    Examples
+    --------
+    >>> import delone
+    >>> square, triangle = [[0, 0], [4, 0], [4, 4], [0, 4]], [[5, 0], [9, 0], [9, 4]]
+    >>> [len(inside.triangles) for inside in delone.triangulate_polygons([square, triangle])]
+    [2, 1]
+    >>> delone.triangulate_polygons([square, triangle], ragged=True).triangles.tolist()[2]
+    [4, 5, 6]
+    """
+    is_ragged = as_flag(ragged, "ragged")
+    given = _members(polygons)
+    flat = _flat_of_shapely(given)
+    if flat is None:
+        names = [f"polygon {k}" for k in range(len(given))]
+        flat = _flat([_rings_of(one, name) for one, name in zip(given, names, strict=True)], names)
+    points, triangles, point_offsets, triangle_offsets = _triangulated(flat, fill, crossings, False)
+    if is_ragged:
+        shift = np.repeat(point_offsets[:-1], np.diff(triangle_offsets))
+        return RaggedTriangles(points, triangles + shift[:, None], point_offsets, triangle_offsets)
+    parts = zip(pairwise(point_offsets.tolist()), pairwise(triangle_offsets.tolist()), strict=True)
+    return [PolygonTriangles(points[p:q], triangles[t:u]) for (p, q), (t, u) in parts]
+
+
+def _triangulated(
+    flat: _Flat, fill: str, crossings: str, is_one: bool
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]:
+    nonzero = as_choice(fill, ("even-odd", "nonzero"), "fill") == "nonzero"
+    split = as_choice(crossings, ("refuse", "split"), "crossings") == "split"
+    return _delone.triangulate_polygons(*flat, nonzero, split, is_one)
+
+
+def _offsets(lengths: Any) -> NDArray[np.int64]:
+    return np.concatenate([[0], np.cumsum(lengths, dtype=np.int64)])
+
+
+def _flat(polygons: list[_Rings], names: list[str]) -> _Flat:
+    rings = [
+        _ring(ring, f"{name}, ring {k}") for name, rings in zip(names, polygons, strict=True) for k, ring in enumerate(rings)
+    ]
+    corners = np.concatenate(rings) if rings else np.empty((0, 2))
+    return np.ascontiguousarray(corners), _offsets([len(r) for r in rings]), _offsets([len(r) for r in polygons])
+
+
+def _ring(ring: Any, what: str) -> NDArray[np.float64]:
+    if isinstance(ring, (list, tuple)) and not ring:
+        return np.empty((0, 2))
+    return as_points(ring, what, 2)
+
+
+def _flat_of_shapely(given: list[Any]) -> _Flat | None:
+    """Polygons of shapely without a look at each; `None` where others are among them."""
+    shapely = sys.modules.get("shapely")
+    kind = getattr(shapely, "Geometry", None)
+    if shapely is None or kind is None or not given or not all(isinstance(one, kind) for one in given):
+        return None
+    array = np.empty(len(given), dtype=object)
+    array[:] = given
+    if not np.isin(shapely.get_type_id(array), (3, 6)).all():
+        return None
+    parts, polygon_of_part = shapely.get_parts(array, return_index=True)
+    rings, part_of_ring = shapely.get_rings(parts, return_index=True)
+    corners, ring_of_corner = shapely.get_coordinates(rings, return_index=True)
+    by_ring = np.bincount(ring_of_corner, minlength=len(rings))
+    by_polygon = np.bincount(polygon_of_part[part_of_ring], minlength=len(given))
+    return np.ascontiguousarray(corners), _offsets(by_ring), _offsets(by_polygon)
+
+
+def _members(polygons: Any) -> list[Any]:
+    """The polygons that something holds."""
+    if not isinstance(polygons, (Mapping, list, tuple)) and hasattr(polygons, "__array__"):
+        array = np.asarray(polygons)
+        if array.dtype.kind != "O" and array.ndim < 3:
+            raise TypeError(f"an array of the shape {array.shape} is no list of polygons; see triangulate_polygon for one")
+        if array.ndim != 2:
+            return list(array) if array.ndim else _members(array.item())
+    mapping = _mapping(polygons)
+    if mapping is None:
+        if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
+            raise TypeError(f"polygons must be a list of polygons, not {polygons!r}")
+        return list(polygons)
+    kind = mapping.get("type")
+    for collection, members in (("FeatureCollection", "features"), ("GeometryCollection", "geometries")):
+        if kind == collection:
+            return list(_required(mapping, members, "polygons"))
+    raise TypeError(f"a {kind} is no list of polygons; see triangulate_polygon for one")
+
+
+def _mapping(given: Any) -> Mapping[str, Any] | None:
+    """A geometry as GeoJSON has it, if it is one."""
+    if isinstance(given, Mapping):
+        return given
+    found = getattr(given, "__geo_interface__", None)
+    return found if isinstance(found, Mapping) else None
+
+
+def _required(mapping: Mapping[str, Any], name: str, what: str) -> Any:
+    value = mapping.get(name)
+    if value is None or isinstance(value, (str, bytes)) or not isinstance(value, (Iterable, np.ndarray)):
+        raise TypeError(f"{what}: a {mapping.get('type')} must have {name}, not {value!r}")
+    return value
+
+
+def _rings_of(given: Any, what: str) -> _Rings:
+    """The rings of a polygon, not looked at yet; of all polygons of one geometry."""
+    mapping = _mapping(given)
+    if mapping is not None:
+        return _rings_of_mapping(mapping, what)
+    if given is None or isinstance(given, (str, bytes)) or not isinstance(given, (Iterable, np.ndarray)):
+        raise TypeError(f"{what} must be a ring, a list of rings or a geometry, not {given!r}")
+    if isinstance(given, np.ndarray) and given.dtype.kind != "O":
+        return list(given) if given.ndim == 3 else [given]
+    rings = given if isinstance(given, (list, tuple)) else list(given)
+    # A ring if it begins with a point, which begins with a number.
+    first = rings[0] if len(rings) else None
+    is_ring = first is not None and (np.ndim(first) == 0 or (len(first) > 0 and np.ndim(first[0]) == 0))
+    return [rings] if is_ring else list(rings)
+
+
+def _rings_of_mapping(mapping: Mapping[str, Any], what: str) -> _Rings:
+    kind = mapping.get("type")
+    if kind == "Feature":
+        geometry = _mapping(mapping.get("geometry"))
+        if geometry is None:
+            raise TypeError(f"{what}: a Feature without a geometry")
+        return _rings_of_mapping(geometry, what)
+    if kind == "GeometryCollection":
+        members = [_mapping(member) for member in _required(mapping, "geometries", what)]
+        return [ring for member in members for ring in _rings_of_mapping(member or {}, what)]
+    if kind in ("Polygon", "MultiPolygon"):
+        coordinates = _required(mapping, "coordinates", what)
+        polygons = coordinates if kind == "MultiPolygon" else [coordinates]
+        wrong = [polygon for polygon in polygons if not isinstance(polygon, (list, tuple, np.ndarray))]
+        if wrong:
+            raise TypeError(f"{what}: a {kind} must have lists of rings, not {wrong[0]!r}")
+        return [_plane(ring) for polygon in polygons for ring in polygon]
+    raise TypeError(f"{what}: a {kind} has no inside" if isinstance(kind, str) else f"{what}: a mapping that is no geometry")
+
+
+def _plane(ring: Any) -> Any:
+    """Without heights. What is no array is for those who say so."""
+    try:
+        array = np.asarray(ring)
+    except ValueError:
+        return ring
+    return array[:, :2] if array.ndim == 2 and array.shape[1] > 2 else ring
