@@ -165,15 +165,13 @@ fn lives() {
     }
 }
 
-/// So many changes of small sets, a million or `DELONE_CHANGES`.
+/// A million changes of small sets.
 #[test]
 #[ignore = "long: .ci/run"]
 fn long_lives() {
-    let changes =
-        std::env::var("DELONE_CHANGES").ok().and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
     let mut random = Random::new(17);
     let mut done = 0;
-    while done < changes {
+    while done < 1_000_000 {
         let kind = Kind::ALL[random.below(Kind::ALL.len())];
         let points = kind.points(5 + random.below(25), random.bits());
         live(kind.name(), &points, 1000, &mut random);
