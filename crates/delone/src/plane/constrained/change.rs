@@ -103,6 +103,12 @@ impl Constrained2 {
         match (ends, &turning[..]) {
             (_, []) => self.straighten(v),
             (SegmentEnds::Drop, turning) => {
+                let cover = self.cover();
+                let stays = |w: &VertexId| cover.of([v, *w]).iter().any(|c| !turning.contains(&c.segment));
+                let staying = self.constraints_at(v).into_iter().filter(stays).count();
+                if staying > 2 {
+                    return Err(Error::ConstraintsEnd { vertex: v, count: turning.len() + staying / 2 });
+                }
                 for &s in turning {
                     self.remove_segment(s)?;
                 }

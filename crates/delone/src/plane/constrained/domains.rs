@@ -20,7 +20,8 @@ pub enum Fill<'a> {
     /// Everything in the hull.
     #[default]
     All,
-    /// What an odd number of segments is around. Rings may come in any direction.
+    /// What an odd number of segments is around. Rings may come in any direction; where segments do not close, the way to
+    /// infinity across the fewest of them counts.
     EvenOdd,
     /// What segments wind around in sum, counter-clockwise less clockwise.
     NonZero,
@@ -110,6 +111,9 @@ impl Domains2 {
     }
 }
 
+/// A number of borders, and how often they wind around what is behind them.
+type Depth = (usize, i32);
+
 /// What changes across a constraint edge from its right to its left.
 type Weight = (EdgeId, i32, usize);
 
@@ -139,7 +143,7 @@ impl Constrained2 {
             Fill::EvenOdd | Fill::NonZero => {
                 let weights = self.weights(is_border);
                 let depths = self.depths(&domains, &weights);
-                for (part, (winding, covered)) in domains.parts.iter_mut().zip(depths) {
+                for (part, (covered, winding)) in domains.parts.iter_mut().zip(depths) {
                     part.winding = winding;
                     part.is_inside = if *fill == Fill::EvenOdd { covered % 2 == 1 } else { winding != 0 };
                 }
@@ -261,8 +265,11 @@ impl Constrained2 {
         all
     }
 
-    /// For each part how often borders wind around it, and a number of borders between it and infinity.
-    fn depths(&self, domains: &Domains2, weights: &[Weight]) -> Vec<(i32, usize)> {
+    /// For each part a number of borders between it and infinity, and how often they wind around it.
+    ///
+    /// Around closed chains all ways agree. Where open ones make them differ, the way across the fewest constraints counts, and
+    /// of several the one with the least numbers, so that the answer does not depend on where the search begins.
+    fn depths(&self, domains: &Domains2, weights: &[Weight]) -> Vec<Depth> {
         let mesh = self.mesh();
         // Left of the edge is more than right of it.
         let across = |e: EdgeId| {
@@ -272,19 +279,24 @@ impl Constrained2 {
             (if e < twin { along } else { -along }, count)
         };
         let borders = self.borders(domains);
-        let mut depths: Vec<Option<(i32, usize)>> = vec![None; domains.parts.len()];
-        // From a side to the other one: the edge is seen from what is entered.
-        let mut pending: Vec<(EdgeId, (i32, usize))> = self.hull_edges().map(|e| (e, (0, 0))).collect();
-        while let Some((entered, (winding, count))) = pending.pop() {
-            let Some(part) = domains.part(entered.triangle()).filter(|&part| depths[part].is_none()) else {
-                continue;
+        let mut depths: Vec<Option<Depth>> = vec![None; domains.parts.len()];
+        // The edges across which parts are entered, seen from there, and what is behind them.
+        let mut entered: Vec<(EdgeId, Depth)> = self.hull_edges().map(|e| (e, (0, 0))).collect();
+        while !entered.is_empty() {
+            let beyond = |(e, (count, winding)): (EdgeId, Depth)| {
+                let (more, covering) = across(e);
+                Some((domains.part(e.triangle())?, (count + covering, winding.saturating_add(more))))
             };
-            let (more, covering) = across(entered);
-            let depth = (winding.saturating_add(more), count + covering);
-            depths[part] = Some(depth);
-            let start = borders.partition_point(|border| (border.0 as usize) < part);
-            let of_part = borders[start..].iter().take_while(|border| border.0 as usize == part);
-            pending.extend(of_part.map(|border| (mesh.twin(border.1), depth)));
+            let mut reached: Vec<(usize, Depth)> = entered.drain(..).filter_map(beyond).collect();
+            reached.retain(|(part, _)| depths[*part].is_none());
+            reached.sort_unstable();
+            reached.dedup_by_key(|(part, _)| *part);
+            for &(part, depth) in &reached {
+                depths[part] = Some(depth);
+                let start = borders.partition_point(|border| (border.0 as usize) < part);
+                let of_part = borders[start..].iter().take_while(|border| border.0 as usize == part);
+                entered.extend(of_part.map(|border| (mesh.twin(border.1), depth)));
+            }
         }
         depths.into_iter().map(Option::unwrap_or_default).collect()
     }

@@ -115,10 +115,17 @@ impl Constrained2 {
             }
             return search.found;
         }
-        // Beyond the hull it is the ghost of an edge that the point is beyond.
-        let start = match self.graph.spot(q, tally).spot {
-            Spot::Triangle(t) => t,
-            Spot::Vertex(v) => mesh.incident[v.index()].triangle(),
+        let start = match (self.graph.spot(q, tally).spot, wanted) {
+            // A radius may end before the hull edge that the point is beyond, and not before another one.
+            (Spot::Triangle(t), Err(radius)) if mesh.is_ghost(t) => {
+                let nearest = self.search(q, Ok(1), tally)[0];
+                if compare_with_radius(q, layer.points[nearest.index()], radius).is_gt() {
+                    return Vec::new();
+                }
+                mesh.incident[nearest.index()].triangle()
+            }
+            (Spot::Triangle(t), _) => t,
+            (Spot::Vertex(v), _) => mesh.incident[v.index()].triangle(),
             _ => return Vec::new(),
         };
         let mut seen = BTreeSet::from([start]);
