@@ -268,3 +268,55 @@ fn splits_of_what_nearly_coincides_end_soon() {
         assert!(c.report().rounds <= most, "{:?}", c.report());
     }
 }
+
+/// A point exactly on a segment: given whole or in two pieces, it is split alike.
+#[test]
+fn splits_do_not_depend_on_the_pieces_of_a_segment() {
+    let points = [[0.0, 0.0], [1.0, 3.0], [2.0, 6.0], [0.1, 0.3], [1.0, 4.0], [2.0, 4.0]];
+    let split = |segments: &[[usize; 2]]| {
+        let c = Constrained2::with_crossings(&points, segments, Crossings::Split).expect("it ends");
+        let edges: BTreeSet<_> = c.constraints().map(|ends| ends.map(|v| v.index())).collect();
+        (triangles(&c), edges)
+    };
+    assert_eq!(split(&[[0, 2], [4, 5]]), split(&[[0, 1], [1, 2], [4, 5]]));
+}
+
+#[test]
+fn a_radius_from_beyond_the_hull_finds_all() {
+    for (points, q, radius, expected) in [
+        (vec![[0.0, 0.0], [1.0, 2.0], [1.0, 3.0]], [2.0, 3.0], 1.0, 2),
+        (vec![[0.0, 0.0], [0.0, 1.0], [1.0, 3.0]], [-1.0, 3.0], 2.0, 2),
+    ] {
+        let c = Constrained2::from_parts(&points, &[]).expect("no segments");
+        let found = c.within(q, radius).expect("finite");
+        assert_eq!(found.iter().map(|v| v.index()).collect::<Vec<_>>(), [expected]);
+    }
+}
+
+#[test]
+fn a_drop_is_all_or_nothing() {
+    let points = [[0, 0], [2, 2], [0, 2], [2, 0], [1, 1], [1, 3]];
+    let mut c = Constrained2::from_parts(&points, &[[0, 1], [2, 3], [4, 5]]).expect("they meet at a point");
+    let refused = c.remove_with(VertexId::new(4), SegmentEnds::Drop);
+    assert_eq!(refused, Err(Error::ConstraintsEnd { vertex: VertexId::new(4), count: 3 }));
+    assert_eq!(c.segments().count(), 3);
+}
+
+/// Where depth depends on the way, neither order nor history decides.
+#[test]
+fn parts_of_open_chains_do_not_depend_on_history() {
+    let points = [[0, 0], [3, 0], [0, 3]];
+    for side in [[0, 1], [1, 2], [2, 0]] {
+        let mut c = Constrained2::from_parts(&points, &[side]).expect("one segment");
+        let inside = |c: &Constrained2| {
+            let domains = c.domains(&delone::Fill::EvenOdd).expect("no seeds");
+            c.triangle_ids().filter(|&t| domains.is_inside(t)).count()
+        };
+        assert_eq!(inside(&c), 0);
+        for q in [[-1, -1], [5, 5], [6, -2]] {
+            let v = c.insert(q).expect("finite").vertex();
+            c.remove(v).expect("no segment ends there");
+            assert_eq!(inside(&c), 0);
+        }
+    }
+}

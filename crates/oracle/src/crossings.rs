@@ -1,9 +1,9 @@
 //! Which segments cross, where, and what is left of them once they are split in rounds: by trying all pairs.
 //!
-//! A round finds all crossings of the edges and all vertices inside of edges, and rounds every crossing once to the nearest
-//! point of doubles. Each edge is replaced by the chain through the vertices on it, its rounded crossings, those of others
-//! through whose cells it passes (whose points are rounded to them), and, if it is crossed, all vertices through whose cells it
-//! passes. Rounds follow until nothing crosses. Cost: O(m^2 + m n) exact decisions a round; mostly there is one.
+//! First edges are cut at all vertices inside of them. A round finds all crossings then, and rounds each once to the nearest point
+//! of doubles. Each edge is replaced by the chain through its rounded crossings, those of others through whose cells it passes
+//! (whose points are rounded to them), and, if it is crossed, all vertices through whose cells it passes. Rounds follow until
+//! nothing crosses. Cost: O(m^2 + m n) exact decisions a round; mostly there is one.
 
 use num_bigint::BigInt;
 
@@ -219,13 +219,14 @@ impl Split {
         let edges = self.edges();
         let is_first = |&v: &usize| !self.points[..v].contains(&self.points[v]);
         let vertices: Vec<usize> = (0..self.points.len()).filter(is_first).collect();
-        // What is on each edge: vertices, and rounded crossings.
+        // What is on each edge: vertices, or else, when all are cut at these, rounded crossings.
+        let is_cut = edges.iter().any(|&edge| vertices.iter().any(|&v| exact.is_on(v, edge)));
         let mut crossings = 0;
         let on_edge = |&edge: &[usize; 2]| {
             let is_on = |v: &usize| exact.is_on(*v, edge);
             let on_it: Vec<usize> = vertices.iter().copied().filter(is_on).collect();
             let mut places: Vec<Point2> = Vec::new();
-            for &other in edges.iter().filter(|&&other| exact.cross(edge, other)) {
+            for &other in edges.iter().filter(|&&other| !is_cut && exact.cross(edge, other)) {
                 let (part, place) = exact.crossing(edge, other);
                 // A crossing at a vertex is none.
                 let is_at = |&v: &usize| {

@@ -1,11 +1,11 @@
 //! Segments that cross are split, in rounds, until nothing crosses.
 //!
-//! A round finds all crossings of the edges that there are, and all vertices inside of edges; rounds each crossing, computed
-//! exactly from its two edges, once to the nearest coordinates; and replaces every edge at once by the chain of vertices on it,
-//! in their order. What is on an edge: vertices exactly inside of it; the rounded crossings of it; where it passes through the
-//! cell of any rounded crossing, that is through points that are rounded to it, that one; and if it is crossed itself, all
-//! vertices through whose cells it passes. Without the cells, edges that nearly coincide would cross again and again: it is snap
-//! rounding on the grid of all numbers.
+//! First all edges are cut at the vertices inside of them. A round finds all crossings of the edges that there are then; rounds
+//! each, computed exactly from its two edges, once to the nearest coordinates; and replaces every edge at once by the chain of
+//! vertices on it, in their order. What is on an edge: the rounded crossings of it; where it passes through the cell of any
+//! rounded crossing, that is through points that are rounded to it, that one; and if it is crossed itself, all vertices through
+//! whose cells it passes. Without the cells, edges that nearly coincide would cross again and again: it is snap rounding on the
+//! grid of all numbers.
 //!
 //! *It ends*: every vertex of a chain is a point of the edge, rounded, and rounding is monotone, so a chain is monotone in x and
 //! in y inside of the box of its edge. With an inner vertex each link has both extents at most those of the edge, and one of
@@ -75,6 +75,12 @@ pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Erro
                 bent.filter(|(_, (_, is_bent))| *is_bent).map(|(s, (chain, _))| (SegmentId::new(s), chain));
             return Ok(Split { points, pieces, bent: bent.collect(), counts });
         }
+        if !met.through.is_empty() {
+            // First all edges are cut at the vertices on them: which pieces a segment was given in does not show.
+            let on = On::exactly(&graph, &edges, &met);
+            chains.iter_mut().for_each(|chain| _ = on.extend(chain));
+            continue;
+        }
         counts.crossings += met.crossings.len();
         counts.rounds += 1;
         let rounded = round(&graph, &edges, &met, &mut points);
@@ -116,8 +122,14 @@ struct On<'a> {
 }
 
 impl<'a> On<'a> {
+    /// The vertices strictly inside of edges.
+    fn exactly(graph: &Delaunay2, edges: &'a [Ends], met: &Met) -> Self {
+        let on = met.through.clone();
+        Self::sorted(graph, edges, on)
+    }
+
     fn new(graph: &Delaunay2, edges: &'a [Ends], met: &Met, rounded: &[VertexId]) -> Self {
-        let mut on: Vec<(u32, VertexId)> = met.through.clone();
+        let mut on: Vec<(u32, VertexId)> = Vec::new();
         let mut crosses = vec![false; edges.len()];
         for (c, &v) in met.crossings.iter().zip(rounded) {
             for e in [c.first, c.second] {
@@ -131,6 +143,10 @@ impl<'a> On<'a> {
             let is_wanted = |v: &VertexId| crosses[e] || hot.binary_search(v).is_ok();
             on.extend(crossings::touched(graph, ends, is_wanted).into_iter().map(|v| (e as u32, v)));
         }
+        Self::sorted(graph, edges, on)
+    }
+
+    fn sorted(graph: &Delaunay2, edges: &'a [Ends], mut on: Vec<(u32, VertexId)>) -> Self {
         on.retain(|&(e, v)| !edges[e as usize].contains(&v));
         let along = |e: u32, v: VertexId, w: VertexId| {
             let [a, b] = edges[e as usize].map(|v| graph.point(v));
