@@ -97,16 +97,15 @@ impl Constrained2 {
             }
         }
         check_finite(points.iter().copied())?;
-        let (mut graph, ends, built) = constrained(points, segments, &mut report);
+        let (mut graph, ends, refused) = constrained(points, segments, &mut report);
         let mut bent = BTreeMap::new();
-        if built.is_err() {
+        if !refused.is_empty() {
             if crossings == Crossings::Refuse {
-                return Err(refusal(&graph, &ends));
+                return Err(refusal(&graph, &ends, &refused));
             }
-            let split = split::resolve(graph, &ends)?;
+            let split = split::resolve(graph.points().to_vec(), &ends);
             (bent, report) = (split.bent, split.counts);
-            let pieces: Vec<[usize; 2]> = split.pieces.iter().map(|ends| ends.map(VertexId::index)).collect();
-            (graph, _, _) = constrained(split.points, &pieces, &mut report);
+            (graph, _, _) = constrained(split.points, &indices(&split.pieces), &mut report);
         }
         Ok(Self {
             graph,
@@ -118,15 +117,20 @@ impl Constrained2 {
     }
 }
 
-/// Triangulates points and makes segments constraints, as far as none crosses another one. Gives the ends of all segments as
-/// vertices too, and where one crosses a constraint, that one as the error.
+/// The ends of segments as indices of points.
+pub(super) fn indices(segments: &[[VertexId; 2]]) -> Vec<[usize; 2]> {
+    segments.iter().map(|ends| ends.map(VertexId::index)).collect()
+}
+
+/// Triangulates points and makes segments constraints, but for those that cross one before them: these are refused. Gives the
+/// ends of all segments as vertices too, and which are refused, in increasing order.
 ///
 /// Until the end vertices are at their positions in Morton order, where their neighbours are near them in memory.
-fn constrained(
+pub(super) fn constrained(
     points: Vec<[f64; 2]>,
     segments: &[[usize; 2]],
     report: &mut ConstraintReport2,
-) -> (Delaunay2, Vec<[VertexId; 2]>, Result<(), EdgeId>) {
+) -> (Delaunay2, Vec<[VertexId; 2]>, Vec<u32>) {
     let mut ordered = construct::in_order(&points);
     let positions = ordered.positions(points.len());
     let ends: Vec<[Place; 2]> = parallel::collect(segments.len(), |s| segments[s].map(|i| positions[i]));
@@ -134,19 +138,16 @@ fn constrained(
         std::mem::replace(&mut ordered.mesh, Mesh2::empty(0)),
         std::mem::take(&mut ordered.points),
     );
-    let built = constrain(&mut layer, &ends, report);
+    let refused = constrain(&mut layer, &ends, report);
     let index = |place: Place| VertexId::new(ordered.indices[place.index()] as usize);
     let ends = ends.into_iter().map(|ends| ends.map(index)).collect();
     ordered.mesh = layer.mesh;
-    (Delaunay2::assemble(ordered.numbered(points)), ends, built)
+    (Delaunay2::assemble(ordered.numbered(points)), ends, refused)
 }
 
-/// Makes segments constraints. One that is crossed is the error. Completes the report.
-fn constrain(
-    layer: &mut Layer,
-    segments: &[[Place; 2]],
-    report: &mut ConstraintReport2,
-) -> Result<(), EdgeId> {
+/// Makes segments constraints, but for those that cross one before them, which are returned in increasing order. Completes the
+/// report.
+fn constrain(layer: &mut Layer, segments: &[[Place; 2]], report: &mut ConstraintReport2) -> Vec<u32> {
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
     let is_near = are_near(segments, layer.points.len());
     if !is_near {
@@ -158,20 +159,30 @@ fn constrain(
         rest = along_curve(&layer.points, segments, &rest);
     }
     let mut channel = Channel::default();
+    let mut refused = Vec::new();
+    let (mut fresh, mut twice) = (Vec::new(), Vec::new());
     for s in rest {
-        let twice = &mut shared.edges;
+        fresh.clear();
+        twice.clear();
         let forced = layer.force(segments[s as usize], &mut channel, |mesh, e, is_new| {
-            twice.extend((!is_new).then(|| [mesh.tail(e), mesh.head(e)]));
-        })?;
-        if forced > 0 {
-            shared.through.push(s);
+            (if is_new { &mut fresh } else { &mut twice }).push([mesh.tail(e), mesh.head(e)]);
+        });
+        if let Ok(through) = forced {
+            shared.edges.append(&mut twice);
+            shared.through.extend((through > 0).then_some(s));
+            continue;
         }
+        // What was fixed before it met the constraint is free again. Nobody needs that to be Delaunay.
+        let edges: Vec<EdgeId> = fresh.iter().filter_map(|&[a, b]| layer.mesh.edge_between(a, b)).collect();
+        edges.into_iter().for_each(|e| layer.mesh.set_fixed(e, false));
+        refused.push(s);
     }
+    refused.sort_unstable();
     report.through_vertices = shared.through.len();
     if !shared.edges.is_empty() {
         shared.count(layer, segments, report);
     }
-    Ok(())
+    refused
 }
 
 /// Segments in a biased random order along a curve.
@@ -282,8 +293,8 @@ impl Shared {
 }
 
 /// The error that names the first of all crossings: by the points, so that it does not depend on the order of the input.
-fn refusal(graph: &Delaunay2, segments: &[[VertexId; 2]]) -> Error {
-    let found = crossings::between(graph, segments);
+fn refusal(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32]) -> Error {
+    let found = crossings::meet(graph, segments, refused).crossings;
     let point = |v: VertexId| graph.points()[v.index()];
     let key = |s: u32| {
         let [v, w] = segments[s as usize].map(point);

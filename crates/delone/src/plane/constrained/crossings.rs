@@ -1,10 +1,11 @@
 //! All crossings of segments, and all vertices inside of them.
 //!
-//! The triangulation is what they are found by: each segment is followed through it, and two segments that cross pass through
-//! one triangle. Decisions are exact.
+//! The triangulation is what they are found by. Segments are made constraints of it as far as they cross none before them; the
+//! others, which are refused, are followed: they cross constraints, and two of them that cross pass through one triangle.
+//! Decisions are exact.
 //!
-//! Cost: that of following the segments, each as many triangles as it crosses; and for each triangle the square of the number
-//! of segments in it.
+//! Cost: that of following what is refused, as many triangles as it crosses; and for each triangle the square of the number of
+//! such segments in it.
 
 use std::collections::BTreeSet;
 
@@ -38,33 +39,48 @@ impl Met {
     }
 }
 
-/// All pairs of segments that cross at no vertex, each once, in increasing order.
-pub(super) fn between(graph: &Delaunay2, segments: &[[VertexId; 2]]) -> Vec<Crossing> {
-    meet(graph, segments).crossings
-}
-
-/// All that segments between vertices meet.
-pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]]) -> Met {
+/// All that segments between vertices meet: pairs that cross at no vertex, each once, in increasing order, and vertices. Those
+/// that are not refused are constraints of the triangulation.
+pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32]) -> Met {
     let mesh = graph.mesh();
     let ground = Ground { mesh, points: &graph.base.points };
     let mut met = Met::default();
     let mut passes: Vec<(TriangleId, u32)> = Vec::new();
-    for (s, ends) in segments.iter().enumerate() {
-        let (s, ends) = (s as u32, *ends);
-        let (Some(a), Some(b)) = (mesh.place(ends[0]), mesh.place(ends[1])) else { continue };
-        let mut note = |e: EdgeId| passes.extend([e, mesh.twin(e)].map(|e| (e.triangle(), s)));
-        let mut edges = Vec::new();
+    let mut crossed: Vec<(EdgeId, u32)> = Vec::new();
+    let places = |s: u32| segments[s as usize].map(|v| mesh.place(v).expect("a vertex"));
+    let undirected = |e: EdgeId| e.min(mesh.twin(e));
+    for &s in refused {
+        let mut along = Vec::new();
+        let mut pass = |e: EdgeId| passes.extend([e, mesh.twin(e)].map(|e| (e.triangle(), s)));
         ground.follow(
-            [a, b],
-            |e, _| edges.push(e),
+            places(s),
+            |e, _| along.push(e),
             |e| {
-                note(e);
+                pass(e);
+                if mesh.is_fixed(e) {
+                    crossed.push((undirected(e), s));
+                }
                 true
             },
         );
-        edges.iter().for_each(|&e| note(e));
-        let inner = ground.vertices_on([a, b]);
-        met.through.extend(inner.into_iter().map(|v| (s, mesh.name(v))));
+        along.into_iter().for_each(pass);
+        met.through.extend(ground.vertices_on(places(s)).into_iter().map(|v| (s, mesh.name(v))));
+    }
+    crossed.sort_unstable();
+    let is_accepted = |s: &u32| refused.binary_search(s).is_err();
+    for s in (0..segments.len() as u32).filter(is_accepted) {
+        let [a, b] = places(s);
+        if a == b {
+            continue;
+        }
+        let edges = mesh.edge_between(a, b).map_or_else(|| ground.chain([a, b]), |e| vec![e]);
+        let inner = edges.iter().map(|&e| mesh.head(e)).filter(|&v| v != b);
+        met.through.extend(inner.map(|v| (s, mesh.name(v))));
+        for e in edges.into_iter().map(undirected) {
+            let start = crossed.partition_point(|c| c.0 < e);
+            let by = crossed[start..].iter().take_while(|c| c.0 == e).map(|c| c.1);
+            met.crossings.extend(by.map(|other| Crossing { first: s.min(other), second: s.max(other) }));
+        }
     }
     met.through.sort_unstable();
     passes.sort_unstable();

@@ -28,10 +28,9 @@ use std::collections::BTreeMap;
 
 use delone_predicates::{lexicographic, orient2d};
 
-use super::ConstraintReport2;
 use super::crossings::{self, Crossing, Met};
 use super::segments::SegmentId;
-use crate::error::Error;
+use super::{ConstraintReport2, build};
 use crate::ids::VertexId;
 use crate::plane::Delaunay2;
 
@@ -53,27 +52,28 @@ fn sorted([v, w]: Ends) -> Ends {
 }
 
 /// Splits segments until nothing crosses.
-pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Error> {
-    let mut points = graph.points().to_vec();
-    drop(graph);
+pub(super) fn resolve(mut points: Vec<[f64; 2]>, segments: &[Ends]) -> Split {
     let given = points.len();
     let mut chains: Vec<Vec<VertexId>> = segments.iter().map(|ends| ends.to_vec()).collect();
     let mut is_bent = vec![false; segments.len()];
     let mut counts = ConstraintReport2::default();
-    let mut graph = Delaunay2::from_points(&points)?;
     loop {
         let links = || chains.iter().flat_map(|chain| chain.windows(2).map(|w| [w[0], w[1]]));
         let mut edges: Vec<Ends> = links().map(sorted).filter(|[v, w]| v != w).collect();
         edges.sort_unstable();
         edges.dedup();
-        let met = crossings::meet(&graph, &edges);
+        let constrain = |points: &Vec<[f64; 2]>| {
+            build::constrained(points.clone(), &build::indices(&edges), &mut ConstraintReport2::default())
+        };
+        let (graph, _, refused) = constrain(&points);
+        let met = crossings::meet(&graph, &edges, &refused);
         if met.crossings.is_empty() {
             counts.added_points = points.len() - given;
             let pieces = links().collect();
             let bent = chains.into_iter().zip(is_bent).enumerate();
             let bent =
                 bent.filter(|(_, (_, is_bent))| *is_bent).map(|(s, (chain, _))| (SegmentId::new(s), chain));
-            return Ok(Split { points, pieces, bent: bent.collect(), counts });
+            return Split { points, pieces, bent: bent.collect(), counts };
         }
         if !met.through.is_empty() {
             // First all edges are cut at the vertices on them: which pieces a segment was given in does not show.
@@ -84,7 +84,7 @@ pub(super) fn resolve(graph: Delaunay2, segments: &[Ends]) -> Result<Split, Erro
         counts.crossings += met.crossings.len();
         counts.rounds += 1;
         let rounded = round(&graph, &edges, &met, &mut points);
-        graph = Delaunay2::from_points(&points)?;
+        let (graph, _, _) = constrain(&points);
         let on = On::new(&graph, &edges, &met, &rounded);
         for (chain, is_bent) in chains.iter_mut().zip(&mut is_bent) {
             *is_bent |= on.extend(chain);
@@ -139,7 +139,17 @@ impl<'a> On<'a> {
         }
         let mut hot = rounded.to_vec();
         hot.sort_unstable();
-        for (e, &ends) in edges.iter().enumerate() {
+        let mut places: Vec<[f64; 2]> = hot.iter().map(|&v| graph.point(v)).collect();
+        places.sort_by(|p, q| lexicographic(*p, *q));
+        let is_near = |ends: Ends| {
+            let [a, b] = ends.map(|v| graph.point(v));
+            let start = places.partition_point(|p| p[0] < a[0].min(b[0]));
+            let in_range = places[start..].iter().take_while(|p| p[0] <= a[0].max(b[0]));
+            in_range.into_iter().any(|p| a[1].min(b[1]) <= p[1] && p[1] <= a[1].max(b[1]))
+        };
+        // Nothing else can be on an edge that is not crossed and has no rounded crossing in its box.
+        let looked_at = edges.iter().enumerate().filter(|&(e, &ends)| crosses[e] || is_near(ends));
+        for (e, &ends) in looked_at {
             let is_wanted = |v: &VertexId| crosses[e] || hot.binary_search(v).is_ok();
             on.extend(crossings::touched(graph, ends, is_wanted).into_iter().map(|v| (e as u32, v)));
         }
