@@ -175,7 +175,11 @@ pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> R
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, quiet)?;
         let mut beside = |extension: &str| {
-            let file = File::open(path.with_extension(extension))?;
+            let beside = path.with_extension(extension);
+            let named = |error: std::io::Error| {
+                std::io::Error::new(error.kind(), format!("its points in {}: {error}", beside.display()))
+            };
+            let file = File::open(&beside).map_err(named)?;
             Ok(Box::new(BufReader::new(file)) as Box<dyn Source>)
         };
         let graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;

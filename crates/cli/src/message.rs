@@ -68,6 +68,7 @@ impl Failure {
                 "repair the data, or split segments with --crossings split"
             }
             delone::Error::NoSuchPoint { .. } => "segments name points by index, from 0",
+            delone::Error::Coordinate { .. } => "seeds of holes and regions are finite points",
             delone::Error::Seed { .. } => "move the seed into the hole or region, or choose another --fill",
             _ => return Self::points(path, error),
         };
