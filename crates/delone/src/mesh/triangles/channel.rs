@@ -7,7 +7,7 @@
 //! Cost: O(k log k) for k triangles, and what choosing apexes takes.
 
 use super::Mesh2;
-use super::surgery::BorderEdge;
+use super::surgery::{BorderEdge, Part};
 use crate::ids::{EdgeId, Place, TriangleId};
 
 /// What a segment crosses between two vertices: the borders of what is on its left and on its right, both without the
@@ -19,6 +19,8 @@ pub(crate) struct Channel {
     /// From the near end to the far one.
     pub(crate) right: Vec<BorderEdge>,
     pub(crate) triangles: Vec<TriangleId>,
+    /// A buffer.
+    pending: Vec<Part<()>>,
 }
 
 impl Mesh2 {
@@ -30,19 +32,16 @@ impl Mesh2 {
         channel: &mut Channel,
         mut apex: impl FnMut(&[BorderEdge], usize, usize) -> usize,
     ) -> EdgeId {
-        let Channel { left, right, triangles } = channel;
+        let Channel { left, right, triangles, pending } = channel;
         let stand_ins = self.part(left, right, triangles);
         // As many triangles as vertices between the ends.
         let (on_left, on_right) = triangles.split_at(left.len() - 1);
         // Until the right side is there, any edge that will be written then stands for it.
         left.push((a, on_right[0].edge(0)));
-        let mut pending = Vec::new();
-        self.fill_hole(left, on_left, &mut pending, (), |first, last, ()| (apex(left, first, last), (), ()));
+        self.fill_hole(left, on_left, pending, (), |first, last, ()| (apex(left, first, last), (), ()));
         let inner = self.twin(on_right[0].edge(0));
         right.push((b, inner));
-        self.fill_hole(right, on_right, &mut pending, (), |first, last, ()| {
-            (apex(right, first, last), (), ())
-        });
+        self.fill_hole(right, on_right, pending, (), |first, last, ()| (apex(right, first, last), (), ()));
         for t in stand_ins {
             let [e, f] = [0, 1].map(|k| self.twin(t.edge(k)));
             self.link(e, f);

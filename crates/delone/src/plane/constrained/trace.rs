@@ -192,7 +192,7 @@ impl Ground<'_> {
         channel: &mut Channel,
     ) -> Result<Place, EdgeId> {
         let mesh = self.mesh;
-        let Channel { left, right, triangles } = channel;
+        let Channel { left, right, triangles, .. } = channel;
         left.clear();
         right.clear();
         triangles.clear();
