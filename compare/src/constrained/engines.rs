@@ -51,17 +51,10 @@ fn delone_inside(set: &Set, wanted: bool) -> Result<Output, String> {
     if set.polygons.is_empty() {
         return Err("(knows polygons only)".to_owned());
     }
-    let (time, result) = timed(|| inside(&set.points, &set.segments));
-    let triangles = if wanted { result? } else { Vec::new() };
-    Ok(Output { time, triangles, is_inside: true })
-}
-
-/// The triangles inside of rings.
-pub fn inside(points: &[[f64; 2]], segments: &[[usize; 2]]) -> Result<Vec<[usize; 3]>, String> {
-    let c = delone::Constrained2::from_parts(points, segments).map_err(|error| error.to_string())?;
-    let domains = c.domains(&delone::Fill::EvenOdd).map_err(|error| error.to_string())?;
-    let corners = c.triangle_ids().zip(c.triangles()).filter(|(t, _)| domains.is_inside(*t));
-    Ok(corners.map(|(_, t)| t.map(|v| v.index())).collect())
+    let rings: Vec<&[[f64; 2]]> = set.polygons.iter().flatten().map(|ring| &set.points[ring.clone()]).collect();
+    let (time, result) = timed(|| delone::Polygons2::default().triangulate(&rings));
+    let triangles = result.map_err(|error| error.to_string())?.triangles.into_iter().filter(|_| wanted);
+    Ok(Output { time, triangles: triangles.map(|t| t.map(|i| i as usize)).collect(), is_inside: true })
 }
 
 #[cfg(cgal)]

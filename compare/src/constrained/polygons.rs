@@ -4,8 +4,6 @@ use std::time::{Duration, Instant};
 
 use delone_generators::{Graph, Random};
 
-use super::engines::inside;
-
 type Rings = [Vec<[f64; 2]>];
 
 /// Seconds, and the number of triangles.
@@ -76,9 +74,7 @@ fn delone(rings: &Rings) -> Option<(Duration, usize)> {
     let start = Instant::now();
     let mut count = 0;
     for ring in rings {
-        let n = ring.len();
-        let segments: Vec<[usize; 2]> = (0..n).map(|i| [i, (i + 1) % n]).collect();
-        count += inside(ring, &segments).ok()?.len();
+        count += delone::Polygons2::default().triangulate(&[ring]).ok()?.triangles.len();
     }
     Some((start.elapsed(), count))
 }

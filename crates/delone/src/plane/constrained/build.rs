@@ -147,7 +147,11 @@ pub(super) fn constrained(
 
 /// Makes segments constraints, but for those that cross one before them, which are returned in increasing order. Completes the
 /// report.
-fn constrain(layer: &mut Layer, segments: &[[Place; 2]], report: &mut ConstraintReport2) -> Vec<u32> {
+pub(super) fn constrain(
+    layer: &mut Layer,
+    segments: &[[Place; 2]],
+    report: &mut ConstraintReport2,
+) -> Vec<u32> {
     let mut order: Vec<u32> = (0..segments.len() as u32).collect();
     let is_near = are_near(segments, layer.points.len());
     if !is_near {

@@ -5,10 +5,16 @@
 //!
 //! Cost: O(n log n) for n corners.
 
-use super::{Constrained2, Crossings, Fill};
+use super::build::constrain;
+use super::{Constrained2, ConstraintReport2, Crossings, Fill};
 use crate::error::Error;
-use crate::ids::{TriangleId, VertexId};
+use crate::ids::{MAX_POINTS, Place, TriangleId, VertexId};
+use crate::mesh::Mesh2;
 use crate::parallel;
+use crate::plane::construct;
+use crate::plane::layer::Layer;
+use crate::points::{check_count, check_finite};
+use crate::prefetch::prefetch;
 
 /// How polygons are triangulated.
 ///
@@ -70,24 +76,25 @@ impl Polygons2 {
     /// leaves. [`Error::NotFinite`] and [`Error::TooManyPoints`] as of all corners in a row.
     pub fn triangulate<R: AsRef<[[f64; 2]]>>(&self, rings: &[R]) -> Result<PolygonTriangles2, Error> {
         let count = rings.iter().map(|ring| ring.as_ref().len()).sum();
+        check_count(count, MAX_POINTS)?;
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(count);
+        rings.iter().for_each(|ring| points.extend(ring.as_ref()));
+        check_finite(points.iter().copied())?;
+        if !self.nonzero
+            && let Some(triangles) = odd_depth(&points, rings)
+        {
+            return Ok(PolygonTriangles2 { points, triangles });
+        }
         let mut sides: Vec<[usize; 2]> = Vec::with_capacity(count);
         for ring in rings {
-            let (first, ring) = (points.len(), ring.as_ref());
-            points.extend(ring);
-            sides.extend(
-                (first..points.len()).map(|i| [i, if i + 1 == points.len() { first } else { i + 1 }]),
-            );
+            let first = sides.len();
+            let end = first + ring.as_ref().len();
+            sides.extend((first..end).map(|i| [i, if i + 1 == end { first } else { i + 1 }]));
         }
         let c = Constrained2::assemble(points, &sides, self.crossings)?;
-        let report = c.report();
-        let triangles = if !self.nonzero && report.repeated == 0 && report.overlapping == 0 {
-            c.triangles_of_odd_depth()
-        } else {
-            let domains = c.domains(&if self.nonzero { Fill::NonZero } else { Fill::EvenOdd })?;
-            let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
-            inside.map(|t| c.mesh().corners(t).map(VertexId::bits)).collect()
-        };
+        let domains = c.domains(&if self.nonzero { Fill::NonZero } else { Fill::EvenOdd })?;
+        let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
+        let triangles = inside.map(|t| c.mesh().corners(t).map(VertexId::bits)).collect();
         Ok(PolygonTriangles2 { points: c.into_points(), triangles })
     }
 
@@ -109,31 +116,53 @@ impl Polygons2 {
     }
 }
 
-impl Constrained2 {
-    /// The triangles with an odd number of constraints between them and infinity, if every edge is of one segment at most: by
-    /// one flood.
-    fn triangles_of_odd_depth(&self) -> Vec<[u32; 3]> {
-        let mesh = self.mesh();
-        let mut triangles = Vec::new();
-        if !self.graph.base.spanned {
-            return triangles;
-        }
-        let mut seen = vec![false; mesh.slot_count()];
-        let mut pending: Vec<(TriangleId, bool)> = vec![(mesh.ghost_edge.triangle(), false)];
-        seen[mesh.ghost_edge.triangle().index()] = true;
-        while let Some((t, is_odd)) = pending.pop() {
-            if is_odd {
-                triangles.push(mesh.corners(t).map(VertexId::bits));
-            }
-            for e in [0, 1, 2].map(|k| t.edge(k)) {
-                let next = mesh.twin(e).triangle();
-                if !std::mem::replace(&mut seen[next.index()], true) {
-                    pending.push((next, is_odd ^ mesh.is_fixed(e)));
-                }
-            }
-        }
-        triangles
+/// The triangles with an odd number of sides between them and infinity, by one flood, if no side crosses another or has a part
+/// in common with one. Vertices stay at their positions in Morton order, and nothing is remembered of the sides.
+fn odd_depth<R: AsRef<[[f64; 2]]>>(points: &[[f64; 2]], rings: &[R]) -> Option<Vec<[u32; 3]>> {
+    let mut ordered = construct::in_order(points);
+    let positions = ordered.positions(points.len());
+    let mut sides: Vec<[Place; 2]> = Vec::with_capacity(points.len());
+    let mut rest = &positions[..];
+    for ring in rings {
+        let (ring, others) = rest.split_at(ring.as_ref().len());
+        sides.extend(ring.windows(2).map(|pair| [pair[0], pair[1]]));
+        sides.extend(ring.last().map(|&last| [last, ring[0]]));
+        rest = others;
     }
+    let mesh = std::mem::replace(&mut ordered.mesh, Mesh2::empty(0));
+    let mut layer = Layer::new(mesh, std::mem::take(&mut ordered.points));
+    let mut report = ConstraintReport2::default();
+    let refused = constrain(&mut layer, &sides, &mut report);
+    if !refused.is_empty() || report.repeated > 0 || report.overlapping > 0 {
+        return None;
+    }
+    let mesh = &layer.mesh;
+    let mut triangles = Vec::new();
+    if !layer.spanned {
+        return Some(triangles);
+    }
+    triangles.reserve(points.len());
+    let mut seen = vec![false; mesh.slot_count()];
+    // First in, first out: while others are looked at, what a triangle is comes from memory.
+    let mut reached: Vec<(TriangleId, bool)> = Vec::with_capacity(mesh.slot_count());
+    reached.push((mesh.ghost_edge.triangle(), false));
+    seen[mesh.ghost_edge.triangle().index()] = true;
+    let mut at = 0;
+    while let Some(&(t, is_odd)) = reached.get(at) {
+        at += 1;
+        let edges = [0, 1, 2].map(|k| t.edge(k));
+        if is_odd {
+            triangles.push(edges.map(|e| ordered.indices[mesh.tail(e).index()]));
+        }
+        for e in edges {
+            let next = mesh.twin(e).triangle();
+            if !std::mem::replace(&mut seen[next.index()], true) {
+                prefetch(&mesh.edges, next.edge(0).index());
+                reached.push((next, is_odd ^ mesh.is_fixed(e)));
+            }
+        }
+    }
+    Some(triangles)
 }
 
 #[cfg(feature = "geo-types")]
