@@ -18,9 +18,14 @@ const SMALLEST: usize = 64;
 /// An order for the points; the same for the same seed.
 pub(crate) fn insertion_order(points: &[[f64; 2]], seed: u64) -> Vec<u32> {
     let mut indices: Vec<u32> = (0..points.len() as u32).collect();
+    deal(&mut indices, seed, |round| along_curve(points, round));
+    indices
+}
+
+/// Deals items into rounds, and puts each of them in order.
+pub(crate) fn deal<T>(items: &mut [T], seed: u64, put_in_order: impl Fn(&mut [T])) {
     let mut random = SplitMix(seed);
-    let mut rest = indices.as_mut_slice();
-    let mut rounds = Vec::new();
+    let mut rest = items;
     while rest.len() > SMALLEST {
         // Those that stay go to the front, one in GROWTH; the others are this round, and later rounds come first.
         let mut earlier = 0;
@@ -31,14 +36,10 @@ pub(crate) fn insertion_order(points: &[[f64; 2]], seed: u64) -> Vec<u32> {
             }
         }
         let (front, round) = rest.split_at_mut(earlier);
-        rounds.push(round);
+        put_in_order(round);
         rest = front;
     }
-    rounds.push(rest);
-    for round in rounds {
-        along_curve(points, round);
-    }
-    indices
+    put_in_order(rest);
 }
 
 /// Below this size the order inside a cell does not matter.

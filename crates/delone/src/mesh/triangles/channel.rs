@@ -23,6 +23,12 @@ pub(crate) struct Channel {
     pending: Vec<Part<()>>,
 }
 
+/// Whether anything may hang into a channel from a border, which then comes back to the vertex that it hangs from.
+fn may_hang(border: &[BorderEdge]) -> bool {
+    const FEW: usize = 16;
+    border.len() > FEW || (1..border.len()).any(|i| border[..i].iter().any(|&(v, _)| v == border[i].0))
+}
+
 impl Mesh2 {
     /// Puts the segment from `a` to `b` in the place of the edges that it crosses, two or more, none of them fixed. `apex` says
     /// which vertex of a border is joined to the side from `last` to `first`, one between them. Returns the segment's edge.
@@ -33,7 +39,8 @@ impl Mesh2 {
         mut apex: impl FnMut(&[BorderEdge], usize, usize) -> usize,
     ) -> EdgeId {
         let Channel { left, right, triangles, pending } = channel;
-        let stand_ins = self.part(left, right, triangles);
+        let stand_ins =
+            if may_hang(left) || may_hang(right) { self.part(left, right, triangles) } else { Vec::new() };
         // As many triangles as vertices between the ends.
         let (on_left, on_right) = triangles.split_at(left.len() - 1);
         // Until the right side is there, any edge that will be written then stands for it.

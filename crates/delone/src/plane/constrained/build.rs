@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::ids::{EdgeId, MAX_POINTS, Place, VertexId};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::channel::Channel;
-use crate::order::plane::insertion_order;
+use crate::order::plane::deal;
 use crate::parallel;
 use crate::plane::layer::Layer;
 use crate::plane::{Delaunay2, construct};
@@ -36,10 +36,15 @@ pub enum Crossings {
     Split,
 }
 
+/// The ends of a segment, and its number.
+type Numbered = ([Place; 2], u32);
+
 /// Seed of the order of segments; the result does not depend on it.
 const ANY_SEED: u64 = 1;
 /// Segments ahead whose ends are asked of memory, and whose stars then.
 const AHEAD: [usize; 2] = [16, 8];
+/// Positions that are asked for along with an end.
+const WINDOW: usize = 256;
 
 impl Constrained2 {
     /// The triangulation of no points.
@@ -152,23 +157,29 @@ pub(super) fn constrain(
     segments: &[[Place; 2]],
     report: &mut ConstraintReport2,
 ) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..segments.len() as u32).collect();
+    let mut shared = Shared::default();
+    let numbered = segments.iter().copied().zip(0..).filter(|(ends, _)| ends[0] != ends[1]);
+    let mut rest: Vec<Numbered> = numbered.collect();
+    report.zero_length = segments.len() - rest.len();
     let is_near = are_near(segments, layer.points.len());
     if !is_near {
-        order = along_curve(&layer.points, segments, &order);
+        in_rounds(&mut rest);
     }
-    let mut shared = Shared::default();
-    let mut rest = fix_edges(layer, segments, &order, report, &mut shared);
+    if are_edges(layer, &rest) {
+        rest = fix_edges(layer, &rest, &mut shared);
+    }
     if is_near {
-        rest = along_curve(&layer.points, segments, &rest);
+        in_rounds(&mut rest);
     }
     let mut channel = Channel::default();
     let mut refused = Vec::new();
     let (mut fresh, mut twice) = (Vec::new(), Vec::new());
-    for s in rest {
+    let mut ahead = Ahead::new(&rest);
+    for (i, &(ends, s)) in rest.iter().enumerate() {
+        ahead.ways(layer, i);
         fresh.clear();
         twice.clear();
-        let forced = layer.force(segments[s as usize], &mut channel, |mesh, e, is_new| {
+        let forced = layer.force(ends, &mut channel, |mesh, e, is_new| {
             (if is_new { &mut fresh } else { &mut twice }).push([mesh.tail(e), mesh.head(e)]);
         });
         if let Ok(through) = forced {
@@ -189,14 +200,17 @@ pub(super) fn constrain(
     refused
 }
 
-/// Segments in a biased random order along a curve.
-fn along_curve(points: &[[f64; 2]], segments: &[[Place; 2]], some: &[u32]) -> Vec<u32> {
-    let middle = |&s: &u32| {
-        let [p, q] = segments[s as usize].map(|v| points[v.index()]);
-        [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)
-    };
-    let middles: Vec<[f64; 2]> = some.iter().map(middle).collect();
-    insertion_order(&middles, ANY_SEED).into_iter().map(|i| some[i as usize]).collect()
+/// Puts segments in a biased random order, each round by where the ends are in memory.
+fn in_rounds(segments: &mut [Numbered]) {
+    deal(segments, ANY_SEED, |round| round.sort_unstable_by_key(|&([a, b], s)| (a.min(b), s)));
+}
+
+/// Whether half of some segments are edges, as far as a sample tells.
+fn are_edges(layer: &Layer, segments: &[Numbered]) -> bool {
+    const SAMPLE: usize = 256;
+    let sample = segments.iter().step_by(segments.len() / SAMPLE + 1);
+    let is_edge = |([a, b], _): &&Numbered| layer.mesh.edge_between(*a, *b).is_some();
+    2 * sample.clone().filter(is_edge).count() >= sample.len()
 }
 
 /// Whether segments that follow each other are mostly near each other in memory, as along a polygon.
@@ -208,44 +222,78 @@ fn are_near(segments: &[[Place; 2]], places: usize) -> bool {
     10 * far * step < segments.len() || segments.len() < SAMPLE
 }
 
-/// Fixes the segments that are edges, in an order, and returns the others.
-fn fix_edges(
-    layer: &mut Layer,
-    segments: &[[Place; 2]],
-    order: &[u32],
-    report: &mut ConstraintReport2,
-    shared: &mut Shared,
-) -> Vec<u32> {
-    let ends = parallel::even_ends(order.len(), parallel::parts(order.len()));
+/// Asks memory for what segments further on will read: the beginnings of their ends' stars, and what is at the positions from
+/// their first ends on, which are mostly near the whole way.
+struct Ahead<'a> {
+    segments: &'a [Numbered],
+    /// The positions before this one have been asked for.
+    asked: usize,
+}
+
+impl<'a> Ahead<'a> {
+    fn new(segments: &'a [Numbered]) -> Self {
+        Self { segments, asked: 0 }
+    }
+
+    /// Where the ends of a segment are, if it is one.
+    fn ends(&self, i: usize) -> Option<[usize; 2]> {
+        self.segments.get(i).map(|(ends, _)| ends.map(Place::index))
+    }
+
+    /// Before segment `i` is looked at.
+    #[inline]
+    fn stars(&self, mesh: &Mesh2, i: usize) {
+        for end in self.ends(i + AHEAD[0]).into_iter().flatten() {
+            prefetch(&mesh.incident, end);
+        }
+        for end in self.ends(i + AHEAD[1]).into_iter().flatten() {
+            prefetch(&mesh.edges, mesh.incident[end].index());
+        }
+    }
+
+    /// Before segment `i` is forced, where each round goes along the positions.
+    #[inline]
+    fn ways(&mut self, layer: &Layer, i: usize) {
+        self.stars(&layer.mesh, i);
+        let Some([a, b]) = self.ends(i + AHEAD[1]) else { return };
+        let (first, end) = (a.min(b).saturating_sub(WINDOW / 4), a.min(b) + WINDOW);
+        if end < self.asked {
+            self.asked = 0; // another round
+        }
+        for position in first.max(self.asked)..end {
+            prefetch(&layer.mesh.edges, 8 * position);
+            if position % 4 == 0 {
+                prefetch(&layer.points, position);
+            }
+        }
+        self.asked = end;
+    }
+}
+
+/// Fixes those of some segments that are edges, and returns the others.
+fn fix_edges(layer: &mut Layer, segments: &[Numbered], shared: &mut Shared) -> Vec<Numbered> {
+    let ends = parallel::even_ends(segments.len(), parallel::parts(segments.len()));
     let starts = std::iter::once(0).chain(ends.iter().copied());
     let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end).collect();
     let found = parallel::map(runs, |run: std::ops::Range<usize>| {
-        let mesh = &layer.mesh;
-        let ahead = |i: usize| order.get(i).map(|&s| segments[s as usize][0].index());
+        let ahead = Ahead::new(segments);
         let edge = |i: usize| {
-            if let Some(a) = ahead(i + AHEAD[0]) {
-                prefetch(&mesh.incident, a);
-            }
-            if let Some(a) = ahead(i + AHEAD[1]) {
-                prefetch(&mesh.edges, mesh.incident[a].index());
-            }
-            let [a, b] = segments[order[i] as usize];
-            if a == b { None } else { Some(mesh.edge_between(a, b).unwrap_or(EdgeId::NONE)) }
+            ahead.stars(&layer.mesh, i);
+            let [a, b] = segments[i].0;
+            layer.mesh.edge_between(a, b)
         };
         run.map(edge).collect::<Vec<Option<EdgeId>>>()
     });
     let mut rest = Vec::new();
-    for (&s, edge) in order.iter().zip(found.into_iter().flatten()) {
-        match edge {
-            None => report.zero_length += 1,
-            Some(EdgeId::NONE) => rest.push(s),
-            Some(e) => {
-                if layer.mesh.is_fixed(e) {
-                    shared.edges.push(segments[s as usize]);
-                }
-                layer.mesh.set_fixed(e, true);
-            }
+    for (&segment, edge) in segments.iter().zip(found.into_iter().flatten()) {
+        let Some(e) = edge else {
+            rest.push(segment);
+            continue;
+        };
+        if layer.mesh.is_fixed(e) {
+            shared.edges.push(segment.0);
         }
+        layer.mesh.set_fixed(e, true);
     }
     rest
 }

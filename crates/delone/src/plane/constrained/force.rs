@@ -125,6 +125,9 @@ pub(super) fn apex(
     first: usize,
     last: usize,
 ) -> usize {
+    if last == first + 2 {
+        return first + 1;
+    }
     let ends = [border[first].0, border[last].0];
     let point = |v: Place| points[v.index()];
     let pencil = Pencil::new(point(ends[1]), point(ends[0]));
