@@ -320,3 +320,57 @@ fn parts_of_open_chains_do_not_depend_on_history() {
         }
     }
 }
+
+/// Intervals on lines in three directions, which meet only where all of them do: at no inner point of any.
+#[test]
+fn reports_count_what_pairs_of_segments_share() {
+    let mut random = Random::new(5);
+    let mut counted = [0; 3];
+    for round in 0..300 {
+        let count = 2 + random.below(20);
+        let directions = [[1, 0], [0, 1], [2, 3]];
+        let mut points: Vec<[i32; 2]> = Vec::new();
+        for (line, [x, y]) in directions.into_iter().enumerate() {
+            points.extend(
+                (1..=count as i32).map(|i| [x * i, (y * i) + if line == 2 { 0 } else { line as i32 - 1 }]),
+            );
+        }
+        let segments: Vec<[usize; 2]> = (0..random.below(30))
+            .map(|_| {
+                let line = count * random.below(3);
+                [line + random.below(count), line + random.below(count)]
+            })
+            .collect();
+        let interval = |s: &[usize; 2]| [s[0].min(s[1]), s[0].max(s[1])];
+        let share = |s: &[usize; 2], t: &[usize; 2]| {
+            let ([a, b], [c, d]) = (interval(s), interval(t));
+            s[0] / count == t[0] / count && a.max(c) < b.min(d)
+        };
+        let real: Vec<[usize; 2]> = segments.iter().copied().filter(|s| s[0] != s[1]).collect();
+        let mut distinct: Vec<[usize; 2]> = real.iter().map(interval).collect();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let overlaps = |s: &&[usize; 2]| real.iter().any(|t| interval(t) != interval(s) && share(s, t));
+        let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+        c.check().expect("canonical");
+        let report = c.report();
+        assert_eq!(report.zero_length, segments.len() - real.len(), "round {round}");
+        assert_eq!(report.repeated, real.len() - distinct.len(), "round {round}: {segments:?}");
+        assert_eq!(report.overlapping, real.iter().filter(overlaps).count(), "round {round}: {segments:?}");
+        let through = real.iter().filter(|s| s[0].abs_diff(s[1]) > 1).count();
+        assert_eq!(report.through_vertices, through, "round {round}: {segments:?}");
+        counted = [0, 1, 2].map(|k| counted[k] + [report.repeated, report.overlapping, through][k]);
+    }
+    assert!(counted.iter().all(|&count| count > 100), "{counted:?}");
+}
+
+/// Each within the one after it, on one line: as many steps as segments, where edges met would be ten thousand million.
+#[test]
+fn a_hundred_thousand_nested_segments() {
+    let n = 100_000;
+    let points: Vec<[f64; 2]> = (0..2 * n).map(|i| [i as f64, 0.5 * i as f64]).chain([[0.0, 1e6]]).collect();
+    let segments: Vec<[usize; 2]> = (0..n).map(|i| [n - 1 - i, n + i]).collect();
+    let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+    assert_eq!(c.constraints().count(), 2 * n - 1);
+    assert_eq!((c.report().overlapping, c.report().through_vertices), (n, n - 1));
+}

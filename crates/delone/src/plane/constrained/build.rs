@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::crossings::{self, Crossing};
+use super::force::Laid;
+use super::overlaps::Overlaps;
 use super::segments::Segments;
 use super::{Constrained2, ConstraintReport2, split};
 use crate::error::Error;
@@ -157,7 +159,7 @@ pub(super) fn constrain(
     segments: &[[Place; 2]],
     report: &mut ConstraintReport2,
 ) -> Vec<u32> {
-    let mut shared = Shared::default();
+    let mut overlaps = Overlaps::default();
     let numbered = segments.iter().copied().zip(0..).filter(|(ends, _)| ends[0] != ends[1]);
     let mut rest: Vec<Numbered> = numbered.collect();
     report.zero_length = segments.len() - rest.len();
@@ -166,38 +168,68 @@ pub(super) fn constrain(
         in_rounds(&mut rest);
     }
     if are_edges(layer, &rest) {
-        rest = fix_edges(layer, &rest, &mut shared);
+        rest = fix_edges(layer, &rest, &mut overlaps);
     }
     if is_near {
         in_rounds(&mut rest);
     }
     let mut channel = Channel::default();
     let mut refused = Vec::new();
-    let (mut fresh, mut twice) = (Vec::new(), Vec::new());
+    let mut met = Met::default();
     let mut ahead = Ahead::new(&rest);
     for (i, &(ends, s)) in rest.iter().enumerate() {
         ahead.ways(layer, i);
-        fresh.clear();
-        twice.clear();
-        let forced = layer.force(ends, &mut channel, |mesh, e, is_new| {
-            (if is_new { &mut fresh } else { &mut twice }).push([mesh.tail(e), mesh.head(e)]);
-        });
-        if let Ok(through) = forced {
-            shared.edges.append(&mut twice);
-            shared.through.extend((through > 0).then_some(s));
+        met.fresh.clear();
+        met.fixed.clear();
+        if lay_all(layer, ends, &mut channel, &mut overlaps, &mut met).is_err() {
+            // What was fixed before it met the constraint is free again. Nobody needs that to be Delaunay.
+            for &[a, b] in &met.fresh {
+                let e = layer.mesh.edge_between(a, b);
+                e.into_iter().for_each(|e| layer.mesh.set_fixed(e, false));
+            }
+            refused.push(s);
             continue;
         }
-        // What was fixed before it met the constraint is free again. Nobody needs that to be Delaunay.
-        let edges: Vec<EdgeId> = fresh.iter().filter_map(|&[a, b]| layer.mesh.edge_between(a, b)).collect();
-        edges.into_iter().for_each(|e| layer.mesh.set_fixed(e, false));
-        refused.push(s);
+        met.fixed.iter().for_each(|&edge| overlaps.share(edge));
+        let edges = met.fresh.iter().chain(&met.fixed);
+        if edges.clone().all(|&[v, w]| [v, w] != ends && [w, v] != ends) {
+            overlaps.add(&layer.points, s, ends, edges.copied());
+        }
     }
     refused.sort_unstable();
-    report.through_vertices = shared.through.len();
-    if !shared.edges.is_empty() {
-        shared.count(layer, segments, report);
-    }
+    report.through_vertices = overlaps.through_vertices();
+    overlaps.count(&layer.points, segments, report);
     refused
+}
+
+/// The edges that a segment met, by their ends.
+#[derive(Default)]
+struct Met {
+    fresh: Vec<[Place; 2]>,
+    /// Constraints before; of a run the first and the last.
+    fixed: Vec<[Place; 2]>,
+}
+
+/// Makes a segment a chain of fixed edges.
+///
+/// # Errors
+/// A fixed edge that it crosses.
+fn lay_all(
+    layer: &mut Layer,
+    [mut a, mut b]: [Place; 2],
+    channel: &mut Channel,
+    overlaps: &mut Overlaps,
+    met: &mut Met,
+) -> Result<(), EdgeId> {
+    while a != b {
+        let Laid { e, at_second, is_new } = layer.lay([a, b], channel)?;
+        let edge = [layer.mesh.tail(e), layer.mesh.head(e)];
+        (if is_new { &mut met.fresh } else { &mut met.fixed }).push(edge);
+        let (near, far) = if at_second { (&mut b, a) } else { (&mut a, b) };
+        let skipped = if is_new { None } else { overlaps.skip(&layer.points, edge, [*near, far]) };
+        *near = skipped.unwrap_or(edge[1]);
+    }
+    Ok(())
 }
 
 /// Puts segments in a biased random order, each round by where the ends are in memory.
@@ -271,7 +303,7 @@ impl<'a> Ahead<'a> {
 }
 
 /// Fixes those of some segments that are edges, and returns the others.
-fn fix_edges(layer: &mut Layer, segments: &[Numbered], shared: &mut Shared) -> Vec<Numbered> {
+fn fix_edges(layer: &mut Layer, segments: &[Numbered], overlaps: &mut Overlaps) -> Vec<Numbered> {
     let ends = parallel::even_ends(segments.len(), parallel::parts(segments.len()));
     let starts = std::iter::once(0).chain(ends.iter().copied());
     let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end).collect();
@@ -291,57 +323,11 @@ fn fix_edges(layer: &mut Layer, segments: &[Numbered], shared: &mut Shared) -> V
             continue;
         };
         if layer.mesh.is_fixed(e) {
-            shared.edges.push(segment.0);
+            overlaps.share(segment.0);
         }
         layer.mesh.set_fixed(e, true);
     }
     rest
-}
-
-/// What tells segments that share a part of their length.
-#[derive(Default)]
-struct Shared {
-    /// Edges that were fixed more than once.
-    edges: Vec<[Place; 2]>,
-    /// Segments with vertices inside of them.
-    through: Vec<u32>,
-}
-
-impl Shared {
-    /// Counts segments that repeat others, and that overlap others. A segment that is one edge does neither, unless that edge
-    /// is shared.
-    fn count(mut self, layer: &Layer, segments: &[[Place; 2]], report: &mut ConstraintReport2) {
-        let sorted = |[v, w]: [Place; 2]| [v.min(w), v.max(w)];
-        self.edges.iter_mut().for_each(|edge| *edge = sorted(*edge));
-        self.edges.sort_unstable();
-        let whole = (0..segments.len() as u32).map(|s| (s, sorted(segments[s as usize])));
-        let whole = whole.filter(|(_, ends)| ends[0] != ends[1] && self.edges.binary_search(ends).is_ok());
-        let mut covering: Vec<([Place; 2], u32)> = whole.map(|(s, ends)| (ends, s)).collect();
-        let mut candidates: Vec<u32> =
-            covering.iter().map(|c| c.1).chain(self.through.iter().copied()).collect();
-        let ground = layer.ground();
-        for &s in &self.through {
-            let edges = ground.chain(segments[s as usize]).into_iter();
-            covering.extend(edges.map(|e| (sorted([layer.mesh.tail(e), layer.mesh.head(e)]), s)));
-        }
-        candidates.sort_unstable();
-        candidates.dedup();
-        let mut pairs: Vec<_> = candidates.iter().map(|&s| sorted(segments[s as usize])).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
-        report.repeated = candidates.len() - pairs.len();
-        covering.sort_unstable();
-        let mut overlapping: Vec<u32> = Vec::new();
-        for of_edge in covering.chunk_by(|c, d| c.0 == d.0) {
-            let ends = |c: &([Place; 2], u32)| sorted(segments[c.1 as usize]);
-            if of_edge.iter().any(|c| ends(c) != ends(&of_edge[0])) {
-                overlapping.extend(of_edge.iter().map(|c| c.1));
-            }
-        }
-        overlapping.sort_unstable();
-        overlapping.dedup();
-        report.overlapping = overlapping.len();
-    }
 }
 
 /// The error that names the first of all crossings: by the points, so that it does not depend on the order of the input.

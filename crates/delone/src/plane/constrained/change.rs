@@ -160,7 +160,7 @@ impl Constrained2 {
         self.graph.base.legalize(pending);
         self.graph.remove(v)?;
         let ends = [u, w].map(|v| self.mesh().place(v).expect("a vertex"));
-        let forced = self.graph.base.force(ends, &mut self.channel, |_, _, _| {});
+        let forced = self.graph.base.force(ends, &mut self.channel, |_, _| {});
         debug_assert!(forced.is_ok(), "it was free of others before");
         if let Some(cover) = self.cover.get_mut() {
             cover.replace(&[[u, v], [v, w]], &[[u, w]]);
@@ -230,7 +230,7 @@ impl Constrained2 {
             return Err(self.crossed(s, ends, &obstacles));
         }
         let mut edges = Vec::new();
-        let each = |mesh: &Mesh2, e: EdgeId, _| edges.push([mesh.origin(e), mesh.destination(e)]);
+        let each = |mesh: &Mesh2, e: EdgeId| edges.push([mesh.origin(e), mesh.destination(e)]);
         let forced = self.graph.base.force(places, &mut self.channel, each);
         debug_assert!(forced.is_ok(), "nothing is crossed");
         if let Some(cover) = self.cover.get_mut() {

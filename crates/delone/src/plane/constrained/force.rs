@@ -25,13 +25,23 @@ use crate::plane::layer::Layer;
 /// From this many vertices on a side has a triangulation of its own; below, looking at all of them takes less.
 const LARGE: usize = 64;
 
+/// An edge of a segment.
+pub(super) struct Laid {
+    /// It leaves one of the ends.
+    pub(super) e: EdgeId,
+    /// Whether that is the second end.
+    pub(super) at_second: bool,
+    /// Whether it was free.
+    pub(super) is_new: bool,
+}
+
 impl Layer {
     pub(super) fn ground(&self) -> Ground<'_> {
         Ground { mesh: &self.mesh, points: &self.points }
     }
 
-    /// Makes the segment between two different vertices a chain of fixed edges, each of which is told in the
-    /// segment's direction, with whether it was free. Returns the number of vertices inside of it. The channel is a buffer.
+    /// Makes the segment between two different vertices a chain of fixed edges, each of which is told in the segment's
+    /// direction. The channel is a buffer.
     ///
     /// # Errors
     /// The first fixed edge found that it crosses. What comes before it is fixed then.
@@ -39,26 +49,30 @@ impl Layer {
         &mut self,
         [mut a, mut b]: [Place; 2],
         channel: &mut Channel,
-        mut each: impl FnMut(&Mesh2, EdgeId, bool),
-    ) -> Result<usize, EdgeId> {
-        let mut through = 0;
-        loop {
-            let Beginning { leaves, at_second } = self.ground().begin(a, b);
-            let [near, far] = if at_second { [b, a] } else { [a, b] };
-            let e = match leaves {
-                Leaves::Along(e) => e,
-                Leaves::Across(across) => self.dig([near, far], across, channel)?,
-            };
-            let is_new = !self.mesh.is_fixed(e);
-            self.mesh.set_fixed(e, true);
-            let reached = self.mesh.head(e);
-            each(&self.mesh, if at_second { self.mesh.twin(e) } else { e }, is_new);
-            if reached == far {
-                return Ok(through);
-            }
-            through += 1;
-            *(if at_second { &mut b } else { &mut a }) = reached;
+        mut each: impl FnMut(&Mesh2, EdgeId),
+    ) -> Result<(), EdgeId> {
+        while a != b {
+            let Laid { e, at_second, .. } = self.lay([a, b], channel)?;
+            each(&self.mesh, if at_second { self.mesh.twin(e) } else { e });
+            *(if at_second { &mut b } else { &mut a }) = self.mesh.head(e);
         }
+        Ok(())
+    }
+
+    /// Makes what of a segment is between one of its ends and the first vertex on it a fixed edge, from the end where that
+    /// is cheaper.
+    ///
+    /// # Errors
+    /// A fixed edge that it crosses.
+    pub(super) fn lay(&mut self, [a, b]: [Place; 2], channel: &mut Channel) -> Result<Laid, EdgeId> {
+        let Beginning { leaves, at_second } = self.ground().begin(a, b);
+        let e = match leaves {
+            Leaves::Along(e) => e,
+            Leaves::Across(across) => self.dig(if at_second { [b, a] } else { [a, b] }, across, channel)?,
+        };
+        let is_new = !self.mesh.is_fixed(e);
+        self.mesh.set_fixed(e, true);
+        Ok(Laid { e, at_second, is_new })
     }
 
     /// Replaces the edges that a segment crosses up to the first vertex on it. Returns its edge, from the near end on.

@@ -24,6 +24,7 @@ mod flips;
 mod force;
 mod locate;
 mod nearest;
+mod overlaps;
 mod patch;
 mod polygons;
 mod segments;

@@ -34,7 +34,7 @@ impl Patch {
         for pair in places.windows(2) {
             match layer.mesh.edge_between(pair[0], pair[1]) {
                 Some(e) => layer.mesh.set_fixed(e, true),
-                None => _ = layer.force([pair[0], pair[1]], &mut channel, |_, _, _| {}).ok()?,
+                None => layer.force([pair[0], pair[1]], &mut channel, |_, _| {}).ok()?,
             }
         }
         let mut occurrences: Vec<_> = places.iter().enumerate().map(|(i, &place)| (place, i)).collect();
