@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use delone::{Constrained2, Crossings, Error, SegmentEnds, SegmentId, VertexId};
+use delone::{Constrained2, Crossings, Error, Fill, SegmentEnds, SegmentId, VertexId};
 use delone_generators::{Kind, Random};
 
 type Points = Vec<[f64; 2]>;
@@ -373,4 +373,6 @@ fn a_hundred_thousand_nested_segments() {
     let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
     assert_eq!(c.constraints().count(), 2 * n - 1);
     assert_eq!((c.report().overlapping, c.report().through_vertices), (n, n - 1));
+    c.check().expect("canonical");
+    assert_eq!(c.domains(&Fill::EvenOdd).expect("no seeds").parts().len(), 1);
 }

@@ -5,9 +5,9 @@
 //! agree on that, and if the constraints are what the segments cover, no more and no less. Cost: O(n + m log m) for n points and
 //! m constraint edges.
 
-use super::Constrained2;
-use super::segments::{Ends, SegmentId};
-use crate::ids::EdgeId;
+use super::segments::{Cover, SegmentId};
+use super::{Constrained2, Covering2, overlaps};
+use crate::ids::{EdgeId, Place};
 use crate::plane::check::Flaw2;
 
 /// What is wrong with a constrained triangulation, one sentence each.
@@ -40,48 +40,48 @@ impl Constrained2 {
         if let Some(e) = mesh.undirected_edges().find(|&e| mesh.is_fixed(e) != mesh.is_fixed(mesh.twin(e))) {
             return Err(ConstrainedFlaw2::Side(e));
         }
-        let mut covered: Vec<(Ends, SegmentId, bool)> = Vec::new();
-        for (s, _) in self.segments() {
-            let mut is_missing = false;
-            self.edges_of(s, |s, e| {
-                is_missing |= !mesh.is_fixed(e);
-                let ends = [mesh.origin(e), mesh.destination(e)];
-                let forward = ends[0] < ends[1];
-                covered.push((if forward { ends } else { [ends[1], ends[0]] }, s, forward));
-            });
-            let length: usize = self.segments.pieces(s).count();
-            if is_missing || !self.is_whole(s) || length == 0 {
+        let mut pieces: Vec<(SegmentId, [Place; 2])> = Vec::new();
+        for (s, ends) in self.segments() {
+            // From one end to the other, each piece where the last one ended.
+            let mut at = Some(ends[0]);
+            for [v, w] in self.segments.pieces(s) {
+                at = at.filter(|&at| at == v).map(|_| w);
+            }
+            pieces.extend(self.places_of(s).map(|piece| (s, piece)));
+            let count = self.segments.pieces(s).count();
+            let is_whole = at == Some(ends[1]) && count > 0;
+            if !is_whole || pieces.iter().rev().take_while(|piece| piece.0 == s).count() != count {
                 return Err(ConstrainedFlaw2::Missing(s));
             }
         }
+        let covered = overlaps::weights(self.ground(), pieces.iter().map(|piece| piece.1));
+        let covered = covered.map_err(|piece| ConstrainedFlaw2::Missing(pieces[piece].0))?;
+        let is_covered = |e: EdgeId| covered.binary_search_by_key(&e.min(mesh.twin(e)), |w| w.0).is_ok();
+        if let Some(e) = self.constraint_edges().find(|&e| !is_covered(e)) {
+            return Err(ConstrainedFlaw2::Stray(e));
+        }
+        self.cover.get().map_or(Ok(()), |cover| self.check_cover(cover))
+    }
+
+    /// What is remembered must be what there is.
+    fn check_cover(&self, cover: &Cover) -> Result<(), ConstrainedFlaw2> {
+        let mesh = self.mesh();
+        let mut covered: Vec<(EdgeId, SegmentId, bool)> = Vec::new();
+        for (s, _) in self.segments() {
+            self.edges_of(s, |s, e| {
+                covered.push((e.min(mesh.twin(e)), s, mesh.origin(e) < mesh.destination(e)));
+            });
+        }
         covered.sort_unstable();
-        for e in self.constraint_edges() {
-            let ends = [mesh.origin(e), mesh.destination(e)];
-            let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-            let start = covered.partition_point(|c| c.0 < ends);
-            let of_edge = || covered[start..].iter().take_while(|c| c.0 == ends);
-            if of_edge().next().is_none() {
-                return Err(ConstrainedFlaw2::Stray(e));
-            }
-            if let Some(cover) = self.cover.get() {
-                let remembered = cover.of(ends);
-                let is_same = |(c, r): (&(Ends, SegmentId, bool), &super::Covering2)| {
-                    (c.1, c.2) == (r.segment, r.is_forward)
-                };
-                if of_edge().count() != remembered.len() || !of_edge().zip(&remembered).all(is_same) {
-                    return Err(ConstrainedFlaw2::Cover(e));
-                }
+        for of_edge in covered.chunk_by(|c, d| c.0 == d.0) {
+            let e = of_edge[0].0;
+            let [v, w] = [mesh.origin(e), mesh.destination(e)];
+            let remembered = cover.of([v.min(w), v.max(w)]);
+            let found = of_edge.iter().map(|&(_, segment, is_forward)| Covering2 { segment, is_forward });
+            if !found.eq(remembered) {
+                return Err(ConstrainedFlaw2::Cover(e));
             }
         }
         Ok(())
-    }
-
-    /// Whether a segment's edges lead from its first end to its second.
-    fn is_whole(&self, s: SegmentId) -> bool {
-        let mesh = self.mesh();
-        let Some([first, last]) = self.segments.ends(s) else { return false };
-        let mut at = Some(first);
-        self.edges_of(s, |_, e| at = at.filter(|&v| v == mesh.origin(e)).map(|_| mesh.destination(e)));
-        at == Some(last)
     }
 }

@@ -7,6 +7,7 @@
 //! Cost: O(n), and O(m log m) for m constraint edges where segments overlap, have directions or are no borders. Four bytes a
 //! triangle.
 
+use super::overlaps::{self, Weight};
 use super::{Constrained2, SegmentId};
 use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId, VertexId};
@@ -113,9 +114,6 @@ impl Domains2 {
 
 /// A number of borders, and how often they wind around what is behind them.
 type Depth = (usize, i32);
-
-/// What changes across a constraint edge from its right to its left.
-type Weight = (EdgeId, i32, usize);
 
 impl Constrained2 {
     /// The parts of the hull, and which of them are inside. All segments are borders.
@@ -243,26 +241,11 @@ impl Constrained2 {
         Domains2 { of, parts, ..Domains2::default() }
     }
 
-    /// For each constraint edge, in one of its directions, the segments that cover it: those along it less those against it,
-    /// and their number. Only those that are borders count.
+    /// What changes across each constraint edge from its right to its left. Only segments that are borders count.
     fn weights(&self, is_border: impl Fn(SegmentId) -> bool) -> Vec<Weight> {
-        let mut all: Vec<Weight> = Vec::new();
-        for (s, _) in self.segments().filter(|&(s, _)| is_border(s)) {
-            self.edges_of(s, |_, e| {
-                let twin = self.mesh().twin(e);
-                all.push(if e < twin { (e, 1, 1) } else { (twin, -1, 1) });
-            });
-        }
-        all.sort_unstable_by_key(|weight| weight.0);
-        all.dedup_by(|later, first| {
-            let same = later.0 == first.0;
-            if same {
-                first.1 = first.1.saturating_add(later.1);
-                first.2 += later.2;
-            }
-            same
-        });
-        all
+        let borders = self.segments().map(|(s, _)| s).filter(|&s| is_border(s));
+        let pieces = borders.flat_map(|s| self.places_of(s));
+        overlaps::weights(self.ground(), pieces).expect("segments are constraints")
     }
 
     /// For each part a number of borders between it and infinity, and how often they wind around it.

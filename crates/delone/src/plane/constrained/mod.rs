@@ -43,7 +43,7 @@ pub use polygons::{PolygonTriangles2, Polygons2};
 pub use segments::{Covering2, SegmentId};
 
 use super::Delaunay2;
-use crate::ids::{Duplicate, EdgeId, TriangleId, VertexId};
+use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::triangles::channel::Channel;
 use crate::mesh::{Dimension, Mesh2};
 use segments::{Cover, Segments};
@@ -162,14 +162,16 @@ impl Constrained2 {
         self.cover().of([self.mesh().origin(e), self.mesh().destination(e)])
     }
 
+    /// The straight pieces of a segment, each between two vertices.
+    fn places_of(&self, s: SegmentId) -> impl Iterator<Item = [Place; 2]> + '_ {
+        let place = |v| self.mesh().place(v);
+        self.segments.pieces(s).filter_map(move |[v, w]| Some([place(v)?, place(w)?]))
+    }
+
     /// Tells each edge of a segment, in its direction.
     fn edges_of(&self, s: SegmentId, mut each: impl FnMut(SegmentId, EdgeId)) {
-        let (mesh, ground) = (self.mesh(), self.ground());
-        for [v, w] in self.segments.pieces(s) {
-            if let (Some(v), Some(w)) = (mesh.place(v), mesh.place(w)) {
-                ground.chain([v, w]).into_iter().for_each(|e| each(s, e));
-            }
-        }
+        let ground = self.ground();
+        self.places_of(s).for_each(|piece| ground.chain(piece).into_iter().for_each(|e| each(s, e)));
     }
 
     fn ground(&self) -> Ground<'_> {
