@@ -134,7 +134,8 @@ fn shuffled(points: &[Point], segments: &[[usize; 2]], random: &mut Random) -> (
     (order.iter().map(|&i| points[i]).collect(), other)
 }
 
-/// Points and segments come one by one, in any order.
+/// Points and segments come one by one, in any order. Where a vertex parts two segments that would cross, it has to come first:
+/// refused, a segment changes nothing, and comes again after all points.
 fn one_by_one(points: &[Point], segments: &[[usize; 2]], random: &mut Random) -> Result<Constrained2, Error> {
     let mut c = Constrained2::new();
     let mut ids: Vec<Option<VertexId>> = vec![None; points.len()];
@@ -150,9 +151,17 @@ fn one_by_one(points: &[Point], segments: &[[usize; 2]], random: &mut Random) ->
             Some(s) => {
                 let [a, b] = segments[s];
                 let ends = [vertex(&mut c, a)?, vertex(&mut c, b)?];
-                if ends[0] != ends[1] {
-                    c.insert_segment(ends[0], ends[1])?;
+                if ends[0] == ends[1] {
+                    continue;
                 }
+                let mut laid = c.insert_segment(ends[0], ends[1]);
+                if matches!(laid, Err(Error::SegmentsCross { .. })) {
+                    for i in 0..points.len() {
+                        vertex(&mut c, i)?;
+                    }
+                    laid = c.insert_segment(ends[0], ends[1]);
+                }
+                laid?;
             }
         }
     }
