@@ -9,6 +9,7 @@
 //! - [`lines`]: where lines meet, as fractions;
 //! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
 //! - [`crossings`]: which segments cross, where, and what is left once they are split;
+//! - [`power`]: regular triangulations of few sites with weights;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
 pub mod brute;
@@ -17,6 +18,7 @@ pub mod constrained;
 pub mod crossings;
 pub mod exact;
 pub mod lines;
+pub mod power;
 mod quick;
 #[cfg(test)]
 mod samples;

@@ -43,6 +43,7 @@ mod orient3d;
 mod pencil;
 mod perturb;
 mod plane;
+mod power;
 mod sign;
 #[cfg(test)]
 mod stages;
@@ -57,6 +58,7 @@ pub use distance::{
     segment_keeps_away,
 };
 pub use filter::{Filter, Filter3, Grid};
+pub use in_box::SiteRef;
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};
 pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
@@ -65,6 +67,10 @@ pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d};
 pub use pencil::{Member, Pencil};
 pub use plane::Plane;
+pub use power::{
+    Site, compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,
+    in_power_sphere_with_ties,
+};
 pub use sign::Sign;
 
 /// A point of the plane: x, then y. Both finite.

@@ -5,7 +5,7 @@
 //! when no product can leave the exponent range, [`big`] integers for the rest.
 //!
 //! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones. Lines of the plane and where they meet
-//! have a file of their own (`line/exact.rs`).
+//! have a file of their own (`line/exact.rs`), and so have points with weights ([`power`]).
 //!
 //! Before big integers, floating point is asked once more, scaled so that nothing leaves the range (`filter/scaled.rs`).
 //!
@@ -14,6 +14,7 @@
 
 pub(crate) mod big;
 pub(crate) mod integers;
+pub(crate) mod power;
 mod space;
 pub(crate) mod wide;
 
