@@ -94,12 +94,11 @@ pub(crate) fn in_power_interval(a: Site<2>, b: Site<2>, q: Site<2>) -> Sign {
 
 /// |q - p|^2 - w of one site against that of another.
 pub(crate) fn compare_powers<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>) -> Ordering {
-    match rows::<D, 3, 2>(&[a, b, (q, 0.0)]) {
-        Some((_, [a, b])) => a.cmp(&b),
-        None => {
-            let (_, lifts) = big_rows(&[a, b, (q, 0.0)]);
-            lifts[0].cmp(&lifts[1])
-        }
+    if let Some((_, [a, b])) = rows::<D, 3, 2>(&[a, b, (q, 0.0)]) {
+        a.cmp(&b)
+    } else {
+        let (_, lifts) = big_rows(&[a, b, (q, 0.0)]);
+        lifts[0].cmp(&lifts[1])
     }
 }
 
