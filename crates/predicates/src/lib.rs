@@ -68,7 +68,7 @@ pub use orient3d::{are_collinear3, orient3d};
 pub use pencil::{Member, Pencil};
 pub use plane::Plane;
 pub use power::{
-    Site, compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,
+    compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,
     in_power_sphere_with_ties,
 };
 pub use sign::Sign;
@@ -78,3 +78,6 @@ pub type Point2 = [f64; 2];
 
 /// A point of space: x, y, z. All finite.
 pub type Point3 = [f64; 3];
+
+/// A point with a weight, the square of a radius in the units of the coordinates; it may be negative. All numbers are finite.
+pub type Site<const D: usize> = ([f64; D], f64);

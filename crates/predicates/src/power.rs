@@ -11,10 +11,7 @@ use std::cmp::Ordering;
 use crate::exact::power as exact;
 use crate::filter::{in_power_circle_filter, in_power_sphere_filter};
 use crate::perturb::{in_power_circle_perturbed, in_sphere_perturbed};
-use crate::{Point2, Sign, orient3d, strictly_between};
-
-/// A point with a weight, the square of a radius in the units of the coordinates. All numbers are finite.
-pub type Site<const D: usize> = ([f64; D], f64);
+use crate::{Point2, Sign, Site, orient3d, strictly_between};
 
 /// Whether the lifted `d` is below the plane through the lifted `a`, `b`, `c`: positive when below (in conflict), negative
 /// when above, for `a`, `b`, `c` counter-clockwise (the sign flips when they are clockwise).

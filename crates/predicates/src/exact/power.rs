@@ -10,8 +10,7 @@ use num_bigint::BigInt;
 use super::big;
 use super::decode;
 use super::wide::Wide;
-use crate::Sign;
-use crate::power::Site;
+use crate::{Sign, Site};
 
 /// Bits of coordinates, and of weights.
 const BITS: u32 = 60;

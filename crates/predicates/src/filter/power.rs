@@ -4,8 +4,7 @@
 
 use super::space::{SPHERE_CEILING, SPHERE_FLOOR, sphere_terms};
 use super::{CIRCLE_CEILING, CIRCLE_FLOOR, Filter3, Grid, U, circle_terms, outside_of};
-use crate::Sign;
-use crate::power::Site;
+use crate::{Sign, Site};
 
 /// 11u times its permanent.
 pub(super) const POWER_CIRCLE_BOUND: f64 = (11.0 + 112.0 * U) * U;

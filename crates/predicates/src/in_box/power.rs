@@ -5,8 +5,7 @@ use wide::f64x2;
 use super::volumes;
 use crate::filter::Filter3;
 use crate::perturb::in_sphere_perturbed;
-use crate::power::Site;
-use crate::{Point3, Sign, in_power_sphere};
+use crate::{Point3, Sign, Site, in_power_sphere};
 
 /// A site of space whose point is not copied.
 pub type SiteRef<'a> = (&'a Point3, f64);
