@@ -81,6 +81,7 @@ mod prefetch;
 pub mod space;
 mod tally;
 mod triangulation;
+mod under;
 mod verdict;
 mod vertex_map;
 mod weight;
@@ -101,7 +102,7 @@ pub use plane::{
     SegmentId, Step2, Voronoi2, VoronoiEdge2,
 };
 pub use points::{Bounds, Position2, Position3};
-pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Step3};
+pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};
 pub use tally::{Counters, Merges, Phase, Tally, Work};
 pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Triangulation};
 pub use verdict::Verdict;

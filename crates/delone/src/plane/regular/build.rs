@@ -6,14 +6,14 @@
 
 use super::Regular2;
 use super::settle::Settled;
-use super::under::Under;
-use crate::ids::{Place, VertexId};
+use crate::ids::{Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
 use crate::mesh::{Mesh2, Names};
 use crate::order;
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::Power;
 use crate::tally::{Tally, Work};
+use crate::under::Under;
 
 /// Triangulates sites, all finite and not too many.
 pub(super) fn build(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Regular2 {
@@ -29,7 +29,7 @@ pub(super) fn build(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Regular2
 }
 
 /// Inserts what is at every place. Those that are no vertices lose their place's name.
-fn insert_all<T: Tally>(layer: &mut Layer<Power>, seed: u64, tally: &mut T) -> Under {
+fn insert_all<T: Tally>(layer: &mut Layer<Power>, seed: u64, tally: &mut T) -> Under<TriangleId> {
     let mut hidden = Vec::new();
     // Those that equal a vertex, with its place.
     let mut equal: Vec<(VertexId, Place, Place)> = Vec::new();

@@ -7,14 +7,14 @@
 //! Cost: the walk and the cavity or the star, and O(log h) for each site that was above a triangle that is gone; while all
 //! sites are on one line, for all of them.
 
+use super::Regular2;
 use super::settle::Settled;
-use super::{Regular2, check_weights};
 use crate::error::Error;
 use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::{Start, Strategy, Walk};
 use crate::mesh::Names;
 use crate::plane::layer::insert::Spot;
-use crate::points::{Position2, finite};
+use crate::points::{Position2, check_weights, finite};
 
 /// Below so many vertices any hint will do.
 const SMALL: usize = 32;

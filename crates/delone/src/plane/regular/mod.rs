@@ -14,7 +14,6 @@ mod change;
 mod check;
 mod settle;
 mod triangulation;
-mod under;
 
 use std::sync::OnceLock;
 
@@ -28,10 +27,10 @@ use crate::mesh::{Dimension, Mesh2};
 use crate::plane::layer::Layer;
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::Power;
-use crate::points::{Position2, check_count, check_finite, finite};
+use crate::points::{Position2, check_count, check_finite, check_weights, finite};
 use crate::tally::{Counters, Work};
+use crate::under::Under;
 pub use check::RegularFlaw2;
-use under::Under;
 
 /// The regular triangulation of sites with weights in the plane. See the [crate's words](crate#names) for what it has in common with
 /// [`crate::Delaunay2`].
@@ -62,7 +61,7 @@ use under::Under;
 #[derive(Clone, Debug, Default)]
 pub struct Regular2 {
     base: Layer<Power>,
-    under: Under,
+    under: Under<TriangleId>,
     work: Work,
     hints: OnceLock<Tree<EdgeId>>,
     /// The number of vertices when the hints were made.
@@ -214,13 +213,6 @@ impl Regular2 {
             Start::Anywhere
         };
         self.base.spot(start, q, &mut ())
-    }
-}
-
-fn check_weights(weights: &[f64]) -> Result<(), Error> {
-    match weights.iter().position(|w| !w.is_finite()) {
-        Some(index) => Err(Error::Weight { index, value: weights[index] }),
-        None => Ok(()),
     }
 }
 

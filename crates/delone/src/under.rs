@@ -1,95 +1,95 @@
 //! The sites that are no vertices: hidden by others, or equal to one.
 //!
-//! Each keeps its place, and from the first change on the triangle above which it lies, so that what a change may let
+//! Each keeps its place, and from the first change on the simplex above which it lies, so that what a change may let
 //! surface is found where it happens.
 //!
 //! Cost: O(log h) for each of h sites that is moved.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::ids::{Duplicate, Place, TriangleId, VertexId};
+use crate::ids::{Duplicate, Place, VertexId};
 
 /// A site that is no vertex.
 #[derive(Clone, Copy, Debug)]
-struct Below {
+struct Below<C> {
     place: Place,
     /// The vertex that it equals, if that is what keeps it from being one.
     equal: Option<VertexId>,
-    /// The triangle above it, where there is one and it is known.
-    cell: Option<TriangleId>,
+    /// The simplex above it, where there is one and it is known.
+    cell: Option<C>,
 }
 
-/// See the module.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Under {
-    sites: BTreeMap<VertexId, Below>,
-    /// Those whose triangle is known, by triangle.
-    cells: BTreeSet<(TriangleId, VertexId)>,
+/// See the module. A simplex is a `C`.
+#[derive(Clone, Debug)]
+pub(crate) struct Under<C> {
+    sites: BTreeMap<VertexId, Below<C>>,
+    /// Those whose simplex is known, by simplex.
+    cells: BTreeSet<(C, VertexId)>,
     /// Whether those of all are known.
-    pub(super) are_known: bool,
+    pub(crate) are_known: bool,
 }
 
-impl Under {
-    /// Some sites, whose triangles are not known.
-    pub(super) fn new(mut sites: Vec<(VertexId, Place)>) -> Self {
+impl<C> Default for Under<C> {
+    fn default() -> Self {
+        Self { sites: BTreeMap::new(), cells: BTreeSet::new(), are_known: false }
+    }
+}
+
+impl<C: Copy + Ord> Under<C> {
+    /// Some sites, whose simplices are not known.
+    pub(crate) fn new(mut sites: Vec<(VertexId, Place)>) -> Self {
         sites.sort_unstable();
         let below = |(id, place)| (id, Below { place, equal: None, cell: None });
         Self { sites: sites.into_iter().map(below).collect(), ..Self::default() }
     }
 
-    pub(super) fn place(&self, id: VertexId) -> Option<Place> {
+    pub(crate) fn place(&self, id: VertexId) -> Option<Place> {
         self.sites.get(&id).map(|site| site.place)
     }
 
     /// All, by id, with their places.
-    pub(super) fn all(&self) -> impl Iterator<Item = (VertexId, Place)> + '_ {
+    pub(crate) fn all(&self) -> impl Iterator<Item = (VertexId, Place)> + '_ {
         self.sites.iter().map(|(&id, site)| (id, site.place))
     }
 
     /// Those that are hidden.
-    pub(super) fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
+    pub(crate) fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.sites.iter().filter(|(_, site)| site.equal.is_none()).map(|(&id, _)| id)
     }
 
     /// Those that equal a vertex.
-    pub(super) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+    pub(crate) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         self.sites
             .iter()
             .filter_map(|(id, site)| site.equal.map(|vertex| Duplicate { point: id.index(), vertex }))
     }
 
     /// Whether one is hidden.
-    pub(super) fn is_hidden(&self, id: VertexId) -> bool {
+    pub(crate) fn is_hidden(&self, id: VertexId) -> bool {
         self.sites.get(&id).is_some_and(|site| site.equal.is_none())
     }
 
     /// What equals one vertex equals another one from now on.
-    pub(super) fn equal_instead(&mut self, old: VertexId, new: VertexId) {
+    pub(crate) fn equal_instead(&mut self, old: VertexId, new: VertexId) {
         let equal = self.sites.values_mut().filter(|site| site.equal == Some(old));
         equal.for_each(|site| site.equal = Some(new));
     }
 
-    pub(super) fn set_equal(&mut self, id: VertexId, vertex: Option<VertexId>) {
+    pub(crate) fn set_equal(&mut self, id: VertexId, vertex: Option<VertexId>) {
         if let Some(site) = self.sites.get_mut(&id) {
             site.equal = vertex;
         }
     }
 
-    /// Another one, or one at another triangle.
-    pub(super) fn put(
-        &mut self,
-        id: VertexId,
-        place: Place,
-        equal: Option<VertexId>,
-        cell: Option<TriangleId>,
-    ) {
+    /// Another one, or one above another simplex.
+    pub(crate) fn put(&mut self, id: VertexId, place: Place, equal: Option<VertexId>, cell: Option<C>) {
         self.take(id);
         self.sites.insert(id, Below { place, equal, cell });
         self.cells.extend(cell.map(|t| (t, id)));
     }
 
     /// Takes one away.
-    pub(super) fn take(&mut self, id: VertexId) -> Option<Place> {
+    pub(crate) fn take(&mut self, id: VertexId) -> Option<Place> {
         let site = self.sites.remove(&id)?;
         if let Some(t) = site.cell {
             self.cells.remove(&(t, id));
@@ -97,15 +97,15 @@ impl Under {
         Some(site.place)
     }
 
-    /// Takes those away that are above a triangle, or all that were once.
-    pub(super) fn take_from(&mut self, t: TriangleId, taken: &mut Vec<(VertexId, Place)>) {
+    /// Takes those away that were above a simplex, which may be gone.
+    pub(crate) fn take_from(&mut self, t: C, taken: &mut Vec<(VertexId, Place)>) {
         let above = (t, VertexId::new(0))..=(t, VertexId::GHOST);
         let ids: Vec<VertexId> = self.cells.range(above).map(|&(_, id)| id).collect();
         taken.extend(ids.into_iter().filter_map(|id| Some((id, self.take(id)?))));
     }
 
     /// Takes all away.
-    pub(super) fn take_all(&mut self, taken: &mut Vec<(VertexId, Place)>) {
+    pub(crate) fn take_all(&mut self, taken: &mut Vec<(VertexId, Place)>) {
         self.cells.clear();
         taken.extend(std::mem::take(&mut self.sites).into_iter().map(|(id, site)| (id, site.place)));
     }
