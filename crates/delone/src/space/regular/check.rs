@@ -36,13 +36,13 @@ impl Regular3 {
             }
             let t = self.cell_at(site.0);
             let there = self.base.vertex_at(t, site.0);
-            let is_above = match there {
-                Some(w) => self.base.weights[w.index()] >= site.1,
-                None => {
-                    let corners = || self.mesh().cells[t.index()].corners.map(|p| self.base.site(p));
-                    !self.mesh().is_ghost(t) && !f64::is_in_sphere(corners(), site)
-                }
-            };
+            let is_above = there.map_or_else(
+                || {
+                    let corners = self.mesh().cells[t.index()].corners;
+                    !self.mesh().is_ghost(t) && !f64::is_in_sphere(corners.map(|p| self.base.site(p)), site)
+                },
+                |w| self.base.weights[w.index()] >= site.1,
+            );
             if !is_above {
                 return Err(RegularFlaw3::Hidden(v));
             }
