@@ -64,8 +64,8 @@ fn equal_radii_are_none() {
     let place = Place::new();
     place.succeed("-q generate grid -n 400 -o p.csv");
     place.succeed("-q generate ball -n 300 -o q.csv");
-    place.file("one.csv", &"2.5\n".repeat(400));
-    place.file("two.csv", &"-1e3\n".repeat(300));
+    place.file("one.csv", "2.5\n".repeat(400));
+    place.file("two.csv", "-1e3\n".repeat(300));
     for (points, weights) in [("p.csv", "--radii one.csv"), ("q.csv", "--dim 3 --weights two.csv")] {
         let (dim, _) = weights.split_once("--weights").unwrap_or_default();
         place.succeed(&format!("-q triangulate {points} {dim} -o plain.npy"));
