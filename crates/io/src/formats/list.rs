@@ -34,7 +34,7 @@ mod tests {
         let of = |text: &'static str| read(Box::new(Cursor::new(text)));
         assert_eq!(of("weight\n1\n-2.5e3\n").expect("numbers"), [1.0, -2500.0]);
         assert_eq!(of("0.5\n# none\n\n7\n").expect("numbers"), [0.5, 7.0]);
-        assert_eq!(of("").expect("nothing"), []);
+        assert_eq!(of("").expect("nothing"), Vec::<f64>::new());
         let error = of("1\n2,3\n").expect_err("two numbers").to_string();
         assert!(error.contains("line 2") && error.contains("2,3"), "{error}");
         assert!(of("1\nx\n").is_err());
