@@ -68,6 +68,17 @@ fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -
     items
 }
 
+/// Sorts.
+pub(crate) fn sort<T: Ord + Send>(items: &mut [T]) {
+    #[cfg(feature = "rayon")]
+    if parts(items.len()) > 1 {
+        use rayon::prelude::*;
+        items.par_sort_unstable();
+        return;
+    }
+    items.sort_unstable();
+}
+
 /// Cuts a slice into parts that end at given positions, increasing, the last at the end of the slice.
 pub(crate) fn split_at<'a, T>(mut items: &'a mut [T], ends: &[usize]) -> Vec<&'a mut [T]> {
     let mut start = 0;

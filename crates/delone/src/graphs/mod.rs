@@ -1,0 +1,95 @@
+//! Proximity graphs of the vertices: who is a neighbour of whom, by what is near an edge.
+//!
+//! On every set the spanning tree is part of the relative neighbours, these of the Gabriel graph, and that of the Delaunay
+//! triangulation, because of what is open and what is closed: a vertex on the border of the disk with diameter ab is strictly
+//! inside of the lune. So each is a function of the set alone, where both diagonals of a square would be edges of a Gabriel
+//! graph with open disks, and no triangulation has both.
+//!
+//! Sources: Gabriel and Sokal 1969; Toussaint, "The relative neighbourhood graph of a finite planar set", 1980, which
+//! proves the inclusions in general position; Kirkpatrick and Radke 1985 for lunes of any size. A file each: `gabriel`,
+//! `lunes` (what is inside of any lune), `tree`, `nearest`; `net` holds who is joined with whom.
+
+mod gabriel;
+mod lunes;
+mod nearest;
+mod net;
+mod tree;
+
+use crate::error::Error;
+use crate::ids::{Place, VertexId};
+use crate::locate::nearest::Metric;
+use crate::parallel;
+use net::Net;
+
+/// A proximity graph of the vertices of a triangulation; in space disks are balls. For [`Delaunay2::graph`] and
+/// [`Delaunay3::graph`].
+///
+/// Tree, relative neighbours, lunes from 2 down, Gabriel graph, Delaunay triangulation: each is part of the next, on every set.
+///
+/// [`Delaunay2::graph`]: crate::Delaunay2::graph
+/// [`Delaunay3::graph`]: crate::Delaunay3::graph
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Graph {
+    /// Pairs whose closed disk with both on a diameter holds no other vertex. O(n) in the plane.
+    Gabriel,
+    /// Pairs to which no vertex is nearer, strictly and from both, than they are to each other. After the Gabriel graph a
+    /// search an edge of the vertices around its lune: O(n) on evenly spread points, O(n^2) in the worst case.
+    RelativeNeighbors,
+    /// The Euclidean minimum spanning tree: pairs by length, and those of one length by the positions of the
+    /// lexicographically smaller end and then of the other; each that closes no ring is in. O(n log n) after the Gabriel graph.
+    SpanningTree,
+    /// The skeleton of lunes: pairs whose lune holds no other vertex, the meeting of two disks of radius beta/2 times the
+    /// distance, each with one of both on its border and its centre on the ray from there through the other one.
+    ///
+    /// Beta is at least 1: below, a skeleton has edges that the triangulation has not. For 1 the lune is the disk with both on
+    /// a diameter, and closed: the Gabriel graph. Above 1 it is open: 2 gives the relative neighbours, and a larger beta part of the
+    /// edges of a smaller one. Cost as for these; with beta the lunes reach further.
+    Beta(f64),
+    /// Pairs of which one is among so many vertices nearest to the other. Of equally near ones the lexicographically smaller are
+    /// taken, as everywhere. O(n k log k) on evenly spread points.
+    Nearest(usize),
+}
+
+/// A triangulation as proximity graphs see it.
+pub(crate) trait Sites<const D: usize>: Metric<Point = [f64; D]> + Sync {
+    /// The coordinates, by place.
+    fn points(&self) -> &[[f64; D]];
+
+    /// The edges of the Gabriel graph, in no special order.
+    fn gabriel(&self) -> Vec<[Place; 2]> {
+        gabriel::edges(&Net::of(self))
+    }
+}
+
+/// The edges of a graph, each once.
+pub(crate) fn edges<const D: usize>(sites: &impl Sites<D>, graph: Graph) -> Result<Vec<[Place; 2]>, Error> {
+    if let Graph::Beta(beta) = graph
+        && !(beta >= 1.0 && beta.is_finite())
+    {
+        return Err(Error::Parameter { name: "beta", value: beta, range: "from 1 on, and finite" });
+    }
+    let lunes = |beta: f64| lunes::edges(&Net::of(sites), sites.gabriel(), beta);
+    Ok(match graph {
+        Graph::Beta(beta) if beta > 1.0 => lunes(beta),
+        Graph::Gabriel | Graph::Beta(_) => sites.gabriel(),
+        Graph::RelativeNeighbors => lunes(2.0),
+        Graph::SpanningTree => tree::edges(sites.points(), sites.gabriel()),
+        Graph::Nearest(k) => nearest::edges(&Net::of(sites), k),
+    })
+}
+
+/// Pairs of places by the names of what is there: each from the smaller to the larger, sorted, none twice.
+pub(crate) fn named(
+    pairs: Vec<[Place; 2]>,
+    name: impl Fn(Place) -> VertexId + Send + Sync,
+) -> Vec<[VertexId; 2]> {
+    let mut named = parallel::collect(pairs.len(), |i| {
+        let [v, w] = pairs[i].map(&name);
+        [v.min(w), v.max(w)]
+    });
+    drop(pairs);
+    parallel::sort(&mut named);
+    named.dedup();
+    named
+}
