@@ -68,15 +68,10 @@ fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -
     items
 }
 
-/// Sorts.
-pub(crate) fn sort<T: Ord + Send>(items: &mut [T]) {
-    #[cfg(feature = "rayon")]
-    if parts(items.len()) > 1 {
-        use rayon::prelude::*;
-        items.par_sort_unstable();
-        return;
-    }
-    items.sort_unstable();
+/// The indices of items, in as many ranges as work on them is cut into.
+pub(crate) fn ranges(items: usize) -> Vec<std::ops::Range<usize>> {
+    let mut from = 0;
+    even_ends(items, parts(items)).into_iter().map(|to| std::mem::replace(&mut from, to)..to).collect()
 }
 
 /// Cuts a slice into parts that end at given positions, increasing, the last at the end of the slice.

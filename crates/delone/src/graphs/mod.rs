@@ -15,6 +15,8 @@ mod nearest;
 mod net;
 mod tree;
 
+use std::ops::Range;
+
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::Metric;
@@ -79,17 +81,52 @@ pub(crate) fn edges<const D: usize>(sites: &impl Sites<D>, graph: Graph) -> Resu
     })
 }
 
-/// Pairs of places by the names of what is there: each from the smaller to the larger, sorted, none twice.
+/// Pairs of places by the names of what is there, below `ids`: each from the smaller to the larger, sorted, none twice.
+///
+/// Pairs are put to their smaller ends, of which each thread has a range; then there is little to sort. O(n).
 pub(crate) fn named(
     pairs: Vec<[Place; 2]>,
+    ids: usize,
     name: impl Fn(Place) -> VertexId + Send + Sync,
 ) -> Vec<[VertexId; 2]> {
-    let mut named = parallel::collect(pairs.len(), |i| {
+    let named = parallel::collect(pairs.len(), |i| {
         let [v, w] = pairs[i].map(&name);
         [v.min(w), v.max(w)]
     });
     drop(pairs);
-    parallel::sort(&mut named);
-    named.dedup();
-    named
+    let ends =
+        parallel::even_ends(ids, if parallel::parts(named.len()) > 1 { parallel::threads() } else { 1 });
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    let mut lists = parallel::map(starts.zip(&ends).collect(), |(from, &to)| sorted(&named, from..to));
+    if lists.len() > 1 { lists.concat() } else { lists.pop().unwrap_or_default() }
+}
+
+/// The pairs whose smaller end is in a range, sorted, none twice.
+fn sorted(pairs: &[[VertexId; 2]], range: Range<usize>) -> Vec<[VertexId; 2]> {
+    let within = || pairs.iter().filter(|[v, _]| range.contains(&v.index()));
+    // Where the other ends of each begin, and when all are there, where they end.
+    let mut places = vec![0_usize; range.len() + 1];
+    within().for_each(|[v, _]| places[v.index() - range.start + 1] += 1);
+    let mut sum = 0;
+    for place in &mut places {
+        sum += *place;
+        *place = sum;
+    }
+    let mut others = vec![VertexId::GHOST; sum];
+    for [v, w] in within() {
+        let place = &mut places[v.index() - range.start];
+        others[*place] = *w;
+        *place += 1;
+    }
+    let (mut sorted, mut from) = (Vec::with_capacity(sum), 0);
+    for (v, to) in range.map(VertexId::new).zip(places) {
+        let others = &mut others[std::mem::replace(&mut from, to)..to];
+        others.sort_unstable();
+        for (k, &w) in others.iter().enumerate() {
+            if k == 0 || others[k - 1] != w {
+                sorted.push([v, w]);
+            }
+        }
+    }
+    sorted
 }

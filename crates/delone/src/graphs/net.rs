@@ -51,10 +51,7 @@ impl<'a, const D: usize> Net<'a, D> {
 
 /// Works on consecutive parts of a list on all threads, and gives the results in their order.
 pub(super) fn in_parts<T: Sync, R: Send>(items: &[T], work: impl Fn(&[T]) -> R + Send + Sync) -> Vec<R> {
-    let mut from = 0;
-    let cut = |to: usize| &items[std::mem::replace(&mut from, to)..to];
-    let parts = parallel::even_ends(items.len(), parallel::parts(items.len())).into_iter().map(cut).collect();
-    parallel::map(parts, work)
+    parallel::map(parallel::ranges(items.len()), |range| work(&items[range]))
 }
 
 /// Places met in a search of few.

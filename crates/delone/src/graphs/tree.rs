@@ -7,8 +7,6 @@
 //! Cost: O(log n) rounds at most, as each halves the number of parts; on evenly spread points rounds get shorter so fast that
 //! all together are O(n).
 
-use std::cmp::Ordering;
-
 use delone_predicates::{Length, compare_lengths};
 
 use crate::ids::Place;
@@ -29,55 +27,71 @@ struct Link {
 /// The edges of the tree of a connected graph, in no special order.
 pub(super) fn edges<const D: usize>(points: &[[f64; D]], graph: Vec<[Place; 2]>) -> Vec<[Place; 2]> {
     let ends = |edge: u32| graph[edge as usize].map(|v| points[v.index()]);
-    let comes_before = |one: &Link, other: &Link| {
-        let exact = || {
-            let [one, other] = [one, other].map(|link| ends(link.edge));
-            compare_lengths(one, other)
-                .then_with(|| in_order(one).partial_cmp(&in_order(other)).expect("finite"))
-        };
-        one.length.compare(other.length).unwrap_or_else(exact) == Ordering::Less
+    let exact_order = |one: &Link, other: &Link| {
+        let [one, other] = [one, other].map(|link| ends(link.edge));
+        compare_lengths(one, other).then_with(|| in_order(one).partial_cmp(&in_order(other)).expect("finite"))
     };
-    let mut links = parallel::collect(graph.len(), |i| {
+    let mut numbers = Numbers::of(points.len());
+    let mut links: Vec<Link> = parallel::collect(graph.len(), |i| {
         let [a, b] = graph[i].map(|v| v.index());
         Link { parts: [a as u32, b as u32], length: Length::between(&points[a], &points[b]), edge: i as u32 }
     });
-    let (mut parts, mut tree) = (points.len(), Vec::new());
+    links.iter_mut().for_each(|link| link.parts = link.parts.map(|place| numbers.of_next(place)));
+    let mut tree = Vec::new();
     while !links.is_empty() {
-        let mut first = vec![NONE; parts];
+        let parts = numbers.count as usize;
+        // Lengths beside, because that of the first edge so far is asked for again and again.
+        let mut first = vec![(NONE, Length::default()); parts];
         for (i, link) in links.iter().enumerate() {
             for part in link.parts {
-                let best = &mut first[part as usize];
-                if *best == NONE || comes_before(link, &links[*best as usize]) {
-                    *best = i as u32;
+                let (best, length) = &mut first[part as usize];
+                let is_before = |best: u32| match link.length.compare(*length) {
+                    Some(order) => order.is_lt(),
+                    None => exact_order(link, &links[best as usize]).is_lt(),
+                };
+                if *best == NONE || is_before(*best) {
+                    (*best, *length) = (i as u32, link.length);
                 }
             }
         }
         let mut forest = Forest((0..parts as u32).collect());
-        for &link in first.iter().filter(|&&i| i != NONE) {
-            let link = links[link as usize];
+        for &(i, _) in first.iter().filter(|&&(i, _)| i != NONE) {
+            let link = links[i as usize];
             if forest.join(link.parts) {
                 tree.push(graph[link.edge as usize]);
             }
         }
-        let mut numbers = vec![NONE; parts];
-        parts = 0;
+        numbers = Numbers::of(parts);
         links.retain_mut(|link| {
             let roots = link.parts.map(|part| forest.root(part));
-            if roots[0] == roots[1] {
-                return false;
+            if roots[0] != roots[1] {
+                link.parts = roots.map(|root| numbers.of_next(root));
             }
-            link.parts = roots.map(|root| {
-                let number = &mut numbers[root as usize];
-                if *number == NONE {
-                    *number = parts as u32;
-                    parts += 1;
-                }
-                *number
-            });
-            true
+            roots[0] != roots[1]
         });
     }
     tree
+}
+
+/// New numbers of parts, from 0 in the order in which they are asked for.
+struct Numbers {
+    new: Vec<u32>,
+    count: u32,
+}
+
+impl Numbers {
+    fn of(parts: usize) -> Self {
+        Self { new: vec![NONE; parts], count: 0 }
+    }
+
+    fn of_next(&mut self, part: u32) -> u32 {
+        let number = &mut self.new[part as usize];
+        if *number == NONE {
+            *number = self.count;
+            self.count += 1;
+        }
+        *number
+    }
 }
 
 /// The ends of an edge, the lexicographically smaller first.

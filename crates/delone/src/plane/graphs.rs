@@ -1,13 +1,16 @@
 //! Proximity graphs of the plane; what they are and how they are found is told in `graphs/`.
 
+use std::ops::Range;
+
 use delone_predicates::in_diametral_ball;
 
 use super::Delaunay2;
 use super::layer::Layer;
 use crate::error::Error;
 use crate::graphs::{self, Graph, Sites};
-use crate::ids::{Place, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::parallel;
+use crate::prefetch::prefetch;
 
 impl Sites<2> for Layer {
     fn points(&self) -> &[[f64; 2]] {
@@ -15,31 +18,56 @@ impl Sites<2> for Layer {
     }
 
     /// Of all vertices the corners across an edge are seen from at the widest angles, so none is in the closed disk if these are
-    /// not.
+    /// not. The angles of a triangle are asked at once, because its corners are at hand.
     fn gabriel(&self) -> Vec<[Place; 2]> {
         let mesh = &self.mesh;
-        let point = |v: Place| self.points[v.index()];
-        let part = |[from, to]: [usize; 2]| {
-            let mut edges = Vec::new();
-            for t in (from..to).map(TriangleId::new).filter(|&t| mesh.is_triangle(t)) {
-                for e in [0, 1, 2].map(|k| t.edge(k)) {
-                    let (twin, ends) = (mesh.twin(e), [mesh.tail(e), mesh.head(e)]);
-                    if e > twin || ends.contains(&Place::GHOST) {
-                        continue;
-                    }
-                    let [a, b] = ends.map(point);
-                    let is_clear = |v: Place| v.is_ghost() || !in_diametral_ball(a, b, point(v));
-                    if is_clear(mesh.tip(e)) && is_clear(mesh.tip(twin)) {
-                        edges.push(ends);
+        let clear = parallel::collect(mesh.slot_count(), |t| self.clear_sides(t));
+        let is_clear = |e: EdgeId| clear[e.triangle().index()] >> (e.index() % 4) & 1 == 1;
+        let part = |triangles: Range<usize>| {
+            let mut edges = Vec::with_capacity(triangles.len());
+            // Whether an edge is in is as good as random: all are written to a short list, and it is kept how many count.
+            let mut some = [[Place::GHOST; 2]; 3 * 64];
+            for from in triangles.clone().step_by(64) {
+                let mut count = 0;
+                for t in (from..triangles.end.min(from + 64)).map(TriangleId::new) {
+                    let places = mesh.places(t);
+                    for k in 0..3 {
+                        let (e, twin) = (t.edge(k), mesh.twin(t.edge(k)));
+                        some[count] = [places[k], places[(k + 1) % 3]];
+                        count +=
+                            usize::from(is_clear(e) & (e < twin) & (twin != EdgeId::NONE && is_clear(twin)));
                     }
                 }
+                edges.extend_from_slice(&some[..count]);
             }
             edges
         };
-        let ends = parallel::even_ends(mesh.slot_count(), parallel::parts(mesh.slot_count()));
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        let ranges = starts.zip(&ends).map(|(from, &to)| [from, to]).collect();
-        parallel::map(ranges, part).concat()
+        parallel::map(parallel::ranges(mesh.slot_count()), part).concat()
+    }
+}
+
+impl Layer {
+    /// For each edge of a slot a bit: whether it is a finite edge in whose closed disk the corner across is not. A triangle far
+    /// ahead is asked for, as corners may be anywhere in memory.
+    #[inline]
+    fn clear_sides(&self, t: usize) -> u8 {
+        /// As many triangles as pass while memory answers.
+        const AHEAD: usize = 24;
+        let mesh = &self.mesh;
+        if let Some(record) = mesh.edges.get(4 * (t + AHEAD)..4 * (t + AHEAD) + 3) {
+            record.iter().for_each(|edge| prefetch(&self.points, edge.origin.index()));
+        }
+        let t = TriangleId::new(t);
+        if !mesh.is_triangle(t) {
+            return 0;
+        }
+        let places = mesh.places(t);
+        if let Some(k) = places.iter().position(|v| v.is_ghost()) {
+            return 1 << ((k + 1) % 3);
+        }
+        let [a, b, c] = places.map(|v| self.points[v.index()]);
+        let is_clear = |a, b, c| u8::from(!in_diametral_ball(a, b, c));
+        is_clear(a, b, c) | is_clear(b, c, a) << 1 | is_clear(c, a, b) << 2
     }
 }
 
@@ -64,6 +92,6 @@ impl Delaunay2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn graph(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, Error> {
-        Ok(graphs::named(graphs::edges(&self.base, graph)?, |v| self.mesh().name(v)))
+        Ok(graphs::named(graphs::edges(&self.base, graph)?, self.points().len(), |v| self.mesh().name(v)))
     }
 }

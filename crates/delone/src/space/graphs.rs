@@ -5,6 +5,7 @@ use super::layer::Layer;
 use crate::error::Error;
 use crate::graphs::{self, Graph, Sites};
 use crate::ids::VertexId;
+use crate::triangulation::Triangulation;
 
 impl Sites<3> for Layer {
     fn points(&self) -> &[[f64; 3]] {
@@ -31,6 +32,6 @@ impl Delaunay3 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn graph(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, Error> {
-        Ok(graphs::named(graphs::edges(&self.base, graph)?, |v| self.mesh().name(v)))
+        Ok(graphs::named(graphs::edges(&self.base, graph)?, self.ids_given(), |v| self.mesh().name(v)))
     }
 }
