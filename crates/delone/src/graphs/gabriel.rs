@@ -6,24 +6,25 @@
 //!
 //! Cost: the sum of squared degrees at worst, and few tests an edge where it is none of the graph.
 
+use std::ops::Range;
+
 use delone_predicates::in_diametral_ball;
 
-use super::net::{Net, in_parts};
+use super::net::Net;
 use crate::ids::Place;
 
 pub(super) fn edges<const D: usize>(net: &Net<D>) -> Vec<[Place; 2]> {
-    let part = |places: &[Place]| {
+    net.gather(|ranks: Range<u32>| {
         let mut edges = Vec::new();
-        for &v in places {
+        for v in ranks {
             let (a, around) = (net.point(v), net.neighbors(v));
             for &w in around.iter().filter(|&&w| w > v) {
                 let b = net.point(w);
-                if !around.iter().any(|&c| c != w && in_diametral_ball(a, b, net.point(c))) {
+                if !around.iter().any(|&c| c != w && in_diametral_ball(*a, *b, *net.point(c))) {
                     edges.push([v, w]);
                 }
             }
         }
         edges
-    };
-    in_parts(&net.places, part).concat()
+    })
 }

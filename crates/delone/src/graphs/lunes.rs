@@ -9,28 +9,29 @@
 
 use delone_predicates::{Lune, LunePlace};
 
-use super::net::{Met, Net, in_parts};
+use super::net::{Met, Net};
 use crate::ids::Place;
+use crate::parallel;
 
 /// The edges among some whose lune is empty, for a finite `beta` above 1.
-pub(super) fn edges<const D: usize>(net: &Net<D>, among: Vec<[Place; 2]>, beta: f64) -> Vec<[Place; 2]> {
-    let part = |edges: &[[Place; 2]]| {
-        let mut search = Search::default();
-        edges.iter().copied().filter(|&edge| search.is_empty(net, edge, beta)).collect::<Vec<_>>()
+pub(super) fn edges<const D: usize>(net: &Net<D>, among: &[[Place; 2]], beta: f64) -> Vec<[Place; 2]> {
+    let part = |range: std::ops::Range<usize>| {
+        let mut search = Search { queue: Vec::new(), met: Met::new() };
+        let is_in = |edge: &[Place; 2]| search.is_empty(net, net.ranks(*edge), beta);
+        among[range].iter().copied().filter(is_in).collect::<Vec<_>>()
     };
-    in_parts(&among, part).concat()
+    parallel::map(parallel::ranges(among.len()), part).concat()
 }
 
 /// Buffers.
-#[derive(Default)]
 struct Search {
-    queue: Vec<Place>,
+    queue: Vec<u32>,
     met: Met,
 }
 
 impl Search {
-    fn is_empty<const D: usize>(&mut self, net: &Net<D>, edge: [Place; 2], beta: f64) -> bool {
-        let [a, b] = edge.map(|v| net.point(v));
+    fn is_empty<const D: usize>(&mut self, net: &Net<D>, edge: [u32; 2], beta: f64) -> bool {
+        let [a, b] = edge.map(|v| *net.point(v));
         let lune = Lune::new(a, b, beta);
         self.queue.clear();
         self.queue.extend(edge);
@@ -42,13 +43,11 @@ impl Search {
         while let Some(&v) = self.queue.get(k) {
             k += 1;
             for &w in net.neighbors(v) {
-                match lune.place(&net.points[w.index()]) {
-                    LunePlace::Away => {}
-                    LunePlace::Inside => return false,
-                    LunePlace::Beside => {
-                        if self.met.insert(w) {
-                            self.queue.push(w);
-                        }
+                if self.met.insert(w) {
+                    match lune.place(net.point(w)) {
+                        LunePlace::Away => {}
+                        LunePlace::Inside => return false,
+                        LunePlace::Beside => self.queue.push(w),
                     }
                 }
             }

@@ -15,13 +15,14 @@ mod nearest;
 mod net;
 mod tree;
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::Metric;
 use crate::parallel;
-use net::Net;
+pub(crate) use net::Net;
 
 /// A proximity graph of the vertices of a triangulation; in space disks are balls. For [`Delaunay2::graph`] and
 /// [`Delaunay3::graph`].
@@ -58,9 +59,14 @@ pub(crate) trait Sites<const D: usize>: Metric<Point = [f64; D]> + Sync {
     /// The coordinates, by place.
     fn points(&self) -> &[[f64; D]];
 
-    /// The edges of the Gabriel graph, in no special order.
-    fn gabriel(&self) -> Vec<[Place; 2]> {
-        gabriel::edges(&Net::of(self))
+    /// The places in use, so that what is near each other is mostly near in the list.
+    fn along_curve(&self) -> Vec<Place> {
+        self.inhabited().collect()
+    }
+
+    /// The edges of the Gabriel graph, in no special order; of the net, which is made at the first call, if need be.
+    fn gabriel<'a>(&self, net: &dyn Fn() -> &'a Net<D>) -> Vec<[Place; 2]> {
+        gabriel::edges(net())
     }
 }
 
@@ -71,13 +77,16 @@ pub(crate) fn edges<const D: usize>(sites: &impl Sites<D>, graph: Graph) -> Resu
     {
         return Err(Error::Parameter { name: "beta", value: beta, range: "from 1 on, and finite" });
     }
-    let lunes = |beta: f64| lunes::edges(&Net::of(sites), sites.gabriel(), beta);
+    let made = OnceCell::new();
+    let net = || made.get_or_init(|| Net::of(sites));
+    let gabriel = || sites.gabriel(&net);
+    let lunes = |beta: f64| lunes::edges(net(), &gabriel(), beta);
     Ok(match graph {
         Graph::Beta(beta) if beta > 1.0 => lunes(beta),
-        Graph::Gabriel | Graph::Beta(_) => sites.gabriel(),
+        Graph::Gabriel | Graph::Beta(_) => gabriel(),
         Graph::RelativeNeighbors => lunes(2.0),
-        Graph::SpanningTree => tree::edges(sites.points(), sites.gabriel()),
-        Graph::Nearest(k) => nearest::edges(&Net::of(sites), k),
+        Graph::SpanningTree => tree::edges(sites.points(), gabriel()),
+        Graph::Nearest(k) => nearest::edges(net(), k),
     })
 }
 

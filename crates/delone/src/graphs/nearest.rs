@@ -9,51 +9,56 @@ use std::cmp::Ordering;
 
 use delone_predicates::{Length, compare_lengths};
 
-use super::net::{Met, Net, in_parts};
+use super::net::{Met, Net};
 use crate::ids::Place;
 
 /// The edges, some of them twice.
 pub(super) fn edges<const D: usize>(net: &Net<D>, k: usize) -> Vec<[Place; 2]> {
-    let part = |places: &[Place]| {
-        let mut search = Search::default();
+    net.gather(|ranks| {
+        let mut search = Search { waiting: Vec::new(), met: Met::new() };
         let mut edges = Vec::new();
-        for &v in places {
-            search.run(net, v, k, |w| edges.push([v.min(w), v.max(w)]));
+        for v in ranks {
+            search.run(net, v, k, |w| edges.push([v, w]));
         }
-        edges.sort_unstable();
-        edges.dedup();
         edges
-    };
-    in_parts(&net.places, part).concat()
+    })
 }
 
 /// Buffers.
-#[derive(Default)]
 struct Search {
     /// The furthest first.
-    waiting: Vec<(Length, Place)>,
+    waiting: Vec<(Length, u32)>,
     met: Met,
 }
 
 impl Search {
     /// Calls for the vertices nearest to one.
-    fn run<const D: usize>(&mut self, net: &Net<D>, v: Place, k: usize, mut each: impl FnMut(Place)) {
-        let q = net.point(v);
-        let order = |(one, a): (Length, Place), (two, b): (Length, Place)| -> Ordering {
-            let [a, b] = [a, b].map(|v| net.point(v));
-            let exact = || compare_lengths([q, a], [q, b]).then_with(|| a.partial_cmp(&b).expect("finite"));
-            one.compare(two).unwrap_or_else(exact)
+    fn run<const D: usize>(&mut self, net: &Net<D>, v: u32, k: usize, mut each: impl FnMut(u32)) {
+        let q = *net.point(v);
+        let order = |one: (Length, u32), other: (Length, u32)| -> Ordering {
+            let exact = || {
+                let [a, b] = [one.1, other.1].map(|v| *net.point(v));
+                compare_lengths([q, a], [q, b]).then_with(|| a.partial_cmp(&b).expect("finite"))
+            };
+            one.0.compare(other.0).unwrap_or_else(exact)
         };
         self.waiting.clear();
         self.met.clear();
         self.met.insert(v);
         let mut last = v;
-        for _ in 0..k {
+        for found in 0..k {
             for &w in net.neighbors(last) {
-                if self.met.insert(w) {
-                    let item = (Length::between(&q, &net.points[w.index()]), w);
-                    let at = self.waiting.partition_point(|&other| order(other, item).is_gt());
+                if !self.met.insert(w) {
+                    continue;
+                }
+                let item = (Length::between(&q, net.point(w)), w);
+                let at = self.waiting.partition_point(|&other| order(other, item).is_gt());
+                // No more than are wanted are kept.
+                if at > 0 || self.waiting.len() < k - found {
                     self.waiting.insert(at, item);
+                    if self.waiting.len() > k - found {
+                        self.waiting.remove(0);
+                    }
                 }
             }
             let Some((_, nearest)) = self.waiting.pop() else { break };

@@ -7,7 +7,7 @@ use delone_predicates::in_diametral_ball;
 use super::Delaunay2;
 use super::layer::Layer;
 use crate::error::Error;
-use crate::graphs::{self, Graph, Sites};
+use crate::graphs::{self, Graph, Net, Sites};
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::parallel;
 use crate::prefetch::prefetch;
@@ -17,9 +17,18 @@ impl Sites<2> for Layer {
         &self.points
     }
 
+    /// As triangles come to them, which lie along a curve where vertices need not.
+    fn along_curve(&self) -> Vec<Place> {
+        let mesh = &self.mesh;
+        let slots = (0..mesh.slot_count()).map(TriangleId::new);
+        let edges = slots.flat_map(|t| [0, 1, 2].map(|k| t.edge(k)));
+        let first = edges.filter(|&e| mesh.incident.get(mesh.tail(e).index()) == Some(&e));
+        mesh.lone.into_iter().chain(first.map(|e| mesh.tail(e))).collect()
+    }
+
     /// Of all vertices the corners across an edge are seen from at the widest angles, so none is in the closed disk if these are
     /// not. The angles of a triangle are asked at once, because its corners are at hand.
-    fn gabriel(&self) -> Vec<[Place; 2]> {
+    fn gabriel<'a>(&self, _: &dyn Fn() -> &'a Net<2>) -> Vec<[Place; 2]> {
         let mesh = &self.mesh;
         let clear = parallel::collect(mesh.slot_count(), |t| self.clear_sides(t));
         let is_clear = |e: EdgeId| clear[e.triangle().index()] >> (e.index() % 4) & 1 == 1;
