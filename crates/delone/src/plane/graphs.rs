@@ -43,8 +43,8 @@ impl Sites<2> for Layer {
                     for k in 0..3 {
                         let (e, twin) = (t.edge(k), mesh.twin(t.edge(k)));
                         some[count] = [places[k], places[(k + 1) % 3]];
-                        count +=
-                            usize::from(is_clear(e) & (e < twin) & (twin != EdgeId::NONE && is_clear(twin)));
+                        let [own, other] = [is_clear(e), twin != EdgeId::NONE && is_clear(twin)];
+                        count += usize::from(own & other & (e < twin));
                     }
                 }
                 edges.extend_from_slice(&some[..count]);
