@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.sparse.csgraph import minimum_spanning_tree
 from scipy.spatial import cKDTree
-from scipy.spatial.distance import squareform, pdist
+from scipy.spatial.distance import pdist, squareform
 
 rng = np.random.default_rng(7)
 
@@ -42,7 +42,7 @@ def by_definition(points, is_in_the_way):
     return free
 
 
-@pytest.mark.parametrize("points", sets())
+@pytest.mark.parametrize("points", list(sets()))
 def test_graphs_are_as_defined_and_nested(points):
     gabriel = pairs(delone.gabriel_graph(points))
     relative = pairs(delone.relative_neighborhood_graph(points))

@@ -23,7 +23,7 @@ use crate::distance::{ERROR, told};
 use crate::{Sign, exact};
 
 /// Below beta times this a size could be wrong by more than the error bound.
-const SMALLEST: f64 = 1e-290;
+pub(crate) const SMALLEST: f64 = 1e-290;
 
 /// The lune of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -60,8 +60,8 @@ def beta_skeleton(points: ArrayLike, beta: float, *, as_arrays: bool = False) ->
     """The skeleton of lunes: pairs whose lune holds no other point, the meeting of two disks of radius beta/2 times their
     distance, each with one of both on its border and its centre on the ray from there through the other one.
 
-    For `beta` 1 the lune is closed: the Gabriel graph. Above it is open: 2 gives the relative neighbours, and a larger `beta` part
-    of the edges of a smaller one. Below 1, where a skeleton is no part of the triangulation, it is a ValueError.
+    For `beta` 1 the lune is closed: the Gabriel graph. Above it is open: 2 gives the relative neighbours, and a larger `beta`
+    part of the edges of a smaller one. Below 1, where a skeleton is no part of the triangulation, it is a ValueError.
     Other parameters and results as for `gabriel_graph`.
     """
     return _graph(points, "beta", float(beta), as_arrays)
