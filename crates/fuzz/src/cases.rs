@@ -7,8 +7,8 @@ use delone_generators::Random;
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
-    broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, plane, predicates,
-    proximity, space,
+    broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, plane, predicates, proximity,
+    space,
 };
 
 /// An input of some attack.

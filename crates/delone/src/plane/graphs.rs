@@ -31,7 +31,7 @@ impl Sites<2> for Layer {
     fn gabriel<'a>(&self, _: &dyn Fn() -> &'a Net<2>) -> Vec<[Place; 2]> {
         let mesh = &self.mesh;
         let clear = parallel::collect(mesh.slot_count(), |t| self.clear_sides(t));
-        let is_clear = |e: EdgeId| clear[e.triangle().index()] >> (e.index() % 4) & 1 == 1;
+        let bit = |e: EdgeId| clear.get(e.triangle().index()).map_or(0, |sides| sides >> (e.index() % 4) & 1);
         let part = |triangles: Range<usize>| {
             let mut edges = Vec::with_capacity(triangles.len());
             // Whether an edge is in is as good as random: all are written to a short list, and it is kept how many count.
@@ -43,8 +43,7 @@ impl Sites<2> for Layer {
                     for k in 0..3 {
                         let (e, twin) = (t.edge(k), mesh.twin(t.edge(k)));
                         some[count] = [places[k], places[(k + 1) % 3]];
-                        let [own, other] = [is_clear(e), twin != EdgeId::NONE && is_clear(twin)];
-                        count += usize::from(own & other & (e < twin));
+                        count += usize::from(bit(e) & bit(twin) & u8::from(e < twin));
                     }
                 }
                 edges.extend_from_slice(&some[..count]);

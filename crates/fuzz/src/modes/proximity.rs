@@ -46,7 +46,8 @@ fn judge<const D: usize>(
     graph: impl Fn(Graph) -> Result<Vec<[VertexId; 2]>, Error>,
 ) -> Judgement {
     let mut random = Random::new(seed);
-    let beta = [1.0 + random.unit(), 2.0, 1.0_f64.next_up(), 1.0 + nasty::power(&mut random, -60, 1000)][random.below(4)];
+    let beta = [1.0 + random.unit(), 2.0, 1.0_f64.next_up(), 1.0 + nasty::power(&mut random, -60, 1000)]
+        [random.below(4)];
     let k = random.below(points.len() + 2);
     let mut found = Vec::new();
     for (graph_of, expected) in [
