@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Writes docs/performance.md: figures of the machine that runs it. `bash docs/performance.sh [POINTS]`, about ten minutes.
+# Writes docs/performance.md: figures of the machine that runs it. `bash docs/performance.sh [POINTS]`, about twenty minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 points=${1:-1000000}
@@ -32,6 +32,10 @@ TEXT
     compare --changes --size $((points / 4)) --runs 2 --kinds uniform,clusters
     printf '\n## Space\n\n'
     compare --space cube,sphere --size $((points / 10)) --runs 2
+    printf '\n## Segments: constrained triangulations\n\n'
+    compare --constrained --size "$points" --runs 3
+    printf '\n## Polygons: the triangles inside, many polygons of the same size\n\n'
+    compare --polygons --size $((points / 10)) --runs 3
     printf '\n## Voronoi cells\n\n'
     compare --voronoi --size $((points / 10)) --runs 2 --kinds uniform,grid
     printf '\n## Convex hulls in space\n\n'

@@ -16,6 +16,14 @@ pub enum Error {
         /// The coordinate.
         value: f64,
     },
+    /// A weight is NaN or infinite.
+    #[error("site {index} has the weight {value}, which is not finite")]
+    Weight {
+        /// The index of the site in the input.
+        index: usize,
+        /// The weight.
+        value: f64,
+    },
     /// More points than 32-bit edge indices can serve.
     #[error("{count} points are more than the {most} that one triangulation holds")]
     TooManyPoints {

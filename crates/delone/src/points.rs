@@ -157,6 +157,14 @@ pub(crate) fn check_finite<const D: usize>(points: impl IntoIterator<Item = [f64
     Ok(())
 }
 
+/// Whether all weights are finite, or the first that is not.
+pub(crate) fn check_weights(weights: &[f64]) -> Result<(), Error> {
+    match weights.iter().position(|w| !w.is_finite()) {
+        Some(index) => Err(Error::Weight { index, value: weights[index] }),
+        None => Ok(()),
+    }
+}
+
 /// Whether points are not too many.
 pub(crate) fn check_count(count: usize, most: usize) -> Result<(), Error> {
     if count > most { Err(Error::TooManyPoints { count, most }) } else { Ok(()) }

@@ -8,9 +8,11 @@
 //! underflow, and a ceiling on the operands that makes the floor valid. Overflow gives an infinite or NaN
 //! comparison, which no bound passes: the exact stage decides.
 
+mod power;
 mod scaled;
 mod space;
 
+pub(crate) use power::{in_power_circle_filter, in_power_sphere_filter};
 pub(crate) use scaled::{in_circle_scaled, in_sphere_scaled, orient2d_scaled, orient3d_scaled};
 pub use space::Filter3;
 pub(crate) use space::{in_sphere_filter, orient3d_filter};
@@ -139,6 +141,14 @@ impl Grid {
         // What is smaller than a step is no multiple of it, but its number of steps may be rounded to zero.
         let steps = x / self.step;
         x == 0.0 || (x.abs() >= self.step && steps.abs() <= 9_007_199_254_740_992.0 && steps.fract() == 0.0)
+    }
+}
+
+impl Grid {
+    /// Whether a weight is a multiple of the square of the step, and not beyond 2^53 of them: lengths of the lattice and such weights are
+    /// told apart by plain arithmetic.
+    pub fn holds_square(&self, weight: f64) -> bool {
+        Self { step: self.step * self.step }.holds(weight)
     }
 }
 

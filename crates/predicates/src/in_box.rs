@@ -1,5 +1,9 @@
 //! Decisions in space for points of one box, by the filter of that box and by the points where it cannot tell.
 
+mod power;
+
+pub use power::SiteRef;
+
 use std::ops::{Add, Mul, Sub};
 
 use wide::f64x2;

@@ -45,6 +45,7 @@ mod orient3d;
 mod pencil;
 mod perturb;
 mod plane;
+mod power;
 mod sign;
 #[cfg(test)]
 mod stages;
@@ -59,6 +60,7 @@ pub use distance::{
     segment_keeps_away,
 };
 pub use filter::{Filter, Filter3, Grid};
+pub use in_box::SiteRef;
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};
 pub use length::{Length, compare_lengths};
@@ -69,6 +71,10 @@ pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d};
 pub use pencil::{Member, Pencil};
 pub use plane::Plane;
+pub use power::{
+    compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,
+    in_power_sphere_with_ties,
+};
 pub use sign::Sign;
 
 /// A point of the plane: x, then y. Both finite.
@@ -76,3 +82,6 @@ pub type Point2 = [f64; 2];
 
 /// A point of space: x, y, z. All finite.
 pub type Point3 = [f64; 3];
+
+/// A point with a weight, the square of a radius in the units of the coordinates; it may be negative. All numbers are finite.
+pub type Site<const D: usize> = ([f64; D], f64);

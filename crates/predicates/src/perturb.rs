@@ -7,7 +7,11 @@
 //! order e1, e2, ...; the coefficient of a point is, up to sign, the orientation of the other three.
 //!
 //! Four distinct cocircular points have no collinear triple, so the first coefficient always decides. In space four of
-//! five cospherical points may be coplanar: then the next one is asked.
+//! five cospherical points may be coplanar, and with weights three of four in the plane collinear: then the next one is asked.
+//!
+//! With weights a site above the lower hull of the others is no vertex. The perturbation makes none of that: among sites whose
+//! lifted points are on one plane, raising them one after the other places them from the smallest on, and each is outside of
+//! the hull of those before it, so each becomes a vertex. An order by index would hide some.
 
 use crate::{Point2, Point3, Sign, lexicographic, orient2d};
 
@@ -24,6 +28,19 @@ pub(crate) fn in_circle_perturbed(a: Point2, b: Point2, c: Point2, d: Point2) ->
     } else {
         orient2d(a, b, d)
     }
+}
+
+/// The same for points with weights, whose determinant is zero though one of them may be on the line of two others.
+pub(crate) fn in_power_circle_perturbed([a, b, c, d]: [Point2; 4]) -> Sign {
+    let mut descending = [(a, 0), (b, 1), (c, 2), (d, 3)];
+    descending.sort_unstable_by(|p, q| lexicographic(q.0, p.0));
+    let coefficients = descending.map(|(_, k)| match k {
+        0 => orient2d(d, b, c),
+        1 => orient2d(a, d, c),
+        2 => orient2d(a, b, d),
+        _ => -orient2d(a, b, c),
+    });
+    coefficients.into_iter().find(|sign| !sign.is_zero()).unwrap_or(Sign::Zero)
 }
 
 /// The sign of the perturbed in-sphere determinant of five points whose determinant is zero, by an orientation test that is

@@ -9,6 +9,7 @@ mod proximity;
 mod shapes;
 mod strategy;
 mod triangulate;
+mod weights;
 
 use std::path::{Path, PathBuf};
 
@@ -24,6 +25,7 @@ pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
+pub(crate) use weights::WeightArgs;
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]

@@ -22,6 +22,20 @@ pub(crate) fn insertion_order(points: &[[f64; 2]], seed: u64) -> Vec<u32> {
     indices
 }
 
+/// The indices of points along the curve.
+pub(crate) fn curve(points: &[[f64; 2]]) -> Vec<u32> {
+    let mut indices: Vec<u32> = (0..points.len() as u32).collect();
+    along_curve(points, &mut indices);
+    indices
+}
+
+/// The order of [`insertion_order`] for so many points that are along the curve already.
+pub(crate) fn rounds(count: usize, seed: u64) -> Vec<u32> {
+    let mut indices: Vec<u32> = (0..count as u32).collect();
+    deal(&mut indices, seed, <[u32]>::sort_unstable);
+    indices
+}
+
 /// Deals items into rounds, and puts each of them in order.
 pub(crate) fn deal<T>(items: &mut [T], seed: u64, put_in_order: impl Fn(&mut [T])) {
     let mut random = SplitMix(seed);

@@ -5,11 +5,13 @@
 //! edge has the vertex across it inside the circle of its triangle (Delaunay's lemma: local implies global, for
 //! the perturbed points too), fixed edges apart. Cost: O(n).
 //!
-//! That every point is a vertex or a duplicate holds where no site hides another; a hidden site would be neither.
+//! That every point is a vertex or a duplicate holds where no site hides another; `regular` proves what is hidden.
 
-use delone_predicates::{in_circle, lexicographic, orient2d, strictly_between};
+use delone_predicates::{lexicographic, orient2d, strictly_between};
 
 use super::Delaunay2;
+use super::layer::Layer;
+use super::layer::kernel::Kernel;
 use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{Dimension, Mesh2, MeshFlaw2};
 
@@ -55,7 +57,7 @@ impl Delaunay2 {
             None => check_points(&self.base.points, &self.base.mesh, self.duplicates.iter(|_| true))?,
             Some(named) => check_names(named, &self.base.points, &self.base.mesh)?,
         }
-        check_geometry(&self.base.points, &self.base.mesh)
+        check_geometry(&self.base)
     }
 }
 
@@ -97,23 +99,27 @@ fn check_points(
     represented.iter().position(|there| !there).map_or(Ok(()), |index| Err(Flaw2::Missing(index)))
 }
 
-fn check_geometry(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
-    match mesh.dimension() {
+/// The vertices of a layer have the triangles that its kernel gives them.
+pub(super) fn check_geometry<K: Kernel>(layer: &Layer<K>) -> Result<(), Flaw2> {
+    match layer.mesh.dimension() {
         Dimension::Empty | Dimension::Point => Ok(()),
-        Dimension::Line => check_line(points, mesh),
+        Dimension::Line => check_line(layer),
         Dimension::Plane | Dimension::Space => {
-            check_hull(points, mesh)?;
-            check_triangles(points, mesh)
+            check_hull(&layer.points, &layer.mesh)?;
+            check_triangles(layer)
         }
     }
 }
 
-/// All vertices, in lexicographic order and on one line.
-fn check_line(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
+/// All vertices, in lexicographic order and on one line, none hidden by its neighbours.
+fn check_line<K: Kernel>(layer: &Layer<K>) -> Result<(), Flaw2> {
+    let mesh = &layer.mesh;
     let chain: Vec<_> = mesh.border().collect();
-    let p = |v: Place| points[v.index()];
+    let p = |v: Place| layer.points[v.index()];
     for w in chain.windows(3) {
-        if !orient2d(p(w[0]), p(w[1]), p(w[2])).is_zero() || !strictly_between(p(w[0]), p(w[2]), p(w[1])) {
+        let is_between = strictly_between(p(w[0]), p(w[2]), p(w[1]));
+        let [a, b, c] = [w[0], w[1], w[2]].map(|v| layer.site(v));
+        if !orient2d(a.0, b.0, c.0).is_zero() || !is_between || !K::contains_on_line(a, c, b) {
             return Err(Flaw2::Line(mesh.name(w[1])));
         }
     }
@@ -136,16 +142,17 @@ pub(super) fn check_hull(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2>
     if minima == 1 { Ok(()) } else { Err(Flaw2::Winding(minima)) }
 }
 
-fn check_triangles(points: &[[f64; 2]], mesh: &Mesh2) -> Result<(), Flaw2> {
+fn check_triangles<K: Kernel>(layer: &Layer<K>) -> Result<(), Flaw2> {
+    let mesh = &layer.mesh;
     for t in mesh.triangles() {
-        let [a, b, c] = mesh.places(t).map(|v| points[v.index()]);
-        if !orient2d(a, b, c).is_positive() {
+        let [a, b, c] = mesh.places(t).map(|v| layer.site(v));
+        if !orient2d(a.0, b.0, c.0).is_positive() {
             return Err(Flaw2::Orientation(t));
         }
         for e in [0, 1, 2].map(|k| t.edge(k)) {
             let across = mesh.tip(mesh.twin(e));
             let may_be_inside = across.is_ghost() || mesh.is_fixed(e);
-            if !may_be_inside && in_circle(a, b, c, points[across.index()]).is_positive() {
+            if !may_be_inside && K::contains(a, b, c, layer.site(across)) {
                 return Err(Flaw2::Delaunay(e));
             }
         }

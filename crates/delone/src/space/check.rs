@@ -5,10 +5,11 @@
 //! vertices once, and no facet has the vertex across it inside the sphere of its tetrahedron (Delaunay's lemma: local
 //! implies global, for the perturbed points too). Cost: O(n log n).
 
-use delone_predicates::{in_sphere, lexicographic3, orient3d};
+use delone_predicates::{lexicographic3, orient3d};
 
 use super::Delaunay3;
 use super::layer::Layer;
+use super::layer::kernel::Lift;
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
 use crate::mesh::{Dimension, MeshFlaw3};
 
@@ -46,66 +47,8 @@ impl Delaunay3 {
     /// Proves that this is the canonical Delaunay triangulation of its vertices, or returns the first flaw found.
     /// O(n log n), and independent of how it was built and changed.
     pub fn check(&self) -> Result<(), Flaw3> {
-        let (layer, mesh) = (&self.base, &self.base.mesh);
-        mesh.check()?;
-        let point = |p: Place| layer.points[p.index()];
-        for t in mesh.cells() {
-            let cell = mesh.cells[t.index()];
-            let ends = |f: FacetId| mesh.cells[f.tetrahedron().index()].corners[f.corner()];
-            if mesh.is_ghost(t) {
-                let [a, b, c] = [0, 1, 2].map(|k| point(cell.corners[k]));
-                for k in 0..3 {
-                    // The facet of the hull beside this one, and its corner that they do not share.
-                    let beyond = point(ends(cell.across[k]));
-                    let side = orient3d(a, b, c, beyond);
-                    let inner = mesh.cells[cell.across[3].tetrahedron().index()].corners.map(point);
-                    let [p, q, r, s] = inner;
-                    if side.is_positive() || (side.is_zero() && in_sphere(p, q, r, s, beyond).is_positive()) {
-                        return Err(Flaw3::Hull(t.facet(k)));
-                    }
-                }
-                continue;
-            }
-            let [a, b, c, d] = cell.corners.map(point);
-            if !orient3d(a, b, c, d).is_positive() {
-                return Err(Flaw3::Orientation(t));
-            }
-            for k in 0..4 {
-                let across = ends(cell.across[k]);
-                if !across.is_ghost() && in_sphere(a, b, c, d, point(across)).is_positive() {
-                    return Err(Flaw3::Delaunay(t.facet(k)));
-                }
-            }
-        }
-        check_winding(layer)?;
-        self.check_span()?;
-        self.check_vertices()
-    }
-
-    /// All vertices are in the span; the scaffold is off it.
-    fn check_span(&self) -> Result<(), Flaw3> {
-        let layer = &self.base;
-        let outside = |p: &Place| !layer.is_scaffold(*p) && !layer.is_in_span(layer.points[p.index()]);
-        if self.dimension() < Dimension::Space
-            && let Some(p) = layer.mesh.inhabited().find(outside)
-        {
-            return Err(Flaw3::Span(layer.mesh.name(p)));
-        }
-        Ok(())
-    }
-
-    /// Names and places are each other's, every duplicate is one of an earlier vertex, and the vertices are as many as said.
-    fn check_vertices(&self) -> Result<(), Flaw3> {
+        check_geometry(&self.base)?;
         let mesh = &self.base.mesh;
-        let count = mesh.inhabited().filter(|p| !self.base.is_scaffold(*p)).count();
-        if count != mesh.vertex_count || mesh.vertices().count() != count {
-            return Err(Flaw3::Count(count));
-        }
-        for p in mesh.inhabited().filter(|p| !self.base.is_scaffold(*p)) {
-            if mesh.place(mesh.name(p)) != Some(p) {
-                return Err(Flaw3::Mesh(MeshFlaw3::Incident(mesh.name(p))));
-            }
-        }
         let wrong = |d: &Duplicate| {
             mesh.contains(VertexId::new(d.point)) || !mesh.contains(d.vertex) || d.vertex.index() >= d.point
         };
@@ -113,9 +56,71 @@ impl Delaunay3 {
     }
 }
 
+/// The vertices of a layer have the tetrahedra that its kernel gives them.
+pub(super) fn check_geometry<W: Lift>(layer: &Layer<W>) -> Result<(), Flaw3> {
+    let mesh = &layer.mesh;
+    mesh.check()?;
+    for t in mesh.cells() {
+        let cell = mesh.cells[t.index()];
+        let ends = |f: FacetId| mesh.cells[f.tetrahedron().index()].corners[f.corner()];
+        if mesh.is_ghost(t) {
+            let [a, b, c] = [0, 1, 2].map(|k| layer.points[cell.corners[k].index()]);
+            for k in 0..3 {
+                // The facet of the hull beside this one, and its corner that they do not share.
+                let beyond = layer.site(ends(cell.across[k]));
+                let side = orient3d(a, b, c, beyond.0);
+                let inner =
+                    || mesh.cells[cell.across[3].tetrahedron().index()].corners.map(|p| layer.site(p));
+                if side.is_positive() || (side.is_zero() && W::is_in_sphere(inner(), beyond)) {
+                    return Err(Flaw3::Hull(t.facet(k)));
+                }
+            }
+            continue;
+        }
+        let sites @ [a, b, c, d] = cell.corners.map(|p| layer.site(p));
+        if !orient3d(a.0, b.0, c.0, d.0).is_positive() {
+            return Err(Flaw3::Orientation(t));
+        }
+        for k in 0..4 {
+            let across = ends(cell.across[k]);
+            if !across.is_ghost() && W::is_in_sphere(sites, layer.site(across)) {
+                return Err(Flaw3::Delaunay(t.facet(k)));
+            }
+        }
+    }
+    check_winding(layer)?;
+    check_span(layer)?;
+    check_names(layer)
+}
+
+/// All vertices are in the span; the scaffold is off it.
+fn check_span<W: Lift>(layer: &Layer<W>) -> Result<(), Flaw3> {
+    let outside = |p: &Place| !layer.is_scaffold(*p) && !layer.is_in_span(layer.points[p.index()]);
+    if layer.dimension() < Dimension::Space
+        && let Some(p) = layer.mesh.inhabited().find(outside)
+    {
+        return Err(Flaw3::Span(layer.mesh.name(p)));
+    }
+    Ok(())
+}
+
+/// Names and places are each other's, and the vertices are as many as said.
+fn check_names<W: Lift>(layer: &Layer<W>) -> Result<(), Flaw3> {
+    let mesh = &layer.mesh;
+    let vertices = || mesh.inhabited().filter(|p| !layer.is_scaffold(*p));
+    let count = vertices().count();
+    if count != mesh.vertex_count || mesh.vertices().count() != count {
+        return Err(Flaw3::Count(count));
+    }
+    match vertices().find(|&p| mesh.place(mesh.name(p)) != Some(p)) {
+        Some(p) => Err(Flaw3::Mesh(MeshFlaw3::Incident(mesh.name(p)))),
+        None => Ok(()),
+    }
+}
+
 /// Around each of its vertices the hull goes once and is convex, given that it is convex at its edges. A closed surface
 /// like that is the border of a convex body (van Heijenoort, "On locally convex manifolds", 1952).
-pub(super) fn check_winding(layer: &Layer) -> Result<(), Flaw3> {
+pub(super) fn check_winding<W: Lift>(layer: &Layer<W>) -> Result<(), Flaw3> {
     let mesh = &layer.mesh;
     let point = |p: Place| layer.points[p.index()];
     let mut met = vec![false; mesh.incident.len()];

@@ -183,9 +183,7 @@ impl Delaunay3 {
 
     /// The finite tetrahedra, by id. None below space.
     pub fn tetrahedron_ids(&self) -> impl Iterator<Item = TetrahedronId> + '_ {
-        let mesh = &self.base.mesh;
-        let spanned = self.base.scaffold.is_empty();
-        mesh.cells().filter(move |&t| spanned && !mesh.is_ghost(t))
+        self.base.tetrahedra()
     }
 
     /// The finite tetrahedra as corners in positive order: the first three are seen counter-clockwise from the fourth.
@@ -200,31 +198,14 @@ impl Delaunay3 {
 
     /// The finite facets, each from one of its two sides; of coplanar points the triangles.
     pub fn facets(&self) -> impl Iterator<Item = FacetId> + '_ {
-        let (mesh, dimension) = (&self.base.mesh, self.dimension());
-        let wanted = move |f: &FacetId| match dimension {
-            // From the smaller of two finite sides.
-            Dimension::Space => {
-                let g = mesh.twin(*f);
-                *f < g || mesh.is_ghost(g.tetrahedron())
-            }
-            Dimension::Plane => {
-                self.base.is_scaffold(mesh.cells[f.tetrahedron().index()].corners[f.corner()])
-            }
-            _ => false,
-        };
-        let finite = mesh.cells().filter(|&t| !mesh.is_ghost(t));
-        finite.flat_map(|t| [0, 1, 2, 3].map(|k| t.facet(k))).filter(wanted)
+        self.base.facets()
     }
 
     /// The facets of the hull, counter-clockwise seen from outside; flat faces are cut into triangles, as the
     /// triangulation has them. Coplanar points have each triangle once, seen from either side; less than a plane has
     /// none.
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
-        let (mesh, dimension) = (&self.base.mesh, self.dimension());
-        let ghosts = mesh.cells().filter(move |&t| dimension == Dimension::Space && mesh.is_ghost(t));
-        let outer = ghosts.map(|t| mesh.facet_corners(t.facet(3)));
-        let flat = self.facets().filter(move |_| dimension == Dimension::Plane);
-        outer.chain(flat.map(|f| mesh.facet_corners(f)))
+        self.base.hull_facets()
     }
 
     /// The vertices on the hull by increasing index: the corners of [`Self::hull_facets`], so none of less than a plane.
@@ -237,13 +218,7 @@ impl Delaunay3 {
 
     /// The edges, each once, of whatever the points span.
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
-        let mut star = Vec::new();
-        self.base.mesh.inhabited().flat_map(move |p| {
-            let mut joined = self.neighbors_of(p, &mut star);
-            joined.retain(|&q| q > p);
-            let [v] = [self.base.mesh.name(p)];
-            joined.into_iter().map(move |q| [v, self.base.mesh.name(q)])
-        })
+        self.base.edges()
     }
 
     /// The vertices joined to a vertex by an edge; none for an id that is no vertex.
@@ -263,11 +238,7 @@ impl Delaunay3 {
     }
 
     pub(super) fn neighbors_of(&self, p: Place, star: &mut Vec<TetrahedronId>) -> Vec<Place> {
-        let mut joined = Vec::new();
-        if !self.base.is_scaffold(p) {
-            self.base.neighbors(p, star, &mut joined);
-        }
-        joined
+        self.base.joined_to(p, star)
     }
 }
 

@@ -200,7 +200,7 @@ impl Hints3 {
         }
         check_in_space(instance)?;
         let d = &mut self.current;
-        d.base.restart(self.along.iter().map(|&i| instance[i as usize].xyz()));
+        d.base.restart(self.along.iter().map(|&i| (instance[i as usize].xyz(), ())));
         d.base.mesh.names.clone_from(&self.names);
         d.duplicates.clear();
         d.locator.take();

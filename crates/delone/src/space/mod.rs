@@ -11,6 +11,7 @@ mod locate;
 mod locator;
 mod moving;
 mod nearest;
+mod regular;
 mod triangulation;
 pub mod verify;
 
@@ -18,3 +19,4 @@ pub use delaunay::{Algorithm3, Delaunay3};
 pub use imprecise::Hints3;
 pub use locate::Location3;
 pub use moving::{Moving3, Step3};
+pub use regular::{Regular3, RegularFlaw3};

@@ -179,7 +179,7 @@ fn find_bad(layer: &mut Layer, bad: &mut Vec<TetrahedronId>) -> Option<()> {
                 continue;
             }
             let apex = layer.mesh.cells[u.index()].corners[across.corner()];
-            if layer.conflicts(t, layer.points[apex.index()]) {
+            if layer.conflicts(t, layer.site(apex)) {
                 mark(layer, t);
                 if mark(layer, u) > most {
                     return None;
@@ -297,7 +297,7 @@ impl Mend<'_> {
         let conflicts = |border: &&Border| {
             let (t, k) = (border.inside.tetrahedron(), border.inside.corner());
             let apex = fill.mesh.cells[t.index()].corners[k];
-            !apex.is_ghost() && layer.conflicts(outside(border), fill.points[apex.index()])
+            !apex.is_ghost() && layer.conflicts(outside(border), fill.site(apex))
         };
         let more: Vec<TetrahedronId> = hole.border.iter().filter(conflicts).map(outside).collect();
         (!more.is_empty()).then_some(more)

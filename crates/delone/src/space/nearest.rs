@@ -11,6 +11,7 @@ use delone_predicates::{compare_distances3, compare_with_radius3, lexicographic3
 
 use super::Delaunay3;
 use super::layer::Layer;
+use super::layer::kernel::Lift;
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::{self, Metric};
@@ -18,7 +19,7 @@ use crate::locate::{Ground, Nearest, Strategy};
 use crate::points::{Position3, finite};
 use crate::tally::Tally;
 
-impl Metric for Layer {
+impl<W: Lift> Metric for Layer<W> {
     fn nearer(&self, q: [f64; 3], a: Place, b: Place) -> Ordering {
         let (a, b) = (self.points[a.index()], self.points[b.index()]);
         compare_distances3(q, a, b).then_with(|| lexicographic3(a, b))

@@ -74,6 +74,12 @@ impl From<i128> for Wide<2> {
     }
 }
 
+impl From<i64> for Wide<1> {
+    fn from(number: i64) -> Self {
+        Self([number.cast_unsigned()])
+    }
+}
+
 /// Coordinates on their common scale, if they fit.
 fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i128; N]> {
     let mut scale = i32::MAX;

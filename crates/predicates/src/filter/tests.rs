@@ -1,5 +1,6 @@
 //! Every constant of the filters, derived again by running the formulas on bounds instead of numbers.
 
+use super::power::{POWER_CIRCLE_BOUND, POWER_SPHERE_BOUND};
 use super::space::{
     Filter3, IN_SPHERE_BOUND, ORIENT3D_BOUND, ORIENT3D_CEILING, ORIENT3D_FLOOR, SPHERE_CEILING, SPHERE_FLOOR,
 };
@@ -68,6 +69,12 @@ fn operand_bounds_cover_their_formulas() {
     let term = lift + cross + lift * cross + U;
     let sum = term + U * (1.0 + term);
     assert!(sum <= IN_CIRCLE_BOUND * (1.0 + 8.0 * U), "{} u", sum / U);
+    // With weights: a difference of weights has less error than the squares, and is subtracted: u once more.
+    let lift = lift + U * (1.0 + lift);
+    let term = lift + cross + lift * cross + U;
+    let sum = term + U * (1.0 + term);
+    assert!(sum <= POWER_CIRCLE_BOUND * (1.0 + 8.0 * U), "{} u", sum / U);
+    assert!(sum >= POWER_CIRCLE_BOUND * 0.95, "the bound is far too large: {} u", sum / U);
 }
 
 #[test]
@@ -203,6 +210,13 @@ fn the_in_sphere_bound_covers_its_formula() {
     let error = 2.0 * term.plus(term).error;
     assert!(error <= IN_SPHERE_BOUND * 72.0 * (1.0 - 16.0 * U), "{} u", error / U / 72.0);
     assert!(error >= IN_SPHERE_BOUND * 72.0 * 0.7, "the bound is far too large: {} u", error / U / 72.0);
+    // With weights, which have less error than the squares.
+    for weights in [0.0, 0.5, 3.0, 100.0] {
+        let term = lift.plus(Bounded::difference(weights)).times(three);
+        let (error, permanent) = (2.0 * term.plus(term).error, 24.0 * (3.0 + weights));
+        assert!(error <= POWER_SPHERE_BOUND * permanent * (1.0 - 16.0 * U), "{} u", error / U / permanent);
+        assert!(weights > 0.0 || error >= POWER_SPHERE_BOUND * permanent * 0.7, "the bound is far too large");
+    }
 }
 
 #[test]
@@ -236,6 +250,10 @@ fn constants_are_what_they_are_said_to_be() {
     assert_eq!(U, u);
     assert_eq!((ORIENT_BOUND, IN_CIRCLE_BOUND), (3.0 * u + 16.0 * u * u, 10.0 * u + 96.0 * u * u));
     assert_eq!((ORIENT3D_BOUND, IN_SPHERE_BOUND), (7.0 * u + 56.0 * u * u, 16.0 * u + 224.0 * u * u));
+    assert_eq!(
+        (POWER_CIRCLE_BOUND, POWER_SPHERE_BOUND),
+        (11.0 * u + 112.0 * u * u, 17.0 * u + 256.0 * u * u)
+    );
     assert_eq!((super::CIRCLE_CEILING, super::CIRCLE_FLOOR), (2f64.powi(500), 2f64.powi(-560)));
     assert_eq!((ORIENT3D_CEILING, ORIENT3D_FLOOR), (2f64.powi(500), 2f64.powi(-569)));
     assert_eq!((SPHERE_CEILING, SPHERE_FLOOR), (2f64.powi(200), 2f64.powi(-760)));

@@ -11,7 +11,7 @@
 //! Cost: O(k) for k triangles in the cavity, about four on average over random insertions; nothing is
 //! allocated once the buffers have grown.
 
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Site, Sites};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::surgery::BorderEdge;
@@ -26,6 +26,10 @@ pub(in crate::plane) struct Cavity {
     /// Its border, counter-clockwise: where each edge starts, and its twin outside.
     border: Vec<BorderEdge>,
     pending: Vec<(EdgeId, Place)>,
+    /// The vertices inside of it, which the new one hides.
+    hidden: Vec<Place>,
+    /// Triangles of the cavity that its star did not take.
+    spare: Vec<TriangleId>,
 }
 
 impl Cavity {
@@ -35,12 +39,12 @@ impl Cavity {
     pub(in crate::plane) fn insert<K: Kernel, T: Tally>(
         &mut self,
         mesh: &mut Mesh2,
-        points: &[[f64; 2]],
+        sites: Sites<'_, K>,
         v: Place,
         seed: TriangleId,
         tally: &mut T,
     ) {
-        self.find::<K, T>(mesh, points, points[v.index()], seed, tally);
+        self.find(mesh, &sites, sites.at(v), seed, tally);
         tally.destroyed(self.triangles.len());
         tally.created(self.border.len());
         self.refill::<K>(mesh, v, seed);
@@ -53,20 +57,25 @@ impl Cavity {
         (&self.triangles, &self.border)
     }
 
+    /// The vertices that the last insertion hid, and the triangles that it freed.
+    pub(in crate::plane) fn swallowed(&self) -> (&[Place], &[TriangleId]) {
+        (&self.hidden, &self.spare)
+    }
+
     /// Collects the triangles in conflict, depth first in counter-clockwise order, so that the border comes in
     /// its cyclic order.
     fn find<K: Kernel, T: Tally>(
         &mut self,
         mesh: &mut Mesh2,
-        points: &[[f64; 2]],
-        q: [f64; 2],
+        sites: &Sites<'_, K>,
+        q: Site<K>,
         seed: TriangleId,
         tally: &mut T,
     ) {
         self.triangles.clear();
         self.border.clear();
         self.enter(mesh, seed);
-        self.pending.extend([2, 1, 0].map(|k| look(mesh, points, seed.edge(k))));
+        self.pending.extend([2, 1, 0].map(|k| look(mesh, sites.points, seed.edge(k))));
         while let Some((outside, tip)) = self.pending.pop() {
             let t = outside.triangle();
             if mesh.is_marked(t) {
@@ -75,11 +84,12 @@ impl Cavity {
             let corners = [mesh.tail(outside), mesh.head(outside), tip];
             let conflicts = !mesh.is_fixed(outside) && {
                 tally.in_circle();
-                K::conflicts(corners, |k| points[corners[k].index()], q)
+                K::conflicts(corners, |k| sites.at(corners[k]), q)
             };
             if conflicts {
                 self.enter(mesh, t);
-                self.pending.extend([outside.previous(), outside.next()].map(|e| look(mesh, points, e)));
+                self.pending
+                    .extend([outside.previous(), outside.next()].map(|e| look(mesh, sites.points, e)));
             } else {
                 self.border.push((corners[1], outside));
             }
@@ -91,17 +101,49 @@ impl Cavity {
         self.triangles.push(t);
     }
 
-    /// Joins `v` to every edge of the border. There are two more of them than triangles removed.
+    /// Joins `v` to every edge of the border. There are two more of them than triangles removed, and two less for each vertex
+    /// inside.
     fn refill<K: Kernel>(&mut self, mesh: &mut Mesh2, v: Place, near: TriangleId) {
+        if K::HIDES {
+            self.hide(mesh);
+        }
         debug_assert!(
             K::HIDES || self.border.len() == self.triangles.len() + 2,
             "a cavity is a disk without inner vertex"
         );
-        for _ in 0..2 {
+        while self.triangles.len() < self.border.len() {
             self.triangles.push(mesh.new_triangle(near));
         }
         mesh.fill_star(v, &self.border, &self.triangles);
         mesh.vertex_count += 1;
+    }
+}
+
+impl Cavity {
+    /// Takes the vertices inside of the cavity away, and what triangles its star will not need.
+    fn hide(&mut self, mesh: &mut Mesh2) {
+        self.hidden.clear();
+        self.spare.clear();
+        if self.border.len() == self.triangles.len() + 2 {
+            return;
+        }
+        let mut around: Vec<Place> = self.border.iter().map(|edge| edge.0).collect();
+        around.sort_unstable();
+        self.hidden.extend(self.triangles.iter().flat_map(|&t| mesh.places(t)));
+        self.hidden.sort_unstable();
+        self.hidden.dedup();
+        self.hidden.retain(|p| around.binary_search(p).is_err());
+        debug_assert_eq!(
+            self.triangles.len() + 2,
+            self.border.len() + 2 * self.hidden.len(),
+            "Euler's relation"
+        );
+        self.hidden.iter().for_each(|p| mesh.incident[p.index()] = EdgeId::NONE);
+        mesh.vertex_count -= self.hidden.len();
+        if self.triangles.len() > self.border.len() {
+            self.spare.extend(self.triangles.drain(self.border.len()..));
+            self.spare.iter().for_each(|&t| mesh.free_triangle(t));
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 use delone_predicates::orient2d;
 
 use super::Layer;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Sites};
 use super::line::{self, OnLine};
 use super::walk::{walk, walk_within};
 use crate::ids::{EdgeId, Place, TriangleId};
@@ -139,7 +139,8 @@ impl<K: Kernel> Layer<K> {
             Spot::End(end) => self.mesh.extend_line(end, v),
             // The ghosts on one side of the line are in conflict; joining the point to them makes the plane.
             Spot::BesideLine(triangle) | Spot::Triangle(triangle) => {
-                self.cavity.insert::<K, T>(&mut self.mesh, &self.points, v, triangle, tally);
+                let sites = Sites { points: &self.points, weights: &self.weights };
+                self.cavity.insert::<K, T>(&mut self.mesh, sites, v, triangle, tally);
                 self.spanned = true;
             }
         }

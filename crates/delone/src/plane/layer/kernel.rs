@@ -9,41 +9,69 @@
 
 use std::fmt::Debug;
 
-use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
+use delone_predicates::{Sign, in_circle, in_power_circle, in_power_interval, orient2d, strictly_between};
 
 use crate::ids::Place;
+use crate::weight::Weight;
 
 /// What decides.
 pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
+    /// What a site has beside its point: nothing, or a weight.
+    type Weight: Weight;
+
     /// Whether a site may hide another one, so that this is no vertex.
     const HIDES: bool = false;
 
-    /// Whether the circle of a finite triangle contains a point, in the sense of the kernel.
-    fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool;
+    /// Whether the circle of a finite triangle contains a site, in the sense of the kernel.
+    fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool;
 
-    /// The same for the half-plane on the left of a hull edge seen from outside, with the inside of the edge: the circle of a
-    /// ghost.
+    /// The same for three sites on a line: whether the segment from u to v goes if there is a vertex at q.
     #[inline]
-    fn contains_beyond(u: [f64; 2], v: [f64; 2], q: [f64; 2]) -> bool {
-        match orient2d(u, v, q) {
+    fn contains_on_line(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {
+        strictly_between(u.0, v.0, q.0)
+    }
+
+    /// The same for the half-plane on the left of a hull edge seen from outside, with what the edge itself contains: the circle of
+    /// a ghost.
+    #[inline]
+    fn contains_beyond(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {
+        match orient2d(u.0, v.0, q.0) {
             Sign::Positive => true,
-            Sign::Zero => strictly_between(u, v, q),
+            Sign::Zero => Self::contains_on_line(u, v, q),
             Sign::Negative => false,
         }
     }
 
-    /// Whether a triangle is in conflict with a point. `point` gives the point of each corner that is not the ghost.
+    /// Whether a triangle is in conflict with a site. `site` gives the site of each corner that is not the ghost.
     #[inline]
-    fn conflicts(corners: [Place; 3], point: impl Fn(usize) -> [f64; 2], q: [f64; 2]) -> bool {
+    fn conflicts(corners: [Place; 3], site: impl Fn(usize) -> Site<Self>, q: Site<Self>) -> bool {
         if corners[0].is_ghost() {
-            Self::contains_beyond(point(1), point(2), q)
+            Self::contains_beyond(site(1), site(2), q)
         } else if corners[1].is_ghost() {
-            Self::contains_beyond(point(2), point(0), q)
+            Self::contains_beyond(site(2), site(0), q)
         } else if corners[2].is_ghost() {
-            Self::contains_beyond(point(0), point(1), q)
+            Self::contains_beyond(site(0), site(1), q)
         } else {
-            Self::contains(point(0), point(1), point(2), q)
+            Self::contains(site(0), site(1), site(2), q)
         }
+    }
+}
+
+/// A point with what its kernel gives it besides.
+pub(in crate::plane) type Site<K> = ([f64; 2], <K as Kernel>::Weight);
+
+/// All sites, by place.
+pub(in crate::plane) struct Sites<'a, K: Kernel> {
+    pub(in crate::plane) points: &'a [[f64; 2]],
+    /// For kernels without weights it takes no memory.
+    pub(in crate::plane) weights: &'a [K::Weight],
+}
+
+impl<K: Kernel> Sites<'_, K> {
+    /// The site at a place.
+    #[inline]
+    pub(in crate::plane) fn at(&self, p: Place) -> Site<K> {
+        (self.points[p.index()], K::Weight::at(self.weights, p))
     }
 }
 
@@ -52,9 +80,11 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
 pub(in crate::plane) struct NearestSites;
 
 impl Kernel for NearestSites {
+    type Weight = ();
+
     #[inline]
-    fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool {
-        in_circle(a, b, c, q).is_positive()
+    fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool {
+        in_circle(a.0, b.0, c.0, q.0).is_positive()
     }
 }
 
@@ -63,8 +93,29 @@ impl Kernel for NearestSites {
 pub(in crate::plane) struct Furthest;
 
 impl Kernel for Furthest {
+    type Weight = ();
+
     #[inline]
-    fn contains(a: [f64; 2], b: [f64; 2], c: [f64; 2], q: [f64; 2]) -> bool {
-        !in_circle(a, b, c, q).is_positive()
+    fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool {
+        !in_circle(a.0, b.0, c.0, q.0).is_positive()
+    }
+}
+
+/// Regular triangles: no site is nearer to the power circle than its corners are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::plane) struct Power;
+
+impl Kernel for Power {
+    type Weight = f64;
+
+    const HIDES: bool = true;
+
+    #[inline]
+    fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool {
+        in_power_circle(a, b, c, q).is_positive()
+    }
+
+    fn contains_on_line(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {
+        in_power_interval(u, v, q).is_positive()
     }
 }

@@ -27,8 +27,9 @@ use crate::order::morton::{self, Sorted};
 use crate::points::survey;
 use crate::prefetch::prefetch;
 use crate::tally::Tally;
+use crate::weight::Weight;
 use cavity::Cavity;
-use kernel::{Kernel, NearestSites};
+use kernel::{Kernel, NearestSites, Site};
 use remove::Hole;
 
 /// See the module.
@@ -37,10 +38,12 @@ pub(in crate::plane) struct Layer<K: Kernel = NearestSites> {
     pub(in crate::plane) mesh: Mesh2,
     /// For each place its coordinates.
     pub(in crate::plane) points: Vec<[f64; 2]>,
+    /// For each place its weight, if the kernel knows weights.
+    pub(in crate::plane) weights: Vec<K::Weight>,
     /// Free places.
     pub(in crate::plane) free: Slots,
     pub(in crate::plane) cavity: Cavity,
-    pub(in crate::plane) hole: Hole,
+    pub(in crate::plane) hole: Hole<K>,
     /// Known without a look at the mesh: most operations ask.
     pub(in crate::plane) spanned: bool,
     /// What decides conflicts.
@@ -56,10 +59,21 @@ impl<K: Kernel> Default for Layer<K> {
 impl<K: Kernel> Layer<K> {
     /// A mesh built in bulk, its vertices at the places of their indices.
     pub(in crate::plane) fn new(mesh: Mesh2, points: Vec<[f64; 2]>) -> Self {
+        let weights = vec![K::Weight::default(); points.len()];
+        Self::with_weights(mesh, points, weights)
+    }
+
+    /// The same with weights.
+    pub(in crate::plane) fn with_weights(
+        mesh: Mesh2,
+        points: Vec<[f64; 2]>,
+        weights: Vec<K::Weight>,
+    ) -> Self {
         let spanned = mesh.dimension() == Dimension::Plane;
         Self {
             mesh,
             points,
+            weights,
             free: Slots::default(),
             cavity: Cavity::default(),
             hole: Hole::default(),
@@ -72,6 +86,7 @@ impl<K: Kernel> Layer<K> {
     pub(in crate::plane) fn restart(&mut self, points: impl Iterator<Item = [f64; 2]>) {
         self.points.clear();
         self.points.extend(points);
+        self.weights.resize(self.points.len(), K::Weight::default());
         self.mesh.restart(self.points.len());
         self.free = Slots::default();
         self.spanned = false;
@@ -82,7 +97,13 @@ impl<K: Kernel> Layer<K> {
         self.mesh.bytes() + size_of_val(&*self.points)
     }
 
-    /// A place near another one in memory for a new point.
+    /// The site at a place.
+    #[inline]
+    pub(in crate::plane) fn site(&self, p: Place) -> Site<K> {
+        (self.points[p.index()], K::Weight::at(&self.weights, p))
+    }
+
+    /// A place near another one in memory for a new point, without a weight.
     pub(in crate::plane) fn new_place(&mut self, near: usize, q: [f64; 2]) -> Place {
         if let Some(slot) = self.free.take_near(near) {
             self.points[slot] = q;
@@ -90,6 +111,7 @@ impl<K: Kernel> Layer<K> {
         }
         make_room(&mut self.points, 1);
         self.points.push(q);
+        self.weights.push(K::Weight::default());
         make_room(&mut self.mesh.incident, 1);
         self.mesh.incident.push(EdgeId::NONE);
         Place::new(self.points.len() - 1)
@@ -139,6 +161,9 @@ impl<K: Kernel> Layer<K> {
         let Sorted { points, indices, .. } = morton::sort(&points, &survey(&points).0);
         self.points = room_for(with_spare(2 * points.len()));
         self.points.extend(points.iter().flat_map(|&p| [p, p]));
+        let weights: Vec<K::Weight> =
+            indices.iter().map(|&i| K::Weight::at(&self.weights, places[i as usize])).collect();
+        self.weights = weights.into_iter().flat_map(|w| [w, w]).collect();
         indices.iter().map(|&i| places[i as usize]).collect()
     }
 }

@@ -9,13 +9,13 @@
 //! dividing and conquering the border. The ghost vertex is a vertex of the border like others, so the hull is no
 //! special case.
 //!
-//! Where no site hides another, as under the kernels that there are, the border of the hole has all sites that its triangles
-//! can have. Under a kernel that hides sites, those that the removed one hid are candidates too.
+//! Where no site hides another the border of the hole has all sites that its triangles can have. Under a kernel that hides sites
+//! this gives the triangulation of those that were vertices, and those that the removed one hid are inserted by the owner.
 
 use delone_predicates::orient2d;
 
 use super::Layer;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Site};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::surgery::{BorderEdge, Part};
@@ -30,11 +30,11 @@ const LESS: usize = 2;
 
 /// The border of the hole, counter-clockwise, and the triangles to fill it with. Kept between removals.
 #[derive(Clone, Debug, Default)]
-pub(in crate::plane) struct Hole {
+pub(in crate::plane) struct Hole<K: Kernel> {
     /// Where each edge of the border starts, and its twin outside.
     border: Vec<BorderEdge>,
-    /// The points where they start; that of the ghost means nothing.
-    points: Vec<[f64; 2]>,
+    /// The sites where they start; that of the ghost means nothing.
+    sites: Vec<Site<K>>,
     triangles: Vec<TriangleId>,
     spokes: Vec<EdgeId>,
     /// Parts of the hole still to be filled.
@@ -69,11 +69,12 @@ impl<K: Kernel> Layer<K> {
             self.spanned = false;
         } else {
             tally.created(degree - 2);
-            if degree <= SMALL {
-                let point = |&(v, _): &BorderEdge| self.points.get(v.index()).copied().unwrap_or_default();
-                hole.points.clear();
-                hole.points.extend(hole.border.iter().map(point));
-                hole.fill::<K, T>(&mut self.mesh, tally);
+            if degree <= SMALL || K::HIDES {
+                let site =
+                    |&(v, _): &BorderEdge| if v.is_ghost() { Site::<K>::default() } else { self.site(v) };
+                hole.sites.clear();
+                hole.sites.extend(hole.border.iter().map(site));
+                hole.fill(&mut self.mesh, tally);
             } else {
                 hole.fill_large(&mut self.mesh, &self.points);
             }
@@ -85,7 +86,7 @@ impl<K: Kernel> Layer<K> {
 
     /// The other vertices from end to end, if they are all on one line: they are all on the border then. Each with whether its
     /// segment with the one before is fixed.
-    fn line_without(&self, hole: &Hole) -> Option<Vec<(Place, bool)>> {
+    fn line_without(&self, hole: &Hole<K>) -> Option<Vec<(Place, bool)>> {
         let border = &hole.border;
         let ghost = border.iter().position(|(v, _)| v.is_ghost())?;
         if border.len() != self.mesh.vertex_count {
@@ -99,7 +100,7 @@ impl<K: Kernel> Layer<K> {
     }
 }
 
-impl Hole {
+impl<K: Kernel> Hole<K> {
     /// What the last removal from the plane did: the triangles that fill the hole, and for each edge of its border where it
     /// starts, and its twin outside.
     pub(in crate::plane) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {
@@ -136,10 +137,10 @@ impl Hole {
 
     /// Fills the hole side by side. The apex of a side is the vertex whose circle with it contains no other: a
     /// linear search, because the circles through two points are ordered.
-    fn fill<K: Kernel, T: Tally>(&mut self, mesh: &mut Mesh2, tally: &mut T) {
-        let Self { border, points, triangles, pending, .. } = self;
+    fn fill<T: Tally>(&mut self, mesh: &mut Mesh2, tally: &mut T) {
+        let Self { border, sites, triangles, pending, .. } = self;
         mesh.fill_hole(border, triangles, pending, (), |first, last, ()| {
-            (apex::<K, T>(border, points, first, last, tally), (), ())
+            (apex::<K, T>(border, sites, first, last, tally), (), ())
         });
     }
 
@@ -175,7 +176,7 @@ impl Hole {
 #[inline]
 fn apex<K: Kernel, T: Tally>(
     border: &[BorderEdge],
-    points: &[[f64; 2]],
+    sites: &[Site<K>],
     first: usize,
     last: usize,
     tally: &mut T,
@@ -192,17 +193,17 @@ fn apex<K: Kernel, T: Tally>(
             ghost = k; // where nothing finite is in front of the side
             continue;
         }
-        let q = points[k];
+        let q = sites[k];
         if is_finite {
             tally.orientation();
-            if !orient2d(points[last], points[first], q).is_positive() {
+            if !orient2d(sites[last].0, sites[first].0, q.0).is_positive() {
                 continue;
             }
         }
         let better = best.is_none_or(|apex: usize| {
             tally.in_circle();
             let at = [last, first, apex];
-            K::conflicts([a, b, border[apex].0], |i| points[at[i]], q)
+            K::conflicts([a, b, border[apex].0], |i| sites[at[i]], q)
         });
         if better {
             best = Some(k);

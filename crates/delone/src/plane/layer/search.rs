@@ -46,8 +46,8 @@ fn search_conflicts<K: Kernel, T: Tally>(
     q: [f64; 2],
     tally: &mut T,
 ) -> Place {
-    let (mesh, points) = (&layer.mesh, &layer.points);
-    if points[corner.index()] == q {
+    let mesh = &layer.mesh;
+    if layer.points[corner.index()] == q {
         return corner;
     }
     let mut best = corner;
@@ -58,7 +58,7 @@ fn search_conflicts<K: Kernel, T: Tally>(
         let tip = mesh.tip(entered);
         let corners = [mesh.tail(entered), mesh.head(entered), tip];
         tally.in_circle();
-        if !K::conflicts(corners, |k| points[corners[k].index()], q) {
+        if !K::conflicts(corners, |k| layer.site(corners[k]), (q, K::Weight::default())) {
             continue;
         }
         tally.visited();

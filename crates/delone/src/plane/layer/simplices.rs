@@ -6,12 +6,12 @@ use super::Layer;
 use super::kernel::Kernel;
 use crate::locate::delaunay_tree::Simplices;
 
-impl<K: Kernel> Simplices<3> for Layer<K> {
+impl<K: Kernel<Weight = ()>> Simplices<3> for Layer<K> {
     fn is_in_circle(corners: [Option<[f64; 2]>; 3], _: &[[f64; 2]; 3], q: [f64; 2]) -> bool {
         match corners {
-            [Some(a), Some(b), Some(c)] => K::contains(a, b, c, q),
+            [Some(a), Some(b), Some(c)] => K::contains((a, ()), (b, ()), (c, ()), (q, ())),
             [Some(a), Some(b), None] | [None, Some(a), Some(b)] | [Some(b), None, Some(a)] => {
-                K::contains_beyond(a, b, q)
+                K::contains_beyond((a, ()), (b, ()), (q, ()))
             }
             _ => false, // there is one vertex at infinity
         }

@@ -99,7 +99,7 @@ impl NearestSites2 {
         let q = points[site.index()];
         let is_hit = |e: EdgeId| {
             let corners = mesh.places(e.triangle());
-            NearestSites::conflicts(corners, |k| points[corners[k].index()], q)
+            NearestSites::conflicts(corners, |k| (points[corners[k].index()], ()), (q, ()))
         };
         let seed = if is_hit(e) { e } else { mesh.twin(e) };
         debug_assert!(is_hit(seed), "a site in a radial triangle is in one of two circles");

@@ -18,6 +18,7 @@ use cut::{Run, cut};
 use super::layer::Layer;
 use super::layer::arena::Arena;
 use super::layer::cavity::Cavity;
+use super::layer::kernel::Lift;
 use crate::duplicates::settle;
 use crate::ids::{Duplicate, Place, TetrahedronId};
 use crate::mesh::Names;
@@ -111,40 +112,59 @@ fn triangulate_whole<T: Tally>(
 
 /// Makes the points at some places vertices, in this order, in an empty mesh. Those that equal others become
 /// duplicates. `None` if there is no room.
-pub(super) fn build<T: Tally>(
-    layer: &mut Layer,
+pub(super) fn build<W: Lift, T: Tally>(
+    layer: &mut Layer<W>,
     order: &[u32],
     duplicates: &mut Vec<Duplicate>,
     tally: &mut T,
 ) -> Option<()> {
-    let first = layer.begin(order)?;
-    let Some(&a) = first.first() else { return Some(()) };
-    let start = layer.mesh.incident[a.index()];
-    let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
-    let mut cavity = std::mem::take(&mut layer.cavity);
-    let mut equal = Vec::new();
-    let all = insert_all(layer, &mut cavity, start, others, &mut equal, tally);
-    layer.cavity = cavity;
-    all?;
-    layer.mesh.vertex_count = order.len() - equal.len();
-    note_equal(layer, &equal, duplicates);
+    let rest = begin_and_insert(layer, order, tally)?;
+    note_equal(layer, &rest.equal, duplicates);
     Some(())
 }
 
+/// The same for sites of which some may be hidden. Names are left alone.
+pub(super) fn begin_and_insert<W: Lift, T: Tally>(
+    layer: &mut Layer<W>,
+    order: &[u32],
+    tally: &mut T,
+) -> Option<Rest> {
+    let first = layer.begin(order)?;
+    let mut rest = Rest::default();
+    let Some(&a) = first.first() else { return Some(rest) };
+    let start = layer.mesh.incident[a.index()];
+    let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
+    let mut cavity = std::mem::take(&mut layer.cavity);
+    let all = insert_all(layer, &mut cavity, start, others, &mut rest, tally);
+    layer.cavity = cavity;
+    all?;
+    layer.mesh.vertex_count = order.len() - rest.equal.len() - rest.hidden.len();
+    Some(rest)
+}
+
+/// The places whose sites are no vertices.
+#[derive(Debug, Default)]
+pub(super) struct Rest {
+    /// Those that equal a vertex, with it.
+    pub(super) equal: Vec<(Place, Place)>,
+    /// Those that others hide.
+    pub(super) hidden: Vec<Place>,
+}
+
 /// Points that equal vertices are duplicates of them.
-fn note_equal(layer: &mut Layer, equal: &[(Place, Place)], duplicates: &mut Vec<Duplicate>) {
+fn note_equal<W: Lift>(layer: &mut Layer<W>, equal: &[(Place, Place)], duplicates: &mut Vec<Duplicate>) {
     let names = &mut layer.mesh.names;
     duplicates.extend(equal.iter().map(|&(v, w)| names.coincide(names.of(v), w)));
 }
 
-/// Makes the points at some places vertices, the first located from a tetrahedron near it; those that equal a vertex are
-/// listed with it. `None` if there is no room.
+/// Makes the sites at some places vertices, the first located from a tetrahedron near it; those that are none are listed. `None`
+/// if there is no room.
 fn insert_all<A: Arena, T: Tally>(
     arena: &mut A,
     cavity: &mut Cavity,
     start: TetrahedronId,
     places: impl Iterator<Item = Place>,
-    equal: &mut Vec<(Place, Place)>,
+    rest: &mut Rest,
     tally: &mut T,
 ) -> Option<()> {
     let mut last = start;
@@ -152,11 +172,21 @@ fn insert_all<A: Arena, T: Tally>(
         let view = arena.view();
         let q = view.points[v.index()];
         last = view.walk(last, q, tally);
-        if let Some(w) = view.vertex_at(last, q) {
-            equal.push((v, w));
+        let hides = A::Weight::HIDES;
+        if let Some(w) = view.vertex_at(last, q)
+            && !(hides && view.site(v).1 != view.site(w).1)
+        {
+            rest.equal.push((v, w));
+            continue;
+        }
+        if hides && !view.conflicts(last, view.site(v)) {
+            rest.hidden.push(v);
             continue;
         }
         cavity.insert(arena, v, last, tally)?;
+        if hides {
+            rest.hidden.extend(cavity.hidden());
+        }
         last = arena.memory().incident[v.index()];
     }
     Some(())

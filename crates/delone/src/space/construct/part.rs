@@ -12,7 +12,7 @@ use delone_predicates::{Filter3, Grid, Sign, keeps_clear, orient3d};
 use super::super::layer::arena::{Arena, Memory, View};
 use super::super::layer::cavity::Cavity;
 use super::super::layer::scaffold::{first_cells, spanning};
-use super::insert_all;
+use super::{Rest, insert_all};
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 use crate::order;
@@ -52,15 +52,17 @@ pub(super) struct Done {
 }
 
 impl Arena for Part<'_> {
+    type Weight = ();
+
     #[inline]
-    fn view(&self) -> View<'_> {
-        View { cells: self.cells, points: self.points, filter: &self.filter }
+    fn view(&self) -> View<'_, ()> {
+        View { cells: self.cells, points: self.points, weights: &[], filter: &self.filter }
     }
 
     #[inline]
-    fn memory(&mut self) -> Memory<'_> {
+    fn memory(&mut self) -> Memory<'_, ()> {
         let Self { cells, marks, incident, points, filter, .. } = self;
-        Memory { cells, marks, incident, points, filter }
+        Memory { cells, marks, incident, points, weights: &[], filter }
     }
 
     fn room(&self) -> usize {
@@ -105,11 +107,11 @@ impl<'a> Part<'a> {
         let first = spanning(self.points, &order);
         let &[a, b, c, d] = &first[..] else { return None };
         first_cells(self, [a, b, c, d])?;
-        let mut equal = Vec::new();
+        let mut rest = Rest::default();
         let start = self.incident[a.index()];
         let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
-        insert_all(self, &mut Cavity::default(), start, others, &mut equal, tally)?;
-        self.equal = equal;
+        insert_all(self, &mut Cavity::default(), start, others, &mut rest, tally)?;
+        self.equal = rest.equal;
         Some(())
     }
 

@@ -3,35 +3,40 @@
 
 use delone_predicates::Filter3;
 
+use super::kernel::{Lift, SiteRef};
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::tetrahedra::Tetrahedron;
 use crate::tally::{Phase, Tally};
 
 /// What decisions look at.
 #[derive(Clone, Copy)]
-pub(in crate::space) struct View<'a> {
+pub(in crate::space) struct View<'a, W> {
     pub(in crate::space) cells: &'a [Tetrahedron],
     /// For each place its coordinates.
     pub(in crate::space) points: &'a [[f64; 3]],
+    /// For each place its weight, if there are weights.
+    pub(in crate::space) weights: &'a [W],
     /// For the box around them.
     pub(in crate::space) filter: &'a Filter3,
 }
 
 /// What an insertion writes, too.
-pub(in crate::space) struct Memory<'a> {
+pub(in crate::space) struct Memory<'a, W> {
     pub(in crate::space) cells: &'a mut [Tetrahedron],
     /// For each tetrahedron a mark, zero between operations.
     pub(in crate::space) marks: &'a mut [u8],
     /// For each place a tetrahedron at its vertex.
     pub(in crate::space) incident: &'a mut [TetrahedronId],
     pub(in crate::space) points: &'a [[f64; 3]],
+    pub(in crate::space) weights: &'a [W],
     pub(in crate::space) filter: &'a Filter3,
 }
 
 /// Memory for tetrahedra.
 pub(in crate::space) trait Arena {
-    fn view(&self) -> View<'_>;
-    fn memory(&mut self) -> Memory<'_>;
+    type Weight: Lift;
+    fn view(&self) -> View<'_, Self::Weight>;
+    fn memory(&mut self) -> Memory<'_, Self::Weight>;
     /// How many more tetrahedra there is room for.
     fn room(&self) -> usize;
     /// A tetrahedron to be filled in, if there is room.
@@ -40,14 +45,14 @@ pub(in crate::space) trait Arena {
     fn free_cell(&mut self, t: TetrahedronId);
 }
 
-impl Memory<'_> {
+impl<W> Memory<'_, W> {
     #[inline]
-    pub(in crate::space) fn view(&self) -> View<'_> {
-        View { cells: self.cells, points: self.points, filter: self.filter }
+    pub(in crate::space) fn view(&self) -> View<'_, W> {
+        View { cells: self.cells, points: self.points, weights: self.weights, filter: self.filter }
     }
 }
 
-impl View<'_> {
+impl<W: Lift> View<'_, W> {
     #[inline]
     fn corners(&self, t: TetrahedronId) -> &[Place; 4] {
         &self.cells[t.index()].corners
@@ -64,10 +69,22 @@ impl View<'_> {
         [self.at(a), self.at(b), self.at(c), self.at(d)]
     }
 
+    /// The site at a place.
+    #[inline]
+    pub(in crate::space) fn site(&self, p: Place) -> SiteRef<'_, W> {
+        (self.at(p), W::at(self.weights, p))
+    }
+
+    /// Four of them.
+    #[inline]
+    fn sites(&self, &[a, b, c, d]: &[Place; 4]) -> [SiteRef<'_, W>; 4] {
+        [self.site(a), self.site(b), self.site(c), self.site(d)]
+    }
+
     /// Whether the sphere of a tetrahedron contains `q`. That of a ghost is the half-space beyond its hull facet, with
     /// the inside of the facet's circle.
     #[inline]
-    pub(in crate::space) fn conflicts(&self, t: TetrahedronId, q: &[f64; 3]) -> bool {
+    pub(in crate::space) fn conflicts(&self, t: TetrahedronId, q: SiteRef<'_, W>) -> bool {
         let corners = self.corners(t);
         if corners[3].is_ghost() { self.is_beyond_hull(t, q) } else { self.is_in_sphere(corners, q) }
     }
@@ -78,26 +95,25 @@ impl View<'_> {
         &self,
         t: TetrahedronId,
         u: TetrahedronId,
-        q: &[f64; 3],
+        q: SiteRef<'_, W>,
     ) -> [bool; 2] {
         let (first, second) = (self.corners(t), self.corners(u));
         if first[3].is_ghost() || second[3].is_ghost() {
             return [self.conflicts(t, q), self.conflicts(u, q)];
         }
-        let [first, second] = self.filter.in_spheres([self.all(first), self.all(second)], q);
+        let [first, second] = W::in_spheres(self.filter, [self.sites(first), self.sites(second)], q);
         [first.is_positive(), second.is_positive()]
     }
 
     #[inline]
-    fn is_in_sphere(&self, corners: &[Place; 4], &q: &[f64; 3]) -> bool {
-        let [&a, &b, &c, &d] = self.all(corners);
-        self.filter.in_sphere(a, b, c, d, q).is_positive()
+    fn is_in_sphere(&self, corners: &[Place; 4], q: SiteRef<'_, W>) -> bool {
+        W::in_sphere(self.filter, self.sites(corners), q).is_positive()
     }
 
     /// The same for a ghost.
-    fn is_beyond_hull(&self, t: TetrahedronId, q: &[f64; 3]) -> bool {
+    fn is_beyond_hull(&self, t: TetrahedronId, q: SiteRef<'_, W>) -> bool {
         let Tetrahedron { corners: [a, b, c, _], across } = self.cells[t.index()];
-        let side = self.filter.orient3d(*self.at(a), *self.at(b), *self.at(c), *q);
+        let side = self.filter.orient3d(*self.at(a), *self.at(b), *self.at(c), *q.0);
         if !side.is_zero() {
             return side.is_positive();
         }

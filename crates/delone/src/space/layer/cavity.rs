@@ -1,7 +1,8 @@
 //! The cavity of a new point: the tetrahedra whose spheres contain it, refilled as a star.
 //!
 //! Source: Bowyer, and Watson, The Computer Journal 1981. With the canonical in-sphere test the cavity is that of
-//! points in general position: a ball without an inner vertex, star-shaped around the new point.
+//! points in general position: a ball without an inner vertex, star-shaped around the new point. With weights the vertices
+//! inside are those that it hides.
 //!
 //! The new tetrahedra stand on the facets of the ball's border and are glued along its edges. Each border vertex gets a
 //! small number, and a table by pairs of numbers holds the facet above each directed edge; so nothing is searched. The
@@ -12,6 +13,7 @@
 //! have grown. Sorting: O(k log k).
 
 use super::arena::{Arena, Memory};
+use super::kernel::Lift;
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 use crate::prefetch::prefetch;
@@ -41,6 +43,10 @@ pub(in crate::space) struct Cavity {
     edges: Vec<[u32; 3]>,
     /// By the numbers of its ends, the facet above each directed edge of the border.
     table: Vec<FacetId>,
+    /// The vertices inside, which the new one hides, where it may hide some; before that all corners.
+    hidden: Vec<Place>,
+    /// Tetrahedra of the cavity that its star did not take.
+    spare: Vec<TetrahedronId>,
 }
 
 impl Cavity {
@@ -63,16 +69,45 @@ impl Cavity {
         }
         tally.destroyed(self.cells.len());
         tally.created(self.border.len());
+        if A::Weight::HIDES {
+            let cells = arena.memory().cells;
+            self.hidden.clear();
+            self.hidden.extend(self.cells.iter().flat_map(|t| cells[t.index()].corners));
+        }
         while self.cells.len() < self.border.len() {
             self.cells.push(arena.new_cell()?);
         }
         // A ball of many tetrahedra may have few facets.
+        self.spare.clear();
         for t in self.cells.drain(self.border.len()..) {
+            self.spare.push(t);
             arena.memory().marks[t.index()] = 0;
             arena.free_cell(t);
         }
         self.refill(&mut arena.memory(), v);
+        if A::Weight::HIDES {
+            self.find_hidden(&mut arena.memory());
+        }
         Some(())
+    }
+
+    /// The vertices that the last one inserted hides, which are none any more.
+    pub(in crate::space) fn hidden(&self) -> &[Place] {
+        &self.hidden
+    }
+
+    /// The tetrahedra that the last insertion made, in slots of the cavity and new ones, and those that it freed.
+    pub(in crate::space) fn last(&self) -> impl Iterator<Item = TetrahedronId> + '_ {
+        self.cells.iter().chain(&self.spare).copied()
+    }
+
+    /// Those corners of the cavity that are on no new tetrahedron: what was theirs is another's, or free.
+    fn find_hidden<W>(&mut self, memory: &mut Memory<'_, W>) {
+        let Memory { cells, incident, .. } = memory;
+        self.hidden.retain(|&p| !p.is_ghost() && !cells[incident[p.index()].index()].corners.contains(&p));
+        self.hidden.sort_unstable();
+        self.hidden.dedup();
+        self.hidden.iter().for_each(|p| incident[p.index()] = TetrahedronId::NONE);
     }
 
     /// The vertices that the last one inserted is joined to, the ghost not among them.
@@ -82,8 +117,15 @@ impl Cavity {
 
     /// Collects the tetrahedra in conflict and their border. Two are tested at a time; what waits to be tested is decided
     /// without branches, which would go the wrong way half of the time.
-    fn find<T: Tally>(&mut self, memory: &mut Memory<'_>, v: Place, seed: TetrahedronId, tally: &mut T) {
-        let q = memory.points[v.index()];
+    fn find<W: Lift, T: Tally>(
+        &mut self,
+        memory: &mut Memory<'_, W>,
+        v: Place,
+        seed: TetrahedronId,
+        tally: &mut T,
+    ) {
+        let (point, weight) = (memory.points[v.index()], W::at(memory.weights, v));
+        let q = (&point, weight);
         self.cells.clear();
         self.queued = 0;
         self.enter(memory, seed);
@@ -93,14 +135,14 @@ impl Cavity {
             tally.in_circle();
             if done + 1 == self.queued {
                 done += 1;
-                let inside = memory.view().conflicts(t, &q);
+                let inside = memory.view().conflicts(t, q);
                 self.judge(memory, t, inside);
                 continue;
             }
             let u = self.queue[done + 1];
             tally.in_circle();
             done += 2;
-            let [first, second] = memory.view().both_conflict(t, u, &q);
+            let [first, second] = memory.view().both_conflict(t, u, q);
             self.judge(memory, t, first);
             self.judge(memory, u, second);
         }
@@ -118,7 +160,7 @@ impl Cavity {
 
     /// Notes whether a tetrahedron is in conflict.
     #[inline]
-    fn judge(&mut self, memory: &mut Memory<'_>, t: TetrahedronId, inside: bool) {
+    fn judge<W>(&mut self, memory: &mut Memory<'_, W>, t: TetrahedronId, inside: bool) {
         if inside {
             self.enter(memory, t);
         } else {
@@ -129,7 +171,7 @@ impl Cavity {
     /// Takes a tetrahedron into the cavity, and asks for its neighbours.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "calls are a fortieth of all instructions of a construction")]
-    fn enter(&mut self, memory: &mut Memory<'_>, t: TetrahedronId) {
+    fn enter<W>(&mut self, memory: &mut Memory<'_, W>, t: TetrahedronId) {
         memory.marks[t.index()] = INSIDE;
         self.cells.push(t);
         if self.queue.len() < self.queued + 4 {
@@ -157,7 +199,7 @@ impl Cavity {
     }
 
     /// Joins `v` to every facet of the border.
-    fn refill(&mut self, memory: &mut Memory<'_>, v: Place) {
+    fn refill<W>(&mut self, memory: &mut Memory<'_, W>, v: Place) {
         for (&g, &t) in self.border.iter().zip(&self.cells) {
             let outside = &mut memory.cells[g.tetrahedron().index()];
             outside.across[g.corner()] = t.facet(0);
@@ -176,7 +218,7 @@ impl Cavity {
     }
 
     /// Glues the new tetrahedra to each other, and lists the vertices of the border.
-    fn glue_by_table(&mut self, memory: &mut Memory<'_>) {
+    fn glue_by_table<W>(&mut self, memory: &mut Memory<'_, W>) {
         // A sphere of F triangles has F / 2 + 2 corners; the ghost has a number even if it is none of them.
         let side = (self.border.len() / 2 + 3).next_power_of_two();
         let width = side.trailing_zeros();
@@ -207,7 +249,7 @@ impl Cavity {
 
     /// The same for a border of any size.
     #[cold]
-    fn glue_by_sorting(&mut self, memory: &mut Memory<'_>) {
+    fn glue_by_sorting<W>(&mut self, memory: &mut Memory<'_, W>) {
         let mut edges = Vec::with_capacity(3 * self.cells.len());
         self.vertices.clear();
         for &t in &self.cells {

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use delone_predicates::compare_distances3;
 
+use super::kernel::Lift;
 use super::{Layer, Refusal};
 use crate::ids::{Place, TetrahedronId};
 use crate::locate::{Ground, Level, Nearest, Start, nearest};
@@ -11,7 +12,7 @@ use crate::mesh::Dimension;
 use crate::prefetch::prefetch;
 use crate::tally::{Phase, Tally};
 
-impl Layer {
+impl<W: Lift> Layer<W> {
     /// The tetrahedron where a walk starts.
     #[inline]
     pub(in crate::space) fn start_cell(&self, start: Start<TetrahedronId>) -> TetrahedronId {
@@ -38,7 +39,7 @@ impl Layer {
     }
 }
 
-impl Ground for Layer {
+impl<W: Lift> Ground for Layer<W> {
     type Point = [f64; 3];
     type Hint = TetrahedronId;
     const DIMENSIONS: usize = 3;

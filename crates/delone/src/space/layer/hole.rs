@@ -10,6 +10,7 @@
 use delone_predicates::lexicographic3;
 
 use super::Layer;
+use super::kernel::Lift;
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::tetrahedra::Tetrahedron;
 use crate::order;
@@ -57,9 +58,9 @@ pub(in crate::space) fn turned<T: Copy + Ord>([a, b, c]: [T; 3]) -> [T; 3] {
 
 impl Hole {
     /// Takes the corners of the tetrahedra that go for the vertices, but for one, and some more.
-    pub(in crate::space) fn set_vertices(
+    pub(in crate::space) fn set_vertices<W: Lift>(
         &mut self,
-        layer: &Layer,
+        layer: &Layer<W>,
         without: Option<Place>,
         more: impl IntoIterator<Item = Place>,
     ) {
@@ -72,7 +73,7 @@ impl Hole {
     }
 
     /// Whether two of the vertices are in one place.
-    pub(in crate::space) fn has_equal_points(&mut self, layer: &Layer) -> bool {
+    pub(in crate::space) fn has_equal_points<W: Lift>(&mut self, layer: &Layer<W>) -> bool {
         let at = |&i: &u32| layer.points[self.vertices[i as usize].index()];
         self.order.clear();
         self.order.extend(0..self.vertices.len() as u32);
@@ -81,8 +82,8 @@ impl Hole {
     }
 
     /// Triangulates the vertices apart. They must be in different places.
-    pub(in crate::space) fn triangulate(&mut self, layer: &Layer, fill: &mut Layer) {
-        fill.restart(self.vertices.iter().map(|p| layer.points[p.index()]));
+    pub(in crate::space) fn triangulate<W: Lift>(&mut self, layer: &Layer<W>, fill: &mut Layer<W>) {
+        fill.restart(self.vertices.iter().map(|&p| layer.site(p)));
         self.order.clear();
         if self.vertices.len() <= FEW {
             self.order.extend(0..self.vertices.len() as u32);
@@ -97,7 +98,7 @@ impl Hole {
     }
 
     /// Takes the facets around the hole, as its tetrahedra see them. All their corners must be vertices.
-    pub(in crate::space) fn set_border(&mut self, layer: &Layer, facets: &[FacetId]) {
+    pub(in crate::space) fn set_border<W: Lift>(&mut self, layer: &Layer<W>, facets: &[FacetId]) {
         self.border.clear();
         for &f in facets {
             let corners = turned(layer.mesh.facet_places(f).map(|p| self.number(p)));
@@ -115,7 +116,7 @@ impl Hole {
     }
 
     /// The place on the border's list of a facet of the filling.
-    fn on_border(&self, fill: &Layer, f: FacetId) -> Option<usize> {
+    fn on_border<W: Lift>(&self, fill: &Layer<W>, f: FacetId) -> Option<usize> {
         let number = |p: Place| if p.is_ghost() { u32::MAX } else { p.index() as u32 };
         let key = turned(fill.mesh.facet_places(f).map(number));
         self.border.binary_search_by_key(&key, |facet| facet.corners).ok()
@@ -124,7 +125,7 @@ impl Hole {
     /// Finds the tetrahedra of the filling that are inside of the hole: from one at a facet of the border, across
     /// facets that are none of the border. False if they do not meet all of the border, each facet from inside alone; those
     /// that they do not meet so have no inside then.
-    pub(in crate::space) fn find_inside(&mut self, fill: &mut Layer) -> bool {
+    pub(in crate::space) fn find_inside<W: Lift>(&mut self, fill: &mut Layer<W>) -> bool {
         self.inside.clear();
         let mut star = std::mem::take(&mut self.star);
         let first = (0..self.border.len()).find_map(|k| {
@@ -171,7 +172,7 @@ impl Hole {
     }
 
     /// Puts what was found inside in the place of what goes. `None`, and nothing has changed, if there is no room.
-    pub(in crate::space) fn copy(&mut self, layer: &mut Layer, fill: &Layer) -> Option<()> {
+    pub(in crate::space) fn copy<W: Lift>(&mut self, layer: &mut Layer<W>, fill: &Layer<W>) -> Option<()> {
         let mesh = &mut layer.mesh;
         if self.inside.len() > self.cells.len() + mesh.room() {
             return None;

@@ -3,8 +3,10 @@
 
 pub(in crate::space) mod arena;
 pub(in crate::space) mod cavity;
+mod faces;
 mod ground;
 pub(in crate::space) mod hole;
+pub(in crate::space) mod kernel;
 mod remove;
 pub(in crate::space) mod scaffold;
 mod simplices;
@@ -18,13 +20,18 @@ use crate::tally::Tally;
 use arena::{Arena, Memory, View};
 use cavity::Cavity;
 use hole::Hole;
+use kernel::Lift;
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
-pub(in crate::space) struct Layer {
+pub(in crate::space) struct Layer<W: Lift = ()> {
     pub(in crate::space) mesh: Mesh3,
     /// For each place its coordinates.
     pub(in crate::space) points: Vec<[f64; 3]>,
+    /// For each place its weight, if there are weights.
+    pub(in crate::space) weights: Vec<W>,
+    /// The least and the largest.
+    range: Option<[f64; 2]>,
     /// Places without a point.
     free: Vec<Place>,
     /// The box around all points, and a lattice that they are on.
@@ -36,7 +43,7 @@ pub(in crate::space) struct Layer {
     pub(in crate::space) cavity: Cavity,
     pub(in crate::space) hole: Hole,
     /// What holes are filled with.
-    pub(in crate::space) fill: Option<Box<Layer>>,
+    pub(in crate::space) fill: Option<Box<Layer<W>>>,
 }
 
 /// Why a point does not become a vertex.
@@ -48,19 +55,45 @@ pub(in crate::space) enum Refusal {
     Full,
 }
 
-impl Layer {
+impl<W: Lift> Layer<W> {
     /// Points at their places, none a vertex yet.
     pub(in crate::space) fn new(points: Vec<[f64; 3]>) -> Self {
-        let limits = Bounds::of(points.iter().copied());
-        let grid = Grid::of(points.as_flattened());
+        let weights = vec![W::default(); points.len()];
+        Self::with_weights(points, weights)
+    }
+
+    /// The same with weights.
+    pub(in crate::space) fn with_weights(points: Vec<[f64; 3]>, weights: Vec<W>) -> Self {
         let mesh = Mesh3 { incident: vec![TetrahedronId::NONE; points.len()], ..Mesh3::default() };
-        let filter = Filter3::for_box(limits.extent(), grid);
-        Self { mesh, points, limits, grid, filter, ..Self::default() }
+        let mut layer = Self { mesh, points, weights, ..Self::default() };
+        layer.measure();
+        layer
+    }
+
+    /// The box around all points, the lattice that they are on, the range of the weights, and a filter for all that.
+    fn measure(&mut self) {
+        self.limits = Bounds::of(self.points.iter().copied());
+        self.grid = Grid::of(self.points.as_flattened());
+        self.range = None;
+        if W::HIDES {
+            for w in &self.weights {
+                let (grid, range) = wider((self.grid, self.range), w.value());
+                (self.grid, self.range) = (grid, range);
+            }
+        }
+        self.renew_filter();
+    }
+
+    fn renew_filter(&mut self) {
+        let spread = self.range.map_or(0.0, |[least, most]| most - least);
+        self.filter = W::filter(self.limits.extent(), spread, self.grid);
     }
 
     /// Starts anew with other points, as [`Self::new`], in the memory that there is. They have no names.
-    pub(in crate::space) fn restart(&mut self, points: impl Iterator<Item = [f64; 3]>) {
-        self.set_points(points);
+    pub(in crate::space) fn restart(&mut self, sites: impl Iterator<Item = ([f64; 3], W)> + Clone) {
+        self.weights.clear();
+        self.weights.extend(sites.clone().map(|site| site.1));
+        self.set_points(sites.map(|site| site.0));
         self.free.clear();
         self.mesh.incident.clear();
         self.mesh.incident.resize(self.points.len(), TetrahedronId::NONE);
@@ -72,17 +105,13 @@ impl Layer {
     pub(in crate::space) fn set_points(&mut self, points: impl Iterator<Item = [f64; 3]>) {
         self.points.clear();
         self.points.extend(points);
-        self.limits = Bounds::of(self.points.iter().copied());
-        self.grid = Grid::of(self.points.as_flattened());
-        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+        self.measure();
     }
 
     /// Multiplies all coordinates with a power of two. None may lose bits by that.
     pub(in crate::space) fn scale(&mut self, power: f64) {
         self.points.as_flattened_mut().iter_mut().for_each(|x| *x *= power);
-        self.limits = Bounds::of(self.points.iter().copied());
-        self.grid = Grid::of(self.points.as_flattened());
-        self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+        self.measure();
     }
 
     pub(in crate::space) fn clear_mesh(&mut self) {
@@ -93,22 +122,28 @@ impl Layer {
         self.mesh.vertex_count = 0;
     }
 
-    /// Keeps a point at a place. It is no vertex yet.
-    pub(in crate::space) fn keep(&mut self, q: [f64; 3]) -> Place {
+    /// Keeps a site at a place. It is no vertex yet.
+    pub(in crate::space) fn keep(&mut self, (q, weight): ([f64; 3], W)) -> Place {
         let fits = self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x)));
         if !fits || self.points.is_empty() {
             self.grid = Grid::of(&q).filter(|_| self.points.is_empty());
         }
         let is_outside = !self.limits.contains(q);
         self.limits.include(q);
-        if is_outside || !fits {
-            self.filter = Filter3::for_box(self.limits.extent(), self.grid);
+        let before = (self.grid, self.range);
+        if W::HIDES {
+            (self.grid, self.range) = wider(before, weight.value());
+        }
+        if is_outside || !fits || before != (self.grid, self.range) {
+            self.renew_filter();
         }
         if let Some(place) = self.free.pop() {
             self.points[place.index()] = q;
+            self.weights[place.index()] = weight;
             return place;
         }
         self.points.push(q);
+        self.weights.push(weight);
         self.mesh.incident.push(TetrahedronId::NONE);
         self.mesh.names.add_place();
         Place::new(self.points.len() - 1)
@@ -118,34 +153,6 @@ impl Layer {
     pub(in crate::space) fn free_place(&mut self, v: Place) {
         self.mesh.incident[v.index()] = TetrahedronId::NONE;
         self.free.push(v);
-    }
-
-    /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or says why not, and nothing has
-    /// changed.
-    pub(in crate::space) fn add_point<T: Tally>(
-        &mut self,
-        from: TetrahedronId,
-        q: [f64; 3],
-        tally: &mut T,
-    ) -> Result<Place, Refusal> {
-        if !self.is_in_span(q) {
-            let v = self.keep(q);
-            if self.rebuild(Some(v)).is_none() {
-                self.free_place(v);
-                return Err(Refusal::Full);
-            }
-            return Ok(v);
-        }
-        let t = self.walk(from, q, tally);
-        if let Some(w) = self.vertex_at(t, q) {
-            return Err(Refusal::Vertex(w));
-        }
-        let v = self.keep(q);
-        if self.insert(v, t, tally).is_none() {
-            self.free_place(v);
-            return Err(Refusal::Full);
-        }
-        Ok(v)
     }
 
     /// Some tetrahedron; there must be a vertex.
@@ -160,14 +167,19 @@ impl Layer {
 
     /// What decisions look at.
     #[inline]
-    pub(in crate::space) fn view(&self) -> View<'_> {
-        View { cells: &self.mesh.cells, points: &self.points, filter: &self.filter }
+    pub(in crate::space) fn view(&self) -> View<'_, W> {
+        View { cells: &self.mesh.cells, points: &self.points, weights: &self.weights, filter: &self.filter }
+    }
+
+    /// The site at a place.
+    pub(in crate::space) fn site(&self, p: Place) -> ([f64; 3], W) {
+        (self.points[p.index()], W::at(&self.weights, p))
     }
 
     /// [`View::conflicts`].
     #[inline]
-    pub(in crate::space) fn conflicts(&self, t: TetrahedronId, q: [f64; 3]) -> bool {
-        self.view().conflicts(t, &q)
+    pub(in crate::space) fn conflicts(&self, t: TetrahedronId, q: ([f64; 3], W)) -> bool {
+        self.view().conflicts(t, (&q.0, q.1))
     }
 
     /// Whether the corners of a finite tetrahedron are in positive order.
@@ -190,6 +202,7 @@ impl Layer {
         }
         let mut limits = self.limits;
         limits.include(q);
+        // A walk asks for orientations alone.
         Filter3::for_box(limits.extent(), None)
     }
 
@@ -224,20 +237,61 @@ impl Layer {
         self.cavity = cavity;
         inserted?;
         self.mesh.vertex_count += 1;
+        if W::HIDES {
+            self.mesh.vertex_count -= self.cavity.hidden().len();
+        }
         Some(())
     }
 }
 
-impl Arena for Layer {
+impl Layer {
+    /// Makes a point a vertex, found from a tetrahedron near it, and returns its place; or says why not, and nothing has
+    /// changed.
+    pub(in crate::space) fn add_point<T: Tally>(
+        &mut self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        tally: &mut T,
+    ) -> Result<Place, Refusal> {
+        if !self.is_in_span(q) {
+            let v = self.keep((q, ()));
+            if self.rebuild(Some(v)).is_none() {
+                self.free_place(v);
+                return Err(Refusal::Full);
+            }
+            return Ok(v);
+        }
+        let t = self.walk(from, q, tally);
+        if let Some(w) = self.vertex_at(t, q) {
+            return Err(Refusal::Vertex(w));
+        }
+        let v = self.keep((q, ()));
+        if self.insert(v, t, tally).is_none() {
+            self.free_place(v);
+            return Err(Refusal::Full);
+        }
+        Ok(v)
+    }
+}
+
+/// The lattice that a weight's square root may be on too, and the range with it.
+fn wider((grid, range): (Option<Grid>, Option<[f64; 2]>), weight: f64) -> (Option<Grid>, Option<[f64; 2]>) {
+    let [least, most] = range.unwrap_or([weight; 2]);
+    (grid.filter(|grid| grid.holds_square(weight)), Some([least.min(weight), most.max(weight)]))
+}
+
+impl<W: Lift> Arena for Layer<W> {
+    type Weight = W;
+
     #[inline]
-    fn view(&self) -> View<'_> {
+    fn view(&self) -> View<'_, W> {
         self.view()
     }
 
     #[inline]
-    fn memory(&mut self) -> Memory<'_> {
+    fn memory(&mut self) -> Memory<'_, W> {
         let Mesh3 { cells, marks, incident, .. } = &mut self.mesh;
-        Memory { cells, marks, incident, points: &self.points, filter: &self.filter }
+        Memory { cells, marks, incident, points: &self.points, weights: &self.weights, filter: &self.filter }
     }
 
     fn room(&self) -> usize {

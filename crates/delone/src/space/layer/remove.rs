@@ -2,10 +2,14 @@
 //!
 //! Source: Devillers & Teillaud, "Perturbations and vertex removal in a 3D Delaunay triangulation", SODA 2003.
 //!
+//! With weights this gives the triangulation of the others that were vertices; those that the removed one hid are inserted by the
+//! owner.
+//!
 //! Cost: O(d log d) expected for a star of d tetrahedra, 27 on average, if the triangulation of its link is of size O(d).
 
 use super::Layer;
 use super::hole::Hole;
+use super::kernel::Lift;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
 use crate::tally::Tally;
@@ -20,7 +24,7 @@ enum Filled {
     NoRoom,
 }
 
-impl Layer {
+impl<W: Lift> Layer<W> {
     /// Removes the vertex at a place, which is free then. `None`, and nothing has changed, if there is no room for what takes
     /// the place of its star.
     pub(in crate::space) fn remove<T: Tally>(&mut self, v: Place, tally: &mut T) -> Option<()> {
@@ -51,7 +55,7 @@ impl Layer {
     }
 
     /// Removes the star of a vertex and fills the hole. Nothing has changed if it is not filled.
-    fn fill_star(&mut self, v: Place, hole: &mut Hole, fill: &mut Layer) -> Filled {
+    fn fill_star(&mut self, v: Place, hole: &mut Hole, fill: &mut Self) -> Filled {
         let mesh = &self.mesh;
         mesh.star(v, &mut hole.cells);
         hole.set_vertices(self, Some(v), None);

@@ -3,19 +3,20 @@
 //! *Scaffold* points off their span make up for what is missing: three for a point, two for a line, one for a plane.
 //! What is in the span does not depend on them: with coplanar points and one apex, a point of the plane is in the
 //! sphere of a triangle and the apex exactly if it is in the circle of the triangle, ties included, because the height of
-//! the apex has no part in it. When the span changes, everything is triangulated anew.
+//! the apex has no part in it, nor has its weight. When the span changes, everything is triangulated anew.
 
 use delone_predicates::{are_collinear3, orient2d, orient3d};
 
 use super::Layer;
 use super::arena::Arena;
+use super::kernel::Lift;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::{FACETS, Tetrahedron, link};
 use crate::order;
 use crate::space::construct;
 
-impl Layer {
+impl<W: Lift> Layer<W> {
     /// What the vertices span.
     pub(in crate::space) fn dimension(&self) -> Dimension {
         match (self.mesh.vertex_count, self.scaffold.len()) {
@@ -39,7 +40,7 @@ impl Layer {
             return Some(vertices);
         }
         let scaffold: Vec<[f64; 3]> = self.off_span(&vertices);
-        self.scaffold = scaffold.into_iter().map(|p| self.keep(p)).collect();
+        self.scaffold = scaffold.into_iter().map(|p| self.keep((p, W::default()))).collect();
         let four: Vec<Place> = vertices.iter().chain(&self.scaffold).copied().collect();
         self.mesh.vertex_count = vertices.len();
         first_cells(self, [four[0], four[1], four[2], four[3]])?;

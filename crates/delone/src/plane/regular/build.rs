@@ -1,0 +1,67 @@
+//! Bulk construction: insertion in biased random rounds along a Hilbert curve, in whose order sites are kept.
+//!
+//! What is hidden once stays so, because more sites only lower the hull of the lifted ones: nothing is kept for it.
+//!
+//! Source: Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Cost: O(n log n) expected.
+
+use super::Regular2;
+use super::settle::Settled;
+use crate::ids::{Place, TriangleId, VertexId};
+use crate::locate::{Start, Walk};
+use crate::mesh::{Mesh2, Names};
+use crate::order;
+use crate::plane::layer::Layer;
+use crate::plane::layer::kernel::Power;
+use crate::tally::{Tally, Work};
+use crate::under::Under;
+
+/// Triangulates sites, all finite and not too many.
+pub(super) fn build(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Regular2 {
+    let along = order::plane::curve(points);
+    let sorted = along.iter().map(|&i| points[i as usize]).collect();
+    let weights = along.iter().map(|&i| weights[i as usize]).collect();
+    let mut layer: Layer<Power> = Layer::with_weights(Mesh2::empty(points.len()), sorted, weights);
+    layer.mesh.names = Some(Names::along(&along));
+    layer.mesh.edges.reserve_exact(8 * points.len().saturating_sub(1));
+    let mut work = Work::default();
+    let under = insert_all(&mut layer, seed, &mut work);
+    Regular2 { hinted: layer.mesh.vertex_count, base: layer, under, work, ..Regular2::default() }
+}
+
+/// Inserts what is at every place. Those that are no vertices lose their place's name.
+fn insert_all<T: Tally>(layer: &mut Layer<Power>, seed: u64, tally: &mut T) -> Under<TriangleId> {
+    let mut hidden = Vec::new();
+    // Those that equal a vertex, with its place.
+    let mut equal: Vec<(VertexId, Place, Place)> = Vec::new();
+    let mut start = Start::Anywhere;
+    for i in order::plane::rounds(layer.points.len(), seed) {
+        let v = Place::new(i as usize);
+        let (spot, _) = layer.spot(start, layer.points[v.index()], tally);
+        let near = match layer.settle(v, spot, &mut hidden, tally) {
+            Settled::Vertex => v,
+            Settled::Equal(w) => {
+                let names = layer.mesh.names();
+                let duplicate = names.coincide(names.of(v), w);
+                equal.push((VertexId::new(duplicate.point), v, w));
+                w
+            }
+            Settled::Hidden => {
+                hidden.push(v);
+                continue;
+            }
+        };
+        if layer.mesh.lone.is_none() {
+            start = Start::At(layer.mesh.incident[near.index()], Walk::Visibility);
+        }
+    }
+    let names = layer.mesh.names();
+    let mut sites: Vec<(VertexId, Place)> = hidden.into_iter().map(|p| (names.of(p), p)).collect();
+    sites.iter().for_each(|&(id, _)| names.release(id));
+    sites.extend(equal.iter().map(|&(id, place, _)| (id, place)));
+    let mut under = Under::new(sites);
+    for (id, _, w) in equal {
+        // A vertex once, which may be hidden since.
+        under.set_equal(id, Some(layer.mesh.name(w)).filter(|v| !v.is_ghost()));
+    }
+    under
+}

@@ -1,0 +1,189 @@
+//! Sites that come, go, and change their weights.
+//!
+//! What a new vertex covers keeps its place among the sites that are no vertices. When a vertex goes, its star is filled with
+//! the triangles of the vertices around it, and then those that were above its triangles come again, one by one: no other
+//! can surface.
+//!
+//! Cost: the walk and the cavity or the star, and O(log h) for each site that was above a triangle that is gone; while all
+//! sites are on one line, for all of them.
+
+use super::Regular2;
+use super::settle::Settled;
+use crate::error::Error;
+use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
+use crate::locate::{Start, Strategy, Walk};
+use crate::mesh::Names;
+use crate::plane::layer::insert::Spot;
+use crate::points::{Position2, check_weights, finite};
+
+/// Below so many vertices any hint will do.
+const SMALL: usize = 32;
+
+impl Regular2 {
+    /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`], [`Error::Weight`] if a number is not finite, [`Error::TooManyPoints`]; then nothing changes.
+    pub fn insert<P: Position2>(&mut self, point: P, weight: f64) -> Result<Inserted, Error> {
+        let q = finite(point.xy())?;
+        check_weights(&[weight])?;
+        let given = self.ids_given();
+        if given >= MAX_POINTS {
+            return Err(Error::TooManyPoints { count: given + 1, most: MAX_POINTS });
+        }
+        let (spot, _) = self.spot(q);
+        if let Spot::Vertex(w) = spot
+            && self.base.weights[w.index()] == weight
+        {
+            return Ok(Inserted::Existing(self.mesh().name(w)));
+        }
+        let v = VertexId::new(given);
+        self.base.mesh.names.get_or_insert_with(Names::default).reserve(1);
+        let place = self.base.place_for(spot, q);
+        self.base.weights[place.index()] = weight;
+        self.locate_under();
+        self.settle(v, place, spot);
+        Ok(Inserted::New(v))
+    }
+
+    /// Takes a site away, hidden or not. Those that only it hid are vertices then. O(log n) on average.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`]; then nothing changes.
+    pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
+        let place = self.lift(v)?;
+        self.base.free_place(place);
+        Ok(())
+    }
+
+    /// Gives a site another weight. The cost of a removal and of an insertion.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`], [`Error::Weight`]; then nothing changes.
+    pub fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
+        check_weights(&[weight])?;
+        let place = self.lift(v)?;
+        self.base.weights[place.index()] = weight;
+        self.settle_again(v, place);
+        Ok(())
+    }
+
+    /// Takes a site out of the triangulation, and lets those surface that only it hid. It keeps its place.
+    fn lift(&mut self, v: VertexId) -> Result<Place, Error> {
+        self.locate_under();
+        if let Some(place) = self.under.take(v) {
+            return Ok(place);
+        }
+        let place = self.mesh().place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
+        let mut freed = Vec::new();
+        let before = self.dimension();
+        if self.base.spanned {
+            let star: Vec<_> = self.base.mesh.spokes(place).map(|e| e.triangle()).collect();
+            star.into_iter().for_each(|t| self.under.take_from(t, &mut freed));
+        }
+        self.base.mesh.names().release(v);
+        let site = self.base.site(place);
+        self.base.remove(place, &mut ());
+        // The place stays with its site.
+        let kept = self.base.new_place(place.index(), site.0);
+        self.base.weights[kept.index()] = site.1;
+        if self.dimension() != before || !self.base.spanned {
+            self.under.take_all(&mut freed);
+            self.hints.take();
+        }
+        freed.sort_unstable();
+        freed.into_iter().for_each(|(id, place)| self.settle_again(id, place));
+        Ok(kept)
+    }
+
+    /// Finds where a site falls, and settles it there.
+    fn settle_again(&mut self, v: VertexId, place: Place) {
+        let (spot, _) = self.spot(self.base.points[place.index()]);
+        self.settle(v, place, spot);
+    }
+
+    /// Makes a site a vertex or puts it under, and with it those whose triangles are gone.
+    fn settle(&mut self, v: VertexId, place: Place, spot: Spot) {
+        let was_spanned = self.base.spanned;
+        let mut hidden = Vec::new();
+        match self.base.settle(place, spot, &mut hidden, &mut ()) {
+            Settled::Hidden => return self.put_under(v, place, spot),
+            Settled::Equal(w) => {
+                // The first given of equal ones is the vertex.
+                let there = self.mesh().name(w);
+                let names = self.base.mesh.names();
+                if v < there {
+                    names.release(there);
+                    names.bind(v, w);
+                    self.under.equal_instead(there, v);
+                }
+                return self.put_under(v.max(there), place, spot);
+            }
+            Settled::Vertex => {}
+        }
+        let mut moved: Vec<(VertexId, Place)> = Vec::new();
+        if was_spanned {
+            let (star, _) = self.base.cavity.last();
+            let (_, spare) = self.base.cavity.swallowed();
+            star.iter().chain(spare).for_each(|&t| self.under.take_from(t, &mut moved));
+        } else {
+            self.under.take_all(&mut moved);
+            self.hints.take();
+        }
+        let names = self.base.mesh.names();
+        for p in hidden {
+            let id = names.of(p);
+            names.release(id);
+            moved.push((id, p));
+        }
+        names.bind(v, place);
+        let near = self.base.mesh.incident[place.index()];
+        for (id, p) in moved {
+            let start = if self.base.spanned { Start::At(near, Walk::Visibility) } else { Start::Anywhere };
+            let (spot, _) = self.base.spot(start, self.base.points[p.index()], &mut ());
+            self.put_under(id, p, spot);
+        }
+        let start = Start::Anywhere;
+        if let Some(hints) = self.hints.get_mut() {
+            hints.inserted(&self.base, place, start, &mut ());
+        }
+        self.renew_hints();
+    }
+
+    /// Notes a site that is no vertex where it falls.
+    fn put_under(&mut self, v: VertexId, place: Place, spot: Spot) {
+        let mesh = &self.base.mesh;
+        let finite = |t: &_| !mesh.is_ghost(*t);
+        let (equal, cell) = match spot {
+            Spot::Vertex(w) => {
+                let cell =
+                    self.base.spanned.then(|| mesh.spokes(w).map(|e| e.triangle()).find(finite)).flatten();
+                (Some(w).filter(|w| self.base.weights[w.index()] == self.base.weights[place.index()]), cell)
+            }
+            Spot::Triangle(t) => (None, Some(t)),
+            _ => (None, None),
+        };
+        self.under.put(v, place, equal.map(|w| mesh.name(w)), cell);
+    }
+
+    /// Finds the triangles of the sites under them, at the first change after a construction.
+    fn locate_under(&mut self) {
+        if self.under.are_known {
+            return;
+        }
+        self.under.are_known = true;
+        let sites: Vec<_> = self.under.all().collect();
+        for (id, place) in sites {
+            let (spot, _) = self.spot(self.base.points[place.index()]);
+            self.put_under(id, place, spot);
+        }
+    }
+
+    fn renew_hints(&mut self) {
+        let count = self.vertex_count();
+        if count > 2 * self.hinted.max(SMALL) {
+            self.hints.take();
+            self.hinted = count;
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Proof that this is the canonical regular triangulation of all its sites.
+//!
+//! Triangles are proved as without weights: lifted, no vertex across an edge is below the plane of its triangle. A site that is
+//! no vertex is proved by the triangle above which it lies: it is above that triangle's plane, or equals a corner.
+//!
+//! Cost: O(n), and a walk for each site that is no vertex.
+
+use super::Regular2;
+use crate::ids::VertexId;
+use crate::plane::check::{Flaw2, check_geometry};
+use crate::plane::layer::insert::Spot;
+use crate::plane::layer::kernel::{Kernel, Power};
+
+/// What is wrong with a regular triangulation, one sentence each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegularFlaw2 {
+    /// The triangles are not the regular ones of the vertices.
+    #[error(transparent)]
+    Triangulation(#[from] Flaw2),
+    /// A site is called hidden and is below the triangles.
+    #[error("site {} is no vertex, and none of the others hides it", .0.index())]
+    Hidden(VertexId),
+    /// A site is called the duplicate of a vertex that it does not equal, or is not called that of the one that it equals.
+    #[error("site {} is said to be another one's duplicate and is not, or the other way round", .0.index())]
+    Duplicate(VertexId),
+}
+
+impl Regular2 {
+    /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.
+    pub fn check(&self) -> Result<(), RegularFlaw2> {
+        self.mesh().check().map_err(Flaw2::from)?;
+        check_geometry(&self.base)?;
+        for (v, place) in self.under.all() {
+            let site = self.base.site(place);
+            let (spot, _) = self.spot(site.0);
+            let corners = |k: usize, t| self.base.site(self.base.mesh.places(t)[k]);
+            let mut equal = None;
+            let is_above = match spot {
+                Spot::Vertex(w) => {
+                    equal = Some(w).filter(|w| self.base.weights[w.index()] == site.1);
+                    self.base.weights[w.index()] >= site.1
+                }
+                Spot::Segment(e) => {
+                    let [a, b] = [self.base.mesh.tail(e), self.base.mesh.head(e)].map(|p| self.base.site(p));
+                    !Power::contains_on_line(a, b, site)
+                }
+                Spot::Triangle(t) => {
+                    !self.mesh().is_ghost(t)
+                        && !Power::contains(corners(0, t), corners(1, t), corners(2, t), site)
+                }
+                _ => false,
+            };
+            if !is_above {
+                return Err(RegularFlaw2::Hidden(v));
+            }
+            let equal = equal.map(|w| self.mesh().name(w));
+            if self.under.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
+                return Err(RegularFlaw2::Duplicate(v));
+            }
+        }
+        Ok(())
+    }
+}

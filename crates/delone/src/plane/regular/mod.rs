@@ -1,0 +1,220 @@
+//! Regular triangulations of the plane: Delaunay triangulations of points with weights, the duals of power diagrams.
+//!
+//! A site (p, w) has at x the power |x - p|^2 - w: a weight is the square of a radius, and may be negative. Lifted to |p|^2 - w,
+//! the sites that are corners of the lower hull are the vertices, and its facets the triangles: a site is a vertex if and only
+//! if its closed power cell is not empty. The others are *hidden*. Ties are broken as for Delaunay triangulations, by raising sites
+//! in the lexicographic order of their points, which never hides one: the triangulation is a function of the set of sites.
+//!
+//! Sources: Aurenhammer, "Power diagrams: properties, algorithms and applications", SIAM J. Comput. 1987; Edelsbrunner & Shah,
+//! "Incremental topological flipping works for regular triangulations", Algorithmica 1996; Devillers & Teillaud, "Perturbations
+//! for Delaunay and weighted Delaunay 3D triangulations", CGTA 2011.
+
+mod build;
+mod change;
+mod check;
+mod settle;
+mod triangulation;
+
+use std::sync::OnceLock;
+
+use delone_predicates::compare_powers;
+
+use crate::error::Error;
+use crate::ids::{Duplicate, EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
+use crate::locate::tree::Tree;
+use crate::locate::{Start, Strategy};
+use crate::mesh::{Dimension, Mesh2};
+use crate::plane::layer::Layer;
+use crate::plane::layer::insert::Spot;
+use crate::plane::layer::kernel::Power;
+use crate::points::{Position2, check_count, check_finite, check_weights, finite};
+use crate::tally::{Counters, Work};
+use crate::under::Under;
+pub use check::RegularFlaw2;
+
+/// The regular triangulation of sites with weights in the plane. See the [crate's words](crate#names) for what it has in common with
+/// [`crate::Delaunay2`].
+///
+/// Of sites at one point only the heaviest can be a vertex; of equal ones the first given is, and the others are its
+/// duplicates. With equal weights it is the Delaunay triangulation.
+///
+/// Cost: O(n log n) expected; 24 bytes a site, 36 a vertex more.
+///
+/// ```
+/// use delone::Regular2;
+///
+/// // Four disks around a fifth, which they leave nothing.
+/// let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]].map(|p| (p, 9.0));
+/// let mut sites = corners.to_vec();
+/// sites.push(([2.0, 2.0], 0.5));
+/// let mut r = Regular2::from_sites(&sites)?;
+/// assert_eq!(r.vertex_count(), 4);
+/// assert!(r.hidden().map(|v| v.index()).eq([4]));
+///
+/// // A larger disk is a vertex.
+/// let v = r.hidden().next().expect("one");
+/// r.set_weight(v, 3.0)?;
+/// assert_eq!((r.vertex_count(), r.triangles().count()), (5, 4));
+/// r.check()?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Regular2 {
+    base: Layer<Power>,
+    under: Under<TriangleId>,
+    work: Work,
+    hints: OnceLock<Tree<EdgeId>>,
+    /// The number of vertices when the hints were made.
+    hinted: usize,
+}
+
+impl Regular2 {
+    /// No site yet.
+    pub fn new() -> Self {
+        Self::from_sites::<[f64; 2]>(&[]).unwrap_or_default()
+    }
+
+    /// Triangulates points with weights, squared radii in the units of the coordinates. O(n log n) expected.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::Weight`] for numbers that are not finite, by index; [`Error::TooManyPoints`].
+    pub fn from_sites<P: Position2>(sites: &[(P, f64)]) -> Result<Self, Error> {
+        let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|(p, w)| (p.xy(), *w)).unzip();
+        Self::with_seed(&points, &weights, 0)
+    }
+
+    /// The same for points and weights apart, with a random order of insertion that the seed decides and that does not show in the
+    /// triangles.
+    ///
+    /// # Errors
+    /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
+    pub fn with_seed<P: Position2>(points: &[P], weights: &[f64], seed: u64) -> Result<Self, Error> {
+        if points.len() != weights.len() {
+            return Err(Error::Length { expected: points.len(), found: weights.len() });
+        }
+        check_count(points.len(), MAX_POINTS)?;
+        check_finite(points.iter().map(Position2::xy))?;
+        check_weights(weights)?;
+        Ok(build::build(&P::all(points), weights, seed))
+    }
+
+    /// What construction took.
+    pub fn counters(&self) -> Counters {
+        Counters::Incremental(self.work)
+    }
+
+    /// The topology. Its vertices are those that are not hidden.
+    pub fn mesh(&self) -> &Mesh2 {
+        &self.base.mesh
+    }
+
+    /// What the sites span; hidden ones span nothing more.
+    pub fn dimension(&self) -> Dimension {
+        self.mesh().dimension()
+    }
+
+    /// The number of sites ever given: one more than the largest id.
+    pub fn ids_given(&self) -> usize {
+        self.base.mesh.names.as_ref().map_or(0, crate::mesh::Names::given)
+    }
+
+    /// The number of sites that are vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.mesh().vertex_count()
+    }
+
+    /// The sites that are vertices, by increasing id.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.mesh().vertices()
+    }
+
+    /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
+    pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.under.hidden()
+    }
+
+    /// Whether a site is hidden.
+    pub fn is_hidden(&self, v: VertexId) -> bool {
+        self.under.is_hidden(v)
+    }
+
+    /// Sites that equal a vertex given earlier, their weights too, by increasing id.
+    pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        self.under.duplicates()
+    }
+
+    /// Point and weight of a site, hidden or not; none if it was removed or never given.
+    pub fn site(&self, v: VertexId) -> Option<([f64; 2], f64)> {
+        self.place(v).map(|place| self.base.site(place))
+    }
+
+    fn place(&self, v: VertexId) -> Option<Place> {
+        self.mesh().place(v).or_else(|| self.under.place(v))
+    }
+
+    /// The corners of all triangles, counter-clockwise.
+    pub fn triangles(&self) -> impl Iterator<Item = [VertexId; 3]> + '_ {
+        self.mesh().triangles().map(|t| self.mesh().corners(t))
+    }
+
+    /// The finite triangles.
+    pub fn triangle_ids(&self) -> impl Iterator<Item = TriangleId> + '_ {
+        self.mesh().triangles()
+    }
+
+    /// All edges, each once.
+    pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
+    }
+
+    /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
+    /// smallest. None where there is no vertex. O(log n) on average on evenly spread sites.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] if a coordinate is not finite.
+    pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
+        let q = finite(q.xy())?;
+        let (spot, _) = self.spot(q);
+        let from = match spot {
+            Spot::Empty => return Ok(None),
+            Spot::Vertex(v) | Spot::End(v) => v,
+            Spot::BesidePoint => self.base.mesh.lone.unwrap_or(Place::new(0)),
+            Spot::Segment(e) => self.base.mesh.tail(e),
+            Spot::BesideLine(t) | Spot::Triangle(t) => {
+                let corners = self.base.mesh.places(t).into_iter().find(|p| !p.is_ghost());
+                corners.unwrap_or(Place::new(0))
+            }
+        };
+        // Along edges downhill: a vertex that no neighbour has less power than is the lowest of a convex hull.
+        let site = |p: Place| self.base.site(p);
+        let less = |a: Place, b: Place| {
+            let order = compare_powers(q, site(a), site(b));
+            order.then_with(|| delone_predicates::lexicographic(site(a).0, site(b).0)).is_lt()
+        };
+        let mut best = from;
+        loop {
+            let before = best;
+            let around = self.base.mesh.lone.is_none().then(|| self.base.mesh.spokes(before));
+            for w in around.into_iter().flatten().map(|e| self.base.mesh.head(e)).filter(|w| !w.is_ghost()) {
+                if less(w, best) {
+                    best = w;
+                }
+            }
+            if best == before {
+                return Ok(Some(self.mesh().name(best)));
+            }
+        }
+    }
+
+    fn spot(&self, q: [f64; 2]) -> (Spot, usize) {
+        let start = if self.base.spanned {
+            self.hints.get_or_init(|| Tree::build(&self.base)).start(&self.base, q, &mut ())
+        } else {
+            Start::Anywhere
+        };
+        self.base.spot(start, q, &mut ())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! What decides whether a tetrahedron is in conflict with a site: spheres of points, or power spheres of points with weights.
+//!
+//! Without weights no site hides another, and a cavity has no vertex inside. With weights ([`Lift::HIDES`]) a vertex inside of a
+//! cavity is one that the new site hides, and a site without a cavity is hidden itself.
+
+use delone_predicates::{Filter3, Grid, Sign, in_power_sphere, in_sphere};
+
+use crate::weight::Weight;
+
+/// A site whose point is not copied: copies are read in other pieces than they are written, and that waits.
+pub(in crate::space) type SiteRef<'a, W> = (&'a [f64; 3], W);
+
+/// What a site has besides its point, and the tests that it changes.
+pub(in crate::space) trait Lift: Weight {
+    /// Whether a site may hide another one, so that this is no vertex.
+    const HIDES: bool;
+
+    /// The weight as a number.
+    fn value(self) -> f64;
+
+    /// A filter for sites in a box whose weights differ by at most `spread`.
+    fn filter(extent: [f64; 3], spread: f64, grid: Option<Grid>) -> Filter3;
+
+    /// The in-sphere test.
+    fn in_sphere(filter: &Filter3, corners: [SiteRef<'_, Self>; 4], q: SiteRef<'_, Self>) -> Sign;
+
+    /// The same for sites that no filter knows.
+    fn is_in_sphere(corners: [([f64; 3], Self); 4], q: ([f64; 3], Self)) -> bool;
+
+    /// Two at once.
+    fn in_spheres(filter: &Filter3, corners: [[SiteRef<'_, Self>; 4]; 2], q: SiteRef<'_, Self>) -> [Sign; 2];
+}
+
+impl Lift for () {
+    const HIDES: bool = false;
+
+    fn value(self) -> f64 {
+        0.0
+    }
+
+    fn filter(extent: [f64; 3], _: f64, grid: Option<Grid>) -> Filter3 {
+        Filter3::for_box(extent, grid)
+    }
+
+    #[inline]
+    fn in_sphere(filter: &Filter3, [a, b, c, d]: [SiteRef<'_, Self>; 4], q: SiteRef<'_, Self>) -> Sign {
+        filter.in_sphere(*a.0, *b.0, *c.0, *d.0, *q.0)
+    }
+
+    fn is_in_sphere([a, b, c, d]: [([f64; 3], Self); 4], q: ([f64; 3], Self)) -> bool {
+        in_sphere(a.0, b.0, c.0, d.0, q.0).is_positive()
+    }
+
+    #[inline]
+    fn in_spheres(filter: &Filter3, corners: [[SiteRef<'_, Self>; 4]; 2], q: SiteRef<'_, Self>) -> [Sign; 2] {
+        filter.in_spheres(corners.map(|corners| corners.map(|site| site.0)), q.0)
+    }
+}
+
+impl Lift for f64 {
+    const HIDES: bool = true;
+
+    fn value(self) -> f64 {
+        self
+    }
+
+    fn filter(extent: [f64; 3], spread: f64, grid: Option<Grid>) -> Filter3 {
+        Filter3::for_sites(extent, spread, grid)
+    }
+
+    #[inline]
+    fn in_sphere(filter: &Filter3, corners: [SiteRef<'_, Self>; 4], q: SiteRef<'_, Self>) -> Sign {
+        filter.in_power_sphere(corners, q)
+    }
+
+    fn is_in_sphere([a, b, c, d]: [([f64; 3], Self); 4], q: ([f64; 3], Self)) -> bool {
+        in_power_sphere(a, b, c, d, q).is_positive()
+    }
+
+    #[inline]
+    fn in_spheres(filter: &Filter3, corners: [[SiteRef<'_, Self>; 4]; 2], q: SiteRef<'_, Self>) -> [Sign; 2] {
+        filter.in_power_spheres(corners, q)
+    }
+}

@@ -1,0 +1,39 @@
+//! Bulk construction: insertion in biased random rounds along a Hilbert curve, in whose order sites are kept.
+//!
+//! What is hidden once stays so, because more sites only lower the hull of the lifted ones: nothing is kept for it.
+
+use super::Regular3;
+use crate::ids::{Place, VertexId};
+use crate::mesh::Names;
+use crate::order;
+use crate::parallel;
+use crate::space::construct;
+use crate::space::layer::Layer;
+use crate::tally::Work;
+use crate::under::Under;
+
+/// Triangulates sites, all finite and not too many. `None` if there would be too many tetrahedra.
+pub(super) fn build(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<Regular3> {
+    let along = order::space::hilbert(points.len(), &|i| points[i as usize]);
+    let sorted = parallel::collect(along.len(), |k| points[along[k] as usize]);
+    let weights = along.iter().map(|&i| weights[i as usize]).collect();
+    let mut layer: Layer<f64> = Layer::with_weights(sorted, weights);
+    layer.mesh.names = Names::along(&along);
+    let mut work = Work::default();
+    let rest = construct::begin_and_insert(&mut layer, &order::space::rounds(points.len(), seed), &mut work)?;
+    let names = &mut layer.mesh.names;
+    // Of equal sites the first given is the vertex, and the other one is kept where it was.
+    let mut equal: Vec<(VertexId, Place, Place)> = Vec::new();
+    for (v, w) in rest.equal {
+        let duplicate = names.coincide(names.of(v), w);
+        equal.push((VertexId::new(duplicate.point), v, w));
+    }
+    let mut sites: Vec<(VertexId, Place)> = rest.hidden.into_iter().map(|p| (names.of(p), p)).collect();
+    sites.iter().for_each(|&(id, _)| names.release(id));
+    sites.extend(equal.iter().map(|&(id, place, _)| (id, place)));
+    let mut under = Under::new(sites);
+    for (id, _, w) in equal {
+        under.set_equal(id, Some(names.of(w)).filter(|v| !v.is_ghost()));
+    }
+    Some(Regular3 { hinted: layer.mesh.vertex_count, base: layer, under, work, ..Regular3::default() })
+}

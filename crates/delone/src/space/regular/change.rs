@@ -1,0 +1,191 @@
+//! Sites that come, go, and change their weights.
+//!
+//! What a new vertex covers keeps its place among the sites that are no vertices. When a vertex goes, its star is filled with
+//! the tetrahedra of the vertices around it, and then those that were above its tetrahedra come again, one by one: no other
+//! can surface. When vertices span more or less than before, all are triangulated anew.
+//!
+//! Cost: the walk and the cavity or the star, and O(log h) for each site that was above a tetrahedron that is gone.
+
+use super::Regular3;
+use crate::error::Error;
+use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
+use crate::locate::{Start, Strategy};
+use crate::points::{Position3, check_weights, finite};
+
+/// Below so many vertices any hint will do.
+const SMALL: usize = 32;
+
+impl Regular3 {
+    /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average on
+    /// evenly spread sites.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`], [`Error::Weight`] if a number is not finite, [`Error::TooManyPoints`], [`Error::TooManyTetrahedra`];
+    /// then nothing changes.
+    pub fn insert<P: Position3>(&mut self, point: P, weight: f64) -> Result<Inserted, Error> {
+        let q = finite(point.xyz())?;
+        check_weights(&[weight])?;
+        let given = self.ids_given();
+        if given >= MAX_POINTS_IN_SPACE {
+            return Err(Error::TooManyPoints { count: given + 1, most: MAX_POINTS_IN_SPACE });
+        }
+        if self.base.is_in_span(q)
+            && let Some(w) = self.base.vertex_at(self.cell_at(q), q)
+            && self.base.weights[w.index()] == weight
+        {
+            return Ok(Inserted::Existing(self.mesh().name(w)));
+        }
+        self.locate_under();
+        let place = self.base.keep((q, weight));
+        let v = VertexId::new(given);
+        self.base.mesh.names.reserve(1);
+        match self.settle(v, place) {
+            Ok(()) => Ok(Inserted::New(v)),
+            Err(full) => {
+                self.base.free_place(place);
+                Err(full)
+            }
+        }
+    }
+
+    /// Takes a site away, hidden or not. Those that only it hid are vertices then. O(log n) on average on evenly spread sites.
+    ///
+    /// # Errors
+    /// [`Error::NoSuchVertex`]; then nothing changes. [`Error::TooManyTetrahedra`] where there is no room for what takes its place.
+    pub fn remove(&mut self, v: VertexId) -> Result<(), Error> {
+        let place = self.lift(v)?;
+        self.base.free_place(place);
+        Ok(())
+    }
+
+    /// Gives a site another weight. The cost of a removal and of an insertion.
+    ///
+    /// # Errors
+    /// As [`Self::remove`], and [`Error::Weight`].
+    pub fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
+        check_weights(&[weight])?;
+        let place = self.lift(v)?;
+        let point = self.base.points[place.index()];
+        self.base.free_place(place);
+        let place = self.base.keep((point, weight));
+        self.settle(v, place)
+    }
+
+    /// Takes a site out of the triangulation, and lets those surface that only it hid. It keeps its place.
+    fn lift(&mut self, v: VertexId) -> Result<Place, Error> {
+        self.locate_under();
+        if let Some(place) = self.under.take(v) {
+            return Ok(place);
+        }
+        let place = self.mesh().place(v).ok_or(Error::NoSuchVertex { vertex: v })?;
+        let before = self.dimension();
+        let mut star = Vec::new();
+        self.base.mesh.star(place, &mut star);
+        let site = self.base.site(place);
+        self.base.mesh.names.release(v);
+        if self.base.remove(place, &mut ()).is_none() {
+            self.base.mesh.names.bind(v, place);
+            return Err(self.full());
+        }
+        let kept = self.base.keep(site);
+        let mut freed = Vec::new();
+        star.into_iter().for_each(|t| self.under.take_from(t, &mut freed));
+        if self.dimension() != before {
+            self.under.take_all(&mut freed);
+            self.hints.take();
+        }
+        freed.sort_unstable();
+        for (id, place) in freed {
+            self.settle(id, place)?;
+        }
+        Ok(kept)
+    }
+
+    fn full(&self) -> Error {
+        Error::TooManyTetrahedra { most: self.base.mesh.most.0 }
+    }
+
+    /// Makes a site a vertex or puts it under, and with it those whose tetrahedra are gone.
+    fn settle(&mut self, v: VertexId, place: Place) -> Result<(), Error> {
+        let site = self.base.site(place);
+        let mut moved: Vec<(VertexId, Place)> = Vec::new();
+        if self.base.is_in_span(site.0) {
+            let t = self.cell_at(site.0);
+            match self.base.vertex_at(t, site.0) {
+                Some(w) if self.base.weights[w.index()] == site.1 => {
+                    self.put_equal(v, place, w, t);
+                    return Ok(());
+                }
+                _ if !self.base.conflicts(t, site) => {
+                    self.under.put(v, place, None, Some(t));
+                    return Ok(());
+                }
+                _ => {}
+            }
+            self.base.insert(place, t, &mut ()).ok_or_else(|| self.full())?;
+            self.base.cavity.last().for_each(|t| self.under.take_from(t, &mut moved));
+            let names = &mut self.base.mesh.names;
+            for &p in self.base.cavity.hidden() {
+                let id = names.of(p);
+                names.release(id);
+                moved.push((id, p));
+            }
+        } else {
+            self.base.rebuild(Some(place)).ok_or_else(|| self.full())?;
+            self.under.take_all(&mut moved);
+            self.hints.take();
+        }
+        self.base.mesh.names.bind(v, place);
+        let near = self.base.mesh.incident[place.index()];
+        for (id, p) in moved {
+            let q = self.base.points[p.index()];
+            let t = self.base.walk(near, q, &mut ());
+            self.put_at(id, p, t);
+        }
+        if let Some(hints) = self.hints.get_mut() {
+            hints.inserted(&self.base, place, Start::Anywhere, &mut ());
+        }
+        self.renew_hints();
+        Ok(())
+    }
+
+    /// Notes a site that is no vertex above a tetrahedron.
+    fn put_at(&mut self, id: VertexId, p: Place, t: TetrahedronId) {
+        let (q, weight) = self.base.site(p);
+        let equal = self.base.vertex_at(t, q).filter(|w| self.base.weights[w.index()] == weight);
+        self.under.put(id, p, equal.map(|w| self.mesh().name(w)), Some(t));
+    }
+
+    /// The first given of equal sites is the vertex.
+    fn put_equal(&mut self, v: VertexId, place: Place, w: Place, t: TetrahedronId) {
+        let there = self.mesh().name(w);
+        if v < there {
+            let names = &mut self.base.mesh.names;
+            names.release(there);
+            names.bind(v, w);
+            self.under.equal_instead(there, v);
+        }
+        self.under.put(v.max(there), place, Some(v.min(there)), Some(t));
+    }
+
+    /// Finds the tetrahedra of the sites under them, at the first change after a construction.
+    fn locate_under(&mut self) {
+        if self.under.are_known {
+            return;
+        }
+        self.under.are_known = true;
+        let sites: Vec<_> = self.under.all().collect();
+        for (id, place) in sites {
+            let t = self.cell_at(self.base.points[place.index()]);
+            self.put_at(id, place, t);
+        }
+    }
+
+    fn renew_hints(&mut self) {
+        let count = self.vertex_count();
+        if count > 2 * self.hinted.max(SMALL) {
+            self.hints.take();
+            self.hinted = count;
+        }
+    }
+}

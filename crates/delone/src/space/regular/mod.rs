@@ -1,0 +1,199 @@
+//! Regular triangulations of space: Delaunay triangulations of points with weights, the duals of power diagrams.
+//!
+//! What `plane/regular` says of triangles holds of tetrahedra: a site is a vertex if and only if its closed power cell is not
+//! empty, and the triangulation is a function of the set of sites.
+//!
+//! Sources: Aurenhammer, "Power diagrams: properties, algorithms and applications", SIAM J. Comput. 1987; Edelsbrunner & Shah,
+//! "Incremental topological flipping works for regular triangulations", Algorithmica 1996; Devillers & Teillaud, "Perturbations
+//! for Delaunay and weighted Delaunay 3D triangulations", CGTA 2011.
+
+mod build;
+mod change;
+mod check;
+mod triangulation;
+
+use std::sync::OnceLock;
+
+use delone_predicates::{compare_powers, lexicographic3};
+
+use super::layer::Layer;
+use crate::error::Error;
+use crate::ids::{Duplicate, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
+use crate::locate::tree::Tree;
+use crate::locate::{Ground, Nearest, Start, Strategy};
+use crate::mesh::{Dimension, Mesh3};
+use crate::points::{Position3, check_in_space, check_weights, finite};
+use crate::tally::{Counters, Work};
+use crate::under::Under;
+pub use check::RegularFlaw3;
+
+/// The regular triangulation of sites with weights in space. See the [crate's words](crate#names) for what it has in common with
+/// [`crate::Delaunay3`].
+///
+/// Of sites at one point only the heaviest can be a vertex; of equal ones the first given is, and the others are its
+/// duplicates. With equal weights it is the Delaunay triangulation.
+///
+/// Cost: O(n log n) expected where the triangulation is of size O(n).
+///
+/// ```
+/// use delone::Regular3;
+///
+/// let corners = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
+/// let mut sites: Vec<_> = corners.iter().map(|&p| (p, 12.0)).collect();
+/// sites.push(([1.0, 1.0, 1.0], 0.5));
+/// let mut r = Regular3::from_sites(&sites)?;
+/// assert_eq!((r.vertex_count(), r.hidden().count()), (4, 1));
+///
+/// let v = r.hidden().next().expect("one");
+/// r.set_weight(v, 11.0)?;
+/// assert_eq!((r.vertex_count(), r.tetrahedra().count()), (5, 4));
+/// r.check()?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Regular3 {
+    base: Layer<f64>,
+    under: Under<TetrahedronId>,
+    work: Work,
+    hints: OnceLock<Tree<TetrahedronId>>,
+    /// The number of vertices when the hints were made.
+    hinted: usize,
+}
+
+impl Regular3 {
+    /// No site yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Triangulates points with weights, squared radii in the units of the coordinates. O(n log n) expected where the triangulation
+    /// is of size O(n).
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::Weight`] for numbers that are not finite, by index; [`Error::TooManyPoints`],
+    /// [`Error::TooManyTetrahedra`].
+    pub fn from_sites<P: Position3>(sites: &[(P, f64)]) -> Result<Self, Error> {
+        let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|(p, w)| (p.xyz(), *w)).unzip();
+        Self::with_seed(&points, &weights, 0)
+    }
+
+    /// The same for points and weights apart, with a random order of insertion that the seed decides and that does not show in the
+    /// tetrahedra.
+    ///
+    /// # Errors
+    /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
+    pub fn with_seed<P: Position3>(points: &[P], weights: &[f64], seed: u64) -> Result<Self, Error> {
+        if points.len() != weights.len() {
+            return Err(Error::Length { expected: points.len(), found: weights.len() });
+        }
+        check_in_space(points)?;
+        check_weights(weights)?;
+        build::build(&P::all(points), weights, seed).ok_or(Error::TooManyTetrahedra { most: MAX_TETRAHEDRA })
+    }
+
+    /// What construction took.
+    pub fn counters(&self) -> Counters {
+        Counters::Incremental(self.work)
+    }
+
+    /// The topology. Its vertices are those that are not hidden.
+    pub fn mesh(&self) -> &Mesh3 {
+        &self.base.mesh
+    }
+
+    /// What the sites span; hidden ones span nothing more.
+    pub fn dimension(&self) -> Dimension {
+        self.base.dimension()
+    }
+
+    /// The number of sites ever given: one more than the largest id.
+    pub fn ids_given(&self) -> usize {
+        self.base.mesh.names.given()
+    }
+
+    /// The number of sites that are vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.mesh().vertex_count()
+    }
+
+    /// The sites that are vertices, by increasing id.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.mesh().vertices()
+    }
+
+    /// The sites whose power cells are empty, by increasing id; duplicates of vertices are not among them.
+    pub fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.under.hidden()
+    }
+
+    /// Whether a site is hidden.
+    pub fn is_hidden(&self, v: VertexId) -> bool {
+        self.under.is_hidden(v)
+    }
+
+    /// Sites that equal a vertex given earlier, their weights too, by increasing id.
+    pub fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        self.under.duplicates()
+    }
+
+    /// Point and weight of a site, hidden or not; none if it was removed or never given.
+    pub fn site(&self, v: VertexId) -> Option<([f64; 3], f64)> {
+        self.mesh().place(v).or_else(|| self.under.place(v)).map(|place| self.base.site(place))
+    }
+
+    /// The finite tetrahedra, by id. None below space.
+    pub fn tetrahedron_ids(&self) -> impl Iterator<Item = TetrahedronId> + '_ {
+        self.base.tetrahedra()
+    }
+
+    /// The finite tetrahedra as corners in positive order: the first three are seen counter-clockwise from the fourth.
+    pub fn tetrahedra(&self) -> impl Iterator<Item = [VertexId; 4]> + '_ {
+        self.tetrahedron_ids().map(|t| self.base.mesh.corners(t))
+    }
+
+    /// The edges, each once, of whatever the sites span.
+    pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
+        self.base.edges()
+    }
+
+    /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
+    /// smallest. None where there is no vertex. O(log n) on average on evenly spread sites.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] if a coordinate is not finite.
+    pub fn nearest<P: Position3>(&self, q: P) -> Result<Option<VertexId>, Error> {
+        let q = finite(q.xyz())?;
+        if self.vertex_count() == 0 {
+            return Ok(None);
+        }
+        let near = self.base.near(self.start(q), q, Nearest::Corner, &mut ()).0;
+        let mut best =
+            if self.base.is_scaffold(near) { self.base.any_vertex().unwrap_or(near) } else { near };
+        // Along edges downhill: a vertex that no neighbour has less power than is the lowest of a convex hull.
+        let less = |a: Place, b: Place| {
+            let [a, b] = [a, b].map(|p| self.base.site(p));
+            compare_powers(q, a, b).then_with(|| lexicographic3(a.0, b.0)).is_lt()
+        };
+        let mut star = Vec::new();
+        loop {
+            let joined = self.base.joined_to(best, &mut star);
+            let lowest = joined.into_iter().fold(best, |best, w| if less(w, best) { w } else { best });
+            if lowest == best {
+                return Ok(Some(self.mesh().name(best)));
+            }
+            best = lowest;
+        }
+    }
+
+    fn start(&self, q: [f64; 3]) -> Start<TetrahedronId> {
+        self.hints.get_or_init(|| Tree::build(&self.base)).start(&self.base, q, &mut ())
+    }
+
+    /// The tetrahedron that a point of what is spanned is in or beside.
+    fn cell_at(&self, q: [f64; 3]) -> TetrahedronId {
+        self.base.walk(self.base.start_cell(self.start(q)), q, &mut ())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,112 @@
+//! The sites that are no vertices: hidden by others, or equal to one.
+//!
+//! Each keeps its place, and from the first change on the simplex above which it lies, so that what a change may let
+//! surface is found where it happens.
+//!
+//! Cost: O(log h) for each of h sites that is moved.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::ids::{Duplicate, Place, VertexId};
+
+/// A site that is no vertex.
+#[derive(Clone, Copy, Debug)]
+struct Below<C> {
+    place: Place,
+    /// The vertex that it equals, if that is what keeps it from being one.
+    equal: Option<VertexId>,
+    /// The simplex above it, where there is one and it is known.
+    cell: Option<C>,
+}
+
+/// See the module. A simplex is a `C`.
+#[derive(Clone, Debug)]
+pub(crate) struct Under<C> {
+    sites: BTreeMap<VertexId, Below<C>>,
+    /// Those whose simplex is known, by simplex.
+    cells: BTreeSet<(C, VertexId)>,
+    /// Whether those of all are known.
+    pub(crate) are_known: bool,
+}
+
+impl<C> Default for Under<C> {
+    fn default() -> Self {
+        Self { sites: BTreeMap::new(), cells: BTreeSet::new(), are_known: false }
+    }
+}
+
+impl<C: Copy + Ord> Under<C> {
+    /// Some sites, whose simplices are not known.
+    pub(crate) fn new(mut sites: Vec<(VertexId, Place)>) -> Self {
+        sites.sort_unstable();
+        let below = |(id, place)| (id, Below { place, equal: None, cell: None });
+        Self { sites: sites.into_iter().map(below).collect(), ..Self::default() }
+    }
+
+    pub(crate) fn place(&self, id: VertexId) -> Option<Place> {
+        self.sites.get(&id).map(|site| site.place)
+    }
+
+    /// All, by id, with their places.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (VertexId, Place)> + '_ {
+        self.sites.iter().map(|(&id, site)| (id, site.place))
+    }
+
+    /// Those that are hidden.
+    pub(crate) fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.sites.iter().filter(|(_, site)| site.equal.is_none()).map(|(&id, _)| id)
+    }
+
+    /// Those that equal a vertex.
+    pub(crate) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
+        self.sites
+            .iter()
+            .filter_map(|(id, site)| site.equal.map(|vertex| Duplicate { point: id.index(), vertex }))
+    }
+
+    /// Whether one is hidden.
+    pub(crate) fn is_hidden(&self, id: VertexId) -> bool {
+        self.sites.get(&id).is_some_and(|site| site.equal.is_none())
+    }
+
+    /// What equals one vertex equals another one from now on.
+    pub(crate) fn equal_instead(&mut self, old: VertexId, new: VertexId) {
+        let equal = self.sites.values_mut().filter(|site| site.equal == Some(old));
+        equal.for_each(|site| site.equal = Some(new));
+    }
+
+    pub(crate) fn set_equal(&mut self, id: VertexId, vertex: Option<VertexId>) {
+        if let Some(site) = self.sites.get_mut(&id) {
+            site.equal = vertex;
+        }
+    }
+
+    /// Another one, or one above another simplex.
+    pub(crate) fn put(&mut self, id: VertexId, place: Place, equal: Option<VertexId>, cell: Option<C>) {
+        self.take(id);
+        self.sites.insert(id, Below { place, equal, cell });
+        self.cells.extend(cell.map(|t| (t, id)));
+    }
+
+    /// Takes one away.
+    pub(crate) fn take(&mut self, id: VertexId) -> Option<Place> {
+        let site = self.sites.remove(&id)?;
+        if let Some(t) = site.cell {
+            self.cells.remove(&(t, id));
+        }
+        Some(site.place)
+    }
+
+    /// Takes those away that were above a simplex, which may be gone.
+    pub(crate) fn take_from(&mut self, t: C, taken: &mut Vec<(VertexId, Place)>) {
+        let above = (t, VertexId::new(0))..=(t, VertexId::GHOST);
+        let ids: Vec<VertexId> = self.cells.range(above).map(|&(_, id)| id).collect();
+        taken.extend(ids.into_iter().filter_map(|id| Some((id, self.take(id)?))));
+    }
+
+    /// Takes all away.
+    pub(crate) fn take_all(&mut self, taken: &mut Vec<(VertexId, Place)>) {
+        self.cells.clear();
+        taken.extend(std::mem::take(&mut self.sites).into_iter().map(|(id, site)| (id, site.place)));
+    }
+}
