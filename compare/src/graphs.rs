@@ -38,7 +38,11 @@ pub fn run(kind: Kind, size: usize, runs: usize) -> bool {
     }
     println!("\n{} {size}, ns per point and times the construction", kind.name());
     let tell = |name: &str, seconds: f64, count: usize| {
-        println!("  {name:20} {:>8.0} {:>6.2} x {count:>10} edges", seconds * 1e9 / size as f64, seconds / best[0]);
+        println!(
+            "  {name:20} {:>8.0} {:>6.2} x {count:>10} edges",
+            seconds * 1e9 / size as f64,
+            seconds / best[0]
+        );
     };
     tell("construction", best[0], 0);
     GRAPHS.iter().enumerate().for_each(|(k, (name, _))| tell(name, best[k + 1], counts[k]));
