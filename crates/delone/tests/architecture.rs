@@ -14,12 +14,12 @@ const FLOORS: &[&[&str]] = &[
     &["order"],
     &["mesh"],
     &["locate", "hull"],
-    &["triangulation"],
+    &["triangulation", "graphs"],
     &["plane", "space"],
 ];
 
 /// Rooms that decide by the predicates.
-const DECIDE: [&str; 3] = ["hull", "plane", "space"];
+const DECIDE: [&str; 4] = ["graphs", "hull", "plane", "space"];
 
 /// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

@@ -25,6 +25,7 @@ pub use crs::Crs;
 pub use diagram::Diagram;
 pub use error::Error;
 pub use format::Format;
+pub use formats::edges::{Edges, write_edges};
 pub use formats::las::LAS_CLASSES;
 pub use formats::poly::Beside;
 pub use graph::{Attributes, Graph, GraphRing};

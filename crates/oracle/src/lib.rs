@@ -9,6 +9,7 @@
 //! - [`lines`]: where lines meet, as fractions;
 //! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
 //! - [`crossings`]: which segments cross, where, and what is left once they are split;
+//! - [`graphs`]: proximity graphs, by trying all pairs against all points;
 //! - [`power`]: regular triangulations of few sites with weights;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
@@ -17,6 +18,7 @@ pub mod certificate;
 pub mod constrained;
 pub mod crossings;
 pub mod exact;
+pub mod graphs;
 pub mod lines;
 pub mod power;
 mod quick;

@@ -9,6 +9,7 @@ tri.remove([17, 4])
 
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
+delone.euclidean_minimum_spanning_tree(points)
 """
 
 import os
@@ -17,6 +18,13 @@ from . import _delone
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
 from ._errors import CrossingError
+from ._graphs import (
+    beta_skeleton,
+    euclidean_minimum_spanning_tree,
+    gabriel_graph,
+    knn_graph,
+    relative_neighborhood_graph,
+)
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
@@ -39,7 +47,12 @@ __all__ = [
     "PolygonTriangles",
     "RaggedTriangles",
     "Voronoi",
+    "beta_skeleton",
+    "euclidean_minimum_spanning_tree",
+    "gabriel_graph",
+    "knn_graph",
     "plot",
+    "relative_neighborhood_graph",
     "triangulate_polygon",
     "triangulate_polygons",
 ]

@@ -5,6 +5,7 @@ mod ask;
 mod graph;
 mod points;
 mod polygons;
+mod proximity;
 mod shapes;
 mod strategy;
 mod triangulate;
@@ -20,6 +21,7 @@ pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArg
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
+pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
@@ -53,6 +55,8 @@ pub(crate) enum Command {
     Nearest(NearestArgs),
     /// The corners of the convex hull in the plane, or its facets in space.
     Hull(HullArgs),
+    /// Join points that are near each other: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest.
+    Graph(ProximityArgs),
     /// Find the vertex furthest from each of many points.
     Furthest(FurthestArgs),
     /// Voronoi cells, clipped, as polygons or as a picture.
