@@ -38,6 +38,14 @@ pub enum Error {
         /// The largest number.
         most: usize,
     },
+    /// A Voronoi diagram of higher order with more circles than 32-bit edge indices can serve.
+    #[error("there would be more than {most} circles with at most {inside} sites inside")]
+    TooManyCircles {
+        /// The largest number.
+        most: usize,
+        /// How many sites are inside of the last ones.
+        inside: usize,
+    },
     /// A coordinate of a point given alone is NaN or infinite.
     #[error("the {} coordinate {value} is not finite", ["x", "y", "z"][*.axis])]
     Coordinate {

@@ -37,6 +37,7 @@
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
 //! | who is near whom: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest | [`Delaunay2::graph`] | [`Delaunay3::graph`] | see [`Graph`] |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
+//! | where which k sites are the nearest | [`Delaunay2::order`], [`OrderCells2`] | | O(k^2 n) on evenly spread sites |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
@@ -100,9 +101,9 @@ pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use order::HintOrder;
 pub use plane::{
     Algorithm2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,
-    Domains2, EnclosingCircle, Fill, Furthest2, Hints2, Location2, Moving2, NearestSites2, Part2,
-    PolygonTriangles2, Polygons2, Region2, RegionSeed2, Regular2, Relaxation2, Ring, Seeds2, SegmentEnds,
-    SegmentId, Step2, Voronoi2, VoronoiEdge2,
+    Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Hints2, Location2, Moving2, NearestSites2,
+    OrderCells2, OrderCircle2, OrderK2, OrderRegion2, Part2, PolygonTriangles2, Polygons2, Region2,
+    RegionSeed2, Regular2, Relaxation2, Ring, Seeds2, SegmentEnds, SegmentId, Step2, Voronoi2, VoronoiEdge2,
 };
 pub use points::{Bounds, Position2, Position3};
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};

@@ -28,6 +28,14 @@ impl Mesh2 {
         TriangleId::new(self.slot_count() - 1)
     }
 
+    /// A triangle with these corners, glued to nothing yet.
+    pub(crate) fn loose_triangle(&mut self, corners: [Place; 3]) -> TriangleId {
+        let [a, b, c] = corners.map(|origin| HalfEdge { origin, twin: EdgeId::NONE });
+        make_room(&mut self.edges, 4);
+        self.edges.extend([a, b, c, HalfEdge::UNUSED]);
+        TriangleId::new(self.slot_count() - 1)
+    }
+
     /// Gives a triangle back.
     pub(crate) fn free_triangle(&mut self, t: TriangleId) {
         self.edges[t.edge(0).index()..][..4].fill(HalfEdge::UNUSED);

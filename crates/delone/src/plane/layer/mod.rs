@@ -8,7 +8,7 @@ pub(in crate::plane) mod cavity;
 pub(in crate::plane) mod insert;
 pub(in crate::plane) mod kernel;
 pub(in crate::plane) mod line;
-mod remove;
+pub(in crate::plane) mod remove;
 mod search;
 mod simplices;
 pub(in crate::plane) mod walk;

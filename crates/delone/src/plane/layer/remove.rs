@@ -15,7 +15,7 @@
 use delone_predicates::orient2d;
 
 use super::Layer;
-use super::kernel::{Kernel, Site};
+use super::kernel::{Kernel, Site, Sites};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::surgery::{BorderEdge, Part};
@@ -32,10 +32,11 @@ const LESS: usize = 2;
 #[derive(Clone, Debug, Default)]
 pub(in crate::plane) struct Hole<K: Kernel> {
     /// Where each edge of the border starts, and its twin outside.
-    border: Vec<BorderEdge>,
+    pub(in crate::plane) border: Vec<BorderEdge>,
     /// The sites where they start; that of the ghost means nothing.
     sites: Vec<Site<K>>,
-    triangles: Vec<TriangleId>,
+    /// Of these the last ones fill it, two less than there are edges.
+    pub(in crate::plane) triangles: Vec<TriangleId>,
     spokes: Vec<EdgeId>,
     /// Parts of the hole still to be filled.
     pending: Vec<Part<()>>,
@@ -69,15 +70,8 @@ impl<K: Kernel> Layer<K> {
             self.spanned = false;
         } else {
             tally.created(degree - 2);
-            if degree <= SMALL || K::HIDES {
-                let site =
-                    |&(v, _): &BorderEdge| if v.is_ghost() { Site::<K>::default() } else { self.site(v) };
-                hole.sites.clear();
-                hole.sites.extend(hole.border.iter().map(site));
-                hole.fill(&mut self.mesh, tally);
-            } else {
-                hole.fill_large(&mut self.mesh, &self.points);
-            }
+            let sites = Sites { points: &self.points, weights: &self.weights };
+            hole.fill(&mut self.mesh, &sites, tally);
             hole.triangles[..LESS].iter().for_each(|&t| self.mesh.free_triangle(t));
             self.mesh.vertex_count -= 1;
         }
@@ -135,9 +129,21 @@ impl<K: Kernel> Hole<K> {
         }
     }
 
+    /// Fills the hole with the triangles of its border.
+    pub(in crate::plane) fn fill<T: Tally>(&mut self, mesh: &mut Mesh2, sites: &Sites<K>, tally: &mut T) {
+        if self.border.len() <= SMALL || K::HIDES {
+            let site = |&(v, _): &BorderEdge| if v.is_ghost() { Site::<K>::default() } else { sites.at(v) };
+            self.sites.clear();
+            self.sites.extend(self.border.iter().map(site));
+            self.fill_small(mesh, tally);
+        } else {
+            self.fill_large(mesh, sites.points);
+        }
+    }
+
     /// Fills the hole side by side. The apex of a side is the vertex whose circle with it contains no other: a
     /// linear search, because the circles through two points are ordered.
-    fn fill<T: Tally>(&mut self, mesh: &mut Mesh2, tally: &mut T) {
+    fn fill_small<T: Tally>(&mut self, mesh: &mut Mesh2, tally: &mut T) {
         let Self { border, sites, triangles, pending, .. } = self;
         mesh.fill_hole(border, triangles, pending, (), |first, last, ()| {
             (apex::<K, T>(border, sites, first, last, tally), (), ())

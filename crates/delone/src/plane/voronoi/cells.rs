@@ -14,7 +14,7 @@ use delone_predicates::{Line, circumcentre};
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::Ground;
-use crate::mesh::triangles::{HalfEdge, Star};
+use crate::mesh::triangles::HalfEdge;
 use crate::points::Bounds;
 use crate::prefetch::prefetch;
 
@@ -52,23 +52,12 @@ impl Voronoi2<'_> {
     pub fn clip_with(self, region: &Region2, mut progress: impl FnMut(usize)) -> Cells2 {
         let triangulation = self.triangulation;
         let (layer, mesh) = (&triangulation.base, triangulation.mesh());
-        let mut cells = Cells2 {
-            sites: vec![(0, 0); triangulation.points().len()],
-            starts: Vec::with_capacity(mesh.vertex_count() + 1),
-            corners: Vec::with_capacity(6 * mesh.vertex_count()),
-            vertices: self.centres(),
-        };
-        cells.starts.push(0);
+        let mut cells = Cells2::new(triangulation.points().len(), mesh.vertex_count(), self.centres());
         let mut done = 0;
         let mut add = |cells: &mut Cells2, place: Place, e: EdgeId| {
-            let first = cells.starts.len() - 1;
-            if !cells.push_whole(mesh.star_from(e), region) {
-                for ring in rounded(&self.cut_out(region, place), region) {
-                    cells.push(&ring);
-                }
-            }
-            let count = cells.starts.len() - 1 - first;
-            cells.sites[mesh.name(place).index()] = (first as u32, count as u32);
+            let corners = mesh.star_from(e).map(|e| e.triangle().index());
+            // The site is in the cell, so no radius is larger than both extents together.
+            cells.add(mesh.name(place).index(), corners, 0.0, region, || self.bisectors(place));
             done += 1;
             if done % 65_536 == 0 {
                 progress(done);
@@ -125,30 +114,36 @@ impl Voronoi2<'_> {
     /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
     pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
         let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
-        rounded(&self.cut_out(region, place), region).collect()
+        rounded(&cut_out(region, self.bisectors(place)), region).collect()
     }
 
-    /// A cell cut out of the region by its bisectors.
-    fn cut_out(self, region: &Region2, place: Place) -> Vec<clip::Ring> {
+    /// The bisectors of a site with its neighbours.
+    fn bisectors(self, place: Place) -> impl Iterator<Item = Line> + Clone {
         let (layer, mesh) = (&self.triangulation.base, self.triangulation.mesh());
         let site = layer.point(place);
-        let cut = |mut rings: Vec<clip::Ring>| {
-            for w in mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()) {
-                if rings.is_empty() {
-                    break;
-                }
-                rings = clip(rings, Line::Bisector(site, layer.point(w)));
+        let others = mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost());
+        others.map(move |w| Line::Bisector(site, layer.point(w)))
+    }
+}
+
+/// A cell cut out of the region by its sides.
+fn cut_out(region: &Region2, sides: impl Iterator<Item = Line> + Clone) -> Vec<clip::Ring> {
+    let cut = |mut rings: Vec<clip::Ring>| {
+        for side in sides.clone() {
+            if rings.is_empty() {
+                break;
             }
-            rings
-        };
-        let framed = cut(vec![region.frame()]);
-        if framed.is_empty() {
-            return framed;
+            rings = clip(rings, side);
         }
-        match region.around(&framed) {
-            None => framed,
-            Some(part) => cut(part),
-        }
+        rings
+    };
+    let framed = cut(vec![region.frame()]);
+    if framed.is_empty() {
+        return framed;
+    }
+    match region.around(&framed) {
+        None => framed,
+        Some(part) => cut(part),
     }
 }
 
@@ -167,25 +162,52 @@ fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region2) -> impl Iterator<It
 }
 
 impl Cells2 {
+    /// None yet, of as many sites, with the vertices that there are and room for so many cells.
+    pub(in crate::plane) fn new(sites: usize, room: usize, vertices: Vec<[f64; 2]>) -> Self {
+        let mut starts = Vec::with_capacity(room + 1);
+        starts.push(0);
+        Self { sites: vec![(0, 0); sites], starts, corners: Vec::with_capacity(6 * room), vertices }
+    }
+
+    /// Adds the cell of a site: as it is by the indices of its corners, or cut out of the region by its sides. No circle that a
+    /// corner is the centre of has a larger radius than the extents of the cell together, or than `radius`.
+    #[inline]
+    pub(in crate::plane) fn add<S: Iterator<Item = Line> + Clone>(
+        &mut self,
+        site: usize,
+        corners: impl Iterator<Item = usize>,
+        radius: f64,
+        region: &Region2,
+        sides: impl FnOnce() -> S,
+    ) {
+        let first = self.starts.len() - 1;
+        if !self.push_whole(corners, radius, region) {
+            for ring in rounded(&cut_out(region, sides()), region) {
+                self.push(&ring);
+            }
+        }
+        let count = self.starts.len() - 1 - first;
+        self.sites[site] = (first as u32, count as u32);
+    }
+
     /// Adds a cell that is surely inside of the region. Says whether that is all: nothing is added of a cell surely outside.
     #[inline]
-    fn push_whole(&mut self, star: Star, region: &Region2) -> bool {
+    fn push_whole(&mut self, indices: impl Iterator<Item = usize>, radius: f64, region: &Region2) -> bool {
         let start = self.corners.len();
         let mut bounds = Bounds::default();
         let mut last = [f64::NAN; 2];
-        for t in star.map(EdgeId::triangle) {
-            let corner = self.vertices[t.index()];
+        for i in indices {
+            let corner = self.vertices[i];
             bounds.include(corner);
             if corner != last {
-                self.corners.push(t.index() as u32);
+                self.corners.push(i as u32);
             }
             last = corner;
         }
-        // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, so
-        // no radius is larger than both extents together.
+        // The corners are rounded: what is asked about is a box that the exact ones are surely in.
         let Bounds { low, high } = bounds;
         let extents = (high[0] - low[0]) + (high[1] - low[1]);
-        let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
+        let relation = enlarged(low, high, extents.max(radius)).map(|[low, high]| region.relation(low, high));
         if relation.is_none_or(|relation| relation != Relation::Inside) {
             self.corners.truncate(start);
             return relation == Some(Relation::Outside);

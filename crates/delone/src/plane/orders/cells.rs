@@ -1,0 +1,72 @@
+//! The regions of a diagram, clipped.
+//!
+//! A region is what its sides leave of the plane, each the bisector of two sites; it is cut as the cells of the plain diagram
+//! are (`voronoi/cells.rs`).
+//!
+//! Cost: O(1) a corner for regions inside, O(d (d + s)) for one with d sides where s sides of what it is clipped to are near.
+
+use delone_predicates::{Line, circumcentre};
+
+use super::{OrderK2, OrderRegion2};
+use crate::ids::VertexId;
+use crate::plane::region::Region2;
+use crate::plane::voronoi::{Cells2, Ring};
+
+/// Clipped regions of a diagram of some order: polygons, of several rings where what they are clipped to is not convex.
+#[derive(Clone, Debug, Default)]
+pub struct OrderCells2 {
+    /// By the index of the region where plain cells are by that of the site.
+    cells: Cells2,
+}
+
+impl OrderK2<'_> {
+    /// Clips all regions. Sites may be outside. The clipped regions tile what they are clipped to.
+    pub fn cells(&self, region: &Region2) -> OrderCells2 {
+        let point = |v: VertexId| self.triangulation.point(v);
+        let mut radii = Vec::with_capacity(self.circles.len());
+        let mut centres = Vec::with_capacity(self.circles.len());
+        for circle in &self.circles {
+            let finite = (!circle.is_ghost()).then(|| circle.on.map(point));
+            let centre = finite.and_then(|[a, b, c]| circumcentre(a, b, c)).unwrap_or([f64::INFINITY; 2]);
+            let on = finite.map_or([0.0; 2], |[a, _, _]| a);
+            radii.push((centre[0] - on[0]).hypot(centre[1] - on[1]));
+            centres.push(centre);
+        }
+        let mut cells = Cells2::new(self.region_count(), self.region_count(), centres);
+        for own in self.regions() {
+            let corners = || own.corners().iter().map(|&corner| corner as usize / 3);
+            let radius = corners().map(|circle| radii[circle]).fold(0.0, f64::max);
+            cells.add(own.index(), corners(), radius, region, || {
+                own.sides().map(|(exchange, _)| Line::Bisector(point(exchange.lost), point(exchange.gained)))
+            });
+        }
+        OrderCells2 { cells }
+    }
+}
+
+impl OrderCells2 {
+    /// The rings of a region: none if it is outside of what was clipped to, or has no area.
+    pub fn rings(&self, region: OrderRegion2) -> impl Iterator<Item = Ring<'_>> + Clone {
+        self.cells.rings(VertexId::new(region.index()))
+    }
+
+    /// The area of a region, in coordinate units squared; see [`Cells2::area`].
+    pub fn area(&self, region: OrderRegion2) -> f64 {
+        self.cells.area(VertexId::new(region.index()))
+    }
+
+    /// The length of the border of a region, in coordinate units.
+    pub fn perimeter(&self, region: OrderRegion2) -> f64 {
+        self.cells.perimeter(VertexId::new(region.index()))
+    }
+
+    /// The centre of mass of a region. `None` if it is empty, or so small that its rounded corners have no area.
+    pub fn centroid(&self, region: OrderRegion2) -> Option<[f64; 2]> {
+        self.cells.centroid(VertexId::new(region.index()))
+    }
+
+    /// The vertices of all rings. Those that no ring uses may be infinite.
+    pub fn vertices(&self) -> &[[f64; 2]] {
+        self.cells.vertices()
+    }
+}
