@@ -10,6 +10,7 @@
 //! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
 //! - [`crossings`]: which segments cross, where, and what is left once they are split;
 //! - [`graphs`]: proximity graphs, by trying all pairs against all points;
+//! - [`orders`]: Voronoi diagrams of order k, by trying all triples;
 //! - [`power`]: regular triangulations of few sites with weights;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
@@ -20,6 +21,7 @@ pub mod crossings;
 pub mod exact;
 pub mod graphs;
 pub mod lines;
+pub mod orders;
 pub mod power;
 mod quick;
 #[cfg(test)]
