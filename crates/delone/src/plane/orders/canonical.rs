@@ -3,6 +3,8 @@
 //!
 //! Cost: O(r k log r) for r regions of k sites.
 
+use std::cmp::Ordering;
+
 use super::OrderK2;
 use super::circle::Circle;
 use super::grow::{Complex, NO_REGION};
@@ -50,18 +52,23 @@ impl Loose {
         self.sites.chunks_exact_mut(order).for_each(<[_]>::sort_unstable);
         let count = self.starts.len() - 1;
         let set = |region: u32| &self.sites[region as usize * order..][..order];
-        let mut sorted: Vec<u32> = (0..count as u32).collect();
-        sorted.sort_unstable_by(|&r, &s| set(r).cmp(set(s)));
+        let ids = triangulation.points().len();
+        let sorted = in_order(count, ids, |r| set(r)[0].index(), |r, s| set(r)[1..].cmp(&set(s)[1..]));
         let mut rank = vec![0; count];
         for (new, &old) in sorted.iter().enumerate() {
             rank[old as usize] = new as u32;
         }
         let turned: Vec<u32> = self.circles.iter_mut().map(|circle| circle.turn(&rank)).collect();
-        let key = |i: u32| (self.circles[i as usize].regions, self.circles[i as usize].on);
-        let mut in_order: Vec<u32> = (0..self.circles.len() as u32).collect();
-        in_order.sort_unstable_by_key(|&i| key(i));
-        let mut place = vec![0; in_order.len()];
-        for (new, &old) in in_order.iter().enumerate() {
+        let circle = |i: u32| &self.circles[i as usize];
+        let key = |i: u32| (circle(i).regions, circle(i).on);
+        let by_region = in_order(
+            self.circles.len(),
+            count,
+            |i| circle(i).smallest() as usize,
+            |i, j| key(i).cmp(&key(j)),
+        );
+        let mut place = vec![0; by_region.len()];
+        for (new, &old) in by_region.iter().enumerate() {
             place[old as usize] = new as u32;
         }
         let moved = |corner: u32| {
@@ -81,12 +88,43 @@ impl Loose {
             starts.push(corners.len() as u32);
         }
         let sites = sorted.iter().flat_map(|&region| set(region)).copied().collect();
-        let circles = in_order.iter().map(|&i| self.circles[i as usize]).collect();
+        let circles = by_region.iter().map(|&i| self.circles[i as usize]).collect();
         OrderK2 { triangulation, order, sites, circles, starts, corners }
     }
 }
 
+/// What sorts items by a number below a limit, and where that is equal by a comparison: few are equal, so that is O(n).
+fn in_order(
+    items: usize,
+    limit: usize,
+    number: impl Fn(u32) -> usize,
+    compare: impl Fn(u32, u32) -> Ordering,
+) -> Vec<u32> {
+    let mut ends = vec![0_u32; limit + 1];
+    (0..items as u32).for_each(|i| ends[number(i) + 1] += 1);
+    for i in 0..limit {
+        ends[i + 1] += ends[i];
+    }
+    let mut sorted = vec![0; items];
+    for i in 0..items as u32 {
+        let end = &mut ends[number(i)];
+        sorted[*end as usize] = i;
+        *end += 1;
+    }
+    let mut from = 0;
+    for &to in &ends[..limit] {
+        sorted[from..to as usize].sort_unstable_by(|&i, &j| compare(i, j));
+        from = to as usize;
+    }
+    sorted
+}
+
 impl Circle {
+    /// The smallest region around it.
+    fn smallest(&self) -> u32 {
+        self.regions.into_iter().min().unwrap_or(NO_REGION)
+    }
+
     /// Turns it so that the smallest site comes first, and names its regions anew. Says by how many corners.
     fn turn(&mut self, rank: &[u32]) -> u32 {
         let by = (0..3).min_by_key(|&i| self.on[i]).unwrap_or(0);

@@ -7,10 +7,12 @@
 
 use delone_predicates::{Line, circumcentre};
 
+use super::circle::Circle;
 use super::{OrderK2, OrderRegion2};
 use crate::ids::VertexId;
 use crate::plane::region::Region2;
 use crate::plane::voronoi::{Cells2, Ring};
+use crate::points::Bounds;
 
 /// Clipped regions of a diagram of some order: polygons, of several rings where what they are clipped to is not convex.
 #[derive(Clone, Debug, Default)]
@@ -23,21 +25,19 @@ impl OrderK2<'_> {
     /// Clips all regions. Sites may be outside. The clipped regions tile what they are clipped to.
     pub fn cells(&self, region: &Region2) -> OrderCells2 {
         let point = |v: VertexId| self.triangulation.point(v);
-        let mut radii = Vec::with_capacity(self.circles.len());
-        let mut centres = Vec::with_capacity(self.circles.len());
-        for circle in &self.circles {
-            let finite = (!circle.is_ghost()).then(|| circle.on.map(point));
-            let centre = finite.and_then(|[a, b, c]| circumcentre(a, b, c)).unwrap_or([f64::INFINITY; 2]);
-            let on = finite.map_or([0.0; 2], |[a, _, _]| a);
-            radii.push((centre[0] - on[0]).hypot(centre[1] - on[1]));
-            centres.push(centre);
-        }
-        let mut cells = Cells2::new(self.region_count(), self.region_count(), centres);
+        let centre = |circle: &Circle| match circle.on.map(|v| (!v.is_ghost()).then(|| point(v))) {
+            [Some(a), Some(b), Some(c)] => circumcentre(a, b, c),
+            _ => None,
+        };
+        let far = [f64::INFINITY; 2];
+        let centres = self.circles.iter().map(|circle| centre(circle).unwrap_or(far)).collect();
+        let mut cells = Cells2::empty(self.region_count(), self.region_count(), centres);
         for own in self.regions() {
             let corners = || own.corners().iter().map(|&corner| corner as usize / 3);
-            let radius = corners().map(|circle| radii[circle]).fold(0.0, f64::max);
-            cells.add(own.index(), corners(), radius, region, || {
-                own.sides().map(|(exchange, _)| Line::Bisector(point(exchange.lost), point(exchange.gained)))
+            // The smallest site on a circle comes first, so it is none at infinity.
+            let reach = Bounds::of(corners().map(|circle| point(self.circles[circle].on[0])));
+            cells.add(own.index(), corners(), Some(reach), region, || {
+                own.sides().map(|(side, _)| Line::Bisector(point(side.lost), point(side.gained)))
             });
         }
         OrderCells2 { cells }

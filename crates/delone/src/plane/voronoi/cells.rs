@@ -10,11 +10,13 @@ use super::Voronoi2;
 use crate::plane::region::clip::{self, clip};
 use crate::plane::region::tree::Relation;
 use crate::plane::region::{Region2, enlarged, measure};
-use delone_predicates::{Line, circumcentre};
+use delone_predicates::{Line, circumcentre, power_centre};
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::Ground;
 use crate::mesh::triangles::HalfEdge;
+use crate::plane::layer::Layer;
+use crate::plane::layer::kernel::{Kernel, NearestSites, Power, Site};
 use crate::points::Bounds;
 use crate::prefetch::prefetch;
 
@@ -49,15 +51,66 @@ impl Voronoi2<'_> {
     }
 
     /// Clips all cells to a region, and tells now and then how many are done.
-    pub fn clip_with(self, region: &Region2, mut progress: impl FnMut(usize)) -> Cells2 {
+    pub fn clip_with(self, region: &Region2, progress: impl FnMut(usize)) -> Cells2 {
         let triangulation = self.triangulation;
-        let (layer, mesh) = (&triangulation.base, triangulation.mesh());
-        let mut cells = Cells2::new(triangulation.points().len(), mesh.vertex_count(), self.centres());
+        Cells2::of(&triangulation.base, triangulation.points().len(), region, progress)
+    }
+
+    /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
+    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
+        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
+        rounded(&cut_out(&self.triangulation.base, region, place), region).collect()
+    }
+}
+
+/// A kernel whose triangulations are dual to cells.
+pub(in crate::plane) trait Cellular: Kernel {
+    /// The border of the first site's cell towards the second: positive in the cell.
+    fn border(a: Site<Self>, b: Site<Self>) -> Line;
+
+    /// The corner of the cells of three sites.
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]>;
+}
+
+impl Cellular for NearestSites {
+    #[inline]
+    fn border(a: Site<Self>, b: Site<Self>) -> Line {
+        Line::Bisector(a.0, b.0)
+    }
+
+    #[inline]
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        circumcentre(a.0, b.0, c.0)
+    }
+}
+
+impl Cellular for Power {
+    fn border(a: Site<Self>, b: Site<Self>) -> Line {
+        Line::Radical(a, b)
+    }
+
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        power_centre(a, b, c)
+    }
+}
+
+impl Cells2 {
+    /// The cells of all vertices of a layer, clipped; `ids` were given.
+    pub(in crate::plane) fn of<K: Cellular>(
+        layer: &Layer<K>,
+        ids: usize,
+        region: &Region2,
+        mut progress: impl FnMut(usize),
+    ) -> Self {
+        let mesh = &layer.mesh;
+        let mut cells = Self::empty(ids, mesh.vertex_count(), centres(layer));
         let mut done = 0;
         let mut add = |cells: &mut Cells2, place: Place, e: EdgeId| {
             let corners = mesh.star_from(e).map(|e| e.triangle().index());
-            // The site is in the cell, so no radius is larger than both extents together.
-            cells.add(mesh.name(place).index(), corners, 0.0, region, || self.bisectors(place));
+            // With weights neither the site nor what it has corners with need be near its cell.
+            let around = || mesh.star_from(e).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()).chain([place]);
+            let reach = K::HIDES.then(|| Bounds::of(around().map(|p| layer.point(p))));
+            cells.add(mesh.name(place).index(), corners, reach, region, || borders(layer, place));
             done += 1;
             if done % 65_536 == 0 {
                 progress(done);
@@ -74,7 +127,8 @@ impl Voronoi2<'_> {
             for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
                 prefetch(&mesh.edges, record.twin.index());
             }
-            for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
+            let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+            for record in next.filter(|record| record.twin != EdgeId::NONE) {
                 prefetch(&cells.vertices, record.twin.triangle().index());
                 for beyond in [record.twin.next(), record.twin.previous()] {
                     if let Some(record) = mesh.edges.get(beyond.index()) {
@@ -94,46 +148,48 @@ impl Voronoi2<'_> {
         }
         cells
     }
-
-    /// The circumcentres of all triangles, by index; infinite where there is none.
-    fn centres(self) -> Vec<[f64; 2]> {
-        let layer = &self.triangulation.base;
-        let triangles = layer.mesh.edges.chunks_exact(4);
-        let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
-        let centre = |(corners, ahead): (&[HalfEdge], Option<&[HalfEdge]>)| {
-            // Corners lie wherever they lay in the input.
-            for corner in ahead.into_iter().flatten() {
-                prefetch(&layer.points, corner.origin.index());
-            }
-            let [a, b, c] = [0, 1, 2].map(|k| layer.points.get(corners[k].origin.index()).copied());
-            a.zip(b).zip(c).and_then(|((a, b), c)| circumcentre(a, b, c)).unwrap_or([f64::INFINITY; 2])
-        };
-        triangles.zip(ahead).map(centre).collect()
-    }
-
-    /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
-    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
-        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
-        rounded(&cut_out(region, self.bisectors(place)), region).collect()
-    }
-
-    /// The bisectors of a site with its neighbours.
-    fn bisectors(self, place: Place) -> impl Iterator<Item = Line> + Clone {
-        let (layer, mesh) = (&self.triangulation.base, self.triangulation.mesh());
-        let site = layer.point(place);
-        let others = mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost());
-        others.map(move |w| Line::Bisector(site, layer.point(w)))
-    }
 }
 
-/// A cell cut out of the region by its sides.
-fn cut_out(region: &Region2, sides: impl Iterator<Item = Line> + Clone) -> Vec<clip::Ring> {
+/// The centres of all triangles, by index; infinite where there is none.
+pub(in crate::plane) fn centres<K: Cellular>(layer: &Layer<K>) -> Vec<[f64; 2]> {
+    let triangles = layer.mesh.edges.chunks_exact(4);
+    let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
+    let centre = |(corners, ahead): (&[HalfEdge], Option<&[HalfEdge]>)| {
+        // Corners lie wherever they lay in the input.
+        for corner in ahead.into_iter().flatten() {
+            prefetch(&layer.points, corner.origin.index());
+        }
+        let site = |p: Place| (p.index() < layer.points.len()).then(|| layer.site(p));
+        let [a, b, c] = [0, 1, 2].map(|k| site(corners[k].origin));
+        a.zip(b).zip(c).and_then(|((a, b), c)| K::centre(a, b, c)).unwrap_or([f64::INFINITY; 2])
+    };
+    triangles.zip(ahead).map(centre).collect()
+}
+
+/// A cell cut out of the region by its borders.
+pub(in crate::plane) fn cut_out<K: Cellular>(
+    layer: &Layer<K>,
+    region: &Region2,
+    place: Place,
+) -> Vec<clip::Ring> {
+    cut_by(region, borders(layer, place))
+}
+
+/// The borders of a cell, on all sides.
+fn borders<K: Cellular>(layer: &Layer<K>, place: Place) -> impl Iterator<Item = Line> + Clone {
+    let (mesh, site) = (&layer.mesh, layer.site(place));
+    let others = mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost());
+    others.map(move |w| K::border(site, layer.site(w)))
+}
+
+/// What lines leave of a region.
+fn cut_by(region: &Region2, lines: impl Iterator<Item = Line> + Clone) -> Vec<clip::Ring> {
     let cut = |mut rings: Vec<clip::Ring>| {
-        for side in sides.clone() {
+        for line in lines.clone() {
             if rings.is_empty() {
                 break;
             }
-            rings = clip(rings, side);
+            rings = clip(rings, line);
         }
         rings
     };
@@ -162,41 +218,46 @@ fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region2) -> impl Iterator<It
 }
 
 impl Cells2 {
-    /// None yet, of as many sites, with the vertices that there are and room for so many cells.
-    pub(in crate::plane) fn new(sites: usize, room: usize, vertices: Vec<[f64; 2]>) -> Self {
+    /// None yet, with the corners that there are, room for some cells, and as many ids.
+    pub(in crate::plane) fn empty(ids: usize, room: usize, vertices: Vec<[f64; 2]>) -> Self {
         let mut starts = Vec::with_capacity(room + 1);
         starts.push(0);
-        Self { sites: vec![(0, 0); sites], starts, corners: Vec::with_capacity(6 * room), vertices }
+        Self { sites: vec![(0, 0); ids], starts, corners: Vec::with_capacity(6 * room), vertices }
     }
 
-    /// Adds the cell of a site: as it is by the indices of its corners, or cut out of the region by its sides. No circle that a
-    /// corner is the centre of has a larger radius than the extents of the cell together, or than `radius`.
+    /// Adds a cell: as it is by the indices of its corners, or cut out of the region by its borders. Each corner is the centre
+    /// of a circle through a site in the cell, or in what is said to be in reach.
     #[inline]
-    pub(in crate::plane) fn add<S: Iterator<Item = Line> + Clone>(
+    pub(in crate::plane) fn add<L: Iterator<Item = Line> + Clone>(
         &mut self,
-        site: usize,
+        id: usize,
         corners: impl Iterator<Item = usize>,
-        radius: f64,
+        reach: Option<Bounds<2>>,
         region: &Region2,
-        sides: impl FnOnce() -> S,
+        borders: impl FnOnce() -> L,
     ) {
         let first = self.starts.len() - 1;
-        if !self.push_whole(corners, radius, region) {
-            for ring in rounded(&cut_out(region, sides()), region) {
+        if !self.push_whole(corners, reach, region) {
+            for ring in rounded(&cut_by(region, borders()), region) {
                 self.push(&ring);
             }
         }
         let count = self.starts.len() - 1 - first;
-        self.sites[site] = (first as u32, count as u32);
+        self.sites[id] = (first as u32, count as u32);
     }
 
     /// Adds a cell that is surely inside of the region. Says whether that is all: nothing is added of a cell surely outside.
     #[inline]
-    fn push_whole(&mut self, indices: impl Iterator<Item = usize>, radius: f64, region: &Region2) -> bool {
+    fn push_whole(
+        &mut self,
+        corners: impl Iterator<Item = usize>,
+        reach: Option<Bounds<2>>,
+        region: &Region2,
+    ) -> bool {
         let start = self.corners.len();
         let mut bounds = Bounds::default();
         let mut last = [f64::NAN; 2];
-        for i in indices {
+        for i in corners {
             let corner = self.vertices[i];
             bounds.include(corner);
             if corner != last {
@@ -204,10 +265,12 @@ impl Cells2 {
             }
             last = corner;
         }
-        // The corners are rounded: what is asked about is a box that the exact ones are surely in.
+        // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, or
+        // in what is said to be in reach, so no corner is further from it than both extents together.
         let Bounds { low, high } = bounds;
-        let extents = (high[0] - low[0]) + (high[1] - low[1]);
-        let relation = enlarged(low, high, extents.max(radius)).map(|[low, high]| region.relation(low, high));
+        reach.into_iter().flat_map(|reach| [reach.low, reach.high]).for_each(|p| bounds.include(p));
+        let extents = bounds.extent().iter().sum::<f64>();
+        let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
         if relation.is_none_or(|relation| relation != Relation::Inside) {
             self.corners.truncate(start);
             return relation == Some(Relation::Outside);
@@ -254,6 +317,12 @@ impl Cells2 {
     /// The length of the border of a cell, holes included, in coordinate units.
     pub fn perimeter(&self, site: VertexId) -> f64 {
         self.rings(site).flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
+    }
+
+    /// The integral over a cell of the squared distance from a point: with the site, what it costs to carry the cell there. O(k)
+    /// for k corners. Not finite beyond the range of `f64`.
+    pub fn second_moment(&self, site: VertexId, about: [f64; 2]) -> f64 {
+        measure::second_moment(self.rings(site).map(Ring::points), about)
     }
 
     /// The centre of mass of a cell. `None` if it is empty, or so small that its rounded corners have no area.
