@@ -18,6 +18,7 @@ mod locate;
 mod memory;
 mod message;
 mod nearest;
+mod orders;
 mod outcome;
 mod polygons;
 mod progress;

@@ -8,6 +8,7 @@ use delone_io::{Diagram, Format};
 use crate::args::VoronoiArgs;
 use crate::files;
 use crate::message::Failure;
+use crate::orders;
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
@@ -45,6 +46,15 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     room::remark(&triangulation, quiet);
     stats.phase("build");
     let region = if polygon { polygon_region(args, &rings)? } else { region(args, &triangulation)? };
+    if let Some(order) = args.order {
+        let picture = orders::Clipped { order, region: &region, crs: about.crs.as_ref(), size: args.size };
+        orders::write(&picture, &triangulation, &outputs, &mut stats, quiet)?;
+        if let (Some(path), Some(format)) = (&args.sites, sites_format) {
+            files::write(path, |out| delone_io::write_points(out, format, triangulation.points()))?;
+        }
+        stats.tell(quiet, ["triangle", "triangles"]);
+        return stats.write(args.input.stats.as_deref());
+    }
     if args.relax > 0 {
         let _phase = Phase::start(quiet, "relaxing");
         let relaxation = Relaxation2 { steps: args.relax, tolerance: args.tolerance };

@@ -1,6 +1,6 @@
-//! A Voronoi diagram to be written.
+//! Voronoi diagrams to be written: cells of sites, or of sets of the nearest ones.
 
-use delone::{Cells2, Ring, Triangulation, VertexId};
+use delone::{Cells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
 use crate::Crs;
 
@@ -15,10 +15,51 @@ pub struct Diagram<'a, T> {
     pub crs: Option<&'a Crs>,
 }
 
-impl<T: Triangulation<Point = [f64; 2]>> Diagram<'_, T> {
-    /// The rings of a cell as polygons: each an outer ring, counter-clockwise, and its holes.
-    pub(crate) fn polygons(&self, site: VertexId) -> Vec<Vec<Ring<'_>>> {
-        let rings: Vec<Ring> = self.cells.rings(site).collect();
+/// Clipped regions of a diagram of higher order.
+#[derive(Debug)]
+pub struct OrderDiagram<'a> {
+    /// The regions.
+    pub diagram: &'a OrderK2<'a>,
+    /// What they are clipped to.
+    pub cells: &'a OrderCells2,
+    /// What the coordinates mean; formats that can say it do.
+    pub crs: Option<&'a Crs>,
+}
+
+/// What is written of any diagram: polygons that tile, with what they are of.
+pub(crate) trait Tiles {
+    /// What knows one of them.
+    type Tile: Copy;
+
+    /// All of them, those of which nothing is left too.
+    fn tiles(&self) -> impl Iterator<Item = Self::Tile>;
+
+    /// The rings of one.
+    fn rings(&self, tile: Self::Tile) -> impl Iterator<Item = Ring<'_>> + Clone;
+
+    /// The area of one.
+    fn area(&self, tile: Self::Tile) -> f64;
+
+    /// What one is of, as a property of GeoJSON.
+    fn property(&self, tile: Self::Tile) -> String;
+
+    /// The same for people.
+    fn title(&self, tile: Self::Tile) -> String;
+
+    /// The sites, each with the tile that it is drawn on.
+    fn sites(&self) -> impl Iterator<Item = (Self::Tile, [f64; 2])>;
+
+    /// What the coordinates mean.
+    fn crs(&self) -> Option<&Crs>;
+
+    /// Those of which something is left.
+    fn present(&self) -> impl Iterator<Item = Self::Tile> {
+        self.tiles().filter(|&tile| self.rings(tile).next().is_some())
+    }
+
+    /// The rings of one as polygons: each an outer ring, counter-clockwise, and its holes.
+    fn polygons(&self, tile: Self::Tile) -> Vec<Vec<Ring<'_>>> {
+        let rings: Vec<Ring> = self.rings(tile).collect();
         if rings.len() < 2 {
             return rings.into_iter().map(|ring| vec![ring]).collect();
         }
@@ -34,16 +75,83 @@ impl<T: Triangulation<Point = [f64; 2]>> Diagram<'_, T> {
         polygons
     }
 
-    /// The coordinates of a site.
-    pub(crate) fn point(&self, site: VertexId) -> [f64; 2] {
-        self.triangulation.position(site).unwrap_or_default()
+    /// The corners of all tiles, and all sites.
+    fn corners(&self) -> impl Iterator<Item = [f64; 2]> {
+        let corners = self.tiles().flat_map(|tile| self.rings(tile)).flat_map(Ring::points);
+        corners.chain(self.sites().map(|(_, p)| p))
+    }
+}
+
+impl<T: Triangulation<Point = [f64; 2]>> Tiles for Diagram<'_, T> {
+    type Tile = VertexId;
+
+    fn tiles(&self) -> impl Iterator<Item = VertexId> {
+        self.triangulation.vertices()
     }
 
-    /// The corners of all cells, and all sites.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let cells = self.triangulation.vertices().flat_map(|v| self.cells.rings(v)).flat_map(Ring::points);
-        cells.chain(self.triangulation.vertices().map(|v| self.point(v)))
+    fn rings(&self, tile: VertexId) -> impl Iterator<Item = Ring<'_>> + Clone {
+        self.cells.rings(tile)
     }
+
+    fn area(&self, tile: VertexId) -> f64 {
+        self.cells.area(tile)
+    }
+
+    fn property(&self, tile: VertexId) -> String {
+        format!("\"site\":{}", tile.index())
+    }
+
+    fn title(&self, tile: VertexId) -> String {
+        tile.index().to_string()
+    }
+
+    fn sites(&self) -> impl Iterator<Item = (VertexId, [f64; 2])> {
+        self.tiles().map(|v| (v, self.triangulation.position(v).unwrap_or_default()))
+    }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.crs
+    }
+}
+
+impl<'a> Tiles for OrderDiagram<'a> {
+    type Tile = OrderRegion2<'a>;
+
+    fn tiles(&self) -> impl Iterator<Item = OrderRegion2<'a>> {
+        self.diagram.regions()
+    }
+
+    fn rings(&self, tile: OrderRegion2<'a>) -> impl Iterator<Item = Ring<'_>> + Clone {
+        self.cells.rings(tile)
+    }
+
+    fn area(&self, tile: OrderRegion2<'a>) -> f64 {
+        self.cells.area(tile)
+    }
+
+    fn property(&self, tile: OrderRegion2<'a>) -> String {
+        format!("\"sites\":[{}]", joined(tile, ","))
+    }
+
+    fn title(&self, tile: OrderRegion2<'a>) -> String {
+        joined(tile, " ")
+    }
+
+    fn sites(&self) -> impl Iterator<Item = (OrderRegion2<'a>, [f64; 2])> {
+        let triangulation = self.diagram.triangulation();
+        let points = triangulation.vertices().map(|v| triangulation.point(v));
+        points.filter_map(|p| self.diagram.locate(p).ok().map(|region| (region, p)))
+    }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.crs
+    }
+}
+
+/// The indices of the sites of a region.
+fn joined(region: OrderRegion2, separator: &str) -> String {
+    let sites: Vec<String> = region.sites().iter().map(|v| v.index().to_string()).collect();
+    sites.join(separator)
 }
 
 /// Whether a ring goes around a point, up to rounding.

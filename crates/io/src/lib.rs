@@ -22,7 +22,7 @@ mod trim;
 
 pub use cloud::Cloud;
 pub use crs::Crs;
-pub use diagram::Diagram;
+pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
 pub use format::Format;
 pub use formats::edges::{Edges, write_edges};
@@ -233,6 +233,26 @@ pub fn write_diagram(
     out: &mut dyn std::io::Write,
     format: Format,
     diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
+    size: u32,
+) -> Result<(), Error> {
+    write_tiles(out, format, diagram, size)
+}
+
+/// Writes the regions of a diagram of higher order: as GeoJSON, one feature for each with the input indices of its sites and
+/// its area, or as a picture whose longer side has `size` pixels.
+pub fn write_orders(
+    out: &mut dyn std::io::Write,
+    format: Format,
+    diagram: &OrderDiagram,
+    size: u32,
+) -> Result<(), Error> {
+    write_tiles(out, format, diagram, size)
+}
+
+fn write_tiles(
+    out: &mut dyn std::io::Write,
+    format: Format,
+    diagram: &impl diagram::Tiles,
     size: u32,
 ) -> Result<(), Error> {
     match format {

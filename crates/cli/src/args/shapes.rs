@@ -91,9 +91,11 @@ impl CameraArgs {
   delone voronoi shops.csv -o cells.geojson -o cells.png
   delone voronoi shops.csv --clip border.geojson -o cells.geojson
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
+  delone voronoi shops.csv --order 3 -o three-nearest.geojson
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
-beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site.")]
+beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature
+for each set of sites that are nearest somewhere, `sites` for `site`.")]
 pub(crate) struct VoronoiArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -110,6 +112,9 @@ pub(crate) struct VoronoiArgs {
     /// The box to clip to [default: the bounding box of the sites].
     #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) bounds: Vec<f64>,
+    /// Where which K sites are the nearest: the diagram of order K, at most the number of sites.
+    #[arg(long, value_name = "K", conflicts_with_all = ["relax", "tolerance", "weights", "radii"])]
+    pub(crate) order: Option<usize>,
     /// Move sites to the centroids of their cells, at most so many times (Lloyd relaxation).
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) relax: usize,

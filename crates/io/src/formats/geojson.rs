@@ -6,7 +6,8 @@ use delone::{Ring, Triangulation};
 use geojson::{GeoJson, Geometry, GeometryValue, Position};
 
 use super::shapes::Shapes;
-use crate::{Cloud, Crs, Diagram, Error, Graph, Mesh, Shape, Source};
+use crate::diagram::Tiles;
+use crate::{Cloud, Crs, Error, Graph, Mesh, Shape, Source};
 
 mod coordinates;
 
@@ -153,24 +154,18 @@ fn polygon(rings: &[Vec<Position>], shapes: &mut Shapes) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes a feature for each site, with its index and the area of its cell; without geometry where the cell is
-/// empty.
-pub(crate) fn write_cells(
-    out: &mut dyn Write,
-    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
-) -> io::Result<()> {
+/// Writes a feature for each cell, with what it is of and its area; without geometry where the cell is empty.
+pub(crate) fn write_cells(out: &mut dyn Write, diagram: &impl Tiles) -> io::Result<()> {
     write!(out, "{{\"type\":\"FeatureCollection\",")?;
-    write_system(out, diagram.crs)?;
+    write_system(out, diagram.crs())?;
     write!(out, "\"features\":[")?;
-    for (i, v) in diagram.triangulation.vertices().enumerate() {
-        let (separator, site, area) = (if i == 0 { "" } else { "," }, v.index(), diagram.cells.area(v));
+    for (i, tile) in diagram.tiles().enumerate() {
+        let (separator, property) = (if i == 0 { "" } else { "," }, diagram.property(tile));
+        let area = diagram.area(tile);
         // Beyond the range it is infinite, which JSON has no number for.
         let area = if area.is_finite() { format!("{area:?}") } else { "null".to_owned() };
-        write!(
-            out,
-            "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"site\":{site},\"area\":{area}}},"
-        )?;
-        let polygons = diagram.polygons(v);
+        write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{{property},\"area\":{area}}},")?;
+        let polygons = diagram.polygons(tile);
         match &polygons[..] {
             [] => write!(out, "\"geometry\":null}}")?,
             [polygon] => {

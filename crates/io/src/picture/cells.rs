@@ -2,14 +2,15 @@
 
 use std::io::Write;
 
-use delone::{Ring, Triangulation, VertexId};
+use delone::Ring;
 
 use super::colour::{DENSITY, EDGE, PAPER, POINT, Rgb};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
 use super::view::View;
-use crate::{Diagram, Error, Format};
+use crate::diagram::Tiles;
+use crate::{Error, Format};
 
 /// What to draw, and how.
 struct Style {
@@ -25,7 +26,7 @@ struct Style {
 pub(crate) fn write(
     out: &mut dyn Write,
     format: Format,
-    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
+    diagram: &impl Tiles,
     size: u32,
 ) -> Result<(), Error> {
     super::check_size(size)?;
@@ -37,9 +38,9 @@ pub(crate) fn write(
 }
 
 impl Style {
-    fn of(diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>, size: u32) -> Self {
+    fn of(diagram: &impl Tiles, size: u32) -> Self {
         let view = View::around(diagram.corners(), size);
-        let mut areas: Vec<f64> = sites(diagram).map(|v| diagram.cells.area(v).ln()).collect();
+        let mut areas: Vec<f64> = diagram.present().map(|v| diagram.area(v).ln()).collect();
         areas.sort_by(f64::total_cmp);
         // A few outliers must not take all of the colours.
         let at = |share: f64| areas.get((areas.len() as f64 * share) as usize).copied().unwrap_or_default();
@@ -69,9 +70,9 @@ impl Style {
     }
 }
 
-/// The sites whose cells are not empty.
-fn sites<T: Triangulation<Point = [f64; 2]>>(diagram: &Diagram<T>) -> impl Iterator<Item = VertexId> {
-    diagram.triangulation.vertices().filter(|&v| diagram.cells.rings(v).next().is_some())
+/// The sites that are on what is drawn.
+fn dots<T: Tiles>(diagram: &T) -> impl Iterator<Item = (T::Tile, [f64; 2])> {
+    diagram.sites().filter(|(tile, _)| diagram.rings(*tile).next().is_some())
 }
 
 /// Dark sites on light cells, light ones on dark cells.
@@ -79,27 +80,23 @@ fn dot_colour(cell: Rgb) -> Rgb {
     if cell.iter().map(|&part| u32::from(part)).sum::<u32>() > 330 { POINT } else { PAPER }
 }
 
-fn png(
-    out: &mut dyn Write,
-    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
-    style: &Style,
-) -> Result<(), Error> {
+fn png(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> Result<(), Error> {
     let view = &style.view;
     let mut canvas = Canvas::from(&Raster::new(view.width, view.height, PAPER))?;
     let place = |ring: Ring| ring.points().map(|p| view.place(p)).collect::<Vec<_>>();
-    for v in sites(diagram) {
-        let rings: Vec<_> = diagram.cells.rings(v).map(place).collect();
-        canvas.fill(&rings, style.colour(diagram.cells.area(v)));
+    for v in diagram.present() {
+        let rings: Vec<_> = diagram.rings(v).map(place).collect();
+        canvas.fill(&rings, style.colour(diagram.area(v)));
     }
     if style.outlines() {
-        let sides = sites(diagram).flat_map(|v| diagram.cells.rings(v)).flat_map(Ring::sides);
+        let sides = diagram.present().flat_map(|v| diagram.rings(v)).flat_map(Ring::sides);
         let sides = sides.map(|side| side.map(|p| view.place(p)));
         canvas.lines(sides, EDGE, 255, style.line_width());
     }
     if let Some(radius) = style.dot_radius() {
         for colour in [POINT, PAPER] {
-            let wanted = |v: &VertexId| dot_colour(style.colour(diagram.cells.area(*v))) == colour;
-            let positions = sites(diagram).filter(wanted).map(|v| view.place(diagram.point(v)));
+            let wanted = |tile| dot_colour(style.colour(diagram.area(tile))) == colour;
+            let positions = dots(diagram).filter(|(tile, _)| wanted(*tile)).map(|(_, p)| view.place(p));
             canvas.dots(positions, radius, colour, 255);
         }
     }
@@ -108,11 +105,7 @@ fn png(
     canvas.encode(out)
 }
 
-fn svg(
-    out: &mut dyn Write,
-    diagram: &Diagram<impl Triangulation<Point = [f64; 2]>>,
-    style: &Style,
-) -> std::io::Result<()> {
+fn svg(out: &mut dyn Write, diagram: &impl Tiles, style: &Style) -> std::io::Result<()> {
     let view = &style.view;
     super::svg::open(out, view)?;
     let outline = if style.outlines() { hex(EDGE) } else { "none".to_owned() };
@@ -121,23 +114,23 @@ fn svg(
         r#"<g stroke="{outline}" stroke-width="{:.2}" stroke-linejoin="round" fill-rule="evenodd">"#,
         style.line_width()
     )?;
-    for v in sites(diagram) {
-        let area = diagram.cells.area(v);
+    for v in diagram.present() {
+        let area = diagram.area(v);
         write!(out, r#"<path fill="{}" d=""#, hex(style.colour(area)))?;
-        for ring in diagram.cells.rings(v) {
+        for ring in diagram.rings(v) {
             for (i, p) in ring.points().enumerate() {
                 let [x, y] = view.place(p);
                 write!(out, "{}{x:.2} {y:.2}", if i == 0 { 'M' } else { 'L' })?;
             }
             write!(out, "Z")?;
         }
-        writeln!(out, r#""><title>{}</title></path>"#, v.index())?;
+        writeln!(out, r#""><title>{}</title></path>"#, diagram.title(v))?;
     }
     writeln!(out, "</g>")?;
     if let Some(radius) = style.dot_radius() {
-        for v in sites(diagram) {
-            let [x, y] = view.place(diagram.point(v));
-            let colour = hex(dot_colour(style.colour(diagram.cells.area(v))));
+        for (tile, p) in dots(diagram) {
+            let [x, y] = view.place(p);
+            let colour = hex(dot_colour(style.colour(diagram.area(tile))));
             writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{radius:.2}" fill="{colour}"/>"#)?;
         }
     }
