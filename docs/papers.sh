@@ -38,6 +38,7 @@ experiment conflicts 100 1000 1000
 experiment history 100 200000 200000 --trials 1
 experiment delaunay-tree 100 100000 100000
 experiment hull 100 100000 100000
+experiment order-k 100 100000 1000000
 experiment history-in-space 100 10000 100000
 experiment radial 1000 1000000 1000000
 experiment hierarchy 5000 500000 500000

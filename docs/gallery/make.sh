@@ -20,6 +20,9 @@ JSON
 $delone generate uniform -n 1500 --seed 5 -o "$work/many.csv"
 $delone voronoi "$work/many.csv" --clip "$work/star.geojson" -o $here/star.png --size 640
 
+$delone generate uniform -n 60 -o "$work/sixty.csv"
+$delone voronoi "$work/sixty.csv" --order 3 --box 0,0,1,1 -o $here/order.png --size 640
+
 $delone generate clusters -n 3000 --seed 1 -o "$work/clusters.csv"
 $delone voronoi "$work/clusters.csv" -o $here/clusters.png --size 640
 

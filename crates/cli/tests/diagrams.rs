@@ -262,3 +262,33 @@ fn disks_and_hints_are_drawn() {
     place.file("wide.xyz", model("1e300"));
     place.fail("experiment scan wide.xyz", 1, "the model is too large");
 }
+
+/// Where which sites are the nearest: a feature a set, and a sound answer to orders that there are not.
+#[test]
+fn orders_are_written_by_their_sites() {
+    let place = Place::new();
+    place.file("sites.csv", "0,0\n4,0\n0,0\n0,4\n4,4\n2,1\n");
+    place.succeed("voronoi sites.csv --order 2 -o o.geojson -o o.svg -o o.png --stats o.json -q");
+    let json = |name: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(place.path(name)).expect("a file")).expect("JSON")
+    };
+    let features = json("o.geojson")["features"].as_array().expect("features").clone();
+    let area: f64 = features.iter().map(|f| f["properties"]["area"].as_f64().expect("an area")).sum();
+    assert!((area - 16.0).abs() < 1e-12, "{area}");
+    let sets: Vec<String> = features.iter().map(|f| f["properties"]["sites"].to_string()).collect();
+    assert!(sets.contains(&"[0,5]".to_owned()) && sets.is_sorted(), "{sets:?}");
+    assert!(!sets.iter().any(|set| set.contains('2')), "a duplicate is no site: {sets:?}");
+    assert_eq!(json("o.json")["regions"], features.len());
+    assert!(std::fs::read(place.path("o.png")).expect("a picture").starts_with(b"\x89PNG"));
+    let svg = String::from_utf8(std::fs::read(place.path("o.svg")).expect("a picture")).expect("text");
+    assert!(svg.contains("<title>0 5</title>"));
+    // All sites at once, and orders beyond.
+    place.succeed("voronoi sites.csv --order 5 -o all.geojson -q");
+    assert_eq!(json("all.geojson")["features"].as_array().map(Vec::len), Some(1));
+    for k in ["0", "6"] {
+        let error = place.fail(&format!("voronoi sites.csv --order {k} -o bad.geojson -q"), 2);
+        assert!(error.contains("there are 5 sites"), "{error}");
+        assert!(!place.path("bad.geojson").exists());
+    }
+    place.fail("voronoi sites.csv --order 2 --relax 1 -o bad.geojson", 2);
+}

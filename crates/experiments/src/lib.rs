@@ -17,6 +17,7 @@ mod hull;
 mod imprecise;
 mod jump_and_walk;
 mod order;
+mod order_k;
 mod phases;
 mod plot;
 mod radial;
@@ -143,6 +144,12 @@ pub const EXPERIMENTS: &[Experiment] = &[
         about: "Hulls in space in random order: facets that ever were, and what locating costs (the same, §4.1)",
         smallest: 100,
         run: hull::run,
+    },
+    Experiment {
+        name: "order-k",
+        about: "Voronoi diagrams of higher order: regions, circles, k-sets, pairs of sites in one region, time (the same, §4.2)",
+        smallest: 100,
+        run: order_k::run,
     },
     Experiment {
         name: "history-in-space",

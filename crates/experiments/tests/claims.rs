@@ -102,6 +102,16 @@ fn order_decides_the_work() {
     assert!(!tests.is_empty() && tests.iter().all(|ratio| (0.8..1.6).contains(ratio)), "{tests:?}");
 }
 
+/// Guibas, Knuth & Sharir 1992, §4.2: Lemma 4.3, and Lee's count of the regions.
+#[test]
+fn orders_are_as_large_as_proved() {
+    let table = Cells::of(&run("order-k", 1000), "order-k");
+    assert_eq!(table.column("regions / n"), table.column("2k - 1 - (k^2 - 1 + k-sets below) / n"));
+    // Both are in the edges of symmetric scope at most k, of which Lemma 2.5 has 16 n (k + 1).
+    let pairs = table.column("pairs / (n k)");
+    assert!(pairs.len() == 36 && pairs.iter().all(|pairs| *pairs < 8.0), "{pairs:?}");
+}
+
 /// Devillers 2011: Lemma 1 and the claims of Theorem 3 (§4), overlaps (§6.1), disks that differ and mislead (§6.2).
 #[test]
 fn hints_cost_what_is_proved() {
