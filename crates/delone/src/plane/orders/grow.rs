@@ -20,6 +20,7 @@
 use super::MOST;
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::memory::room_for;
 use crate::mesh::Mesh2;
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::{NearestSites, Sites};
@@ -62,6 +63,9 @@ impl Complex {
     /// [`Error::TooManyCircles`].
     pub(super) fn next(&self, points: &[[f64; 2]], hole: &mut Hole<NearestSites>) -> Result<Self, Error> {
         let mut mesh = Mesh2::empty(points.len());
+        // A polygon has no more corners than its region has new circles, and two triangles less.
+        let kept = self.mesh.slot_count() - self.old;
+        mesh.edges = room_for(4 * (4 * kept).saturating_sub(2 * self.first.len()));
         for t in (self.old..self.mesh.slot_count()).map(TriangleId::new) {
             mesh.loose_triangle(self.mesh.places(t));
         }
@@ -90,13 +94,12 @@ impl Complex {
         let mut next = Self::empty(self.order + 1, mesh, old);
         next.find_regions(|e, sites| {
             let t = e.triangle().index();
-            let before = match t.checked_sub(old) {
-                Some(new) => inside[new],
-                None => {
-                    // With one of the two others, of which the second comes too.
-                    let e = TriangleId::new(self.old + t).edge(e.next().corner());
-                    self.region[e.index()]
-                }
+            let before = if t < old {
+                // With one of the two others, of which the second comes too.
+                let e = TriangleId::new(self.old + t).edge(e.next().corner());
+                self.region[e.index()]
+            } else {
+                inside[t - old]
             };
             sites.extend_from_slice(self.sites_of(before as usize));
         });
