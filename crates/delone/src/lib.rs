@@ -38,6 +38,8 @@
 //! | who is near whom: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest | [`Delaunay2::graph`] | [`Delaunay3::graph`] | see [`Graph`] |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
+//! | points with weights (squared radii), hidden or not | [`Regular2`] | [`Regular3`] | O(n log n), in space where the result is linear |
+//! | cells of points with weights, and how their areas change | [`Power2`], [`Jacobian2`] | | O(n) |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
