@@ -40,6 +40,7 @@ mod lexicographic;
 mod line;
 mod orient;
 mod orient3d;
+mod orthosphere;
 mod pencil;
 mod perturb;
 mod plane;
@@ -65,6 +66,9 @@ pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
 pub use line::{Line, Spot};
 pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d};
+pub use orthosphere::{
+    RadiusScale, edge_is_attached, squared_radius, triangle_is_attached, vertex_is_attached,
+};
 pub use pencil::{Member, Pencil};
 pub use plane::Plane;
 pub use power::{

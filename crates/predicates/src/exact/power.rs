@@ -43,7 +43,7 @@ fn align<const D: usize, const N: usize>(sites: &[Site<D>; N]) -> Option<([[i64;
 }
 
 /// The rows of a determinant: all sites but the last as seen from there, and their lifts.
-fn rows<const D: usize, const N: usize, const R: usize>(
+pub(crate) fn rows<const D: usize, const N: usize, const R: usize>(
     sites: &[Site<D>; N],
 ) -> Option<([[i64; D]; R], [i128; R])> {
     const { assert!(R + 1 == N) };
@@ -96,13 +96,22 @@ pub(crate) fn compare_powers<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>
     if let Some((_, [a, b])) = rows::<D, 3, 2>(&[a, b, (q, 0.0)]) {
         a.cmp(&b)
     } else {
-        let (_, lifts) = big_rows(&[a, b, (q, 0.0)]);
+        let Rows { lifts, .. } = big_rows(&[a, b, (q, 0.0)]);
         lifts[0].cmp(&lifts[1])
     }
 }
 
 /// [`rows`] for numbers of any size.
-fn big_rows<const D: usize>(sites: &[Site<D>]) -> (Vec<Vec<BigInt>>, Vec<BigInt>) {
+pub(crate) struct Rows {
+    pub(crate) rows: Vec<Vec<BigInt>>,
+    pub(crate) lifts: Vec<BigInt>,
+    /// The weight of the last site.
+    pub(crate) weight: BigInt,
+    /// The binary exponent of the scale of the rows; lifts and weights are on its square.
+    pub(crate) scale: i32,
+}
+
+pub(crate) fn big_rows<const D: usize>(sites: &[Site<D>]) -> Rows {
     let coordinates: Vec<f64> = sites.iter().flat_map(|site| site.0).collect();
     let weights: Vec<f64> = sites.iter().map(|site| site.1).collect();
     let ((points, scale), (weights, weight_scale)) = (big::integers(&coordinates), big::integers(&weights));
@@ -120,20 +129,20 @@ fn big_rows<const D: usize>(sites: &[Site<D>]) -> (Vec<Vec<BigInt>>, Vec<BigInt>
         square - weight(&(&weights[k] - &weights[last]))
     };
     let lifts = (0..last).map(lift).collect();
-    (rows, lifts)
+    Rows { lifts, weight: weight(&weights[last]), scale: scale - finer, rows }
 }
 
 /// The sign of the determinant of the rows and their lifts.
 #[cold]
 fn big_determinant<const D: usize>(sites: &[Site<D>]) -> Sign {
-    let (mut rows, lifts) = big_rows(sites);
+    let Rows { mut rows, lifts, .. } = big_rows(sites);
     rows.iter_mut().zip(lifts).for_each(|(row, lift)| row.push(lift));
     big::sign(&determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()))
 }
 
 #[cold]
 fn big_interval(axis: usize, sites: &[Site<2>]) -> Sign {
-    let (rows, lifts) = big_rows(sites);
+    let Rows { rows, lifts, .. } = big_rows(sites);
     let [u, v] = [&rows[0][axis], &rows[1][axis]];
     big::sign(&(&lifts[0] * v - &lifts[1] * u)) * Sign::of(v, u)
 }
