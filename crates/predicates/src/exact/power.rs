@@ -103,7 +103,7 @@ pub(crate) fn compare_powers<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>
 
 /// [`rows`] for numbers of any size.
 pub(crate) struct Rows {
-    pub(crate) rows: Vec<Vec<BigInt>>,
+    pub(crate) differences: Vec<Vec<BigInt>>,
     pub(crate) lifts: Vec<BigInt>,
     /// The weight of the last site.
     pub(crate) weight: BigInt,
@@ -129,20 +129,20 @@ pub(crate) fn big_rows<const D: usize>(sites: &[Site<D>]) -> Rows {
         square - weight(&(&weights[k] - &weights[last]))
     };
     let lifts = (0..last).map(lift).collect();
-    Rows { lifts, weight: weight(&weights[last]), scale: scale - finer, rows }
+    Rows { lifts, weight: weight(&weights[last]), scale: scale - finer, differences: rows }
 }
 
 /// The sign of the determinant of the rows and their lifts.
 #[cold]
 fn big_determinant<const D: usize>(sites: &[Site<D>]) -> Sign {
-    let Rows { mut rows, lifts, .. } = big_rows(sites);
+    let Rows { differences: mut rows, lifts, .. } = big_rows(sites);
     rows.iter_mut().zip(lifts).for_each(|(row, lift)| row.push(lift));
     big::sign(&determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()))
 }
 
 #[cold]
 fn big_interval(axis: usize, sites: &[Site<2>]) -> Sign {
-    let Rows { rows, lifts, .. } = big_rows(sites);
+    let Rows { differences: rows, lifts, .. } = big_rows(sites);
     let [u, v] = [&rows[0][axis], &rows[1][axis]];
     big::sign(&(&lifts[0] * v - &lifts[1] * u)) * Sign::of(v, u)
 }

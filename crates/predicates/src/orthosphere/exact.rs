@@ -45,7 +45,7 @@ pub(super) fn angle<const D: usize>(a: [f64; D], b: [f64; D], q: [f64; D]) -> Si
     if let Some(([a, b], _)) = rows::<D, 3, 2>(&sites) {
         return Sign::of(&inner(&a, &b), &0);
     }
-    let Rows { rows, .. } = big_rows(&sites);
+    let Rows { differences: rows, .. } = big_rows(&sites);
     big::sign(&big_inner(&rows[0], &rows[1]))
 }
 
@@ -56,7 +56,7 @@ pub(super) fn edge<const D: usize>(sites: [Site<D>; 3]) -> Side {
         let term = |lift: i128, inner: i128| -> Wide<4> { Wide::from(lift).times(Wide::from(inner)) };
         return term(hq, inner(&u, &u)).minus(term(h, inner(&q, &u))).sign();
     }
-    let Rows { rows, lifts, .. } = big_rows(&sites);
+    let Rows { differences: rows, lifts, .. } = big_rows(&sites);
     let [u, q] = [&rows[0], &rows[1]];
     big::sign(&(&lifts[1] * length(u) - &lifts[0] * big_inner(q, u)))
 }
@@ -78,7 +78,7 @@ pub(super) fn triangle(sites: [Site<3>; 4]) -> Side {
         }
         return sum.sign();
     }
-    let Rows { rows, lifts, .. } = big_rows(&sites);
+    let Rows { differences: rows, lifts, .. } = big_rows(&sites);
     let [u, v, q] = [&rows[0], &rows[1], &rows[2]];
     let n = normal(u, v);
     let t: Vec<BigInt> = (0..3).map(|axis| &lifts[0] * &v[axis] - &lifts[1] * &u[axis]).collect();
@@ -89,7 +89,7 @@ pub(super) fn triangle(sites: [Site<3>; 4]) -> Side {
 #[cold]
 #[inline(never)]
 pub(super) fn radius<const D: usize, const N: usize>(sites: &[Site<D>; N]) -> f64 {
-    let Rows { rows, lifts, weight, scale } = big_rows(sites);
+    let Rows { differences: rows, lifts, weight, scale } = big_rows(sites);
     let fraction = smallest::<_, D, N>(|i, axis| rows[i][axis].clone(), |i, _| lifts[i].clone());
     let denominator = fraction.denominator << 2_u32;
     if denominator == BigInt::ZERO {

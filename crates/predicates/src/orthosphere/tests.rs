@@ -56,6 +56,9 @@ fn balls_hold_what_they_stand_for() {
         };
         let numbers = [number(), number(), number(), number()];
         let (integers, scale) = big::integers(&numbers);
+        if scale == i32::MAX {
+            continue;
+        }
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| integers[i].clone());
         let [x, y, z, w] = numbers.map(Ball::exactly);
         let difference = Ball::difference(numbers[0], numbers[1]);
