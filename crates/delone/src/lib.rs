@@ -66,6 +66,7 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod alpha;
 mod duplicates;
 mod error;
 mod hull;
@@ -86,6 +87,7 @@ mod verdict;
 mod vertex_map;
 mod weight;
 
+pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, OutlinePart};
 pub use error::{Error, RegionProblem};
 pub use hull::{Hull2, Hull3, HullHistory3};
 pub use ids::{
