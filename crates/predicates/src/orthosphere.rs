@@ -21,7 +21,7 @@ mod tests;
 use wide::f64x2;
 
 use crate::{Sign, Site, angle, compare_powers};
-use ball::Ball;
+use ball::{Ball, Lane};
 use fraction::{Fraction, Number, smallest};
 
 /// Whether `q` is strictly inside of the smallest sphere orthogonal to one site: has less power at its point than the site itself.
@@ -84,19 +84,27 @@ pub fn triangle_is_attached(a: Site<3>, b: Site<3>, c: Site<3>, q: Site<3>) -> b
 /// assert_eq!(squared_radius(equilateral), 2.0 / 3.0);
 /// ```
 pub fn squared_radius<const D: usize, const N: usize>(sites: [Site<D>; N]) -> f64 {
-    RadiusScale(1.0).radius(sites)
+    RadiusScale::ONE.radius(sites)
 }
 
 /// The power of two by which coordinates are multiplied before their radii are taken, so that no product leaves the range.
 #[derive(Clone, Copy, Debug)]
-pub struct RadiusScale(f64);
+pub struct RadiusScale {
+    factor: f64,
+    /// The square of the factor, and of its inverse.
+    unit: f64,
+    back: f64,
+}
 
 impl RadiusScale {
+    const ONE: Self = Self { factor: 1.0, unit: 1.0, back: 1.0 };
+
     /// The best one for points in a box with sides of at most this length.
     pub fn for_box(side: f64) -> Self {
         // Products have eight factors: from 2^60 down to 2^-60 they are far from both ends.
-        let exponent = 60 - ((side.to_bits() >> 52) as i32 - 1023);
-        Self(2f64.powi(exponent.clamp(-400, 400)))
+        let exponent = (60 - ((side.to_bits() >> 52) as i32 - 1023)).clamp(-400, 400);
+        let power = |exponent| 2f64.powi(exponent);
+        Self { factor: power(exponent), unit: power(2 * exponent), back: power(-2 * exponent) }
     }
 
     /// [`squared_radius`], sooner for coordinates far from one.
@@ -108,9 +116,8 @@ impl RadiusScale {
         if N > D + 1 {
             return f64::INFINITY;
         }
-        let fraction = self.fraction(&sites, |x| x);
-        self.rounded(sites[N - 1].1, [fraction.numerator, fraction.denominator])
-            .unwrap_or_else(|| exact::radius(&sites))
+        let [least, most] = self.bounds(&sites, |x| x);
+        self.rounded(&sites, least, most)
     }
 
     /// The radii of two simplices at once.
@@ -122,39 +129,35 @@ impl RadiusScale {
         let both: [([[f64; 2]; D], [f64; 2]); N] = std::array::from_fn(|i| {
             (std::array::from_fn(|axis| [first[i].0[axis], second[i].0[axis]]), [first[i].1, second[i].1])
         });
-        let fraction = self.fraction(&both, f64x2::new);
-        let lanes = [fraction.numerator, fraction.denominator].map(Ball::lanes);
-        let each = [first, second];
-        [0, 1].map(|lane| {
-            let sites = &each[lane];
-            self.rounded(sites[N - 1].1, [lanes[0][lane], lanes[1][lane]])
-                .unwrap_or_else(|| exact::radius(sites))
-        })
+        let [least, most] = self.bounds(&both, f64x2::new).map(f64x2::to_array);
+        [self.rounded(&first, least[0], most[0]), self.rounded(&second, least[1], most[1])]
     }
 
-    /// The squared distance of the centre from the last site, in the units of this scale.
+    /// What the squared radius may be rounded to, in the units of this scale: the least and the most, or what is not a number.
     #[inline]
-    fn fraction<T: Copy, L: ball::Lane, const D: usize, const N: usize>(
+    fn bounds<T: Copy, L: Lane, const D: usize, const N: usize>(
         self,
         sites: &[([T; D], T); N],
         lane: impl Fn(T) -> L,
-    ) -> Fraction<Ball<L>> {
+    ) -> [L; 2] {
         let last = &sites[N - 1];
-        let scaled = |x: T, y: T| Ball::difference(lane(x), lane(y)).scaled(self.0);
-        smallest::<_, D, N>(
+        let scaled = |x: T, y: T| Ball::difference(lane(x), lane(y)).scaled(self.factor);
+        let Fraction { numerator, denominator } = smallest::<_, D, N>(
             |i, axis| scaled(sites[i].0[axis], last.0[axis]),
-            |i, square| square.minus(&scaled(sites[i].1, last.1).scaled(self.0)),
-        )
+            |i, square| square.minus(&scaled(sites[i].1, last.1).scaled(self.factor)),
+        );
+        // A weight that loses bits here is left to integers.
+        let weight = Ball::exactly(lane(last.1) * L::all(self.unit));
+        numerator.over(&denominator).scaled(0.25).minus(&weight).bounds()
     }
 
-    /// The fraction less the weight, in the units of the coordinates, if all that it may be is rounded to the same number.
+    /// In the units of the coordinates, if both are the same number.
     #[inline]
-    fn rounded(self, weight: f64, [numerator, denominator]: [Ball<f64>; 2]) -> Option<f64> {
-        let (unit, back) = (self.0 * self.0, 1.0 / self.0 / self.0);
-        let weight = Some(weight * unit).filter(|w| w * back == weight)?;
-        let radius = numerator.over(&denominator)?.minus(&Ball::exactly(weight)).rounded()?;
-        let result = radius * back;
-        (result.is_normal() && result * unit == radius).then_some(result)
+    fn rounded<const D: usize, const N: usize>(self, sites: &[Site<D>; N], least: f64, most: f64) -> f64 {
+        let (radius, weight) = (least * self.back, sites[N - 1].1);
+        let is_kept =
+            radius.is_normal() & (radius * self.unit == least) & (weight * self.unit * self.back == weight);
+        if least == most && is_kept { radius } else { exact::radius(sites) }
     }
 }
 

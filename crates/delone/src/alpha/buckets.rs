@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use crate::ids::VertexId;
+use crate::ids::Place;
 use crate::parallel;
 
 /// For each vertex what has it as first corner.
@@ -14,17 +14,17 @@ pub(super) struct Buckets<E> {
 }
 
 impl<E: Copy + Default + Ord + Send + Sync> Buckets<E> {
-    /// Puts M entries for each of `count` faces into the buckets of vertices, which have ids below `ids`.
+    /// Puts M entries for each of `count` faces into the buckets of vertices, whose places are below `places`.
     pub(super) fn new<const M: usize>(
-        ids: usize,
+        places: usize,
         count: usize,
-        entries_of: impl Fn(usize) -> [(VertexId, E); M],
+        entries_of: impl Fn(usize) -> [(Place, E); M],
     ) -> Self {
-        let mut starts = vec![0; ids + 1];
+        let mut starts = vec![0; places + 1];
         for (first, _) in (0..count).flat_map(&entries_of) {
             starts[first.index() + 1] += 1;
         }
-        for i in 0..ids {
+        for i in 0..places {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
@@ -40,11 +40,11 @@ impl<E: Copy + Default + Ord + Send + Sync> Buckets<E> {
     /// Gives each bucket, sorted, to `work` with what it makes of a part of them; these are in the order of the vertices.
     pub(super) fn in_parts<R: Default + Send>(
         mut self,
-        work: impl Fn(VertexId, &[E], &mut R) + Send + Sync,
+        work: impl Fn(Place, &[E], &mut R) + Send + Sync,
     ) -> Vec<R> {
-        let ids = self.starts.len() - 1;
+        let places = self.starts.len() - 1;
         let parts = parallel::parts(self.entries.len());
-        let ends = parallel::even_ends(ids, parts);
+        let ends = parallel::even_ends(places, parts);
         let entry_ends: Vec<usize> = ends.iter().map(|&end| self.starts[end]).collect();
         let slices = parallel::split_at(&mut self.entries, &entry_ends);
         let starts = &self.starts;
@@ -56,7 +56,7 @@ impl<E: Copy + Default + Ord + Send + Sync> Buckets<E> {
             for v in range {
                 let bucket = &mut entries[starts[v] - from..starts[v + 1] - from];
                 bucket.sort_unstable();
-                work(VertexId::new(v), bucket, &mut made);
+                work(Place::new(v), bucket, &mut made);
             }
             made
         })

@@ -4,30 +4,24 @@
 //! the least of theirs. Who is on the sphere does not matter: that face has the same sphere. Otherwise the value is the squared
 //! radius of its own, for two faces at a time. All questions and radii are those of `predicates/src/orthosphere.rs`.
 //!
-//! The work is shared among threads by ranges of faces; what comes out does not depend on it.
+//! The work is shared among threads by ranges of faces; what comes out does not depend on it. Vertices have places here in the order
+//! in which simplices name them, which are near to each other in memory where they are in space.
 
 use std::ops::Range;
 
-use delone_predicates::{
-    RadiusScale, Site, edge_is_attached, triangle_is_attached, vertex_is_attached,
-};
+use delone_predicates::{Site, edge_is_attached, triangle_is_attached, vertex_is_attached};
 
 use super::buckets::Buckets;
+use super::sites::{Places, Sites, sorted};
 use super::{Alpha, Faces};
-use crate::ids::VertexId;
+use crate::ids::{Place, VertexId};
 use crate::mesh::Dimension;
 use crate::parallel;
 use crate::triangulation::{Coordinates, Triangulation};
 
-/// The sites by id, and the scale of their radii.
-struct Sites<const D: usize> {
-    sites: Vec<Site<D>>,
-    scale: RadiusScale,
-}
-
 /// Faces in any order; some still lack their value, which is their own radius.
 struct Found<const N: usize> {
-    corners: Vec<[VertexId; N]>,
+    corners: Vec<[Place; N]>,
     values: Vec<f64>,
     open: Vec<usize>,
 }
@@ -40,7 +34,7 @@ impl<const N: usize> Default for Found<N> {
 
 impl<const N: usize> Found<N> {
     /// Adds a face, with its value if it is attached.
-    fn push(&mut self, corners: [VertexId; N], attached: Option<f64>) {
+    fn push(&mut self, corners: [Place; N], attached: Option<f64>) {
         if attached.is_none() {
             self.open.push(self.corners.len());
         }
@@ -69,13 +63,13 @@ impl<const N: usize> Found<N> {
         all
     }
 
-    /// In the order of the filtration.
-    fn sorted(self) -> Faces<N> {
+    /// In the order of the filtration, with vertices for places.
+    fn sorted<const D: usize>(self, sites: &Sites<D>) -> Faces<N> {
         let order = |i: usize| {
             // As integers floating-point numbers have their own order, negative ones the opposite.
             let bits = self.values[i].to_bits();
             let key = if bits >> 63 == 1 { !bits } else { bits | 1 << 63 };
-            (key, self.corners[i])
+            (key, sorted(self.corners[i].map(|p| sites.vertex(p))))
         };
         let mut faces = parallel::collect(self.corners.len(), order);
         parallel::sort(&mut faces);
@@ -88,11 +82,6 @@ impl<const N: usize> Found<N> {
 }
 
 impl<const D: usize> Sites<D> {
-    #[inline]
-    fn of(&self, v: VertexId) -> Site<D> {
-        self.sites[v.index()]
-    }
-
     /// Shares work on so many things among threads, and completes what is found.
     fn find<const N: usize>(
         &self,
@@ -111,100 +100,89 @@ impl<const D: usize> Sites<D> {
     }
 
     /// Faces that nothing can attach.
-    fn own<const N: usize>(&self, faces: &[[VertexId; N]]) -> Found<N> {
+    fn own<const N: usize>(&self, faces: &[[Place; N]]) -> Found<N> {
         self.find(faces.len(), |range, found| {
             faces[range].iter().for_each(|&corners| found.push(corners, None));
         })
     }
 
-    /// The sides of tetrahedra with these values by index.
-    fn triangles<T: Triangulation>(&self, t: &T, tetrahedra: &[T::Simplex], values: &[f64]) -> Found<3> {
-        self.find(tetrahedra.len(), |range, found| {
-            for &s in &tetrahedra[range] {
-                let corners = t.corners(s);
-                let corners = corners.as_ref();
+    /// The sides of tetrahedra, with what is across the side opposite to each corner.
+    fn triangles(
+        &self,
+        tetrahedra: &Found<4>,
+        across: impl Fn(usize, usize) -> Option<usize> + Send + Sync,
+    ) -> Found<3> {
+        let (corners, values) = (&tetrahedra.corners, &tetrahedra.values);
+        self.find(corners.len(), |range, found| {
+            for i in range {
                 for k in 0..4 {
-                    let beyond = t.across(s, k);
-                    if beyond.is_some_and(|n| n < s) {
+                    let beyond = across(i, k);
+                    if beyond.is_some_and(|j| j < i) {
                         continue;
                     }
-                    let side = sorted(std::array::from_fn(|i| corners[(k + 1 + i) % 4]));
-                    let far = beyond.map(|n| t.corners(n));
-                    let far = far.iter().flat_map(|far| far.as_ref().iter().copied());
-                    let mut apexes = std::iter::once(corners[k]).chain(far.filter(|v| !side.contains(v)));
-                    let is_attached = apexes.any(|q| self.is_triangle_attached(side, q));
-                    let least = beyond.map_or(f64::INFINITY, |n| values[t.index(n)]).min(values[t.index(s)]);
+                    let side = sorted(std::array::from_fn(|m| corners[i][(k + 1 + m) % 4]));
+                    let far = beyond.and_then(|j| corners[j].into_iter().find(|p| !side.contains(p)));
+                    let is_inside = |q| self.is_triangle_attached(side, q);
+                    let is_attached = is_inside(corners[i][k]) || far.is_some_and(is_inside);
+                    let least = beyond.map_or(values[i], |j| values[i].min(values[j]));
                     found.push(side, is_attached.then_some(least));
                 }
             }
         })
     }
 
-    fn is_triangle_attached(&self, side: [VertexId; 3], q: VertexId) -> bool {
+    fn is_triangle_attached(&self, side: [Place; 3], q: Place) -> bool {
         // Of space alone.
-        let site = |v: VertexId| -> Site<3> {
-            let (p, w) = self.of(v);
+        let site = |p: Place| -> Site<3> {
+            let (p, w) = self.of(p);
             (std::array::from_fn(|axis| p[axis]), w)
         };
         let [a, b, c] = side.map(site);
         triangle_is_attached(a, b, c, site(q))
     }
 
-    /// The sides of triangles: those of one vertex lie in its bucket, each by its other end with all that is across.
+    /// The sides of triangles: those of one vertex lie in its bucket, each by its other end with the triangle.
     fn edges(&self, triangles: &Found<3>) -> Found<2> {
-        let buckets = Buckets::new(self.sites.len(), triangles.corners.len(), |i| {
+        let buckets = Buckets::new(self.count(), triangles.corners.len(), |i| {
             let [a, b, c] = triangles.corners[i];
-            let i = i as u32;
-            [(a, (Some(b), Some(c), i)), (a, (Some(c), Some(b), i)), (b, (Some(c), Some(a), i))]
+            let entry = |end: Place| (end.index() as u64) << 32 | i as u64;
+            [(a, entry(b)), (a, entry(c)), (b, entry(c))]
         });
-        let parts = buckets.in_parts(|v, bucket, found: &mut Found<2>| {
-            for same in bucket.chunk_by(|x, y| x.0 == y.0) {
-                let Some(w) = same[0].0 else { continue };
-                let (a, b) = (self.of(v), self.of(w));
-                let is_inside = |q: &Option<VertexId>| q.is_some_and(|q| edge_is_attached(a, b, self.of(q)));
-                let least = |least: f64, i: u32| least.min(triangles.values[i as usize]);
-                let attached = same.iter().any(|(_, q, _)| is_inside(q));
-                let value = attached.then(|| same.iter().fold(f64::INFINITY, |x, &(.., i)| least(x, i)));
-                found.push([v, w], value);
+        let parts = buckets.in_parts(|p, bucket, found: &mut Found<2>| {
+            for same in bucket.chunk_by(|x, y| x >> 32 == y >> 32) {
+                let edge = [p, Place::new((same[0] >> 32) as usize)];
+                let [a, b] = edge.map(|p| self.of(p));
+                let triangles_here = || same.iter().map(|entry| (entry & 0xffff_ffff) as usize);
+                let apex = |i: usize| triangles.corners[i].into_iter().find(|q| !edge.contains(q));
+                let is_inside = |i| apex(i).is_some_and(|q| edge_is_attached(a, b, self.of(q)));
+                let value = triangles_here()
+                    .any(is_inside)
+                    .then(|| triangles_here().map(|i| triangles.values[i]).fold(f64::INFINITY, f64::min));
+                found.push(edge, value);
             }
-        });
-        let parts = parallel::map(parts, |mut found| {
+            // While the sites are at hand.
             found.complete(self);
-            found
         });
         Found::joined(parts)
     }
 
     /// The ends of edges, and vertices without any.
-    fn vertices(&self, vertices: impl Iterator<Item = VertexId>, edges: &Found<2>) -> Found<1> {
-        let mut attached = vec![f64::INFINITY; self.sites.len()];
-        let mut least = attached.clone();
-        for (&[v, w], &value) in edges.corners.iter().zip(&edges.values) {
-            for [v, w] in [[v, w], [w, v]] {
-                least[v.index()] = least[v.index()].min(value);
-                if vertex_is_attached(self.of(v), self.of(w)) {
-                    attached[v.index()] = 0.0;
-                }
+    fn vertices(&self, edges: &Found<2>) -> Found<1> {
+        let mut ends = vec![(false, f64::INFINITY); self.count()];
+        for (&[p, q], &value) in edges.corners.iter().zip(&edges.values) {
+            for [p, q] in [[p, q], [q, p]] {
+                let (is_attached, least) = &mut ends[p.index()];
+                *is_attached |= vertex_is_attached(self.of(p), self.of(q));
+                *least = least.min(value);
             }
         }
         let mut found = Found::default();
-        for v in vertices {
-            let is_attached = attached[v.index()] == 0.0;
-            found.push([v], is_attached.then_some(least[v.index()]));
+        for (i, (is_attached, least)) in ends.into_iter().enumerate() {
+            found.push([Place::new(i)], is_attached.then_some(least));
         }
         found.complete(self);
         found
     }
-}
-
-fn sorted<const N: usize>(mut corners: [VertexId; N]) -> [VertexId; N] {
-    corners.sort_unstable();
-    corners
-}
-
-/// The corners of a simplex or a facet, by increasing id.
-fn array<const N: usize>(corners: &[VertexId]) -> [VertexId; N] {
-    sorted(std::array::from_fn(|k| corners[k]))
 }
 
 /// The alpha complexes of a triangulation whose vertices have weights.
@@ -213,49 +191,38 @@ where
     T: Triangulation<Point = [f64; D]>,
     [f64; D]: Coordinates,
 {
-    let mut sites = vec![([0.0; D], 0.0); t.ids_given()];
-    t.vertices().for_each(|v| sites[v.index()] = (t.position(v).unwrap_or([0.0; D]), weight(v)));
-    let side = longest_side(t.vertices().map(|v| sites[v.index()].0));
-    let sites = Sites { sites, scale: RadiusScale::for_box(side) };
-    let simplices: Vec<T::Simplex> = t.simplices().collect();
-    let corners = |i: usize| t.corners(simplices[i]);
-    let (triangles, tetrahedra) = if D == 2 {
-        let corners = parallel::collect(simplices.len(), |i| array(corners(i).as_ref()));
-        (sites.own(&corners), Found::default())
+    let mut places = Places::new(t.ids_given());
+    let names: Vec<T::Simplex> = t.simplices().collect();
+    let (mut triangles, mut tetrahedra) = (Vec::new(), Vec::new());
+    if D == 2 {
+        triangles.extend(names.iter().map(|&s| sorted(places.all::<3>(t.corners(s).as_ref()))));
     } else if t.dimension() == Dimension::Space {
-        let corners = parallel::collect(simplices.len(), |i| array(corners(i).as_ref()));
-        let tetrahedra: Found<4> = sites.own(&corners);
-        let mut values = vec![0.0; t.slot_count()];
-        simplices.iter().zip(&tetrahedra.values).for_each(|(&s, &value)| values[t.index(s)] = value);
-        (sites.triangles(t, &simplices, &values), tetrahedra)
+        tetrahedra.extend(names.iter().map(|&s| places.all::<4>(t.corners(s).as_ref())));
     } else {
         // Of coplanar points these are the triangles.
-        let corners: Vec<[VertexId; 3]> = t.hull_facets().map(|facet| array(facet.as_ref())).collect();
-        (sites.own(&corners), Found::default())
-    };
-    let edges = if triangles.corners.is_empty() {
-        let edges: Vec<[VertexId; 2]> = t.edges().map(|edge| sorted(edge)).collect();
-        sites.own(&edges)
-    } else {
-        sites.edges(&triangles)
-    };
-    let vertices = sites.vertices(t.vertices(), &edges);
-    Alpha {
-        vertices: vertices.sorted(),
-        edges: edges.sorted(),
-        triangles: triangles.sorted(),
-        tetrahedra: tetrahedra.sorted(),
-        points: sites.sites.into_iter().map(|site| site.0).collect(),
+        triangles.extend(t.hull_facets().map(|facet| sorted(places.all::<3>(facet.as_ref()))));
     }
-}
+    let is_flat = triangles.is_empty() && tetrahedra.is_empty();
+    let lines: Vec<[Place; 2]> =
+        if is_flat { t.edges().map(|edge| places.all(&edge)).collect() } else { Vec::new() };
+    t.vertices().take(1).for_each(|v| _ = places.of(v));
+    let sites = Sites::new(places.vertices, |v| (t.position(v).unwrap_or([0.0; D]), weight(v)));
 
-fn longest_side<const D: usize>(points: impl Iterator<Item = [f64; D]>) -> f64 {
-    let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-    for p in points {
-        for axis in 0..D {
-            low[axis] = low[axis].min(p[axis]);
-            high[axis] = high[axis].max(p[axis]);
-        }
+    let tetrahedra = sites.own(&tetrahedra);
+    let triangles = if tetrahedra.corners.is_empty() {
+        sites.own(&triangles)
+    } else {
+        let mut numbers = vec![0_u32; t.slot_count()];
+        names.iter().enumerate().for_each(|(i, &s)| numbers[t.index(s)] = i as u32);
+        sites.triangles(&tetrahedra, |i, k| t.across(names[i], k).map(|s| numbers[t.index(s)] as usize))
+    };
+    let edges = if is_flat { sites.own(&lines) } else { sites.edges(&triangles) };
+    let vertices = sites.vertices(&edges);
+    Alpha {
+        points: (0..t.ids_given()).map(|i| t.position(VertexId::new(i)).unwrap_or([0.0; D])).collect(),
+        vertices: vertices.sorted(&sites),
+        edges: edges.sorted(&sites),
+        triangles: triangles.sorted(&sites),
+        tetrahedra: tetrahedra.sorted(&sites),
     }
-    (0..D).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max)
 }

@@ -1,7 +1,7 @@
 //! Which simplices share a side.
 
 use super::buckets::Buckets;
-use crate::ids::VertexId;
+use crate::ids::{Place, VertexId};
 
 /// No simplex.
 pub(super) const NONE: u32 = u32::MAX;
@@ -13,9 +13,9 @@ pub(super) fn across<const N: usize>(ids: usize, simplices: &[[VertexId; N]]) ->
     let buckets = Buckets::new(ids, simplices.len(), |i| {
         let corners = &simplices[i];
         std::array::from_fn::<_, N, _>(|k| {
-            let mut rest = (0..N).filter(|&j| j != k).map(|j| corners[j]);
-            let first = rest.next().unwrap_or(VertexId::GHOST);
-            (first, ([rest.next(), rest.next()], i as u32, k as u8))
+            let at = |m: usize| corners[m + usize::from(m >= k)].index();
+            let rest = (1..N - 1).fold(0, |rest, m| rest << 32 | at(m) as u64);
+            (Place::new(at(0)), (rest, i as u32, k as u8))
         })
     });
     let pairs = buckets.in_parts(|_, bucket, pairs: &mut Vec<[(u32, u8); 2]>| {

@@ -8,6 +8,7 @@ mod build;
 mod components;
 mod facing;
 mod outline;
+mod sites;
 mod surface;
 
 use crate::ids::VertexId;
@@ -164,9 +165,9 @@ impl<const D: usize> Alpha<D> {
             let heads = [vertices.peek(), edges.peek(), triangles.peek(), tetrahedra.peek()];
             let values = heads.map(|head| head.map(|face| face.value));
             // Of equal values the first one.
-            let first = (0..4).filter(|&k| values[k].is_some()).min_by(|&i, &j| {
-                values[i].partial_cmp(&values[j]).unwrap_or(std::cmp::Ordering::Equal)
-            })?;
+            let first = (0..4)
+                .filter(|&k| values[k].is_some())
+                .min_by(|&i, &j| values[i].partial_cmp(&values[j]).unwrap_or(std::cmp::Ordering::Equal))?;
             match first {
                 0 => vertices.next(),
                 1 => edges.next(),

@@ -12,16 +12,20 @@
 //! Radii are sums and products of at most a dozen `f64` that are not negative, off by less than 2^-40 of themselves, by which they
 //! are enlarged; and by 2^-1000, more than all that underflow can take away. Overflow makes a radius infinite or NaN.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use wide::f64x2;
 
 use super::fraction::Number;
 
 /// One number, or several at once.
-pub(super) trait Lane: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub(super) trait Lane:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
     fn all(x: f64) -> Self;
     fn magnitude(self) -> Self;
+    /// The square root; of negative numbers not a number.
+    fn root(self) -> Self;
 }
 
 impl Lane for f64 {
@@ -34,6 +38,11 @@ impl Lane for f64 {
     fn magnitude(self) -> Self {
         self.abs()
     }
+
+    #[inline]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
 }
 
 impl Lane for f64x2 {
@@ -45,6 +54,11 @@ impl Lane for f64x2 {
     #[inline]
     fn magnitude(self) -> Self {
         self.abs()
+    }
+
+    #[inline]
+    fn root(self) -> Self {
+        self.sqrt()
     }
 }
 
@@ -133,47 +147,37 @@ impl<L: Lane> Number for Ball<L> {
     }
 }
 
-impl Ball<f64x2> {
-    #[inline]
-    pub(super) fn lanes(self) -> [Ball<f64>; 2] {
-        let [high, low, radius] = [self.high, self.low, self.radius].map(f64x2::to_array);
-        [0, 1].map(|lane| Ball { high: high[lane], low: low[lane], radius: radius[lane] })
-    }
-}
-
-impl Ball<f64> {
-    pub(super) fn exactly(x: f64) -> Self {
-        Self { high: x, low: 0.0, radius: 0.0 }
+impl<L: Lane> Ball<L> {
+    pub(super) fn exactly(high: L) -> Self {
+        Self { high, low: L::all(0.0), radius: L::all(0.0) }
     }
 
-    /// A quarter of the quotient, if the divisor is positive.
+    /// The quotient by a positive number; what is not a number if the divisor is not known to be positive, to 2^-40 of itself.
     ///
-    /// The second part corrects the first one to less than 32 u^2 of it; and (n + x) / (d + y) is off from n / d by at most (x + q
-    /// y) / (d - y).
+    /// With one division: the inverse has an error of u, so the first part has 2 u and the correction, of at most 5 u, 4 u of itself; so both
+    /// are off by less than 32 u^2 of the quotient. And (n + x) / (d + y) is off from n / d by at most (x + q y) / (d - y).
     #[inline]
-    pub(super) fn over(&self, other: &Self) -> Option<Self> {
-        let least = (other.high - other.radius) * (1.0 - 1.0 / (1_u64 << 40) as f64);
-        // What is not a number is not positive.
-        if !(least > 0.0 && self.radius.is_finite()) {
-            return None;
-        }
-        let quotient = self.high / other.high;
-        let product = Ball { high: other.high, low: other.low, radius: 0.0 }.times(&Ball::exactly(quotient));
+    pub(super) fn over(&self, other: &Self) -> Self {
+        let inverse = L::all(1.0) / other.high;
+        let quotient = self.high * inverse;
+        let product = other.times(&Self::exactly(quotient));
         let rest = (self.high - product.high) + (self.low - product.low);
-        let correction = rest / other.high;
-        let (high, low) = two_sum(quotient, correction);
-        let moved = (self.radius + quotient.abs() * ENLARGED * other.radius) / least;
-        let radius = (moved + 4.0 * ALLOWANCE * quotient.abs() + product.radius / least) * ENLARGED;
-        let ball = Self { high, low, radius: radius + UNDERFLOW };
-        Some(ball.scaled(0.25)).filter(|ball| ball.radius.is_finite())
+        let (high, low) = two_sum(quotient, rest * inverse);
+        // The radius of the product is that of the divisor, as often as the quotient, and its own error.
+        let radius =
+            (self.radius + product.radius) * inverse + quotient.magnitude() * L::all(2.0 * ALLOWANCE);
+        // Above one where the divisor may be too small.
+        let unknown = other.radius * L::all((1_u64 << 40) as f64) * inverse;
+        let positive = (L::all(1.0) - unknown).root() * inverse.root();
+        let enlarged = L::all(ENLARGED * ENLARGED) + (positive - positive);
+        Self { high, low, radius: radius * enlarged + L::all(UNDERFLOW) }
     }
 
-    /// The number to which all of the ball is rounded, if it is one.
+    /// What the numbers in the ball may be rounded to: the least and the most.
     #[inline]
-    pub(super) fn rounded(&self) -> Option<f64> {
+    pub(super) fn bounds(&self) -> [L; 2] {
         // The sums with the low part are rounded.
-        let margin = self.radius * ENLARGED + f64::EPSILON * self.low.abs();
-        let (least, most) = (self.high + (self.low - margin), self.high + (self.low + margin));
-        (least == most && least.is_finite()).then_some(least)
+        let margin = self.radius * L::all(ENLARGED) + self.low.magnitude() * L::all(f64::EPSILON);
+        [self.high + (self.low - margin), self.high + (self.low + margin)]
     }
 }
