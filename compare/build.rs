@@ -8,6 +8,7 @@ fn main() {
     println!("cargo::rerun-if-changed=/usr/include/CGAL");
     if Path::new("/usr/include/CGAL/Delaunay_triangulation_2.h").exists() {
         println!("cargo::rerun-if-changed=src/cgal_constrained.cpp");
+        println!("cargo::rerun-if-changed=src/cgal_weights.cpp");
         cc::Build::new()
             .cpp(true)
             .std("c++17")
@@ -16,6 +17,7 @@ fn main() {
             .warnings(false)
             .file("src/cgal.cpp")
             .file("src/cgal_constrained.cpp")
+            .file("src/cgal_weights.cpp")
             .compile("cgal_shim");
         println!("cargo::rustc-cfg=cgal");
         println!("cargo::rustc-link-lib=gmp");

@@ -6,8 +6,8 @@
 use std::time::Instant;
 
 use delone::{Delaunay2, Hierarchy, Locate, Location2, VertexId};
-use delone_oracle::exact::compare_distances;
 use delone_generators::{Kind, Random};
+use delone_oracle::exact::compare_distances;
 use spade::{HierarchyHintGenerator, PositionInTriangulation, Triangulation as _};
 
 type Points = [[f64; 2]];

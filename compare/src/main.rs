@@ -9,6 +9,7 @@ mod hull;
 mod memory;
 mod space;
 mod voronoi;
+mod weights;
 
 use std::fs::File;
 use std::io::BufReader;
@@ -62,6 +63,9 @@ struct Args {
         default_missing_value = "planar-subset,planar-grid,long,koch"
     )]
     constrained: Option<Vec<String>>,
+    /// Time regular triangulations of sites with weights, in the plane and (up to 100,000 sites) in space, instead.
+    #[arg(long)]
+    weights: bool,
     /// Time the inside of many polygons instead of building.
     #[arg(long)]
     polygons: bool,
@@ -122,6 +126,10 @@ fn compare(args: &Args) {
         panic::set_hook(Box::new(|_| {}));
         let all_right = constrained::run(names, &args.size, &args.engines, args.runs);
         std::process::exit(i32::from(!all_right));
+    }
+    if args.weights {
+        let wrong = args.size.iter().filter(|&&size| !weights::run(size, args.runs)).count();
+        std::process::exit(i32::from(wrong > 0));
     }
     if args.polygons {
         args.size.iter().for_each(|&size| constrained::polygons(size, args.runs));

@@ -51,7 +51,8 @@ fn delone_inside(set: &Set, wanted: bool) -> Result<Output, String> {
     if set.polygons.is_empty() {
         return Err("(knows polygons only)".to_owned());
     }
-    let rings: Vec<&[[f64; 2]]> = set.polygons.iter().flatten().map(|ring| &set.points[ring.clone()]).collect();
+    let rings: Vec<&[[f64; 2]]> =
+        set.polygons.iter().flatten().map(|ring| &set.points[ring.clone()]).collect();
     let (time, result) = timed(|| delone::Polygons2::default().triangulate(&rings));
     let triangles = result.map_err(|error| error.to_string())?.triangles.into_iter().filter(|_| wanted);
     Ok(Output { time, triangles: triangles.map(|t| t.map(|i| i as usize)).collect(), is_inside: true })

@@ -8,7 +8,7 @@ use crate::message::Failure;
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::{constrained, files};
+use crate::{constrained, files, weighted};
 
 pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> {
     let by_points = args.disks.is_some() || args.hints;
@@ -20,6 +20,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     }
     let mut inputs = args.input.paths();
     inputs.extend(args.graph.segments.as_deref());
+    inputs.extend(args.weights.file());
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
     if let Some((path, format)) =
         outputs.iter().find(|(_, format)| !matches!(format, Format::Svg | Format::Png))
@@ -31,6 +32,15 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     }
     let mut options = options(args, R::is_space())?;
     let cut = cut(args)?;
+    if args.weights.given().is_some() {
+        if by_points || args.graph.is_given() || cut.is_some() {
+            return Err(Failure::usage(
+                "weights are for points without segments, disks, hints and cuts",
+                "leave --weights and --radii out, or --segments, --crossings, --fill, --disks, --hints and --cut",
+            ));
+        }
+        return weighted::draw::<R>(args, &outputs, &options, quiet);
+    }
     if !R::is_space() && !by_points && constrained::is_meant(&args.input, &args.graph) {
         options.outside = args.max_edge.is_none();
         return constrained::draw(args, &outputs, &options, quiet);

@@ -209,6 +209,42 @@ pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> R
     Ok(all)
 }
 
+/// Reads a number for each point.
+pub(crate) fn numbers(path: &Path, quiet: bool) -> Result<Vec<f64>, Failure> {
+    let format = format(path, None, "the extension")?;
+    let (source, _phase) = open(path, format, quiet)?;
+    delone_io::read_numbers(source, format).map_err(|error| Failure::file(path, &error))
+}
+
+/// What to do where a number for each point is not found.
+const NUMBERS: &str = "name a file with one for each point, or a column of a text file";
+
+/// Refuses a column of files that have none.
+pub(crate) fn check_column(args: &InputArgs, name: &str) -> Result<(), Failure> {
+    for path in &args.input {
+        if is_standard(path) || format(path, args.from, "--from")? != Format::Text {
+            let what = format!("{name} is no file, and {} has no columns to look for it in", path.display());
+            return Err(Failure::usage(what, NUMBERS));
+        }
+    }
+    Ok(())
+}
+
+/// Reads a column of the points' own files, by name or number from 1.
+pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f64>, Failure> {
+    let mut all = Vec::new();
+    for path in &args.input {
+        let options = ReadOptions { columns: vec![name.to_owned(); 2], ..ReadOptions::default() };
+        let (source, _phase) = open(path, Format::Text, quiet)?;
+        let cloud = delone_io::read_points(source, Format::Text, &options).map_err(|error| {
+            let what = format!("{}: {name} is no file, and as a column: {error}", path.display());
+            Failure::new(what, NUMBERS)
+        })?;
+        all.extend(cloud.xy.into_iter().map(|[number, _]| number));
+    }
+    Ok(all)
+}
+
 /// Reads points that are asked for.
 pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
     let format = format(path, None, "the extension")?;

@@ -28,6 +28,7 @@ mod signals;
 mod stats;
 mod triangulate;
 mod voronoi;
+mod weighted;
 
 use std::num::NonZero;
 use std::process::ExitCode;

@@ -6,7 +6,7 @@ use crate::args::{AlgorithmName, TriangulateArgs};
 use crate::message::Failure;
 use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::{constrained, files, instances, outcome};
+use crate::{constrained, files, instances, outcome, weighted};
 
 pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     if args.max_edge.is_some() && R::is_space() {
@@ -18,6 +18,16 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
             "segments are for the plane and the default algorithm",
             "leave --segments, --crossings and --fill out, or --dim 3, --algorithm, --locate and --hints",
         ));
+    }
+    if args.weights.given().is_some() {
+        if by_points || args.graph.is_given() {
+            return Err(Failure::usage(
+                "weights are for the default algorithm, and for points without segments",
+                "leave --weights and --radii out, or --algorithm, --locate, --hints, --segments, --crossings and --fill",
+            ));
+        }
+        args.strategy.refuse("a construction with weights")?;
+        return weighted::triangulate::<R>(args, quiet);
     }
     if !R::is_space() && !by_points && constrained::is_meant(&args.input, &args.graph) {
         args.strategy.refuse("segments")?;

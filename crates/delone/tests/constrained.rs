@@ -365,6 +365,23 @@ fn reports_count_what_pairs_of_segments_share() {
 }
 
 /// Each within the one after it, on one line: as many steps as segments, where edges met would be ten thousand million.
+/// Both ends of a segment that comes again and again are hubs: each time their stars are looked at would be too often.
+#[test]
+fn a_segment_between_hubs_comes_fifty_thousand_times() {
+    let n = 50_000;
+    let around = |k: usize| (std::f64::consts::PI * (0.5 + k as f64 / n as f64)).sin_cos();
+    let fan = (1..n).map(around).flat_map(|(y, x)| [[x, y], [0.5 - x, y]]);
+    let points: Vec<[f64; 2]> = [[0.0, 0.0], [0.5, 0.0]].into_iter().chain(fan).collect();
+    let segments: Vec<[usize; 2]> = (0..n).map(|k| if k % 2 == 0 { [0, 1] } else { [1, 0] }).collect();
+    let c = Constrained2::from_parts(&points, &segments).expect("nothing crosses");
+    assert_eq!((c.constraints().count(), c.report().repeated), (1, n - 1));
+    c.check().expect("canonical");
+    // From the top on the left to the bottom on the right.
+    let crossing: Vec<[usize; 2]> = [[2, points.len() - 1]].into_iter().chain(segments).collect();
+    let refused = Constrained2::from_parts(&points, &crossing);
+    assert!(matches!(refused, Err(Error::SegmentsCross { count, .. }) if count == n));
+}
+
 #[test]
 fn a_hundred_thousand_nested_segments() {
     let n = 100_000;

@@ -44,6 +44,9 @@ pub enum Error {
     /// The format holds no segments by themselves.
     #[error("segments are not read from {0} files")]
     NotSegments(Format),
+    /// The format holds no list of numbers.
+    #[error("numbers are not read from {0} files")]
+    NotNumbers(Format),
     /// The format holds no graphs.
     #[error("graphs are not written to {0} files")]
     NotAGraph(Format),
@@ -95,6 +98,7 @@ impl Error {
                 "read the points from the .node file of the same name, or put them into this file"
             }
             Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
+            Self::NotNumbers(_) => "numbers are read from: csv txt npy",
             Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {

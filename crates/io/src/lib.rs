@@ -171,6 +171,15 @@ pub fn read_segments(source: Box<dyn Source>, format: Format) -> Result<Vec<[usi
     }
 }
 
+/// Reads a number for each point: text with one in each line, or a NumPy array of shape (n,).
+pub fn read_numbers(source: Box<dyn Source>, format: Format) -> Result<Vec<f64>, Error> {
+    match format {
+        Format::Text => formats::list::read(source),
+        Format::Npy => formats::npy::read_list(source),
+        _ => Err(Error::NotNumbers(format)),
+    }
+}
+
 /// Reads the attributes of the triangles of an `.ele` file, a row each; other formats have none.
 pub fn read_triangle_attributes(source: Box<dyn Source>, format: Format) -> Result<Attributes, Error> {
     match format {

@@ -8,6 +8,7 @@ mod polygons;
 mod shapes;
 mod strategy;
 mod triangulate;
+mod weights;
 
 use std::path::{Path, PathBuf};
 
@@ -22,6 +23,7 @@ pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
+pub(crate) use weights::WeightArgs;
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]

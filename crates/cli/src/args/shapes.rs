@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use delone_io::Format;
 use delone_io::picture::Camera;
 
-use super::{DimArgs, GraphArgs, InputArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, WeightArgs, length};
 use crate::message::Failure;
 
 /// Convex hull.
@@ -183,6 +183,8 @@ pub(crate) struct DrawArgs {
     pub(crate) seed: u64,
     #[command(flatten)]
     pub(crate) graph: GraphArgs,
+    #[command(flatten)]
+    pub(crate) weights: WeightArgs,
 }
 
 /// Show a motion, or what an algorithm does.

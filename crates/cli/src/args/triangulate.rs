@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use delone_io::Format;
 
-use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, length};
 
 /// Triangulate points.
 #[derive(Debug, Args)]
@@ -22,6 +22,8 @@ use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, length};
   delone triangulate lakes.geojson -o lakes.ply -o lakes.png
   delone triangulate plan.poly --fill all --crossings split -o plan.1.node -o plan.1.ele -o plan.svg
   delone triangulate survey.laz --segments breaklines.csv -o terrain.ply
+  delone triangulate spheres.csv --columns x,y,z --radii r --dim 3 -o tetrahedra.npy
+  delone triangulate points.npy --weights weights.npy -o triangles.npy
 
 x and y are triangulated; heights are kept. Segments of poly, geojson, wkt and wkb files and of --segments are edges of
 the triangulation, and what is inside is written, as --fill says. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
@@ -59,6 +61,8 @@ pub(crate) struct TriangulateArgs {
     pub(crate) check: bool,
     #[command(flatten)]
     pub(crate) graph: GraphArgs,
+    #[command(flatten)]
+    pub(crate) weights: WeightArgs,
     #[command(flatten)]
     pub(crate) strategy: StrategyArgs,
 }

@@ -46,6 +46,16 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// What the construction did.
     fn counters(&self) -> Counters;
 
+    /// The triangulation of points with weights.
+    type Regular: Triangulation<Point = Self::Point>;
+
+    fn regular(points: &[Self::Point], weights: &[f64], seed: u64) -> Result<Self::Regular, delone::Error>;
+
+    fn counters_of(r: &Self::Regular) -> Counters;
+
+    /// How many sites are hidden.
+    fn hidden(r: &Self::Regular) -> usize;
+
     /// Whether a point is on the circle or sphere through the corners of a simplex.
     fn is_tie(simplex: &[Self::Point], q: Self::Point) -> bool;
 
@@ -169,12 +179,12 @@ pub(crate) fn trim(d: &impl Triangulation, longest: Option<f64>, stats: &mut Sta
 }
 
 /// What is written of a triangulation.
-pub(crate) fn mesh<'a, R: Room>(
-    d: &'a R,
-    points: &'a [R::Point],
+pub(crate) fn mesh<'a, T: Triangulation>(
+    d: &'a T,
+    points: &'a [T::Point],
     about: &'a Cloud,
     trim: Option<&'a Trim>,
-) -> Mesh<'a, R> {
+) -> Mesh<'a, T> {
     let (heights, crs, base) = (about.z.as_deref(), about.crs.as_ref(), about.base);
     Mesh { heights, crs, base, trim, ..Mesh::new(d, points) }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::plane::verify::{Objection2, verify};
-use delone::{Algorithm2, Counters, Delaunay2, Hints2, Verdict};
+use delone::{Algorithm2, Counters, Delaunay2, Hints2, Regular2, Verdict};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
 
@@ -55,6 +55,20 @@ impl Room for Delaunay2 {
 
     fn counters(&self) -> Counters {
         self.counters()
+    }
+
+    type Regular = Regular2;
+
+    fn regular(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Result<Regular2, delone::Error> {
+        Regular2::with_seed(points, weights, seed)
+    }
+
+    fn counters_of(r: &Regular2) -> Counters {
+        r.counters()
+    }
+
+    fn hidden(r: &Regular2) -> usize {
+        r.hidden().count()
     }
 
     fn is_tie(simplex: &[[f64; 2]], q: [f64; 2]) -> bool {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::space::verify::{Objection3, verify};
-use delone::{Algorithm3, Counters, Delaunay3, Hints3, Verdict};
+use delone::{Algorithm3, Counters, Delaunay3, Hints3, Regular3, Verdict};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::in_sphere_with_ties;
 
@@ -68,6 +68,20 @@ impl Room for Delaunay3 {
 
     fn counters(&self) -> Counters {
         self.counters()
+    }
+
+    type Regular = Regular3;
+
+    fn regular(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Result<Regular3, delone::Error> {
+        Regular3::with_seed(points, weights, seed)
+    }
+
+    fn counters_of(r: &Regular3) -> Counters {
+        r.counters()
+    }
+
+    fn hidden(r: &Regular3) -> usize {
+        r.hidden().count()
     }
 
     fn is_tie(simplex: &[[f64; 3]], q: [f64; 3]) -> bool {

@@ -5,6 +5,7 @@ pub(crate) mod geojson;
 pub(crate) mod graphs;
 pub(crate) mod las;
 mod lines;
+pub(crate) mod list;
 pub(crate) mod npy;
 mod numbers;
 pub(crate) mod obj;

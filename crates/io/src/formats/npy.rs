@@ -98,6 +98,25 @@ pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
     Ok(cloud)
 }
 
+/// Reads numbers of shape (n,), (n, 1) or (1, n), floating point or whole.
+pub(crate) fn read_list<R: Read + Seek>(source: R) -> Result<Vec<f64>, Error> {
+    let file = open(source)?;
+    let shape = &file.header.shape;
+    let ([count] | [count, 1] | [1, count]) = shape[..] else {
+        return Err(Error::content(format!("the array has the shape {shape:?}, not (n,)")));
+    };
+    // What a header claims takes no memory.
+    let take = |values: &mut dyn Iterator<Item = Result<f64, Error>>| -> Result<Vec<f64>, Error> {
+        values.take(count as usize).collect()
+    };
+    if file.header.kind.starts_with('f') {
+        numbers!(file, take, |value| Ok(Into::<f64>::into(value)), "f8" f64, "f4" f32)
+    } else {
+        numbers!(file, take, |value| exact(i128::from(value)),
+            "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)
+    }
+}
+
 /// Points from the numbers of an array.
 fn fill(
     mut values: impl Iterator<Item = Result<f64, Error>>,

@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 
 use super::crossings::{self, Crossing};
 use super::force::Laid;
-use super::overlaps::Overlaps;
+use super::overlaps::{Overlaps, sorted};
 use super::segments::Segments;
 use super::{Constrained2, ConstraintReport2, split};
 use crate::error::Error;
@@ -177,8 +177,21 @@ pub(super) fn constrain(
     let mut refused = Vec::new();
     let mut met = Met::default();
     let mut ahead = Ahead::new(&rest);
+    // The last segment, and what became of it: the same once more needs no look at its ends, which may be hubs.
+    let mut last = ([Place::GHOST; 2], Became::Chain);
     for (i, &(ends, s)) in rest.iter().enumerate() {
         ahead.ways(layer, i);
+        match last {
+            (before, Became::Edge) if before == sorted(ends) => {
+                overlaps.share(ends);
+                continue;
+            }
+            (before, Became::Refused) if before == sorted(ends) => {
+                refused.push(s);
+                continue;
+            }
+            _ => {}
+        }
         met.fresh.clear();
         met.fixed.clear();
         if lay_all(layer, ends, &mut channel, &mut overlaps, &mut met).is_err() {
@@ -188,18 +201,29 @@ pub(super) fn constrain(
                 e.into_iter().for_each(|e| layer.mesh.set_fixed(e, false));
             }
             refused.push(s);
+            last = (sorted(ends), Became::Refused);
             continue;
         }
+        last = (sorted(ends), Became::Edge);
         met.fixed.iter().for_each(|&edge| overlaps.share(edge));
         let edges = met.fresh.iter().chain(&met.fixed);
         if edges.clone().all(|&[v, w]| [v, w] != ends && [w, v] != ends) {
             overlaps.add(&layer.points, s, ends, edges.copied());
+            last.1 = Became::Chain;
         }
     }
     refused.sort_unstable();
     report.through_vertices = overlaps.through_vertices();
     overlaps.count(&layer.points, segments, report);
     refused
+}
+
+/// What became of a segment.
+#[derive(Clone, Copy)]
+enum Became {
+    Edge,
+    Chain,
+    Refused,
 }
 
 /// The edges that a segment met, by their ends.
@@ -234,7 +258,7 @@ fn lay_all(
 
 /// Puts segments in a biased random order, each round by where the ends are in memory.
 fn in_rounds(segments: &mut [Numbered]) {
-    deal(segments, ANY_SEED, |round| round.sort_unstable_by_key(|&([a, b], s)| (a.min(b), s)));
+    deal(segments, ANY_SEED, |round| round.sort_unstable_by_key(|&(ends, s)| (sorted(ends), s)));
 }
 
 /// Whether half of some segments are edges, as far as a sample tells.
@@ -309,10 +333,14 @@ fn fix_edges(layer: &mut Layer, segments: &[Numbered], overlaps: &mut Overlaps) 
     let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end).collect();
     let found = parallel::map(runs, |run: std::ops::Range<usize>| {
         let ahead = Ahead::new(segments);
+        let mut last = ([Place::GHOST; 2], None);
         let edge = |i: usize| {
             ahead.stars(&layer.mesh, i);
-            let [a, b] = segments[i].0;
-            layer.mesh.edge_between(a, b)
+            let [a, b] = sorted(segments[i].0);
+            if last.0 != [a, b] {
+                last = ([a, b], layer.mesh.edge_between(a, b));
+            }
+            last.1
         };
         run.map(edge).collect::<Vec<Option<EdgeId>>>()
     });

@@ -11,8 +11,9 @@ use std::collections::BTreeSet;
 
 use delone_predicates::{Line, Spot, orient2d, segment_rounds_to};
 
+use super::overlaps::sorted;
 use super::trace::Ground;
-use crate::ids::{EdgeId, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::plane::Delaunay2;
 
 /// Two segments that cross strictly inside of both, at no vertex.
@@ -67,14 +68,19 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
         met.through.extend(ground.vertices_on(places(s)).into_iter().map(|v| (s, mesh.name(v))));
     }
     crossed.sort_unstable();
+    let mut last = ([Place::GHOST; 2], None);
     let is_accepted = |s: &u32| refused.binary_search(s).is_err();
     for s in (0..segments.len() as u32).filter(is_accepted) {
         let [a, b] = places(s);
         if a == b {
             continue;
         }
-        let edges = mesh.edge_between(a, b).map_or_else(|| ground.chain([a, b]), |e| vec![e]);
-        let inner = edges.iter().map(|&e| mesh.head(e)).filter(|&v| v != b);
+        // The same segment once more needs no look at its ends, which may be hubs.
+        if last.0 != sorted([a, b]) {
+            last = (sorted([a, b]), mesh.edge_between(a, b));
+        }
+        let edges = last.1.map_or_else(|| ground.chain([a, b]), |e| vec![e]);
+        let inner = edges.iter().map(|&e| mesh.head(e)).filter(|&v| v != a && v != b);
         met.through.extend(inner.map(|v| (s, mesh.name(v))));
         for e in edges.into_iter().map(undirected) {
             let start = crossed.partition_point(|c| c.0 < e);

@@ -22,7 +22,7 @@ pub(super) type Weight = (EdgeId, i32, usize);
 /// An edge by its ends, the lesser one first.
 type Ends = [Place; 2];
 
-fn sorted([v, w]: [Place; 2]) -> Ends {
+pub(super) fn sorted([v, w]: [Place; 2]) -> Ends {
     [v.min(w), v.max(w)]
 }
 
@@ -169,8 +169,15 @@ pub(super) fn weights(
     let mut overlaps = Overlaps::default();
     let mut through: Vec<[Place; 2]> = Vec::new();
     let mut weights: Vec<Weight> = Vec::new();
+    // The same segment once more needs no look at its ends, which may be hubs.
+    let mut last = ([Place::GHOST; 2], None);
     for (number, ends) in segments.enumerate() {
-        match ground.mesh.edge_between(ends[0], ends[1]) {
+        if last.0 == [ends[1], ends[0]] {
+            last = (ends, last.1.map(|e| ground.mesh.twin(e)));
+        } else if last.0 != ends {
+            last = (ends, ground.mesh.edge_between(ends[0], ends[1]));
+        }
+        match last.1 {
             Some(e) if ground.mesh.is_fixed(e) => weights.push((e, 1, 1)),
             Some(_) => return Err(number),
             None => {

@@ -2,11 +2,15 @@
 
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::triangles::HalfEdge;
+use crate::plane::layer::kernel::{Kernel, NearestSites, Site};
 use crate::tally::Merges;
+use crate::weight::Weight;
 
 /// The memory of the points at some positions. Vertices are positions in the order until the very end.
-pub(super) struct Builder<'a> {
+pub(super) struct Builder<'a, K: Kernel = NearestSites> {
     pub(super) points: &'a [[f64; 2]],
+    /// Their weights, if the kernel knows weights.
+    weights: &'a [K::Weight],
     pub(super) counters: Merges,
     /// The first position.
     start: usize,
@@ -16,25 +20,26 @@ pub(super) struct Builder<'a> {
     leaving: &'a mut [TriangleId],
 }
 
-impl<'a> Builder<'a> {
+impl<'a, K: Kernel> Builder<'a, K> {
     /// For as many positions as `leaving` is long.
     pub(super) fn new(
         points: &'a [[f64; 2]],
+        weights: &'a [K::Weight],
         start: usize,
         edges: &'a mut [HalfEdge],
         leaving: &'a mut [TriangleId],
     ) -> Self {
-        Self { points, counters: Merges::default(), start, edges, leaving }
+        Self { points, weights, counters: Merges::default(), start, edges, leaving }
     }
 
     /// Builders of the positions before another one and from it on. The two triangles between them are with the first.
-    pub(super) fn split(&mut self, middle: usize) -> [Builder<'_>; 2] {
-        let (points, start) = (self.points, self.start);
+    pub(super) fn split(&mut self, middle: usize) -> [Builder<'_, K>; 2] {
+        let (points, weights, start) = (self.points, self.weights, self.start);
         let (left_edges, right_edges) = self.edges.split_at_mut(8 * (middle - start));
         let (left_leaving, right_leaving) = self.leaving.split_at_mut(middle - start);
         [
-            Builder::new(points, start, left_edges, left_leaving),
-            Builder::new(points, middle, right_edges, right_leaving),
+            Builder::new(points, weights, start, left_edges, left_leaving),
+            Builder::new(points, weights, middle, right_edges, right_leaving),
         ]
     }
 
@@ -111,5 +116,10 @@ impl<'a> Builder<'a> {
     #[inline]
     pub(super) fn point(&self, v: Place) -> [f64; 2] {
         self.points[v.index()]
+    }
+
+    #[inline]
+    pub(super) fn site(&self, v: Place) -> Site<K> {
+        (self.points[v.index()], K::Weight::at(self.weights, v))
     }
 }

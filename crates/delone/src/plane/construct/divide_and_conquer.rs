@@ -27,13 +27,14 @@ use delone_predicates::{Filter, Grid, lexicographic};
 use super::Built;
 use super::builder::Builder;
 use super::leaf::Leaf;
-use super::merge::Part;
+use super::merge::{Merging, Part};
 use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::triangles::{HalfEdge, Mesh2};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
 use crate::order::quantize::scaled;
 use crate::parallel;
+use crate::plane::layer::kernel::{NearestSites, Power};
 use crate::points::{Bounds, survey};
 use crate::tally::{Counters, Merges};
 
@@ -41,7 +42,7 @@ use crate::tally::{Counters, Merges};
 /// their indices.
 pub(super) fn triangulate(points: &[[f64; 2]], bounds: &Bounds<2>) -> (Mesh2, Vec<Duplicate>, Merges) {
     let Sorted { points: ordered, indices, cuts, boxes, duplicates } = morton::sort(points, bounds);
-    let (edges, counters) = build(&ordered, &cuts, &boxes);
+    let (edges, counters) = build::<NearestSites>(&ordered, &[], &cuts, &boxes);
     let n = ordered.len();
     drop((ordered, cuts));
     let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
@@ -85,12 +86,64 @@ impl InOrder {
 /// The same as `triangulate`, in the order of memory.
 pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
     let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points, &survey(points).0);
-    let (edges, counters) = build(&points, &cuts, &boxes);
+    let (edges, counters) = build::<NearestSites>(&points, &[], &cuts, &boxes);
     let n = points.len();
     let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
     mesh.number_vertices(n, |position| position);
     InOrder { mesh, points, indices, duplicates: sorted(duplicates), counters }
+}
+
+/// The regular triangulation of sites with weights, the heaviest of those at one point, with vertices at their positions in Morton
+/// order. Positions that are hidden have no star.
+pub(in crate::plane) struct Weighted {
+    pub(in crate::plane) mesh: Mesh2,
+    /// By position.
+    pub(in crate::plane) points: Vec<[f64; 2]>,
+    pub(in crate::plane) weights: Vec<f64>,
+    /// The indices of the sites at all positions.
+    pub(in crate::plane) indices: Vec<u32>,
+    /// Other sites at the points of these, with their positions.
+    pub(in crate::plane) others: Vec<(u32, Place)>,
+    pub(in crate::plane) counters: Merges,
+}
+
+/// See [`Weighted`].
+pub(in crate::plane) fn weighted(points: &[[f64; 2]], weights: &[f64]) -> Weighted {
+    let Sorted { points: ordered, mut indices, cuts, boxes, duplicates } =
+        morton::sort(points, &survey(points).0);
+    let others = heaviest_first(&mut indices, duplicates, weights);
+    let ordered_weights = parallel::collect(indices.len(), |k| weights[indices[k] as usize]);
+    let (edges, counters) = build::<Power>(&ordered, &ordered_weights, &cuts, &boxes);
+    let n = ordered.len();
+    let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
+    mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
+    mesh.number_vertices(n, |position| position);
+    mesh.forget_unused();
+    Weighted { mesh, points: ordered, weights: ordered_weights, indices, others, counters }
+}
+
+/// Of sites at one point the heaviest, and of these the first, takes the position; the others are returned.
+fn heaviest_first(indices: &mut [u32], duplicates: Vec<(u32, u32)>, weights: &[f64]) -> Vec<(u32, Place)> {
+    if duplicates.is_empty() {
+        return Vec::new();
+    }
+    let mut positions = parallel::filled(Place::GHOST, weights.len());
+    indices.iter().enumerate().for_each(|(k, &i)| positions[i as usize] = Place::new(k));
+    let stands_before = |i: u32, j: u32| {
+        let (w, v) = (weights[i as usize], weights[j as usize]);
+        w > v || (w == v && i < j)
+    };
+    let place = |(other, first): (u32, u32)| {
+        let position = positions[first as usize];
+        let there = &mut indices[position.index()];
+        let mut lighter = other;
+        if stands_before(other, *there) {
+            lighter = std::mem::replace(there, other);
+        }
+        (lighter, position)
+    };
+    duplicates.into_iter().map(place).collect()
 }
 
 fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
@@ -103,13 +156,19 @@ fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
     duplicates
 }
 
-fn build(ordered: &[[f64; 2]], cuts: &[Cut], boxes: &[KeyBox]) -> (Vec<HalfEdge>, Merges) {
+fn build<K: Merging>(
+    ordered: &[[f64; 2]],
+    weights: &[K::Weight],
+    cuts: &[Cut],
+    boxes: &[KeyBox],
+) -> (Vec<HalfEdge>, Merges) {
     let n = ordered.len();
-    let scaled = scaled(n, |i| ordered[i], &SIZES);
+    // Weights would have to be scaled by the square, which may leave the range.
+    let scaled = if K::HIDES { None } else { scaled(n, |i| ordered[i], &SIZES) };
     let (ordered, scale) = scaled.as_ref().map_or((ordered, 1.0), |(points, scale)| (&points[..], *scale));
     let mut edges: Vec<HalfEdge> = zeroed(8 * n.saturating_sub(1));
     let mut leaving: Vec<TriangleId> = zeroed(n);
-    let mut builder = Builder::new(ordered, 0, &mut edges, &mut leaving);
+    let mut builder = Builder::<K>::new(ordered, weights, 0, &mut edges, &mut leaving);
     if n > 0 {
         let grid = grid_of(ordered.as_flattened(), finest_step(boxes, scale));
         Tree { cuts, boxes, scale, grid }.build(0, LEVELS, &mut builder);
@@ -176,7 +235,7 @@ type Waiting = Vec<(Part, Cut)>;
 impl Tree<'_> {
     /// Triangulates the points of a box, in parallel if they are many: the tree is divided at its shallowest cuts into runs
     /// that are not too large, which tasks build in memory of their own.
-    fn build(&self, index: usize, levels: u32, builder: &mut Builder) -> Part {
+    fn build<K: Merging>(&self, index: usize, levels: u32, builder: &mut Builder<K>) -> Part {
         let key_box = self.boxes[index];
         let cell_filter = |depth| {
             let [width, height] = key_box.cell(depth);
@@ -199,7 +258,13 @@ impl Tree<'_> {
 
     /// Triangulates a run of points of a box that is a subtree. If it has too many, both halves at its shallowest cut at once,
     /// in memory of their own.
-    fn halve(&self, work: &Work, run: Range<usize>, levels: u32, builder: &mut Builder) -> Part {
+    fn halve<K: Merging>(
+        &self,
+        work: &Work,
+        run: Range<usize>,
+        levels: u32,
+        builder: &mut Builder<K>,
+    ) -> Part {
         let &Work { index, cells, most } = work;
         let is_large = run.len() > most && levels > 0;
         let shallowest = if is_large { self.shallowest_cut(index, &run) } else { None };
@@ -252,7 +317,13 @@ impl Tree<'_> {
 
     /// Triangulates a run of points of a box that is a subtree. Recursion follows the nesting of boxes, whose depth the
     /// exponent range bounds; inside a box the parts that wait for a neighbour are on a stack.
-    fn run(&self, index: usize, cells: &Cells, run: Range<usize>, builder: &mut Builder) -> Part {
+    fn run<K: Merging>(
+        &self,
+        index: usize,
+        cells: &Cells,
+        run: Range<usize>,
+        builder: &mut Builder<K>,
+    ) -> Part {
         let mut waiting = Waiting::with_capacity(8);
         let mut next_box = self.first_nested(index, run.start);
         let mut at = run.start;
@@ -299,7 +370,13 @@ impl Tree<'_> {
 
 impl Cells<'_> {
     /// Merges a part with those to its left, as long as the cuts between them are deeper than the one after it.
-    fn join(&self, builder: &mut Builder, waiting: &mut Waiting, mut part: Part, after: Cut) -> Part {
+    fn join<K: Merging>(
+        &self,
+        builder: &mut Builder<K>,
+        waiting: &mut Waiting,
+        mut part: Part,
+        after: Cut,
+    ) -> Part {
         while let Some((left, cut)) = waiting.pop_if(|(_, cut)| *cut > after) {
             let (depth, by_x) = self.key_box.split(cut);
             part = builder.merge(&left, &part, by_x, &self.filters[depth]);

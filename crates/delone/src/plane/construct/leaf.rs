@@ -7,7 +7,7 @@
 use delone_predicates::{Filter, Member, Pencil, Sign};
 
 use super::builder::Builder;
-use super::merge::Part;
+use super::merge::{Merging, Part};
 use crate::ids::{Place, TriangleId};
 use crate::mesh::triangles::HalfEdge;
 
@@ -116,7 +116,7 @@ const fn layout(signs: usize) -> Layout {
     Layout { corners: [0, 1, 2, 3], convex: false, even: true }
 }
 
-impl Builder<'_> {
+impl<K: Merging> Builder<'_, K> {
     /// Triangulates the two to four points from `start` on. The filter holds for them.
     pub(super) fn leaf(&mut self, start: usize, count: usize, filter: &Filter) -> Leaf {
         let written = match count {
@@ -162,13 +162,25 @@ impl Builder<'_> {
         let Layout { corners: p, convex, even } = LAYOUTS[code];
         if convex {
             // The diagonal 0-2 stays unless corner 3 is inside the circle of the other three.
-            let inside = over_ab.in_circle(&mc, &md, filter).is_positive() == even;
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.site(Place::new(start + i)));
+            let inside = K::in_circle(&over_ab, [a, b], (&mc, c), (&md, d), filter).is_positive() == even;
             let corners = if inside { [p[1], p[2], p[3], p[0]] } else { p };
             self.write(start, corners, &QUADRILATERAL);
+        } else if K::HIDES && self.is_hidden(start, p) {
+            let [a, b, c, _] = p;
+            self.write(start, [a, b, c], &TRIANGLE);
+            self.records(TriangleId::new(2 * start + TRIANGLE.len()), FAN.len() - TRIANGLE.len())
+                .fill(HalfEdge::UNUSED);
         } else {
             self.write(start, p, &FAN);
         }
         true
+    }
+
+    /// Whether the last of four points is hidden by the triangle around it, which is counter-clockwise.
+    fn is_hidden(&self, start: usize, corners: [u8; 4]) -> bool {
+        let [a, b, c, d] = corners.map(|i| self.site(Place::new(start + usize::from(i))));
+        !K::contains(a, b, c, d)
     }
 
     /// Writes a template for the points `start + corners[i]`, into the triangles that they own.

@@ -14,13 +14,58 @@
 //!               base                 bottom ghost below the first base, of l -> r
 //! ```
 //!
+//! With weights sites are hidden on the way, and three things are different. The first base, where hull vertices are on its
+//! line, is an edge of their one-dimensional triangulation. Edges that lead from a corner of a new triangle into it are
+//! removed. And an edge with ghosts on both sides may be removed, with all that hangs on it: around a visible vertex the final
+//! triangles leave no room for others, so what is hidden comes loose, and its triangles are left unused.
+//!
 //! A cut by y is a cut by x in coordinates turned by a quarter: (y, -x). The lower part is then on the left,
 //! orientations stay as they are, and only the choice of the first l and r differs.
 
-use delone_predicates::{Filter, Member, Pencil};
+use delone_predicates::{Filter, Member, Pencil, Sign, in_power_circle, orient2d, strictly_between};
 
 use super::builder::Builder;
-use crate::ids::{Place, TriangleId};
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::mesh::triangles::HalfEdge;
+use crate::plane::layer::kernel::{Kernel, NearestSites, Power, Site};
+
+/// A kernel whose triangulations can be merged.
+pub(super) trait Merging: Kernel {
+    /// Whether q is in the circle of a base and p, which is above it; each a member of the pencil of circles through the base.
+    fn in_circle(
+        pencil: &Pencil,
+        base: [Site<Self>; 2],
+        p: (&Member, Site<Self>),
+        q: (&Member, Site<Self>),
+        filter: &Filter,
+    ) -> Sign;
+}
+
+impl Merging for NearestSites {
+    #[inline]
+    fn in_circle(
+        pencil: &Pencil,
+        _: [Site<Self>; 2],
+        p: (&Member, Site<Self>),
+        q: (&Member, Site<Self>),
+        filter: &Filter,
+    ) -> Sign {
+        pencil.in_circle(p.0, q.0, filter)
+    }
+}
+
+impl Merging for Power {
+    #[inline]
+    fn in_circle(
+        _: &Pencil,
+        [l, r]: [Site<Self>; 2],
+        p: (&Member, Site<Self>),
+        q: (&Member, Site<Self>),
+        _: &Filter,
+    ) -> Sign {
+        in_power_circle(l, r, p.1, q.1)
+    }
+}
 
 /// A triangulated run of positions, with the strict corners of its hull from which merges start.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +98,7 @@ struct Base {
     leaving_r: TriangleId,
 }
 
-impl Builder<'_> {
+impl<K: Merging> Builder<'_, K> {
     /// Merges the parts on both sides of a cut: `a` to the left (or below), `b` to the right (or above). The
     /// filter holds for both.
     pub(super) fn merge(&mut self, a: &Part, b: &Part, by_x: bool, filter: &Filter) -> Part {
@@ -91,8 +136,42 @@ impl Builder<'_> {
                     continue;
                 }
             }
+            if K::HIDES && self.steps_back(&mut base, &pencil, l_single, r_single, filter) {
+                continue;
+            }
             return base;
         }
+    }
+
+    /// Where hull vertices are on the line of the base it is an edge of their regular triangulation there: an end that the other one
+    /// and the vertex behind it hide gives way to that one.
+    fn steps_back(
+        &self,
+        base: &mut Base,
+        pencil: &Pencil,
+        l_single: bool,
+        r_single: bool,
+        filter: &Filter,
+    ) -> bool {
+        let is_on_line = |v: Place| pencil.side(&pencil.member(self.point(v)), filter).is_zero();
+        let is_hidden = |end: Place, behind: Place, other: Place| {
+            behind != other
+                && is_on_line(behind)
+                && !K::contains_on_line(self.site(behind), self.site(other), self.site(end))
+        };
+        let before = self.tail(base.entering_l.edge(1));
+        if !l_single && is_hidden(base.l, before, base.r) {
+            base.l = before;
+            base.entering_l = self.previous_ghost(base.entering_l);
+            return true;
+        }
+        let after = self.tail(base.leaving_r.edge(0));
+        if !r_single && is_hidden(base.r, after, base.l) {
+            base.r = after;
+            base.leaving_r = self.next_ghost(base.leaving_r);
+            return true;
+        }
+        false
     }
 
     /// Joins the hulls by the edge l - r, with a ghost on either side.
@@ -124,24 +203,30 @@ impl Builder<'_> {
 
     /// Lets the bubble rise until no vertex is above the base.
     fn rise(&mut self, l: Place, r: Place, bottom: TriangleId, mut top: TriangleId, filter: &Filter) {
-        let (mut l, mut r) = (self.point(l), self.point(r));
+        let mut base = [self.site(l), self.site(r)];
+        let mut swept = [None; 2];
         loop {
-            let pencil = Pencil::new(l, r);
-            let left = self.candidate::<true>(&pencil, top, bottom, filter);
-            let right = self.candidate::<false>(&pencil, top, bottom, filter);
+            let pencil = Pencil::new(base[0].0, base[1].0);
+            let left = self.candidate::<true>(&pencil, base, top, bottom, swept[0], filter);
+            let right = self.candidate::<false>(&pencil, base, top, bottom, swept[1], filter);
             let connect_right = match (&left, &right) {
                 (None, None) => break,
                 (Some(_), None) => false,
                 (None, Some(_)) => true,
-                (Some(left), Some(right)) => pencil.in_circle(left, right, filter).is_positive(),
+                (Some((left, p)), Some((right, q))) => {
+                    K::in_circle(&pencil, base, (left, *p), (right, *q), filter).is_positive()
+                }
             };
             self.counters.connected += 1;
+            let [l, r] = base.map(|site| site.0);
             if connect_right {
                 top = self.connect_right(top);
-                r = self.point(self.tail(top.edge(1)));
+                base[1] = self.site(self.tail(top.edge(1)));
+                swept = [Some([l, r]), Some([r, base[1].0])];
             } else {
                 top = self.connect_left(top);
-                l = self.point(self.tail(top.edge(0)));
+                base[0] = self.site(self.tail(top.edge(0)));
+                swept = [Some([base[0].0, l]), Some([l, r])];
             }
         }
         // Vertices passed on the way may be on the outer hull too; only the last two surely left by here.
@@ -152,38 +237,122 @@ impl Builder<'_> {
 
     /// The vertex that the left or the right part offers, after removing the edges at its end of the base whose
     /// circle with the base contains the vertex behind them.
+    ///
+    /// Where sites hide others, edges are removed too that lead into the triangle below the base, on the left of the line
+    /// `swept`, or onto the base: what they lead to is hidden.
     #[inline]
     fn candidate<const LEFT: bool>(
         &mut self,
         pencil: &Pencil,
+        base: [Site<K>; 2],
         top: TriangleId,
         bottom: TriangleId,
+        swept: Option<[[f64; 2]; 2]>,
         filter: &Filter,
-    ) -> Option<Member> {
-        let ghost = if LEFT { self.next_ghost(top) } else { self.previous_ghost(top) };
-        if ghost == bottom {
-            return None; // a single point
-        }
-        let far = self.tail(ghost.edge(usize::from(!LEFT)));
-        let mut candidate = pencil.member(self.point(far));
-        if !pencil.side(&candidate, filter).is_positive() {
-            return None;
-        }
+    ) -> Option<(Member, Site<K>)> {
+        let mut ghost = self.first_ghost::<LEFT>(top);
+        let (mut candidate, mut site) = loop {
+            if ghost == bottom {
+                return None; // a single point
+            }
+            let far = self.tail(ghost.edge(usize::from(!LEFT)));
+            let site = self.site(far);
+            let candidate = pencil.member(site.0);
+            let side = pencil.side(&candidate, filter);
+            if side.is_positive() {
+                break (candidate, site);
+            }
+            let is_swept = |[a, b]: [[f64; 2]; 2]| orient2d(a, b, site.0).is_positive();
+            let is_hidden = K::HIDES
+                && if side.is_zero() {
+                    strictly_between(base[0].0, base[1].0, site.0)
+                } else {
+                    swept.is_some_and(is_swept)
+                };
+            if !is_hidden {
+                return None;
+            }
+            self.cut::<LEFT>(ghost);
+            ghost = self.first_ghost::<LEFT>(top);
+        };
         loop {
-            let apex = self.tail(self.twin(ghost.edge(0)).previous());
+            let mut apex = self.tail(self.twin(ghost.edge(0)).previous());
             if apex.is_ghost() {
-                return Some(candidate); // nothing behind this edge
+                // Nothing is behind this edge; beyond it there may be something.
+                if !K::HIDES {
+                    return Some((candidate, site));
+                }
+                let beyond = self.beyond::<LEFT>(ghost);
+                if beyond == bottom {
+                    return Some((candidate, site));
+                }
+                apex = self.tail(beyond.edge(usize::from(!LEFT)));
             }
-            let behind = pencil.member(self.point(apex));
-            if !pencil.in_circle(&candidate, &behind, filter).is_positive() {
-                return Some(candidate);
+            let behind = self.site(apex);
+            let member = pencil.member(behind.0);
+            let is_above = !K::HIDES || pencil.side(&member, filter).is_positive();
+            if !is_above
+                || !K::in_circle(pencil, base, (&candidate, site), (&member, behind), filter).is_positive()
+            {
+                return Some((candidate, site));
             }
-            if LEFT {
-                self.remove_left(ghost, apex);
-            } else {
-                self.remove_right(ghost, apex);
+            self.cut::<LEFT>(ghost);
+            if K::HIDES {
+                ghost = self.first_ghost::<LEFT>(top);
             }
-            candidate = behind;
+            (candidate, site) = (member, behind);
+        }
+    }
+
+    /// The ghost of the hull edge that leaves the left end of the base above it, or enters the right one.
+    #[inline]
+    fn first_ghost<const LEFT: bool>(&self, top: TriangleId) -> TriangleId {
+        if LEFT { self.next_ghost(top) } else { self.previous_ghost(top) }
+    }
+
+    /// Removes the first edge at an end of the base, whose ghost this is.
+    #[inline]
+    fn cut<const LEFT: bool>(&mut self, ghost: TriangleId) {
+        let apex = self.tail(self.twin(ghost.edge(0)).previous());
+        if K::HIDES && apex.is_ghost() {
+            self.remove_bridge::<LEFT>(ghost);
+        } else if LEFT {
+            self.remove_left(ghost, apex);
+        } else {
+            self.remove_right(ghost, apex);
+        }
+    }
+
+    /// The ghost of the next edge at an end of the base after one that has ghosts on both sides, of which this is the first.
+    fn beyond<const LEFT: bool>(&self, ghost: TriangleId) -> TriangleId {
+        self.first_ghost::<LEFT>(self.twin(ghost.edge(0)).triangle())
+    }
+
+    /// Removes an edge that has ghosts on both sides, and what hangs on it: hidden sites.
+    #[cold]
+    fn remove_bridge<const LEFT: bool>(&mut self, ghost: TriangleId) {
+        self.counters.removed += 1;
+        let other = self.twin(ghost.edge(0)).triangle();
+        let (before, after) = (self.previous_ghost(ghost), self.next_ghost(ghost));
+        let (before_other, after_other) = (self.previous_ghost(other), self.next_ghost(other));
+        let loose = if LEFT { after } else { after_other };
+        // Around both ends what came before one side is followed by what came after the other.
+        if before != other {
+            self.link(before.edge(2), after_other.edge(1));
+        }
+        if before_other != ghost {
+            self.link(before_other.edge(2), after.edge(1));
+        }
+        for t in [ghost, other] {
+            self.records(t, 1).fill(HalfEdge::UNUSED);
+        }
+        let mut pending = vec![loose];
+        while let Some(t) = pending.pop() {
+            if self.twin(t.edge(0)) == EdgeId::NONE {
+                continue;
+            }
+            pending.extend([0, 1, 2].map(|k| self.twin(t.edge(k)).triangle()));
+            self.records(t, 1).fill(HalfEdge::UNUSED);
         }
     }
 

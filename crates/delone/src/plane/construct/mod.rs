@@ -8,7 +8,7 @@ mod leaf;
 mod merge;
 mod number;
 
-pub(super) use divide_and_conquer::{InOrder, in_order};
+pub(super) use divide_and_conquer::{InOrder, Weighted, in_order, weighted};
 
 use crate::error::Error;
 use crate::ids::Duplicate;

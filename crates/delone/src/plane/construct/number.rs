@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::mesh::Slots;
 use crate::mesh::triangles::{HalfEdge, Mesh2};
 use crate::parallel;
 
@@ -56,6 +57,19 @@ impl Mesh2 {
 }
 
 impl Mesh2 {
+    /// Counts triangles that were left over where sites are hidden as free, and these sites as none.
+    pub(super) fn forget_unused(&mut self) {
+        let hidden = self.incident.iter().filter(|&&e| e == EdgeId::NONE).count();
+        if self.lone.is_none() && hidden > 0 {
+            self.vertex_count -= hidden;
+            self.free = Slots::where_free(self.slot_count(), |slot| {
+                self.edges[TriangleId::new(slot).edge(0).index()].twin == EdgeId::NONE
+            });
+        }
+    }
+}
+
+impl Mesh2 {
     /// Moves each vertex to another place, one of so many. Triangles stay as they are, fixed edges too.
     pub(super) fn move_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
         let ends: Vec<usize> = parallel::even_ends(self.slot_count(), parallel::parts(self.incident.len()))
@@ -88,6 +102,9 @@ fn number(
     let mut ghost_edge = EdgeId::NONE;
     for (t, records) in edges.chunks_exact_mut(4).enumerate() {
         records[3] = HalfEdge::UNUSED;
+        if records[0].twin == EdgeId::NONE {
+            continue; // of a hidden site
+        }
         for (k, record) in records[..3].iter_mut().enumerate() {
             let e = TriangleId::new(first + t).edge(k);
             let position = record.origin;

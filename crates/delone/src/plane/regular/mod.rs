@@ -58,49 +58,75 @@ pub use check::RegularFlaw2;
 /// r.check()?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Regular2 {
     base: Layer<Power>,
     under: Under<TriangleId>,
-    work: Work,
+    counters: Counters,
     hints: OnceLock<Tree<EdgeId>>,
     /// The number of vertices when the hints were made.
     hinted: usize,
 }
 
+impl Default for Regular2 {
+    fn default() -> Self {
+        Self {
+            base: Layer::default(),
+            under: Under::default(),
+            counters: Counters::Incremental(Work::default()),
+            hints: OnceLock::new(),
+            hinted: 0,
+        }
+    }
+}
+
 impl Regular2 {
     /// No site yet.
     pub fn new() -> Self {
-        Self::from_sites::<[f64; 2]>(&[]).unwrap_or_default()
+        Self::default()
     }
 
-    /// Triangulates points with weights, squared radii in the units of the coordinates. O(n log n) expected.
+    /// Triangulates points with weights, squared radii in the units of the coordinates: by divide and conquer, on all threads of the
+    /// current pool. O(n log n) in the worst case.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Weight`] for numbers that are not finite, by index; [`Error::TooManyPoints`].
     pub fn from_sites<P: Position2>(sites: &[(P, f64)]) -> Result<Self, Error> {
         let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|(p, w)| (p.xy(), *w)).unzip();
-        Self::with_seed(&points, &weights, 0)
+        Self::from_parts(&points, &weights)
     }
 
-    /// The same for points and weights apart, with a random order of insertion that the seed decides and that does not show in the
-    /// triangles.
+    /// The same for points and weights apart.
     ///
     /// # Errors
     /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
+    pub fn from_parts<P: Position2>(points: &[P], weights: &[f64]) -> Result<Self, Error> {
+        Self::check_input(points, weights)?;
+        Ok(build::divide_and_conquer(&P::all(points), weights))
+    }
+
+    /// The same by insertion one by one, in a random order that the seed decides and that does not show in the triangles.
+    /// O(n log n) expected.
+    ///
+    /// # Errors
+    /// As [`Self::from_parts`].
     pub fn with_seed<P: Position2>(points: &[P], weights: &[f64], seed: u64) -> Result<Self, Error> {
+        Self::check_input(points, weights)?;
+        Ok(build::incremental(&P::all(points), weights, seed))
+    }
+
+    fn check_input<P: Position2>(points: &[P], weights: &[f64]) -> Result<(), Error> {
         if points.len() != weights.len() {
             return Err(Error::Length { expected: points.len(), found: weights.len() });
         }
         check_count(points.len(), MAX_POINTS)?;
         check_finite(points.iter().map(Position2::xy))?;
-        check_weights(weights)?;
-        Ok(build::build(&P::all(points), weights, seed))
+        check_weights(weights)
     }
 
     /// What construction took.
     pub fn counters(&self) -> Counters {
-        Counters::Incremental(self.work)
+        self.counters
     }
 
     /// The topology. Its vertices are those that are not hidden.

@@ -22,7 +22,10 @@ fn equal_weights_change_nothing() {
     for &kind in Kind::ALL {
         for weight in [0.0, 0.37, -1e300, 1e-300] {
             let points = kind.points(300, 1);
-            let r = Regular2::with_seed(&points, &vec![weight; points.len()], 3).expect("finite");
+            let weights = vec![weight; points.len()];
+            let r = Regular2::from_parts(&points, &weights).expect("finite");
+            let one_by_one = Regular2::with_seed(&points, &weights, 3).expect("finite");
+            assert_eq!(triangles(&one_by_one), triangles(&r), "{} {weight}", kind.name());
             let d = Delaunay2::from_points(&points).expect("finite");
             let mut expected: Vec<[usize; 3]> = d.triangles().map(|t| t.map(VertexId::index)).collect();
             expected.iter_mut().for_each(|t| t.sort_unstable());
@@ -95,6 +98,9 @@ fn it_is_the_definition_in_any_order() {
         let count = 1 + random.below(9);
         let mut all = sites(&mut random, count);
         for seed in 0..3 {
+            let (points, weights): (Vec<_>, Vec<_>) = all.iter().copied().unzip();
+            let one_by_one = Regular2::with_seed(&points, &weights, seed).expect("finite");
+            judge(&one_by_one, &format!("round {round}, order {seed}, one by one"));
             let r = Regular2::from_sites(&all).expect("finite");
             judge(&r, &format!("round {round}, order {seed}"));
             hidden += r.hidden().count();
@@ -102,6 +108,42 @@ fn it_is_the_definition_in_any_order() {
         }
     }
     assert!(hidden > 1000, "{hidden}");
+}
+
+/// Two constructions that share only predicates and mesh, from no site hidden to nearly all.
+#[test]
+fn merging_and_inserting_agree() {
+    let mut random = Random::new(5);
+    let mut hidden = [0; 2];
+    for round in 0..150 {
+        let kind = Kind::ALL[round % Kind::ALL.len()];
+        let points = kind.points(4 + random.below(400), round as u64);
+        let size = points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let spacing = size / (points.len() as f64).sqrt();
+        let (share, steps) = ([0.1, 1.0, 3.0][random.below(3)], [2, 5, 1 << 40][random.below(3)]);
+        let weight = |p: &[f64; 2]| match round % 4 {
+            0 => p[0] * p[0] + p[1] * p[1],
+            1 => share * spacing * spacing * (random.below(steps) as f64 / steps as f64),
+            2 => (share * spacing * random.unit()).powi(2),
+            _ => -(p[0] * p[0]) * share,
+        };
+        let weights: Vec<f64> = points.iter().map(weight).collect();
+        if weights.iter().any(|w| !w.is_finite()) {
+            continue;
+        }
+        let merged = Regular2::from_parts(&points, &weights).expect("finite");
+        let inserted = Regular2::with_seed(&points, &weights, round as u64).expect("finite");
+        let what = format!("round {round}, {} {}", kind.name(), points.len());
+        merged.check().unwrap_or_else(|flaw| panic!("{what}: {flaw}"));
+        inserted.check().unwrap_or_else(|flaw| panic!("{what}: {flaw}"));
+        assert_eq!(triangles(&merged), triangles(&inserted), "{what}");
+        assert!(
+            merged.hidden().eq(inserted.hidden()) && merged.duplicates().eq(inserted.duplicates()),
+            "{what}"
+        );
+        hidden = [hidden[0] + merged.hidden().count(), hidden[1] + points.len()];
+    }
+    assert!(4 * hidden[0] > hidden[1], "{hidden:?}");
 }
 
 /// After every insertion, removal and change of a weight.

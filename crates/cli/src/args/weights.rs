@@ -1,0 +1,35 @@
+//! What commands take that know weights.
+
+use std::path::Path;
+
+use clap::Args;
+
+/// Weights of points: their regular triangulation, instead of the Delaunay one.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Weights")]
+pub(crate) struct WeightArgs {
+    /// Weights of the points, squared radii: a file with one for each (npy csv txt), or a column of the text input by name or
+    /// number from 1.
+    #[arg(long, value_name = "FILE|COLUMN", conflicts_with = "radii")]
+    pub(crate) weights: Option<String>,
+    /// Radii of the points, which are squared, rounded once: as for --weights.
+    #[arg(long, value_name = "FILE|COLUMN")]
+    pub(crate) radii: Option<String>,
+}
+
+impl WeightArgs {
+    /// Where the numbers are.
+    pub(crate) fn given(&self) -> Option<&str> {
+        self.weights.as_deref().or(self.radii.as_deref())
+    }
+
+    /// The weight that a number means.
+    pub(crate) fn weight(&self, number: f64) -> f64 {
+        if self.radii.is_some() { number * number } else { number }
+    }
+
+    /// The file that is read beside the points, if one is.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.given().map(Path::new).filter(|path| path.exists())
+    }
+}

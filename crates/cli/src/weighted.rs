@@ -1,0 +1,137 @@
+//! Points with weights: read, triangulated, told of and written.
+
+use std::path::{Path, PathBuf};
+
+use delone::Triangulation;
+use delone_io::{Cloud, Format, picture, write_mesh};
+
+use crate::args::{DrawArgs, InputArgs, TriangulateArgs, WeightArgs};
+use crate::files;
+use crate::message::{Failure, note};
+use crate::progress::Phase;
+use crate::room::{self, Room};
+use crate::stats::Stats;
+
+/// Sites, and their regular triangulation.
+pub(crate) struct Weighted<R: Room> {
+    pub(crate) triangulation: R::Regular,
+    points: Vec<R::Point>,
+    about: Cloud,
+}
+
+/// `delone triangulate`, with weights.
+pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    let stats_path = args.input.stats.as_deref();
+    let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
+    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    room::check_formats::<R>(&outputs)?;
+    let mut stats = Stats::start();
+    let r = Weighted::<R>::read(&args.input, &args.weights, args.strategy.seed, &mut stats, quiet)?;
+    if args.check {
+        let _phase = Phase::start(quiet, "checking");
+        r.triangulation.check().map_err(|flaw| {
+            Failure::new(
+                format!("the triangulation is wrong: {flaw}"),
+                "please report this with the input: it is a bug",
+            )
+        })?;
+        stats.phase("check");
+        note(quiet, "checked: this is the canonical regular triangulation");
+    }
+    r.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
+    stats.tell(quiet, R::WORDS.simplex);
+    stats.write(stats_path)
+}
+
+/// `delone draw`, with weights.
+pub(crate) fn draw<R: Room>(
+    args: &DrawArgs,
+    outputs: &[(PathBuf, Format)],
+    options: &picture::Options,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let mut stats = Stats::start();
+    let r = Weighted::<R>::read(&args.input, &args.weights, 0, &mut stats, quiet)?;
+    r.write(outputs, args.max_edge, options, &mut stats, quiet)?;
+    stats.tell(quiet, R::WORDS.simplex);
+    stats.write(args.input.stats.as_deref())
+}
+
+impl<R: Room> Weighted<R> {
+    /// Reads and triangulates, and tells what a user should know.
+    pub(crate) fn read(
+        input: &InputArgs,
+        args: &WeightArgs,
+        seed: u64,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        if let (Some(said), None) = (args.given(), args.file()) {
+            files::check_column(input, said)?;
+        }
+        let (points, about) = room::read::<R>(input, quiet)?;
+        let weights = weights(input, args, points.len(), quiet)?;
+        stats.phase("read");
+        let phase = Phase::start(quiet, "triangulating");
+        let triangulation =
+            R::regular(&points, &weights, seed).map_err(|error| Failure::points(&input.label(), &error))?;
+        drop(phase);
+        stats.phase("build");
+        room::remark(&triangulation, quiet);
+        let hidden = R::hidden(&triangulation);
+        if hidden > 0 {
+            let (is, site) = if hidden == 1 { ("is", "site") } else { ("are", "sites") };
+            note(quiet, format_args!("{hidden} {site} {is} hidden by others: no point is nearest to them"));
+        }
+        stats.triangulation(&triangulation, R::counters_of(&triangulation));
+        stats.set("hidden", hidden);
+        Ok(Self { triangulation, points, about })
+    }
+
+    /// Writes all outputs.
+    pub(crate) fn write(
+        &self,
+        outputs: &[(PathBuf, Format)],
+        max_edge: Option<f64>,
+        options: &picture::Options,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<(), Failure> {
+        let trim = room::trim(&self.triangulation, max_edge, stats);
+        let mesh = room::mesh(&self.triangulation, &self.points, &self.about, trim.as_ref());
+        let phase = Phase::start(quiet, "writing");
+        for (path, format) in outputs {
+            files::write_mesh(path, quiet, |out| write_mesh(out, *format, &mesh, options))?;
+        }
+        drop(phase);
+        stats.phase("write");
+        Ok(())
+    }
+}
+
+/// The weight of every point.
+fn weights(input: &InputArgs, args: &WeightArgs, count: usize, quiet: bool) -> Result<Vec<f64>, Failure> {
+    let Some(said) = args.given() else { return Ok(vec![0.0; count]) };
+    let (numbers, label) = match args.file() {
+        Some(path) => (files::numbers(path, quiet)?, path.to_owned()),
+        None => (files::column(input, said, quiet)?, input.label()),
+    };
+    if numbers.len() != count {
+        return Err(Failure::new(
+            format!("{}: {} weights for {count} points", label.display(), numbers.len()),
+            "give one weight for each point, row by row",
+        ));
+    }
+    let weights: Vec<f64> = numbers.into_iter().map(|number| args.weight(number)).collect();
+    match weights.iter().position(|w| !w.is_finite()) {
+        Some(index) => Err(Failure::new(
+            format!(
+                "{}: point {index} has the weight {}, which is not finite",
+                label.display(),
+                weights[index]
+            ),
+            "remove that point or repair its weight: every finite number is accepted",
+        )),
+        None => Ok(weights),
+    }
+}

@@ -1,0 +1,77 @@
+//! Points with weights as a user meets them.
+
+mod place;
+
+use place::{Place, text};
+
+fn read(place: &Place, name: &str) -> String {
+    std::fs::read_to_string(place.path(name)).expect("written")
+}
+
+/// Four disks around a fifth, which they hide; and around a sixth, which they do not.
+const DISKS: &str = "x,y,r,name\n0,0,3,a\n4,0,3,b\n4,4,3,c\n0,4,3,d\n2,2,0.5,e\n2,3,2,f\n";
+
+#[test]
+fn weights_come_from_a_file_or_a_column() {
+    let place = Place::new();
+    place.file("disks.csv", DISKS);
+    place.file("radii.txt", "3\n3\n3\n3\n0.5\n2\n");
+    place.file("weights.csv", "weight\n9\n9\n9\n9\n0.25\n4\n");
+    let triangles = |what: &str| {
+        place.succeed(&format!("-q triangulate disks.csv --columns x,y {what} --check -o t.ele"));
+        read(&place, "t.ele")
+    };
+    let expected = triangles("--radii r");
+    for what in ["--radii 3", "--radii radii.txt", "--weights weights.csv"] {
+        assert_eq!(triangles(what), expected, "{what}");
+    }
+    // The fifth is in no triangle; without weights it is.
+    let corners = |text: &str| -> Vec<String> {
+        text.lines().skip(1).flat_map(|line| line.split_whitespace().skip(1).map(str::to_owned)).collect()
+    };
+    assert!(!corners(&expected).contains(&"4".to_owned()) && corners(&expected).contains(&"5".to_owned()));
+    assert!(corners(&triangles("")).contains(&"4".to_owned()));
+    let told = place.run("triangulate disks.csv --columns x,y --radii r -o t.npy --stats s.json");
+    assert!(text(&told.stderr).contains("1 site is hidden"));
+    assert!(read(&place, "s.json").contains("\"hidden\": 1"));
+}
+
+#[test]
+fn what_is_wrong_with_weights_is_named() {
+    let place = Place::new();
+    place.file("disks.csv", DISKS);
+    place.file("p.npy", "");
+    place.file("few.csv", "1\n2\n");
+    place.file("wrong.csv", "1\n2\n3\nx\n5\n6\n");
+    place.file("inf.csv", "1\n2\n3\ninf\n5\n6\n");
+    let fail = |what: &str, status, word: &str| {
+        place.fail(&format!("triangulate disks.csv --columns x,y {what} -o t.npy"), status, word);
+    };
+    fail("--weights few.csv", 1, "2 weights for 6 points");
+    fail("--weights wrong.csv", 1, "line 4");
+    fail("--weights inf.csv", 1, "point 3 has the weight inf");
+    fail("--weights name", 1, "name is no file");
+    fail("--weights q", 1, "there is no column");
+    fail("--weights r --radii r", 2, "cannot be used with");
+    fail("--weights r --algorithm incremental", 2, "weights are for the default algorithm");
+    fail("--weights r --fill all", 2, "weights are for the default algorithm");
+    fail("--weights r --ratio 3", 2, "--ratio");
+    place.fail("triangulate p.npy --weights r -o t.npy", 2, "no columns to look for it in");
+}
+
+#[test]
+fn equal_radii_are_none() {
+    let place = Place::new();
+    place.succeed("-q generate grid -n 400 -o p.csv");
+    place.succeed("-q generate ball -n 300 -o q.csv");
+    place.file("one.csv", "2.5\n".repeat(400));
+    place.file("two.csv", "-1e3\n".repeat(300));
+    for (points, weights) in [("p.csv", "--radii one.csv"), ("q.csv", "--dim 3 --weights two.csv")] {
+        let (dim, _) = weights.split_once("--weights").unwrap_or_default();
+        place.succeed(&format!("-q triangulate {points} {dim} -o plain.npy"));
+        place.succeed(&format!("-q triangulate {points} {weights} -o w.npy --stats s.json"));
+        let count = |name: &str| std::fs::metadata(place.path(name)).expect("written").len();
+        assert_eq!(count("plain.npy"), count("w.npy"), "{points}");
+        place.succeed(&format!("-q check {points} w.npy {dim}"));
+    }
+}
