@@ -16,7 +16,7 @@ use crate::stats::Stats;
 pub(crate) struct Weighted<R: Room> {
     pub(crate) triangulation: R::Regular,
     points: Vec<R::Point>,
-    about: Cloud,
+    pub(crate) about: Cloud,
 }
 
 /// `delone triangulate`, with weights.

@@ -16,6 +16,17 @@ impl Sets {
         Self((0..count as u32).collect())
     }
 
+    /// Simplices that are joined across sides.
+    pub(super) fn of<const N: usize>(across: &[[u32; N]]) -> Self {
+        let mut sets = Self::new(across.len());
+        for (i, beyond) in across.iter().enumerate() {
+            for &j in beyond.iter().filter(|&&j| j != NONE) {
+                sets.join(i as u32, j);
+            }
+        }
+        sets
+    }
+
     /// What names the set of an item: its least one.
     pub(super) fn find(&mut self, mut i: u32) -> u32 {
         while self.0[i as usize] != i {
@@ -55,6 +66,28 @@ impl<const D: usize> Alpha<D> {
             }
         }
         labels
+    }
+
+    /// For each simplex of the highest dimension in [`Self::complex`] the number of its part: parts hang together across sides, and count from 0
+    /// by their first simplices. O(k log k) for k simplices, and O(n).
+    pub fn parts(&self, alpha: f64) -> Vec<usize> {
+        if D == 2 {
+            self.numbered(self.triangles.until(alpha))
+        } else {
+            self.numbered(self.tetrahedra.until(alpha))
+        }
+    }
+
+    fn numbered<const N: usize>(&self, simplices: &[[VertexId; N]]) -> Vec<usize> {
+        let mut sets = Sets::of(&across(self.points.len(), simplices));
+        let (mut numbers, mut count) = (Vec::with_capacity(simplices.len()), 0);
+        for i in 0..simplices.len() {
+            let least = sets.find(i as u32) as usize;
+            let number = if least == i { count } else { numbers[least] };
+            count += usize::from(least == i);
+            numbers.push(number);
+        }
+        numbers
     }
 
     /// The least value at which the simplices of the highest dimension have every vertex as a corner and are at most so many parts, where

@@ -185,6 +185,11 @@ impl<const D: usize> Alpha<D> {
         values
     }
 
+    /// The coordinates of all points by id; those of the origin for what is no vertex.
+    pub fn positions(&self) -> &[[f64; D]] {
+        &self.points
+    }
+
     /// The coordinates of a vertex; those of the origin for an id that is none.
     pub fn position(&self, v: VertexId) -> [f64; D] {
         self.points.get(v.index()).copied().unwrap_or([0.0; D])

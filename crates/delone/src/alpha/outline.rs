@@ -28,23 +28,18 @@ impl Alpha<2> {
     /// }
     /// let d = Delaunay2::from_points(&points)?;
     /// let [part] = &d.alpha().outline(0.5)[..] else { panic!("one part") };
-    /// // The outer side has 16 corners, the hole 8, and lies around the point that is missing.
+    /// // The outer ring has 16 corners, the hole has those beside the point that is missing.
     /// assert_eq!(part.iter().map(Vec::len).collect::<Vec<_>>(), [16, 4]);
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn outline(&self, alpha: f64) -> Vec<OutlinePart> {
         let triangles = self.triangles.until(alpha);
         let across = across(self.points.len(), triangles);
-        let mut sets = Sets::new(triangles.len());
-        for (i, beyond) in across.iter().enumerate() {
-            for &j in beyond.iter().filter(|&&j| j != NONE) {
-                sets.join(i as u32, j);
-            }
-        }
+        let mut sets = Sets::of(&across);
         let border = Border { alpha: self, triangles, across: &across };
         let mut seen = vec![[false; 3]; triangles.len()];
         let mut places = vec![NONE; self.points.len()];
-        let mut parts: Vec<(u32, OutlinePart)> = Vec::new();
+        let mut parts: Vec<OutlinePart> = Vec::new();
         let mut part_of = vec![NONE; triangles.len()];
         for i in 0..triangles.len() {
             for k in (0..3).filter(|&k| across[i][k] == NONE) {
@@ -55,13 +50,13 @@ impl Alpha<2> {
                 let part = &mut part_of[set as usize];
                 if *part == NONE {
                     *part = parts.len() as u32;
-                    parts.push((set, Vec::new()));
+                    parts.push(Vec::new());
                 }
-                let rings = &mut parts[*part as usize].1;
+                let rings = &mut parts[*part as usize];
                 border.follow((i as u32, k), &mut seen, &mut places, rings);
             }
         }
-        let mut parts: Vec<OutlinePart> = parts.into_iter().map(|(_, rings)| self.in_order(rings)).collect();
+        let mut parts: Vec<OutlinePart> = parts.into_iter().map(|rings| self.in_order(rings)).collect();
         parts.sort_unstable();
         parts
     }
