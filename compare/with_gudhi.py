@@ -15,10 +15,9 @@ import time
 # Before threads are made.
 os.environ.setdefault("RAYON_NUM_THREADS", "1")
 
+import delone
 import gudhi
 import numpy as np
-
-import delone
 
 PRECISIONS = ("fast", "safe", "exact")
 

@@ -1,9 +1,8 @@
 """Alpha complexes: what they are, and beside Gudhi where it is installed."""
 
+import delone
 import numpy as np
 import pytest
-
-import delone
 
 RNG = np.random.default_rng(5)
 

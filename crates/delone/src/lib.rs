@@ -36,6 +36,7 @@
 //! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
+//! | alpha complexes: shapes of points, with weights too, and filtrations | [`Delaunay2::alpha`], [`Regular2::alpha`], [`Alpha2`] | [`Delaunay3::alpha`], [`Regular3::alpha`], [`Alpha3`] | O(k log k) for k faces |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |

@@ -102,6 +102,7 @@ impl Error {
             }
             Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
             Self::NotNumbers(_) => "numbers are read from: csv txt npy",
+            Self::NotAFiltration(_) => "choose npz or csv",
             Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {
