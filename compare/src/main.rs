@@ -5,6 +5,7 @@
 mod changes;
 mod constrained;
 mod engines;
+mod graphs;
 mod hull;
 mod memory;
 mod space;
@@ -48,6 +49,9 @@ struct Args {
     /// Time Voronoi cells clipped to the bounding box instead of building.
     #[arg(long)]
     voronoi: bool,
+    /// Time proximity graphs instead of building.
+    #[arg(long)]
+    graphs: bool,
     /// Time convex hulls in space instead of building.
     #[arg(long)]
     hull: bool,
@@ -110,6 +114,9 @@ fn compare(args: &Args) {
         let chosen = changes::chosen(&args.engines);
         let run = |kind, size, runs| changes::run(&chosen, kind, size, runs);
         std::process::exit(i32::from(!each_set(args, run)));
+    }
+    if args.graphs {
+        std::process::exit(i32::from(!each_set(args, graphs::run)));
     }
     if args.hull {
         panic::set_hook(Box::new(|_| {}));

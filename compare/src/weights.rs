@@ -86,7 +86,7 @@ type Engine<'a, const N: usize> = (&'static str, bool, Box<dyn Fn() -> Run<N> + 
 
 fn engines_2<'a>(points: &'a [[f64; 2]], weights: &'a [f64]) -> Vec<Engine<'a, 3>> {
     let delone = move || {
-        let (seconds, r) = timed(|| Regular2::with_seed(points, weights, 0).expect("finite"));
+        let (seconds, r) = timed(|| Regular2::from_parts(points, weights).expect("finite"));
         (seconds, simplices(&r))
     };
     let plain = move || {
@@ -94,9 +94,14 @@ fn engines_2<'a>(points: &'a [[f64; 2]], weights: &'a [f64]) -> Vec<Engine<'a, 3
         (seconds, simplices(&d))
     };
     let two = move || POOLS[1].install(delone);
+    let one_by_one = move || {
+        let (seconds, r) = timed(|| Regular2::with_seed(points, weights, 0).expect("finite"));
+        (seconds, simplices(&r))
+    };
     vec![
         ("delone", true, Box::new(delone)),
         ("delone-2-threads", true, Box::new(two)),
+        ("delone-incremental", true, Box::new(one_by_one)),
         #[cfg(cgal)]
         ("cgal", true, Box::new(|| cgal::plane(points, weights))),
         ("delone, no weights", false, Box::new(plain)),

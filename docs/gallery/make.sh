@@ -26,6 +26,9 @@ $delone voronoi "$work/clusters.csv" -o $here/clusters.png --size 640
 $delone voronoi data/autzen_trim.laz --class 2 -o $here/ground.png --size 960
 $delone draw data/autzen_trim.laz --class 2 -o $here/terrain.png --size 960
 
+# The shortest tree through the shores of lakes.
+$delone graph data/great_lakes.geojson --kind spanning-tree -o $here/tree.png --size 960
+
 # Points along a spiral on a sphere.
 awk 'BEGIN { for (i = 0; i < 600; i++) { z = 1 - (2 * i + 1) / 600; r = sqrt(1 - z * z); t = 2.399963229728653 * i
     printf "%.9f,%.9f,%.9f\n", r * cos(t), r * sin(t), z } }' > "$work/sphere.csv"

@@ -7,6 +7,7 @@
 mod alpha;
 mod constrained;
 mod errors;
+mod graphs;
 mod hints;
 mod hull;
 mod interrupt;
@@ -26,6 +27,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<hints::Hints>()?;
     m.add_class::<constrained::Constrained>()?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
+    m.add_function(wrap_pyfunction!(graphs::proximity_graph, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;
     m.add_function(wrap_pyfunction!(hull::convex_hull, m)?)?;
     m.add_function(wrap_pyfunction!(hull::sides, m)?)?;

@@ -11,6 +11,7 @@ mod experiment;
 mod files;
 mod furthest;
 mod generate;
+mod graph;
 mod hull;
 mod info;
 mod instances;
@@ -70,6 +71,7 @@ fn main() -> ExitCode {
         Command::Locate(args) => in_room!(locate, args, quiet),
         Command::Nearest(args) => in_room!(nearest, args, quiet),
         Command::Alpha(args) => alpha::run(&args, quiet),
+        Command::Graph(args) => in_room!(graph, args, quiet),
         Command::Hull(args) => hull::run(&args, quiet),
         Command::Furthest(args) => furthest::run(&args, quiet),
         Command::Voronoi(args) => voronoi::run(&args, quiet),

@@ -41,6 +41,7 @@ impl Failure {
                 | Error::NotTriangles(_)
                 | Error::NotAMesh(_)
                 | Error::NotCells(_)
+                | Error::NotEdges(_)
                 | Error::NotPatches(_)
                 | Error::NotASolid(_)
                 | Error::NotTetrahedra(_)

@@ -74,6 +74,7 @@ impl Stats {
             ("left_out", ["left out", "left out"]),
             ("hull", ["on the hull", "on the hull"]),
             ("cells", ["cell", "cells"]),
+            ("edges", ["edge", "edges"]),
             ("queries", ["query", "queries"]),
         ];
         let counts = names.iter().filter_map(|(name, [one, many])| {

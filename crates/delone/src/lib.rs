@@ -35,6 +35,7 @@
 //! | edges of points known by disks, in every and in some instance | [`DiskEdges2`] | | about O(n) where disks overlap little |
 //! | points that move | [`Moving2`] | [`Moving3`] | O(n) a step |
 //! | only the hull is wanted | [`Hull2`] | [`Hull3`], [`HullHistory3`] to ask it | O(n log n) |
+//! | who is near whom: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest | [`Delaunay2::graph`] | [`Delaunay3::graph`] | see [`Graph`] |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
 //! | alpha complexes: shapes of points, with weights too, and filtrations | [`Delaunay2::alpha`], [`Regular2::alpha`], [`Alpha2`] | [`Delaunay3::alpha`], [`Regular3::alpha`], [`Alpha3`] | O(k log k) for k faces |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
@@ -70,6 +71,7 @@ struct Readme;
 mod alpha;
 mod duplicates;
 mod error;
+mod graphs;
 mod hull;
 mod ids;
 mod locate;
@@ -90,6 +92,7 @@ mod weight;
 
 pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, OutlinePart};
 pub use error::{Error, RegionProblem};
+pub use graphs::Graph;
 pub use hull::{Hull2, Hull3, HullHistory3};
 pub use ids::{
     Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, MAX_POINTS_IN_SPACE, TetrahedronId, TriangleId,

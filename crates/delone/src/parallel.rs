@@ -78,6 +78,12 @@ fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -
     items
 }
 
+/// The indices of items, in as many ranges as work on them is cut into.
+pub(crate) fn ranges(items: usize) -> Vec<std::ops::Range<usize>> {
+    let mut from = 0;
+    even_ends(items, parts(items)).into_iter().map(|to| std::mem::replace(&mut from, to)..to).collect()
+}
+
 /// Cuts a slice into parts that end at given positions, increasing, the last at the end of the slice.
 pub(crate) fn split_at<'a, T>(mut items: &'a mut [T], ends: &[usize]) -> Vec<&'a mut [T]> {
     let mut start = 0;

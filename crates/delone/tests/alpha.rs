@@ -184,7 +184,7 @@ fn shapes_have_their_euler_characteristic() {
     assert_eq!(part.iter().map(Vec::len).collect::<Vec<_>>(), [60, 60]);
     // A torus, solid where tubes are filled, its surface before that.
     let torus: Vec<[f64; 3]> = (0..60)
-        .flat_map(|k| (0..20).map(move |l| (k, 3.0 * step * l as f64)))
+        .flat_map(|k| (0..20).map(move |l| (k, 3.0 * step * f64::from(l))))
         .map(|(k, tube)| {
             let [x, y] = ring(k, 3.0 + tube.cos());
             [x, y, tube.sin()]

@@ -1,7 +1,7 @@
 //! The number of threads never shows: the same bits for one and for many.
 #![cfg(feature = "rayon")]
 
-use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, VertexId};
+use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, Regular2, VertexId};
 use delone_generators::{Kind, Kind3};
 use rayon::ThreadPoolBuilder;
 
@@ -30,6 +30,27 @@ fn threads_never_show() {
         for (k, other) in all.iter().enumerate() {
             assert!(*other == all[0], "{} with pool {k}", kind.name());
         }
+    }
+}
+
+/// Nor where sites are hidden.
+#[test]
+fn threads_never_show_with_weights() {
+    let on = |threads, points: &[[f64; 2]], weights: &[f64]| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let r = pool.install(|| Regular2::from_parts(points, weights).expect("finite"));
+        r.check().expect("canonical");
+        let triangles: Vec<_> =
+            r.triangle_ids().map(|t| (t, r.mesh().corners(t), r.mesh().adjacent(t))).collect();
+        (triangles, r.hidden().collect::<Vec<_>>(), r.duplicates().collect::<Vec<_>>())
+    };
+    for kind in [Kind::Uniform, Kind::Grid, Kind::Clusters] {
+        let points = kind.points(100_000, 1);
+        let spread = points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs())).powi(2) / 100_000.0;
+        let weights: Vec<f64> = (0..points.len()).map(|i| spread * ((i * 7919) % 5) as f64).collect();
+        let one = on(1, &points, &weights);
+        assert!(one == on(2, &points, &weights) && one == on(3, &points, &weights), "{}", kind.name());
+        assert!(!one.1.is_empty(), "{}", kind.name());
     }
 }
 

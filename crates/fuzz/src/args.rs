@@ -59,6 +59,8 @@ pub(crate) enum Mode {
     Alphas,
     /// Hulls, furthest and nearest sites, the smallest circle.
     Hulls,
+    /// Gabriel graphs, relative neighbours, spanning trees, skeletons, k nearest.
+    Proximity,
     /// Predicates and filters on hostile operands.
     Predicates,
     /// Sets of thousands of points: all algorithms, orders and threads alike.

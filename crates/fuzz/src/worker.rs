@@ -78,17 +78,41 @@ fn judged(input: &dyn Case, keep: &[usize]) -> Judgement {
     panic::catch_unwind(AssertUnwindSafe(|| input.judge(keep))).unwrap_or_else(|_| Err(lock().clone()))
 }
 
-/// Ends the process when a case takes too long.
+/// A case that waits, as for a lock that nobody opens, has so many times the limit.
+const WAITING: u32 = 10;
+
+/// Ends the process when a case takes too long: on the clock, and of the processor's time too, which others may have.
 fn watch(start: Instant, limit: Duration) {
+    let mut before = (0, None);
     loop {
         thread::sleep(limit.min(Duration::from_millis(100)) / 2);
         let began = BEGAN.load(Ordering::Relaxed);
         let now = start.elapsed().as_millis() as u64 + 1;
-        if began > 0 && now.saturating_sub(began) > limit.as_millis() as u64 {
+        if began != before.0 {
+            before = (began, processor_time());
+        }
+        let passed = Duration::from_millis(now.saturating_sub(began));
+        let worked = || match (processor_time(), before.1) {
+            (Some(now), Some(then)) => now.saturating_sub(then),
+            _ => passed,
+        };
+        if began > 0 && passed > limit && (worked() > limit || passed > WAITING * limit) {
             tell(&format!("finding hangs: not done after {} seconds", limit.as_secs_f64()));
             process::exit(3);
         }
     }
+}
+
+/// What all threads of this process have had of the processors, where the system tells.
+fn processor_time() -> Option<Duration> {
+    /// Ticks of the system in a second, for all programs that it tells.
+    const TICKS: u64 = 100;
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The name of the program, in parentheses, may hold anything. After it come the state and, from the twelfth on, user's and
+    // system's time.
+    let mut numbers =
+        text.rsplit_once(')')?.1.split_whitespace().skip(11).map_while(|word| word.parse::<u64>().ok());
+    Some(Duration::from_millis((numbers.next()? + numbers.next()?) * 1000 / TICKS))
 }
 
 /// A line to the parent. Without a parent there is nobody to work for.

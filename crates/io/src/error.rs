@@ -65,6 +65,9 @@ pub enum Error {
     /// The format holds points only.
     #[error("{0} files hold points, not triangles")]
     NotAMesh(Format),
+    /// The format holds no edges.
+    #[error("edges are not written to {0} files")]
+    NotEdges(Format),
     /// The format holds no Voronoi cells.
     #[error("Voronoi cells are not written to {0} files")]
     NotCells(Format),
@@ -109,6 +112,7 @@ impl Error {
                 "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu pcd geojson wkt wkb"
             }
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off",
+            Self::NotEdges(_) => "edges: npy csv geojson; in the plane also svg png",
             Self::NotCells(_) => "cells: geojson svg png",
             Self::NotPatches(_) => "triangles of polygons: npy csv ply obj stl vtu geojson wkt wkb svg png",
             Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele",

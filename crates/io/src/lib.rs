@@ -27,6 +27,7 @@ pub use diagram::Diagram;
 pub use error::Error;
 pub use filtration::write_filtration;
 pub use format::Format;
+pub use formats::edges::{Edges, write_edges};
 pub use formats::las::LAS_CLASSES;
 pub use formats::poly::Beside;
 pub use graph::{Attributes, Graph, GraphRing};

@@ -211,3 +211,10 @@ pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> i8 {
     let squared = (0..3).map(|k| (&p[1][k] - &p[0][k]).pow(2)).sum::<BigInt>();
     sign(&(squared - p[2][0].pow(2)))
 }
+
+/// The sign of |b - a|^2 - |d - c|^2.
+pub fn compare_lengths<const D: usize>([a, b]: [[f64; D]; 2], [c, d]: [[f64; D]; 2]) -> i8 {
+    let p = integers(&[a, b, c, d]);
+    let squared = |i: usize, j: usize| (0..D).map(|k| (&p[j][k] - &p[i][k]).pow(2)).sum::<BigInt>();
+    sign(&(squared(0, 1) - squared(2, 3)))
+}

@@ -10,6 +10,7 @@
 //! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
 //! - [`crossings`]: which segments cross, where, and what is left once they are split;
 //! - [`alpha`]: alpha complexes of few sites, with sizes as fractions;
+//! - [`graphs`]: proximity graphs, by trying all pairs against all points;
 //! - [`power`]: regular triangulations of few sites with weights;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
@@ -19,6 +20,7 @@ pub mod certificate;
 pub mod constrained;
 pub mod crossings;
 pub mod exact;
+pub mod graphs;
 pub mod lines;
 pub mod power;
 mod quick;

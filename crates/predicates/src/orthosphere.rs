@@ -155,9 +155,9 @@ impl RadiusScale {
     #[inline]
     fn rounded<const D: usize, const N: usize>(self, sites: &[Site<D>; N], least: f64, most: f64) -> f64 {
         let (radius, weight) = (least * self.back, sites[N - 1].1);
-        let is_kept =
-            radius.is_normal() & (radius * self.unit == least) & (weight * self.unit * self.back == weight);
-        if least == most && is_kept { radius } else { exact::radius(sites) }
+        let is_kept = radius.is_normal() && radius * self.unit == least;
+        let is_whole = weight * self.unit * self.back == weight;
+        if least == most && is_kept && is_whole { radius } else { exact::radius(sites) }
     }
 }
 

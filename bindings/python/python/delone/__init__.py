@@ -10,6 +10,7 @@ tri.remove([17, 4])
 delone.AlphaComplex(points).outline(alpha)
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
+delone.euclidean_minimum_spanning_tree(points)
 """
 
 import os
@@ -19,6 +20,13 @@ from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
 from ._errors import CrossingError
+from ._graphs import (
+    beta_skeleton,
+    euclidean_minimum_spanning_tree,
+    gabriel_graph,
+    knn_graph,
+    relative_neighborhood_graph,
+)
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
@@ -42,7 +50,12 @@ __all__ = [
     "PolygonTriangles",
     "RaggedTriangles",
     "Voronoi",
+    "beta_skeleton",
+    "euclidean_minimum_spanning_tree",
+    "gabriel_graph",
+    "knn_graph",
     "plot",
+    "relative_neighborhood_graph",
     "triangulate_polygon",
     "triangulate_polygons",
 ]

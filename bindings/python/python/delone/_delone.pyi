@@ -14,6 +14,7 @@ __all__ = [
     "clipped_cells",
     "convex_hull",
     "furthest",
+    "proximity_graph",
     "ridges",
     "sides",
     "triangulate_polygons",
@@ -105,3 +106,4 @@ def furthest(triangulation: Triangulation) -> tuple[NDArray[np.int32], NDArray[n
 def ridges(
     simplices: NDArray[np.int32], neighbors: NDArray[np.int32], vertices: NDArray[np.int64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
+def proximity_graph(points: NDArray[np.float64], kind: str, parameter: float) -> NDArray[np.int64]: ...

@@ -6,6 +6,7 @@ mod ask;
 mod graph;
 mod points;
 mod polygons;
+mod proximity;
 mod shapes;
 mod strategy;
 mod triangulate;
@@ -22,6 +23,7 @@ pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArg
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
+pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
@@ -55,6 +57,8 @@ pub(crate) enum Command {
     Nearest(NearestArgs),
     /// The corners of the convex hull in the plane, or its facets in space.
     Hull(HullArgs),
+    /// Join points that are near each other: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest.
+    Graph(ProximityArgs),
     /// Find the vertex furthest from each of many points.
     Furthest(FurthestArgs),
     /// Alpha shapes of points, with weights or without, and filtrations.

@@ -8,7 +8,9 @@ mod space;
 
 use std::path::{Path, PathBuf};
 
-use delone::{Change, Coordinates, Counters, Dimension, Imprecise, Locate, Triangulation, Verdict, VertexId};
+use delone::{
+    Change, Coordinates, Counters, Dimension, Graph, Imprecise, Locate, Triangulation, Verdict, VertexId,
+};
 use delone_io::{Cloud, Drawable, Format, Mesh, Source, Trim};
 
 use crate::args::{AlgorithmName, InputArgs, LocateName, StrategyArgs};
@@ -42,6 +44,9 @@ pub(crate) trait Room: Change<Point: Drawable> {
     ) -> Result<Plan<Self::Algorithm>, Failure>;
 
     fn build(points: &[Self::Point], algorithm: Self::Algorithm) -> Result<Self, delone::Error>;
+
+    /// The edges of a proximity graph.
+    fn graph(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, delone::Error>;
 
     /// What the construction did.
     fn counters(&self) -> Counters;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::plane::verify::{Objection2, verify};
-use delone::{Algorithm2, Counters, Delaunay2, Hints2, Regular2, Verdict};
+use delone::{Algorithm2, Counters, Delaunay2, Graph, Hints2, Regular2, Verdict, VertexId};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
 
@@ -51,6 +51,10 @@ impl Room for Delaunay2 {
 
     fn build(points: &[[f64; 2]], algorithm: Algorithm2) -> Result<Self, delone::Error> {
         Self::with_algorithm(points, algorithm)
+    }
+
+    fn graph(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, delone::Error> {
+        self.graph(graph)
     }
 
     fn counters(&self) -> Counters {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::space::verify::{Objection3, verify};
-use delone::{Algorithm3, Counters, Delaunay3, Hints3, Regular3, Verdict};
+use delone::{Algorithm3, Counters, Delaunay3, Graph, Hints3, Regular3, Verdict, VertexId};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::in_sphere_with_ties;
 
@@ -64,6 +64,10 @@ impl Room for Delaunay3 {
 
     fn build(points: &[[f64; 3]], algorithm: Algorithm3) -> Result<Self, delone::Error> {
         Self::with_algorithm(points, algorithm)
+    }
+
+    fn graph(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, delone::Error> {
+        self.graph(graph)
     }
 
     fn counters(&self) -> Counters {

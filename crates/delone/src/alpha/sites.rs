@@ -37,7 +37,7 @@ pub(super) fn sorted<const N: usize, T: Ord>(mut corners: [T; N]) -> [T; N] {
 
 /// The sites by place, the vertex at each, and the scale of their radii.
 pub(super) struct Sites<const D: usize> {
-    sites: Vec<Site<D>>,
+    all: Vec<Site<D>>,
     vertices: Vec<VertexId>,
     pub(super) scale: RadiusScale,
 }
@@ -50,16 +50,16 @@ impl<const D: usize> Sites<D> {
             all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
         };
         let scale = RadiusScale::for_box((0..D).map(side).fold(0.0, f64::max));
-        Self { sites, vertices, scale }
+        Self { all: sites, vertices, scale }
     }
 
     pub(super) fn count(&self) -> usize {
-        self.sites.len()
+        self.all.len()
     }
 
     #[inline]
     pub(super) fn of(&self, p: Place) -> Site<D> {
-        self.sites[p.index()]
+        self.all[p.index()]
     }
 
     #[inline]

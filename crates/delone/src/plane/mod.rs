@@ -9,6 +9,7 @@ mod delaunay;
 mod disk_edges;
 mod flips;
 mod furthest;
+mod graphs;
 mod imprecise;
 mod layer;
 mod locate;

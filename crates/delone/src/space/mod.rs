@@ -5,6 +5,7 @@ mod change;
 pub mod check;
 mod construct;
 mod delaunay;
+mod graphs;
 mod imprecise;
 mod layer;
 mod locate;

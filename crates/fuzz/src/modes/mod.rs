@@ -13,6 +13,7 @@ pub(crate) mod mixtures;
 pub(crate) mod motion;
 pub(crate) mod plane;
 pub(crate) mod predicates;
+pub(crate) mod proximity;
 pub(crate) mod queries;
 pub(crate) mod space;
 pub(crate) mod spheres;

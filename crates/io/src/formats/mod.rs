@@ -1,6 +1,7 @@
 //! The formats, one file each.
 
 pub(crate) mod e57;
+pub(crate) mod edges;
 pub(crate) mod geojson;
 pub(crate) mod graphs;
 pub(crate) mod las;

@@ -93,7 +93,7 @@ pub(super) fn centre_direction(coordinates: &[f64; 6]) -> Option<[Sign; 2]> {
 }
 
 /// The sign of a b - c d.
-fn compare_products(a: i128, b: i128, c: i128, d: i128) -> Sign {
+pub(super) fn compare_products(a: i128, b: i128, c: i128, d: i128) -> Sign {
     let sign = |x: i128, y: i128| Sign::of(&x, &0) * Sign::of(&y, &0);
     let (left, right) = (sign(a, b), sign(c, d));
     if left != right {

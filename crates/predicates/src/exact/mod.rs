@@ -4,8 +4,9 @@
 //! (nearly all real data: grids, centimetres, coordinates of similar size), expansions of the `robust` crate
 //! when no product can leave the exponent range, [`big`] integers for the rest.
 //!
-//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones. Lines of the plane and where they meet
-//! have a file of their own (`line/exact.rs`), and so have points with weights ([`power`]).
+//! In space integers too: of 60 bits ([`space`]), of 120 ([`wide`]), [`big`] ones. What needs no dimension has one form
+//! for both ([`lengths`]). Lines of the plane and where they meet have a file of their own (`line/exact.rs`), and so have
+//! points with weights ([`power`]).
 //!
 //! Before big integers, floating point is asked once more, scaled so that nothing leaves the range (`filter/scaled.rs`).
 //!
@@ -14,6 +15,7 @@
 
 pub(crate) mod big;
 pub(crate) mod integers;
+pub(crate) mod lengths;
 pub(crate) mod power;
 mod space;
 pub(crate) mod wide;

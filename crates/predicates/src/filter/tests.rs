@@ -357,3 +357,22 @@ fn the_bounds_of_lines_cover_their_formulas() {
     assert!(value.error <= SIDE_BOUND * 6.0 * (1.0 - 16.0 * U), "{} u", value.error / U / 6.0);
     assert!(value.error >= SIDE_BOUND * 6.0 * 0.7, "the bound is far too large: {} u", value.error / U / 6.0);
 }
+
+/// Lengths, diametral balls and lunes in three dimensions, relative to sums of magnitudes.
+#[test]
+fn lune_and_length_bounds_cover_their_formulas() {
+    let difference = Bounded::difference(1.0);
+    let product = difference.times(difference);
+    let sum = product.plus(product).plus(product);
+    assert!(sum.error <= 5.0 * U * sum.max, "{} u", sum.error / U / sum.max);
+    // The factor is one more rounding; that of the last difference is relative to the result.
+    let scaled = sum.error + U * (sum.max + sum.error);
+    // The computed size may be smaller than the true one by its own relative error.
+    let allowed = crate::distance::ERROR * (1.0 - 8.0 * U);
+    assert!(scaled + sum.error <= allowed * 2.0 * sum.max);
+    assert!(2.0 * sum.error <= allowed * 2.0 * sum.max);
+    // Nearly as much in the sum of both balls of a lune, with one rounding of sizes that is relative to the result again.
+    assert!(2.0 * (scaled + sum.error) + U * 4.0 * sum.max <= allowed * 4.0 * sum.max);
+    // Six products that lose the least number, times beta, beside what is allowed of a size of beta times the smallest.
+    assert!(6.0 * f64::from_bits(1) < 1e-16 * allowed * crate::lune::SMALLEST);
+}

@@ -24,8 +24,6 @@ pub(super) trait Lane:
 {
     fn all(x: f64) -> Self;
     fn magnitude(self) -> Self;
-    /// The square root; of negative numbers not a number.
-    fn root(self) -> Self;
 }
 
 impl Lane for f64 {
@@ -38,11 +36,6 @@ impl Lane for f64 {
     fn magnitude(self) -> Self {
         self.abs()
     }
-
-    #[inline]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
 }
 
 impl Lane for f64x2 {
@@ -54,11 +47,6 @@ impl Lane for f64x2 {
     #[inline]
     fn magnitude(self) -> Self {
         self.abs()
-    }
-
-    #[inline]
-    fn root(self) -> Self {
-        self.sqrt()
     }
 }
 
@@ -152,10 +140,11 @@ impl<L: Lane> Ball<L> {
         Self { high, low: L::all(0.0), radius: L::all(0.0) }
     }
 
-    /// The quotient by a positive number; what is not a number if the divisor is not known to be positive, to 2^-40 of itself.
+    /// The quotient by a number that is not negative.
     ///
     /// With one division: the inverse has an error of u, so the first part has 2 u and the correction, of at most 5 u, 4 u of itself; so both
-    /// are off by less than 32 u^2 of the quotient. And (n + x) / (d + y) is off from n / d by at most (x + q y) / (d - y).
+    /// are off by less than 32 u^2 of the quotient. And (n + x) / (d + y) is off from n / d by at most (x + q y) / (d - y). Where y is not
+    /// small beside d, the radius is not beside q, so that nothing is known; and it is not a number where d is zero.
     #[inline]
     pub(super) fn over(&self, other: &Self) -> Self {
         let inverse = L::all(1.0) / other.high;
@@ -164,13 +153,9 @@ impl<L: Lane> Ball<L> {
         let rest = (self.high - product.high) + (self.low - product.low);
         let (high, low) = two_sum(quotient, rest * inverse);
         // The radius of the product is that of the divisor, as often as the quotient, and its own error.
-        let radius =
-            (self.radius + product.radius) * inverse + quotient.magnitude() * L::all(2.0 * ALLOWANCE);
-        // Above one where the divisor may be too small.
-        let unknown = other.radius * L::all((1_u64 << 40) as f64) * inverse;
-        let positive = (L::all(1.0) - unknown).root() * inverse.root();
-        let enlarged = L::all(ENLARGED * ENLARGED) + (positive - positive);
-        Self { high, low, radius: radius * enlarged + L::all(UNDERFLOW) }
+        let moved = (self.radius + product.radius) * inverse.magnitude();
+        let radius = moved + quotient.magnitude() * L::all(2.0 * ALLOWANCE);
+        Self { high, low, radius: radius * L::all(ENLARGED * ENLARGED) + L::all(UNDERFLOW) }
     }
 
     /// What the numbers in the ball may be rounded to: the least and the most.

@@ -159,17 +159,21 @@ impl<K: Merging> Builder<'_, K> {
                 && is_on_line(behind)
                 && !K::contains_on_line(self.site(behind), self.site(other), self.site(end))
         };
-        let before = self.tail(base.entering_l.edge(1));
-        if !l_single && is_hidden(base.l, before, base.r) {
-            base.l = before;
-            base.entering_l = self.previous_ghost(base.entering_l);
-            return true;
+        if !l_single {
+            let before = self.tail(base.entering_l.edge(1));
+            if is_hidden(base.l, before, base.r) {
+                base.l = before;
+                base.entering_l = self.previous_ghost(base.entering_l);
+                return true;
+            }
         }
-        let after = self.tail(base.leaving_r.edge(0));
-        if !r_single && is_hidden(base.r, after, base.l) {
-            base.r = after;
-            base.leaving_r = self.next_ghost(base.leaving_r);
-            return true;
+        if !r_single {
+            let after = self.tail(base.leaving_r.edge(0));
+            if is_hidden(base.r, after, base.l) {
+                base.r = after;
+                base.leaving_r = self.next_ghost(base.leaving_r);
+                return true;
+            }
         }
         false
     }

@@ -1,0 +1,118 @@
+//! Whether a point is in the lune of a segment, which decides the edges of proximity graphs: filter, exact. In up to three
+//! dimensions.
+//!
+//! Source: Kirkpatrick and Radke, "A framework for computational morphology", 1985. The lune of a, b for beta >= 1 is the
+//! meeting of two balls of radius beta |ab| / 2: one has a on its border and its centre on the ray from a through b, the other
+//! the same with a and b exchanged. For beta = 1 both are the ball with diameter ab, for beta = 2 they go around a and b. With
+//! u = p - a and v = b - a, p is inside of the first where |u - beta v / 2|^2 < |beta v / 2|^2, which is
+//!
+//! ```text
+//! |u|^2 < beta u.v
+//! ```
+//!
+//! and inside of the second where |u - v|^2 < beta (v - u).v. Degree two, and one factor.
+//!
+//! The smallest ball around a lune is about the middle of ab, and its border goes through the edge where those of the two
+//! balls meet. Its equation is the sum of theirs, so what both inequalities together exclude is surely outside of it.
+//!
+//! Filter: a product of two rounded differences is wrong by 3u of itself, sums of three by 2u more, the factor, and the last
+//! difference, by u each: 7u of the sum of all magnitudes, for which [`told`] allows 8u. What underflow loses, at most beta
+//! times three of the least numbers, is as nothing beside u times a size of beta 1e-290.
+
+use crate::distance::{ERROR, told};
+use crate::{Sign, exact};
+
+/// Below beta times this a size could be wrong by more than the error bound.
+pub(crate) const SMALLEST: f64 = 1e-290;
+
+/// The lune of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lune<const D: usize> {
+    a: [f64; D],
+    b: [f64; D],
+    beta: f64,
+}
+
+/// Where a point is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LunePlace {
+    /// Strictly inside of the lune.
+    Inside,
+    /// Not inside; it may be in the smallest ball around the lune.
+    Beside,
+    /// Surely outside of the smallest ball around the lune. What is far away is told so, what is near its border may not.
+    Away,
+}
+
+impl<const D: usize> Lune<D> {
+    /// Of the segment from `a` to `b`, which differ; `beta` is finite and at least 1.
+    #[inline]
+    pub fn new(a: [f64; D], b: [f64; D], beta: f64) -> Self {
+        Self { a, b, beta }
+    }
+
+    /// Where a point is. Exact in whether it is inside, for every finite input. O(1).
+    ///
+    /// ```
+    /// use delone_predicates::{Lune, LunePlace};
+    /// let lune = Lune::new([0.0, 0.0], [4.0, 0.0], 2.0);
+    /// assert_eq!(lune.place(&[2.0, 3.0]), LunePlace::Inside);
+    /// assert_eq!(lune.place(&[4.0, 0.0]), LunePlace::Beside);
+    /// assert_eq!(lune.place(&[2.0, 4.0]), LunePlace::Away);
+    /// ```
+    #[inline]
+    pub fn place(&self, p: &[f64; D]) -> LunePlace {
+        let (one, one_size) = ball_terms(&self.a, &self.b, p, self.beta);
+        let (two, two_size) = ball_terms(&self.b, &self.a, p, self.beta);
+        let least = self.beta * SMALLEST;
+        if one_size >= least && two_size >= least {
+            // The error of the sum is that of both.
+            let (sum, size) = (one + two, one_size + two_size);
+            if sum < -ERROR * size && size.is_finite() {
+                return LunePlace::Away;
+            }
+            let signs = (told(one, one_size), told(two, two_size));
+            match signs {
+                (Some(Sign::Positive), Some(Sign::Positive)) => return LunePlace::Inside,
+                (Some(Sign::Negative), _) | (_, Some(Sign::Negative)) => return LunePlace::Beside,
+                _ => {}
+            }
+        }
+        let is_in = |from, to| exact::lengths::ball(from, to, *p, self.beta).is_positive();
+        if is_in(self.a, self.b) && is_in(self.b, self.a) { LunePlace::Inside } else { LunePlace::Beside }
+    }
+}
+
+/// beta u.v - |u|^2, and the sum of the magnitudes of its products.
+#[inline]
+fn ball_terms<const D: usize>(a: &[f64; D], b: &[f64; D], p: &[f64; D], beta: f64) -> (f64, f64) {
+    let (mut dot, mut size, mut square) = (0.0, 0.0, 0.0);
+    for k in 0..D {
+        let u = p[k] - a[k];
+        let product = u * (b[k] - a[k]);
+        dot += product;
+        size += product.abs();
+        square += u * u;
+    }
+    (beta * dot - square, beta * size + square)
+}
+
+/// Whether the closed ball with diameter ab holds a point: whether a and b are seen from it at a right angle or a wider one.
+///
+/// Exact for every finite input, in up to three dimensions. O(1).
+///
+/// ```
+/// use delone_predicates::in_diametral_ball;
+/// assert!(in_diametral_ball([0.0, 0.0], [2.0, 0.0], [1.0, 1.0]));
+/// assert!(!in_diametral_ball([0.0, 0.0], [2.0, 0.0], [1.0, 1.0 + 1e-15]));
+/// ```
+#[inline]
+pub fn in_diametral_ball<const D: usize>(a: [f64; D], b: [f64; D], p: [f64; D]) -> bool {
+    let (mut dot, mut size) = (0.0, 0.0);
+    for k in 0..D {
+        let product = (a[k] - p[k]) * (b[k] - p[k]);
+        dot += product;
+        size += product.abs();
+    }
+    !told(dot, size).unwrap_or_else(|| exact::lengths::angle(p, a, b)).is_positive()
+}
