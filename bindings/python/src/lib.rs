@@ -4,6 +4,7 @@
 //! Everything long runs without Python's lock, on all cores (`pool.rs`). A simplex is known to Python by its row; rows count the
 //! finite simplices by increasing id, and are made anew after a change.
 
+mod alpha;
 mod constrained;
 mod errors;
 mod graphs;
@@ -23,6 +24,7 @@ use pyo3::prelude::*;
 #[pyo3(name = "_delone")]
 fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<triangulation::Triangulation>()?;
+    m.add_class::<alpha::Alpha>()?;
     m.add_class::<hints::Hints>()?;
     m.add_class::<constrained::Constrained>()?;
     m.add_class::<regular::Regular>()?;

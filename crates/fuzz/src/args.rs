@@ -55,6 +55,8 @@ pub(crate) enum Mode {
     Cells,
     /// Segments between points: building, crossings, changes.
     Graphs,
+    /// Alpha complexes and their shapes, with weights.
+    Alphas,
     /// Hulls, furthest and nearest sites, the smallest circle.
     Hulls,
     /// Gabriel graphs, relative neighbours, spanning trees, skeletons, k nearest.
@@ -101,13 +103,14 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 16] = [
+    pub(crate) const REAL: [Self; 17] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
         Self::Motion,
         Self::Cells,
         Self::Graphs,
+        Self::Alphas,
         Self::Hulls,
         Self::Predicates,
         Self::Mixtures,

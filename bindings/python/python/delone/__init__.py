@@ -7,6 +7,7 @@ tri.simplices, tri.neighbors, tri.find_simplex(queries)
 tri.add_points(more)
 tri.remove([17, 4])
 
+delone.AlphaComplex(points).outline(alpha)
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
 delone.euclidean_minimum_spanning_tree(points)
@@ -16,6 +17,7 @@ delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, wei
 import os
 
 from . import _delone
+from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
 from ._errors import CrossingError
@@ -40,6 +42,7 @@ if hasattr(os, "register_at_fork"):
 
 __version__ = "0.1.0"
 __all__ = [
+    "AlphaComplex",
     "ConstrainedDelaunay",
     "ConvexHull",
     "CrossingError",

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "Alpha",
     "Constrained",
     "Hints",
     "Regular",
@@ -19,6 +20,16 @@ __all__ = [
     "sides",
     "triangulate_polygons",
 ]
+
+@final
+class Alpha:
+    def __new__(cls, points: NDArray[np.float64], weights: NDArray[np.float64] | None = None) -> Alpha: ...
+    def simplices(self, dimension: int) -> NDArray[np.int32]: ...
+    def values(self, dimension: int) -> NDArray[np.float64]: ...
+    def outline(self, alpha: float) -> list[NDArray[np.int32]]: ...
+    def components(self, alpha: float) -> NDArray[np.int32]: ...
+    def optimal(self, parts: int) -> float | None: ...
+    def spectrum(self) -> NDArray[np.float64]: ...
 
 @final
 class Triangulation:

@@ -1,5 +1,6 @@
 //! The attacks, a file each.
 
+pub(crate) mod alphas;
 pub(crate) mod broken;
 pub(crate) mod builds;
 pub(crate) mod cells;
