@@ -14,6 +14,7 @@ mod interrupt;
 mod memory;
 mod polygons;
 mod pool;
+mod regular;
 mod triangulation;
 mod voronoi;
 
@@ -26,6 +27,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<alpha::Alpha>()?;
     m.add_class::<hints::Hints>()?;
     m.add_class::<constrained::Constrained>()?;
+    m.add_class::<regular::Regular>()?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(graphs::proximity_graph, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;

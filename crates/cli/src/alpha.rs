@@ -93,7 +93,7 @@ fn complexes<R: Room, const D: usize>(
     weighted: impl Fn(&R::Regular) -> Alpha<D>,
 ) -> Result<(Alpha<D>, Cloud), Failure> {
     let (alpha, about) = if args.weights.given().is_some() {
-        let sites = Weighted::<R>::read(&args.input, &args.weights, 0, stats, quiet)?;
+        let sites = Weighted::<R>::read(&args.input, &args.weights, stats, quiet)?;
         let _phase = Phase::start(quiet, "growing");
         (weighted(&sites.triangulation), sites.about)
     } else {

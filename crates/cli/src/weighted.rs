@@ -15,7 +15,7 @@ use crate::stats::Stats;
 /// Sites, and their regular triangulation.
 pub(crate) struct Weighted<R: Room> {
     pub(crate) triangulation: R::Regular,
-    points: Vec<R::Point>,
+    pub(crate) points: Vec<R::Point>,
     pub(crate) about: Cloud,
 }
 
@@ -26,7 +26,7 @@ pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Resul
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
-    let r = Weighted::<R>::read(&args.input, &args.weights, args.strategy.seed, &mut stats, quiet)?;
+    let r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         r.triangulation.check().map_err(|flaw| {
@@ -51,7 +51,7 @@ pub(crate) fn draw<R: Room>(
     quiet: bool,
 ) -> Result<(), Failure> {
     let mut stats = Stats::start();
-    let r = Weighted::<R>::read(&args.input, &args.weights, 0, &mut stats, quiet)?;
+    let r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
     r.write(outputs, args.max_edge, options, &mut stats, quiet)?;
     stats.tell(quiet, R::WORDS.simplex);
     stats.write(args.input.stats.as_deref())
@@ -62,7 +62,6 @@ impl<R: Room> Weighted<R> {
     pub(crate) fn read(
         input: &InputArgs,
         args: &WeightArgs,
-        seed: u64,
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<Self, Failure> {
@@ -74,7 +73,7 @@ impl<R: Room> Weighted<R> {
         stats.phase("read");
         let phase = Phase::start(quiet, "triangulating");
         let triangulation =
-            R::regular(&points, &weights, seed).map_err(|error| Failure::points(&input.label(), &error))?;
+            R::regular(&points, &weights).map_err(|error| Failure::points(&input.label(), &error))?;
         drop(phase);
         stats.phase("build");
         room::remark(&triangulation, quiet);

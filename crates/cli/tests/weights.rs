@@ -60,6 +60,23 @@ fn what_is_wrong_with_weights_is_named() {
 }
 
 #[test]
+fn power_cells_are_written() {
+    let place = Place::new();
+    place.file("disks.csv", DISKS);
+    place
+        .succeed("-q voronoi disks.csv --columns x,y --radii r -o cells.geojson -o cells.svg --stats s.json");
+    let stats = read(&place, "s.json");
+    assert!(stats.contains("\"cells\": 5") && stats.contains("\"area\": 16.0"), "{stats}");
+    assert!(!read(&place, "cells.geojson").contains("\"site\":4,"));
+    place.succeed("-q voronoi disks.csv --columns x,y --radii r --clip hull -o c.svg");
+    place.fail(
+        "voronoi disks.csv --columns x,y --radii r --relax 2 -o d.svg",
+        2,
+        "--relax is for sites without weights",
+    );
+}
+
+#[test]
 fn equal_radii_are_none() {
     let place = Place::new();
     place.succeed("-q generate grid -n 400 -o p.csv");

@@ -39,6 +39,8 @@
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
 //! | alpha complexes: shapes of points, with weights too, and filtrations | [`Delaunay2::alpha`], [`Regular2::alpha`], [`Alpha2`] | [`Delaunay3::alpha`], [`Regular3::alpha`], [`Alpha3`] | O(k log k) for k faces |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
+//! | points with weights (squared radii), hidden or not | [`Regular2`] | [`Regular3`] | O(n log n), in space where the result is linear |
+//! | cells of points with weights, and how their areas change | [`Power2`], [`Jacobian2`] | | O(n) |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
@@ -103,9 +105,9 @@ pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use order::HintOrder;
 pub use plane::{
     Algorithm2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,
-    Domains2, EnclosingCircle, Fill, Furthest2, Hints2, Location2, Moving2, NearestSites2, Part2,
-    PolygonTriangles2, Polygons2, Region2, RegionSeed2, Regular2, Relaxation2, Ring, Seeds2, SegmentEnds,
-    SegmentId, Step2, Voronoi2, VoronoiEdge2,
+    Domains2, EnclosingCircle, Fill, Furthest2, Hints2, Jacobian2, Location2, Moving2, NearestSites2, Part2,
+    PolygonTriangles2, Polygons2, Power2, Region2, RegionSeed2, Regular2, Relaxation2, Ring, Seeds2,
+    SegmentEnds, SegmentId, Step2, Voronoi2, VoronoiEdge2,
 };
 pub use points::{Bounds, Position2, Position3};
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};

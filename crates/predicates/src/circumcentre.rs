@@ -1,7 +1,7 @@
 //! The centre of a circle through three points: filter, exact. A construction, so it is rounded; nothing is decided
 //! by it.
 
-use crate::{Point2, exact};
+use crate::{Point2, Site, exact};
 
 /// The share of a sum that may cancel before the exact way is taken: 2^-8 leaves more than 40 correct bits.
 const CANCELLED: f64 = 1.0 / 256.0;
@@ -59,6 +59,48 @@ fn in_floating_point(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Poin
         if x.abs().max(y.abs()) <= reach && centre[0].is_finite() && centre[1].is_finite() {
             return Some(centre);
         }
+    }
+    None
+}
+
+/// The point that has the same power to three sites whose points are not collinear: the Voronoi vertex of power diagrams. In
+/// coordinate units; the same bits for every order of the sites.
+///
+/// Computed in floating point where nothing cancels, with an error below 2^-40 of the distance from the lexicographically least of
+/// the three points, or else rounded once. `None` if it is too far away for an `f64`, and for collinear points.
+///
+/// O(1).
+///
+/// ```
+/// use delone_predicates::power_centre;
+/// let (a, b, c) = (([0.0, 0.0], 0.0), ([2.0, 0.0], 0.0), ([0.0, 2.0], 0.0));
+/// assert_eq!(power_centre(a, b, c), Some([1.0, 1.0]));
+/// assert_eq!(power_centre(a, ([2.0, 0.0], 2.0), c), Some([0.5, 1.0])); // further from the heavy one
+/// ```
+pub fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
+    power_centre_in_floating_point(a, b, c)
+        .or_else(|| exact::power::power_centre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite())))
+}
+
+/// The fast way, if it is good enough.
+fn power_centre_in_floating_point(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
+    let sites = [a, b, c];
+    let least = usize::from(is_less(b.0, a.0));
+    let least = if is_less(c.0, sites[least].0) { 2 } else { least };
+    let [(a, wa), (b, wb), (c, wc)] = [least, [1, 2, 0][least], [2, 0, 1][least]].map(|i| sites[i]);
+    let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+    let (left, right) = (bx * cy, by * cx);
+    let (area, size) = (left - right, left.abs() + right.abs());
+    let lift = |x: f64, y: f64, weight: f64| (x * x + y * y - weight, x * x + y * y + weight.abs());
+    let ((bb, b_size), (cc, c_size)) = (lift(bx, by, wb - wa), lift(cx, cy, wc - wa));
+    let (x, y) = (cy * bb - by * cc, bx * cc - cx * bb);
+    let terms = (cy.abs() + cx.abs()) * b_size + (by.abs() + bx.abs()) * c_size;
+    // As above; what is small beside the terms is not known well enough.
+    let in_range = (1e-70..1e70).contains(&b_size) && (1e-70..1e70).contains(&c_size) && size > 1e-280;
+    if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
+        let (x, y) = (x / (2.0 * area), y / (2.0 * area));
+        let centre = [a[0] + x, a[1] + y];
+        return Some(centre).filter(|centre| centre.iter().all(|x| x.is_finite()));
     }
     None
 }

@@ -53,7 +53,7 @@ mod stages;
 
 pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
-pub use circumcentre::circumcentre;
+pub use circumcentre::{circumcentre, power_centre};
 pub use clear::keeps_clear;
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{

@@ -11,8 +11,8 @@ mod exact;
 
 use std::cmp::Ordering;
 
-use crate::circumcentre::circumcentre_within;
-use crate::{Point2, Sign, compare_distances, lexicographic, orient2d};
+use crate::circumcentre::{circumcentre_within, power_centre};
+use crate::{Point2, Sign, Site, compare_distances, compare_powers, lexicographic, orient2d};
 
 /// A directed line, given by what is positive: on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub enum Line {
     Through(Point2, Point2),
     /// The points as far from a point as from another one; positive where the first is nearer.
     Bisector(Point2, Point2),
+    /// The points with the same power to two sites; positive where that to the first is less.
+    Radical(Site<2>, Site<2>),
     /// The points whose x (axis 0) or y (any other) is a number; positive where it is larger.
     Above(usize, f64),
     /// The points whose x (axis 0) or y (any other) is a number; positive where it is smaller.
@@ -55,6 +57,7 @@ impl Line {
             Spot::Point(p) => match *self {
                 Self::Through(a, b) => orient2d(a, b, p),
                 Self::Bisector(a, b) => Sign::of(&compare_distances(p, b, a), &Ordering::Equal),
+                Self::Radical(a, b) => Sign::of(&compare_powers(p, b, a), &Ordering::Equal),
                 Self::Above(axis, at) => Sign::of(&p[usize::from(axis != 0)], &at),
                 Self::Below(axis, at) => Sign::of(&at, &p[usize::from(axis != 0)]),
             },
@@ -125,7 +128,9 @@ impl Line {
         let unit = |axis: usize, sign: Sign| if axis == 0 { [sign, Sign::Zero] } else { [Sign::Zero, sign] };
         match *self {
             Self::Through(p, q) => [Sign::of(&p[1], &q[1]), Sign::of(&q[0], &p[0])],
-            Self::Bisector(p, q) => [Sign::of(&p[0], &q[0]), Sign::of(&p[1], &q[1])],
+            Self::Bisector(p, q) | Self::Radical((p, _), (q, _)) => {
+                [Sign::of(&p[0], &q[0]), Sign::of(&p[1], &q[1])]
+            }
             Self::Above(axis, _) => unit(axis, Sign::Positive),
             Self::Below(axis, _) => unit(axis, Sign::Negative),
         }
@@ -150,7 +155,7 @@ impl Line {
     /// One of the points that it is given by.
     fn point(&self) -> Option<Point2> {
         match *self {
-            Self::Through(p, _) | Self::Bisector(p, _) => Some(p),
+            Self::Through(p, _) | Self::Bisector(p, _) | Self::Radical((p, _), _) => Some(p),
             _ => None,
         }
     }
@@ -161,6 +166,7 @@ impl Line {
         match *self {
             Self::Through(p, q) if is_less(q, p) => Self::Through(q, p),
             Self::Bisector(p, q) if is_less(q, p) => Self::Bisector(q, p),
+            Self::Radical(p, q) if is_less(q.0, p.0) => Self::Radical(q, p),
             Self::Below(axis, at) => Self::Above(axis, at),
             same => same,
         }
@@ -169,8 +175,18 @@ impl Line {
     /// All coordinates that it is given by.
     pub(crate) fn numbers(&self) -> [f64; 4] {
         match *self {
-            Self::Through(p, q) | Self::Bisector(p, q) => [p[0], p[1], q[0], q[1]],
+            Self::Through(p, q) | Self::Bisector(p, q) | Self::Radical((p, _), (q, _)) => {
+                [p[0], p[1], q[0], q[1]]
+            }
             Self::Above(_, at) | Self::Below(_, at) => [at, 0.0, 0.0, 0.0],
+        }
+    }
+
+    /// The weights that it is given by, if there are any.
+    pub(crate) fn weights(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Radical((_, w), (_, v)) => Some([w, v]),
+            _ => None,
         }
     }
 
@@ -188,6 +204,11 @@ impl Line {
                 let c = -(dx * (px + qx) + dy * (py + qy));
                 let size = dx.abs() * (px.abs() + qx.abs()) + dy.abs() * (py.abs() + qy.abs());
                 Equation { a: 2.0 * dx, b: 2.0 * dy, c, size }
+            }
+            Self::Radical((p, w), (q, v)) => {
+                let plain = Self::Bisector(p, q).equation(from);
+                let weight = w - v;
+                Equation { c: plain.c + weight, size: plain.size + weight.abs(), ..plain }
             }
             Self::Above(axis, at) | Self::Below(axis, at) => {
                 let sign = if matches!(self, Self::Above(..)) { 1.0 } else { -1.0 };
@@ -226,6 +247,13 @@ impl Spot {
                 return circumcentre_within(a, b, c, size);
             }
         }
+        if let (Line::Radical(a, b), Line::Radical(c, d)) = (first, second) {
+            if a == c || b == c {
+                return power_centre(a, b, d);
+            } else if a == d || b == d {
+                return power_centre(a, b, c);
+            }
+        }
         let at = |axis: usize| first.at(axis).or(second.at(axis));
         if let (Some(x), Some(y)) = (at(0), at(1)) {
             return Some([x, y]);
@@ -258,7 +286,7 @@ struct Equation {
     a: f64,
     b: f64,
     c: f64,
-    /// c is at most this and off by at most five roundings of this.
+    /// c is at most this and off by at most six roundings of this.
     size: f64,
 }
 

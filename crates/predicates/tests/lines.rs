@@ -155,6 +155,7 @@ fn meetings_are_rounded_well() {
             let swapped = |line: Line| match line {
                 Line::Through(p, q) => Line::Through(q, p),
                 Line::Bisector(p, q) => Line::Bisector(q, p),
+                Line::Radical(p, q) => Line::Radical(q, p),
                 Line::Above(axis, at) => Line::Below(axis, at),
                 Line::Below(axis, at) => Line::Above(axis, at),
             };

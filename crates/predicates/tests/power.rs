@@ -3,8 +3,9 @@
 use delone_generators::Random;
 use delone_oracle::power::{Lifted, compare};
 use delone_predicates::{
-    Filter3, Grid, Sign, Site, compare_powers, in_circle, in_power_circle, in_power_circle_with_ties,
-    in_power_interval, in_power_sphere, in_power_sphere_with_ties, in_sphere, orient2d, orient3d,
+    Filter3, Grid, Line, Sign, Site, Spot, compare_powers, in_circle, in_power_circle,
+    in_power_circle_with_ties, in_power_interval, in_power_sphere, in_power_sphere_with_ties, in_sphere,
+    orient2d, orient3d, power_centre,
 };
 
 /// A coordinate of a family, and a weight that ties often or nearly.
@@ -136,6 +137,62 @@ fn the_test_in_space_is_exact_and_canonical() {
         ties += usize::from(expected(false).is_zero());
     });
     assert!(ties > 500, "only {ties} ties were met");
+}
+
+/// Where the radical axes of three sites meet a fourth one has less power exactly if it is below their plane.
+#[test]
+fn radical_axes_are_on_the_side_that_the_power_test_says() {
+    let mut ties = 0;
+    tuples::<2, 4>(5, 1500, |name, sites| {
+        let [a, b, c, d] = sites;
+        let turn = orient2d(a.0, b.0, c.0);
+        if turn.is_zero() || a.0 == d.0 {
+            return;
+        }
+        let spot = Spot::Meeting(Line::Radical(a, b), Line::Radical(c, a));
+        let expected = -in_power_circle_with_ties(a, b, c, d) * turn;
+        assert_eq!(Line::Radical(a, d).side(&spot), expected, "{name}: {sites:?}");
+        assert_eq!(Line::Radical(d, a).side(&spot), -expected, "{name}: {sites:?}");
+        ties += usize::from(expected.is_zero());
+        // At points, and without weights.
+        let side = Line::Radical(a, b).side(&Spot::Point(c.0));
+        assert_eq!(
+            side,
+            Sign::of(&compare_powers(c.0, b, a), &std::cmp::Ordering::Equal),
+            "{name}: {sites:?}"
+        );
+        let plain = Spot::Meeting(Line::Bisector(a.0, b.0), Line::Bisector(c.0, a.0));
+        let equal = |site: Site<2>| (site.0, 0.5);
+        let same = Spot::Meeting(Line::Radical(equal(a), equal(b)), Line::Radical(equal(c), equal(a)));
+        let third = [Line::Bisector(a.0, d.0).side(&plain), Line::Radical(equal(a), equal(d)).side(&same)];
+        assert_eq!(third[0], third[1], "{name}: {sites:?}");
+    });
+    assert!(ties > 500, "only {ties} ties were met");
+}
+
+#[test]
+fn power_centres_have_the_same_power_and_the_same_bits() {
+    let mut near = 0;
+    tuples::<2, 3>(6, 2000, |name, [a, b, c]| {
+        let Some(centre) = power_centre(a, b, c) else { return };
+        let bits = centre.map(f64::to_bits);
+        for [p, q, r] in [[a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
+            assert_eq!(
+                power_centre(p, q, r).map(|p| p.map(f64::to_bits)),
+                Some(bits),
+                "{name}: {a:?} {b:?} {c:?}"
+            );
+        }
+        let spot = Spot::Meeting(Line::Radical(b, a), Line::Radical(c, b));
+        assert_eq!(spot.rounded(1.0).map(|p| p.map(f64::to_bits)), Some(bits), "{name}: {a:?} {b:?} {c:?}");
+        if name == "uniform" {
+            let power = |(p, w): Site<2>| (p[0] - centre[0]).powi(2) + (p[1] - centre[1]).powi(2) - w;
+            let size = 1.0 + power(a).abs() + power(b).abs();
+            assert!((power(a) - power(b)).abs() < 1e-9 * size && (power(a) - power(c)).abs() < 1e-9 * size);
+            near += 1;
+        }
+    });
+    assert!(near > 1000, "{near}");
 }
 
 #[test]

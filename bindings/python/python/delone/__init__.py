@@ -11,6 +11,7 @@ delone.AlphaComplex(points).outline(alpha)
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
 delone.euclidean_minimum_spanning_tree(points)
+delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
 
 import os
@@ -32,6 +33,7 @@ from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
+from ._regular import PowerDiagram, RegularTriangulation
 from ._voronoi import Voronoi
 
 # Threads do not survive a fork.
@@ -48,7 +50,9 @@ __all__ = [
     "Hints",
     "LinearInterpolator",
     "PolygonTriangles",
+    "PowerDiagram",
     "RaggedTriangles",
+    "RegularTriangulation",
     "Voronoi",
     "beta_skeleton",
     "euclidean_minimum_spanning_tree",

@@ -119,6 +119,8 @@ pub(crate) struct VoronoiArgs {
     /// Write the sites, as relaxed, to a file of points.
     #[arg(long, value_name = "FILE")]
     pub(crate) sites: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) weights: WeightArgs,
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,

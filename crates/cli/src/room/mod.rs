@@ -54,7 +54,7 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// The triangulation of points with weights.
     type Regular: Triangulation<Point = Self::Point>;
 
-    fn regular(points: &[Self::Point], weights: &[f64], seed: u64) -> Result<Self::Regular, delone::Error>;
+    fn regular(points: &[Self::Point], weights: &[f64]) -> Result<Self::Regular, delone::Error>;
 
     fn counters_of(r: &Self::Regular) -> Counters;
 

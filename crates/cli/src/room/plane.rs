@@ -63,8 +63,8 @@ impl Room for Delaunay2 {
 
     type Regular = Regular2;
 
-    fn regular(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Result<Regular2, delone::Error> {
-        Regular2::with_seed(points, weights, seed)
+    fn regular(points: &[[f64; 2]], weights: &[f64]) -> Result<Regular2, delone::Error> {
+        Regular2::from_parts(points, weights)
     }
 
     fn counters_of(r: &Regular2) -> Counters {

@@ -76,8 +76,8 @@ impl Room for Delaunay3 {
 
     type Regular = Regular3;
 
-    fn regular(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Result<Regular3, delone::Error> {
-        Regular3::with_seed(points, weights, seed)
+    fn regular(points: &[[f64; 3]], weights: &[f64]) -> Result<Regular3, delone::Error> {
+        Regular3::from_parts(points, weights)
     }
 
     fn counters_of(r: &Regular3) -> Counters {

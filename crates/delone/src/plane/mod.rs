@@ -39,5 +39,5 @@ pub use locate::Location2;
 pub use moving::{Moving2, Step2};
 pub use radial::NearestSites2;
 pub use region::Region2;
-pub use regular::{Regular2, RegularFlaw2};
+pub use regular::{Jacobian2, Power2, Regular2, RegularFlaw2};
 pub use voronoi::{Cells2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};

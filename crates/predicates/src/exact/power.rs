@@ -101,6 +101,31 @@ pub(crate) fn compare_powers<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>
     }
 }
 
+/// Numbers as integers, and weights on the square of their scale.
+pub(crate) struct Scaled {
+    pub(crate) numbers: Vec<BigInt>,
+    pub(crate) weights: Vec<BigInt>,
+    /// The binary exponent of the scale of the numbers.
+    pub(crate) scale: i32,
+}
+
+/// The same for numbers of any size.
+pub(crate) fn on_one_scale(numbers: &[f64], weights: &[f64]) -> Scaled {
+    let ((numbers, scale), (weights, weight_scale)) = (big::integers(numbers), big::integers(weights));
+    if weights.iter().all(|w| *w == BigInt::ZERO) {
+        return Scaled { numbers, weights, scale };
+    }
+    // Zeros alone have any scale.
+    let scale = if scale == i32::MAX { weight_scale.div_euclid(2) } else { scale };
+    let finer = (scale - weight_scale.div_euclid(2)).max(0);
+    let coarser = (weight_scale - 2 * (scale - finer)).unsigned_abs();
+    Scaled {
+        numbers: numbers.into_iter().map(|x| x << finer.unsigned_abs()).collect(),
+        weights: weights.into_iter().map(|w| w << coarser).collect(),
+        scale: scale - finer,
+    }
+}
+
 /// [`rows`] for numbers of any size.
 pub(crate) struct Rows {
     pub(crate) differences: Vec<Vec<BigInt>>,
@@ -114,22 +139,35 @@ pub(crate) struct Rows {
 pub(crate) fn big_rows<const D: usize>(sites: &[Site<D>]) -> Rows {
     let coordinates: Vec<f64> = sites.iter().flat_map(|site| site.0).collect();
     let weights: Vec<f64> = sites.iter().map(|site| site.1).collect();
-    let ((points, scale), (weights, weight_scale)) = (big::integers(&coordinates), big::integers(&weights));
-    // Zeros alone have any scale.
-    let scale = if scale == i32::MAX { weight_scale.div_euclid(2) } else { scale };
-    let weight_scale = if weight_scale == i32::MAX { 2 * scale } else { weight_scale };
-    let finer = (scale - weight_scale.div_euclid(2)).max(0);
-    let point = |x: &BigInt| x << finer.unsigned_abs();
-    let weight = |w: &BigInt| w << (weight_scale - 2 * (scale - finer)).unsigned_abs();
-    let last = sites.len() - 1;
-    let seen = |k: usize, axis: usize| point(&(&points[D * k + axis] - &points[D * last + axis]));
+    rows_of::<D>(&on_one_scale(&coordinates, &weights))
+}
+
+fn rows_of<const D: usize>(Scaled { numbers, weights, scale }: &Scaled) -> Rows {
+    let last = weights.len() - 1;
+    let seen = |k: usize, axis: usize| &numbers[D * k + axis] - &numbers[D * last + axis];
     let rows: Vec<Vec<BigInt>> = (0..last).map(|k| (0..D).map(|axis| seen(k, axis)).collect()).collect();
     let lift = |k: usize| {
         let square: BigInt = rows[k].iter().map(|x| x * x).sum();
-        square - weight(&(&weights[k] - &weights[last]))
+        square - (&weights[k] - &weights[last])
     };
     let lifts = (0..last).map(lift).collect();
-    Rows { lifts, weight: weight(&weights[last]), scale: scale - finer, differences: rows }
+    Rows { lifts, weight: weights[last].clone(), scale: *scale, differences: rows }
+}
+
+/// The point with the same power to three sites, correctly rounded; a coordinate that no `f64` can hold is infinite. None for
+/// collinear points.
+pub(crate) fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2]> {
+    let coordinates = [b.0, c.0, a.0].concat();
+    let scaled = on_one_scale(&coordinates, &[b.1, c.1, a.1]);
+    let Rows { differences: rows, lifts, .. } = rows_of::<2>(&scaled);
+    let ([b, c], [bb, cc]) = ([&rows[0], &rows[1]], [&lifts[0], &lifts[1]]);
+    let denominator = (&b[0] * &c[1] - &b[1] * &c[0]) * 2;
+    if denominator == BigInt::ZERO {
+        return None;
+    }
+    let x = &scaled.numbers[4] * &denominator + (&c[1] * bb - &b[1] * cc);
+    let y = &scaled.numbers[5] * &denominator + (&b[0] * cc - &c[0] * bb);
+    Some([x, y].map(|numerator| big::quotient(&numerator, &denominator, scaled.scale)))
 }
 
 /// The sign of the determinant of the rows and their lifts.

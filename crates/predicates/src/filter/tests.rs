@@ -348,7 +348,10 @@ fn the_bounds_of_lines_cover_their_formulas() {
     let product = d.times(half.plus(half));
     let c = product.plus(product);
     assert!(c.error <= 5.0 * U * 2.0 * (1.0 + 8.0 * U), "{} u", c.error / U / 2.0);
-    let c = Bounded { max: 1.0, error: 5.0 * U * (1.0 + 8.0 * U) };
+    // With weights, of which a difference is added: six.
+    let weighted = c.plus(Bounded::difference(1.0));
+    assert!(weighted.error <= 6.0 * U * 3.0 * (1.0 + 8.0 * U), "{} u", weighted.error / U / 3.0);
+    let c = Bounded { max: 1.0, error: 6.0 * U * (1.0 + 8.0 * U) };
     let turn = d.times(d).plus(d.times(d));
     assert!(turn.error <= TURN_BOUND * 2.0 * (1.0 - 8.0 * U), "{} u", turn.error / U / 2.0);
     let mixed = d.times(c).plus(d.times(c));

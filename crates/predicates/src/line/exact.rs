@@ -1,4 +1,5 @@
-//! Meetings of lines: integers if the coordinates fit 61 bits on a common scale, big integers otherwise.
+//! Meetings of lines: integers if the coordinates fit 61 bits on a common scale and there are no weights, big integers
+//! otherwise.
 //!
 //! On the common scale a and b of a line take 63 bits, c 126; minors 191; the determinant 256 and a sign.
 
@@ -6,7 +7,7 @@ use num_bigint::BigInt;
 
 use super::Line;
 use crate::exact::wide::Wide;
-use crate::exact::{big, integers};
+use crate::exact::{big, integers, power};
 use crate::{Point2, Sign};
 
 /// The coefficients of a line whose numbers are on a common scale; `one` is a 1 of their kind.
@@ -20,7 +21,7 @@ macro_rules! coefficients {
                 let c = zero - (a.clone() * x + b.clone() * y);
                 [a, b, c]
             }
-            Line::Bisector(..) => {
+            Line::Bisector(..) | Line::Radical(..) => {
                 let (dx, dy) = (x.clone() - z.clone(), y.clone() - w.clone());
                 let c = zero - (dx.clone() * (x + z) + dy.clone() * (y + w));
                 [dx.clone() + dx, dy.clone() + dy, c]
@@ -34,6 +35,9 @@ macro_rules! coefficients {
 }
 
 fn small<const N: usize>(lines: [&Line; N]) -> Option<[[i128; 3]; N]> {
+    if lines.iter().any(|line| line.weights().is_some()) {
+        return None;
+    }
     let mut numbers = [[0.0; 4]; N];
     for (numbers, line) in numbers.iter_mut().zip(lines) {
         *numbers = line.numbers();
@@ -50,13 +54,16 @@ fn small<const N: usize>(lines: [&Line; N]) -> Option<[[i128; 3]; N]> {
 /// The coefficients, and the binary exponent of the scale.
 fn large<const N: usize>(lines: [&Line; N]) -> ([[BigInt; 3]; N], i32) {
     let numbers: Vec<f64> = lines.iter().flat_map(|line| line.numbers()).collect();
-    let (numbers, scale) = big::integers(&numbers);
-    let mut numbers = numbers.into_iter();
+    let weights: Vec<f64> = lines.iter().filter_map(|line| line.weights()).flatten().collect();
+    let scaled = power::on_one_scale(&numbers, &weights);
+    let (mut numbers, mut weights) = (scaled.numbers.into_iter(), scaled.weights.into_iter());
     let all = lines.map(|line| {
         let four = [(); 4].map(|()| numbers.next().unwrap_or_default());
-        coefficients!(line, four, BigInt::from(1))
+        let [a, b, c] = coefficients!(line, four, BigInt::from(1));
+        let difference = line.weights().and_then(|_| Some(weights.next()? - weights.next()?));
+        [a, b, c + difference.unwrap_or_default()]
     });
-    (all, scale)
+    (all, scaled.scale)
 }
 
 fn minor(e: &[Wide<2>; 3], f: &[Wide<2>; 3], i: usize, j: usize) -> Wide<4> {

@@ -150,7 +150,7 @@ impl Cut<'_> {
     /// is made nonetheless: so the corner is the centre of the triangles that neighbours have it from.
     fn is_vertex(&self, i: usize) -> bool {
         let lines = [self.ring[i].line, self.ring[self.before(i)].line, self.half];
-        lines.iter().all(|line| matches!(line, Line::Bisector(..)))
+        lines.iter().all(|line| matches!(line, Line::Bisector(..) | Line::Radical(..)))
     }
 }
 

@@ -76,6 +76,29 @@ pub(in crate::plane) fn centroid<R: Iterator<Item = [f64; 2]>>(
     Some([0, 1].map(|axis| centroid[axis].clamp(low[axis], high[axis])))
 }
 
+/// The integral of the squared distance from a point. Infinite or NaN beyond the range of `f64`.
+pub(in crate::plane) fn second_moment<R: Iterator<Item = [f64; 2]>>(
+    rings: impl Iterator<Item = R>,
+    about: [f64; 2],
+) -> f64 {
+    let mut sum = 0.0;
+    for mut ring in rings {
+        let from = |p: [f64; 2]| [p[0] - about[0], p[1] - about[1]];
+        let Some(first) = ring.next().map(from) else { continue };
+        let mut add = |p: [f64; 2], q: [f64; 2]| {
+            let square = |k: usize| p[k] * p[k] + p[k] * q[k] + q[k] * q[k];
+            sum += (p[0] * q[1] - p[1] * q[0]) * (square(0) + square(1));
+        };
+        let mut last = first;
+        for p in ring.map(from) {
+            add(last, p);
+            last = p;
+        }
+        add(last, first);
+    }
+    sum / 12.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::centroid;

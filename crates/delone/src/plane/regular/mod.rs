@@ -12,6 +12,7 @@
 mod build;
 mod change;
 mod check;
+mod power;
 mod settle;
 mod triangulation;
 
@@ -31,6 +32,7 @@ use crate::points::{Position2, check_count, check_finite, check_weights, finite}
 use crate::tally::{Counters, Work};
 use crate::under::Under;
 pub use check::RegularFlaw2;
+pub use power::{Jacobian2, Power2};
 
 /// The regular triangulation of sites with weights in the plane. See the [crate's words](crate#names) for what it has in common with
 /// [`crate::Delaunay2`].

@@ -10,11 +10,13 @@ use super::Voronoi2;
 use crate::plane::region::clip::{self, clip};
 use crate::plane::region::tree::Relation;
 use crate::plane::region::{Region2, enlarged, measure};
-use delone_predicates::{Line, circumcentre};
+use delone_predicates::{Line, circumcentre, power_centre};
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::Ground;
 use crate::mesh::triangles::{HalfEdge, Star};
+use crate::plane::layer::Layer;
+use crate::plane::layer::kernel::{Kernel, NearestSites, Power, Site};
 use crate::points::Bounds;
 use crate::prefetch::prefetch;
 
@@ -49,21 +51,73 @@ impl Voronoi2<'_> {
     }
 
     /// Clips all cells to a region, and tells now and then how many are done.
-    pub fn clip_with(self, region: &Region2, mut progress: impl FnMut(usize)) -> Cells2 {
+    pub fn clip_with(self, region: &Region2, progress: impl FnMut(usize)) -> Cells2 {
         let triangulation = self.triangulation;
-        let (layer, mesh) = (&triangulation.base, triangulation.mesh());
-        let mut cells = Cells2 {
-            sites: vec![(0, 0); triangulation.points().len()],
+        Cells2::of(&triangulation.base, triangulation.points().len(), region, progress)
+    }
+
+    /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
+    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
+        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
+        rounded(&cut_out(&self.triangulation.base, region, place), region).collect()
+    }
+}
+
+/// A kernel whose triangulations are dual to cells.
+pub(in crate::plane) trait Cellular: Kernel {
+    /// The border of the first site's cell towards the second: positive in the cell.
+    fn border(a: Site<Self>, b: Site<Self>) -> Line;
+
+    /// The corner of the cells of three sites.
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]>;
+}
+
+impl Cellular for NearestSites {
+    #[inline]
+    fn border(a: Site<Self>, b: Site<Self>) -> Line {
+        Line::Bisector(a.0, b.0)
+    }
+
+    #[inline]
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        circumcentre(a.0, b.0, c.0)
+    }
+}
+
+impl Cellular for Power {
+    fn border(a: Site<Self>, b: Site<Self>) -> Line {
+        Line::Radical(a, b)
+    }
+
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        power_centre(a, b, c)
+    }
+}
+
+impl Cells2 {
+    /// The cells of all vertices of a layer, clipped; `ids` were given.
+    pub(in crate::plane) fn of<K: Cellular>(
+        layer: &Layer<K>,
+        ids: usize,
+        region: &Region2,
+        mut progress: impl FnMut(usize),
+    ) -> Self {
+        let mesh = &layer.mesh;
+        let mut cells = Self {
+            sites: vec![(0, 0); ids],
             starts: Vec::with_capacity(mesh.vertex_count() + 1),
             corners: Vec::with_capacity(6 * mesh.vertex_count()),
-            vertices: self.centres(),
+            vertices: centres(layer),
         };
         cells.starts.push(0);
         let mut done = 0;
         let mut add = |cells: &mut Cells2, place: Place, e: EdgeId| {
             let first = cells.starts.len() - 1;
-            if !cells.push_whole(mesh.star_from(e), region) {
-                for ring in rounded(&self.cut_out(region, place), region) {
+            // With weights neither the site nor what it has corners with need be near its cell.
+            let around = || mesh.star_from(e).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()).chain([place]);
+            let reach = K::HIDES.then(|| Bounds::of(around().map(|p| layer.point(p))));
+            if !cells.push_whole(mesh.star_from(e), reach, region) {
+                for ring in rounded(&cut_out(layer, region, place), region) {
                     cells.push(&ring);
                 }
             }
@@ -85,7 +139,8 @@ impl Voronoi2<'_> {
             for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
                 prefetch(&mesh.edges, record.twin.index());
             }
-            for record in mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3) {
+            let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+            for record in next.filter(|record| record.twin != EdgeId::NONE) {
                 prefetch(&cells.vertices, record.twin.triangle().index());
                 for beyond in [record.twin.next(), record.twin.previous()] {
                     if let Some(record) = mesh.edges.get(beyond.index()) {
@@ -105,50 +160,48 @@ impl Voronoi2<'_> {
         }
         cells
     }
+}
 
-    /// The circumcentres of all triangles, by index; infinite where there is none.
-    fn centres(self) -> Vec<[f64; 2]> {
-        let layer = &self.triangulation.base;
-        let triangles = layer.mesh.edges.chunks_exact(4);
-        let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
-        let centre = |(corners, ahead): (&[HalfEdge], Option<&[HalfEdge]>)| {
-            // Corners lie wherever they lay in the input.
-            for corner in ahead.into_iter().flatten() {
-                prefetch(&layer.points, corner.origin.index());
-            }
-            let [a, b, c] = [0, 1, 2].map(|k| layer.points.get(corners[k].origin.index()).copied());
-            a.zip(b).zip(c).and_then(|((a, b), c)| circumcentre(a, b, c)).unwrap_or([f64::INFINITY; 2])
-        };
-        triangles.zip(ahead).map(centre).collect()
-    }
-
-    /// The cell of one vertex, clipped to a region, as rings. Empty for an id that is no vertex.
-    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
-        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
-        rounded(&self.cut_out(region, place), region).collect()
-    }
-
-    /// A cell cut out of the region by its bisectors.
-    fn cut_out(self, region: &Region2, place: Place) -> Vec<clip::Ring> {
-        let (layer, mesh) = (&self.triangulation.base, self.triangulation.mesh());
-        let site = layer.point(place);
-        let cut = |mut rings: Vec<clip::Ring>| {
-            for w in mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()) {
-                if rings.is_empty() {
-                    break;
-                }
-                rings = clip(rings, Line::Bisector(site, layer.point(w)));
-            }
-            rings
-        };
-        let framed = cut(vec![region.frame()]);
-        if framed.is_empty() {
-            return framed;
+/// The centres of all triangles, by index; infinite where there is none.
+pub(in crate::plane) fn centres<K: Cellular>(layer: &Layer<K>) -> Vec<[f64; 2]> {
+    let triangles = layer.mesh.edges.chunks_exact(4);
+    let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
+    let centre = |(corners, ahead): (&[HalfEdge], Option<&[HalfEdge]>)| {
+        // Corners lie wherever they lay in the input.
+        for corner in ahead.into_iter().flatten() {
+            prefetch(&layer.points, corner.origin.index());
         }
-        match region.around(&framed) {
-            None => framed,
-            Some(part) => cut(part),
+        let site = |p: Place| (p.index() < layer.points.len()).then(|| layer.site(p));
+        let [a, b, c] = [0, 1, 2].map(|k| site(corners[k].origin));
+        a.zip(b).zip(c).and_then(|((a, b), c)| K::centre(a, b, c)).unwrap_or([f64::INFINITY; 2])
+    };
+    triangles.zip(ahead).map(centre).collect()
+}
+
+/// A cell cut out of the region by its borders.
+pub(in crate::plane) fn cut_out<K: Cellular>(
+    layer: &Layer<K>,
+    region: &Region2,
+    place: Place,
+) -> Vec<clip::Ring> {
+    let mesh = &layer.mesh;
+    let site = layer.site(place);
+    let cut = |mut rings: Vec<clip::Ring>| {
+        for w in mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost()) {
+            if rings.is_empty() {
+                break;
+            }
+            rings = clip(rings, K::border(site, layer.site(w)));
         }
+        rings
+    };
+    let framed = cut(vec![region.frame()]);
+    if framed.is_empty() {
+        return framed;
+    }
+    match region.around(&framed) {
+        None => framed,
+        Some(part) => cut(part),
     }
 }
 
@@ -169,7 +222,7 @@ fn rounded<'a>(rings: &'a [clip::Ring], region: &'a Region2) -> impl Iterator<It
 impl Cells2 {
     /// Adds a cell that is surely inside of the region. Says whether that is all: nothing is added of a cell surely outside.
     #[inline]
-    fn push_whole(&mut self, star: Star, region: &Region2) -> bool {
+    fn push_whole(&mut self, star: Star, reach: Option<Bounds<2>>, region: &Region2) -> bool {
         let start = self.corners.len();
         let mut bounds = Bounds::default();
         let mut last = [f64::NAN; 2];
@@ -181,10 +234,11 @@ impl Cells2 {
             }
             last = corner;
         }
-        // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, so
-        // no radius is larger than both extents together.
+        // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, or
+        // in what is said to be in reach, so no corner is further from it than both extents together.
         let Bounds { low, high } = bounds;
-        let extents = (high[0] - low[0]) + (high[1] - low[1]);
+        reach.into_iter().flat_map(|reach| [reach.low, reach.high]).for_each(|p| bounds.include(p));
+        let extents = bounds.extent().iter().sum::<f64>();
         let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
         if relation.is_none_or(|relation| relation != Relation::Inside) {
             self.corners.truncate(start);
@@ -232,6 +286,12 @@ impl Cells2 {
     /// The length of the border of a cell, holes included, in coordinate units.
     pub fn perimeter(&self, site: VertexId) -> f64 {
         self.rings(site).flat_map(Ring::sides).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum()
+    }
+
+    /// The integral over a cell of the squared distance from a point: with the site, what it costs to carry the cell there. O(k)
+    /// for k corners. Not finite beyond the range of `f64`.
+    pub fn second_moment(&self, site: VertexId, about: [f64; 2]) -> f64 {
+        measure::second_moment(self.rings(site).map(Ring::points), about)
     }
 
     /// The centre of mass of a cell. `None` if it is empty, or so small that its rounded corners have no area.

@@ -8,7 +8,7 @@
 //!
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.
 
-mod cells;
+pub(in crate::plane) mod cells;
 mod relax;
 
 pub use cells::{Cells2, Ring};

@@ -74,14 +74,21 @@ impl Regular3 {
     /// [`Error::TooManyTetrahedra`].
     pub fn from_sites<P: Position3>(sites: &[(P, f64)]) -> Result<Self, Error> {
         let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|(p, w)| (p.xyz(), *w)).unzip();
-        Self::with_seed(&points, &weights, 0)
+        Self::from_parts(&points, &weights)
     }
 
-    /// The same for points and weights apart, with a random order of insertion that the seed decides and that does not show in the
-    /// tetrahedra.
+    /// The same for points and weights apart.
     ///
     /// # Errors
     /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
+    pub fn from_parts<P: Position3>(points: &[P], weights: &[f64]) -> Result<Self, Error> {
+        Self::with_seed(points, weights, 0)
+    }
+
+    /// The same with a random order of insertion that the seed decides and that does not show in the tetrahedra.
+    ///
+    /// # Errors
+    /// As [`Self::from_parts`].
     pub fn with_seed<P: Position3>(points: &[P], weights: &[f64], seed: u64) -> Result<Self, Error> {
         if points.len() != weights.len() {
             return Err(Error::Length { expected: points.len(), found: weights.len() });
