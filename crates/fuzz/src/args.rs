@@ -55,6 +55,8 @@ pub(crate) enum Mode {
     Cells,
     /// Segments between points: building, crossings, changes.
     Graphs,
+    /// Points with weights: building, hidden sites, changes.
+    Weights,
     /// Alpha complexes and their shapes, with weights.
     Alphas,
     /// Hulls, furthest and nearest sites, the smallest circle.
@@ -103,15 +105,17 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 17] = [
+    pub(crate) const REAL: [Self; 19] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
         Self::Motion,
         Self::Cells,
         Self::Graphs,
+        Self::Weights,
         Self::Alphas,
         Self::Hulls,
+        Self::Proximity,
         Self::Predicates,
         Self::Mixtures,
         Self::ReadText,

@@ -18,28 +18,12 @@ pub(crate) struct Planar;
 /// In space.
 pub(crate) struct Spatial;
 
-/// Hostile points with equal, hostile, or tying weights.
-fn sites<const D: usize>(random: &mut Random, points: Vec<[f64; D]>) -> Vec<Site<D>> {
-    let kind = random.below(4);
-    let largest = points.iter().flatten().fold(0.0, |largest, x| f64::max(largest, x.abs()));
-    let weight = |p: [f64; D]| match kind {
-        0 => 0.0,
-        1 => nasty::integer(random, 2),
-        2 => p.iter().map(|x| x * x).sum(),
-        _ if once_in(random, 3) => nasty::any_bits(random),
-        _ => (random.unit() - 0.5) * largest * largest,
-    };
-    let finite = |w: f64| if w.is_finite() { w } else { 0.0 };
-    let weights: Vec<f64> = points.iter().copied().map(weight).map(finite).collect();
-    points.into_iter().zip(weights).collect()
-}
-
 impl Attack for Planar {
     type Item = Site<2>;
 
     fn make(random: &mut Random) -> Vec<Site<2>> {
         let points = nasty::points(random, 14);
-        sites(random, points)
+        nasty::weighted(random, points)
     }
 
     fn judge(sites: &[Site<2>], seed: u64) -> Judgement {
@@ -79,7 +63,7 @@ impl Attack for Spatial {
 
     fn make(random: &mut Random) -> Vec<Site<3>> {
         let points = nasty::points(random, 9);
-        sites(random, points)
+        nasty::weighted(random, points)
     }
 
     fn judge(sites: &[Site<3>], seed: u64) -> Judgement {

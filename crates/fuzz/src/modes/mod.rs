@@ -17,3 +17,4 @@ pub(crate) mod proximity;
 pub(crate) mod queries;
 pub(crate) mod space;
 pub(crate) mod spheres;
+pub(crate) mod weights;
