@@ -12,8 +12,8 @@ use crate::pool::{FEW, detached};
 use crate::triangulation::{Rows, State, coordinates};
 
 enum Core {
-    Plane(State<Regular2>),
-    Space(State<Regular3>),
+    Plane(Box<State<Regular2>>),
+    Space(Box<State<Regular3>>),
 }
 
 /// See `_delone.pyi`.
@@ -56,12 +56,12 @@ impl Regular {
             2 => {
                 let points: Vec<[f64; 2]> = coordinates(&points)?;
                 let built = interruptible(py, count, move || Regular2::from_parts(&points, &weights))?;
-                Core::Plane(State::of(built.map_err(python_error)?))
+                Core::Plane(Box::new(State::of(built.map_err(python_error)?)))
             }
             3 => {
                 let points: Vec<[f64; 3]> = coordinates(&points)?;
                 let built = interruptible(py, count, move || Regular3::from_parts(&points, &weights))?;
-                Core::Space(State::of(built.map_err(python_error)?))
+                Core::Space(Box::new(State::of(built.map_err(python_error)?)))
             }
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
         };
