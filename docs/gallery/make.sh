@@ -25,6 +25,7 @@ $delone voronoi "$work/sixty.csv" --order 3 --box 0,0,1,1 -o $here/order.png --s
 
 $delone generate clusters -n 3000 --seed 1 -o "$work/clusters.csv"
 $delone voronoi "$work/clusters.csv" -o $here/clusters.png --size 640
+$delone alpha data/autzen_trim.laz --class ground --radius 12 -o $here/alpha.png --size 640
 
 $delone voronoi data/autzen_trim.laz --class 2 -o $here/ground.png --size 960
 $delone draw data/autzen_trim.laz --class 2 -o $here/terrain.png --size 960

@@ -4,6 +4,7 @@
 //! Everything long runs without Python's lock, on all cores (`pool.rs`). A simplex is known to Python by its row; rows count the
 //! finite simplices by increasing id, and are made anew after a change.
 
+mod alpha;
 mod constrained;
 mod errors;
 mod graphs;
@@ -13,6 +14,7 @@ mod interrupt;
 mod memory;
 mod polygons;
 mod pool;
+mod regular;
 mod triangulation;
 mod voronoi;
 
@@ -22,8 +24,10 @@ use pyo3::prelude::*;
 #[pyo3(name = "_delone")]
 fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<triangulation::Triangulation>()?;
+    m.add_class::<alpha::Alpha>()?;
     m.add_class::<hints::Hints>()?;
     m.add_class::<constrained::Constrained>()?;
+    m.add_class::<regular::Regular>()?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(graphs::proximity_graph, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;

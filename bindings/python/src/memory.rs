@@ -11,6 +11,7 @@ pub struct Need([usize; 2]);
 
 pub const TRIANGULATION: Need = Need([160, 430]);
 pub const HINTS: Need = Need([240, 540]);
+pub const ALPHA: Need = Need([900, 3300]);
 pub const HULL: Need = Need([50, 100]);
 
 impl Need {

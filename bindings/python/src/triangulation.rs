@@ -5,7 +5,9 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use delone::{Ask, Change, Coordinates, Corners, Delaunay2, Delaunay3, Error, VertexId};
+use delone::{
+    Ask, Change, Coordinates, Corners, Delaunay2, Delaunay3, Error, Triangulation as Triangular, VertexId,
+};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -160,7 +162,7 @@ impl Triangulation {
     }
 }
 
-impl<T: Ask> State<T> {
+impl<T: Triangular> State<T> {
     /// Corners of a simplex.
     const WIDTH: usize = T::Point::COUNT + 1;
 
@@ -185,38 +187,6 @@ impl<T: Ask> State<T> {
     /// The row of a simplex; -1 for none.
     pub fn row(&self, rows: &[i32], simplex: Option<T::Simplex>) -> i32 {
         simplex.map_or(-1, |simplex| rows[self.triangulation.index(simplex)])
-    }
-
-    /// The answers to queries, in their order. The first error that any query has.
-    pub fn answers<A: Send>(
-        &self,
-        py: Python<'_>,
-        queries: &[T::Point],
-        answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
-    ) -> PyResult<Vec<A>> {
-        let is_first = !self.is_asked.load(Ordering::Acquire);
-        if is_first {
-            let here = generation() + 1;
-            let asking = self.first_asked_by.compare_exchange(0, here, Ordering::AcqRel, Ordering::Acquire);
-            // Others wait for the one who makes what finds answers. A child waits for ever if that was a thread of its parent.
-            if asking.is_err_and(|other| other != here) {
-                let message =
-                    "forked while another thread asked this triangulation for the first time; ask its copy()";
-                return Err(PyRuntimeError::new_err(message));
-            }
-        }
-        let is_many = queries.len() >= 2 * QUERIES;
-        // The first question makes what finds answers, which is worth threads, and others may have to make it better.
-        let few = if is_first { FEW } else { MANY };
-        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, || {
-            if is_many {
-                queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
-            } else {
-                queries.iter().map(|&q| answer(q)).collect::<Result<Vec<A>, Error>>()
-            }
-        })?;
-        self.is_asked.fetch_or(!queries.is_empty(), Ordering::Release);
-        found.map_err(python_error)
     }
 
     /// Forgets what is not so any more after a change, and says whether changes by so many points are worth threads.
@@ -270,6 +240,40 @@ impl<T: Ask> State<T> {
 
     pub fn is_vertex(&self, v: VertexId) -> bool {
         self.triangulation.position(v).is_some()
+    }
+}
+
+impl<T: Ask> State<T> {
+    /// The answers to queries, in their order. The first error that any query has.
+    pub fn answers<A: Send>(
+        &self,
+        py: Python<'_>,
+        queries: &[T::Point],
+        answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
+    ) -> PyResult<Vec<A>> {
+        let is_first = !self.is_asked.load(Ordering::Acquire);
+        if is_first {
+            let here = generation() + 1;
+            let asking = self.first_asked_by.compare_exchange(0, here, Ordering::AcqRel, Ordering::Acquire);
+            // Others wait for the one who makes what finds answers. A child waits for ever if that was a thread of its parent.
+            if asking.is_err_and(|other| other != here) {
+                let message =
+                    "forked while another thread asked this triangulation for the first time; ask its copy()";
+                return Err(PyRuntimeError::new_err(message));
+            }
+        }
+        let is_many = queries.len() >= 2 * QUERIES;
+        // The first question makes what finds answers, which is worth threads, and others may have to make it better.
+        let few = if is_first { FEW } else { MANY };
+        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, || {
+            if is_many {
+                queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
+            } else {
+                queries.iter().map(|&q| answer(q)).collect::<Result<Vec<A>, Error>>()
+            }
+        })?;
+        self.is_asked.fetch_or(!queries.is_empty(), Ordering::Release);
+        found.map_err(python_error)
     }
 
     fn find<'py>(&self, py: Python<'py>, queries: Vec<T::Point>) -> PyResult<Bound<'py, PyArray1<i32>>> {

@@ -1,6 +1,7 @@
 //! The `delone` program: one file a command.
 
 mod about;
+mod alpha;
 mod animate;
 mod args;
 mod check;
@@ -70,6 +71,7 @@ fn main() -> ExitCode {
         Command::Reduce(args) => reduce::run(&args, quiet),
         Command::Locate(args) => in_room!(locate, args, quiet),
         Command::Nearest(args) => in_room!(nearest, args, quiet),
+        Command::Alpha(args) => alpha::run(&args, quiet),
         Command::Graph(args) => in_room!(graph, args, quiet),
         Command::Hull(args) => hull::run(&args, quiet),
         Command::Furthest(args) => furthest::run(&args, quiet),

@@ -38,7 +38,10 @@
 //! | who is near whom: Gabriel graph, relative neighbours, spanning tree, skeletons, k nearest | [`Delaunay2::graph`] | [`Delaunay3::graph`] | see [`Graph`] |
 //! | cells of sites | [`Delaunay2::voronoi`], [`Cells2`] in a [`Region2`] | | O(n) |
 //! | where which k sites are the nearest | [`Delaunay2::order`], [`OrderCells2`] | | O(k^2 n) on evenly spread sites |
+//! | alpha complexes: shapes of points, with weights too, and filtrations | [`Delaunay2::alpha`], [`Regular2::alpha`], [`Alpha2`] | [`Delaunay3::alpha`], [`Regular3::alpha`], [`Alpha3`] | O(k log k) for k faces |
 //! | sites evenly spread | [`Relaxation2`] | | O(n log n) a step |
+//! | points with weights (squared radii), hidden or not | [`Regular2`] | [`Regular3`] | O(n log n), in space where the result is linear |
+//! | cells of points with weights, and how their areas change | [`Power2`], [`Jacobian2`] | | O(n) |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
@@ -68,6 +71,7 @@
 #[doc = include_str!("../../../README.md")]
 struct Readme;
 
+mod alpha;
 mod duplicates;
 mod error;
 mod graphs;
@@ -89,6 +93,7 @@ mod verdict;
 mod vertex_map;
 mod weight;
 
+pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, OutlinePart};
 pub use error::{Error, RegionProblem};
 pub use graphs::Graph;
 pub use hull::{Hull2, Hull3, HullHistory3};

@@ -42,6 +42,16 @@ pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnc
     (a(), b())
 }
 
+/// Sorts items of which equal ones are the same.
+pub(crate) fn sort<T: Ord + Send>(items: &mut [T]) {
+    #[cfg(feature = "rayon")]
+    if parts(items.len()) > 1 {
+        use rayon::prelude::*;
+        return items.par_sort_unstable();
+    }
+    items.sort_unstable();
+}
+
 /// As many copies of a value.
 pub(crate) fn filled<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
     collect(count, |_| value)

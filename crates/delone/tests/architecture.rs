@@ -15,11 +15,12 @@ const FLOORS: &[&[&str]] = &[
     &["mesh"],
     &["locate", "hull"],
     &["triangulation", "graphs"],
+    &["alpha"],
     &["plane", "space"],
 ];
 
 /// Rooms that decide by the predicates.
-const DECIDE: [&str; 4] = ["graphs", "hull", "plane", "space"];
+const DECIDE: [&str; 5] = ["graphs", "hull", "alpha", "plane", "space"];
 
 /// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

@@ -55,6 +55,10 @@ pub(crate) enum Mode {
     Cells,
     /// Segments between points: building, crossings, changes.
     Graphs,
+    /// Points with weights: building, hidden sites, changes.
+    Weights,
+    /// Alpha complexes and their shapes, with weights.
+    Alphas,
     /// Hulls, furthest and nearest sites, the smallest circle.
     Hulls,
     /// Gabriel graphs, relative neighbours, spanning trees, skeletons, k nearest.
@@ -101,14 +105,17 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 16] = [
+    pub(crate) const REAL: [Self; 19] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
         Self::Motion,
         Self::Cells,
         Self::Graphs,
+        Self::Weights,
+        Self::Alphas,
         Self::Hulls,
+        Self::Proximity,
         Self::Predicates,
         Self::Mixtures,
         Self::ReadText,

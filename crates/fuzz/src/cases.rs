@@ -7,8 +7,8 @@ use delone_generators::Random;
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
-    broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, plane, predicates, proximity,
-    space,
+    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, plane, predicates,
+    proximity, space, weights,
 };
 
 /// An input of some attack.
@@ -71,8 +71,12 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Cells, _) => made::<cells::Cells>(seed),
         (Mode::Graphs, 0) => made::<graphs::Graphs>(seed),
         (Mode::Graphs, _) => made::<graph_lives::GraphLives>(seed),
+        (Mode::Alphas, 0) => made::<alphas::Planar>(seed),
+        (Mode::Alphas, _) => made::<alphas::Spatial>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
+        (Mode::Weights, 0) => made::<weights::Planar>(seed),
+        (Mode::Weights, _) => made::<weights::Spatial>(seed),
         (Mode::Proximity, 0) => made::<proximity::Planar>(seed),
         (Mode::Proximity, _) => made::<proximity::Spatial>(seed),
         (Mode::Predicates, _) => made::<predicates::Predicates>(seed),

@@ -258,6 +258,22 @@ pub(crate) fn query<const D: usize>(random: &mut Random, points: &[[f64; D]]) ->
     }
 }
 
+/// Hostile points with equal, hostile, or tying weights.
+pub(crate) fn weighted<const D: usize>(random: &mut Random, points: Vec<[f64; D]>) -> Vec<([f64; D], f64)> {
+    let kind = random.below(4);
+    let largest = points.iter().flatten().fold(0.0, |largest, x| f64::max(largest, x.abs()));
+    let weight = |p: [f64; D]| match kind {
+        0 => 0.0,
+        1 => integer(random, 2),
+        2 => p.iter().map(|x| x * x).sum(),
+        _ if once_in(random, 3) => any_bits(random),
+        _ => (random.unit() - 0.5) * largest * largest,
+    };
+    let finite = |w: f64| if w.is_finite() { w } else { 0.0 };
+    let weights: Vec<f64> = points.iter().copied().map(weight).map(finite).collect();
+    points.into_iter().zip(weights).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::{FAMILIES, family, points, query};

@@ -50,6 +50,9 @@ pub enum Error {
     /// The format holds no graphs.
     #[error("graphs are not written to {0} files")]
     NotAGraph(Format),
+    /// The format holds no faces of all dimensions with values.
+    #[error("filtrations are written as npz or csv, not to {0} files")]
+    NotAFiltration(Format),
     /// No format has this extension.
     #[error("{0}: no format has this extension")]
     UnknownExtension(String),
@@ -102,6 +105,7 @@ impl Error {
             }
             Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
             Self::NotNumbers(_) => "numbers are read from: csv txt npy",
+            Self::NotAFiltration(_) => "choose npz or csv",
             Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {

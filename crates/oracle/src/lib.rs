@@ -9,11 +9,13 @@
 //! - [`lines`]: where lines meet, as fractions;
 //! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
 //! - [`crossings`]: which segments cross, where, and what is left once they are split;
+//! - [`alpha`]: alpha complexes of few sites, with sizes as fractions;
 //! - [`graphs`]: proximity graphs, by trying all pairs against all points;
 //! - [`orders`]: Voronoi diagrams of order k, by trying all triples;
 //! - [`power`]: regular triangulations of few sites with weights;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
+pub mod alpha;
 pub mod brute;
 pub mod certificate;
 pub mod constrained;

@@ -20,7 +20,7 @@ pub struct Lifted {
     ranks: Vec<usize>,
 }
 
-fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
+pub(crate) fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
     match rows {
         [] => BigInt::from(1),
         [row] => row[0].clone(),
@@ -41,8 +41,8 @@ fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
     }
 }
 
-/// Points on one scale, and weights on its square.
-fn on_one_scale<const D: usize>(sites: &[Site<D>]) -> (Vec<[BigInt; D]>, Vec<BigInt>) {
+/// Points on one scale, weights on its square, and the binary exponent of the scale.
+pub(crate) fn on_one_scale<const D: usize>(sites: &[Site<D>]) -> (Vec<[BigInt; D]>, Vec<BigInt>, i64) {
     let points: Vec<[f64; D]> = sites.iter().map(|site| site.0).collect();
     let weights: Vec<[f64; 1]> = sites.iter().map(|site| [site.1]).collect();
     // Exponents of what is one, for both.
@@ -50,12 +50,13 @@ fn on_one_scale<const D: usize>(sites: &[Site<D>]) -> (Vec<[BigInt; D]>, Vec<Big
     let finer = (of_points - of_weights.div_euclid(2)).max(0);
     let coarser = of_weights - 2 * (of_points - finer);
     let points = integers(&points).into_iter().map(|p| p.map(|x| x << finer)).collect();
-    (points, integers(&weights).into_iter().map(|[w]| w << coarser).collect())
+    let weights = integers(&weights).into_iter().map(|[w]| w << coarser).collect();
+    (points, weights, of_points - finer)
 }
 
 /// The order of |q - p|^2 - w for two sites.
 pub fn compare<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>) -> Ordering {
-    let (points, weights) = on_one_scale(&[(q, 0.0), a, b]);
+    let (points, weights, _) = on_one_scale(&[(q, 0.0), a, b]);
     let power = |k: usize| {
         let squares = (0..D).map(|axis| (&points[k][axis] - &points[0][axis]).pow(2));
         squares.sum::<BigInt>() - &weights[k]
@@ -66,7 +67,7 @@ pub fn compare<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>) -> Ordering 
 impl Lifted {
     /// Lifts sites.
     pub fn new<const D: usize>(sites: &[Site<D>]) -> Self {
-        let (points, weights) = on_one_scale(sites);
+        let (points, weights, _) = on_one_scale(sites);
         let mut order: Vec<usize> = (0..sites.len()).collect();
         order.sort_by(|&i, &j| points[i].cmp(&points[j]));
         let mut ranks = vec![0; sites.len()];

@@ -74,7 +74,7 @@ fn circle_terms([[ax, ay], [bx, by], [cx, cy]]: [Point2; 3], [la, lb, lc]: [f64;
 
 /// The sign of a value known up to `bound`, unless the bound covers zero (or anything is NaN).
 #[inline]
-fn outside_of(value: f64, bound: f64) -> Option<Sign> {
+pub(crate) fn outside_of(value: f64, bound: f64) -> Option<Sign> {
     if value > bound {
         Some(Sign::Positive)
     } else if value < -bound {

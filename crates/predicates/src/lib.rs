@@ -42,6 +42,7 @@ mod line;
 mod lune;
 mod orient;
 mod orient3d;
+mod orthosphere;
 mod pencil;
 mod perturb;
 mod plane;
@@ -69,6 +70,9 @@ pub use line::{Line, Spot};
 pub use lune::{Lune, LunePlace, in_diametral_ball};
 pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d};
+pub use orthosphere::{
+    RadiusScale, edge_is_attached, squared_radius, triangle_is_attached, vertex_is_attached,
+};
 pub use pencil::{Member, Pencil};
 pub use plane::Plane;
 pub use power::{

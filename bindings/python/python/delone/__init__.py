@@ -7,14 +7,17 @@ tri.simplices, tri.neighbors, tri.find_simplex(queries)
 tri.add_points(more)
 tri.remove([17, 4])
 
+delone.AlphaComplex(points).outline(alpha)
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
 delone.euclidean_minimum_spanning_tree(points)
+delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
 
 import os
 
 from . import _delone
+from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
 from ._errors import CrossingError
@@ -30,6 +33,7 @@ from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
+from ._regular import PowerDiagram, RegularTriangulation
 from ._voronoi import Voronoi
 
 # Threads do not survive a fork.
@@ -38,6 +42,7 @@ if hasattr(os, "register_at_fork"):
 
 __version__ = "0.1.0"
 __all__ = [
+    "AlphaComplex",
     "ConstrainedDelaunay",
     "ConvexHull",
     "CrossingError",
@@ -45,7 +50,9 @@ __all__ = [
     "Hints",
     "LinearInterpolator",
     "PolygonTriangles",
+    "PowerDiagram",
     "RaggedTriangles",
+    "RegularTriangulation",
     "Voronoi",
     "beta_skeleton",
     "euclidean_minimum_spanning_tree",

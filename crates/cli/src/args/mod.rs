@@ -1,6 +1,7 @@
 //! What can be said on the command line: the commands and what they have in common; what is each one's own has files of
 //! its own.
 
+mod alpha;
 mod ask;
 mod graph;
 mod points;
@@ -17,6 +18,7 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use delone_io::{Format, LAS_CLASSES};
 
+pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
@@ -59,6 +61,8 @@ pub(crate) enum Command {
     Graph(ProximityArgs),
     /// Find the vertex furthest from each of many points.
     Furthest(FurthestArgs),
+    /// Alpha shapes of points, with weights or without, and filtrations.
+    Alpha(AlphaArgs),
     /// Voronoi cells, clipped, as polygons or as a picture.
     Voronoi(VoronoiArgs),
     /// Insert, remove, move and ask, as a text file says, one operation a line.

@@ -1,5 +1,6 @@
 //! Delaunay triangulations of the plane, and what is made of them.
 
+mod alpha;
 mod change;
 pub mod check;
 mod constrained;

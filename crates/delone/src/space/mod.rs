@@ -1,5 +1,6 @@
 //! Delaunay triangulations of space: the rooms of the plane, with the same names.
 
+mod alpha;
 mod change;
 pub mod check;
 mod construct;

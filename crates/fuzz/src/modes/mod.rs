@@ -1,5 +1,6 @@
 //! The attacks, a file each.
 
+pub(crate) mod alphas;
 pub(crate) mod broken;
 pub(crate) mod builds;
 pub(crate) mod cells;
@@ -16,3 +17,4 @@ pub(crate) mod proximity;
 pub(crate) mod queries;
 pub(crate) mod space;
 pub(crate) mod spheres;
+pub(crate) mod weights;

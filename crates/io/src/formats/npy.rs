@@ -7,6 +7,7 @@ use crate::{Cloud, Error, Source};
 
 mod archive;
 mod header;
+mod stored;
 
 use header::Header;
 
@@ -240,6 +241,31 @@ pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64])
 
 pub(crate) fn write_index_list(out: &mut dyn Write, values: &[i64]) -> io::Result<()> {
     write_numbers(out, "i8", &[values.len()], values.iter().map(|value| value.to_le_bytes()))
+}
+
+/// What an archive holds.
+pub(crate) enum Array<'a> {
+    /// float64 of one dimension.
+    Numbers(&'a [f64]),
+    /// int64 in rows of so many columns.
+    Indices(usize, &'a [i64]),
+}
+
+/// Writes named arrays, each made in memory before.
+pub(crate) fn write_archive(out: &mut dyn Write, arrays: &[(&str, Array<'_>)]) -> io::Result<()> {
+    let mut archive = stored::Archive::new(out);
+    for (name, array) in arrays {
+        let mut content = Vec::new();
+        match array {
+            Array::Numbers(values) => {
+                let numbers = values.iter().map(|x| x.to_le_bytes());
+                write_numbers(&mut content, "f8", &[values.len()], numbers)?;
+            }
+            Array::Indices(columns, values) => write_indices(&mut content, *columns, values)?,
+        }
+        archive.add(&format!("{name}.npy"), &content)?;
+    }
+    archive.finish()
 }
 
 fn write_numbers(

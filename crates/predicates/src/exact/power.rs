@@ -43,7 +43,7 @@ fn align<const D: usize, const N: usize>(sites: &[Site<D>; N]) -> Option<([[i64;
 }
 
 /// The rows of a determinant: all sites but the last as seen from there, and their lifts.
-fn rows<const D: usize, const N: usize, const R: usize>(
+pub(crate) fn rows<const D: usize, const N: usize, const R: usize>(
     sites: &[Site<D>; N],
 ) -> Option<([[i64; D]; R], [i128; R])> {
     const { assert!(R + 1 == N) };
@@ -96,7 +96,7 @@ pub(crate) fn compare_powers<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>
     if let Some((_, [a, b])) = rows::<D, 3, 2>(&[a, b, (q, 0.0)]) {
         a.cmp(&b)
     } else {
-        let (_, lifts) = big_rows(&[a, b, (q, 0.0)]);
+        let Rows { lifts, .. } = big_rows(&[a, b, (q, 0.0)]);
         lifts[0].cmp(&lifts[1])
     }
 }
@@ -112,11 +112,11 @@ pub(crate) struct Scaled {
 /// The same for numbers of any size.
 pub(crate) fn on_one_scale(numbers: &[f64], weights: &[f64]) -> Scaled {
     let ((numbers, scale), (weights, weight_scale)) = (big::integers(numbers), big::integers(weights));
+    // Zeros alone have any scale.
+    let scale = if scale == i32::MAX { 0 } else { scale };
     if weights.iter().all(|w| *w == BigInt::ZERO) {
         return Scaled { numbers, weights, scale };
     }
-    // Zeros alone have any scale.
-    let scale = if scale == i32::MAX { weight_scale.div_euclid(2) } else { scale };
     let finer = (scale - weight_scale.div_euclid(2)).max(0);
     let coarser = (weight_scale - 2 * (scale - finer)).unsigned_abs();
     Scaled {
@@ -126,14 +126,24 @@ pub(crate) fn on_one_scale(numbers: &[f64], weights: &[f64]) -> Scaled {
     }
 }
 
+/// What [`rows`] gives, for numbers of any size.
+pub(crate) struct Rows {
+    pub(crate) differences: Vec<Vec<BigInt>>,
+    pub(crate) lifts: Vec<BigInt>,
+    /// The weight of the last site.
+    pub(crate) weight: BigInt,
+    /// The binary exponent of the scale of the rows; lifts and weights are on its square.
+    pub(crate) scale: i32,
+}
+
 /// [`rows`] for numbers of any size.
-fn big_rows<const D: usize>(sites: &[Site<D>]) -> (Vec<Vec<BigInt>>, Vec<BigInt>) {
+pub(crate) fn big_rows<const D: usize>(sites: &[Site<D>]) -> Rows {
     let coordinates: Vec<f64> = sites.iter().flat_map(|site| site.0).collect();
     let weights: Vec<f64> = sites.iter().map(|site| site.1).collect();
     rows_of::<D>(&on_one_scale(&coordinates, &weights))
 }
 
-fn rows_of<const D: usize>(Scaled { numbers, weights, .. }: &Scaled) -> (Vec<Vec<BigInt>>, Vec<BigInt>) {
+fn rows_of<const D: usize>(Scaled { numbers, weights, scale }: &Scaled) -> Rows {
     let last = weights.len() - 1;
     let seen = |k: usize, axis: usize| &numbers[D * k + axis] - &numbers[D * last + axis];
     let rows: Vec<Vec<BigInt>> = (0..last).map(|k| (0..D).map(|axis| seen(k, axis)).collect()).collect();
@@ -142,7 +152,7 @@ fn rows_of<const D: usize>(Scaled { numbers, weights, .. }: &Scaled) -> (Vec<Vec
         square - (&weights[k] - &weights[last])
     };
     let lifts = (0..last).map(lift).collect();
-    (rows, lifts)
+    Rows { lifts, weight: weights[last].clone(), scale: *scale, differences: rows }
 }
 
 /// The point with the same power to three sites, correctly rounded; a coordinate that no `f64` can hold is infinite. None for
@@ -150,7 +160,7 @@ fn rows_of<const D: usize>(Scaled { numbers, weights, .. }: &Scaled) -> (Vec<Vec
 pub(crate) fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2]> {
     let coordinates = [b.0, c.0, a.0].concat();
     let scaled = on_one_scale(&coordinates, &[b.1, c.1, a.1]);
-    let (rows, lifts) = rows_of::<2>(&scaled);
+    let Rows { differences: rows, lifts, .. } = rows_of::<2>(&scaled);
     let ([b, c], [bb, cc]) = ([&rows[0], &rows[1]], [&lifts[0], &lifts[1]]);
     let denominator = (&b[0] * &c[1] - &b[1] * &c[0]) * 2;
     if denominator == BigInt::ZERO {
@@ -164,14 +174,14 @@ pub(crate) fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2
 /// The sign of the determinant of the rows and their lifts.
 #[cold]
 fn big_determinant<const D: usize>(sites: &[Site<D>]) -> Sign {
-    let (mut rows, lifts) = big_rows(sites);
+    let Rows { differences: mut rows, lifts, .. } = big_rows(sites);
     rows.iter_mut().zip(lifts).for_each(|(row, lift)| row.push(lift));
     big::sign(&determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()))
 }
 
 #[cold]
 fn big_interval(axis: usize, sites: &[Site<2>]) -> Sign {
-    let (rows, lifts) = big_rows(sites);
+    let Rows { differences: rows, lifts, .. } = big_rows(sites);
     let [u, v] = [&rows[0][axis], &rows[1][axis]];
     big::sign(&(&lifts[0] * v - &lifts[1] * u)) * Sign::of(v, u)
 }

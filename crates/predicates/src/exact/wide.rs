@@ -68,6 +68,13 @@ impl<const N: usize> Wide<N> {
     }
 }
 
+impl Wide<4> {
+    pub(crate) fn sum_of_squares(numbers: [Wide<2>; 3]) -> Self {
+        let [x, y, z] = numbers.map(|x| x.times(x));
+        x.plus(y).plus(z)
+    }
+}
+
 impl From<i128> for Wide<2> {
     fn from(number: i128) -> Self {
         Self([number as u64, (number >> 64) as u64])

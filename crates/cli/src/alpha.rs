@@ -1,0 +1,235 @@
+//! `delone alpha`: shapes of points at a radius, and the radii at which all faces come.
+
+use std::path::{Path, PathBuf};
+
+use delone::{Alpha, Delaunay2, Delaunay3, VertexId};
+use delone_io::{
+    Cloud, Format, Graph, GraphRing, Patches, Solid, picture, write_filtration, write_graph, write_indices,
+    write_patches, write_solid,
+};
+
+use crate::args::AlphaArgs;
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+use crate::room::{self, Room};
+use crate::stats::Stats;
+use crate::weighted::Weighted;
+
+pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
+    let stats_path = args.input.stats.as_deref();
+    let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
+    let all = args.output.iter().chain(&args.filtration).map(PathBuf::as_path).chain(stats_path);
+    files::keep_apart(&inputs, all)?;
+    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    check(args, &outputs)?;
+    let mut stats = Stats::start();
+    if args.dim.is_space() {
+        let camera = args.camera.camera()?;
+        let options = picture::Options { size: args.camera.size, camera, ..picture::Options::default() };
+        let (alpha, _) = complexes(args, &mut stats, quiet, Delaunay3::alpha, delone::Regular3::alpha)?;
+        let value = value(args, &alpha, &mut stats)?;
+        let surface = value.map(|value| alpha.outline(value)).unwrap_or_default();
+        stats.set("facets", surface.len());
+        stats.phase("outline");
+        write_surface(&alpha, &surface, &outputs, &options, quiet)?;
+    } else {
+        let (alpha, about) = complexes(args, &mut stats, quiet, Delaunay2::alpha, delone::Regular2::alpha)?;
+        let value = value(args, &alpha, &mut stats)?;
+        write_outline(&alpha, value.unwrap_or(f64::NAN), about, &outputs, args.camera.size, quiet)?;
+    }
+    stats.phase("write");
+    let words = if args.dim.is_space() { Delaunay3::WORDS } else { Delaunay2::WORDS };
+    stats.tell(quiet, words.simplex);
+    stats.write(stats_path)
+}
+
+/// Refuses outputs that say nothing, or that formats cannot hold.
+fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
+    if outputs.is_empty() && args.filtration.is_none() {
+        return Err(Failure::usage("there is nothing to write", "name an output with -o or --filtration"));
+    }
+    let is_chosen = args.alpha.is_some() || args.radius.is_some() || args.optimal.is_some();
+    if !outputs.is_empty() && !is_chosen {
+        return Err(Failure::usage(
+            "the radius of the shape is not known",
+            "give --alpha, --radius or --optimal; without a shape leave -o out",
+        ));
+    }
+    if let Some(path) = &args.filtration {
+        let format = files::format(path, None, "the extension")?;
+        if !matches!(format, Format::Npz | Format::Text) {
+            return Err(Failure::file(path, &delone_io::Error::NotAFiltration(format)));
+        }
+    }
+    for (path, format) in outputs {
+        use Format::{GeoJson, Npy, Obj, Ply, Png, Poly, Stl, Svg, Text, Vtu, Wkt};
+        let holds = match format {
+            Npy | Text | Ply | Obj | Stl | Vtu | Svg | Png => true,
+            GeoJson | Wkt | Poly => !args.dim.is_space(),
+            _ => !args.dim.is_space() && Patches::check(*format).is_ok(),
+        };
+        if !holds {
+            let names = if args.dim.is_space() {
+                "npy csv ply obj stl vtu svg png"
+            } else {
+                "geojson wkt poly npy csv ply obj stl vtu wkb svg png"
+            };
+            return Err(Failure::usage(
+                format!("{}: no alpha shape is written as {format}", path.display()),
+                format!("choose among {names}"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The complexes of the points, with weights or without, written if that is asked for.
+fn complexes<R: Room, const D: usize>(
+    args: &AlphaArgs,
+    stats: &mut Stats,
+    quiet: bool,
+    plain: impl Fn(&R) -> Alpha<D>,
+    weighted: impl Fn(&R::Regular) -> Alpha<D>,
+) -> Result<(Alpha<D>, Cloud), Failure> {
+    let (alpha, about) = if args.weights.given().is_some() {
+        let sites = Weighted::<R>::read(&args.input, &args.weights, stats, quiet)?;
+        let _phase = Phase::start(quiet, "growing");
+        (weighted(&sites.triangulation), sites.about)
+    } else {
+        let (points, about) = room::read::<R>(&args.input, quiet)?;
+        stats.phase("read");
+        let d: R = room::build(&points, R::FASTEST, &args.input.label(), quiet)?;
+        drop(points);
+        room::remark(&d, quiet);
+        stats.phase("build");
+        stats.triangulation(&d, d.counters());
+        let _phase = Phase::start(quiet, "growing");
+        (plain(&d), about)
+    };
+    stats.phase("alpha");
+    let all: usize = (0..4).map(|dimension| alpha.values(dimension).len()).sum();
+    stats.set("faces", all);
+    if let Some(path) = &args.filtration {
+        let format = files::format(path, None, "the extension")?;
+        let _phase = Phase::start(quiet, "writing");
+        files::write(path, |out| write_filtration(out, format, &alpha))?;
+    }
+    Ok((alpha, about))
+}
+
+/// The squared radius that is asked for, if one is, with what is there.
+fn value<const D: usize>(
+    args: &AlphaArgs,
+    alpha: &Alpha<D>,
+    stats: &mut Stats,
+) -> Result<Option<f64>, Failure> {
+    let value = if let Some(parts) = args.optimal {
+        let found = alpha.optimal(parts).ok_or_else(|| match parts {
+            0 => Failure::usage("no shape has 0 parts", "leave the number out for one part"),
+            _ => Failure::new("the points span no shape that has all of them", "give points that span more"),
+        });
+        Some(found?)
+    } else {
+        args.alpha.or(args.radius.map(|radius| radius * radius))
+    };
+    if let Some(value) = value {
+        stats.set("alpha", value);
+        stats.set("parts", alpha.parts(value).into_iter().max().map_or(0, |last| last + 1));
+        stats.set(
+            "components",
+            alpha.components(value).into_iter().flatten().max().map_or(0, |last| last + 1),
+        );
+        stats.set("euler_characteristic", alpha.complex(value).euler_characteristic());
+    }
+    Ok(value)
+}
+
+/// Polygons where formats have them, triangles for all others.
+fn write_outline(
+    alpha: &Alpha<2>,
+    value: f64,
+    about: Cloud,
+    outputs: &[(PathBuf, Format)],
+    size: u32,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let _phase = Phase::start(quiet, "writing");
+    let is_polygon = |format: &Format| matches!(format, Format::GeoJson | Format::Wkt | Format::Poly);
+    if outputs.iter().any(|(_, format)| is_polygon(format)) {
+        let graph = graph(alpha, value, &about);
+        for (path, format) in outputs.iter().filter(|(_, format)| is_polygon(format)) {
+            files::write(path, |out| write_graph(out, *format, &graph))?;
+        }
+    }
+    if outputs.iter().any(|(_, format)| !is_polygon(format)) {
+        let triangles = alpha.complex(value).triangles;
+        let patches = Patches {
+            points: alpha.positions().to_vec(),
+            heights: about.z,
+            triangles: triangles.iter().map(|t| counter_clockwise(alpha, *t).map(VertexId::index)).collect(),
+            polygons: alpha.parts(value),
+            crs: about.crs,
+        };
+        for (path, format) in outputs.iter().filter(|(_, format)| !is_polygon(format)) {
+            files::write_mesh(path, quiet, |out| write_patches(out, *format, &patches, size))?;
+        }
+    }
+    Ok(())
+}
+
+fn counter_clockwise(alpha: &Alpha<2>, [a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+    let [p, q, r] = [a, b, c].map(|v| alpha.position(v));
+    if delone_predicates::orient2d(p, q, r).is_positive() { [a, b, c] } else { [a, c, b] }
+}
+
+/// The outline as polygons, with the points that are on it.
+fn graph(alpha: &Alpha<2>, value: f64, about: &Cloud) -> Graph {
+    let mut graph = Graph::default();
+    graph.cloud.crs.clone_from(&about.crs);
+    let mut heights = Vec::new();
+    for (polygon, part) in alpha.outline(value).iter().enumerate() {
+        for (number, ring) in part.iter().enumerate() {
+            let (first, start) = (graph.cloud.xy.len(), graph.segments.len());
+            for (i, v) in ring.iter().enumerate() {
+                graph.cloud.xy.push(alpha.position(*v));
+                heights.extend(about.z.as_ref().map(|z| z[v.index()]));
+                graph.segments.push([first + i, first + (i + 1) % ring.len()]);
+            }
+            let segments = start..graph.segments.len();
+            graph.rings.push(GraphRing { polygon, ring: number, segments });
+        }
+    }
+    graph.is_border = vec![true; graph.segments.len()];
+    graph.cloud.z = about.z.as_ref().map(|_| heights);
+    graph
+}
+
+/// The surface with its corners alone, or as indices of points.
+fn write_surface(
+    alpha: &Alpha<3>,
+    surface: &[[VertexId; 3]],
+    outputs: &[(PathBuf, Format)],
+    options: &picture::Options,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let _phase = Phase::start(quiet, "writing");
+    let mut corners: Vec<VertexId> = surface.as_flattened().to_vec();
+    corners.sort_unstable();
+    corners.dedup();
+    let place = |v: VertexId| corners.partition_point(|&corner| corner < v);
+    let solid = Solid {
+        points: corners.iter().map(|&v| alpha.position(v)).collect(),
+        faces: surface.iter().map(|face| face.map(place).to_vec()).collect(),
+        laid_open: Vec::new(),
+    };
+    for (path, format) in outputs {
+        if matches!(format, Format::Npy | Format::Text) {
+            let rows: Vec<i64> = surface.as_flattened().iter().map(|v| v.index() as i64).collect();
+            files::write(path, |out| write_indices(out, *format, 3, &rows))?;
+        } else {
+            files::write_mesh(path, quiet, |out| write_solid(out, *format, &solid, options))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,19 @@
+//! The alpha complexes of triangulations of space.
+
+use super::{Delaunay3, Regular3};
+use crate::alpha::{Alpha3, build};
+
+impl Delaunay3 {
+    /// The alpha complexes: all faces with the squared radius from which on each is there, and the shapes of that. O(n log n), on all threads.
+    pub fn alpha(&self) -> Alpha3 {
+        build(self, |_| 0.0)
+    }
+}
+
+impl Regular3 {
+    /// The alpha complexes of the sites, whose weights are squared radii: balls of squared radius `alpha` and the weight, so that at 0 it is the dual of
+    /// the union of the balls. O(n log n), on all threads.
+    pub fn alpha(&self) -> Alpha3 {
+        build(self, |v| self.site(v).map_or(0.0, |site| site.1))
+    }
+}
