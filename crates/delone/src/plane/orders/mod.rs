@@ -32,8 +32,7 @@ const MOST: usize = 1 << 30;
 /// The Voronoi diagram of one order.
 ///
 /// It is a function of the set of points alone, as the triangulation is: of four sites on one circle the lexicographically
-/// largest counts as further away. So a region may be no more than a point or a segment, and no other diagram has it or
-/// has it not by chance.
+/// largest counts as further away. So where sites are cocircular a region may be no more than a point or a segment.
 ///
 /// ```
 /// use delone::{Delaunay2, Region2};
