@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use delone::Triangulation;
+use delone::{Regular, Triangulation};
 use delone_io::{Cloud, Format, picture, write_mesh};
 
 use crate::args::{DrawArgs, InputArgs, TriangulateArgs, WeightArgs};
@@ -72,17 +72,17 @@ impl<R: Room> Weighted<R> {
         let weights = weights(input, args, points.len(), quiet)?;
         stats.phase("read");
         let phase = Phase::start(quiet, "triangulating");
-        let triangulation =
-            R::regular(&points, &weights).map_err(|error| Failure::points(&input.label(), &error))?;
+        let triangulation = R::Regular::from_parts(&points, &weights)
+            .map_err(|error| Failure::points(&input.label(), &error))?;
         drop(phase);
         stats.phase("build");
         room::remark(&triangulation, quiet);
-        let hidden = R::hidden(&triangulation);
+        let hidden = triangulation.hidden().count();
         if hidden > 0 {
             let (is, site) = if hidden == 1 { ("is", "site") } else { ("are", "sites") };
             note(quiet, format_args!("{hidden} {site} {is} hidden by others: no point is nearest to them"));
         }
-        stats.triangulation(&triangulation, R::counters_of(&triangulation));
+        stats.triangulation(&triangulation, triangulation.counters());
         stats.set("hidden", hidden);
         Ok(Self { triangulation, points, about })
     }

@@ -114,6 +114,6 @@ pub use plane::{
 pub use points::{Bounds, Position2, Position3};
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};
 pub use tally::{Counters, Merges, Phase, Tally, Work};
-pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Triangulation};
-pub use verdict::Verdict;
+pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Regular, Triangulation};
+pub use verdict::{RegularFlaw, Verdict};
 pub use vertex_map::VertexMap;

@@ -14,7 +14,7 @@ use crate::ids::{Duplicate, Inserted, VertexId};
 use crate::locate::Locate;
 use crate::mesh::Dimension;
 use crate::order::HintOrder;
-use crate::tally::Tally;
+use crate::tally::{Counters, Tally};
 
 /// The coordinates of a point: `[f64; 2]` or `[f64; 3]`.
 pub trait Coordinates:
@@ -203,6 +203,36 @@ pub trait Change: Ask + Clone + Default {
 
     /// Inserts many points in an order that the seed decides, and returns their ids as a range of indices.
     fn extend(&mut self, points: &[Self::Point], seed: u64) -> Result<Range<usize>, Error>;
+}
+
+/// A triangulation of points with weights: they come, go and change their weights, and may be hidden.
+pub trait Regular: Triangulation + Clone + Default {
+    /// Triangulates points with weights, squared radii, by the fastest algorithm.
+    fn from_parts(points: &[Self::Point], weights: &[f64]) -> Result<Self, Error>;
+
+    /// Triangulates them by insertion one by one, in an order that the seed decides.
+    fn with_seed(points: &[Self::Point], weights: &[f64], seed: u64) -> Result<Self, Error>;
+
+    /// What construction took.
+    fn counters(&self) -> Counters;
+
+    /// Point and weight of a site, hidden or not; none if it was removed or never given.
+    fn site(&self, v: VertexId) -> Option<(Self::Point, f64)>;
+
+    /// The sites whose power cells are empty, by increasing id.
+    fn hidden(&self) -> impl Iterator<Item = VertexId> + '_;
+
+    /// Adds a site.
+    fn insert(&mut self, point: Self::Point, weight: f64) -> Result<Inserted, Error>;
+
+    /// Takes a site away.
+    fn remove(&mut self, v: VertexId) -> Result<(), Error>;
+
+    /// Gives a site another weight.
+    fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error>;
+
+    /// The vertex with the least power at a point.
+    fn nearest(&self, q: Self::Point) -> Result<Option<VertexId>, Error>;
 }
 
 /// Points that are nearly known beforehand: an order and a hint for each, found once.

@@ -9,7 +9,8 @@ mod space;
 use std::path::{Path, PathBuf};
 
 use delone::{
-    Change, Coordinates, Counters, Dimension, Graph, Imprecise, Locate, Triangulation, Verdict, VertexId,
+    Change, Coordinates, Counters, Dimension, Graph, Imprecise, Locate, Regular, Triangulation, Verdict,
+    VertexId,
 };
 use delone_io::{Cloud, Drawable, Format, Mesh, Source, Trim};
 
@@ -52,14 +53,7 @@ pub(crate) trait Room: Change<Point: Drawable> {
     fn counters(&self) -> Counters;
 
     /// The triangulation of points with weights.
-    type Regular: Triangulation<Point = Self::Point>;
-
-    fn regular(points: &[Self::Point], weights: &[f64]) -> Result<Self::Regular, delone::Error>;
-
-    fn counters_of(r: &Self::Regular) -> Counters;
-
-    /// How many sites are hidden.
-    fn hidden(r: &Self::Regular) -> usize;
+    type Regular: Regular<Point = Self::Point>;
 
     /// Whether a point is on the circle or sphere through the corners of a simplex.
     fn is_tie(simplex: &[Self::Point], q: Self::Point) -> bool;

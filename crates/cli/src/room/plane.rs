@@ -63,18 +63,6 @@ impl Room for Delaunay2 {
 
     type Regular = Regular2;
 
-    fn regular(points: &[[f64; 2]], weights: &[f64]) -> Result<Regular2, delone::Error> {
-        Regular2::from_parts(points, weights)
-    }
-
-    fn counters_of(r: &Regular2) -> Counters {
-        r.counters()
-    }
-
-    fn hidden(r: &Regular2) -> usize {
-        r.hidden().count()
-    }
-
     fn is_tie(simplex: &[[f64; 2]], q: [f64; 2]) -> bool {
         matches!(*simplex, [a, b, c] if in_circle_with_ties(a, b, c, q).is_zero())
     }

@@ -76,18 +76,6 @@ impl Room for Delaunay3 {
 
     type Regular = Regular3;
 
-    fn regular(points: &[[f64; 3]], weights: &[f64]) -> Result<Regular3, delone::Error> {
-        Regular3::from_parts(points, weights)
-    }
-
-    fn counters_of(r: &Regular3) -> Counters {
-        r.counters()
-    }
-
-    fn hidden(r: &Regular3) -> usize {
-        r.hidden().count()
-    }
-
     fn is_tie(simplex: &[[f64; 3]], q: [f64; 3]) -> bool {
         matches!(*simplex, [a, b, c, d] if in_sphere_with_ties(a, b, c, d, q).is_zero())
     }

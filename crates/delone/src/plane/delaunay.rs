@@ -215,10 +215,7 @@ impl Delaunay2 {
 
     /// The edges of the hull, counter-clockwise; none below the plane.
     pub fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
-        let is_spanned = self.dimension() == Dimension::Plane;
-        let (ends, starts) = (self.mesh().hull().skip(1), self.mesh().hull());
-        let closing = self.mesh().hull().take(1);
-        starts.zip(ends.chain(closing)).filter(move |_| is_spanned).map(|(v, w)| [v, w])
+        self.mesh().hull_facets()
     }
 
     /// The coordinates of a vertex.

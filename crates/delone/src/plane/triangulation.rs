@@ -69,14 +69,11 @@ impl Triangulation for Delaunay2 {
     }
 
     fn across(&self, t: TriangleId, k: usize) -> Option<TriangleId> {
-        // Edge k leaves corner k, so that corner is opposite to the edge after it.
-        let next = self.mesh().twin(t.edge(k).next()).triangle();
-        Some(next).filter(|&t| !self.mesh().is_ghost(t))
+        self.mesh().across(t, k)
     }
 
     fn simplices_at(&self, v: VertexId) -> Vec<TriangleId> {
-        let mesh = self.mesh();
-        mesh.star(v).map(EdgeId::triangle).filter(|&t| !mesh.is_ghost(t)).collect()
+        self.mesh().finite_star(v)
     }
 
     fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {

@@ -20,4 +20,4 @@ pub use delaunay::{Algorithm3, Delaunay3};
 pub use imprecise::Hints3;
 pub use locate::Location3;
 pub use moving::{Moving3, Step3};
-pub use regular::{Regular3, RegularFlaw3};
+pub use regular::Regular3;

@@ -65,8 +65,7 @@ impl Triangulation for Delaunay3 {
     }
 
     fn across(&self, t: TetrahedronId, k: usize) -> Option<TetrahedronId> {
-        let next = self.mesh().twin(t.facet(k)).tetrahedron();
-        Some(next).filter(|&t| !self.mesh().is_ghost(t))
+        self.mesh().across(t, k)
     }
 
     fn simplices_at(&self, v: VertexId) -> Vec<TetrahedronId> {

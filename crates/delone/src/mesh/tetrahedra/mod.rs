@@ -94,6 +94,12 @@ impl Mesh3 {
         self.cells[t.index()].across.map(FacetId::tetrahedron)
     }
 
+    /// The finite tetrahedron across facet k.
+    pub(crate) fn across(&self, t: TetrahedronId, k: usize) -> Option<TetrahedronId> {
+        let next = self.twin(t.facet(k)).tetrahedron();
+        Some(next).filter(|&t| !self.is_ghost(t))
+    }
+
     /// Whether a corner of the tetrahedron is the vertex at infinity.
     #[inline]
     pub fn is_ghost(&self, t: TetrahedronId) -> bool {

@@ -66,6 +66,26 @@ impl Mesh2 {
         self.star(v).map(|e| self.destination(e)).filter(|w| !w.is_ghost())
     }
 
+    /// The finite triangles at a vertex, counter-clockwise.
+    pub(crate) fn finite_star(&self, v: VertexId) -> Vec<TriangleId> {
+        self.star(v).map(EdgeId::triangle).filter(|&t| !self.is_ghost(t)).collect()
+    }
+
+    /// The finite triangle across the edge that is opposite to corner k.
+    pub(crate) fn across(&self, t: TriangleId, k: usize) -> Option<TriangleId> {
+        // Edge k leaves corner k, so that corner is opposite to the edge after it.
+        let next = self.twin(t.edge(k).next()).triangle();
+        Some(next).filter(|&t| !self.is_ghost(t))
+    }
+
+    /// The edges of the convex hull, counter-clockwise. None below the plane.
+    pub(crate) fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
+        let is_spanned = self.dimension() == Dimension::Plane;
+        let closing = self.hull().take(1);
+        let ends = self.hull().skip(1).chain(closing);
+        self.hull().zip(ends).filter(move |_| is_spanned).map(|(v, w)| [v, w])
+    }
+
     /// The vertices on the border of the convex hull, counter-clockwise, those inside a hull edge included;
     /// the vertices from end to end of a line; or the only vertex.
     pub fn hull(&self) -> Hull<'_> {

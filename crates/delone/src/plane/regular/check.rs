@@ -6,29 +6,14 @@
 //! Cost: O(n), and a walk for each site that is no vertex.
 
 use super::Regular2;
-use crate::ids::VertexId;
 use crate::plane::check::{Flaw2, check_geometry};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{Kernel, Power};
-
-/// What is wrong with a regular triangulation, one sentence each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RegularFlaw2 {
-    /// The triangles are not the regular ones of the vertices.
-    #[error(transparent)]
-    Triangulation(#[from] Flaw2),
-    /// A site is called hidden and is below the triangles.
-    #[error("site {} is no vertex, and none of the others hides it", .0.index())]
-    Hidden(VertexId),
-    /// A site is called the duplicate of a vertex that it does not equal, or is not called that of the one that it equals.
-    #[error("site {} is said to be another one's duplicate and is not, or the other way round", .0.index())]
-    Duplicate(VertexId),
-}
+use crate::verdict::RegularFlaw;
 
 impl Regular2 {
     /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.
-    pub fn check(&self) -> Result<(), RegularFlaw2> {
+    pub fn check(&self) -> Result<(), RegularFlaw<Flaw2>> {
         self.mesh().check().map_err(Flaw2::from)?;
         check_geometry(&self.base)?;
         for (v, place) in self.under.all() {
@@ -52,11 +37,11 @@ impl Regular2 {
                 _ => false,
             };
             if !is_above {
-                return Err(RegularFlaw2::Hidden(v));
+                return Err(RegularFlaw::Hidden(v));
             }
             let equal = equal.map(|w| self.mesh().name(w));
             if self.under.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
-                return Err(RegularFlaw2::Duplicate(v));
+                return Err(RegularFlaw::Duplicate(v));
             }
         }
         Ok(())

@@ -31,7 +31,6 @@ use crate::plane::layer::kernel::Power;
 use crate::points::{Position2, check_count, check_finite, check_weights, finite};
 use crate::tally::{Counters, Work};
 use crate::under::Under;
-pub use check::RegularFlaw2;
 pub use power::{Jacobian2, Power2};
 
 /// The regular triangulation of sites with weights in the plane. See the [crate's words](crate#names) for what it has in common with
@@ -243,6 +242,3 @@ impl Regular2 {
         self.base.spot(start, q, &mut ())
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,17 +1,20 @@
 //! What a regular triangulation has in common with others: files and pictures are made of that.
 
 use super::Regular2;
-use super::check::RegularFlaw2;
-use crate::ids::{Duplicate, EdgeId, TriangleId, VertexId};
+use crate::error::Error;
+use crate::ids::{Duplicate, Inserted, TriangleId, VertexId};
 use crate::mesh::Dimension;
-use crate::triangulation::Triangulation;
+use crate::plane::check::Flaw2;
+use crate::tally::Counters;
+use crate::triangulation::{Regular, Triangulation};
+use crate::verdict::RegularFlaw;
 
 impl Triangulation for Regular2 {
     type Point = [f64; 2];
     type Simplex = TriangleId;
     type Corners = [VertexId; 3];
     type Facet = [VertexId; 2];
-    type Flaw = RegularFlaw2;
+    type Flaw = RegularFlaw<Flaw2>;
 
     fn dimension(&self) -> Dimension {
         self.dimension()
@@ -58,23 +61,56 @@ impl Triangulation for Regular2 {
     }
 
     fn across(&self, t: TriangleId, k: usize) -> Option<TriangleId> {
-        let next = self.mesh().twin(t.edge(k).next()).triangle();
-        Some(next).filter(|&t| !self.mesh().is_ghost(t))
+        self.mesh().across(t, k)
     }
 
     fn simplices_at(&self, v: VertexId) -> Vec<TriangleId> {
-        let mesh = self.mesh();
-        mesh.star(v).map(EdgeId::triangle).filter(|&t| !mesh.is_ghost(t)).collect()
+        self.mesh().finite_star(v)
     }
 
     fn hull_facets(&self) -> impl Iterator<Item = [VertexId; 2]> + Send + '_ {
-        let is_spanned = self.dimension() == Dimension::Plane;
-        let (ends, starts) = (self.mesh().hull().skip(1), self.mesh().hull());
-        let closing = self.mesh().hull().take(1);
-        starts.zip(ends.chain(closing)).filter(move |_| is_spanned).map(|(v, w)| [v, w])
+        self.mesh().hull_facets()
     }
 
-    fn check(&self) -> Result<(), RegularFlaw2> {
+    fn check(&self) -> Result<(), RegularFlaw<Flaw2>> {
         self.check()
+    }
+}
+
+impl Regular for Regular2 {
+    fn from_parts(points: &[[f64; 2]], weights: &[f64]) -> Result<Self, Error> {
+        Self::from_parts(points, weights)
+    }
+
+    fn with_seed(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Result<Self, Error> {
+        Self::with_seed(points, weights, seed)
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters()
+    }
+
+    fn site(&self, v: VertexId) -> Option<([f64; 2], f64)> {
+        self.site(v)
+    }
+
+    fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.hidden()
+    }
+
+    fn insert(&mut self, point: [f64; 2], weight: f64) -> Result<Inserted, Error> {
+        self.insert(point, weight)
+    }
+
+    fn remove(&mut self, v: VertexId) -> Result<(), Error> {
+        self.remove(v)
+    }
+
+    fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
+        self.set_weight(v, weight)
+    }
+
+    fn nearest(&self, q: [f64; 2]) -> Result<Option<VertexId>, Error> {
+        self.nearest(q)
     }
 }

@@ -6,33 +6,18 @@
 //! Cost: O(n log n), and a walk for each site that is no vertex.
 
 use super::Regular3;
-use crate::ids::VertexId;
 use crate::space::check::{Flaw3, check_geometry};
 use crate::space::layer::kernel::Lift;
-
-/// What is wrong with a regular triangulation of space, one sentence each.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RegularFlaw3 {
-    /// The tetrahedra are not the regular ones of the vertices.
-    #[error(transparent)]
-    Triangulation(#[from] Flaw3),
-    /// A site is called hidden and is below the tetrahedra.
-    #[error("site {} is no vertex, and none of the others hides it", .0.index())]
-    Hidden(VertexId),
-    /// A site is called the duplicate of a vertex that it does not equal, or is not called that of the one that it equals.
-    #[error("site {} is said to be another one's duplicate and is not, or the other way round", .0.index())]
-    Duplicate(VertexId),
-}
+use crate::verdict::RegularFlaw;
 
 impl Regular3 {
     /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.
-    pub fn check(&self) -> Result<(), RegularFlaw3> {
+    pub fn check(&self) -> Result<(), RegularFlaw<Flaw3>> {
         check_geometry(&self.base)?;
         for (v, place) in self.under.all() {
             let site = self.base.site(place);
             if !self.base.is_in_span(site.0) {
-                return Err(RegularFlaw3::Hidden(v));
+                return Err(RegularFlaw::Hidden(v));
             }
             let t = self.cell_at(site.0);
             let there = self.base.vertex_at(t, site.0);
@@ -44,11 +29,11 @@ impl Regular3 {
                 |w| self.base.weights[w.index()] >= site.1,
             );
             if !is_above {
-                return Err(RegularFlaw3::Hidden(v));
+                return Err(RegularFlaw::Hidden(v));
             }
             let equal = there.filter(|w| self.base.weights[w.index()] == site.1).map(|w| self.mesh().name(w));
             if self.under.is_hidden(v) != equal.is_none() || equal.is_some_and(|w| w > v) {
-                return Err(RegularFlaw3::Duplicate(v));
+                return Err(RegularFlaw::Duplicate(v));
             }
         }
         Ok(())

@@ -25,7 +25,6 @@ use crate::mesh::{Dimension, Mesh3};
 use crate::points::{Position3, check_in_space, check_weights, finite};
 use crate::tally::{Counters, Work};
 use crate::under::Under;
-pub use check::RegularFlaw3;
 
 /// The regular triangulation of sites with weights in space. See the [crate's words](crate#names) for what it has in common with
 /// [`crate::Delaunay3`].
@@ -201,6 +200,3 @@ impl Regular3 {
         self.base.walk(self.base.start_cell(self.start(q)), q, &mut ())
     }
 }
-
-#[cfg(test)]
-mod tests;

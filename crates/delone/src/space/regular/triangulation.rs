@@ -1,17 +1,20 @@
 //! What a regular triangulation has in common with others: files and pictures are made of that.
 
 use super::Regular3;
-use super::check::RegularFlaw3;
-use crate::ids::{Duplicate, TetrahedronId, VertexId};
+use crate::error::Error;
+use crate::ids::{Duplicate, Inserted, TetrahedronId, VertexId};
 use crate::mesh::Dimension;
-use crate::triangulation::Triangulation;
+use crate::space::check::Flaw3;
+use crate::tally::Counters;
+use crate::triangulation::{Regular, Triangulation};
+use crate::verdict::RegularFlaw;
 
 impl Triangulation for Regular3 {
     type Point = [f64; 3];
     type Simplex = TetrahedronId;
     type Corners = [VertexId; 4];
     type Facet = [VertexId; 3];
-    type Flaw = RegularFlaw3;
+    type Flaw = RegularFlaw<Flaw3>;
 
     fn dimension(&self) -> Dimension {
         self.dimension()
@@ -58,8 +61,7 @@ impl Triangulation for Regular3 {
     }
 
     fn across(&self, t: TetrahedronId, k: usize) -> Option<TetrahedronId> {
-        let next = self.mesh().twin(t.facet(k)).tetrahedron();
-        Some(next).filter(|&t| !self.mesh().is_ghost(t))
+        self.mesh().across(t, k)
     }
 
     fn simplices_at(&self, v: VertexId) -> Vec<TetrahedronId> {
@@ -75,7 +77,45 @@ impl Triangulation for Regular3 {
         self.base.hull_facets()
     }
 
-    fn check(&self) -> Result<(), RegularFlaw3> {
+    fn check(&self) -> Result<(), RegularFlaw<Flaw3>> {
         self.check()
+    }
+}
+
+impl Regular for Regular3 {
+    fn from_parts(points: &[[f64; 3]], weights: &[f64]) -> Result<Self, Error> {
+        Self::from_parts(points, weights)
+    }
+
+    fn with_seed(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Result<Self, Error> {
+        Self::with_seed(points, weights, seed)
+    }
+
+    fn counters(&self) -> Counters {
+        self.counters()
+    }
+
+    fn site(&self, v: VertexId) -> Option<([f64; 3], f64)> {
+        self.site(v)
+    }
+
+    fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.hidden()
+    }
+
+    fn insert(&mut self, point: [f64; 3], weight: f64) -> Result<Inserted, Error> {
+        self.insert(point, weight)
+    }
+
+    fn remove(&mut self, v: VertexId) -> Result<(), Error> {
+        self.remove(v)
+    }
+
+    fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
+        self.set_weight(v, weight)
+    }
+
+    fn nearest(&self, q: [f64; 3]) -> Result<Option<VertexId>, Error> {
+        self.nearest(q)
     }
 }

@@ -1,0 +1,75 @@
+//! Power cells: they tile, hold what is nearest to them, and change as their Jacobian says.
+
+use delone::{Region2, Regular2, VertexId};
+use delone_generators::Random;
+
+type Site = ([f64; 2], f64);
+
+/// Cells tile, hold what is nearest to them, and change as their Jacobian says.
+#[test]
+fn power_cells_tile_and_change_as_their_jacobian_says() {
+    let mut random = Random::new(6);
+    let regions = [
+        Region2::rectangle([-0.5, -0.25], [1.25, 1.0]).expect("a box"),
+        Region2::polygon(&[vec![[0.0, 0.0], [1.0, 0.1], [0.4, 0.4], [0.2, 1.2]]]).expect("a polygon"),
+    ];
+    for round in 0..40 {
+        let region = &regions[round % 2];
+        let count = 1 + random.below(40);
+        let all: Vec<Site> =
+            (0..count).map(|_| ([random.unit(), random.unit()], (random.unit() - 0.5) / 8.0)).collect();
+        let r = Regular2::from_sites(&all).expect("finite");
+        let jacobian = r.power().jacobian(region);
+        let sum: f64 = jacobian.areas.iter().sum();
+        assert!((sum - region.area()).abs() < 1e-12, "round {round}: {sum} of {}", region.area());
+        assert!(r.hidden().all(|v| jacobian.areas[v.index()] == 0.0));
+        for i in 0..count.min(5) {
+            // The difference of areas that a small change makes; where the triangulation stays, it is what the Jacobian says up
+            // to the second order.
+            let step = 1e-7;
+            let mut moved = all.clone();
+            moved[i].1 += step;
+            let after = Regular2::from_sites(&moved).expect("finite").power().jacobian(region);
+            for j in 0..count {
+                let pair = [i.min(j), i.max(j)].map(VertexId::new);
+                let of_pair = |(ends, value): &([VertexId; 2], f64)| if *ends == pair { *value } else { 0.0 };
+                let expected: f64 = if i == j {
+                    let own = |([v, w], value): &([VertexId; 2], f64)| {
+                        if v.index() == i || w.index() == i { -value } else { 0.0 }
+                    };
+                    jacobian.derivatives.iter().map(own).sum()
+                } else {
+                    jacobian.derivatives.iter().map(of_pair).sum()
+                };
+                let found = (after.areas[j] - jacobian.areas[j]) / step;
+                assert!((found - expected).abs() < 1e-3, "round {round}, {i} {j}: {found}, not {expected}");
+            }
+        }
+        let cells = r.power().clip(region);
+        for v in r.vertices() {
+            let (site, rings) = (r.site(v).expect("a site"), cells.rings(v));
+            if let Some(centre) = cells.centroid(v).filter(|_| region.rings().count() == 1 && round % 2 == 0)
+            {
+                let nearest = r.nearest(centre).expect("finite").expect("one");
+                assert!(
+                    nearest == v || cells.area(v) < 1e-12,
+                    "round {round} {v:?} {site:?} {}",
+                    rings.count()
+                );
+            }
+        }
+    }
+}
+
+/// Four sites at the corners of a lattice's cell meet in one point, and the whole is a square's.
+#[test]
+fn second_moments_are_integrals() {
+    let sites: Vec<Site> = (0..9).map(|i| ([f64::from(i % 3), f64::from(i / 3)], 1.0)).collect();
+    let r = Regular2::from_sites(&sites).expect("finite");
+    let cells = r.power().clip(&Region2::rectangle([-0.5, -0.5], [2.5, 2.5]).expect("a box"));
+    for v in r.vertices() {
+        assert_eq!(cells.area(v), 1.0);
+        let moment = cells.second_moment(v, sites[v.index()].0);
+        assert!((moment - 1.0 / 6.0).abs() < 1e-15, "{moment}");
+    }
+}

@@ -1,0 +1,271 @@
+//! Regular triangulations by their definition, in the plane and in space: built in any way and order, and at every step of a life.
+
+use delone::{Change, Delaunay2, Delaunay3, Regular, Regular2, Regular3, Triangulation, VertexId};
+use delone_generators::{Kind, Kind3, Random};
+use delone_oracle::power::Lifted;
+use delone_predicates::compare_powers;
+
+type Site<const D: usize> = ([f64; D], f64);
+
+/// The simplices, each with its corners sorted, sorted.
+fn simplices<T: Triangulation>(t: &T) -> Vec<Vec<VertexId>> {
+    let sorted = |s| {
+        let mut corners = t.corners(s).as_ref().to_vec();
+        corners.sort_unstable();
+        corners
+    };
+    let mut all: Vec<_> = t.simplices().map(sorted).collect();
+    all.sort_unstable();
+    all
+}
+
+/// One of several families of sites that tie in many ways.
+fn in_plane(random: &mut Random, n: usize) -> Vec<Site<2>> {
+    let family = random.below(6);
+    (0..n)
+        .map(|_| {
+            let [x, y] = [random.below(4) as f64, random.below(4) as f64];
+            match family {
+                0 => ([x, y], x * x + y * y),
+                1 => ([x, y], random.below(3) as f64),
+                2 => ([x, 2.0 * x], random.below(4) as f64),
+                3 => ([x, 0.0], x * x),
+                4 => ([x, y], x * x + y * y + [0.0, 0.0, 0.0, 1.0, -1.0][random.below(5)]),
+                _ => ([random.unit(), random.unit()], random.unit() / 4.0),
+            }
+        })
+        .collect()
+}
+
+/// The same in space.
+fn in_space(random: &mut Random, n: usize) -> Vec<Site<3>> {
+    let family = random.below(8);
+    let square = |p: [f64; 3]| p.iter().map(|x| x * x).sum::<f64>();
+    (0..n)
+        .map(|_| {
+            let p @ [x, y, _] = [(); 3].map(|()| random.below(3) as f64);
+            match family {
+                0 => (p, square(p)),
+                1 => (p, random.below(3) as f64),
+                2 => ([x, 2.0 * x, y], random.below(4) as f64),
+                3 => ([x, y, 1.0], x * x + y * y),
+                4 => (p, square(p) + [0.0, 0.0, 0.0, 1.0, -1.0][random.below(5)]),
+                5 => ([x, x, -x], random.below(4) as f64),
+                6 => ([1.0, 2.0, 3.0], x),
+                _ => ([(); 3].map(|()| random.unit()), random.unit() / 4.0),
+            }
+        })
+        .collect()
+}
+
+/// By definition, of the sites that are neither removed nor later than an equal one.
+fn judge<const D: usize, R: Regular<Point = [f64; D]>>(r: &R, what: &str) {
+    r.check().unwrap_or_else(|flaw| panic!("{what}: {flaw}"));
+    let ids: Vec<VertexId> = (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();
+    let all: Vec<Site<D>> = ids.iter().filter_map(|&v| r.site(v)).collect();
+    let first = |i: usize| all[..i].iter().all(|site| *site != all[i]);
+    let distinct: Vec<usize> = (0..all.len()).filter(|&i| first(i)).collect();
+    if distinct.is_empty() {
+        assert_eq!(r.vertex_count(), 0);
+        return;
+    }
+    let lifted = Lifted::new(&distinct.iter().map(|&i| all[i]).collect::<Vec<_>>());
+    let name = |&i: &usize| ids[distinct[i]];
+    let mut expected: Vec<Vec<VertexId>> =
+        lifted.regular().iter().map(|simplex| simplex.iter().map(name).collect()).collect();
+    expected.sort_unstable();
+    let mut corners: Vec<VertexId> = expected.iter().flatten().copied().collect();
+    corners.sort_unstable();
+    corners.dedup();
+    assert!(r.vertices().eq(corners.iter().copied()), "{what}: vertices {corners:?} of {all:?}");
+    let hidden = distinct.iter().map(|&i| ids[i]).filter(|v| !corners.contains(v));
+    assert!(r.hidden().filter(|&v| distinct.iter().any(|&i| ids[i] == v)).eq(hidden), "{what}: {all:?}");
+    if lifted.dimension() == D {
+        assert_eq!(simplices(r), expected, "{what}: {all:?}");
+    } else {
+        assert_eq!(r.simplices().count(), 0);
+        if lifted.dimension() == 1 {
+            assert_eq!(r.edges().count(), expected.len(), "{what}: {all:?}");
+        }
+    }
+}
+
+/// Without weights it is what it is called without them.
+fn equal_weights_change_nothing<R: Regular, D: Change<Point = R::Point>>(name: &str, points: &[R::Point]) {
+    let d = D::from_vec(points.to_vec()).expect("finite");
+    for weight in [0.0, 0.37, -1e300, 1e-300] {
+        let weights = vec![weight; points.len()];
+        let r = R::from_parts(points, &weights).expect("finite");
+        let one_by_one = R::with_seed(points, &weights, 3).expect("finite");
+        for r in [r, one_by_one] {
+            assert_eq!(simplices(&r), simplices(&d), "{name} {weight}");
+            assert_eq!(r.vertex_count(), d.vertex_count());
+            assert!(r.duplicates().eq(d.duplicates()), "{name} {weight}");
+            r.check().unwrap_or_else(|flaw| panic!("{name} {weight}: {flaw}"));
+        }
+    }
+}
+
+#[test]
+fn equal_weights_change_nothing_in_the_plane() {
+    for kind in Kind::ALL {
+        equal_weights_change_nothing::<Regular2, Delaunay2>(kind.name(), &kind.points(300, 1));
+    }
+}
+
+#[test]
+fn equal_weights_change_nothing_in_space() {
+    for kind in Kind3::ALL {
+        equal_weights_change_nothing::<Regular3, Delaunay3>(kind.name(), &kind.points(150, 1));
+    }
+}
+
+/// Returns how many sites were hidden in all.
+fn in_any_order<const D: usize, R: Regular<Point = [f64; D]>>(
+    sites: impl Fn(&mut Random, usize) -> Vec<Site<D>>,
+    rounds: usize,
+) -> usize {
+    let mut random = Random::new(1);
+    let mut hidden = 0;
+    for round in 0..rounds {
+        let count = 1 + random.below(9);
+        let mut all = sites(&mut random, count);
+        for seed in 0..3 {
+            let (points, weights): (Vec<_>, Vec<_>) = all.iter().copied().unzip();
+            let one_by_one = R::with_seed(&points, &weights, seed).expect("finite");
+            judge(&one_by_one, &format!("round {round}, order {seed}, one by one"));
+            let r = R::from_parts(&points, &weights).expect("finite");
+            judge(&r, &format!("round {round}, order {seed}"));
+            hidden += r.hidden().count();
+            random.shuffle(&mut all);
+        }
+    }
+    hidden
+}
+
+#[test]
+fn it_is_the_definition_in_any_order_in_the_plane() {
+    let hidden = in_any_order::<2, Regular2>(in_plane, 800);
+    assert!(hidden > 1000, "{hidden}");
+}
+
+#[test]
+fn it_is_the_definition_in_any_order_in_space() {
+    let hidden = in_any_order::<3, Regular3>(in_space, 300);
+    assert!(hidden > 400, "{hidden}");
+}
+
+/// After every insertion, removal and change of a weight.
+fn a_life<const D: usize, R: Regular<Point = [f64; D]>>(
+    sites: impl Fn(&mut Random, usize) -> Vec<Site<D>>,
+    rounds: usize,
+) {
+    let mut random = Random::new(2);
+    for round in 0..rounds {
+        let count = random.below(7);
+        let (points, weights): (Vec<_>, Vec<_>) = sites(&mut random, count).into_iter().unzip();
+        let more = sites(&mut random, 30);
+        let mut r = R::from_parts(&points, &weights).expect("finite");
+        for step in 0..40 {
+            let alive: Vec<VertexId> =
+                (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();
+            let any = |random: &mut Random| alive[random.below(alive.len())];
+            let what = match random.below(4) {
+                0 if !alive.is_empty() => {
+                    let v = any(&mut random);
+                    r.remove(v).expect("alive");
+                    assert!(r.site(v).is_none());
+                    format!("remove {v:?}")
+                }
+                1 if !alive.is_empty() => {
+                    let (v, w) = (any(&mut random), more[random.below(30)].1);
+                    r.set_weight(v, w).expect("alive");
+                    assert_eq!(r.site(v).map(|site| site.1), Some(w));
+                    format!("{v:?} weighs {w}")
+                }
+                _ if alive.len() < 10 => {
+                    let (p, w) = more[random.below(30)];
+                    let v = r.insert(p, w).expect("finite").vertex();
+                    assert_eq!(r.site(v), Some((p, w)));
+                    format!("insert {p:?} {w}")
+                }
+                _ => continue,
+            };
+            judge(&r, &format!("round {round}, step {step}: {what}"));
+        }
+    }
+}
+
+#[test]
+fn a_life_is_the_definition_at_every_step_in_the_plane() {
+    a_life::<2, Regular2>(in_plane, 150);
+}
+
+#[test]
+fn a_life_is_the_definition_at_every_step_in_space() {
+    a_life::<3, Regular3>(in_space, 60);
+}
+
+/// Of any sites at points on half-integers.
+fn nearest_is_least<const D: usize, R: Regular<Point = [f64; D]>>(
+    sites: impl Fn(&mut Random, usize) -> Vec<Site<D>>,
+) {
+    let mut random = Random::new(3);
+    for _ in 0..200 {
+        let count = 1 + random.below(40);
+        let all = sites(&mut random, count);
+        let (points, weights): (Vec<_>, Vec<_>) = all.iter().copied().unzip();
+        let r = R::from_parts(&points, &weights).expect("finite");
+        for _ in 0..10 {
+            let mut q = [1.0; D];
+            q[0] = random.below(9) as f64 / 2.0;
+            q[1] = random.between(-1.0, 4.0);
+            let v = r.nearest(q).expect("finite").expect("a site");
+            let found = r.site(v).expect("alive");
+            assert!(all.iter().all(|&site| compare_powers(q, found, site).is_le()), "{all:?} {q:?}");
+        }
+    }
+    assert_eq!(R::default().nearest([0.0; D]), Ok(None));
+}
+
+#[test]
+fn the_nearest_site_has_the_least_power() {
+    nearest_is_least::<2, Regular2>(in_plane);
+    nearest_is_least::<3, Regular3>(in_space);
+}
+
+/// Two constructions that share only predicates and mesh, from no site hidden to nearly all.
+#[test]
+fn merging_and_inserting_agree() {
+    let mut random = Random::new(5);
+    let mut hidden = [0; 2];
+    for round in 0..150 {
+        let kind = Kind::ALL[round % Kind::ALL.len()];
+        let points = kind.points(4 + random.below(400), round as u64);
+        let size = points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let spacing = size / (points.len() as f64).sqrt();
+        let (share, steps) = ([0.1, 1.0, 3.0][random.below(3)], [2, 5, 1 << 40][random.below(3)]);
+        let weight = |p: &[f64; 2]| match round % 4 {
+            0 => p[0] * p[0] + p[1] * p[1],
+            1 => share * spacing * spacing * (random.below(steps) as f64 / steps as f64),
+            2 => (share * spacing * random.unit()).powi(2),
+            _ => -(p[0] * p[0]) * share,
+        };
+        let weights: Vec<f64> = points.iter().map(weight).collect();
+        if weights.iter().any(|w| !w.is_finite()) {
+            continue;
+        }
+        let merged = Regular2::from_parts(&points, &weights).expect("finite");
+        let inserted = Regular2::with_seed(&points, &weights, round as u64).expect("finite");
+        let what = format!("round {round}, {} {}", kind.name(), points.len());
+        merged.check().unwrap_or_else(|flaw| panic!("{what}: {flaw}"));
+        inserted.check().unwrap_or_else(|flaw| panic!("{what}: {flaw}"));
+        assert_eq!(simplices(&merged), simplices(&inserted), "{what}");
+        assert!(
+            merged.hidden().eq(inserted.hidden()) && merged.duplicates().eq(inserted.duplicates()),
+            "{what}"
+        );
+        hidden = [hidden[0] + merged.hidden().count(), hidden[1] + points.len()];
+    }
+    assert!(4 * hidden[0] > hidden[1], "{hidden:?}");
+}
