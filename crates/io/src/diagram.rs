@@ -1,5 +1,7 @@
 //! Voronoi diagrams to be written: cells of sites, or of sets of the nearest ones.
 
+use std::io::{self, Write};
+
 use delone::{Cells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
 use crate::Crs;
@@ -40,8 +42,8 @@ pub(crate) trait Tiles {
     /// The area of one.
     fn area(&self, tile: Self::Tile) -> f64;
 
-    /// What one is of, as a property of GeoJSON.
-    fn property(&self, tile: Self::Tile) -> String;
+    /// Writes what one is of, as a property of GeoJSON.
+    fn write_property(&self, out: &mut dyn Write, tile: Self::Tile) -> io::Result<()>;
 
     /// The same for people.
     fn title(&self, tile: Self::Tile) -> String;
@@ -97,8 +99,8 @@ impl<T: Triangulation<Point = [f64; 2]>> Tiles for Diagram<'_, T> {
         self.cells.area(tile)
     }
 
-    fn property(&self, tile: VertexId) -> String {
-        format!("\"site\":{}", tile.index())
+    fn write_property(&self, out: &mut dyn Write, tile: VertexId) -> io::Result<()> {
+        write!(out, "\"site\":{}", tile.index())
     }
 
     fn title(&self, tile: VertexId) -> String {
@@ -129,8 +131,8 @@ impl<'a> Tiles for OrderDiagram<'a> {
         self.cells.area(tile)
     }
 
-    fn property(&self, tile: OrderRegion2<'a>) -> String {
-        format!("\"sites\":[{}]", joined(tile, ","))
+    fn write_property(&self, out: &mut dyn Write, tile: OrderRegion2<'a>) -> io::Result<()> {
+        write!(out, "\"sites\":[{}]", joined(tile, ","))
     }
 
     fn title(&self, tile: OrderRegion2<'a>) -> String {

@@ -160,11 +160,12 @@ pub(crate) fn write_cells(out: &mut dyn Write, diagram: &impl Tiles) -> io::Resu
     write_system(out, diagram.crs())?;
     write!(out, "\"features\":[")?;
     for (i, tile) in diagram.tiles().enumerate() {
-        let (separator, property) = (if i == 0 { "" } else { "," }, diagram.property(tile));
+        write!(out, "{}\n{{\"type\":\"Feature\",\"properties\":{{", if i == 0 { "" } else { "," })?;
+        diagram.write_property(out, tile)?;
         let area = diagram.area(tile);
         // Beyond the range it is infinite, which JSON has no number for.
         let area = if area.is_finite() { format!("{area:?}") } else { "null".to_owned() };
-        write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{{property},\"area\":{area}}},")?;
+        write!(out, ",\"area\":{area}}},")?;
         let polygons = diagram.polygons(tile);
         match &polygons[..] {
             [] => write!(out, "\"geometry\":null}}")?,

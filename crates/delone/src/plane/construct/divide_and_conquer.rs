@@ -47,7 +47,7 @@ pub(super) fn triangulate(points: &[[f64; 2]], bounds: &Bounds<2>) -> (Mesh2, Ve
     drop((ordered, cuts));
     let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(indices[0] as usize)) } else { None };
-    mesh.number_vertices(points.len(), |position| Place::new(indices[position.index()] as usize));
+    mesh.number_vertices::<false>(points.len(), |position| Place::new(indices[position.index()] as usize));
     (mesh, sorted(duplicates), counters)
 }
 
@@ -90,7 +90,7 @@ pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
     let n = points.len();
     let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
-    mesh.number_vertices(n, |position| position);
+    mesh.number_vertices::<false>(n, |position| position);
     InOrder { mesh, points, indices, duplicates: sorted(duplicates), counters }
 }
 
@@ -118,7 +118,7 @@ pub(in crate::plane) fn weighted(points: &[[f64; 2]], weights: &[f64]) -> Weight
     let n = ordered.len();
     let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
     mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
-    mesh.number_vertices(n, |position| position);
+    mesh.number_vertices::<true>(n, |position| position);
     mesh.forget_unused();
     Weighted { mesh, points: ordered, weights: ordered_weights, indices, others, counters }
 }

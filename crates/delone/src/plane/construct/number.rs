@@ -15,15 +15,21 @@ impl Mesh2 {
     /// Puts each vertex from its position in an order to its place, one of so many, and remembers an edge of each: the
     /// last one.
     ///
+    /// Where sites are hidden some triangles are unused, and stay so.
+    ///
     /// A task has the triangles of some positions, and writes for these alone; what it finds of others is written
     /// afterwards.
-    pub(super) fn number_vertices(&mut self, places: usize, place: impl Fn(Place) -> Place + Sync) {
+    pub(super) fn number_vertices<const HIDES: bool>(
+        &mut self,
+        places: usize,
+        place: impl Fn(Place) -> Place + Sync,
+    ) {
         let n = self.vertex_count;
         let parts = parallel::parts(n);
         if parts == 1 {
             self.incident = parallel::filled(EdgeId::NONE, places);
             let incident = &mut self.incident;
-            self.ghost_edge = number(&mut self.edges, 0, &place, |_, v, e| incident[v.index()] = e);
+            self.ghost_edge = number::<HIDES>(&mut self.edges, 0, &place, |_, v, e| incident[v.index()] = e);
             return;
         }
         let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
@@ -34,7 +40,7 @@ impl Mesh2 {
         let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
         let found = parallel::map(tasks, |(edges, positions): (&mut [HalfEdge], Range<usize>)| {
             let mut elsewhere = Vec::new();
-            let ghost_edge = number(edges, 2 * positions.start, &place, |position, v, e| {
+            let ghost_edge = number::<HIDES>(edges, 2 * positions.start, &place, |position, v, e| {
                 if positions.contains(&position.index()) {
                     incident[v.index()].store(e.bits(), Relaxed);
                 } else {
@@ -93,7 +99,7 @@ impl Mesh2 {
 
 /// Puts the vertices of triangles, the first of which has a number, from their positions to their places, and notes position,
 /// place and edge of each corner. Returns the last edge that starts at the ghost.
-fn number(
+fn number<const HIDES: bool>(
     edges: &mut [HalfEdge],
     first: usize,
     place: impl Fn(Place) -> Place,
@@ -102,8 +108,8 @@ fn number(
     let mut ghost_edge = EdgeId::NONE;
     for (t, records) in edges.chunks_exact_mut(4).enumerate() {
         records[3] = HalfEdge::UNUSED;
-        if records[0].twin == EdgeId::NONE {
-            continue; // of a hidden site
+        if HIDES && records[0].twin == EdgeId::NONE {
+            continue;
         }
         for (k, record) in records[..3].iter_mut().enumerate() {
             let e = TriangleId::new(first + t).edge(k);

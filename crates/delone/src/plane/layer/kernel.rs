@@ -82,7 +82,7 @@ pub(in crate::plane) struct NearestSites;
 impl Kernel for NearestSites {
     type Weight = ();
 
-    #[inline]
+    #[inline(always)]
     fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool {
         in_circle(a.0, b.0, c.0, q.0).is_positive()
     }

@@ -128,7 +128,7 @@ impl Cells2 {
                 prefetch(&mesh.edges, record.twin.index());
             }
             let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
-            for record in next.filter(|record| record.twin != EdgeId::NONE) {
+            for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
                 prefetch(&cells.vertices, record.twin.triangle().index());
                 for beyond in [record.twin.next(), record.twin.previous()] {
                     if let Some(record) = mesh.edges.get(beyond.index()) {
@@ -268,7 +268,10 @@ impl Cells2 {
         // The corners are rounded: what is asked about is a box that the exact ones are surely in. The site is in the cell, or
         // in what is said to be in reach, so no corner is further from it than both extents together.
         let Bounds { low, high } = bounds;
-        reach.into_iter().flat_map(|reach| [reach.low, reach.high]).for_each(|p| bounds.include(p));
+        if let Some(reach) = reach {
+            bounds.include(reach.low);
+            bounds.include(reach.high);
+        }
         let extents = bounds.extent().iter().sum::<f64>();
         let relation = enlarged(low, high, extents).map(|[low, high]| region.relation(low, high));
         if relation.is_none_or(|relation| relation != Relation::Inside) {
