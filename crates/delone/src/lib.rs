@@ -85,6 +85,7 @@ mod parallel;
 pub mod plane;
 mod points;
 mod prefetch;
+mod regular;
 pub mod space;
 mod tally;
 mod triangulation;
@@ -112,8 +113,9 @@ pub use plane::{
     Voronoi2, VoronoiEdge2,
 };
 pub use points::{Bounds, Position2, Position3};
+pub use regular::{RegularFlaw, Reweighed};
 pub use space::{Algorithm3, Delaunay3, Hints3, Location3, Moving3, Regular3, Step3};
 pub use tally::{Counters, Merges, Phase, Tally, Work};
 pub use triangulation::{Ask, Change, Coordinates, Corners, Found, Imprecise, Regular, Triangulation};
-pub use verdict::{RegularFlaw, Verdict};
+pub use verdict::Verdict;
 pub use vertex_map::VertexMap;

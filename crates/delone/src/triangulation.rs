@@ -14,6 +14,7 @@ use crate::ids::{Duplicate, Inserted, VertexId};
 use crate::locate::Locate;
 use crate::mesh::Dimension;
 use crate::order::HintOrder;
+use crate::regular::Reweighed;
 use crate::tally::{Counters, Tally};
 
 /// The coordinates of a point: `[f64; 2]` or `[f64; 3]`.
@@ -230,6 +231,9 @@ pub trait Regular: Triangulation + Clone + Default {
 
     /// Gives a site another weight.
     fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error>;
+
+    /// Gives all sites other weights, by id.
+    fn set_weights(&mut self, weights: &[f64]) -> Result<Reweighed, Error>;
 
     /// The vertex with the least power at a point.
     fn nearest(&self, q: Self::Point) -> Result<Option<VertexId>, Error>;

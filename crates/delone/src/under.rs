@@ -69,6 +69,15 @@ impl<C: Copy + Ord> Under<C> {
         self.sites.get(&id).is_some_and(|site| site.equal.is_none())
     }
 
+    /// The k-th name becomes the k-th of these. No simplex may be known.
+    pub(crate) fn rename(&mut self, names: &[VertexId]) {
+        let renamed = |(id, mut site): (VertexId, Below<C>)| {
+            site.equal = site.equal.map(|v| names[v.index()]);
+            (names[id.index()], site)
+        };
+        self.sites = std::mem::take(&mut self.sites).into_iter().map(renamed).collect();
+    }
+
     /// What equals one vertex equals another one from now on.
     pub(crate) fn equal_instead(&mut self, old: VertexId, new: VertexId) {
         let equal = self.sites.values_mut().filter(|site| site.equal == Some(old));

@@ -1,6 +1,4 @@
-//! What is right about simplices from elsewhere that are a Delaunay triangulation, and wrong with a regular one.
-
-use crate::ids::VertexId;
+//! What is right about simplices from elsewhere that are a Delaunay triangulation.
 
 /// What `verify` found of triangles or tetrahedra that are a Delaunay triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,19 +20,4 @@ impl Verdict {
     pub fn is_canonical(&self) -> bool {
         self.other_ties == 0
     }
-}
-
-/// What is wrong with a regular triangulation, one sentence each. `F` is what may be wrong with any triangulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum RegularFlaw<F> {
-    /// The simplices are not the regular ones of the vertices.
-    #[error(transparent)]
-    Triangulation(#[from] F),
-    /// A site is called hidden and is below the simplices.
-    #[error("site {} is no vertex, and none of the others hides it", .0.index())]
-    Hidden(VertexId),
-    /// A site is called the duplicate of a vertex that it does not equal, or is not called that of the one that it equals.
-    #[error("site {} is said to be another one's duplicate and is not, or the other way round", .0.index())]
-    Duplicate(VertexId),
 }

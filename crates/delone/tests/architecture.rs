@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// the same floor do not know each other.
 const FLOORS: &[&[&str]] = &[
     &["ids", "prefetch", "memory", "tally", "verdict"],
-    &["error", "parallel", "vertex_map", "weight", "duplicates", "under"],
+    &["error", "parallel", "vertex_map", "weight", "duplicates", "under", "regular"],
     &["points"],
     &["order"],
     &["mesh"],

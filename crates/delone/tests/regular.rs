@@ -1,6 +1,6 @@
 //! Regular triangulations by their definition, in the plane and in space: built in any way and order, and at every step of a life.
 
-use delone::{Change, Delaunay2, Delaunay3, Regular, Regular2, Regular3, Triangulation, VertexId};
+use delone::{Change, Delaunay2, Delaunay3, Regular, Regular2, Regular3, Reweighed, Triangulation, VertexId};
 use delone_generators::{Kind, Kind3, Random};
 use delone_oracle::power::Lifted;
 use delone_predicates::compare_powers;
@@ -155,6 +155,11 @@ fn it_is_the_definition_in_any_order_in_space() {
     assert!(hidden > 400, "{hidden}");
 }
 
+/// Nothing, more often than not.
+fn once(random: &mut Random) -> f64 {
+    [0.0, 0.0, 0.0, 0.5][random.below(4)]
+}
+
 /// After every insertion, removal and change of a weight.
 fn a_life<const D: usize, R: Regular<Point = [f64; D]>>(
     sites: impl Fn(&mut Random, usize) -> Vec<Site<D>>,
@@ -170,7 +175,14 @@ fn a_life<const D: usize, R: Regular<Point = [f64; D]>>(
             let alive: Vec<VertexId> =
                 (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();
             let any = |random: &mut Random| alive[random.below(alive.len())];
-            let what = match random.below(4) {
+            let what = match random.below(5) {
+                4 => {
+                    let weights: Vec<f64> =
+                        (0..r.ids_given()).map(|i| more[(i + step) % 30].1 + once(&mut random)).collect();
+                    r.set_weights(&weights).expect("finite");
+                    assert!(alive.iter().all(|&v| r.site(v).expect("alive").1 == weights[v.index()]));
+                    format!("all weigh {weights:?}")
+                }
                 0 if !alive.is_empty() => {
                     let v = any(&mut random);
                     r.remove(v).expect("alive");
@@ -204,6 +216,56 @@ fn a_life_is_the_definition_at_every_step_in_the_plane() {
 #[test]
 fn a_life_is_the_definition_at_every_step_in_space() {
     a_life::<3, Regular3>(in_space, 60);
+}
+
+/// Steps of weights, small ones and large ones, some sites removed: what is repaired is what is built. Returns how many steps
+/// were repaired, and how many sites fell again.
+fn steps<const D: usize, R: Regular<Point = [f64; D]>>(
+    points: &[[f64; D]],
+    random: &mut Random,
+) -> [usize; 2] {
+    let mut weights = vec![0.0; points.len()];
+    let mut r = R::from_parts(points, &weights).expect("finite");
+    let mut alive: Vec<VertexId> = (0..points.len()).map(VertexId::new).collect();
+    let mut counts = [0; 2];
+    for step in 0..12 {
+        let spread = [1e-4, 1e-3, 1e-2, 0.1][random.below(4)];
+        let steps = [3, 1000][random.below(2)] as f64;
+        for w in &mut weights {
+            *w += spread * (random.unit() * steps).floor() / steps;
+        }
+        let found = r.set_weights(&weights).expect("finite");
+        if let Reweighed::Repaired { settled, .. } = found {
+            counts = [counts[0] + 1, counts[1] + settled];
+        }
+        r.check().unwrap_or_else(|flaw| panic!("step {step}: {flaw}"));
+        let sites: (Vec<[f64; D]>, Vec<f64>) = alive.iter().filter_map(|&v| r.site(v)).unzip();
+        let expected = R::from_parts(&sites.0, &sites.1).expect("finite");
+        let name = |v: VertexId| alive[v.index()];
+        let named = simplices(&expected).into_iter().map(|s| s.into_iter().map(name).collect::<Vec<_>>());
+        assert!(simplices(&r).into_iter().eq(named), "step {step}: {found:?}");
+        assert!(r.hidden().eq(expected.hidden().map(name)), "step {step}: {found:?}");
+        let v = alive.remove(random.below(alive.len()));
+        r.remove(v).expect("alive");
+    }
+    counts
+}
+
+#[test]
+fn other_weights_at_once_are_as_good_as_new() {
+    let mut random = Random::new(8);
+    let mut counts = [[0; 2]; 2];
+    for round in 0..8 {
+        for kind in [Kind::Uniform, Kind::Grid, Kind::Clusters, Kind::Circle] {
+            let [repaired, settled] = steps::<2, Regular2>(&kind.points(400, round), &mut random);
+            counts[0] = [counts[0][0] + repaired, counts[0][1] + settled];
+        }
+        for kind in [Kind3::Cube, Kind3::Grid3] {
+            let [repaired, settled] = steps::<3, Regular3>(&kind.points(100, round), &mut random);
+            counts[1] = [counts[1][0] + repaired, counts[1][1] + settled];
+        }
+    }
+    assert!(counts[0][0] > 40 && counts[0][1] > 400, "{counts:?}");
 }
 
 /// Of any sites at points on half-integers.

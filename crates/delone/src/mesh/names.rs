@@ -78,6 +78,18 @@ impl Names {
         self.places.resize(self.places.len() + count, Place::GHOST);
     }
 
+    /// The k-th name becomes the k-th of these, of so many that were given.
+    pub(crate) fn rename(&mut self, names: &[VertexId], given: usize) {
+        for v in self.of.iter_mut().filter(|v| !v.is_ghost()) {
+            *v = names[v.index()];
+        }
+        let mut places = filled(Place::GHOST, given);
+        for (v, &place) in names.iter().zip(&self.places) {
+            places[v.index()] = place;
+        }
+        self.places = places;
+    }
+
     /// A vertex appears at a place.
     pub(crate) fn bind(&mut self, v: VertexId, place: Place) {
         if self.of.len() <= place.index() {

@@ -97,7 +97,7 @@ impl Regular2 {
     }
 
     /// Finds where a site falls, and settles it there.
-    fn settle_again(&mut self, v: VertexId, place: Place) {
+    pub(super) fn settle_again(&mut self, v: VertexId, place: Place) {
         let (spot, _) = self.spot(self.base.points[place.index()]);
         self.settle(v, place, spot);
     }

@@ -9,7 +9,7 @@ use super::Regular2;
 use crate::plane::check::{Flaw2, check_geometry};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{Kernel, Power};
-use crate::verdict::RegularFlaw;
+use crate::regular::RegularFlaw;
 
 impl Regular2 {
     /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.

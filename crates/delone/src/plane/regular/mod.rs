@@ -13,6 +13,7 @@ mod build;
 mod change;
 mod check;
 mod power;
+mod reweigh;
 mod settle;
 mod triangulation;
 

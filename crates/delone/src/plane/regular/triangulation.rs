@@ -5,9 +5,9 @@ use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, TriangleId, VertexId};
 use crate::mesh::Dimension;
 use crate::plane::check::Flaw2;
+use crate::regular::{RegularFlaw, Reweighed};
 use crate::tally::Counters;
 use crate::triangulation::{Regular, Triangulation};
-use crate::verdict::RegularFlaw;
 
 impl Triangulation for Regular2 {
     type Point = [f64; 2];
@@ -108,6 +108,10 @@ impl Regular for Regular2 {
 
     fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
         self.set_weight(v, weight)
+    }
+
+    fn set_weights(&mut self, weights: &[f64]) -> Result<Reweighed, Error> {
+        self.set_weights(weights)
     }
 
     fn nearest(&self, q: [f64; 2]) -> Result<Option<VertexId>, Error> {

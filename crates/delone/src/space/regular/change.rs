@@ -11,7 +11,11 @@ use crate::error::Error;
 use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::{Start, Strategy};
 use crate::points::{Position3, check_weights, finite};
+use crate::regular::Reweighed;
+use delone_predicates::Site;
 
+/// One site in so many may have another weight before building anew is faster.
+const MANY: usize = 16;
 /// Below so many vertices any hint will do.
 const SMALL: usize = 32;
 
@@ -69,6 +73,39 @@ impl Regular3 {
         self.base.free_place(place);
         let place = self.base.keep((point, weight));
         self.settle(v, place)
+    }
+
+    /// Gives all sites other weights, by id; those of sites that were removed mean nothing. Each that differs costs a removal and
+    /// an insertion; where many do, all is built anew.
+    ///
+    /// # Errors
+    /// [`Error::Length`] unless there is a weight for each id given, [`Error::Weight`] for one that is not finite, by index: then
+    /// nothing changes. As [`Self::set_weight`].
+    pub fn set_weights(&mut self, weights: &[f64]) -> Result<Reweighed, Error> {
+        if weights.len() != self.ids_given() {
+            return Err(Error::Length { expected: self.ids_given(), found: weights.len() });
+        }
+        check_weights(weights)?;
+        let alive = (0..weights.len()).map(VertexId::new).filter_map(|v| Some((v, self.site(v)?)));
+        let alive: Vec<(VertexId, Site<3>)> = alive.collect();
+        let differs = |&&(v, (_, weight)): &&(VertexId, Site<3>)| weight != weights[v.index()];
+        let settled = alive.iter().filter(differs).count();
+        if settled <= alive.len() / MANY {
+            for &(v, _) in alive.iter().filter(differs) {
+                self.set_weight(v, weights[v.index()])?;
+            }
+            return Ok(Reweighed::Repaired { flips: 0, settled });
+        }
+        let points: Vec<[f64; 3]> = alive.iter().map(|(_, site)| site.0).collect();
+        let others: Vec<f64> = alive.iter().map(|(v, _)| weights[v.index()]).collect();
+        let mut anew = Self::from_parts(&points, &others)?;
+        if alive.len() < weights.len() {
+            let ids: Vec<VertexId> = alive.into_iter().map(|(v, _)| v).collect();
+            anew.base.mesh.names.rename(&ids, weights.len());
+            anew.under.rename(&ids);
+        }
+        *self = anew;
+        Ok(Reweighed::Rebuilt)
     }
 
     /// Takes a site out of the triangulation, and lets those surface that only it hid. It keeps its place.

@@ -6,9 +6,9 @@
 //! Cost: O(n log n), and a walk for each site that is no vertex.
 
 use super::Regular3;
+use crate::regular::RegularFlaw;
 use crate::space::check::{Flaw3, check_geometry};
 use crate::space::layer::kernel::Lift;
-use crate::verdict::RegularFlaw;
 
 impl Regular3 {
     /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.

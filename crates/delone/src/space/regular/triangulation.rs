@@ -4,10 +4,10 @@ use super::Regular3;
 use crate::error::Error;
 use crate::ids::{Duplicate, Inserted, TetrahedronId, VertexId};
 use crate::mesh::Dimension;
+use crate::regular::{RegularFlaw, Reweighed};
 use crate::space::check::Flaw3;
 use crate::tally::Counters;
 use crate::triangulation::{Regular, Triangulation};
-use crate::verdict::RegularFlaw;
 
 impl Triangulation for Regular3 {
     type Point = [f64; 3];
@@ -113,6 +113,10 @@ impl Regular for Regular3 {
 
     fn set_weight(&mut self, v: VertexId, weight: f64) -> Result<(), Error> {
         self.set_weight(v, weight)
+    }
+
+    fn set_weights(&mut self, weights: &[f64]) -> Result<Reweighed, Error> {
+        self.set_weights(weights)
     }
 
     fn nearest(&self, q: [f64; 3]) -> Result<Option<VertexId>, Error> {

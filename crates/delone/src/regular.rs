@@ -1,0 +1,33 @@
+//! What regular triangulations of the plane and of space say alike: what is wrong with one, and how it took other weights.
+
+use crate::ids::VertexId;
+
+/// What is wrong with a regular triangulation, one sentence each. `F` is what may be wrong with any triangulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegularFlaw<F> {
+    /// The simplices are not the regular ones of the vertices.
+    #[error(transparent)]
+    Triangulation(#[from] F),
+    /// A site is called hidden and is below the simplices.
+    #[error("site {} is no vertex, and none of the others hides it", .0.index())]
+    Hidden(VertexId),
+    /// A site is called the duplicate of a vertex that it does not equal, or is not called that of the one that it equals.
+    #[error("site {} is said to be another one's duplicate and is not, or the other way round", .0.index())]
+    Duplicate(VertexId),
+}
+
+/// How a triangulation took other weights for all sites.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reweighed {
+    /// By repair.
+    Repaired {
+        /// Flips, or what does the work of one.
+        flips: usize,
+        /// Sites that were no vertices, or not all of the time, and fell again.
+        settled: usize,
+    },
+    /// By a construction from nothing.
+    Rebuilt,
+}
