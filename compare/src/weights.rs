@@ -98,10 +98,21 @@ fn engines_2<'a>(points: &'a [[f64; 2]], weights: &'a [f64]) -> Vec<Engine<'a, 3
         let (seconds, r) = timed(|| Regular2::with_seed(points, weights, 0).expect("finite"));
         (seconds, simplices(&r))
     };
+    // From weights in which about one edge in a hundred is another one.
+    let spacing = (points.len() as f64).sqrt().recip() * points.iter().flatten().fold(0.0, |m, &x| x.max(m));
+    let mut random = Random::new(3);
+    let before = weights.iter().map(|w| w + 0.02 * spacing * spacing * (random.unit() - 0.5));
+    let before = Regular2::from_parts(points, &before.collect::<Vec<_>>()).expect("finite");
+    let step = move || {
+        let mut r = before.clone();
+        let (seconds, _) = timed(|| r.set_weights(weights).expect("finite"));
+        (seconds, simplices(&r))
+    };
     vec![
         ("delone", true, Box::new(delone)),
         ("delone-2-threads", true, Box::new(two)),
         ("delone-incremental", true, Box::new(one_by_one)),
+        ("delone, one step", true, Box::new(step)),
         #[cfg(cgal)]
         ("cgal", true, Box::new(|| cgal::plane(points, weights))),
         ("delone, no weights", false, Box::new(plain)),

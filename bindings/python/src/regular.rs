@@ -97,24 +97,14 @@ impl Regular {
         PyArray1::from_vec(py, hidden)
     }
 
-    /// Gives sites other weights.
-    fn set_weights(
-        &mut self,
-        py: Python<'_>,
-        sites: PyReadonlyArray1<'_, i64>,
-        weights: PyReadonlyArray1<'_, f64>,
-    ) -> PyResult<()> {
-        let pairs: Vec<(VertexId, f64)> = sites
-            .as_slice()?
-            .iter()
-            .map(|&i| VertexId::new(i as usize))
-            .zip(weights.as_slice()?.iter().copied())
-            .collect();
+    /// Gives all sites other weights.
+    fn set_weights(&mut self, py: Python<'_>, weights: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+        let weights = weights.as_slice()?;
         either!(&mut self.core, state => {
-            let is_long = state.change(pairs.len());
-            detached(py, is_long, || pairs.into_iter().try_for_each(|(v, w)| state.triangulation.set_weight(v, w)))?
-                .map_err(python_error)
-        })
+            let is_long = state.change(weights.len());
+            detached(py, is_long, || state.triangulation.set_weights(weights))?.map_err(python_error)?;
+        });
+        Ok(())
     }
 
     /// The site with the least power at each point; -1 if there is none.

@@ -52,6 +52,14 @@ impl<C: Copy + Ord> Under<C> {
         self.sites.iter().map(|(&id, site)| (id, site.place))
     }
 
+    /// All with their places and the simplices above them, by simplex as far as these are known: neighbours after neighbours.
+    pub(crate) fn all_above(&self) -> impl Iterator<Item = (VertexId, Place, Option<C>)> + '_ {
+        let unknown = self.sites.iter().filter(|(_, site)| site.cell.is_none());
+        let unknown = unknown.map(|(&id, site)| (id, site.place, None));
+        let known = self.cells.iter().filter_map(|&(t, id)| Some((id, self.place(id)?, Some(t))));
+        known.chain(unknown)
+    }
+
     /// Those that are hidden.
     pub(crate) fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.sites.iter().filter(|(_, site)| site.equal.is_none()).map(|(&id, _)| id)

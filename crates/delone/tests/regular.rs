@@ -230,7 +230,7 @@ fn steps<const D: usize, R: Regular<Point = [f64; D]>>(
     let mut counts = [0; 2];
     for step in 0..12 {
         let spread = [1e-4, 1e-3, 1e-2, 0.1][random.below(4)];
-        let steps = [3, 1000][random.below(2)] as f64;
+        let steps = [3.0, 1000.0][random.below(2)];
         for w in &mut weights {
             *w += spread * (random.unit() * steps).floor() / steps;
         }

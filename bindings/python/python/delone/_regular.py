@@ -129,13 +129,9 @@ class RegularTriangulation:
         return self._core.nearest(queries).reshape(shape)
 
     def set_weights(self, weights: ArrayLike) -> None:
-        """Gives all sites other weights. A few changes are repaired, many are built anew."""
+        """Gives all sites other weights. What changes is repaired, or all is built anew where that is faster."""
         new = _as_weights(weights, len(self._points)).copy()
-        changed = np.flatnonzero(new != self._weights)
-        if len(changed) > len(new) // 16:
-            self._core = _delone.Regular(self._points, new)
-        elif len(changed):
-            self._core.set_weights(changed.astype(np.int64), new[changed])
+        self._core.set_weights(new)
         self._weights, self._arrays = new, None
 
 

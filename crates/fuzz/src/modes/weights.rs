@@ -1,6 +1,6 @@
 //! Points with weights: built in two ways, grown, reweighed and taken away, they are what the definition says at every step.
 
-use delone::{Regular2, Regular3, Triangulation, VertexId};
+use delone::{Regular, Regular2, Regular3, VertexId};
 use delone_generators::Random;
 use delone_oracle::power::Lifted;
 
@@ -16,52 +16,8 @@ pub(crate) struct Planar;
 /// In space.
 pub(crate) struct Spatial;
 
-/// What both kinds can do.
-trait Regular<const D: usize>: Triangulation<Point = [f64; D]> + Sized {
-    fn build(sites: &[Site<D>]) -> Result<Self, delone::Error>;
-    fn one_by_one(sites: &[Site<D>], seed: u64) -> Result<Self, delone::Error>;
-    fn site(&self, v: VertexId) -> Option<Site<D>>;
-    fn insert(&mut self, site: Site<D>) -> Result<VertexId, delone::Error>;
-    fn remove(&mut self, v: VertexId) -> Result<(), delone::Error>;
-    fn weigh(&mut self, v: VertexId, weight: f64) -> Result<(), delone::Error>;
-}
-
-macro_rules! regular {
-    ($kind:ident, $d:literal) => {
-        impl Regular<$d> for $kind {
-            fn build(sites: &[Site<$d>]) -> Result<Self, delone::Error> {
-                Self::from_sites(sites)
-            }
-
-            fn one_by_one(sites: &[Site<$d>], seed: u64) -> Result<Self, delone::Error> {
-                let (points, weights): (Vec<_>, Vec<_>) = sites.iter().copied().unzip();
-                Self::with_seed(&points, &weights, seed)
-            }
-
-            fn site(&self, v: VertexId) -> Option<Site<$d>> {
-                self.site(v)
-            }
-
-            fn insert(&mut self, (p, w): Site<$d>) -> Result<VertexId, delone::Error> {
-                self.insert(p, w).map(delone::Inserted::vertex)
-            }
-
-            fn remove(&mut self, v: VertexId) -> Result<(), delone::Error> {
-                self.remove(v)
-            }
-
-            fn weigh(&mut self, v: VertexId, weight: f64) -> Result<(), delone::Error> {
-                self.set_weight(v, weight)
-            }
-        }
-    };
-}
-
-regular!(Regular2, 2);
-regular!(Regular3, 3);
-
 /// Whether it is the triangulation of the sites that it has.
-fn judge<const D: usize>(r: &impl Regular<D>, what: &str) -> Judgement {
+fn judge<const D: usize>(r: &impl Regular<Point = [f64; D]>, what: &str) -> Judgement {
     r.check().map_err(|flaw| format!("{what}: check: {flaw}"))?;
     let alive = (0..r.ids_given()).map(VertexId::new).filter_map(|v| Some((v, r.site(v)?)));
     let alive: Vec<(VertexId, Site<D>)> = alive.collect();
@@ -95,25 +51,30 @@ fn judge<const D: usize>(r: &impl Regular<D>, what: &str) -> Judgement {
     Ok(())
 }
 
-fn live<const D: usize, R: Regular<D>>(sites: &[Site<D>], seed: u64) -> Judgement {
+fn live<const D: usize, R: Regular<Point = [f64; D]>>(sites: &[Site<D>], seed: u64) -> Judgement {
     let failed = |error: delone::Error| error.to_string();
     let mut random = Random::new(seed);
-    judge(&R::one_by_one(sites, seed).map_err(failed)?, "one by one")?;
-    let mut r = R::build(sites).map_err(failed)?;
+    let (points, weights): (Vec<_>, Vec<_>) = sites.iter().copied().unzip();
+    judge(&R::with_seed(&points, &weights, seed).map_err(failed)?, "one by one")?;
+    let mut r = R::from_parts(&points, &weights).map_err(failed)?;
     judge(&r, "built")?;
     for step in 0..sites.len() {
         let alive: Vec<VertexId> =
             (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();
         let other = sites[random.below(sites.len())];
         let what = if alive.is_empty() || (alive.len() < sites.len() && once_in(&mut random, 2)) {
-            format!("step {step}: insert {:?}: {:?}", r.insert(other).map_err(failed)?, other)
+            format!("step {step}: insert {:?}: {:?}", r.insert(other.0, other.1).map_err(failed)?, other)
+        } else if once_in(&mut random, 4) {
+            let turn = random.below(sites.len());
+            let weights: Vec<f64> = (0..r.ids_given()).map(|i| sites[(i + turn) % sites.len()].1).collect();
+            format!("step {step}: all weigh {weights:?}: {:?}", r.set_weights(&weights).map_err(failed)?)
         } else {
             let v = alive[random.below(alive.len())];
             if once_in(&mut random, 2) {
                 r.remove(v).map_err(failed)?;
                 format!("step {step}: remove {v:?}")
             } else {
-                r.weigh(v, other.1).map_err(failed)?;
+                r.set_weight(v, other.1).map_err(failed)?;
                 format!("step {step}: {v:?} weighs {:?}", other.1)
             }
         };

@@ -97,13 +97,13 @@ impl Regular2 {
     }
 
     /// Finds where a site falls, and settles it there.
-    pub(super) fn settle_again(&mut self, v: VertexId, place: Place) {
+    fn settle_again(&mut self, v: VertexId, place: Place) {
         let (spot, _) = self.spot(self.base.points[place.index()]);
         self.settle(v, place, spot);
     }
 
     /// Makes a site a vertex or puts it under, and with it those whose triangles are gone.
-    fn settle(&mut self, v: VertexId, place: Place, spot: Spot) {
+    pub(super) fn settle(&mut self, v: VertexId, place: Place, spot: Spot) {
         let was_spanned = self.base.spanned;
         let mut hidden = Vec::new();
         match self.base.settle(place, spot, &mut hidden, &mut ()) {
@@ -167,7 +167,7 @@ impl Regular2 {
     }
 
     /// Finds the triangles of the sites under them, at the first change after a construction.
-    fn locate_under(&mut self) {
+    pub(super) fn locate_under(&mut self) {
         if self.under.are_known {
             return;
         }

@@ -2,19 +2,21 @@
 //!
 //! 1. Edges are flipped until each is regular under the new weights. Where one cannot be flipped, because a corner of its
 //!    quadrilateral is reflex or straight, that corner is hidden as soon as nothing is around it but what takes its place.
-//! 2. The sites that are no vertices fall again, one by one, and become vertices where they surface.
+//! 2. Sites that are no vertices fall again, one by one, if they surface or the triangle is gone that they were above.
 //!
 //! Every flip lowers what is lifted, so there is an end; but with weights it may be reached too early (Edelsbrunner & Shah,
 //! "Incremental topological flipping works for regular triangulations", Algorithmica 1996, §5). Then, and where too much would
 //! have to be flipped, all is built anew. Either way leads to the canonical triangulation of the sites.
 //!
-//! Cost: O(n) tests and the flips, and a walk for each site that was no vertex; that of a construction otherwise.
+//! Cost: O(n) tests and the flips, and a short walk for each site that falls again; that of a construction otherwise. The first
+//! time each site that is no vertex has to be located.
 
 use delone_predicates::orient2d;
 
 use super::{Regular2, build};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::{Kernel, Power};
@@ -27,8 +29,18 @@ const WRONG: usize = 10;
 const FEW: usize = 16;
 /// So many flips a vertex may be needed before building anew is faster.
 const FLIPS: usize = 4;
+/// So many triangles are looked at together.
+const BLOCK: usize = 16;
 /// How many triangles ahead memory is asked.
 const AHEAD: usize = 12;
+
+/// A site that falls again, and an edge near it.
+#[derive(Clone, Copy, Debug)]
+struct Loose {
+    id: VertexId,
+    place: Place,
+    near: EdgeId,
+}
 
 impl Regular2 {
     /// Gives all sites other weights, by id; those of sites that were removed mean nothing. O(n) where little changes.
@@ -41,25 +53,31 @@ impl Regular2 {
             return Err(Error::Length { expected: self.ids_given(), found: weights.len() });
         }
         check_weights(weights)?;
+        self.locate_under();
+        let Self { base, under, .. } = self;
+        let vertices = base.mesh.vertices().filter_map(|v| Some((v, base.mesh.place(v)?)));
+        for (v, place) in vertices.chain(under.all()) {
+            base.weights[place.index()] = weights[v.index()];
+        }
         let mut loose = Vec::new();
-        self.under.take_all(&mut loose);
-        let vertices = self.mesh().vertices().filter_map(|v| Some((v, self.mesh().place(v)?)));
-        let all: Vec<(VertexId, Place)> = vertices.chain(loose.iter().copied()).collect();
-        all.into_iter().for_each(|(v, place)| self.base.weights[place.index()] = weights[v.index()]);
         let Some(flips) = self.flip_all(&mut loose) else {
             self.build_anew(loose);
             return Ok(Reweighed::Rebuilt);
         };
-        self.under.are_known = true;
-        loose.sort_unstable();
-        let settled = loose.len();
-        loose.into_iter().for_each(|(v, place)| self.settle_again(v, place));
-        Ok(Reweighed::Repaired { flips, settled })
+        self.take_surfacing(&mut loose);
+        loose.sort_unstable_by_key(|site| site.id);
+        for &Loose { id, place, near } in &loose {
+            let is_known = near != EdgeId::NONE && self.mesh().is_triangle(near.triangle());
+            let start = if is_known { Start::At(near, Walk::Visibility) } else { Start::Anywhere };
+            let (spot, _) = self.base.spot(start, self.base.points[place.index()], &mut ());
+            self.settle(id, place, spot);
+        }
+        Ok(Reweighed::Repaired { flips, settled: loose.len() })
     }
 
-    /// Flips edges until all are regular, and counts. Vertices that have to go are loose then. None if it gets stuck, or there would
-    /// be too many.
-    fn flip_all(&mut self, loose: &mut Vec<(VertexId, Place)>) -> Option<usize> {
+    /// Flips edges until all are regular, and counts. What was above a triangle that is gone is loose then, and vertices that had to
+    /// go. None if it gets stuck, or there would be too many.
+    fn flip_all(&mut self, loose: &mut Vec<Loose>) -> Option<usize> {
         if !self.base.spanned {
             return None;
         }
@@ -75,28 +93,53 @@ impl Regular2 {
             if flips > most {
                 return None;
             }
-            match obstacle(&self.base, e) {
-                None => {
-                    let f = self.mesh().twin(e);
-                    self.base.mesh.flip(e);
-                    wrong.extend([e.next(), e.previous(), f.next(), f.previous()]);
-                }
-                Some(obstacle) if obstacle.may_go(self.mesh()) => {
-                    if obstacle.is_straight {
-                        let f = self.mesh().twin(e);
-                        // Flat for the moment, and then part of the star that goes.
-                        self.base.mesh.flip(e);
-                        wrong.extend([e, e.next(), e.previous(), f.next(), f.previous()]);
-                    }
-                    loose.push(self.hide(obstacle.corner));
-                    let (filling, _) = self.base.hole.last();
-                    wrong.extend(filling.iter().flat_map(|t| [0, 1, 2].map(|k| t.edge(k))));
-                }
-                Some(_) => stuck.push(e),
+            let f = self.mesh().twin(e);
+            let obstacle = obstacle(&self.base, e);
+            if obstacle.as_ref().is_some_and(|obstacle| !obstacle.may_go(self.mesh())) {
+                stuck.push(e);
+                continue;
+            }
+            if obstacle.as_ref().is_none_or(|obstacle| obstacle.is_straight) {
+                // At a straight corner one triangle is flat then, and part of the star that goes.
+                self.loosen([e, f], e.next(), loose);
+                self.base.mesh.flip(e);
+                wrong.extend([e.next(), e.previous(), f.next(), f.previous()]);
+            }
+            if let Some(Obstacle { corner, .. }) = obstacle {
+                let star: Vec<EdgeId> = self.mesh().spokes(corner).collect();
+                let outside = self.mesh().twin(star[0].next());
+                self.loosen(star, outside, loose);
+                let (id, place) = self.hide(corner);
+                loose.push(Loose { id, place, near: outside });
+                let (filling, _) = self.base.hole.last();
+                wrong.extend(filling.iter().flat_map(|t| [0, 1, 2].map(|k| t.edge(k))));
             }
         }
         let is_over = |&e: &EdgeId| !self.mesh().is_triangle(e.triangle()) || !is_wrong(&self.base, e);
         stuck.iter().all(is_over).then_some(flips)
+    }
+
+    /// Loosens what is above the triangles of some edges.
+    fn loosen(&mut self, edges: impl IntoIterator<Item = EdgeId>, near: EdgeId, loose: &mut Vec<Loose>) {
+        let mut taken = Vec::new();
+        edges.into_iter().for_each(|e| self.under.take_from(e.triangle(), &mut taken));
+        loose.extend(taken.into_iter().map(|(id, place)| Loose { id, place, near }));
+    }
+
+    /// Loosens what is below its triangle now, and what is at the point of a vertex.
+    fn take_surfacing(&mut self, loose: &mut Vec<Loose>) {
+        let Self { base, under, .. } = self;
+        let is_above = |place: Place, t: TriangleId| {
+            let (corners, q) = (base.mesh.places(t), base.site(place));
+            let is_corner = |p: &Place| !p.is_ghost() && base.points[p.index()] == q.0;
+            !corners.iter().any(is_corner) && !Power::conflicts(corners, |k| base.site(corners[k]), q)
+        };
+        let surfacing = under.all_above().filter(|&(_, place, t)| t.is_none_or(|t| !is_above(place, t)));
+        let surfacing: Vec<_> = surfacing.collect();
+        for (id, place, t) in surfacing {
+            under.take(id);
+            loose.push(Loose { id, place, near: t.map_or(EdgeId::NONE, |t| t.edge(0)) });
+        }
     }
 
     /// Takes a vertex with three neighbours out. Its site keeps a place.
@@ -110,9 +153,11 @@ impl Regular2 {
         (v, kept)
     }
 
-    /// Builds all anew of its vertices, and of the sites that are none.
-    fn build_anew(&mut self, mut sites: Vec<(VertexId, Place)>) {
-        sites.extend(self.mesh().vertices().filter_map(|v| Some((v, self.mesh().place(v)?))));
+    /// Builds all anew.
+    fn build_anew(&mut self, loose: Vec<Loose>) {
+        let vertices = self.mesh().vertices().filter_map(|v| Some((v, self.mesh().place(v)?)));
+        let loose = loose.into_iter().map(|site| (site.id, site.place));
+        let mut sites: Vec<(VertexId, Place)> = vertices.chain(self.under.all()).chain(loose).collect();
         sites.sort_unstable();
         let (points, weights): (Vec<_>, Vec<_>) = sites.iter().map(|&(_, p)| self.base.site(p)).unzip();
         let given = self.ids_given();
@@ -126,20 +171,28 @@ impl Regular2 {
 }
 
 /// The edges that are not regular, each once. None if they are too many.
+///
+/// Which edges are tested is decided without branches, which would go the wrong way half of the time.
 fn wrong_edges(layer: &Layer<Power>) -> Option<Vec<EdgeId>> {
     let mesh = &layer.mesh;
     let most = 3 * mesh.vertex_count() / WRONG + FEW;
     let mut wrong = Vec::new();
-    for t in (0..mesh.slot_count()).map(TriangleId::new) {
-        let ahead = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
-        for record in ahead.filter(|record| record.twin != EdgeId::NONE) {
-            prefetch(&mesh.edges, record.twin.index());
+    let mut edges = [EdgeId::NONE; 3 * BLOCK];
+    let slots = mesh.slot_count();
+    for first in (0..slots).step_by(BLOCK) {
+        let mut count = 0;
+        for t in (first..slots.min(first + BLOCK)).map(TriangleId::new) {
+            let ahead = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+            for record in ahead.filter(|record| record.twin != EdgeId::NONE) {
+                prefetch(&mesh.edges, record.twin.index());
+            }
+            for e in [0, 1, 2].map(|k| t.edge(k)) {
+                edges[count] = e;
+                let twin = mesh.twin(e);
+                count += usize::from(e < twin && twin != EdgeId::NONE);
+            }
         }
-        if !mesh.is_triangle(t) {
-            continue;
-        }
-        let edges = [0, 1, 2].map(|k| t.edge(k)).into_iter();
-        wrong.extend(edges.filter(|&e| e < mesh.twin(e) && is_wrong(layer, e)));
+        wrong.extend(edges[..count].iter().filter(|&&e| is_wrong(layer, e)));
         if wrong.len() > most {
             return None;
         }
