@@ -5,12 +5,14 @@
 //! `check`, but from bare triples and with sentences that name the culprit. Cost: O(n log n).
 
 mod segments;
+mod weights;
 
 use delone_predicates::{Sign, in_circle, in_circle_with_ties, lexicographic, orient2d, strictly_between};
 
 use crate::error::Error;
 use crate::points::check_finite;
 use crate::verdict::Verdict;
+pub use weights::verify_weighted;
 
 /// Why triangles are not a Delaunay triangulation of the points. Triangles and points are named by their index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -47,6 +49,22 @@ pub enum Objection2 {
         /// The corner of that triangle inside the circle.
         point: usize,
     },
+    /// The same with weights: a power is less than that of the corners.
+    #[error(
+        "triangle {triangle} is not regular: point {point}, a corner of triangle {neighbor}, is nearer to its power circle than its \
+         corners are"
+    )]
+    Power {
+        /// The triangle.
+        triangle: usize,
+        /// The triangle across its edge.
+        neighbor: usize,
+        /// The corner of that triangle.
+        point: usize,
+    },
+    /// With weights, a site left out that none of the others hides.
+    #[error("point {0} is not a corner of any triangle, and the others do not hide it")]
+    Surfaces(usize),
     /// A segment that is not there, or only in part.
     #[error("segment {segment} is missing: from point {point} on no edge runs along it")]
     Segment {
@@ -112,15 +130,13 @@ pub fn verify_constrained(
     let sides = sides(&triangles);
     check_overlap(&sides)?;
     let fixed = segments::fixed_edges(points, segments, &corner, &sides)?;
-    let other_ties = check_pairs(points, &triangles, &sides, &fixed)?;
-    let hull = check_border(points, &triangles, &sides)?;
-    let mut corners: Vec<usize> = triangles.as_flattened().to_vec();
-    corners.sort_unstable();
-    corners.dedup();
-    // A disk: V - E + F = 1, where 2 E = 3 F + h.
-    if 2 * corners.len() != triangles.len() + hull + 2 {
-        return Err(Objection2::Cover);
-    }
+    let other_ties = check_pairs(&triangles, &sides, &fixed, |[a, b, c], d| {
+        let [a, b, c, d] = [a, b, c, d].map(|corner| points[corner]);
+        (in_circle_with_ties(a, b, c, d), move || in_circle(a, b, c, d))
+    });
+    let other_ties =
+        other_ties.map_err(|[triangle, neighbor, point]| Objection2::Circle { triangle, neighbor, point })?;
+    let hull = check_disk(points, &triangles, &sides)?;
     Ok(Verdict { other_ties, negative: clockwise, duplicates, hull })
 }
 
@@ -210,29 +226,38 @@ fn check_overlap(sides: &[Side]) -> Result<(), Objection2> {
     }
 }
 
-/// Neither triangle at an edge contains the other's apex in its circle, but where the edge is fixed. Returns the number of ties
-/// that were broken in another way.
-fn check_pairs(
-    points: &[[f64; 2]],
+/// Neither triangle at an edge is in conflict with the other's apex, but where the edge is fixed: as a sign, zero for ties, and as one
+/// without ties. Returns the number of ties that were broken in another way, or two triangles and the apex of the second.
+fn check_pairs<W: FnOnce() -> Sign>(
     triangles: &[[usize; 3]],
     sides: &[Side],
     fixed: &[[usize; 2]],
-) -> Result<usize, Objection2> {
+    conflict: impl Fn([usize; 3], usize) -> (Sign, W),
+) -> Result<usize, [usize; 3]> {
     let mut other_ties = 0;
     for edge in edges(sides) {
         let &[(v, w, _, triangle, _), (.., neighbor, k)] = edge else { continue };
         if fixed.binary_search(&[v, w]).is_ok() {
             continue;
         }
-        let [a, b, c] = triangles[triangle].map(|corner| points[corner]);
         let point = triangles[neighbor][(k + 2) % 3];
-        match in_circle_with_ties(a, b, c, points[point]) {
-            Sign::Negative => {}
-            Sign::Positive => return Err(Objection2::Circle { triangle, neighbor, point }),
-            Sign::Zero => other_ties += usize::from(in_circle(a, b, c, points[point]).is_positive()),
+        match conflict(triangles[triangle], point) {
+            (Sign::Negative, _) => {}
+            (Sign::Positive, _) => return Err([triangle, neighbor, point]),
+            (Sign::Zero, without_ties) => other_ties += usize::from(without_ties().is_positive()),
         }
     }
     Ok(other_ties)
+}
+
+/// The triangles are a disk whose border is the hull. Returns the number of its edges.
+fn check_disk(points: &[[f64; 2]], triangles: &[[usize; 3]], sides: &[Side]) -> Result<usize, Objection2> {
+    let hull = check_border(points, triangles, sides)?;
+    let mut corners: Vec<usize> = triangles.as_flattened().to_vec();
+    corners.sort_unstable();
+    corners.dedup();
+    // V - E + F = 1, where 2 E = 3 F + h.
+    if 2 * corners.len() == triangles.len() + hull + 2 { Ok(hull) } else { Err(Objection2::Cover) }
 }
 
 /// The edges with one triangle are one convex loop, once around. Returns their number.

@@ -6,12 +6,15 @@
 //! that one point is covered once, and that they add up to a ball. Then empty spheres across facets make all spheres empty. All is proved with exact
 //! predicates. Cost: O(n log n).
 
+mod weights;
+
 use delone_predicates::{Sign, are_collinear3, in_sphere, in_sphere_with_ties, lexicographic3, orient3d};
 
 use crate::error::Error;
 use crate::mesh::tetrahedra::FACETS;
 use crate::points::check_in_space;
 use crate::verdict::Verdict;
+pub use weights::verify_weighted;
 
 /// Why tetrahedra are not a Delaunay triangulation of the points. Tetrahedra and points are named by their index.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -48,6 +51,22 @@ pub enum Objection3 {
         /// The corner of that tetrahedron inside the sphere.
         point: usize,
     },
+    /// The same with weights: a power is less than that of the corners.
+    #[error(
+        "tetrahedron {tetrahedron} is not regular: point {point}, a corner of tetrahedron {neighbor}, is nearer to its power sphere \
+         than its corners are"
+    )]
+    Power {
+        /// The tetrahedron.
+        tetrahedron: usize,
+        /// The tetrahedron across its facet.
+        neighbor: usize,
+        /// The corner of that tetrahedron.
+        point: usize,
+    },
+    /// With weights, a site left out that none of the others hides.
+    #[error("point {0} is not a corner of any tetrahedron, and the others do not hide it")]
+    Surfaces(usize),
     /// A border that is not the convex hull.
     #[error("the border is not the convex hull: it turns inwards at the edge of points {0} and {1}")]
     Dent(usize, usize),
@@ -76,16 +95,25 @@ pub fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict, O
     if tetrahedra.is_empty() {
         return Ok(Verdict { other_ties: 0, negative, duplicates, hull: 0 });
     }
-    let mut sides: Vec<Side> =
-        (0..tetrahedra.len()).flat_map(|t| [0, 1, 2, 3].map(|k| side(tetrahedra[t], t, k))).collect();
-    sides.sort_unstable();
-    let other_ties = check_pairs(points, &tetrahedra, &sides)?;
-    let hull = check_border(points, &sides)?;
-    match cover(points, &tetrahedra) {
-        Some(1) | None if is_ball(&tetrahedra, hull) => {}
-        times => return Err(Objection3::Cover(times.unwrap_or(0))),
-    }
+    let sides = sides(&tetrahedra)?;
+    let other_ties = check_pairs(&tetrahedra, &sides, |[a, b, c, d], e| {
+        let [a, b, c, d, e] = [a, b, c, d, e].map(|corner| points[corner]);
+        (in_sphere_with_ties(a, b, c, d, e), move || in_sphere(a, b, c, d, e))
+    });
+    let sphere =
+        |[tetrahedron, neighbor, point]: [usize; 3]| Objection3::Sphere { tetrahedron, neighbor, point };
+    let other_ties = other_ties.map_err(sphere)?;
+    let hull = check_once(points, &tetrahedra, &sides)?;
     Ok(Verdict { other_ties, negative, duplicates, hull })
+}
+
+/// The tetrahedra are a ball whose border is the hull. Returns the number of its facets.
+fn check_once(points: &[[f64; 3]], tetrahedra: &[[usize; 4]], sides: &[Side]) -> Result<usize, Objection3> {
+    let hull = check_border(points, sides)?;
+    match cover(points, tetrahedra) {
+        Some(1) | None if is_ball(tetrahedra, hull) => Ok(hull),
+        times => Err(Objection3::Cover(times.unwrap_or(0))),
+    }
 }
 
 /// The tetrahedra in positive order, and how many were not.
@@ -146,21 +174,33 @@ fn side(corners: [usize; 4], t: usize, k: usize) -> Side {
     (sorted, even, t, k)
 }
 
-/// Each facet has one tetrahedron on each side at most, and neither contains the other's apex in its sphere. Returns
-/// the number of ties that were broken in another way.
-fn check_pairs(points: &[[f64; 3]], tetrahedra: &[[usize; 4]], sides: &[Side]) -> Result<usize, Objection3> {
+/// All sides, those on one facet together: of one tetrahedron on each side at most.
+fn sides(tetrahedra: &[[usize; 4]]) -> Result<Vec<Side>, Objection3> {
+    let mut sides: Vec<Side> =
+        (0..tetrahedra.len()).flat_map(|t| [0, 1, 2, 3].map(|k| side(tetrahedra[t], t, k))).collect();
+    sides.sort_unstable();
+    let same_side = |pair: &&[Side]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);
+    match sides.windows(2).find(same_side) {
+        Some(pair) => Err(Objection3::Overlap(pair[0].2, pair[1].2)),
+        None => Ok(sides),
+    }
+}
+
+/// Neither tetrahedron at a facet is in conflict with the other's apex: as a sign, zero for ties, and as one without ties. Returns the
+/// number of ties that were broken in another way, or two tetrahedra and the apex of the second.
+fn check_pairs<W: FnOnce() -> Sign>(
+    tetrahedra: &[[usize; 4]],
+    sides: &[Side],
+    conflict: impl Fn([usize; 4], usize) -> (Sign, W),
+) -> Result<usize, [usize; 3]> {
     let mut other_ties = 0;
     for facet in sides.chunk_by(|s, t| s.0 == t.0) {
-        if let Some(pair) = facet.windows(2).find(|pair| pair[0].1 == pair[1].1) {
-            return Err(Objection3::Overlap(pair[0].2, pair[1].2));
-        }
         let &[(_, _, tetrahedron, _), (_, _, neighbor, k)] = facet else { continue };
-        let [a, b, c, d] = tetrahedra[tetrahedron].map(|corner| points[corner]);
         let point = tetrahedra[neighbor][k];
-        match in_sphere_with_ties(a, b, c, d, points[point]) {
-            Sign::Negative => {}
-            Sign::Positive => return Err(Objection3::Sphere { tetrahedron, neighbor, point }),
-            Sign::Zero => other_ties += usize::from(in_sphere(a, b, c, d, points[point]).is_positive()),
+        match conflict(tetrahedra[tetrahedron], point) {
+            (Sign::Negative, _) => {}
+            (Sign::Positive, _) => return Err([tetrahedron, neighbor, point]),
+            (Sign::Zero, without_ties) => other_ties += usize::from(without_ties().is_positive()),
         }
     }
     Ok(other_ties)

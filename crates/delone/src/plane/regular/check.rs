@@ -5,13 +5,28 @@
 //!
 //! Cost: O(n), and a walk for each site that is no vertex.
 
+use delone_predicates::{Sign, in_power_circle_with_ties};
+
 use super::Regular2;
+use crate::ids::VertexId;
 use crate::plane::check::{Flaw2, check_geometry};
 use crate::plane::layer::insert::Spot;
-use crate::plane::layer::kernel::{Kernel, Power};
+use crate::plane::layer::kernel::{Kernel, Power, Site};
 use crate::regular::RegularFlaw;
 
 impl Regular2 {
+    /// The side of what is spanned, lifted, that a site is on: positive above. Zero has the vertex that it equals, if there is one.
+    pub(in crate::plane) fn side(&self, site: Site<Power>) -> (Sign, Option<VertexId>) {
+        match self.spot(site.0).0 {
+            Spot::Vertex(v) => (Sign::of(&self.base.weights[v.index()], &site.1), Some(self.mesh().name(v))),
+            Spot::Triangle(t) if !self.mesh().is_ghost(t) => {
+                let [a, b, c] = self.base.mesh.places(t).map(|p| self.base.site(p));
+                (-in_power_circle_with_ties(a, b, c, site), None)
+            }
+            _ => (Sign::Negative, None),
+        }
+    }
+
     /// Proves that this is the canonical regular triangulation of all its sites, or returns the first flaw found.
     pub fn check(&self) -> Result<(), RegularFlaw<Flaw2>> {
         self.mesh().check().map_err(Flaw2::from)?;
