@@ -8,26 +8,33 @@ use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
 use crate::room::{self, Objection, Room, Words};
 use crate::stats::Stats;
-use crate::{constrained, files};
+use crate::{constrained, files, weighted};
 
 pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
     let mut inputs = args.input.paths_and(&args.mesh);
     inputs.extend(args.segments.as_deref());
+    inputs.extend(args.weights.file());
     files::keep_apart(&inputs, args.input.stats.as_deref())?;
     if args.segments.is_some() && R::is_space() {
         return Err(Failure::usage("--segments is for the plane", "leave it or --dim 3 out"));
     }
     let asked = GraphArgs { segments: args.segments.clone(), ..GraphArgs::default() };
-    if !R::is_space() && constrained::is_meant(&args.input, &asked) {
+    let has_weights = args.weights.given().is_some();
+    if !R::is_space() && !has_weights && constrained::is_meant(&args.input, &asked) {
         return with_segments(args, quiet);
     }
     let mut stats = Stats::start();
-    let (points, _) = room::read::<R>(&args.input, quiet)?;
+    let (points, weights) = if has_weights {
+        let (points, weights, _) = weighted::read::<R>(&args.input, &args.weights, quiet)?;
+        (points, Some(weights))
+    } else {
+        (room::read::<R>(&args.input, quiet)?.0, None)
+    };
     let simplices = files::simplices(&args.mesh, quiet, R::read_simplices)?;
     stats.phase("read");
     let verdict = {
         let _phase = Phase::start(quiet, "checking");
-        R::verify(&points, &simplices)
+        R::verify(&points, weights.as_deref(), &simplices)
     };
     stats.phase("check");
     stats.set("points", points.len());
@@ -75,7 +82,13 @@ fn tell(
 ) -> Result<(), Failure> {
     let many = words.simplex[1];
     stats.set("simplices", count);
-    stats.set("delaunay", verdict.is_ok());
+    let is_weighted = args.weights.given().is_some();
+    let (key, name, not) = if is_weighted {
+        ("regular", "Regular", "not regular")
+    } else {
+        ("delaunay", "Delaunay", "not Delaunay")
+    };
+    stats.set(key, verdict.is_ok());
     stats.set("canonical", verdict.as_ref().is_ok_and(|verdict| verdict.is_canonical()));
     if let Ok(verdict) = &verdict {
         stats.set("duplicates", verdict.duplicates);
@@ -86,15 +99,13 @@ fn tell(
     stats.write(args.input.stats.as_deref())?;
     let verdict = verdict.map_err(|objection| match objection {
         Objection::Points(error) => Failure::graph(&args.input.label(), &error),
-        Objection::Simplices(what) => {
-            Failure::new(format!("{}: not Delaunay: {what}", args.mesh.display()), help)
-        }
+        Objection::Simplices(what) => Failure::new(format!("{}: {not}: {what}", args.mesh.display()), help),
     })?;
     let text = if verdict.is_canonical() {
-        format!("Delaunay, and the canonical triangulation: {count} {many}\n")
+        format!("{name}, and the canonical triangulation: {count} {many}\n")
     } else {
         let others = format!("{} {}", verdict.other_ties, words.other[1]);
-        format!("Delaunay, not the canonical triangulation: {others}; {count} {many}\n")
+        format!("{name}, not the canonical triangulation: {others}; {count} {many}\n")
     };
     answer(&text)?;
     if verdict.negative > 0 {

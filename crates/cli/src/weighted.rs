@@ -65,11 +65,7 @@ impl<R: Room> Weighted<R> {
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<Self, Failure> {
-        if let (Some(said), None) = (args.given(), args.file()) {
-            files::check_column(input, said)?;
-        }
-        let (points, about) = room::read::<R>(input, quiet)?;
-        let weights = weights(input, args, points.len(), quiet)?;
+        let (points, weights, about) = read::<R>(input, args, quiet)?;
         stats.phase("read");
         let phase = Phase::start(quiet, "triangulating");
         let triangulation = R::Regular::from_parts(&points, &weights)
@@ -106,6 +102,20 @@ impl<R: Room> Weighted<R> {
         stats.phase("write");
         Ok(())
     }
+}
+
+/// Points and their weights.
+pub(crate) fn read<R: Room>(
+    input: &InputArgs,
+    args: &WeightArgs,
+    quiet: bool,
+) -> Result<(Vec<R::Point>, Vec<f64>, Cloud), Failure> {
+    if let (Some(said), None) = (args.given(), args.file()) {
+        files::check_column(input, said)?;
+    }
+    let (points, about) = room::read::<R>(input, quiet)?;
+    let weights = weights(input, args, points.len(), quiet)?;
+    Ok((points, weights, about))
 }
 
 /// The weight of every point.

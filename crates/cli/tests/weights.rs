@@ -92,3 +92,26 @@ fn equal_radii_are_none() {
         place.succeed(&format!("-q check {points} w.npy {dim}"));
     }
 }
+
+#[test]
+fn triangles_of_points_with_weights_are_judged() {
+    let place = Place::new();
+    place.file("disks.csv", DISKS);
+    place.succeed("-q triangulate disks.csv --columns x,y --radii r -o t.npy");
+    let said = place.succeed("check disks.csv t.npy --columns x,y --radii r --stats s.json");
+    assert!(said.starts_with("Regular, and the canonical triangulation"), "{said}");
+    assert!(read(&place, "s.json").contains("\"regular\": true"));
+    place.fail("check disks.csv t.npy --columns x,y", 1, "point 4 is not a corner");
+    place.succeed("-q triangulate disks.csv --columns x,y -o plain.npy");
+    place.fail("check disks.csv plain.npy --columns x,y --radii r", 1, "not regular: triangle");
+    place.fail(
+        "check disks.csv t.npy --columns x,y --radii r --segments disks.csv",
+        2,
+        "cannot be used with",
+    );
+    place.succeed("-q generate ball -n 300 -o q.csv");
+    place.file("w.csv", &"1\n3\n1.5\n".repeat(100));
+    place.succeed("-q triangulate q.csv --dim 3 --weights w.csv -o t.npy");
+    let said = place.succeed("check q.csv t.npy --dim 3 --weights w.csv");
+    assert!(said.contains("canonical"), "{said}");
+}

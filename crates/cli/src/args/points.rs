@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use delone_experiments::{EXPERIMENTS, Experiment};
 use delone_io::Format;
 
-use super::{DimArgs, InputArgs, count, length};
+use super::{DimArgs, InputArgs, WeightArgs, count, length};
 
 /// Make points.
 #[derive(Debug, Args)]
@@ -63,8 +63,10 @@ pub(crate) struct InfoArgs {
   delone check points.npy tetrahedra.npy --dim 3
   delone check plan.poly other.1.ele
   delone check points.csv triangles.npy --segments segments.csv
+  delone check sites.csv triangles.npy --weights w
 
-Of points with segments all triangles of the hull are judged: whether they are the constrained Delaunay triangulation.
+Of points with segments all triangles of the hull are judged: whether they are the constrained Delaunay triangulation; of points
+with weights, whether they are a regular triangulation, and hidden points are hidden.
 
 Exit status: 0 Delaunay (the answer says whether canonical too), 1 not Delaunay or bad data, 2 wrong usage.")]
 pub(crate) struct CheckArgs {
@@ -76,8 +78,10 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "MESH")]
     pub(crate) mesh: PathBuf,
     /// In the plane, file of segments between the points: two indices a line from 0 (csv npy edge poly).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["weights", "radii"])]
     pub(crate) segments: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) weights: WeightArgs,
 }
 
 /// Shrink points.

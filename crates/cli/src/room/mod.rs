@@ -64,7 +64,12 @@ pub(crate) trait Room: Change<Point: Drawable> {
     fn read_simplices(source: Box<dyn Source>, format: Format) -> Result<Vec<Self::Row>, delone_io::Error>;
 
     /// Judges simplices from elsewhere.
-    fn verify(points: &[Self::Point], simplices: &[Self::Row]) -> Result<Verdict, Objection>;
+    /// Judges simplices of points, with weights if there are some.
+    fn verify(
+        points: &[Self::Point],
+        weights: Option<&[f64]>,
+        simplices: &[Self::Row],
+    ) -> Result<Verdict, Objection>;
 }
 
 /// What things are called.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::plane::verify::{Objection2, verify};
+use delone::plane::verify::{Objection2, verify, verify_weighted};
 use delone::{Algorithm2, Counters, Delaunay2, Graph, Hints2, Regular2, Verdict, VertexId};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
@@ -85,8 +85,16 @@ impl Room for Delaunay2 {
         delone_io::read_triangles(source, format)
     }
 
-    fn verify(points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Verdict, Objection> {
-        verify(points, triangles).map_err(|objection| match objection {
+    fn verify(
+        points: &[[f64; 2]],
+        weights: Option<&[f64]>,
+        triangles: &[[u64; 3]],
+    ) -> Result<Verdict, Objection> {
+        let verdict = match weights {
+            Some(weights) => verify_weighted(points, weights, triangles),
+            None => verify(points, triangles),
+        };
+        verdict.map_err(|objection| match objection {
             Objection2::Points(error) => Objection::Points(error),
             other => Objection::Simplices(other.to_string()),
         })

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::space::verify::{Objection3, verify};
+use delone::space::verify::{Objection3, verify, verify_weighted};
 use delone::{Algorithm3, Counters, Delaunay3, Graph, Hints3, Regular3, Verdict, VertexId};
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::in_sphere_with_ties;
@@ -89,8 +89,16 @@ impl Room for Delaunay3 {
         delone_io::read_tetrahedra(source, format)
     }
 
-    fn verify(points: &[[f64; 3]], tetrahedra: &[[u64; 4]]) -> Result<Verdict, Objection> {
-        verify(points, tetrahedra).map_err(|objection| match objection {
+    fn verify(
+        points: &[[f64; 3]],
+        weights: Option<&[f64]>,
+        tetrahedra: &[[u64; 4]],
+    ) -> Result<Verdict, Objection> {
+        let verdict = match weights {
+            Some(weights) => verify_weighted(points, weights, tetrahedra),
+            None => verify(points, tetrahedra),
+        };
+        verdict.map_err(|objection| match objection {
             Objection3::Points(error) => Objection::Points(error),
             other => Objection::Simplices(other.to_string()),
         })
