@@ -22,6 +22,7 @@ mod nearest;
 mod orders;
 mod outcome;
 mod polygons;
+mod powers;
 mod progress;
 mod queries;
 mod reduce;

@@ -56,6 +56,8 @@ impl Failure {
             delone::Error::NotFinite { .. } => {
                 "remove that point or repair its coordinates: every finite number is accepted"
             }
+            delone::Error::NoCell { .. } => "clip to what contains all points, and give each point once",
+            delone::Error::Parameter { .. } => "give a number in that range",
             delone::Error::Length { .. } => "give as many centres as points, row by row",
             _ => "split the points into smaller sets",
         };

@@ -1,6 +1,6 @@
 //! `delone voronoi`: clipped cells as polygons and pictures.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use delone::{Bounds, Delaunay2, Region2, Relaxation2};
 use delone_io::{Diagram, Format};
@@ -9,10 +9,10 @@ use crate::args::VoronoiArgs;
 use crate::files;
 use crate::message::Failure;
 use crate::orders;
+use crate::powers;
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::weighted::Weighted;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let polygon = is_polygon(args);
@@ -21,6 +21,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         inputs.push(&args.clip);
     }
     inputs.extend(args.weights.file());
+    inputs.extend(args.areas.as_deref().map(Path::new).filter(|path| path.exists()));
     let all: Vec<_> = args.output.iter().chain(&args.sites).cloned().collect();
     files::keep_apart(&inputs, all.iter().map(AsRef::as_ref).chain(args.input.stats.as_deref()))?;
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
@@ -34,8 +35,8 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
     }
     let mut stats = Stats::start();
-    if args.weights.given().is_some() {
-        return powers(args, &outputs, sites_format, stats, quiet);
+    if args.weights.given().is_some() || args.areas.is_some() {
+        return powers::run(args, &outputs, sites_format, stats, quiet);
     }
     let (points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
     let rings = if polygon { files::rings(&args.clip, quiet)? } else { Vec::new() };
@@ -88,55 +89,13 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(args.input.stats.as_deref())
 }
 
-/// Power cells of sites with weights.
-fn powers(
-    args: &VoronoiArgs,
-    outputs: &[(PathBuf, Format)],
-    sites_format: Option<Format>,
-    mut stats: Stats,
-    quiet: bool,
-) -> Result<(), Failure> {
-    if args.relax > 0 {
-        return Err(Failure::usage(
-            "--relax is for sites without weights",
-            "leave --weights, --radii or --relax out",
-        ));
-    }
-    let sites = Weighted::<Delaunay2>::read(&args.input, &args.weights, &mut stats, quiet)?;
-    let r = &sites.triangulation;
-    let region = if is_polygon(args) {
-        polygon_region(args, &files::rings(&args.clip, quiet)?)?
-    } else {
-        // The hull of the points, whatever they weigh.
-        region(args, &room::build(&sites.points, Delaunay2::FASTEST, &args.input.label(), quiet)?)?
-    };
-    let cells = {
-        let _phase = Phase::start(quiet, "clipping");
-        r.power().clip(&region)
-    };
-    stats.phase("clip");
-    stats.set("cells", r.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
-    stats.set("area", region.area());
-    let _phase = Phase::start(quiet, "writing");
-    let diagram = Diagram { triangulation: r, cells: &cells, crs: sites.about.crs.as_ref() };
-    for (path, format) in outputs {
-        files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
-    }
-    if let (Some(path), Some(format)) = (&args.sites, sites_format) {
-        files::write(path, |out| delone_io::write_points(out, format, &sites.points))?;
-    }
-    stats.phase("write");
-    stats.tell(quiet, ["triangle", "triangles"]);
-    stats.write(args.input.stats.as_deref())
-}
-
 /// Whether a file says what to clip to.
-fn is_polygon(args: &VoronoiArgs) -> bool {
+pub(crate) fn is_polygon(args: &VoronoiArgs) -> bool {
     !["box", "hull"].map(Path::new).contains(&args.clip.as_path())
 }
 
 /// The polygons to clip to.
-fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Result<Region2, Failure> {
+pub(crate) fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Result<Region2, Failure> {
     Region2::polygon(rings).map_err(|error| {
         let help = "clip to a polygon whose rings cross nowhere and touch each other only at corners of both";
         Failure::new(format!("{}: {error}", args.clip.display()), help)
@@ -144,7 +103,7 @@ fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Result<Region2
 }
 
 /// The box or the hull to clip to.
-fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region2, Failure> {
+pub(crate) fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region2, Failure> {
     if args.clip == Path::new("hull") {
         return Region2::hull(triangulation)
             .map_err(|_| Failure::new("the sites span no area, so their hull has none", "clip to a --box"));

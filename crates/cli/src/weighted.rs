@@ -110,27 +110,46 @@ pub(crate) fn read<R: Room>(
     args: &WeightArgs,
     quiet: bool,
 ) -> Result<(Vec<R::Point>, Vec<f64>, Cloud), Failure> {
-    if let (Some(said), None) = (args.given(), args.file()) {
-        files::check_column(input, said)?;
+    if let Some(said) = args.given() {
+        check_beside(input, said)?;
     }
     let (points, about) = room::read::<R>(input, quiet)?;
     let weights = weights(input, args, points.len(), quiet)?;
     Ok((points, weights, about))
 }
 
-/// The weight of every point.
-fn weights(input: &InputArgs, args: &WeightArgs, count: usize, quiet: bool) -> Result<Vec<f64>, Failure> {
-    let Some(said) = args.given() else { return Ok(vec![0.0; count]) };
-    let (numbers, label) = match args.file() {
-        Some(path) => (files::numbers(path, quiet)?, path.to_owned()),
-        None => (files::column(input, said, quiet)?, input.label()),
+/// Refuses a column of what has none, before anything is read.
+pub(crate) fn check_beside(input: &InputArgs, said: &str) -> Result<(), Failure> {
+    if Path::new(said).exists() { Ok(()) } else { files::check_column(input, said) }
+}
+
+/// A number for each of so many points, from a file or from a column of their own; and where it is from.
+pub(crate) fn beside(
+    input: &InputArgs,
+    said: &str,
+    count: usize,
+    what: &str,
+    quiet: bool,
+) -> Result<(Vec<f64>, PathBuf), Failure> {
+    let path = Path::new(said);
+    let (numbers, label) = if path.exists() {
+        (files::numbers(path, quiet)?, path.to_owned())
+    } else {
+        (files::column(input, said, quiet)?, input.label())
     };
     if numbers.len() != count {
         return Err(Failure::new(
-            format!("{}: {} weights for {count} points", label.display(), numbers.len()),
-            "give one weight for each point, row by row",
+            format!("{}: {} {what} for {count} points", label.display(), numbers.len()),
+            "give one number for each point, row by row",
         ));
     }
+    Ok((numbers, label))
+}
+
+/// The weight of every point.
+fn weights(input: &InputArgs, args: &WeightArgs, count: usize, quiet: bool) -> Result<Vec<f64>, Failure> {
+    let Some(said) = args.given() else { return Ok(vec![0.0; count]) };
+    let (numbers, label) = beside(input, said, count, "weights", quiet)?;
     let weights: Vec<f64> = numbers.into_iter().map(|number| args.weight(number)).collect();
     match weights.iter().position(|w| !w.is_finite()) {
         Some(index) => Err(Failure::new(

@@ -110,8 +110,31 @@ fn triangles_of_points_with_weights_are_judged() {
         "cannot be used with",
     );
     place.succeed("-q generate ball -n 300 -o q.csv");
-    place.file("w.csv", &"1\n3\n1.5\n".repeat(100));
+    place.file("w.csv", "1\n3\n1.5\n".repeat(100));
     place.succeed("-q triangulate q.csv --dim 3 --weights w.csv -o t.npy");
     let said = place.succeed("check q.csv t.npy --dim 3 --weights w.csv");
     assert!(said.contains("canonical"), "{said}");
+}
+
+#[test]
+fn cells_have_the_areas_that_were_asked_for() {
+    let place = Place::new();
+    place.file("sites.csv", "x,y,customers\n0.2,0.2,1\n0.8,0.3,2\n0.4,0.9,5\n");
+    let told = place
+        .run("voronoi sites.csv --columns x,y --areas customers --box 0,0,1,1 -o c.geojson --stats s.json");
+    assert!(text(&told.stderr).contains("steps"), "{}", text(&told.stderr));
+    for area in ["\"area\":0.12", "\"area\":0.2", "\"area\":0.62"] {
+        assert!(read(&place, "c.geojson").contains(area), "{area}");
+    }
+    place.succeed("-q voronoi sites.csv --columns x,y --areas equal --box 0,0,1,1 -o c.geojson");
+    assert_eq!(read(&place, "c.geojson").matches("\"area\":0.33333333").count(), 3);
+    let fail = |what: &str, status, word: &str| {
+        place.fail(&format!("voronoi sites.csv --columns x,y {what} -o d.svg"), status, word);
+    };
+    fail("--areas equal --box 0,0,0.1,0.1", 1, "site 1 has no cell in the region");
+    fail("--areas x --order 2", 2, "cannot be used with");
+    fail("--areas equal --relax 2", 2, "--relax is for sites without weights");
+    fail("--areas q", 1, "there is no column");
+    place.file("zero.csv", "1\n0\n1\n");
+    fail("--areas zero.csv --box 0,0,1,1", 1, "a share of the area");
 }

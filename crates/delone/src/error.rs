@@ -16,6 +16,12 @@ pub enum Error {
         /// The coordinate.
         value: f64,
     },
+    /// A site without area where one is prescribed.
+    #[error("site {site} has no cell in the region: it is outside, or at the point of another one")]
+    NoCell {
+        /// The index of the site in the input.
+        site: usize,
+    },
     /// A weight is NaN or infinite.
     #[error("site {index} has the weight {value}, which is not finite")]
     Weight {

@@ -1,6 +1,6 @@
 //! Power cells: they tile, hold what is nearest to them, and change as their Jacobian says.
 
-use delone::{Region2, Regular2, VertexId};
+use delone::{Error, Region2, Regular2, VertexId};
 use delone_generators::Random;
 
 type Site = ([f64; 2], f64);
@@ -72,4 +72,38 @@ fn second_moments_are_integrals() {
         let moment = cells.second_moment(v, sites[v.index()].0);
         assert!((moment - 1.0 / 6.0).abs() < 1e-15, "{moment}");
     }
+}
+
+/// Any shares, in a box and in a polygon with a notch, come out as near as rounding allows.
+#[test]
+fn prescribed_areas_come_out() {
+    let mut random = Random::new(7);
+    let regions = [
+        Region2::rectangle([0.0, 0.0], [1.0, 1.0]).expect("a box"),
+        Region2::polygon(&[vec![[-0.1, -0.1], [1.1, -0.2], [0.6, 0.5], [1.2, 1.1], [-0.2, 1.3]]])
+            .expect("one"),
+    ];
+    for round in 0..30 {
+        let count = 1 + random.below(60);
+        let region = &regions[round % 2];
+        let points: Vec<[f64; 2]> = (0..count).map(|_| [random.unit() / 2.0, random.unit()]).collect();
+        let shares: Vec<f64> = (0..count).map(|_| 0.1 + random.unit()).collect();
+        let (r, found) = Regular2::with_areas(&points, &shares, region, 1e-9).expect("cells");
+        assert!(found.error <= 1e-9, "round {round}: {found:?}");
+        assert!(found.steps < 40, "round {round}: {found:?}");
+        r.check().expect("regular");
+        let cells = r.power().clip(region);
+        let whole: f64 = shares.iter().sum();
+        for (i, share) in shares.iter().enumerate() {
+            let area = cells.area(VertexId::new(i));
+            assert!((area / region.area() - share / whole).abs() < 1e-9, "round {round}, {i}: {area}");
+        }
+    }
+    let square = &regions[0];
+    let prescribe = |points: &[[f64; 2]], shares: &[f64]| Regular2::with_areas(points, shares, square, 1e-9);
+    assert_eq!(prescribe(&[[0.5, 0.5], [0.5, 0.5]], &[1.0, 1.0]).unwrap_err(), Error::NoCell { site: 1 });
+    assert_eq!(prescribe(&[[0.5, 0.5], [9.0, 0.5]], &[1.0, 1.0]).unwrap_err(), Error::NoCell { site: 1 });
+    assert!(matches!(prescribe(&[[0.5, 0.5]], &[0.0]), Err(Error::Parameter { .. })));
+    assert!(matches!(prescribe(&[[0.5, 0.5]], &[1.0, 1.0]), Err(Error::Length { .. })));
+    assert_eq!(prescribe(&[], &[]).expect("nothing").1.steps, 0);
 }

@@ -92,6 +92,7 @@ impl CameraArgs {
   delone voronoi shops.csv --clip border.geojson -o cells.geojson
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
   delone voronoi shops.csv --order 3 -o three-nearest.geojson
+  delone voronoi shops.csv --areas customers -o districts.geojson
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
 beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature
@@ -126,6 +127,10 @@ pub(crate) struct VoronoiArgs {
     pub(crate) sites: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) weights: WeightArgs,
+    /// Weights for which the cells have these areas, in proportion: `equal`, or a file with one for each site, or a column of the
+    /// text input by name or number from 1.
+    #[arg(long, value_name = "equal|FILE|COLUMN", conflicts_with_all = ["weights", "radii", "order"], help_heading = "Weights")]
+    pub(crate) areas: Option<String>,
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,

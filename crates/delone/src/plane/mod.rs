@@ -41,5 +41,5 @@ pub use moving::{Moving2, Step2};
 pub use orders::{Exchange, OrderCells2, OrderCircle2, OrderK2, OrderRegion2};
 pub use radial::NearestSites2;
 pub use region::Region2;
-pub use regular::{Jacobian2, Power2, Regular2};
+pub use regular::{Jacobian2, Power2, Prescribed2, Regular2};
 pub use voronoi::{Cells2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};

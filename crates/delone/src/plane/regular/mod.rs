@@ -9,6 +9,7 @@
 //! "Incremental topological flipping works for regular triangulations", Algorithmica 1996; Devillers & Teillaud, "Perturbations
 //! for Delaunay and weighted Delaunay 3D triangulations", CGTA 2011.
 
+mod areas;
 mod build;
 mod change;
 mod check;
@@ -32,6 +33,7 @@ use crate::plane::layer::kernel::Power;
 use crate::points::{Position2, check_count, check_finite, check_weights, finite};
 use crate::tally::{Counters, Work};
 use crate::under::Under;
+pub use areas::Prescribed2;
 pub use power::{Jacobian2, Power2};
 
 /// The regular triangulation of sites with weights in the plane. See the [crate's words](crate#names) for what it has in common with
