@@ -21,12 +21,13 @@ pub(crate) struct Weighted<R: Room> {
 
 /// `delone triangulate`, with weights.
 pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    let algorithm = R::plan_regular(&args.strategy)?;
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
-    let r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
+    let r = Weighted::<R>::read_for(algorithm, &args.input, &args.weights, &mut stats, quiet)?;
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         r.triangulation.check().map_err(|flaw| {
@@ -65,6 +66,16 @@ impl<R: Room> Weighted<R> {
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<Self, Failure> {
+        Self::read_for(R::RegularAlgorithm::default(), input, args, stats, quiet)
+    }
+
+    fn read_for(
+        algorithm: R::RegularAlgorithm,
+        input: &InputArgs,
+        args: &WeightArgs,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
         if let (Some(said), None) = (args.given(), args.file()) {
             files::check_column(input, said)?;
         }
@@ -72,8 +83,8 @@ impl<R: Room> Weighted<R> {
         let weights = weights(input, args, points.len(), quiet)?;
         stats.phase("read");
         let phase = Phase::start(quiet, "triangulating");
-        let triangulation =
-            R::regular(&points, &weights).map_err(|error| Failure::points(&input.label(), &error))?;
+        let triangulation = R::regular(&points, &weights, algorithm)
+            .map_err(|error| Failure::points(&input.label(), &error))?;
         drop(phase);
         stats.phase("build");
         room::remark(&triangulation, quiet);

@@ -54,7 +54,17 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// The triangulation of points with weights.
     type Regular: Triangulation<Point = Self::Point>;
 
-    fn regular(points: &[Self::Point], weights: &[f64]) -> Result<Self::Regular, delone::Error>;
+    /// How to build it: what is chosen among.
+    type RegularAlgorithm: Copy + Default;
+
+    /// The same by the names of options.
+    fn plan_regular(strategy: &StrategyArgs) -> Result<Self::RegularAlgorithm, Failure>;
+
+    fn regular(
+        points: &[Self::Point],
+        weights: &[f64],
+        algorithm: Self::RegularAlgorithm,
+    ) -> Result<Self::Regular, delone::Error>;
 
     fn counters_of(r: &Self::Regular) -> Counters;
 
@@ -92,6 +102,9 @@ pub(crate) struct Plan<A> {
     /// How points are located, where that is a choice.
     pub(crate) locate: Option<LocateName>,
 }
+
+/// What has no parameters.
+const WITH_WEIGHTS: &str = "a construction with weights";
 
 /// Why simplices from elsewhere are wrong.
 pub(crate) enum Objection {

@@ -63,7 +63,19 @@ impl Room for Delaunay2 {
 
     type Regular = Regular2;
 
-    fn regular(points: &[[f64; 2]], weights: &[f64]) -> Result<Regular2, delone::Error> {
+    type RegularAlgorithm = ();
+
+    fn plan_regular(strategy: &StrategyArgs) -> Result<(), Failure> {
+        if strategy.locate.is_some() {
+            return Err(Failure::usage(
+                "with weights --locate is for space",
+                "leave --weights and --radii out, or --locate",
+            ));
+        }
+        strategy.refuse(WITH_WEIGHTS)
+    }
+
+    fn regular(points: &[[f64; 2]], weights: &[f64], (): ()) -> Result<Regular2, delone::Error> {
         Regular2::from_parts(points, weights)
     }
 

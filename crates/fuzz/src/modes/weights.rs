@@ -1,4 +1,4 @@
-//! Points with weights: built in two ways, grown, reweighed and taken away, they are what the definition says at every step.
+//! Points with weights: built in all ways, grown, reweighed and taken away, they are what the definition says at every step.
 
 use delone::{Regular2, Regular3, Triangulation, VertexId};
 use delone_generators::Random;
@@ -19,23 +19,31 @@ pub(crate) struct Spatial;
 /// What both kinds can do.
 trait Regular<const D: usize>: Triangulation<Point = [f64; D]> + Sized {
     fn build(sites: &[Site<D>]) -> Result<Self, delone::Error>;
-    fn one_by_one(sites: &[Site<D>], seed: u64) -> Result<Self, delone::Error>;
+    /// By all other algorithms, with their names.
+    fn otherwise(sites: &[Site<D>], seed: u64) -> Result<Vec<(&'static str, Self)>, delone::Error>;
     fn site(&self, v: VertexId) -> Option<Site<D>>;
     fn insert(&mut self, site: Site<D>) -> Result<VertexId, delone::Error>;
     fn remove(&mut self, v: VertexId) -> Result<(), delone::Error>;
     fn weigh(&mut self, v: VertexId, weight: f64) -> Result<(), delone::Error>;
 }
 
+/// Points, weights, a seed.
+type Build<const D: usize, R> = fn(&[[f64; D]], &[f64], u64) -> Result<R, delone::Error>;
+
 macro_rules! regular {
-    ($kind:ident, $d:literal) => {
+    ($kind:ident, $d:literal, $others:expr) => {
         impl Regular<$d> for $kind {
             fn build(sites: &[Site<$d>]) -> Result<Self, delone::Error> {
                 Self::from_sites(sites)
             }
 
-            fn one_by_one(sites: &[Site<$d>], seed: u64) -> Result<Self, delone::Error> {
+            fn otherwise(
+                sites: &[Site<$d>],
+                seed: u64,
+            ) -> Result<Vec<(&'static str, Self)>, delone::Error> {
                 let (points, weights): (Vec<_>, Vec<_>) = sites.iter().copied().unzip();
-                Self::with_seed(&points, &weights, seed)
+                let by_name = |(what, build): (_, Build<$d, Self>)| Ok((what, build(&points, &weights, seed)?));
+                $others.into_iter().map(by_name).collect()
             }
 
             fn site(&self, v: VertexId) -> Option<Site<$d>> {
@@ -57,8 +65,8 @@ macro_rules! regular {
     };
 }
 
-regular!(Regular2, 2);
-regular!(Regular3, 3);
+regular!(Regular2, 2, [("one by one", Self::with_seed as Build<2, Self>)]);
+regular!(Regular3, 3, [("one by one", Self::with_seed as Build<3, Self>), ("by flips", Self::by_flips)]);
 
 /// Whether it is the triangulation of the sites that it has.
 fn judge<const D: usize>(r: &impl Regular<D>, what: &str) -> Judgement {
@@ -98,9 +106,14 @@ fn judge<const D: usize>(r: &impl Regular<D>, what: &str) -> Judgement {
 fn live<const D: usize, R: Regular<D>>(sites: &[Site<D>], seed: u64) -> Judgement {
     let failed = |error: delone::Error| error.to_string();
     let mut random = Random::new(seed);
-    judge(&R::one_by_one(sites, seed).map_err(failed)?, "one by one")?;
     let mut r = R::build(sites).map_err(failed)?;
     judge(&r, "built")?;
+    for (what, other) in R::otherwise(sites, seed).map_err(failed)? {
+        judge(&other, what)?;
+        if !other.duplicates().eq(r.duplicates()) {
+            return Err(format!("{what}: other duplicates"));
+        }
+    }
     for step in 0..sites.len() {
         let alive: Vec<VertexId> =
             (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();

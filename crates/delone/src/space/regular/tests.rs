@@ -97,10 +97,33 @@ fn it_is_the_definition_in_any_order() {
             let r = Regular3::from_sites(&all).expect("finite");
             judge(&r, &format!("round {round}, order {seed}"));
             hidden += r.hidden().count();
+            let (points, weights): (Vec<_>, Vec<_>) = all.iter().copied().unzip();
+            let by_flips = Regular3::by_flips(&points, &weights, seed).expect("finite");
+            judge(&by_flips, &format!("round {round}, order {seed}, by flips"));
+            assert!(by_flips.hidden().eq(r.hidden()) && by_flips.duplicates().eq(r.duplicates()), "{all:?}");
             random.shuffle(&mut all);
         }
     }
     assert!(hidden > 400, "{hidden}");
+}
+
+/// What flips made can change as what cavities made.
+#[test]
+fn what_flips_made_changes() {
+    let mut random = Random::new(4);
+    for round in 0..40 {
+        let count = 5 + random.below(8);
+        let all = sites(&mut random, count);
+        let (points, weights): (Vec<_>, Vec<_>) = all.iter().copied().unzip();
+        let mut r = Regular3::by_flips(&points, &weights, round).expect("finite");
+        for &(p, w) in &sites(&mut random, 3) {
+            r.insert(p, w).expect("finite");
+        }
+        for v in 0..count {
+            r.remove(VertexId::new(v)).expect("alive");
+            judge(&r, &format!("round {round}, without {v}"));
+        }
+    }
 }
 
 /// After every insertion, removal and change of a weight.
