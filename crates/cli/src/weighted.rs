@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use delone::Triangulation;
 use delone_io::{Cloud, Format, picture, write_mesh};
 
@@ -38,6 +39,9 @@ pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Resul
         })?;
         stats.phase("check");
         note(quiet, "checked: this is the canonical regular triangulation");
+    }
+    if let Some(locate) = args.strategy.locate.and_then(|locate| locate.to_possible_value()) {
+        stats.set("locate", locate.get_name());
     }
     r.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
     stats.tell(quiet, R::WORDS.simplex);

@@ -93,9 +93,10 @@ fn sites_in_space_are_located_by_history() {
         rest.chars().take_while(char::is_ascii_digit).collect::<String>().parse().expect("a number")
     };
     let [by_cavities, by_flips] = ["c.json", "f.json"].map(|name| read(&place, name));
-    assert_eq!(number(&by_cavities, "tetrahedra"), number(&by_flips, "tetrahedra"));
+    assert_eq!(number(&by_cavities, "simplices"), number(&by_flips, "simplices"));
     assert_eq!(number(&by_cavities, "hidden"), number(&by_flips, "hidden"));
     assert!(number(&by_flips, "hidden") > 100, "{by_flips}");
+    assert!(by_flips.contains("\"locate\": \"history\""), "{by_flips}");
     assert!(number(&by_flips, "created") > number(&by_cavities, "created"), "{by_flips} {by_cavities}");
     let fail = |what: &str, word: &str| {
         place.fail(&format!("triangulate q.csv --dim 3 --weights w.csv {what} -o t.npy"), 2, word);

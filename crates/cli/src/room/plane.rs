@@ -7,7 +7,7 @@ use delone::{Algorithm2, Counters, Delaunay2, Graph, Hints2, Regular2, Verdict, 
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
 
-use super::{Objection, Plan, Room, Words, located};
+use super::{Objection, Plan, Room, WITH_WEIGHTS, Words, located};
 use crate::args::{AlgorithmName, LocateName, StrategyArgs};
 use crate::message::Failure;
 use crate::stats::Stats;

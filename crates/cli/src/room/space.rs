@@ -82,9 +82,7 @@ impl Room for Delaunay3 {
     fn plan_regular(strategy: &StrategyArgs) -> Result<Option<u64>, Failure> {
         match strategy.locate {
             None => strategy.refuse(WITH_WEIGHTS).map(|()| None),
-            Some(LocateName::History) => {
-                strategy.strategy(LocateName::History).map(|_| Some(strategy.seed))
-            }
+            Some(LocateName::History) => strategy.strategy(LocateName::History).map(|_| Some(strategy.seed)),
             Some(_) => Err(Failure::usage(
                 "points with weights are located by default or by history",
                 "choose --locate history, or leave --locate out",

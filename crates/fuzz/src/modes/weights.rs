@@ -37,12 +37,10 @@ macro_rules! regular {
                 Self::from_sites(sites)
             }
 
-            fn otherwise(
-                sites: &[Site<$d>],
-                seed: u64,
-            ) -> Result<Vec<(&'static str, Self)>, delone::Error> {
+            fn otherwise(sites: &[Site<$d>], seed: u64) -> Result<Vec<(&'static str, Self)>, delone::Error> {
                 let (points, weights): (Vec<_>, Vec<_>) = sites.iter().copied().unzip();
-                let by_name = |(what, build): (_, Build<$d, Self>)| Ok((what, build(&points, &weights, seed)?));
+                let by_name =
+                    |(what, build): (_, Build<$d, Self>)| Ok((what, build(&points, &weights, seed)?));
                 $others.into_iter().map(by_name).collect()
             }
 
