@@ -3,7 +3,7 @@
 //! What ever appears is O(n^2) (Theorem 4.6), and for sets whose samples of r points have F(r) tetrahedra O of the sum of
 //! F(n / k) / k (4.7): linear where F is. The paper's example says that the size of the result says nothing: two skew lines have
 //! a quadratic triangulation, and one more point between them makes it linear, but not what appears before it comes. With weights
-//! (Edelsbrunner & Shah 1996) most of what comes later is hidden at once, or hides others.
+//! (Edelsbrunner & Shah 1996) sites are hidden at once or later.
 
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ const WITH_WEIGHTS: &str = "ball, with weights";
 /// So many points from a seed.
 type Make = fn(usize, u64) -> Vec<[f64; 3]>;
 
-/// Radii of sites with weights, in the side of a cube for each: two thirds are hidden.
+/// The largest radius of a site with a weight, in sides of the cube that is its share: more than half of many are hidden.
 const RADIUS: f64 = 2.0;
 
 /// The skew lines have a quadratic number of tetrahedra.
