@@ -8,17 +8,18 @@
 //!
 //! Sources: the challenge at the end of §4.3 of Guibas, Knuth & Sharir, Algorithmica 1992; that it can be met: Joe, CAGD 1991,
 //! and with weights Edelsbrunner & Shah, "Incremental topological flipping works for regular triangulations", Algorithmica
-//! 1996. The hull is closed by the vertex at infinity: the tetrahedra at it are the cones beyond the hull seen from a point
-//! inside of the first tetrahedron, so that they are flipped as all others. Sites that span less than space have the scaffold
-//! of a layer beside them.
+//! 1996. The hull is closed by the vertex at infinity: the tetrahedra at it are the cones beyond the hull seen from a centre inside
+//! of the first tetrahedron, infinitesimally near one of its corners, so that they are flipped as all others. Sites that span less
+//! than space have the scaffold of a layer beside them.
 //!
-//! The proof of Edelsbrunner & Shah needs general position. Heights have it by the perturbation of the conflict tests. Of
-//! points it is enough that the new one is on no plane through three others and on none through two others and the point
-//! inside: for the while of its insertion, and where it is located, it is moved by a step that is too small to show
-//! anywhere else ([`orient3d_moved`]). Among all that are in conflict and not yet taken in, the one that the moved site comes
-//! upon first, as it is lowered from far above, has all facets that face it taken in already, and no others: its flip is one of the three,
-//! and what comes of it is in positive order. What waits comes upon a neighbour that does not. Tetrahedra with four coplanar
-//! corners come and go meanwhile, and none is left: what is taken in at last is the cavity. In the history they contain nothing.
+//! The proof of Edelsbrunner & Shah needs general position. Heights have it by the perturbation of the conflict tests. Of points it
+//! is enough that the new one is in no plane through three others, or through two others and the centre; so while it is located
+//! and inserted it is moved by a step that is too small to show anywhere else ([`orient3d_moved`]). Then some flip is always
+//! possible: lower the lifted site from far above, and of all tetrahedra that are in conflict with it and still there take the one
+//! whose hyperplane it passes first. What it passes before is gone, so exactly the facets that face the moved site are at new
+//! tetrahedra already; they are one, two or three, and what the flip makes is in positive order. Without the step flips do get stuck.
+//! New tetrahedra with four coplanar corners come and go, and none is left in the end, when all that was in conflict is gone.
+//! They stay in the history, where they contain nothing.
 //!
 //! Cost: O(n log n) expected where the triangulation of each sample is linear in its size; all tetrahedra ever made, fifty
 //! and more a point of 40 bytes, are kept until the end.
