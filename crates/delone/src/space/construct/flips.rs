@@ -17,7 +17,7 @@
 //! and inserted it is moved by a step that is too small to show anywhere else ([`orient3d_moved`]). Then some flip is always
 //! possible: lower the lifted site from far above, and of all tetrahedra that are in conflict with it and still there take the one
 //! whose hyperplane it passes first. What it passes before is gone, so exactly the facets that face the moved site are at new
-//! tetrahedra already; they are one, two or three, and what the flip makes is in positive order. Without the step flips do get stuck.
+//! tetrahedra already; they are one, two or three, and what the flip makes is in positive order. With weights, flips without the step go wrong on lattices.
 //! New tetrahedra with four coplanar corners come and go, and none is left in the end, when all that was in conflict is gone.
 //! They stay in the history, where they contain nothing.
 //!
