@@ -5,6 +5,7 @@ mod alpha;
 mod animate;
 mod args;
 mod check;
+mod clip;
 mod constrained;
 mod draw;
 mod experiment;

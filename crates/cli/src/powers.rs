@@ -6,11 +6,11 @@ use delone::{Delaunay2, Region2, Regular2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
+use crate::clip::{is_polygon, polygon_region, region};
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
-use crate::voronoi::{is_polygon, polygon_region, region};
 use crate::weighted::{Weighted, beside};
 use crate::{files, weighted};
 

@@ -20,13 +20,12 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
         ));
     }
     if args.weights.given().is_some() {
-        if by_points || args.graph.is_given() {
+        if args.algorithm.is_some() || args.hints.is_some() || args.graph.is_given() {
             return Err(Failure::usage(
                 "weights are for the default algorithm, and for points without segments",
-                "leave --weights and --radii out, or --algorithm, --locate, --hints, --segments, --crossings and --fill",
+                "leave --weights and --radii out, or --algorithm, --hints, --segments, --crossings and --fill",
             ));
         }
-        args.strategy.refuse("a construction with weights")?;
         return weighted::triangulate::<R>(args, quiet);
     }
     if !R::is_space() && !by_points && constrained::is_meant(&args.input, &args.graph) {

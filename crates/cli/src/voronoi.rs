@@ -6,6 +6,7 @@ use delone::{Bounds, Delaunay2, Region2, Relaxation2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
+use crate::clip::{is_polygon, polygon_region, region};
 use crate::files;
 use crate::message::Failure;
 use crate::orders;
@@ -87,42 +88,4 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("write");
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.input.stats.as_deref())
-}
-
-/// Whether a file says what to clip to.
-pub(crate) fn is_polygon(args: &VoronoiArgs) -> bool {
-    !["box", "hull"].map(Path::new).contains(&args.clip.as_path())
-}
-
-/// The polygons to clip to.
-pub(crate) fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Result<Region2, Failure> {
-    Region2::polygon(rings).map_err(|error| {
-        let help = "clip to a polygon whose rings cross nowhere and touch each other only at corners of both";
-        Failure::new(format!("{}: {error}", args.clip.display()), help)
-    })
-}
-
-/// The box or the hull to clip to.
-pub(crate) fn region(args: &VoronoiArgs, triangulation: &Delaunay2) -> Result<Region2, Failure> {
-    if args.clip == Path::new("hull") {
-        return Region2::hull(triangulation)
-            .map_err(|_| Failure::new("the sites span no area, so their hull has none", "clip to a --box"));
-    }
-    let (low, high) = match args.bounds[..] {
-        [] => {
-            let bounds = Bounds::of(triangulation.points().iter().copied());
-            (bounds.low, bounds.high)
-        }
-        [x0, y0, x1, y1] => ([x0, y0], [x1, y1]),
-        _ => {
-            return Err(Failure::usage("--box needs four numbers", "give it as --box x0,y0,x1,y1"));
-        }
-    };
-    Region2::rectangle(low, high).map_err(|error| {
-        if args.bounds.is_empty() {
-            Failure::new("the bounding box of the sites has no area", "give one with --box x0,y0,x1,y1")
-        } else {
-            Failure::usage(format!("--box: {error}"), "give it as --box x0,y0,x1,y1 with x0 < x1 and y0 < y1")
-        }
-    })
 }

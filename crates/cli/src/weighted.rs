@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use delone::{Regular, Triangulation};
 use delone_io::{Cloud, Format, picture, write_mesh};
 
@@ -21,12 +22,13 @@ pub(crate) struct Weighted<R: Room> {
 
 /// `delone triangulate`, with weights.
 pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
+    let algorithm = R::plan_regular(&args.strategy)?;
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
-    let r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
+    let r = Weighted::<R>::read_for(algorithm, &args.input, &args.weights, &mut stats, quiet)?;
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         r.triangulation.check().map_err(|flaw| {
@@ -37,6 +39,9 @@ pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Resul
         })?;
         stats.phase("check");
         note(quiet, "checked: this is the canonical regular triangulation");
+    }
+    if let Some(locate) = args.strategy.locate.and_then(|locate| locate.to_possible_value()) {
+        stats.set("locate", locate.get_name());
     }
     r.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
     stats.tell(quiet, R::WORDS.simplex);
@@ -65,10 +70,20 @@ impl<R: Room> Weighted<R> {
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<Self, Failure> {
+        Self::read_for(R::RegularAlgorithm::default(), input, args, stats, quiet)
+    }
+
+    fn read_for(
+        algorithm: R::RegularAlgorithm,
+        input: &InputArgs,
+        args: &WeightArgs,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
         let (points, weights, about) = read::<R>(input, args, quiet)?;
         stats.phase("read");
         let phase = Phase::start(quiet, "triangulating");
-        let triangulation = R::Regular::from_parts(&points, &weights)
+        let triangulation = R::regular(&points, &weights, algorithm)
             .map_err(|error| Failure::points(&input.label(), &error))?;
         drop(phase);
         stats.phase("build");
@@ -104,12 +119,15 @@ impl<R: Room> Weighted<R> {
     }
 }
 
-/// Points and their weights.
+/// Points, their weights, and what is known of them.
+type Sites<P> = (Vec<P>, Vec<f64>, Cloud);
+
+/// Reads points and their weights.
 pub(crate) fn read<R: Room>(
     input: &InputArgs,
     args: &WeightArgs,
     quiet: bool,
-) -> Result<(Vec<R::Point>, Vec<f64>, Cloud), Failure> {
+) -> Result<Sites<R::Point>, Failure> {
     if let Some(said) = args.given() {
         check_beside(input, said)?;
     }

@@ -56,6 +56,7 @@ fn what_is_wrong_with_weights_is_named() {
     fail("--weights r --algorithm incremental", 2, "weights are for the default algorithm");
     fail("--weights r --fill all", 2, "weights are for the default algorithm");
     fail("--weights r --ratio 3", 2, "--ratio");
+    fail("--weights r --locate history", 2, "with weights --locate is for space");
     place.fail("triangulate p.npy --weights r -o t.npy", 2, "no columns to look for it in");
 }
 
@@ -74,6 +75,35 @@ fn power_cells_are_written() {
         2,
         "--relax is for sites without weights",
     );
+}
+
+/// By flips the tetrahedra are the same, and the history is counted.
+#[test]
+fn sites_in_space_are_located_by_history() {
+    let place = Place::new();
+    place.succeed("-q generate ball -n 300 -o q.csv");
+    let weights: String = (0..300).map(|i| format!("{}\n", 0.1 * f64::from(i % 7))).collect();
+    place.file("w.csv", weights);
+    place.succeed("-q triangulate q.csv --dim 3 --weights w.csv -o c.npy --stats c.json");
+    place.succeed(
+        "-q triangulate q.csv --dim 3 --weights w.csv --locate history --seed 5 --check -o f.npy --stats f.json",
+    );
+    let number = |stats: &str, key: &str| -> u64 {
+        let rest = stats.split_once(&format!("\"{key}\": ")).expect(key).1;
+        rest.chars().take_while(char::is_ascii_digit).collect::<String>().parse().expect("a number")
+    };
+    let [by_cavities, by_flips] = ["c.json", "f.json"].map(|name| read(&place, name));
+    assert_eq!(number(&by_cavities, "simplices"), number(&by_flips, "simplices"));
+    assert_eq!(number(&by_cavities, "hidden"), number(&by_flips, "hidden"));
+    assert!(number(&by_flips, "hidden") > 100, "{by_flips}");
+    assert!(by_flips.contains("\"locate\": \"history\""), "{by_flips}");
+    assert!(number(&by_flips, "created") > number(&by_cavities, "created"), "{by_flips} {by_cavities}");
+    let fail = |what: &str, word: &str| {
+        place.fail(&format!("triangulate q.csv --dim 3 --weights w.csv {what} -o t.npy"), 2, word);
+    };
+    fail("--locate hierarchy", "by default or by history");
+    fail("--locate history --ratio 3", "--ratio");
+    fail("--ratio 3", "--ratio");
 }
 
 #[test]

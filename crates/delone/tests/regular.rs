@@ -1,6 +1,8 @@
 //! Regular triangulations by their definition, in the plane and in space: built in any way and order, and at every step of a life.
 
-use delone::{Change, Delaunay2, Delaunay3, Regular, Regular2, Regular3, Reweighed, Triangulation, VertexId};
+use delone::{
+    Change, Delaunay2, Delaunay3, Error, Regular, Regular2, Regular3, Reweighed, Triangulation, VertexId,
+};
 use delone_generators::{Kind, Kind3, Random};
 use delone_oracle::power::Lifted;
 use delone_predicates::compare_powers;
@@ -120,10 +122,14 @@ fn equal_weights_change_nothing_in_space() {
     }
 }
 
+/// A construction of points, weights and a seed.
+type Build<const D: usize, R> = fn(&[[f64; D]], &[f64], u64) -> Result<R, Error>;
+
 /// Returns how many sites were hidden in all.
 fn in_any_order<const D: usize, R: Regular<Point = [f64; D]>>(
     sites: impl Fn(&mut Random, usize) -> Vec<Site<D>>,
     rounds: usize,
+    others: &[Build<D, R>],
 ) -> usize {
     let mut random = Random::new(1);
     let mut hidden = 0;
@@ -132,10 +138,13 @@ fn in_any_order<const D: usize, R: Regular<Point = [f64; D]>>(
         let mut all = sites(&mut random, count);
         for seed in 0..3 {
             let (points, weights): (Vec<_>, Vec<_>) = all.iter().copied().unzip();
-            let one_by_one = R::with_seed(&points, &weights, seed).expect("finite");
-            judge(&one_by_one, &format!("round {round}, order {seed}, one by one"));
             let r = R::from_parts(&points, &weights).expect("finite");
             judge(&r, &format!("round {round}, order {seed}"));
+            for (k, build) in others.iter().enumerate() {
+                let other = build(&points, &weights, seed).expect("finite");
+                judge(&other, &format!("round {round}, order {seed}, construction {k}"));
+                assert!(other.hidden().eq(r.hidden()) && other.duplicates().eq(r.duplicates()), "{all:?}");
+            }
             hidden += r.hidden().count();
             random.shuffle(&mut all);
         }
@@ -145,13 +154,13 @@ fn in_any_order<const D: usize, R: Regular<Point = [f64; D]>>(
 
 #[test]
 fn it_is_the_definition_in_any_order_in_the_plane() {
-    let hidden = in_any_order::<2, Regular2>(in_plane, 800);
+    let hidden = in_any_order::<2, Regular2>(in_plane, 800, &[Regular2::with_seed]);
     assert!(hidden > 1000, "{hidden}");
 }
 
 #[test]
 fn it_is_the_definition_in_any_order_in_space() {
-    let hidden = in_any_order::<3, Regular3>(in_space, 300);
+    let hidden = in_any_order::<3, Regular3>(in_space, 300, &[Regular3::with_seed, Regular3::by_flips]);
     assert!(hidden > 400, "{hidden}");
 }
 
@@ -164,13 +173,14 @@ fn once(random: &mut Random) -> f64 {
 fn a_life<const D: usize, R: Regular<Point = [f64; D]>>(
     sites: impl Fn(&mut Random, usize) -> Vec<Site<D>>,
     rounds: usize,
+    builds: &[Build<D, R>],
 ) {
     let mut random = Random::new(2);
     for round in 0..rounds {
         let count = random.below(7);
         let (points, weights): (Vec<_>, Vec<_>) = sites(&mut random, count).into_iter().unzip();
         let more = sites(&mut random, 30);
-        let mut r = R::from_parts(&points, &weights).expect("finite");
+        let mut r = builds[round % builds.len()](&points, &weights, 1).expect("finite");
         for step in 0..40 {
             let alive: Vec<VertexId> =
                 (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();
@@ -210,12 +220,13 @@ fn a_life<const D: usize, R: Regular<Point = [f64; D]>>(
 
 #[test]
 fn a_life_is_the_definition_at_every_step_in_the_plane() {
-    a_life::<2, Regular2>(in_plane, 150);
+    let built: Build<2, Regular2> = |points, weights, _| Regular2::from_parts(points, weights);
+    a_life::<2, Regular2>(in_plane, 150, &[built, Regular2::with_seed]);
 }
 
 #[test]
 fn a_life_is_the_definition_at_every_step_in_space() {
-    a_life::<3, Regular3>(in_space, 60);
+    a_life::<3, Regular3>(in_space, 60, &[Regular3::with_seed, Regular3::by_flips]);
 }
 
 /// Steps of weights, small ones and large ones, some sites removed: what is repaired is what is built. Returns how many steps

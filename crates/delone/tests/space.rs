@@ -1,7 +1,7 @@
 //! Triangulations of space against their definition, and each other.
 
 use delone::space::verify::{Objection3, verify};
-use delone::{Algorithm3, Delaunay3, Dimension, Hierarchy, Locate};
+use delone::{Algorithm3, Delaunay3, Dimension, Hierarchy, Locate, Regular3, VertexId};
 use delone_generators::{Kind3, Random};
 use delone_oracle::brute;
 
@@ -75,6 +75,51 @@ fn large_sets_agree_across_orders() {
             let d = Delaunay3::with_algorithm(&points, algorithm).expect("finite");
             assert_eq!(d.check(), Ok(()), "{}", kind.name());
             assert!((tetrahedra(&d), d.dimension(), d.edges().count()) == expected, "{}", kind.name());
+        }
+    }
+}
+
+/// With weights, by cavities and by flips.
+#[test]
+fn sites_agree_across_algorithms() {
+    type Made = (Vec<Vec<[u64; 4]>>, Vec<[u64; 4]>);
+    let made = |r: &Regular3| -> Made {
+        let bits = |v| {
+            let (p, w) = r.site(v).expect("given");
+            [p[0], p[1], p[2], w].map(|x| (x + 0.0).to_bits())
+        };
+        let sorted = |t: [VertexId; 4]| {
+            let mut corners = t.map(bits).to_vec();
+            corners.sort_unstable();
+            corners
+        };
+        let mut all: Vec<_> = r.tetrahedra().map(sorted).collect();
+        let mut hidden: Vec<_> = r.hidden().map(bits).collect();
+        all.sort_unstable();
+        hidden.sort_unstable();
+        (all, hidden)
+    };
+    for &kind in Kind3::ALL {
+        let n = if matches!(kind, Kind3::HugeSpan3 | Kind3::Linked | Kind3::Far) { 300 } else { 2_500 };
+        let points = kind.points(n, 2);
+        let size = points.iter().flatten().fold(0.0, |size, x| f64::max(size, x.abs()));
+        let mut random = Random::new(5);
+        // Lattices tie where several weights are equal.
+        let levels = [1 << 20, 4];
+        for level in levels {
+            let mut weight = || {
+                let part = random.below(level) as f64 / level as f64;
+                (0.01 * size * size * part).min(f64::MAX)
+            };
+            let mut sites: Vec<([f64; 3], f64)> = points.iter().map(|&p| (p, weight())).collect();
+            let expected = made(&Regular3::from_sites(&sites).expect("finite"));
+            for seed in 0..2 {
+                random.shuffle(&mut sites);
+                let (points, weights): (Vec<_>, Vec<_>) = sites.iter().copied().unzip();
+                let r = Regular3::by_flips(&points, &weights, seed).expect("finite");
+                assert_eq!(r.check(), Ok(()), "{} {level}", kind.name());
+                assert!(made(&r) == expected, "{} {level} {seed}", kind.name());
+            }
         }
     }
 }

@@ -69,7 +69,7 @@ pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
 pub use line::{Line, Spot};
 pub use lune::{Lune, LunePlace, in_diametral_ball};
 pub use orient::orient2d;
-pub use orient3d::{are_collinear3, orient3d};
+pub use orient3d::{are_collinear3, orient3d, orient3d_moved};
 pub use orthosphere::{
     RadiusScale, edge_is_attached, squared_radius, triangle_is_attached, vertex_is_attached,
 };

@@ -19,7 +19,33 @@ pub fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     orient3d_filter(a, b, c, d).unwrap_or_else(|| exact::orient3d(a, b, c, d))
 }
 
-/// The same, out of line, for points of which a static filter could not tell.
+/// The same for points that are moved by infinitesimal steps, so that it is zero only where nothing moves off a line.
+///
+/// `d` is moved along x, much less along y, and much less again along z. What is given for `c` is its first point, moved by a part of
+/// the way to the second, a much smaller part of that to the third, and so on; all that is much more than what `d` is moved.
+///
+/// Exact for every finite input. O(1) for each point.
+///
+/// ```
+/// use delone_predicates::{Sign, orient3d_moved};
+/// let (a, b, c) = ([0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+/// assert_eq!(orient3d_moved(a, b, &[c], [-1e-300, 0.0, 0.0]), Sign::Negative);
+/// assert_eq!(orient3d_moved(a, b, &[c], [0.0, 5.0, 7.0]), Sign::Positive); // towards larger x
+/// assert_eq!(orient3d_moved(a, b, &[c, [1.0, 0.0, 0.0]], [0.0, 5.0, 7.0]), Sign::Negative); // c is moved farther
+/// ```
+pub fn orient3d_moved(a: Point3, b: Point3, c: &[Point3], d: Point3) -> Sign {
+    let sides = c.iter().map(|&c| orient3d(a, b, c, d));
+    // The determinant grows with d as the normal of the plane points.
+    let normals = (0..3).flat_map(|axis| {
+        c.iter().map(move |&c| {
+            let [a, b, c] = [a, b, c].map(|p| [p[(axis + 1) % 3], p[(axis + 2) % 3]]);
+            orient2d(a, b, c)
+        })
+    });
+    sides.chain(normals).find(|sign| !sign.is_zero()).unwrap_or(Sign::Zero)
+}
+
+/// The same as [`orient3d`], out of line, for points of which a static filter could not tell.
 #[cold]
 #[inline(never)]
 pub(crate) fn orient3d_near(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {

@@ -55,6 +55,18 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// The triangulation of points with weights.
     type Regular: Regular<Point = Self::Point>;
 
+    /// How to build it: what is chosen among.
+    type RegularAlgorithm: Copy + Default;
+
+    /// The same by the names of options.
+    fn plan_regular(strategy: &StrategyArgs) -> Result<Self::RegularAlgorithm, Failure>;
+
+    fn regular(
+        points: &[Self::Point],
+        weights: &[f64],
+        algorithm: Self::RegularAlgorithm,
+    ) -> Result<Self::Regular, delone::Error>;
+
     /// Whether a point is on the circle or sphere through the corners of a simplex.
     fn is_tie(simplex: &[Self::Point], q: Self::Point) -> bool;
 
@@ -91,6 +103,9 @@ pub(crate) struct Plan<A> {
     /// How points are located, where that is a choice.
     pub(crate) locate: Option<LocateName>,
 }
+
+/// What has no parameters.
+const WITH_WEIGHTS: &str = "a construction with weights";
 
 /// Why simplices from elsewhere are wrong.
 pub(crate) enum Objection {

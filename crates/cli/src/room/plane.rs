@@ -7,7 +7,7 @@ use delone::{Algorithm2, Counters, Delaunay2, Graph, Hints2, Regular2, Verdict, 
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::{in_circle_with_ties, orient2d};
 
-use super::{Objection, Plan, Room, Words, located};
+use super::{Objection, Plan, Room, WITH_WEIGHTS, Words, located};
 use crate::args::{AlgorithmName, LocateName, StrategyArgs};
 use crate::message::Failure;
 use crate::stats::Stats;
@@ -62,6 +62,22 @@ impl Room for Delaunay2 {
     }
 
     type Regular = Regular2;
+
+    type RegularAlgorithm = ();
+
+    fn plan_regular(strategy: &StrategyArgs) -> Result<(), Failure> {
+        if strategy.locate.is_some() {
+            return Err(Failure::usage(
+                "with weights --locate is for space",
+                "leave --weights and --radii out, or --locate",
+            ));
+        }
+        strategy.refuse(WITH_WEIGHTS)
+    }
+
+    fn regular(points: &[[f64; 2]], weights: &[f64], (): ()) -> Result<Regular2, delone::Error> {
+        Regular2::from_parts(points, weights)
+    }
 
     fn is_tie(simplex: &[[f64; 2]], q: [f64; 2]) -> bool {
         matches!(*simplex, [a, b, c] if in_circle_with_ties(a, b, c, q).is_zero())

@@ -7,7 +7,7 @@ use delone::{Algorithm3, Counters, Delaunay3, Graph, Hints3, Regular3, Verdict, 
 use delone_io::{Cloud, Format, Source};
 use delone_predicates::in_sphere_with_ties;
 
-use super::{Objection, Plan, Room, Words, located};
+use super::{Objection, Plan, Room, WITH_WEIGHTS, Words, located};
 use crate::args::{AlgorithmName, LocateName, StrategyArgs};
 use crate::message::Failure;
 use crate::stats::Stats;
@@ -75,6 +75,31 @@ impl Room for Delaunay3 {
     }
 
     type Regular = Regular3;
+
+    /// The seed of flips, if it is by them.
+    type RegularAlgorithm = Option<u64>;
+
+    fn plan_regular(strategy: &StrategyArgs) -> Result<Option<u64>, Failure> {
+        match strategy.locate {
+            None => strategy.refuse(WITH_WEIGHTS).map(|()| None),
+            Some(LocateName::History) => strategy.strategy(LocateName::History).map(|_| Some(strategy.seed)),
+            Some(_) => Err(Failure::usage(
+                "points with weights are located by default or by history",
+                "choose --locate history, or leave --locate out",
+            )),
+        }
+    }
+
+    fn regular(
+        points: &[[f64; 3]],
+        weights: &[f64],
+        by_flips: Option<u64>,
+    ) -> Result<Regular3, delone::Error> {
+        match by_flips {
+            Some(seed) => Regular3::by_flips(points, weights, seed),
+            None => Regular3::from_parts(points, weights),
+        }
+    }
 
     fn is_tie(simplex: &[[f64; 3]], q: [f64; 3]) -> bool {
         matches!(*simplex, [a, b, c, d] if in_sphere_with_ties(a, b, c, d, q).is_zero())

@@ -29,7 +29,7 @@ impl Clone for Names {
 
 impl Names {
     /// As if every name had been its own place; `vertex` tells which are vertices.
-    pub(super) fn identical(count: usize, vertex: impl Fn(Place) -> bool) -> Self {
+    pub(crate) fn identical(count: usize, vertex: impl Fn(Place) -> bool) -> Self {
         let place = |i| Some(Place::new(i)).filter(|&p| vertex(p));
         Self {
             of: (0..count).map(|i| place(i).map_or(VertexId::GHOST, Place::same)).collect(),

@@ -23,8 +23,7 @@ pub enum Algorithm3 {
         /// Decides the rounds.
         seed: u64,
     },
-    /// One by one in random order by bistellar flips, each point traced through all tetrahedra that ever were: for study. Where
-    /// the points do not span space, or the first four are too flat to have a number inside, as [`Self::Incremental`].
+    /// One by one in random order by bistellar flips, each point traced through all tetrahedra that ever were: for study.
     Flips {
         /// Decides the order.
         seed: u64,

@@ -5,7 +5,7 @@ use delone_predicates::{
     Filter, Filter3, Grid, Pencil, Plane, Sign, angle, are_collinear3, centre_direction, centre_side,
     circumcentre, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
     in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties, keeps_clear, lexicographic,
-    lexicographic3, orient2d, orient3d, strictly_between,
+    lexicographic3, orient2d, orient3d, orient3d_moved, strictly_between,
 };
 use num_bigint::BigInt;
 
@@ -221,6 +221,13 @@ fn in_space(points: [[f64; 3]; 5], radius: f64, judge: &mut Judge) {
     judge.equal("lexicographic3", lexicographic3(a, b), a.partial_cmp(&b).expect("finite"));
     let line = crate::oracle::exact::axes(&exact[..3]).len() < 2;
     judge.equal("are_collinear3", are_collinear3(a, b, c), line);
+    // Where it is zero, the determinant is what a step of any length makes of it.
+    let step = |axis: usize| {
+        let moved = (0..3).map(|k| &exact[3][k] + BigInt::from(i32::from(k == axis))).collect();
+        orientation(&[&exact[0], &exact[1], &exact[2], &moved])
+    };
+    let moved = [turn, step(0), step(1), step(2)].into_iter().find(|&sign| sign != 0).unwrap_or(0);
+    judge.sign("orient3d_moved", orient3d_moved(a, b, &[c], d), moved);
     let tied = -lifted_side(&points, false);
     judge.sign("in_sphere_with_ties", in_sphere_with_ties(a, b, c, d, e), tied);
     let [x, y, z] = [0, 1, 2].map(|i| &exact[i]);

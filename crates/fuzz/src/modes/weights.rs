@@ -1,4 +1,4 @@
-//! Points with weights: built in two ways, grown, reweighed and taken away, they are what the definition says at every step.
+//! Points with weights: built in all ways, grown, reweighed and taken away, they are what the definition says at every step.
 
 use delone::{Regular, Regular2, Regular3, VertexId};
 use delone_generators::Random;
@@ -15,6 +15,9 @@ pub(crate) struct Planar;
 
 /// In space.
 pub(crate) struct Spatial;
+
+/// A construction of points, weights and a seed, with its name.
+type Build<const D: usize, R> = (&'static str, fn(&[[f64; D]], &[f64], u64) -> Result<R, delone::Error>);
 
 /// Whether it is the triangulation of the sites that it has.
 fn judge<const D: usize>(r: &impl Regular<Point = [f64; D]>, what: &str) -> Judgement {
@@ -51,13 +54,23 @@ fn judge<const D: usize>(r: &impl Regular<Point = [f64; D]>, what: &str) -> Judg
     Ok(())
 }
 
-fn live<const D: usize, R: Regular<Point = [f64; D]>>(sites: &[Site<D>], seed: u64) -> Judgement {
+fn live<const D: usize, R: Regular<Point = [f64; D]>>(
+    sites: &[Site<D>],
+    seed: u64,
+    others: &[Build<D, R>],
+) -> Judgement {
     let failed = |error: delone::Error| error.to_string();
     let mut random = Random::new(seed);
     let (points, weights): (Vec<_>, Vec<_>) = sites.iter().copied().unzip();
-    judge(&R::with_seed(&points, &weights, seed).map_err(failed)?, "one by one")?;
     let mut r = R::from_parts(&points, &weights).map_err(failed)?;
     judge(&r, "built")?;
+    for (what, build) in others {
+        let other = build(&points, &weights, seed).map_err(failed)?;
+        judge(&other, what)?;
+        if !other.duplicates().eq(r.duplicates()) {
+            return Err(format!("{what}: other duplicates"));
+        }
+    }
     for step in 0..sites.len() {
         let alive: Vec<VertexId> =
             (0..r.ids_given()).map(VertexId::new).filter(|&v| r.site(v).is_some()).collect();
@@ -92,7 +105,7 @@ impl Attack for Planar {
     }
 
     fn judge(sites: &[Site<2>], seed: u64) -> Judgement {
-        live::<2, Regular2>(sites, seed)
+        live::<2, Regular2>(sites, seed, &[("one by one", Regular2::with_seed)])
     }
 }
 
@@ -105,6 +118,8 @@ impl Attack for Spatial {
     }
 
     fn judge(sites: &[Site<3>], seed: u64) -> Judgement {
-        live::<3, Regular3>(sites, seed)
+        let others: [Build<3, Regular3>; 2] =
+            [("one by one", Regular3::with_seed), ("by flips", Regular3::by_flips)];
+        live::<3, Regular3>(sites, seed, &others)
     }
 }

@@ -1,31 +1,98 @@
 //! Construction by bistellar flips in random order, located by the history of all tetrahedra that ever were.
 //!
-//! A new point splits the tetrahedron that contains it into four. Across from it, where a tetrahedron is in conflict with it, a
-//! facet is flipped (two tetrahedra give way to three around a new edge) or an edge with three tetrahedra (they give way to
-//! two); where neither is right yet, it waits for its neighbours. Four coplanar points need no flips of their own: a flat
-//! tetrahedron is made by one flip and goes by the next. A tetrahedron that is gone points to those that took its place,
-//! and a point is traced through all that contain it.
+//! A new site splits the tetrahedron that contains it into four, unless it is above that tetrahedron and hidden. Where a
+//! tetrahedron across from it is in conflict with it, a flip takes that one in: at one facet two tetrahedra give way to three
+//! around a new edge, at two facets three give way to two, and at three facets four to one, which hides their common corner.
+//! Where none of them is right yet, it waits for its neighbours. A tetrahedron that is gone points to those that took its
+//! place, and a site is traced through all that contain it.
 //!
-//! Source: the challenge at the end of §4.3 of Guibas, Knuth & Sharir, Algorithmica 1992; that it can be met: Joe, CAGD 1991, and
-//! Edelsbrunner & Shah, Algorithmica 1996. The hull is closed by the vertex at infinity: the tetrahedra at it are the cones
-//! beyond the hull seen from a point inside of the first tetrahedron, so that they are flipped as all others.
+//! Sources: the challenge at the end of §4.3 of Guibas, Knuth & Sharir, Algorithmica 1992; that it can be met: Joe, CAGD 1991,
+//! and with weights Edelsbrunner & Shah, "Incremental topological flipping works for regular triangulations", Algorithmica
+//! 1996. The hull is closed by the vertex at infinity: the tetrahedra at it are the cones beyond the hull seen from a centre inside
+//! of the first tetrahedron, infinitesimally near one of its corners, so that they are flipped as all others. Sites that span less
+//! than space have the scaffold of a layer beside them.
 //!
-//! Cost: O(n log n) expected where the triangulation of each sample is linear in its size; all tetrahedra ever made, twenty
+//! The proof of Edelsbrunner & Shah needs general position. Heights have it by the perturbation of the conflict tests. Of points it
+//! is enough that the new one is in no plane through three others, or through two others and the centre; so while it is located
+//! and inserted it is moved by a step that is too small to show anywhere else ([`orient3d_moved`]). Then some flip is always
+//! possible: lower the lifted site from far above, and of all tetrahedra that are in conflict with it and still there take the one
+//! whose hyperplane it passes first. What it passes before is gone, so exactly the facets that face the moved site are at new
+//! tetrahedra already; they are one, two or three, and what the flip makes is in positive order. With weights, flips without the step go wrong on lattices.
+//! New tetrahedra with four coplanar corners come and go, and none is left in the end, when all that was in conflict is gone.
+//! They stay in the history, where they contain nothing.
+//!
+//! Cost: O(n log n) expected where the triangulation of each sample is linear in its size; all tetrahedra ever made, fifty
 //! and more a point of 40 bytes, are kept until the end.
 
-use delone_predicates::{Sign, lexicographic3, orient3d};
+use std::cmp::Ordering;
 
-use crate::duplicates::settle;
-use crate::ids::{Duplicate, Place, TetrahedronId};
-use crate::locate::delaunay_tree::Simplices;
-use crate::mesh::Names;
+use delone_predicates::{lexicographic3, orient3d_moved};
+
+use super::Rest;
+use crate::ids::{Place, TetrahedronId};
+use crate::mesh::Mesh3;
 use crate::mesh::tetrahedra::Tetrahedron;
 use crate::order::random::SplitMix;
 use crate::space::layer::Layer;
+use crate::space::layer::kernel::Lift;
+use crate::space::layer::simplices::is_in_sphere;
 use crate::tally::Tally;
+
+#[cfg(test)]
+mod tests;
 
 /// The vertex at infinity.
 const GHOST: u32 = u32::MAX;
+
+/// Tetrahedra that can be numbered, but for those of one flip.
+const MOST: usize = u32::MAX as usize - 8;
+
+/// Makes all sites of a layer vertices, but for those that others hide or equal. Names are left alone. `None` if there is no
+/// room.
+pub(in crate::space) fn build<W: Lift, T: Tally>(
+    layer: &mut Layer<W>,
+    seed: u64,
+    tally: &mut T,
+) -> Option<Rest> {
+    let (order, mut rest) = random_order(layer, seed);
+    let first = layer.begin(&order)?;
+    let Some(&a) = first.first() else { return Some(rest) };
+    let root = layer.mesh.cells[layer.mesh.incident[a.index()].index()].corners;
+    let mut flips = Flips::new(&layer.points, &layer.weights, root);
+    tally.created(flips.cells.len());
+    for p in order.iter().copied().filter(|&i| !first.contains(&Place::new(i as usize))) {
+        flips.insert(p, tally)?;
+    }
+    flips.close(&mut layer.mesh)?;
+    rest.hidden.append(&mut flips.hidden);
+    layer.mesh.vertex_count =
+        layer.points.len() - layer.scaffold.len() - rest.equal.len() - rest.hidden.len();
+    Some(rest)
+}
+
+/// The heaviest site of each point, in random order; and the others, which are no vertices: with them those that equal one of
+/// these, the first given.
+fn random_order<W: Lift>(layer: &Layer<W>, seed: u64) -> (Vec<u32>, Rest) {
+    let site = |i: u32| layer.site(Place::new(i as usize));
+    let mut order: Vec<u32> = (0..layer.points.len() as u32).collect();
+    order.sort_unstable_by(|&i, &j| {
+        let ((p, v), (q, w)) = (site(i), site(j));
+        let heavier = w.value().partial_cmp(&v.value()).unwrap_or(Ordering::Equal);
+        lexicographic3(p, q).then(heavier).then(i.cmp(&j))
+    });
+    let mut rest = Rest::default();
+    order.dedup_by(|later, first| {
+        let (place, (p, v), (q, w)) = (Place::new(*later as usize), site(*later), site(*first));
+        if p == q && v == w {
+            rest.equal.push((place, Place::new(*first as usize)));
+        } else if p == q {
+            rest.hidden.push(place);
+        }
+        p == q
+    });
+    SplitMix(seed).shuffle(&mut order);
+    (order, rest)
+}
 
 /// A tetrahedron, present or gone.
 #[derive(Clone, Copy, Debug)]
@@ -56,68 +123,24 @@ impl Cell {
 }
 
 /// See the module.
-pub(super) struct Flips<'a> {
+struct Flips<'a, W> {
     points: &'a [[f64; 3]],
+    weights: &'a [W],
     cells: Vec<Cell>,
+    /// The corners of the first tetrahedron. The centre is in its inside, infinitesimally near the first, much less so the edge to
+    /// the second, and so on.
     root: [[f64; 3]; 4],
-    /// Inside of the root.
-    centre: [f64; 3],
     /// Tetrahedra at the new point, across from which is to be tested.
     pending: Vec<u32>,
+    /// Sites that were or might have been vertices, and are none.
+    hidden: Vec<Place>,
 }
 
-/// Triangulates points, each at the place of its index. `None` where that cannot be begun: where they do not span space, or no
-/// number of floating point is inside of the first four.
-pub(super) fn triangulate<T: Tally>(
-    points: &[[f64; 3]],
-    seed: u64,
-    tally: &mut T,
-) -> Option<(Layer, Vec<Duplicate>)> {
-    let (order, equal) = random_order(points, seed);
-    let mut flips = Flips::new(points, &order)?;
-    tally.created(flips.cells.len());
-    for &i in &order {
-        let q = points[i];
-        let t = flips.trace(q, tally);
-        if flips.cells[t as usize].position(i as u32).is_none() {
-            flips.insert(i as u32, t, tally)?;
-        }
-    }
-    let mut layer = Layer::new(points.to_vec());
-    let along: Vec<u32> = (0..points.len() as u32).collect();
-    layer.mesh.names = Names::along(&along);
-    flips.close(&mut layer)?;
-    layer.mesh.vertex_count = order.len();
-    let mut duplicates = Vec::new();
-    super::note_equal(&mut layer, &equal, &mut duplicates);
-    settle(&mut duplicates);
-    Some((layer, duplicates))
-}
-
-/// Different points in random order; and those that equal another one, the first given, with it.
-fn random_order(points: &[[f64; 3]], seed: u64) -> (Vec<usize>, Vec<(Place, Place)>) {
-    let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
-    let mut equal = Vec::new();
-    order.dedup_by(|later, first| {
-        let is_equal = points[*later] == points[*first];
-        if is_equal {
-            equal.push((Place::new(*later), Place::new(*first)));
-        }
-        is_equal
-    });
-    SplitMix(seed).shuffle(&mut order);
-    (order, equal)
-}
-
-impl<'a> Flips<'a> {
-    /// The first tetrahedron of an order, and the four beyond it.
-    fn new(points: &'a [[f64; 3]], order: &[usize]) -> Option<Self> {
-        let ordered: Vec<[f64; 3]> = order.iter().map(|&i| points[i]).collect();
-        let corners = <Layer as Simplices<4>>::first(&ordered)?.map(|k| order[k] as u32);
-        let root = corners.map(|i| points[i as usize]);
-        let centre = [0, 1, 2].map(|k| root.iter().map(|p| 0.25 * p[k]).sum());
-        let mut flips = Self { points, cells: Vec::new(), root, centre, pending: Vec::new() };
+impl<'a, W: Lift> Flips<'a, W> {
+    /// The first tetrahedron, its corners in positive order, and the four beyond it.
+    fn new(points: &'a [[f64; 3]], weights: &'a [W], root: [Place; 4]) -> Self {
+        let corners = root.map(|p| p.index() as u32);
+        let root = root.map(|p| points[p.index()]);
         let mut first = vec![corners];
         for k in 0..4 {
             let mut ghost = corners;
@@ -125,40 +148,41 @@ impl<'a> Flips<'a> {
             ghost.swap((k + 1) % 4, (k + 2) % 4);
             first.push(ghost);
         }
+        let (cells, pending, hidden) = (Vec::new(), Vec::new(), Vec::new());
+        let mut flips = Self { points, weights, cells, root, pending, hidden };
         flips.replace(&[], &first);
-        let is_inside = (1..5).all(|t| flips.turn(flips.at(flips.cells[t].corners)).is_positive());
-        is_inside.then_some(flips)
+        flips
     }
 
-    fn at(&self, corners: [u32; 4]) -> [Option<[f64; 3]>; 4] {
-        corners.map(|v| (v != GHOST).then(|| self.points[v as usize]))
+    fn site(&self, v: u32) -> ([f64; 3], W) {
+        let place = Place::new(v as usize);
+        (self.points[place.index()], W::at(self.weights, place))
     }
 
-    /// The orientation of four corners, one of which may be at infinity: across three others from the centre.
-    fn turn(&self, mut corners: [Option<[f64; 3]>; 4]) -> Sign {
-        let infinite = corners.iter().position(Option::is_none);
-        if let Some(k) = infinite {
-            // Two exchanges leave the orientation as it is, unless it is last already.
-            corners.swap(k, 3);
-            if k < 3 {
-                corners.swap((k + 1) % 3, (k + 2) % 3);
-            }
+    /// Whether corners are in positive order if one of them, not at infinity, is at a point that is moved. One that is at infinity
+    /// is across the others from the centre.
+    fn is_positive(&self, mut corners: [u32; 4], k: usize, q: [f64; 3]) -> bool {
+        corners.swap(k, 3);
+        let mut is_odd = k < 3;
+        let infinite = corners[..3].iter().position(|&v| v == GHOST);
+        if let Some(j) = infinite {
+            corners.swap(j, 2);
+            is_odd ^= j == 2;
         }
-        let [Some(a), Some(b), Some(c), d] = corners else { return Sign::Zero };
-        match d {
-            Some(d) => orient3d(a, b, c, d),
-            None => orient3d(b, a, c, self.centre),
-        }
+        let at = |k: usize| self.points[corners[k] as usize];
+        let side = match infinite {
+            Some(_) => orient3d_moved(at(0), at(1), &self.root, q),
+            None => orient3d_moved(at(0), at(1), &[at(2)], q),
+        };
+        if is_odd { side.is_negative() } else { side.is_positive() }
     }
 
-    /// Whether a tetrahedron contains a point, in its inside or on its border.
+    /// Whether a tetrahedron contains a point that is moved.
     fn holds<T: Tally>(&self, t: u32, q: [f64; 3], tally: &mut T) -> bool {
-        let corners = self.at(self.cells[t as usize].corners);
+        let corners = self.cells[t as usize].corners;
         (0..4).all(|k| {
-            let mut with = corners;
-            with[k] = Some(q);
             tally.orientation();
-            !self.turn(with).is_negative()
+            self.is_positive(corners, k, q)
         })
     }
 
@@ -178,8 +202,9 @@ impl<'a> Flips<'a> {
         }
     }
 
-    fn is_hit(&self, t: u32, q: [f64; 3]) -> bool {
-        <Layer as Simplices<4>>::is_in_circle(self.at(self.cells[t as usize].corners), &self.root, q)
+    fn is_hit(&self, t: u32, q: ([f64; 3], W)) -> bool {
+        let corners = self.cells[t as usize].corners.map(|v| (v != GHOST).then(|| self.site(v)));
+        is_in_sphere(corners, &self.root, q)
     }
 
     /// New tetrahedra with the border of old ones.
@@ -220,78 +245,83 @@ impl<'a> Flips<'a> {
         debug_assert!(open.is_empty(), "new tetrahedra fill the place of the old ones");
     }
 
-    /// Makes a point in a present tetrahedron a vertex. `None` if there is a conflict that no flip ends.
-    fn insert<T: Tally>(&mut self, p: u32, t: u32, tally: &mut T) -> Option<()> {
+    /// Makes a site a vertex, or finds that it is hidden. `None` if there are too many tetrahedra, or if there were a conflict that
+    /// no flip ends.
+    fn insert<T: Tally>(&mut self, p: u32, tally: &mut T) -> Option<()> {
+        let q = self.site(p);
+        let t = self.trace(q.0, tally);
+        if W::HIDES {
+            tally.in_circle();
+            if !self.is_hit(t, q) {
+                self.hidden.push(Place::new(p as usize));
+                return Some(());
+            }
+        }
         let cell = self.cells[t as usize];
         self.pending.clear();
         self.replace(&[t], &[0, 1, 2, 3].map(|k| cell.with(k, p)));
         tally.destroyed(1);
         tally.created(4);
-        let q = self.points[p as usize];
         let mut waiting = Vec::new();
         while let Some(t) = self.pending.pop() {
             let cell = self.cells[t as usize];
             let Some(i) = cell.position(p).filter(|_| cell.is_present()) else { continue };
             tally.in_circle();
             if self.is_hit(cell.across[i], q) && !self.flip(t, i, tally) {
-                waiting.push((t, i));
+                waiting.push(t);
+            }
+            if self.cells.len() > MOST {
+                return None;
             }
         }
-        let is_stuck = |&(t, i): &(u32, usize)| {
-            let cell = self.cells[t as usize];
-            cell.is_present() && self.is_hit(cell.across[i], q)
-        };
-        let is_done = !waiting.iter().any(is_stuck);
+        // What waited has gone with a neighbour, which was tested when it came.
+        let is_done = !waiting.iter().any(|&t| self.cells[t as usize].is_present());
         debug_assert!(is_done, "a conflict is left, and no flip ends it");
         is_done.then_some(())
     }
 
-    /// Flips the facet of a tetrahedron across from the new point, its corner `i`, or an edge of that facet, if one can be.
+    /// Flips the facet of a tetrahedron across from the new site, its corner `i`, an edge of that facet, or a corner, if
+    /// one can be.
     fn flip<T: Tally>(&mut self, t: u32, i: usize, tally: &mut T) -> bool {
         let (cell, g) = (self.cells[t as usize], self.cells[t as usize].across[i]);
         let (p, beyond) = (cell.corners[i], self.cells[g as usize]);
         let Some(apex) = beyond.across.iter().position(|&u| u == t) else { return false };
         let d = beyond.corners[apex];
-        let others = [1, 2, 3].map(|k| (i + k) % 4);
-        // Beside the facet: the tetrahedron with the new point at the edge across from a corner, if there is one.
-        let beside = others.map(|k| {
+        // The facets of what is beyond that are at the new site already.
+        let mut old = vec![t, g];
+        let mut kept = Vec::new();
+        for k in [1, 2, 3].map(|k| (i + k) % 4) {
             let u = beyond.across[beyond.position(cell.corners[k]).unwrap_or(apex)];
-            self.cells[u as usize].position(p).map(|_| u)
-        });
-        let (old, kept): (Vec<u32>, Vec<usize>) = match beside.iter().flatten().count() {
-            0 => (vec![t, g], others.to_vec()),
-            1 => {
-                let h = beside.iter().flatten().copied();
-                let kept = others.iter().zip(beside).filter(|(_, u)| u.is_none()).map(|(&k, _)| k);
-                ([t, g].into_iter().chain(h).collect(), kept.collect())
+            if self.cells[u as usize].position(p).is_some() {
+                old.push(u);
+            } else {
+                kept.push(k);
             }
-            _ => return false,
-        };
-        let new: Vec<[u32; 4]> = kept.into_iter().map(|k| cell.with(k, d)).collect();
-        if new.iter().any(|&corners| self.turn(self.at(corners)).is_negative()) {
+        }
+        let new: Vec<[u32; 4]> = kept.iter().map(|&k| cell.with(k, d)).collect();
+        let q = self.points[p as usize];
+        if new.is_empty() || !new.iter().all(|&corners| self.is_positive(corners, i, q)) {
             return false;
+        }
+        if let [k] = kept[..] {
+            self.hidden.push(Place::new(cell.corners[k] as usize));
         }
         self.replace(&old, &new);
         tally.destroyed(old.len());
         tally.created(new.len());
-        // What waited for its neighbour waits no more.
-        for k in 0..new.len() {
-            let made = self.cells[self.cells.len() - 1 - k];
-            self.pending.extend(made.across);
-        }
         true
     }
 
-    /// The present tetrahedra as a layer's.
-    fn close(&self, layer: &mut Layer) -> Option<()> {
+    /// Puts the present tetrahedra in the place of those of a mesh.
+    fn close(&self, mesh: &mut Mesh3) -> Option<()> {
         let mut numbers = vec![None; self.cells.len()];
         let present = |t: &usize| self.cells[*t].is_present();
         let place = |v: u32| if v == GHOST { Place::GHOST } else { Place::new(v as usize) };
+        mesh.cells.clear();
+        mesh.marks.clear();
         for t in (0..self.cells.len()).filter(present) {
-            numbers[t] = Some(TetrahedronId::new(layer.mesh.cells.len()));
-            layer.mesh.cells.push(Tetrahedron::FREE);
+            numbers[t] = Some(mesh.new_cell()?);
         }
-        layer.mesh.marks.resize(layer.mesh.cells.len(), 0);
         // Ghosts have the vertex at infinity last, in positive order as before.
         let turned = |cell: &Cell| {
             let mut order = [0, 1, 2, 3];
@@ -302,10 +332,10 @@ impl<'a> Flips<'a> {
             order
         };
         for t in (0..self.cells.len()).filter(present) {
-            let (cell, number) = (&self.cells[t], numbers[t]?);
+            let (cell, number): (_, TetrahedronId) = (&self.cells[t], numbers[t]?);
             let order = turned(cell);
-            let made = &mut layer.mesh.cells[number.index()];
-            made.corners = order.map(|k| place(cell.corners[k]));
+            let mut made =
+                Tetrahedron { corners: order.map(|k| place(cell.corners[k])), ..Tetrahedron::FREE };
             for (k, &from) in order.iter().enumerate() {
                 let other = &self.cells[cell.across[from] as usize];
                 let j = other.across.iter().position(|&u| u as usize == t)?;
@@ -313,58 +343,11 @@ impl<'a> Flips<'a> {
                 made.across[k] = numbers[cell.across[from] as usize]?.facet(j);
             }
             for v in made.corners.into_iter().filter(|v| !v.is_ghost()) {
-                layer.mesh.incident[v.index()] = number;
+                mesh.incident[v.index()] = number;
             }
+            mesh.cells[number.index()] = made;
         }
+        self.hidden.iter().for_each(|p| mesh.incident[p.index()] = TetrahedronId::NONE);
         Some(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use delone_generators::Kind3;
-
-    use super::*;
-    use crate::space::delaunay::Delaunay3;
-    use crate::tally::Work;
-
-    fn tetrahedra(d: &Delaunay3) -> Vec<Vec<usize>> {
-        let sorted = |t| {
-            let mut corners: Vec<usize> = d.mesh().corners(t).map(|v| v.index()).to_vec();
-            corners.sort_unstable();
-            corners
-        };
-        let mut all: Vec<Vec<usize>> = d.tetrahedron_ids().map(sorted).collect();
-        all.sort_unstable();
-        all
-    }
-
-    /// By flips alone, to the last tetrahedron, wherever there is a point to look from.
-    #[test]
-    fn flips_end_in_the_triangulation() {
-        let mut by_flips = 0;
-        for &kind in Kind3::ALL {
-            for (n, seeds) in [(4, 3), (5, 3), (8, 3), (30, 3), (200, 2), (900, 1)] {
-                for seed in 0..seeds {
-                    let points = kind.points(n, seed);
-                    let mut work = Work::default();
-                    let Some(built) = triangulate(&points, seed, &mut work) else {
-                        assert!(
-                            Flips::new(&points, &random_order(&points, seed).0).is_none(),
-                            "{} {n}",
-                            kind.name()
-                        );
-                        continue;
-                    };
-                    by_flips += 1;
-                    let d = Delaunay3::assemble(built, work);
-                    let expected = Delaunay3::from_points(&points).expect("finite");
-                    assert_eq!(d.check(), Ok(()), "{} {n} {seed}", kind.name());
-                    assert!(tetrahedra(&d) == tetrahedra(&expected), "{} {n} {seed}", kind.name());
-                    assert!(d.duplicates().eq(expected.duplicates()), "{} {n} {seed}", kind.name());
-                }
-            }
-        }
-        assert!(by_flips > 8 * Kind3::ALL.len(), "{by_flips} of {} kinds", Kind3::ALL.len());
     }
 }

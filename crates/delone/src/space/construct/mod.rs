@@ -8,7 +8,7 @@
 
 mod apart;
 mod cut;
-mod flips;
+pub(super) mod flips;
 mod part;
 
 use std::ops::Range;
@@ -52,13 +52,19 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     Some((layer, duplicates))
 }
 
-/// The same by flips in random order; by cavities where flips cannot be begun.
-pub(super) fn by_flips<T: Tally + Default + Send>(
+/// The same by flips in random order.
+pub(super) fn by_flips<T: Tally>(
     points: &[[f64; 3]],
     seed: u64,
     tally: &mut T,
 ) -> Option<(Layer, Vec<Duplicate>)> {
-    flips::triangulate(points, seed, tally).or_else(|| triangulate(points, seed, tally))
+    let mut layer = Layer::new(points.to_vec());
+    layer.mesh.names = Names::identical(points.len(), |_| true);
+    let rest = flips::build(&mut layer, seed, tally)?;
+    let mut duplicates = Vec::new();
+    note_equal(&mut layer, &rest.equal, &mut duplicates);
+    settle(&mut duplicates);
+    Some((layer, duplicates))
 }
 
 /// Sizes of sets whose products are in the range of the filters: 2^-130 to 2^90.

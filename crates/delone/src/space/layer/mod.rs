@@ -9,7 +9,7 @@ pub(in crate::space) mod hole;
 pub(in crate::space) mod kernel;
 mod remove;
 pub(in crate::space) mod scaffold;
-mod simplices;
+pub(in crate::space) mod simplices;
 
 use delone_predicates::{Filter3, Grid};
 

@@ -7,7 +7,7 @@ use crate::ids::{Place, VertexId};
 use crate::mesh::Names;
 use crate::order;
 use crate::parallel;
-use crate::space::construct;
+use crate::space::construct::{self, Rest, flips};
 use crate::space::layer::Layer;
 use crate::tally::Work;
 use crate::under::Under;
@@ -21,6 +21,20 @@ pub(super) fn build(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<R
     layer.mesh.names = Names::along(&along);
     let mut work = Work::default();
     let rest = construct::begin_and_insert(&mut layer, &order::space::rounds(points.len(), seed), &mut work)?;
+    Some(finish(layer, rest, work))
+}
+
+/// The same by flips in random order.
+pub(super) fn by_flips(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<Regular3> {
+    let mut layer = Layer::with_weights(points.to_vec(), weights.to_vec());
+    layer.mesh.names = Names::identical(points.len(), |_| true);
+    let mut work = Work::default();
+    let rest = flips::build(&mut layer, seed, &mut work)?;
+    Some(finish(layer, rest, work))
+}
+
+/// Names the sites that are no vertices.
+fn finish(mut layer: Layer<f64>, rest: Rest, work: Work) -> Regular3 {
     let names = &mut layer.mesh.names;
     // Of equal sites the first given is the vertex, and the other one is kept where it was.
     let mut equal: Vec<(VertexId, Place, Place)> = Vec::new();
@@ -35,5 +49,5 @@ pub(super) fn build(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<R
     for (id, _, w) in equal {
         under.set_equal(id, Some(names.of(w)).filter(|v| !v.is_ghost()));
     }
-    Some(Regular3 { hinted: layer.mesh.vertex_count, base: layer, under, work, ..Regular3::default() })
+    Regular3 { hinted: layer.mesh.vertex_count, base: layer, under, work, ..Regular3::default() }
 }

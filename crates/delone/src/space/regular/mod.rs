@@ -89,12 +89,18 @@ impl Regular3 {
     /// # Errors
     /// As [`Self::from_parts`].
     pub fn with_seed<P: Position3>(points: &[P], weights: &[f64], seed: u64) -> Result<Self, Error> {
-        if points.len() != weights.len() {
-            return Err(Error::Length { expected: points.len(), found: weights.len() });
-        }
-        check_in_space(points)?;
-        check_weights(weights)?;
-        build::build(&P::all(points), weights, seed).ok_or(Error::TooManyTetrahedra { most: MAX_TETRAHEDRA })
+        check_parts(points, weights)?;
+        with_room(build::build(&P::all(points), weights, seed))
+    }
+
+    /// The same one by one in random order by bistellar flips, each site traced through all tetrahedra that ever were, as
+    /// [`crate::Algorithm3::Flips`]: for study. What it did is in [`Self::counters`].
+    ///
+    /// # Errors
+    /// As [`Self::from_parts`].
+    pub fn by_flips<P: Position3>(points: &[P], weights: &[f64], seed: u64) -> Result<Self, Error> {
+        check_parts(points, weights)?;
+        with_room(build::by_flips(&P::all(points), weights, seed))
     }
 
     /// What construction took.
@@ -191,6 +197,12 @@ impl Regular3 {
         }
     }
 
+    /// The tetrahedra, to look at those that stand for what is missing below space.
+    #[cfg(test)]
+    pub(in crate::space) fn layer(&self) -> &Layer<f64> {
+        &self.base
+    }
+
     fn start(&self, q: [f64; 3]) -> Start<TetrahedronId> {
         self.hints.get_or_init(|| Tree::build(&self.base)).start(&self.base, q, &mut ())
     }
@@ -199,4 +211,17 @@ impl Regular3 {
     fn cell_at(&self, q: [f64; 3]) -> TetrahedronId {
         self.base.walk(self.base.start_cell(self.start(q)), q, &mut ())
     }
+}
+
+/// Whether all is finite, and a weight is there for each point.
+fn check_parts<P: Position3>(points: &[P], weights: &[f64]) -> Result<(), Error> {
+    if points.len() != weights.len() {
+        return Err(Error::Length { expected: points.len(), found: weights.len() });
+    }
+    check_in_space(points)?;
+    check_weights(weights)
+}
+
+fn with_room(built: Option<Regular3>) -> Result<Regular3, Error> {
+    built.ok_or(Error::TooManyTetrahedra { most: MAX_TETRAHEDRA })
 }
