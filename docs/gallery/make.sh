@@ -23,6 +23,11 @@ $delone voronoi "$work/many.csv" --clip "$work/star.geojson" -o $here/star.png -
 $delone generate uniform -n 60 -o "$work/sixty.csv"
 $delone voronoi "$work/sixty.csv" --order 3 --box 0,0,1,1 -o $here/order.png --size 640
 
+# Grains of prescribed sizes: from 1 to 9 times the smallest.
+$delone generate uniform -n 300 --seed 4 -o "$work/seeds.csv"
+awk 'BEGIN { for (i = 0; i < 300; i++) print 1 + (i * 37 % 100) ^ 2 / 1250 }' > "$work/sizes.csv"
+$delone voronoi "$work/seeds.csv" --areas "$work/sizes.csv" --box 0,0,1,1 -o $here/areas.png --size 640
+
 $delone generate clusters -n 3000 --seed 1 -o "$work/clusters.csv"
 $delone voronoi "$work/clusters.csv" -o $here/clusters.png --size 640
 $delone alpha data/autzen_trim.laz --class ground --radius 12 -o $here/alpha.png --size 640

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use delone::{Bounds, Delaunay2, Region2, Relaxation2};
+use delone::{Delaunay2, Relaxation2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
