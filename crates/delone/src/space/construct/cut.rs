@@ -2,7 +2,8 @@
 //!
 //! Near a cut points are triangulated twice, once in their part and once with those of the other side. How many, samples
 //! foretell: of points that fill space they are few, and the fewer the more there are; of points on a surface, whose
-//! tetrahedra reach far, they may be all. What is decided depends on the points alone.
+//! tetrahedra reach far, they may be all. Sites that others hide cost little and are not counted. What is decided depends on
+//! the sites alone.
 //!
 //! Cost: O(n log n).
 
@@ -85,25 +86,33 @@ pub(super) fn uncut<P: Position3, W: Lift>(sites: Sites<'_, P, W>) -> Vec<Run<W>
     divide(sites, (0..sites.len() as u32).collect(), 0, Vec::new())
 }
 
+/// A cut between two halves, and the heaviest site of each.
+struct Cut<W> {
+    axis: usize,
+    at: f64,
+    most: [W; 2],
+}
+
 /// The share of points that are expected at the border of two halves: the larger of what thin samples of the whole and dense
 /// ones of places near the cut let expect.
 fn share_at_cut<P: Position3, W: Lift>(sites: Sites<'_, P, W>) -> f64 {
     let mut random = SplitMix(0);
     let all: Vec<u32> = (0..sites.len() as u32).collect();
-    let Some(cut) = choose(sites.points, &all) else { return 1.0 };
+    let Some((axis, at)) = choose(sites.points, &all) else { return 1.0 };
+    let most = [true, false].map(|below| {
+        let of_half = all.iter().filter(|&&i| (sites.point(i)[axis] < at) == below);
+        W::most(of_half.map(|&i| sites.weight(i)))
+    });
+    let cut = &Cut { axis, at, most };
     let thin = thin_share(sites, cut, &mut random);
     if thin > TWICE_FOR_TWO { thin } else { thin.max(dense_share(sites, cut, &mut random)) }
 }
 
 /// What samples of two sizes let expect: as the share changed from the one to the other it goes on.
-fn thin_share<P: Position3, W: Lift>(
-    sites: Sites<'_, P, W>,
-    cut: (usize, f64),
-    random: &mut SplitMix,
-) -> f64 {
+fn thin_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, random: &mut SplitMix) -> f64 {
     let [few, many] = THIN.map(|count| {
         let sample = (0..count).map(|_| random.below(sites.len()) as u32).collect();
-        at_border(sites, sample, cut).unwrap_or(count) as f64 / count as f64
+        at_border(sites, sample, cut).unwrap_or(1.0)
     });
     if many == 0.0 {
         return 0.0;
@@ -114,11 +123,8 @@ fn thin_share<P: Position3, W: Lift>(
 
 /// What all points of some boxes on the cut let expect. A box is put at a random point near the cut; so each point is in as
 /// many of them as there are points in its column. All, if no box can tell.
-fn dense_share<P: Position3, W: Lift>(
-    sites: Sites<'_, P, W>,
-    (axis, at): (usize, f64),
-    random: &mut SplitMix,
-) -> f64 {
+fn dense_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, random: &mut SplitMix) -> f64 {
+    let &Cut { axis, at, .. } = cut;
     let points = sites.points;
     let extent = Bounds::of(points.iter().map(Position3::xyz)).extent();
     let is_near =
@@ -137,18 +143,17 @@ fn dense_share<P: Position3, W: Lift>(
             let middle = sites.point(near[random.below(near.len())]);
             let in_column = |p: &[f64; 3]| (0..3).all(|k| k == axis || is_near(p, &middle, part, k));
             let sample: Vec<u32> = near.iter().copied().filter(|&i| in_column(&sites.point(i))).collect();
-            let count = sample.len();
-            if count > 16 * THIN[0] {
+            if sample.len() > 16 * THIN[0] {
                 break;
             }
-            let Some(at_border) = at_border(sites, sample, (axis, at)) else {
+            let Some(share) = at_border(sites, sample, cut) else {
                 part *= 2.0;
                 continue;
             };
-            if at_border as f64 > WIDE * count as f64 {
+            if share > WIDE {
                 return 1.0;
             }
-            shares += at_border as f64 / count as f64 * near.len() as f64 / points.len() as f64;
+            shares += share * near.len() as f64 / points.len() as f64;
             boxes += 1;
             break;
         }
@@ -156,15 +161,15 @@ fn dense_share<P: Position3, W: Lift>(
     if boxes == 0 { 1.0 } else { shares / f64::from(boxes) }
 }
 
-/// How many of a sample are at the border of its halves. `None` if these cannot be triangulated apart.
+/// The share of the vertices of a sample that are at the border of its halves. `None` if these cannot be triangulated apart.
 fn at_border<P: Position3, W: Lift>(
     sites: Sites<'_, P, W>,
     mut sample: Vec<u32>,
-    (axis, at): (usize, f64),
-) -> Option<usize> {
+    &Cut { axis, at, most }: &Cut<W>,
+) -> Option<f64> {
     sample.sort_by(|&i, &j| sites.point(i)[axis].total_cmp(&sites.point(j)[axis]));
     let (low, high) = sample.split_at(sample.partition_point(|&i| sites.point(i)[axis] < at));
-    let of_half = |half: &[u32], other: &[u32]| {
+    let of_half = |half: &[u32], other: &[u32], most: W| {
         let order = order::space::hilbert(half.len(), &|i| sites.point(half[i as usize]));
         let along = || order.iter().map(|&i| half[i as usize]);
         let points: Vec<[f64; 3]> = along().map(|i| sites.point(i)).collect();
@@ -173,10 +178,11 @@ fn at_border<P: Position3, W: Lift>(
         let (mut marks, mut incident) = (vec![0; cells.len()], vec![TetrahedronId::NONE; points.len()]);
         let mut part = Part::new((&points, &weights), &mut cells, &mut marks, &mut incident);
         part.build(0, &mut ())?;
-        let border = part.find_border(&[sites.region(other)]);
-        Some(part.vertices_of(&border).len())
+        let border = part.find_border(&[Region { most, ..sites.region(other) }]);
+        Some((part.vertices_of(&border).len(), half.len() - part.hidden()))
     };
-    Some(of_half(low, high)? + of_half(high, low)?)
+    let (low, high) = (of_half(low, high, most[1])?, of_half(high, low, most[0])?);
+    Some((low.0 + high.0) as f64 / (low.1 + high.1) as f64)
 }
 
 /// Cuts sites in halves so many times.

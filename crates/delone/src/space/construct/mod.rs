@@ -108,6 +108,11 @@ fn triangulate_runs<P: Position3, W: Lift, T: Tally + Default + Send>(
     drop(order);
     let apart = if parts.len() > 1 { apart::triangulate(&mut layer, &parts, seed, tally) } else { None };
     let rest = apart.or_else(|| triangulate_whole(&mut layer, seed, tally))?;
+    if 2 * rest.hidden.len() > layer.points.len() {
+        // Room was made for the tetrahedra of all.
+        layer.mesh.cells.shrink_to_fit();
+        layer.mesh.marks.shrink_to_fit();
+    }
     Some((layer, rest))
 }
 

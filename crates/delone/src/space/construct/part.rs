@@ -186,6 +186,11 @@ impl<'a, W: Lift> Part<'a, W> {
         }
     }
 
+    /// How many sites others hide.
+    pub(super) fn hidden(&self) -> usize {
+        self.rest.hidden.len()
+    }
+
     /// The vertices of the border, by place.
     pub(super) fn vertices_of(&self, border: &[TetrahedronId]) -> Vec<Place> {
         let mut is_at = vec![false; self.points.len()];
