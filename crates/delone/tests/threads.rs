@@ -152,7 +152,7 @@ fn threads_never_show_in_space_with_weights() {
     };
     let mut hidden = 0;
     for (kind, n, share) in
-        [(Kind3::Cube, 60_000, 0.3), (Kind3::Cube, 60_000, 1.0), (Kind3::Grid3, 40_000, 0.6)]
+        [(Kind3::Cube, 60_000, 0.6), (Kind3::Cube, 60_000, 4.0), (Kind3::Grid3, 40_000, 1.2)]
     {
         let mut points = kind.points(n, 1);
         let spacing = points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs())) / (n as f64).cbrt();
