@@ -55,8 +55,8 @@ pub fn keeps_clear([a, b, c, d]: [Point3; 4], low: Point3, high: Point3) -> bool
     distance - radius > 4.0 * off + 32.0 * UNIT * (distance + radius)
 }
 
-/// The same for the power sphere of four sites, and sites in the box that weigh at most `most`: whether none of these is
-/// certainly below or on the hyperplane through the lifted corners. O(1).
+/// The same for the power sphere of four sites, and sites in the box that weigh at most `most`: whether certainly none of
+/// these is below the hyperplane through the lifted corners or on it. O(1).
 ///
 /// ```
 /// use delone_predicates::keeps_clear_of_sites;
