@@ -1,7 +1,7 @@
 //! The number of threads never shows: the same bits for one and for many.
 #![cfg(feature = "rayon")]
 
-use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, Regular2, VertexId};
+use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, Regular2, Regular3, VertexId};
 use delone_generators::{Kind, Kind3};
 use rayon::ThreadPoolBuilder;
 
@@ -123,4 +123,55 @@ fn threads_never_show_in_space() {
         let other = Delaunay3::with_algorithm(&points, random).expect("finite");
         assert!(set(&one) == set(&other), "{}", kind.name());
     }
+}
+
+/// Tetrahedra with their neighbours, and what is no vertex.
+fn bits_of_regular(r: &Regular3) -> impl PartialEq + use<> {
+    let mesh = r.mesh();
+    let cells: Vec<_> = r.tetrahedron_ids().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();
+    let vertices: Vec<_> = r.vertices().collect();
+    (cells, vertices, r.hidden().collect::<Vec<_>>(), r.duplicates().collect::<Vec<_>>(), r.counters())
+}
+
+#[test]
+fn threads_never_show_in_space_with_weights() {
+    let on = |threads: usize, points: &[[f64; 3]], weights: &[f64]| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Regular3::from_parts(points, weights).expect("finite"))
+    };
+    let sorted = |r: &Regular3| {
+        let mut all: Vec<_> = r
+            .tetrahedra()
+            .map(|mut corners| {
+                corners.sort_unstable();
+                corners
+            })
+            .collect();
+        all.sort_unstable();
+        all
+    };
+    let mut hidden = 0;
+    for (kind, n, share) in
+        [(Kind3::Cube, 60_000, 0.6), (Kind3::Cube, 60_000, 4.0), (Kind3::Grid3, 40_000, 1.2)]
+    {
+        let mut points = kind.points(n, 1);
+        let spacing = points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs())) / (n as f64).cbrt();
+        points.extend_from_within(..n / 50);
+        // Steps, so that lattices tie.
+        let step = 2f64.powf((share * spacing).log2().floor());
+        let weights: Vec<f64> =
+            (0..points.len()).map(|i| ((i * 7919) % 5) as f64 * step * step / 4.0).collect();
+        let one = on(1, &points, &weights);
+        for threads in [2, 7] {
+            let same = bits_of_regular(&on(threads, &points, &weights)) == bits_of_regular(&one);
+            assert!(same, "{} on {threads} threads", kind.name());
+        }
+        assert_eq!(one.check(), Ok(()), "{}", kind.name());
+        hidden += one.hidden().count();
+        // Another order of insertion.
+        let seeded = Regular3::with_seed(&points, &weights, 1).expect("finite");
+        assert!(sorted(&one) == sorted(&seeded), "{}", kind.name());
+        assert!(one.hidden().eq(seeded.hidden()) && one.duplicates().eq(seeded.duplicates()));
+    }
+    assert!(hidden > 1000, "{hidden}");
 }

@@ -7,8 +7,13 @@
 //! |N| <= 18 m^4 and |D| <= 12 m^3; rounding puts N off by at most 220 u m^4 and D by 100 u m^3, so while
 //! |D| >= 2^-30 m^3 a coordinate c of the centre is off by e <= u (256 m + 128 |c|) m^3 / |D|. Distance and radius are
 //! then off by less than 2 e + 16 u of themselves each.
+//!
+//! With weights, of which any two corners differ by at most v: |N| <= 18 m^2 (m^2 + v), off by at most 240 u m^2 (m^2 + v), and
+//! e <= u (256 (m + v / m) + 128 |c|) m^3 / |D|. The power sphere keeps clear of sites in the box that weigh w at most, if
+//! the square of the distance is greater than that of the radius of the first corner by more than w, less that corner's weight.
+//! Where both are off by less than f the squares differ by (distance - radius - 2 f)(distance + radius) - f^2 at least.
 
-use crate::Point3;
+use crate::{Point3, Site};
 
 pub(crate) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Flatter tetrahedra, with this share of their size to the third, have spheres that nobody knows.
@@ -48,6 +53,46 @@ pub fn keeps_clear([a, b, c, d]: [Point3; 4], low: Point3, high: Point3) -> bool
     let (distance, radius) = (dot(beside, beside).sqrt(), dot(centre, centre).sqrt());
     let off = UNIT * (256.0 * size + 128.0 * radius) * cube / det.abs();
     distance - radius > 4.0 * off + 32.0 * UNIT * (distance + radius)
+}
+
+/// The same for the power sphere of four sites, and sites in the box that weigh at most `most`: whether certainly none of
+/// these is below the hyperplane through the lifted corners or on it. O(1).
+///
+/// ```
+/// use delone_predicates::keeps_clear_of_sites;
+///
+/// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|p| (p, 0.5));
+/// // A square of the distance of 1, beside a square of the radius of 0.25 once the weight is taken away.
+/// assert!(keeps_clear_of_sites(corners, [1.5, 0.0, 0.0], [2.0, 1.0, 1.0], 0.7));
+/// assert!(!keeps_clear_of_sites(corners, [1.5, 0.0, 0.0], [2.0, 1.0, 1.0], 0.8));
+/// ```
+#[must_use]
+pub fn keeps_clear_of_sites([a, b, c, d]: [Site<3>; 4], low: Point3, high: Point3, most: f64) -> bool {
+    let from = |p: Point3| [p[0] - a.0[0], p[1] - a.0[1], p[2] - a.0[2]];
+    let heavier = [b, c, d].map(|site| site.1 - a.1);
+    let [b, c, d] = [b, c, d].map(|site| from(site.0));
+    let size = b.into_iter().chain(c).chain(d).fold(0.0_f64, |m, x| m.max(x.abs()));
+    let spread = heavier.iter().fold(0.0_f64, |m, w| m.max(w.abs()));
+    if !SIZES.contains(&size) || spread > SIZES.end * SIZES.end {
+        return false;
+    }
+    let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
+    let det = 2.0 * dot(b, cd);
+    let cube = size * size * size;
+    if det.abs() < FLAT * cube {
+        return false;
+    }
+    let lifts = [dot(b, b) - heavier[0], dot(c, c) - heavier[1], dot(d, d) - heavier[2]];
+    let centre = [0, 1, 2].map(|k| (lifts[0] * cd[k] + lifts[1] * db[k] + lifts[2] * bc[k]) / det);
+    let (low, high) = (from(low), from(high));
+    let beside = [0, 1, 2].map(|k| (low[k] - centre[k]).max(centre[k] - high[k]).max(0.0));
+    let (distance, radius) = (dot(beside, beside).sqrt(), dot(centre, centre).sqrt());
+    let both = distance + radius;
+    let off = UNIT * (256.0 * (size + spread / size) + 128.0 * radius) * cube / det.abs();
+    let off = 2.0 * off + 32.0 * UNIT * both;
+    let (apart, lost, needed) = ((distance - radius - 2.0 * off) * both, off * off, most - a.1);
+    // False where something is no number.
+    apart - lost - needed > 8.0 * UNIT * (apart.abs() + lost + needed.abs())
 }
 
 fn cross(p: Point3, q: Point3) -> Point3 {

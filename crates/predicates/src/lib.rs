@@ -54,7 +54,7 @@ mod stages;
 pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
 pub use circumcentre::{circumcentre, power_centre};
-pub use clear::keeps_clear;
+pub use clear::{keeps_clear, keeps_clear_of_sites};
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{
     Reach, angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,

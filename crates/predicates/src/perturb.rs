@@ -51,8 +51,20 @@ pub(crate) fn in_sphere_perturbed(
     orient3d: impl Fn(Point3, Point3, Point3, Point3) -> Sign,
 ) -> Sign {
     let [a, b, c, d, e] = points;
+    first_coefficient(points.each_ref(), |highest| match highest {
+        4 => -orient3d(a, b, c, d), // e is raised: out of the sphere of the others
+        0 => orient3d(e, b, c, d),  // a is raised: e is inside exactly if it can take a's place
+        1 => orient3d(a, e, c, d),
+        2 => orient3d(a, b, e, d),
+        _ => orient3d(a, b, c, e),
+    })
+}
+
+/// The first coefficient that is not zero, of those of five points by number, in the descending order of the points.
+#[inline]
+pub(crate) fn first_coefficient(points: [&Point3; 5], coefficient: impl Fn(usize) -> Sign) -> Sign {
     #[expect(clippy::needless_bitwise_bool, reason = "on grids, where ties are, it is chance that decides")]
-    let before = |p: Point3, q: Point3| {
+    let before = |p: &Point3, q: &Point3| {
         (p[0] < q[0]) | (p[0] == q[0]) & ((p[1] < q[1]) | (p[1] == q[1]) & (p[2] < q[2]))
     };
     let mut raised = [false; 5];
@@ -61,13 +73,7 @@ pub(crate) fn in_sphere_perturbed(
             |i: usize, j: usize| if !raised[j] & (raised[i] | before(points[i], points[j])) { j } else { i };
         let highest = (1..5).fold(0, higher);
         raised[highest] = true;
-        let coefficient = match highest {
-            4 => -orient3d(a, b, c, d), // e is raised: out of the sphere of the others
-            0 => orient3d(e, b, c, d),  // a is raised: e is inside exactly if it can take a's place
-            1 => orient3d(a, e, c, d),
-            2 => orient3d(a, b, e, d),
-            _ => orient3d(a, b, c, e),
-        };
+        let coefficient = coefficient(highest);
         if !coefficient.is_zero() {
             return coefficient;
         }

@@ -2,7 +2,9 @@
 
 use delone_generators::Random;
 use delone_oracle::exact;
-use delone_predicates::{Point3, keeps_clear};
+use delone_predicates::{
+    Point3, Site, in_power_sphere_with_ties, keeps_clear, keeps_clear_of_sites, orient3d,
+};
 
 fn point(r: &mut Random, size: f64) -> Point3 {
     [0, 1, 2].map(|_| size * r.between(-1.0, 1.0))
@@ -79,4 +81,76 @@ fn numbers_that_overflow_are_never_clear() {
     assert!(!keeps_clear(flat, [5.0; 3], [6.0; 3]));
     let unit = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     assert!(!keeps_clear(unit, [f64::MAX; 3], [f64::MAX; 3]));
+}
+
+/// Whether a site is above the hyperplane through the lifted corners, and not on it.
+fn is_above(corners: [Site<3>; 4], q: Site<3>) -> bool {
+    let [a, b, c, d] = corners;
+    let turned = orient3d(a.0, b.0, c.0, d.0);
+    (in_power_sphere_with_ties(a, b, c, d, q) * turned).is_negative()
+}
+
+#[test]
+fn what_is_clear_of_the_heaviest_is_so_exactly() {
+    let mut r = Random::new(6);
+    let (mut clear, mut close) = (0, 0);
+    for round in 0..40_000 {
+        let size = [1.0, 1e-3, 1e20, 1e-55, 1e55][r.below(5)];
+        let weigh = [0.0, 1e-6, 0.3, 30.0, 1e9][r.below(5)] * size * size;
+        let all = corners(&mut r, size).map(|p| (p, weigh * r.between(-1.0, 1.0)));
+        // The centre and the power of the first corner, rounded.
+        let from = |p: Point3| [0, 1, 2].map(|k| p[k] - all[0].0[k]);
+        let cross = |p: Point3, q: Point3| {
+            [0, 1, 2].map(|k| p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3])
+        };
+        let dot = |p: Point3, q: Point3| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+        let [b, c, d] = [1, 2, 3].map(|i| from(all[i].0));
+        let [lb, lc, ld] = [(b, 1), (c, 2), (d, 3)].map(|(p, i)| dot(p, p) - (all[i].1 - all[0].1));
+        let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
+        let at = [0, 1, 2].map(|k| (lb * cd[k] + lc * db[k] + ld * bc[k]) / (2.0 * dot(b, cd)));
+        let centre = [0, 1, 2].map(|k| all[0].0[k] + at[k]);
+        let radius = dot(at, at).sqrt().max(size);
+        // A box at some distance, and weights that reach the sphere from there, nearly.
+        let direction = point(&mut r, 1.0);
+        let length = dot(direction, direction).sqrt();
+        let distance = radius * [0.0, 0.2, 1.0, 1.5, 3.0][r.below(5)];
+        let nearest = [0, 1, 2].map(|k| centre[k] + distance * direction[k] / length);
+        let low = [0, 1, 2].map(|k| nearest[k] - if direction[k] < 0.0 { radius } else { 0.0 });
+        let high = [0, 1, 2].map(|k| nearest[k] + if direction[k] > 0.0 { radius } else { 0.0 });
+        let reach = distance * distance - dot(at, at) + all[0].1;
+        let gap = [0.3, 1e-3, 1e-8, 1e-12, 1e-15, -1e-15, -1e-12, -0.1][r.below(8)];
+        let most = reach - gap * (radius * radius + weigh);
+        if keeps_clear_of_sites(all, low, high, most) {
+            clear += 1;
+            close += usize::from(gap < 1e-7);
+            assert!(gap > -0.01, "round {round}");
+            let corner = |m: usize| [0, 1, 2].map(|k| if m >> k & 1 == 0 { low[k] } else { high[k] });
+            assert!(is_above(all, (nearest, most)), "round {round}: {all:?} {nearest:?} {most}");
+            assert!(
+                (0..8).all(|m| is_above(all, (corner(m), most))),
+                "round {round}: {all:?} {low:?} {high:?}"
+            );
+            assert!(is_above(all, (nearest, most - weigh - radius)), "a lighter one");
+        } else {
+            let is_usual = radius < 100.0 * size && weigh < size * size && size.max(1.0 / size) < 1e30;
+            assert!(gap < 0.3 || !is_usual, "round {round}: {all:?}");
+        }
+    }
+    assert!(clear > 5_000 && close > 500, "{clear} {close}");
+}
+
+#[test]
+fn weights_that_overflow_are_never_clear() {
+    let unit = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    for (weights, most) in [
+        ([0.0, 0.0, 0.0, 1e300], 0.0),
+        ([0.0; 4], f64::MAX),
+        ([f64::MAX, -f64::MAX, 0.0, 0.0], -f64::MAX),
+        ([f64::MAX; 4], -f64::MAX),
+    ] {
+        let sites = [0, 1, 2, 3].map(|k| (unit[k], weights[k]));
+        assert!(!keeps_clear_of_sites(sites, [5.0; 3], [6.0; 3], most), "{weights:?}");
+    }
+    let sites = unit.map(|p| (p, f64::NEG_INFINITY));
+    assert!(!keeps_clear_of_sites(sites, [5.0; 3], [6.0; 3], f64::NEG_INFINITY));
 }

@@ -4,7 +4,7 @@ use wide::f64x2;
 
 use super::volumes;
 use crate::filter::Filter3;
-use crate::perturb::in_sphere_perturbed;
+use crate::perturb::first_coefficient;
 use crate::{Point3, Sign, Site, in_power_sphere};
 
 /// A site of space whose point is not copied.
@@ -52,10 +52,19 @@ impl Filter3 {
         } else if det > self.sphere {
             Sign::Negative
         } else if self.exact {
-            in_sphere_perturbed([*a.0, *b.0, *c.0, *d.0, *e.0], |p, q, r, s| self.orient3d(p, q, r, s))
+            perturbed_on_grid([a.0, b.0, c.0, d.0, e.0])
         } else {
             let site = |(&point, weight): SiteRef<'_>| -> Site<3> { (point, weight) };
             in_power_sphere(site(a), site(b), site(c), site(d), site(e))
         }
     }
+}
+
+/// The sign of the perturbed determinant of five points among which arithmetic is exact: the coefficients are the minors of the
+/// determinant, all at once.
+fn perturbed_on_grid([a, b, c, d, e]: [&Point3; 5]) -> Sign {
+    let from_e = |p: &Point3| [p[0] - e[0], p[1] - e[1], p[2] - e[2]];
+    let [abc, bcd, cda, dab] = volumes(from_e(a), from_e(b), from_e(c), from_e(d));
+    let coefficients = [bcd, -cda, dab, -abc, (abc - bcd) + (cda - dab)];
+    first_coefficient([a, b, c, d, e], |k| Sign::of(&coefficients[k], &0.0))
 }

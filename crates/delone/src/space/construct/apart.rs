@@ -7,50 +7,53 @@
 //! fits; and to fill it in is what removal does in the small ([`super::super::layer::hole`]).
 //!
 //! How the points are cut depends on them alone, and the parts own their memory, so the result is the same bits for any
-//! number of threads. Cost: that of [`super::build`], divided by the threads, and once more for the points near the
+//! number of threads. With weights a vertex of a part may be hidden by sites of another one: then it is at the border, and
+//! inside of the hole, and the triangulation of the border's vertices hides it too. Cost: that of [`super::build`], divided by the threads, and once more for the points near the
 //! cuts, a tenth at most as far as samples can tell.
 
 use super::super::layer::Layer;
 use super::super::layer::hole::turned;
-use super::cut::{cut, uncut};
+use super::super::layer::kernel::{Lift, Region};
+use super::cut::{Sites, cut, uncut};
 use super::part::{Done, Part};
-use super::{note_equal, room, triangulate_runs};
-use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
+use super::{Rest, room, triangulate_runs};
+use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::{Mesh3, Tetrahedron};
 use crate::parallel;
-use crate::points::Bounds;
 use crate::tally::Tally;
 
 /// A bit of the marks of tetrahedra that fill the hole; the lower four tell which facets are at its border.
 const FILLS: u8 = 16;
 
-/// Triangulates the points of a layer, where one run is kept after the other: their lengths, and boxes around all points
-/// of the others. `None` if they are not such that it can be done.
-pub(super) fn triangulate<T: Tally + Default + Send>(
-    layer: &mut Layer,
-    runs: &[(usize, Vec<Bounds<3>>)],
+/// Triangulates the sites of a layer, where one run is kept after the other: their lengths, and regions of all sites of the
+/// others. Says which are no vertices. `None` if they are not such that it can be done.
+pub(super) fn triangulate<W: Lift, T: Tally + Default + Send>(
+    layer: &mut Layer<W>,
+    runs: &[(usize, Vec<Region<W>>)],
     seed: u64,
-    duplicates: &mut Vec<Duplicate>,
     tally: &mut T,
-) -> Option<()> {
+) -> Option<Rest> {
     let parts = build_parts(layer, runs, seed, tally)?;
-    join(layer, &parts, seed, tally)?;
-    parts.iter().for_each(|part| note_equal(layer, &part.equal, duplicates));
-    layer.mesh.vertex_count = layer.points.len() - duplicates.len();
-    Some(())
+    let mut rest = Rest { hidden: join(layer, &parts, seed, tally)?, ..Rest::default() };
+    for part in parts {
+        rest.equal.extend(part.rest.equal);
+        rest.hidden.extend(part.rest.hidden);
+    }
+    layer.mesh.vertex_count = layer.points.len() - rest.equal.len() - rest.hidden.len();
+    Some(rest)
 }
 
 /// Triangulates each run in its part of the layer's memory.
-fn build_parts<T: Tally + Default + Send>(
-    layer: &mut Layer,
-    runs: &[(usize, Vec<Bounds<3>>)],
+fn build_parts<W: Lift, T: Tally + Default + Send>(
+    layer: &mut Layer<W>,
+    runs: &[(usize, Vec<Region<W>>)],
     seed: u64,
     tally: &mut T,
 ) -> Option<Vec<Done>> {
     let mesh = &mut layer.mesh;
     let sums = |length: &dyn Fn(usize) -> usize| -> Vec<usize> {
-        let sum = |end: &mut usize, run: &(usize, Vec<Bounds<3>>)| {
+        let sum = |end: &mut usize, run: &(usize, Vec<Region<W>>)| {
             *end += length(run.0);
             Some(*end)
         };
@@ -67,9 +70,11 @@ fn build_parts<T: Tally + Default + Send>(
         std::iter::once((0, 0)).chain(ends.iter().copied().zip(rooms.iter().copied())).collect();
     let tasks =
         cells.into_iter().zip(marks).zip(incident).enumerate().map(|(k, ((cells, marks), incident))| {
-            (k, Part::new(&layer.points[starts[k].0..ends[k]], cells, marks, incident))
+            let places = starts[k].0..ends[k];
+            let sites = (&layer.points[places.clone()], &layer.weights[places]);
+            (k, Part::new(sites, cells, marks, incident))
         });
-    let build = |(k, mut part): (usize, Part<'_>)| {
+    let build = |(k, mut part): (usize, Part<'_, W>)| {
         let mut tally = T::default();
         part.build(seed, &mut tally)?;
         Some((part.settle(&runs[k].1, starts[k].0, starts[k].1), tally))
@@ -82,20 +87,23 @@ fn build_parts<T: Tally + Default + Send>(
     Some(parts.collect())
 }
 
-/// Fills what the borders of the parts leave open. `None` if the vertices there do not span space.
-fn join<T: Tally + Default + Send>(
-    layer: &mut Layer,
+/// Fills what the borders of the parts leave open, and says which of the vertices there it hides. `None` if they do not span
+/// space.
+fn join<W: Lift, T: Tally + Default + Send>(
+    layer: &mut Layer<W>,
     parts: &[Done],
     seed: u64,
     tally: &mut T,
-) -> Option<()> {
+) -> Option<Vec<Place>> {
     // Memory for what fills the hole.
     layer.mesh.marks = Vec::new();
     let vertices: Vec<Place> = parts.iter().flat_map(|part| part.vertices.iter().copied()).collect();
     let at: Vec<[f64; 3]> = vertices.iter().map(|p| layer.points[p.index()]).collect();
+    let weights: Vec<W> = vertices.iter().map(|p| layer.weights[p.index()]).collect();
+    let sites = Sites { points: &at, weights: &weights };
     // Cut again only if they are fewer by half, so that this has an end whatever samples foretold.
-    let runs = if 2 * at.len() < layer.points.len() { cut(&at) } else { uncut(&at) };
-    let (mut fill, _) = triangulate_runs(at, runs, seed, tally)?;
+    let runs = if 2 * at.len() < layer.points.len() { cut(sites) } else { uncut(sites) };
+    let (mut fill, rest) = triangulate_runs(at, weights, runs, seed, tally)?;
     if fill.dimension() != Dimension::Space {
         return None;
     }
@@ -131,7 +139,9 @@ fn join<T: Tally + Default + Send>(
     left.sort_unstable();
     mesh.pack(left);
     mesh.marks = vec![0; mesh.cells.len()];
-    Some(())
+    let hidden: Vec<Place> = rest.hidden.into_iter().map(place).collect();
+    hidden.iter().for_each(|p| mesh.incident[p.index()] = TetrahedronId::NONE);
+    Some(hidden)
 }
 
 /// Finds the facets of the border of the hole in the triangulation of its vertices, as it sees them from inside, with
@@ -201,68 +211,4 @@ fn find_inside(fill: &mut Mesh3, walls: &[(FacetId, FacetId)]) -> Vec<Tetrahedro
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::cut::divide;
-    use super::super::triangulate_whole;
-    use super::triangulate;
-    use crate::duplicates::{Duplicates, settle};
-    use crate::mesh::Names;
-    use crate::space::Delaunay3;
-    use crate::space::layer::Layer;
-    use delone_generators::Kind3;
-
-    /// All tetrahedra, ghosts included, as sorted corners.
-    fn cells(d: &Delaunay3) -> Vec<[usize; 4]> {
-        let mesh = d.mesh();
-        let corners = |t| {
-            let mut corners = mesh.corners(t).map(crate::VertexId::index);
-            corners.sort_unstable();
-            corners
-        };
-        let mut cells: Vec<[usize; 4]> = mesh.cells().map(corners).collect();
-        cells.sort_unstable();
-        cells
-    }
-
-    #[test]
-    fn parts_are_joined_to_the_one_triangulation() {
-        let mut joined = 0;
-        for &kind in Kind3::ALL {
-            for (count, cuts) in [(40, 1), (300, 1), (700, 3), (1500, 2)] {
-                let points = kind.points(count, 7);
-                let all = (0..points.len() as u32).collect();
-                let runs = divide(&points, all, cuts, Vec::new());
-                if runs.len() == 1 {
-                    continue;
-                }
-                let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
-                let mut layer = Layer::new(order.iter().map(|&i| points[i as usize]).collect());
-                layer.mesh.names = Names::along(&order);
-                let (mut whole, mut duplicates) = (layer.clone(), Vec::new());
-                let runs: Vec<_> = runs.into_iter().map(|run| (run.order.len(), run.others)).collect();
-                if triangulate(&mut layer, &runs, 0, &mut duplicates, &mut ()).is_none() {
-                    continue;
-                }
-                joined += 1;
-                settle(&mut duplicates);
-                let apart = Delaunay3 {
-                    base: layer,
-                    duplicates: Duplicates::new(duplicates),
-                    ..Delaunay3::default()
-                };
-                apart.check().unwrap_or_else(|flaw| panic!("{} {count}: {flaw}", kind.name()));
-                let mut duplicates = Vec::new();
-                triangulate_whole(&mut whole, 0, &mut duplicates, &mut ());
-                settle(&mut duplicates);
-                let whole = Delaunay3 {
-                    base: whole,
-                    duplicates: Duplicates::new(duplicates),
-                    ..Delaunay3::default()
-                };
-                assert_eq!(cells(&apart), cells(&whole), "{} {count}", kind.name());
-                assert!(apart.duplicates().eq(whole.duplicates()), "{} {count}", kind.name());
-            }
-        }
-        assert!(joined > 40, "{joined}");
-    }
-}
+mod tests;

@@ -13,19 +13,18 @@ mod part;
 
 use std::ops::Range;
 
-use cut::{Run, cut};
+use cut::{Run, Sites, cut};
 
 use super::layer::Layer;
 use super::layer::arena::Arena;
 use super::layer::cavity::Cavity;
-use super::layer::kernel::Lift;
+use super::layer::kernel::{Lift, Region};
 use crate::duplicates::settle;
 use crate::ids::{Duplicate, Place, TetrahedronId};
 use crate::mesh::Names;
 use crate::order;
 use crate::order::quantize::scaled;
 use crate::parallel;
-use crate::points::Bounds;
 use crate::points::Position3;
 use crate::tally::Tally;
 
@@ -42,14 +41,31 @@ pub(super) fn triangulate<P: Position3, T: Tally + Default + Send>(
     tally: &mut T,
 ) -> Option<(Layer, Vec<Duplicate>)> {
     let Some((scaled, scale)) = scaled_points(points.as_ref()) else {
-        let runs = cut(points.as_ref());
-        return triangulate_runs(points, runs, seed, tally);
+        return Some(with_duplicates(triangulate_sites(points, Vec::new(), seed, tally)?));
     };
     drop(points);
-    let runs = cut(&scaled);
-    let (mut layer, duplicates) = triangulate_runs(scaled, runs, seed, tally)?;
+    let (mut layer, duplicates) = with_duplicates(triangulate_sites(scaled, Vec::new(), seed, tally)?);
     layer.scale(1.0 / scale);
     Some((layer, duplicates))
+}
+
+/// Points that equal vertices are duplicates of them.
+fn with_duplicates((mut layer, rest): (Layer, Rest)) -> (Layer, Vec<Duplicate>) {
+    let mut duplicates = Vec::new();
+    note_equal(&mut layer, &rest.equal, &mut duplicates);
+    settle(&mut duplicates);
+    (layer, duplicates)
+}
+
+/// The same for points with weights, one for each if there are weights, and says what is no vertex. Names are those of all.
+pub(super) fn triangulate_sites<P: Position3, W: Lift, T: Tally + Default + Send>(
+    points: impl AsRef<[P]>,
+    weights: Vec<W>,
+    seed: u64,
+    tally: &mut T,
+) -> Option<(Layer<W>, Rest)> {
+    let runs = cut(Sites { points: points.as_ref(), weights: &weights });
+    triangulate_runs(points, weights, runs, seed, tally)
 }
 
 /// The same by flips in random order.
@@ -77,43 +93,43 @@ fn scaled_points<P: Position3>(points: &[P]) -> Option<(Vec<[f64; 3]>, f64)> {
     points.iter().all(|p| p.xyz().iter().all(|x| (4.0 * x).is_finite())).then_some(scaled)
 }
 
-/// The same for points that are cut already.
-fn triangulate_runs<P: Position3, T: Tally + Default + Send>(
+/// The same for sites that are cut already.
+fn triangulate_runs<P: Position3, W: Lift, T: Tally + Default + Send>(
     points: impl AsRef<[P]>,
-    runs: Vec<Run>,
+    weights: Vec<W>,
+    runs: Vec<Run<W>>,
     seed: u64,
     tally: &mut T,
-) -> Option<(Layer, Vec<Duplicate>)> {
+) -> Option<(Layer<W>, Rest)> {
     let order: Vec<u32> = runs.iter().flat_map(|run| run.order.iter().copied()).collect();
-    let parts: Vec<(usize, Vec<Bounds<3>>)> =
+    let parts: Vec<(usize, Vec<Region<W>>)> =
         runs.into_iter().map(|run| (run.order.len(), run.others)).collect();
     let given = points.as_ref();
-    let mut layer = Layer::new(parallel::collect(order.len(), |k| given[order[k] as usize].xyz()));
+    let along = parallel::collect(order.len(), |k| given[order[k] as usize].xyz());
     drop(points);
+    let of_all = order.iter().map(|&i| W::at(&weights, Place::new(i as usize))).collect();
+    drop(weights);
+    let mut layer = Layer::with_weights(along, of_all);
     layer.mesh.names = Names::along(&order);
     drop(order);
-    let mut duplicates = Vec::new();
-    if parts.len() == 1 || apart::triangulate(&mut layer, &parts, seed, &mut duplicates, tally).is_none() {
-        duplicates.clear();
-        triangulate_whole(&mut layer, seed, &mut duplicates, tally)?;
+    let apart = if parts.len() > 1 { apart::triangulate(&mut layer, &parts, seed, tally) } else { None };
+    let rest = apart.or_else(|| triangulate_whole(&mut layer, seed, tally))?;
+    if 2 * rest.hidden.len() > layer.points.len() {
+        // Room was made for the tetrahedra of all.
+        layer.mesh.cells.shrink_to_fit();
+        layer.mesh.marks.shrink_to_fit();
     }
-    settle(&mut duplicates);
-    Some((layer, duplicates))
+    Some((layer, rest))
 }
 
-/// Makes all points vertices, which must be in an order that is short in space. `None` if there is no room.
-fn triangulate_whole<T: Tally>(
-    layer: &mut Layer,
-    seed: u64,
-    duplicates: &mut Vec<Duplicate>,
-    tally: &mut T,
-) -> Option<()> {
+/// Makes all sites vertices, or says which are none; they must be in an order that is short in space. `None` if there is no room.
+fn triangulate_whole<W: Lift, T: Tally>(layer: &mut Layer<W>, seed: u64, tally: &mut T) -> Option<Rest> {
     let count = layer.points.len();
     layer.clear_mesh();
     layer.mesh.incident.fill(TetrahedronId::NONE);
     layer.mesh.cells.reserve_exact(room(count));
     layer.mesh.marks.reserve_exact(room(count));
-    build(layer, &order::space::rounds(count, seed), duplicates, tally)
+    begin_and_insert(layer, &order::space::rounds(count, seed), tally)
 }
 
 /// Makes the points at some places vertices, in this order, in an empty mesh. Those that equal others become
@@ -130,11 +146,7 @@ pub(super) fn build<W: Lift, T: Tally>(
 }
 
 /// The same for sites of which some may be hidden. Names are left alone.
-pub(super) fn begin_and_insert<W: Lift, T: Tally>(
-    layer: &mut Layer<W>,
-    order: &[u32],
-    tally: &mut T,
-) -> Option<Rest> {
+fn begin_and_insert<W: Lift, T: Tally>(layer: &mut Layer<W>, order: &[u32], tally: &mut T) -> Option<Rest> {
     let first = layer.begin(order)?;
     let mut rest = Rest::default();
     let Some(&a) = first.first() else { return Some(rest) };

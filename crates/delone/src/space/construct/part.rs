@@ -4,19 +4,23 @@
 //! A tetrahedron whose sphere holds no point of the other runs is one of the triangulation of all points. The others are
 //! the *border*. A point elsewhere is in conflict with tetrahedra that hang together and include a ghost that it is
 //! beyond, so the border is found from the ghosts, and nearly all tetrahedra are never looked at.
+//!
+//! With weights a sphere is clear of the others only if it is of the heaviest of them, wherever that is. What a site of
+//! the part hides stays hidden, because more sites only lower the hull of the lifted ones.
 
 use std::ops::Range;
 
-use delone_predicates::{Filter3, Grid, Sign, keeps_clear, orient3d};
+use delone_predicates::{Filter3, Sign, orient3d};
 
 use super::super::layer::arena::{Arena, Memory, View};
 use super::super::layer::cavity::Cavity;
+use super::super::layer::filter_of;
+use super::super::layer::kernel::{Lift, Region};
 use super::super::layer::scaffold::{first_cells, spanning};
 use super::{Rest, insert_all};
 use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::tetrahedra::{FACETS, Tetrahedron};
 use crate::order;
-use crate::points::Bounds;
 use crate::tally::Tally;
 
 /// Marks while the border is found: bits.
@@ -24,8 +28,9 @@ const BORDER: u8 = 1;
 const SURE: u8 = 2;
 
 /// See the module. Its ids are its own until [`Self::settle`].
-pub(super) struct Part<'a> {
+pub(super) struct Part<'a, W> {
     points: &'a [[f64; 3]],
+    weights: &'a [W],
     filter: Filter3,
     cells: &'a mut [Tetrahedron],
     marks: &'a mut [u8],
@@ -33,8 +38,8 @@ pub(super) struct Part<'a> {
     /// Slots that were used at some time.
     used: usize,
     free: Vec<TetrahedronId>,
-    /// Places and the vertices that they equal.
-    equal: Vec<(Place, Place)>,
+    /// What is no vertex.
+    rest: Rest,
 }
 
 /// What a part has to say about itself, with the ids of the whole.
@@ -42,8 +47,8 @@ pub(super) struct Done {
     /// The slots that were never used, and those that are free again.
     pub(super) unused: Range<usize>,
     pub(super) free: Vec<TetrahedronId>,
-    /// Places and the vertices that they equal.
-    pub(super) equal: Vec<(Place, Place)>,
+    /// What is no vertex.
+    pub(super) rest: Rest,
     /// The border, and its vertices.
     pub(super) border: Vec<TetrahedronId>,
     pub(super) vertices: Vec<Place>,
@@ -51,18 +56,18 @@ pub(super) struct Done {
     pub(super) seam: Vec<([Place; 3], FacetId)>,
 }
 
-impl Arena for Part<'_> {
-    type Weight = ();
+impl<W: Lift> Arena for Part<'_, W> {
+    type Weight = W;
 
     #[inline]
-    fn view(&self) -> View<'_, ()> {
-        View { cells: self.cells, points: self.points, weights: &[], filter: &self.filter }
+    fn view(&self) -> View<'_, W> {
+        View { cells: self.cells, points: self.points, weights: self.weights, filter: &self.filter }
     }
 
     #[inline]
-    fn memory(&mut self) -> Memory<'_, ()> {
-        let Self { cells, marks, incident, points, filter, .. } = self;
-        Memory { cells, marks, incident, points, weights: &[], filter }
+    fn memory(&mut self) -> Memory<'_, W> {
+        let Self { cells, marks, incident, points, weights, filter, .. } = self;
+        Memory { cells, marks, incident, points, weights, filter }
     }
 
     fn room(&self) -> usize {
@@ -87,22 +92,21 @@ impl Arena for Part<'_> {
     }
 }
 
-impl<'a> Part<'a> {
-    /// Points and memory for their tetrahedra, all of it free.
+impl<'a, W: Lift> Part<'a, W> {
+    /// Sites and memory for their tetrahedra, all of it free.
     pub(super) fn new(
-        points: &'a [[f64; 3]],
+        (points, weights): (&'a [[f64; 3]], &'a [W]),
         cells: &'a mut [Tetrahedron],
         marks: &'a mut [u8],
         incident: &'a mut [TetrahedronId],
     ) -> Self {
-        let filter = Filter3::default();
-        Self { points, filter, cells, marks, incident, used: 0, free: Vec::new(), equal: Vec::new() }
+        let (filter, rest) = (Filter3::default(), Rest::default());
+        Self { points, weights, filter, cells, marks, incident, used: 0, free: Vec::new(), rest }
     }
 
-    /// Triangulates the points. `None` if they span less than space, or have more tetrahedra than there is room for.
+    /// Triangulates the sites. `None` if they span less than space, or have more tetrahedra than there is room for.
     pub(super) fn build<T: Tally>(&mut self, seed: u64, tally: &mut T) -> Option<()> {
-        let extent = Bounds::of(self.points.iter().copied()).extent();
-        self.filter = Filter3::for_box(extent, Grid::of(self.points.as_flattened()));
+        self.filter = filter_of(self.points, self.weights);
         let order = order::space::rounds(self.points.len(), seed);
         let first = spanning(self.points, &order);
         let &[a, b, c, d] = &first[..] else { return None };
@@ -111,12 +115,12 @@ impl<'a> Part<'a> {
         let start = self.incident[a.index()];
         let others = order.iter().map(|&i| Place::new(i as usize)).filter(|v| !first.contains(v));
         insert_all(self, &mut Cavity::default(), start, others, &mut rest, tally)?;
-        self.equal = rest.equal;
+        self.rest = rest;
         Some(())
     }
 
-    /// Finds and marks the tetrahedra whose spheres may hold points of some boxes. All points of others must be in them.
-    pub(super) fn find_border(&mut self, others: &[Bounds<3>]) -> Vec<TetrahedronId> {
+    /// Finds and marks the tetrahedra whose spheres may hold sites of some regions. All sites of others must be in them.
+    pub(super) fn find_border(&mut self, others: &[Region<W>]) -> Vec<TetrahedronId> {
         let is_ghost = |cell: &Tetrahedron| cell.corners[3].is_ghost() && !cell.corners[0].is_ghost();
         let first = self.cells[..self.used].iter().position(is_ghost);
         let mut ghosts: Vec<TetrahedronId> = first.map(TetrahedronId::new).into_iter().collect();
@@ -160,24 +164,31 @@ impl<'a> Part<'a> {
         border
     }
 
-    /// Whether the sphere of a finite tetrahedron may hold points of a box.
-    fn may_hold(&self, t: TetrahedronId, other: &Bounds<3>) -> bool {
-        let corners = self.cells[t.index()].corners.map(|p| self.points[p.index()]);
-        !keeps_clear(corners, other.low, other.high)
+    /// Whether the sphere of a finite tetrahedron may hold sites of a region.
+    fn may_hold(&self, t: TetrahedronId, other: &Region<W>) -> bool {
+        let view = self.view();
+        !W::keeps_clear(self.cells[t.index()].corners.map(|p| view.site(p)), other)
     }
 
     /// The same for a ghost: some of the box may be beyond its facet, or in the plane of the facet and in its circle, which
     /// the sphere of the tetrahedron inside cuts out.
-    fn may_be_beyond(&self, ghost: TetrahedronId, other: &Bounds<3>) -> bool {
+    fn may_be_beyond(&self, ghost: TetrahedronId, other: &Region<W>) -> bool {
         let Tetrahedron { corners: [a, b, c, _], across } = self.cells[ghost.index()];
         let [a, b, c] = [a, b, c].map(|p| self.points[p.index()]);
-        let corner = |m: usize| [0, 1, 2].map(|k| if m >> k & 1 == 0 { other.low[k] } else { other.high[k] });
+        let bounds = &other.bounds;
+        let corner =
+            |m: usize| [0, 1, 2].map(|k| if m >> k & 1 == 0 { bounds.low[k] } else { bounds.high[k] });
         let most = (0..8).map(|m| orient3d(a, b, c, corner(m))).max();
         match most {
             Some(Sign::Negative) | None => false,
             Some(Sign::Zero) => self.may_hold(across[3].tetrahedron(), other),
             Some(Sign::Positive) => true,
         }
+    }
+
+    /// How many sites others hide.
+    pub(super) fn hidden(&self) -> usize {
+        self.rest.hidden.len()
     }
 
     /// The vertices of the border, by place.
@@ -190,7 +201,7 @@ impl<'a> Part<'a> {
 
     /// Says where its border is, and takes the ids of the whole, where its first place and its first slot for
     /// tetrahedra have these numbers.
-    pub(super) fn settle(mut self, others: &[Bounds<3>], place: usize, slot: usize) -> Done {
+    pub(super) fn settle(mut self, others: &[Region<W>], place: usize, slot: usize) -> Done {
         let places = |p: Place| if p.is_ghost() { p } else { Place::new(p.index() + place) };
         let slots = |t: TetrahedronId| TetrahedronId::new(t.index() + slot);
         let facets = |f: FacetId| slots(f.tetrahedron()).facet(f.corner());
@@ -216,7 +227,10 @@ impl<'a> Part<'a> {
         Done {
             unused: slot + self.used..slot + self.cells.len(),
             free: self.free.into_iter().map(slots).collect(),
-            equal: self.equal.into_iter().map(|(v, w)| (places(v), places(w))).collect(),
+            rest: Rest {
+                equal: self.rest.equal.into_iter().map(|(v, w)| (places(v), places(w))).collect(),
+                hidden: self.rest.hidden.into_iter().map(places).collect(),
+            },
             border: border.into_iter().map(slots).collect(),
             vertices,
             seam,

@@ -6,6 +6,7 @@ use delone_predicates::Filter3;
 use super::kernel::{Lift, SiteRef};
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::tetrahedra::Tetrahedron;
+use crate::prefetch::prefetch;
 use crate::tally::{Phase, Tally};
 
 /// What decisions look at.
@@ -76,7 +77,8 @@ impl<W: Lift> View<'_, W> {
     }
 
     /// Four of them.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a call costs a twentieth of a construction with weights")]
     fn sites(&self, &[a, b, c, d]: &[Place; 4]) -> [SiteRef<'_, W>; 4] {
         [self.site(a), self.site(b), self.site(c), self.site(d)]
     }
@@ -142,6 +144,10 @@ impl<W: Lift> View<'_, W> {
                 return t;
             }
             (0..4).for_each(|_| tally.orientation());
+            if W::HIDES {
+                // Walks are long where many sites tie, and without weights they are not.
+                cell.across.iter().for_each(|f| prefetch(self.cells, f.tetrahedron().index()));
+            }
             match self.filter.facet_towards(self.all(&cell.corners), &q) {
                 Some(k) => t = cell.across[k].tetrahedron(),
                 None => return t,

@@ -43,7 +43,7 @@ pub(in crate::space) struct Cavity {
     edges: Vec<[u32; 3]>,
     /// By the numbers of its ends, the facet above each directed edge of the border.
     table: Vec<FacetId>,
-    /// The vertices inside, which the new one hides, where it may hide some; before that all corners.
+    /// The vertices inside, which the new one hides, where it may hide some; before that all corners that may be.
     hidden: Vec<Place>,
     /// Tetrahedra of the cavity that its star did not take.
     spare: Vec<TetrahedronId>,
@@ -70,9 +70,7 @@ impl Cavity {
         tally.destroyed(self.cells.len());
         tally.created(self.border.len());
         if A::Weight::HIDES {
-            let cells = arena.memory().cells;
-            self.hidden.clear();
-            self.hidden.extend(self.cells.iter().flat_map(|t| cells[t.index()].corners));
+            self.find_perhaps_hidden(&arena.memory());
         }
         while self.cells.len() < self.border.len() {
             self.cells.push(arena.new_cell()?);
@@ -101,12 +99,23 @@ impl Cavity {
         self.cells.iter().chain(&self.spare).copied()
     }
 
-    /// Those corners of the cavity that are on no new tetrahedron: what was theirs is another's, or free.
+    /// The corners of the cavity that have one of its tetrahedra for their own, as all inside do.
+    fn find_perhaps_hidden<W>(&mut self, memory: &Memory<'_, W>) {
+        let mut count = 0;
+        self.hidden.resize(4 * self.cells.len(), Place::GHOST);
+        for &t in &self.cells {
+            for p in memory.cells[t.index()].corners {
+                self.hidden[count] = p;
+                count += usize::from(memory.incident.get(p.index()) == Some(&t));
+            }
+        }
+        self.hidden.truncate(count);
+    }
+
+    /// Those of them that are on no new tetrahedron: what was theirs is another's, or free.
     fn find_hidden<W>(&mut self, memory: &mut Memory<'_, W>) {
         let Memory { cells, incident, .. } = memory;
-        self.hidden.retain(|&p| !p.is_ghost() && !cells[incident[p.index()].index()].corners.contains(&p));
-        self.hidden.sort_unstable();
-        self.hidden.dedup();
+        self.hidden.retain(|&p| !cells[incident[p.index()].index()].corners.contains(&p));
         self.hidden.iter().for_each(|p| incident[p.index()] = TetrahedronId::NONE);
     }
 

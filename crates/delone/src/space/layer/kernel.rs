@@ -3,8 +3,9 @@
 //! Without weights no site hides another, and a cavity has no vertex inside. With weights ([`Lift::HIDES`]) a vertex inside of a
 //! cavity is one that the new site hides, and a site without a cavity is hidden itself.
 
-use delone_predicates::{Filter3, Grid, Sign, in_power_sphere, in_sphere};
+use delone_predicates::{Filter3, Grid, Sign, in_power_sphere, in_sphere, keeps_clear, keeps_clear_of_sites};
 
+use crate::points::Bounds;
 use crate::weight::Weight;
 
 /// A site whose point is not copied: copies are read in other pieces than they are written, and that waits.
@@ -29,6 +30,19 @@ pub(in crate::space) trait Lift: Weight {
 
     /// Two at once.
     fn in_spheres(filter: &Filter3, corners: [[SiteRef<'_, Self>; 4]; 2], q: SiteRef<'_, Self>) -> [Sign; 2];
+
+    /// Whether the sphere certainly has no site inside of it or on it that may be in a region.
+    fn keeps_clear(corners: [SiteRef<'_, Self>; 4], region: &Region<Self>) -> bool;
+
+    /// The largest of some weights.
+    fn most(weights: impl Iterator<Item = Self>) -> Self;
+}
+
+/// A box around sites, and the largest of their weights.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::space) struct Region<W> {
+    pub(in crate::space) bounds: Bounds<3>,
+    pub(in crate::space) most: W,
 }
 
 impl Lift for () {
@@ -55,6 +69,12 @@ impl Lift for () {
     fn in_spheres(filter: &Filter3, corners: [[SiteRef<'_, Self>; 4]; 2], q: SiteRef<'_, Self>) -> [Sign; 2] {
         filter.in_spheres(corners.map(|corners| corners.map(|site| site.0)), q.0)
     }
+
+    fn keeps_clear(corners: [SiteRef<'_, Self>; 4], region: &Region<Self>) -> bool {
+        keeps_clear(corners.map(|site| *site.0), region.bounds.low, region.bounds.high)
+    }
+
+    fn most(_: impl Iterator<Item = Self>) -> Self {}
 }
 
 impl Lift for f64 {
@@ -80,5 +100,14 @@ impl Lift for f64 {
     #[inline]
     fn in_spheres(filter: &Filter3, corners: [[SiteRef<'_, Self>; 4]; 2], q: SiteRef<'_, Self>) -> [Sign; 2] {
         filter.in_power_spheres(corners, q)
+    }
+
+    fn keeps_clear(corners: [SiteRef<'_, Self>; 4], region: &Region<Self>) -> bool {
+        let corners = corners.map(|(point, weight)| (*point, weight));
+        keeps_clear_of_sites(corners, region.bounds.low, region.bounds.high, region.most)
+    }
+
+    fn most(weights: impl Iterator<Item = Self>) -> Self {
+        weights.fold(f64::NEG_INFINITY, f64::max)
     }
 }

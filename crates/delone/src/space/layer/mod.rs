@@ -72,21 +72,12 @@ impl<W: Lift> Layer<W> {
 
     /// The box around all points, the lattice that they are on, the range of the weights, and a filter for all that.
     fn measure(&mut self) {
-        self.limits = Bounds::of(self.points.iter().copied());
-        self.grid = Grid::of(self.points.as_flattened());
-        self.range = None;
-        if W::HIDES {
-            for w in &self.weights {
-                let (grid, range) = wider((self.grid, self.range), w.value());
-                (self.grid, self.range) = (grid, range);
-            }
-        }
+        (self.limits, self.grid, self.range) = measured(&self.points, &self.weights);
         self.renew_filter();
     }
 
     fn renew_filter(&mut self) {
-        let spread = self.range.map_or(0.0, |[least, most]| most - least);
-        self.filter = W::filter(self.limits.extent(), spread, self.grid);
+        self.filter = filter_for::<W>(&(self.limits, self.grid, self.range));
     }
 
     /// Starts anew with other points, as [`Self::new`], in the memory that there is. They have no names.
@@ -272,6 +263,29 @@ impl Layer {
         }
         Ok(v)
     }
+}
+
+/// The box around points, the lattice that they and the square roots of weights are on, and the range of these.
+type Measures = (Bounds<3>, Option<Grid>, Option<[f64; 2]>);
+
+fn measured<W: Lift>(points: &[[f64; 3]], weights: &[W]) -> Measures {
+    let mut measures = (Grid::of(points.as_flattened()), None);
+    if W::HIDES {
+        for w in weights {
+            measures = wider(measures, w.value());
+        }
+    }
+    (Bounds::of(points.iter().copied()), measures.0, measures.1)
+}
+
+fn filter_for<W: Lift>(&(limits, grid, range): &Measures) -> Filter3 {
+    let spread = range.map_or(0.0, |[least, most]| most - least);
+    W::filter(limits.extent(), spread, grid)
+}
+
+/// A filter for sites.
+pub(in crate::space) fn filter_of<W: Lift>(points: &[[f64; 3]], weights: &[W]) -> Filter3 {
+    filter_for::<W>(&measured(points, weights))
 }
 
 /// The lattice that a weight's square root may be on too, and the range with it.

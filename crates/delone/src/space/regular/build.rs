@@ -1,12 +1,10 @@
-//! Bulk construction: insertion in biased random rounds along a Hilbert curve, in whose order sites are kept.
+//! Bulk construction: insertion in biased random rounds along a Hilbert curve, in whose order sites are kept; large sets in parts.
 //!
 //! What is hidden once stays so, because more sites only lower the hull of the lifted ones: nothing is kept for it.
 
 use super::Regular3;
 use crate::ids::{Place, VertexId};
 use crate::mesh::Names;
-use crate::order;
-use crate::parallel;
 use crate::space::construct::{self, Rest, flips};
 use crate::space::layer::Layer;
 use crate::tally::Work;
@@ -14,14 +12,9 @@ use crate::under::Under;
 
 /// Triangulates sites, all finite and not too many. `None` if there would be too many tetrahedra.
 pub(super) fn build(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<Regular3> {
-    let along = order::space::hilbert(points.len(), &|i| points[i as usize]);
-    let sorted = parallel::collect(along.len(), |k| points[along[k] as usize]);
-    let weights = along.iter().map(|&i| weights[i as usize]).collect();
-    let mut layer: Layer<f64> = Layer::with_weights(sorted, weights);
-    layer.mesh.names = Names::along(&along);
     let mut work = Work::default();
-    let rest = construct::begin_and_insert(&mut layer, &order::space::rounds(points.len(), seed), &mut work)?;
-    Some(finish(layer, rest, work))
+    let built = construct::triangulate_sites(points, weights.to_vec(), seed, &mut work)?;
+    Some(Regular3 { work, ..assemble(built) })
 }
 
 /// The same by flips in random order.
@@ -30,11 +23,11 @@ pub(super) fn by_flips(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Optio
     layer.mesh.names = Names::identical(points.len(), |_| true);
     let mut work = Work::default();
     let rest = flips::build(&mut layer, seed, &mut work)?;
-    Some(finish(layer, rest, work))
+    Some(Regular3 { work, ..assemble((layer, rest)) })
 }
 
-/// Names the sites that are no vertices.
-fn finish(mut layer: Layer<f64>, rest: Rest, work: Work) -> Regular3 {
+/// Names what is no vertex.
+pub(in crate::space) fn assemble((mut layer, rest): (Layer<f64>, Rest)) -> Regular3 {
     let names = &mut layer.mesh.names;
     // Of equal sites the first given is the vertex, and the other one is kept where it was.
     let mut equal: Vec<(VertexId, Place, Place)> = Vec::new();
@@ -49,5 +42,5 @@ fn finish(mut layer: Layer<f64>, rest: Rest, work: Work) -> Regular3 {
     for (id, _, w) in equal {
         under.set_equal(id, Some(names.of(w)).filter(|v| !v.is_ghost()));
     }
-    Regular3 { hinted: layer.mesh.vertex_count, base: layer, under, work, ..Regular3::default() }
+    Regular3 { hinted: layer.mesh.vertex_count, base: layer, under, ..Regular3::default() }
 }

@@ -7,7 +7,7 @@
 //! "Incremental topological flipping works for regular triangulations", Algorithmica 1996; Devillers & Teillaud, "Perturbations
 //! for Delaunay and weighted Delaunay 3D triangulations", CGTA 2011.
 
-mod build;
+pub(super) mod build;
 mod change;
 mod check;
 mod triangulation;
