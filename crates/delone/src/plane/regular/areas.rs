@@ -14,8 +14,8 @@ use crate::ids::VertexId;
 use crate::plane::region::Region2;
 use crate::points::Position2;
 
-/// Systems are solved to this share of what they are to make up for.
-const PRECISION: f64 = 1e-10;
+/// Systems are solved to this share of what they are to make up for: more would not make fewer steps.
+const PRECISION: f64 = 1e-4;
 /// A step is halved so often at most.
 const HALVINGS: usize = 40;
 
@@ -84,13 +84,16 @@ impl Regular2 {
         let missing = |now: &Jacobian2| -> Vec<f64> {
             wanted.iter().zip(&now.areas).map(|(wanted, area)| wanted - area).collect()
         };
+        // Neighbours in the plane are to be neighbours in memory.
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_unstable_by_key(|&i| r.mesh().place(VertexId::new(i)));
         let mut rest = missing(&now);
         let worst = |rest: &[f64]| {
             rest.iter().zip(&wanted).fold(0.0, |m: f64, (rest, wanted)| m.max(rest.abs() / wanted))
         };
         let mut steps = 0;
         while worst(&rest) > tolerance {
-            let step = solve(&now, &rest);
+            let step = solve(&now, &rest, &order);
             let mut share = 1.0;
             let mut halvings = 0;
             loop {
@@ -115,18 +118,24 @@ impl Regular2 {
     }
 }
 
-/// The weights that would make up for what is missing, if areas were linear: conjugate gradients, each row by its diagonal.
-fn solve(now: &Jacobian2, missing: &[f64]) -> Vec<f64> {
+/// The weights that would make up for what is missing, if areas were linear: conjugate gradients, each row by its diagonal, with
+/// sites in an order.
+fn solve(now: &Jacobian2, missing: &[f64], order: &[usize]) -> Vec<f64> {
     let count = missing.len();
+    let mut rank = vec![0_u32; count];
+    order.iter().enumerate().for_each(|(k, &i)| rank[i] = k as u32);
+    let ranked = |&([v, w], value): &([VertexId; 2], f64)| ([v, w].map(|v| rank[v.index()]), value);
+    let mut derivatives: Vec<([u32; 2], f64)> = now.derivatives.iter().map(ranked).collect();
+    derivatives.sort_unstable_by_key(|derivative| derivative.0);
     let mut diagonal = vec![0.0; count];
-    for &([v, w], value) in &now.derivatives {
-        diagonal[v.index()] -= value;
-        diagonal[w.index()] -= value;
+    for &([v, w], value) in &derivatives {
+        diagonal[v as usize] -= value;
+        diagonal[w as usize] -= value;
     }
     let times = |x: &[f64]| -> Vec<f64> {
         let mut product: Vec<f64> = diagonal.iter().zip(x).map(|(d, x)| d * x).collect();
-        for &([v, w], value) in &now.derivatives {
-            let [v, w] = [v, w].map(VertexId::index);
+        for &([v, w], value) in &derivatives {
+            let [v, w] = [v as usize, w as usize];
             product[v] += value * x[w];
             product[w] += value * x[v];
         }
@@ -138,7 +147,7 @@ fn solve(now: &Jacobian2, missing: &[f64]) -> Vec<f64> {
     let mut solution = vec![0.0; count];
     // What constants cannot make up for: areas and wishes sum to the same but for rounding.
     let mean = missing.iter().sum::<f64>() / count as f64;
-    let mut rest: Vec<f64> = missing.iter().map(|r| r - mean).collect();
+    let mut rest: Vec<f64> = order.iter().map(|&i| missing[i] - mean).collect();
     let goal = PRECISION * length(&rest);
     let mut direction = scaled(&rest);
     let mut energy = dot(&rest, &direction);
@@ -161,7 +170,7 @@ fn solve(now: &Jacobian2, missing: &[f64]) -> Vec<f64> {
         let turn = energy / before;
         direction.iter_mut().zip(&next).for_each(|(d, n)| *d = n + turn * *d);
     }
-    solution
+    rank.iter().map(|&k| solution[k as usize]).collect()
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
