@@ -38,6 +38,10 @@ TEXT
     compare --polygons --size $((points / 10)) --runs 3
     printf '\n## Voronoi cells\n\n'
     compare --voronoi --size $((points / 10)) --runs 2 --kinds uniform,grid
+    printf '\n## Weights: regular triangulations, in the plane and in space\n\n'
+    compare --weights --size $((points / 10)) --runs 3
+    printf '\n## Proximity graphs, beside the construction that they are made from\n\n'
+    compare --graphs --size "$points" --runs 3
     printf '\n## Convex hulls in space\n\n'
     compare --hull --size $((points / 10)) --runs 2
 } >"$page"

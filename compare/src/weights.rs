@@ -62,7 +62,7 @@ pub fn run(size: usize, runs: usize) -> bool {
         }
     }
     for kind in [Kind3::Cube, Kind3::Grid3] {
-        let points = kind.points(size.min(100_000), 1);
+        let points = kind.points(size, 1);
         for (name, weight) in SETS {
             if (name == SETS[3].0) != (kind == Kind3::Grid3) {
                 continue;
@@ -121,7 +121,7 @@ fn engines_2<'a>(points: &'a [[f64; 2]], weights: &'a [f64]) -> Vec<Engine<'a, 3
 
 fn engines_3<'a>(points: &'a [[f64; 3]], weights: &'a [f64]) -> Vec<Engine<'a, 4>> {
     let delone = move || {
-        let (seconds, r) = timed(|| Regular3::with_seed(points, weights, 0).expect("finite"));
+        let (seconds, r) = timed(|| Regular3::from_parts(points, weights).expect("finite"));
         (seconds, simplices(&r))
     };
     let plain = move || {
