@@ -79,7 +79,7 @@ fn read(path: &str) -> Option<Set> {
         set.points.extend(&ring);
         match set.polygons.last_mut() {
             Some(polygon) if area(&ring).is_sign_positive() != sense => polygon.push(first..first + n),
-            _ => set.polygons.push(vec![first..first + n]),
+            _ => set.polygons.push(std::iter::once(first..first + n).collect()),
         }
     }
     Some(set)

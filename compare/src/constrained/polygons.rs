@@ -98,8 +98,11 @@ fn earcutr(rings: &Rings) -> Option<(Duration, usize)> {
     Some((start.elapsed(), count))
 }
 
+/// A ring as `cdt` takes it: points, and segments by their ends.
+type PlainGraph = (Vec<(f64, f64)>, Vec<(usize, usize)>);
+
 fn cdt(rings: &Rings) -> Option<(Duration, usize)> {
-    let rings: Vec<(Vec<(f64, f64)>, Vec<(usize, usize)>)> = rings
+    let rings: Vec<PlainGraph> = rings
         .iter()
         .map(|ring| {
             let n = ring.len();
