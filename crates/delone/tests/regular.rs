@@ -1,11 +1,12 @@
 //! Regular triangulations by their definition, in the plane and in space: built in any way and order, and at every step of a life.
 
 use delone::{
-    Change, Delaunay2, Delaunay3, Error, Regular, Regular2, Regular3, Reweighed, Triangulation, VertexId,
+    Change, Delaunay2, Delaunay3, Error, Location2, Location3, Regular, Regular2, Regular3, Reweighed,
+    TetrahedronId, TriangleId, Triangulation, VertexId,
 };
 use delone_generators::{Kind, Kind3, Random};
 use delone_oracle::power::Lifted;
-use delone_predicates::compare_powers;
+use delone_predicates::{compare_powers, orient2d, orient3d};
 
 type Site<const D: usize> = ([f64; D], f64);
 
@@ -227,6 +228,106 @@ fn a_life_is_the_definition_at_every_step_in_the_plane() {
 #[test]
 fn a_life_is_the_definition_at_every_step_in_space() {
     a_life::<3, Regular3>(in_space, 60, &[Regular3::with_seed, Regular3::by_flips]);
+}
+
+/// Where points fall, against all triangles and tetrahedra.
+#[test]
+fn points_fall_where_they_are() {
+    let mut random = Random::new(9);
+    let side = |a: [f64; 2], b: [f64; 2], q: [f64; 2]| orient2d(a, b, q).is_positive();
+    let mut inside = [0; 2];
+    for _ in 0..200 {
+        let count = 1 + random.below(20);
+        let r = Regular2::from_sites(&in_plane(&mut random, count)).expect("finite");
+        for _ in 0..10 {
+            let q = [random.below(9) as f64 / 2.0, random.below(15) as f64 / 4.0 - 0.5];
+            let is_vertex = r.vertices().find(|&v| r.site(v).expect("alive").0 == q);
+            let corners = |t| r.mesh().corners(t).map(|v| r.site(v).expect("alive").0);
+            let strictly = |t: &TriangleId| {
+                let [a, b, c] = corners(*t);
+                side(a, b, q) && side(b, c, q) && side(c, a, q)
+            };
+            let beyond = |t: TriangleId| {
+                let [a, b, c] = corners(t);
+                side(b, a, q) || side(c, b, q) || side(a, c, q)
+            };
+            let found = r.locate(q).expect("finite");
+            match found {
+                Location2::Vertex(v) => assert_eq!(is_vertex, Some(v)),
+                Location2::Triangle(t) => assert_eq!(r.triangle_ids().find(strictly), Some(t)),
+                Location2::Edge(_) => assert!(is_vertex.is_none() && !r.triangle_ids().any(|t| strictly(&t))),
+                Location2::Outside(_) => assert!(r.triangle_ids().all(beyond), "{q:?}"),
+                Location2::LowerDimensional(_) => assert_eq!(r.triangle_ids().count(), 0),
+            }
+            inside[0] += usize::from(matches!(found, Location2::Triangle(_)));
+        }
+        let r = Regular3::from_sites(&in_space(&mut random, count)).expect("finite");
+        for _ in 0..10 {
+            let q = [(); 3].map(|()| random.below(17) as f64 / 8.0);
+            let strictly = |t: &TetrahedronId| {
+                let [a, b, c, d] = r.mesh().corners(*t).map(|v| r.site(v).expect("alive").0);
+                let sides = [[a, b, c, q], [b, a, d, q], [c, b, d, q], [a, c, d, q]];
+                sides.into_iter().all(|[a, b, c, d]| orient3d(a, b, c, d).is_positive())
+            };
+            let inner = r.tetrahedron_ids().find(strictly);
+            match r.locate(q).expect("finite") {
+                Location3::Vertex(v) => assert_eq!(r.site(v).expect("alive").0, q),
+                Location3::Tetrahedron(t) => assert_eq!(inner, Some(t)),
+                _ => assert_eq!(inner, None),
+            }
+            inside[1] += usize::from(inner.is_some());
+        }
+    }
+    assert!(inside.iter().all(|&inside| inside > 100), "{inside:?}");
+}
+
+/// A cell is empty if three of the half-planes that make it have no point in common (Helly's theorem), of which two may do: decided in
+/// integers, without any triangle.
+fn is_hidden(site: Site<2>, others: &[Site<2>]) -> bool {
+    let whole = |x: f64| x as i64;
+    let ([x, y], w) = site;
+    let (x, y, w) = (whole(x), whole(y), whole(w));
+    // n . q <= c, for points q seen from the site.
+    let half_planes = others.iter().map(|&([p, q], v)| {
+        let [p, q] = [whole(p) - x, whole(q) - y];
+        ([2 * p, 2 * q], p * p + q * q - whole(v) + w)
+    });
+    let all: Vec<([i64; 2], i64)> = half_planes.collect();
+    let cross = |a: [i64; 2], b: [i64; 2]| a[0] * b[1] - a[1] * b[0];
+    let dot = |a: [i64; 2], b: [i64; 2]| a[0] * b[0] + a[1] * b[1];
+    all.iter().any(|&(a, c)| {
+        (a == [0, 0] && c < 0)
+            || all.iter().any(|&(b, d)| {
+                let opposite = cross(a, b) == 0 && dot(a, b) < 0 && -dot(a, b) * c + dot(a, a) * d < 0;
+                opposite
+                    || all.iter().any(|&(e, f)| {
+                        let shares = [cross(b, e), cross(e, a), cross(a, b)];
+                        shares.iter().all(|&share| share > 0)
+                            && shares[0] * c + shares[1] * d + shares[2] * f < 0
+                    })
+            })
+    })
+}
+
+#[test]
+fn hidden_sites_are_those_without_a_cell() {
+    let mut random = Random::new(10);
+    let mut hidden = 0;
+    for _ in 0..600 {
+        let count = 1 + random.below(12);
+        let size = [3, 5, 40][random.below(3)];
+        let site = |random: &mut Random| {
+            let p = [(); 2].map(|()| random.below(size) as f64);
+            (p, random.below(2 * size) as f64 + if size == 3 { p[0] * p[0] + p[1] * p[1] } else { 0.0 })
+        };
+        let all: Vec<Site<2>> = (0..count).map(|_| site(&mut random)).collect();
+        let r = Regular2::from_sites(&all).expect("finite");
+        for v in (0..count).map(VertexId::new) {
+            assert_eq!(r.is_hidden(v), is_hidden(all[v.index()], &all), "{v:?} of {all:?}");
+        }
+        hidden += r.hidden().count();
+    }
+    assert!(hidden > 500, "{hidden}");
 }
 
 /// Steps of weights, small ones and large ones, some sites removed: what is repaired is what is built. Returns how many steps

@@ -3,7 +3,9 @@
 use delone_predicates::orient2d;
 
 use super::Delaunay2;
+use super::layer::Layer;
 use super::layer::insert::Spot;
+use super::layer::kernel::Kernel;
 use super::locator::Locator;
 use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId, VertexId};
@@ -63,7 +65,7 @@ impl Delaunay2 {
     /// Finds where a point falls, and tells each step.
     pub(super) fn locate_observed<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Result<Location2, Error> {
         let q = finite(q)?;
-        Ok(self.classify(self.spot(q, tally).spot, q))
+        Ok(self.base.classify(self.spot(q, tally).spot, q))
     }
 
     /// Finds where a point falls by a walk from a triangle that is near it: O(1) expected from nearby.
@@ -80,7 +82,7 @@ impl Delaunay2 {
         let q = finite(q.xy())?;
         let known = self.base.mesh.is_triangle(start);
         let start = if known { Start::At(start.edge(0), walk) } else { Start::Anywhere };
-        Ok(self.classify(self.base.spot(start, q, tally).0, q))
+        Ok(self.base.classify(self.base.spot(start, q, tally).0, q))
     }
 
     /// The strategy of location.
@@ -132,9 +134,12 @@ impl Delaunay2 {
             }
         }
     }
+}
 
-    fn classify(&self, spot: Spot, q: [f64; 2]) -> Location2 {
-        let mesh = &self.base.mesh;
+impl<K: Kernel> Layer<K> {
+    /// Where a point is that falls on a spot.
+    pub(super) fn classify(&self, spot: Spot, q: [f64; 2]) -> Location2 {
+        let mesh = &self.mesh;
         match spot {
             Spot::Vertex(v) => Location2::Vertex(mesh.name(v)),
             Spot::Segment(e) => Location2::Edge(e),
@@ -143,7 +148,7 @@ impl Delaunay2 {
                     return Location2::Outside(mesh.twin(triangle.edge(k).next()));
                 }
                 let through = |e: &EdgeId| {
-                    let [a, b] = [mesh.tail(*e), mesh.head(*e)].map(|v| self.base.points[v.index()]);
+                    let [a, b] = [mesh.tail(*e), mesh.head(*e)].map(|v| self.points[v.index()]);
                     orient2d(a, b, q).is_zero()
                 };
                 let edges = [0, 1, 2].map(|k| triangle.edge(k));

@@ -3,6 +3,8 @@
 use delone_predicates::orient3d;
 
 use super::Delaunay3;
+use super::layer::Layer;
+use super::layer::kernel::Lift;
 use super::locator::Locator;
 use crate::error::Error;
 use crate::ids::{FacetId, TetrahedronId, VertexId};
@@ -60,7 +62,7 @@ impl Delaunay3 {
         }
         let start = self.locator().start(&self.base, q, tally);
         let t = self.base.walk(self.base.start_cell(start), q, tally);
-        Ok(self.classify(t, q))
+        Ok(self.base.classify(t, q))
     }
 
     /// Finds where a point falls by a walk from a tetrahedron that is near it: O(1) expected from nearby.
@@ -73,7 +75,7 @@ impl Delaunay3 {
         if !known {
             return self.locate_observed(q, &mut ());
         }
-        Ok(self.classify(self.base.walk(start, q, &mut ()), q))
+        Ok(self.base.classify(self.base.walk(start, q, &mut ()), q))
     }
 
     /// The strategy of location.
@@ -92,9 +94,12 @@ impl Delaunay3 {
         self.locator.take();
         Ok(())
     }
+}
 
-    fn classify(&self, t: TetrahedronId, q: [f64; 3]) -> Location3 {
-        let (layer, mesh) = (&self.base, &self.base.mesh);
+impl<W: Lift> Layer<W> {
+    /// Where a point is that falls into a tetrahedron or beyond it.
+    pub(super) fn classify(&self, t: TetrahedronId, q: [f64; 3]) -> Location3 {
+        let (layer, mesh) = (self, &self.mesh);
         let dimension = self.dimension();
         if mesh.is_ghost(t) {
             return match dimension {

@@ -30,6 +30,7 @@ use crate::mesh::{Dimension, Mesh2};
 use crate::plane::layer::Layer;
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::Power;
+use crate::plane::locate::Location2;
 use crate::points::{Position2, check_count, check_finite, check_weights, finite};
 use crate::tally::{Counters, Work};
 use crate::under::Under;
@@ -195,6 +196,15 @@ impl Regular2 {
     /// All edges, each once.
     pub fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
         self.mesh().undirected_edges().map(|e| [self.mesh().origin(e), self.mesh().destination(e)])
+    }
+
+    /// Finds where a point falls among the triangles. Exact. O(log n) on average on evenly spread sites.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] if a coordinate is not finite.
+    pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
+        let q = finite(q.xy())?;
+        Ok(self.base.classify(self.spot(q).0, q))
     }
 
     /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
