@@ -53,7 +53,7 @@ fn live(points: &[[f64; 2]], mut d: Delaunay2, random: &mut Random) -> Judgement
     let failed = |error: Error| error.to_string();
     for step in 0..points.len() {
         let mut what = String::new();
-        for _ in 0..1 + random.below(4) {
+        for _ in 0..=random.below(4) {
             let alive: Vec<VertexId> = d.vertices().collect();
             let known = points[random.below(points.len())];
             let p = if once_in(random, 4) { nasty::query(random, points) } else { known };
