@@ -12,6 +12,7 @@ mod hints;
 mod hull;
 mod interrupt;
 mod memory;
+mod orders;
 mod polygons;
 mod pool;
 mod regular;
@@ -28,6 +29,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<hints::Hints>()?;
     m.add_class::<constrained::Constrained>()?;
     m.add_class::<regular::Regular>()?;
+    m.add_class::<orders::Orders>()?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(graphs::proximity_graph, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;

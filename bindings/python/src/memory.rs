@@ -12,6 +12,9 @@ pub struct Need([usize; 2]);
 pub const TRIANGULATION: Need = Need([160, 430]);
 pub const HINTS: Need = Need([240, 540]);
 pub const ALPHA: Need = Need([900, 3300]);
+/// Above the triangulation for a diagram of order k: so much times k a point, and so much times k squared.
+pub const ORDER: usize = 1000;
+pub const ORDER_SITES: usize = 50;
 pub const HULL: Need = Need([50, 100]);
 
 impl Need {

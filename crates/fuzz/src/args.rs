@@ -59,6 +59,8 @@ pub(crate) enum Mode {
     Weights,
     /// Alpha complexes and their shapes, with weights.
     Alphas,
+    /// Voronoi diagrams of all orders: regions, circles, points, cells, changes.
+    Orders,
     /// Hulls, furthest and nearest sites, the smallest circle.
     Hulls,
     /// Gabriel graphs, relative neighbours, spanning trees, skeletons, k nearest.
@@ -105,7 +107,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 19] = [
+    pub(crate) const REAL: [Self; 20] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
@@ -114,6 +116,7 @@ impl Mode {
         Self::Graphs,
         Self::Weights,
         Self::Alphas,
+        Self::Orders,
         Self::Hulls,
         Self::Proximity,
         Self::Predicates,

@@ -7,8 +7,8 @@ use delone_generators::Random;
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
-    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, plane, predicates,
-    proximity, space, weights,
+    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, orders, plane,
+    predicates, proximity, space, weights,
 };
 
 /// An input of some attack.
@@ -73,6 +73,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Graphs, _) => made::<graph_lives::GraphLives>(seed),
         (Mode::Alphas, 0) => made::<alphas::Planar>(seed),
         (Mode::Alphas, _) => made::<alphas::Spatial>(seed),
+        (Mode::Orders, _) => made::<orders::Orders>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
         (Mode::Weights, 0) => made::<weights::Planar>(seed),

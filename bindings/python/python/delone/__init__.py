@@ -8,6 +8,7 @@ tri.add_points(more)
 tri.remove([17, 4])
 
 delone.AlphaComplex(points).outline(alpha)
+delone.OrderVoronoi(points, 3).locate(queries)
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
 delone.euclidean_minimum_spanning_tree(points)
@@ -31,6 +32,7 @@ from ._graphs import (
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
+from ._orders import OrderVoronoi
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
 from ._regular import PowerDiagram, RegularTriangulation
@@ -49,6 +51,7 @@ __all__ = [
     "Delaunay",
     "Hints",
     "LinearInterpolator",
+    "OrderVoronoi",
     "PolygonTriangles",
     "PowerDiagram",
     "RaggedTriangles",

@@ -9,6 +9,7 @@ __all__ = [
     "Alpha",
     "Constrained",
     "Hints",
+    "Orders",
     "Regular",
     "Triangulation",
     "after_fork",
@@ -66,6 +67,27 @@ class Regular:
     def integrals(
         self, sites: int, rings: list[NDArray[np.float64]]
     ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
+
+@final
+class Orders:
+    @staticmethod
+    def of(
+        points: NDArray[np.float64], order: int
+    ) -> tuple[
+        Orders,
+        tuple[
+            NDArray[np.int32],
+            NDArray[np.bool_],
+            NDArray[np.int32],
+            NDArray[np.int32],
+            NDArray[np.int32],
+            NDArray[np.float64],
+        ],
+    ]: ...
+    def duplicates(self) -> NDArray[np.int32]: ...
+    def locate(self, queries: NDArray[np.float64]) -> NDArray[np.int32]: ...
+    def cells(self, rings: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
+    def areas(self, rings: list[NDArray[np.float64]]) -> NDArray[np.float64]: ...
 
 @final
 class Hints:

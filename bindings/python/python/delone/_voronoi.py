@@ -104,25 +104,11 @@ class Voronoi:
         """
         if self.ndim != 2 or self.furthest_site:
             raise NotImplementedError("cells are clipped in the plane, and not those of furthest sites")
-        if region is None:
-            if not self.npoints:
-                return []
-            low, high = self._tri.min_bound, self._tri.max_bound
-            most = np.finfo(np.float64).max
-            with np.errstate(over="ignore"):
-                margin = max(float((high - low).max()) / 20, float(np.abs(high).max()) * 1e-9, 1e-300)
-                (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
-            rings = [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
-        else:
-            given: Any = region
-            if not isinstance(given, (list, tuple)):
-                given = as_numbers(given, "region")
-            is_one = given.ndim != 3 if isinstance(given, np.ndarray) else len(given) > 0 and np.ndim(given[0]) < 2
-            parts: list[Any] = [given] if is_one else list(given)
-            rings = [as_points(ring, "region", 2) for ring in parts]
+        if region is None and not self.npoints:
+            return []
+        rings = _rings(region, self._tri.min_bound, self._tri.max_bound)
         corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings)
-        pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
-        return [pieces[a:b] for a, b in pairwise(starts.tolist())]
+        return _pieces(corners, ring_starts, starts)
 
     def __copy__(self) -> Voronoi:
         """A diagram of its own of the same points."""
@@ -133,6 +119,32 @@ class Voronoi:
     def __repr__(self) -> str:
         """A line that says what there is."""
         return f"<delone.Voronoi: {self.npoints} points, {len(self.vertices)} vertices, {len(self.ridge_points)} ridges>"
+
+
+def _rings(
+    region: ArrayLike | Sequence[ArrayLike] | None, low: NDArray[np.float64], high: NDArray[np.float64]
+) -> list[NDArray[np.float64]]:
+    """The rings of a polygon, or of a box of points that is a twentieth larger."""
+    if region is None:
+        most = np.finfo(np.float64).max
+        with np.errstate(over="ignore"):
+            margin = max(float((high - low).max()) / 20, float(np.abs(high).max()) * 1e-9, 1e-300)
+            (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
+        return [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
+    given: Any = region
+    if not isinstance(given, (list, tuple)):
+        given = as_numbers(given, "region")
+    is_one = given.ndim != 3 if isinstance(given, np.ndarray) else len(given) > 0 and np.ndim(given[0]) < 2
+    parts: list[Any] = [given] if is_one else list(given)
+    return [as_points(ring, "region", 2) for ring in parts]
+
+
+def _pieces(
+    corners: NDArray[np.float64], ring_starts: NDArray[np.int64], starts: NDArray[np.int64]
+) -> list[list[NDArray[np.float64]]]:
+    """For each cell its rings."""
+    pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
+    return [pieces[a:b] for a, b in pairwise(starts.tolist())]
 
 
 def _distinct(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:

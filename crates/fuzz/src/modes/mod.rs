@@ -11,6 +11,7 @@ pub(crate) mod hulls;
 pub(crate) mod lives;
 pub(crate) mod mixtures;
 pub(crate) mod motion;
+pub(crate) mod orders;
 pub(crate) mod plane;
 pub(crate) mod predicates;
 pub(crate) mod proximity;

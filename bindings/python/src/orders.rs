@@ -1,0 +1,185 @@
+//! Voronoi diagrams of higher order in the plane.
+//!
+//! A diagram borrows its triangulation, so this keeps the triangulation and gives the diagram away as arrays; who wants clipped
+//! regions has it made again.
+
+use delone::{Delaunay2, Error, OrderK2, OrderRegion2, Region2, VertexId};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::errors::python_error;
+use crate::interrupt::interruptible;
+use crate::memory::{ORDER, ORDER_SITES, TRIANGULATION};
+use crate::pool::{FEW, detached};
+use crate::triangulation::{Rows, State, coordinates};
+
+/// See `_delone.pyi`.
+#[pyclass(module = "delone._delone", frozen)]
+pub struct Orders {
+    state: State<Delaunay2>,
+    order: usize,
+    /// For each region its sites, sorted; regions are sorted by them.
+    sites: Vec<i32>,
+}
+
+/// What is left of a diagram without its triangulation.
+struct Arrays {
+    sites: Vec<i32>,
+    bounded: Vec<bool>,
+    on: Vec<i32>,
+    inside: Vec<i32>,
+    around: Vec<i32>,
+    centres: Vec<f64>,
+}
+
+/// The sites of regions; whether these are bounded; the sites on circles, those inside with -1 where there is one less, the
+/// regions around; and centres.
+type Diagram<'py> =
+    (Rows<'py>, Bound<'py, PyArray1<bool>>, Rows<'py>, Rows<'py>, Rows<'py>, Bound<'py, PyArray2<f64>>);
+
+/// Corners, the starts of rings among them, and the starts of regions among the rings.
+type Polygons<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);
+
+#[pymethods]
+impl Orders {
+    /// The diagram of an order, its arrays and what answers questions about it.
+    #[staticmethod]
+    fn of<'py>(
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        order: usize,
+    ) -> PyResult<(Self, Diagram<'py>)> {
+        let count = points.shape()[0];
+        let more = ORDER.saturating_add(ORDER_SITES.saturating_mul(order)).saturating_mul(order);
+        TRIANGULATION.check_with(2, count, count.saturating_mul(more))?;
+        let points: Vec<[f64; 2]> = coordinates(&points)?;
+        let made = interruptible(py, count.saturating_mul(order).saturating_mul(order), move || {
+            let d = Delaunay2::from_vec(points)?;
+            let arrays = Arrays::of(&d.order(order)?);
+            Ok::<_, Error>((d, arrays))
+        })?;
+        let (d, arrays) = made.map_err(python_error)?;
+        let Arrays { sites, bounded, on, inside, around, centres } = arrays;
+        let (regions, circles) = (bounded.len(), on.len() / 3);
+        let diagram = (
+            PyArray1::from_slice(py, &sites).reshape([regions, order])?,
+            PyArray1::from_vec(py, bounded),
+            PyArray1::from_vec(py, on).reshape([circles, 3])?,
+            PyArray1::from_vec(py, inside).reshape([circles, order - 1])?,
+            PyArray1::from_vec(py, around).reshape([circles, 3])?,
+            PyArray1::from_vec(py, centres).reshape([circles, 2])?,
+        );
+        Ok((Self { state: State::of(d), order, sites }, diagram))
+    }
+
+    /// Points that are no sites because they equal one, each with this.
+    fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
+        self.state.duplicates(py)
+    }
+
+    /// The regions that points are in.
+    fn locate<'py>(
+        &self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        let queries: Vec<[f64; 2]> = coordinates(&queries)?;
+        let found = self.state.answers(py, &queries, |q| {
+            let mut nearest: Vec<i32> = indices(self.state.triangulation.k_nearest(q, self.order)?).collect();
+            nearest.sort_unstable();
+            Ok(self.region(&nearest))
+        })?;
+        Ok(PyArray1::from_vec(py, found))
+    }
+
+    /// The regions, clipped to a polygon with holes.
+    fn cells<'py>(&self, py: Python<'py>, rings: Vec<PyReadonlyArray2<'py, f64>>) -> PyResult<Polygons<'py>> {
+        let (corners, ring_starts, starts) = self.clipped(py, &rings, |order, region| {
+            let cells = order.cells(region);
+            let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
+            for own in order.regions() {
+                for ring in cells.rings(own) {
+                    corners.extend(ring.points());
+                    ring_starts.push(corners.len() as i64);
+                }
+                starts.push(ring_starts.len() as i64 - 1);
+            }
+            (corners, ring_starts, starts)
+        })?;
+        let count = corners.len();
+        let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
+        Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
+    }
+
+    /// The areas of the clipped regions.
+    fn areas<'py>(
+        &self,
+        py: Python<'py>,
+        rings: Vec<PyReadonlyArray2<'py, f64>>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let areas: Vec<f64> = self.clipped(py, &rings, |order, region| {
+            let cells = order.cells(region);
+            order.regions().map(|own| cells.area(own)).collect()
+        })?;
+        Ok(PyArray1::from_vec(py, areas))
+    }
+}
+
+impl Orders {
+    /// The region with these sites, which are sorted; -1 if there is none.
+    fn region(&self, sites: &[i32]) -> i32 {
+        let row = |i: usize| &self.sites[i * self.order..][..self.order];
+        let count = self.sites.len() / self.order;
+        let (mut low, mut high) = (0, count);
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if row(middle) < sites { low = middle + 1 } else { high = middle }
+        }
+        if low < count && row(low) == sites { low as i32 } else { -1 }
+    }
+
+    /// Makes the diagram again, and something of it and a polygon.
+    fn clipped<T: Send>(
+        &self,
+        py: Python<'_>,
+        rings: &[PyReadonlyArray2<'_, f64>],
+        make: impl Fn(&OrderK2, &Region2) -> T + Sync + Send,
+    ) -> PyResult<T> {
+        let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
+        let d = &self.state.triangulation;
+        let clipped = detached(py, d.vertex_count() >= FEW, || {
+            let region = Region2::polygon(&rings)?;
+            Ok::<T, Error>(make(&d.order(self.order)?, &region))
+        })?;
+        clipped.map_err(python_error)
+    }
+}
+
+impl Arrays {
+    fn of(order: &OrderK2) -> Self {
+        let k = order.order();
+        let mut arrays = Self {
+            sites: Vec::with_capacity(k * order.region_count()),
+            bounded: order.regions().map(OrderRegion2::is_bounded).collect(),
+            on: Vec::new(),
+            inside: Vec::new(),
+            around: Vec::new(),
+            centres: Vec::new(),
+        };
+        for region in order.regions() {
+            arrays.sites.extend(indices(region.sites().iter().copied()));
+        }
+        for (i, circle) in (1..).zip(order.circles()) {
+            arrays.on.extend(indices(circle.on()));
+            arrays.inside.extend(indices(circle.inside()));
+            arrays.inside.resize(i * (k - 1), -1);
+            arrays.around.extend(circle.regions().map(|region| region.index() as i32));
+            arrays.centres.extend(circle.centre().unwrap_or([f64::INFINITY; 2]));
+        }
+        arrays
+    }
+}
+
+fn indices(vertices: impl IntoIterator<Item = VertexId>) -> impl Iterator<Item = i32> {
+    vertices.into_iter().map(|v| v.index() as i32)
+}
