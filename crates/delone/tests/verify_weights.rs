@@ -88,6 +88,24 @@ fn as_sets<const N: usize>(simplices: &[[u64; N]]) -> Vec<[u64; N]> {
     sorted
 }
 
+/// Three tetrahedra of which two lie over each other in the hull: the second point is on an edge of the first one.
+#[test]
+fn what_is_folded_flat_is_no_triangulation() {
+    let points: [[f64; 3]; 6] = [
+        [0.0, 2.0, 3.0],
+        [1.0, 1.0, 3.0],
+        [2.0, 0.0, 3.0],
+        [2.0, 2.0, 0.0],
+        [3.0, 0.0, 0.0],
+        [0.0, 3.0, 1.0],
+    ];
+    let weights = points.map(|p| p.iter().map(|x| x * x).sum());
+    let tetrahedra = [[2, 0, 3, 5], [2, 4, 3, 5], [4, 2, 5, 1]];
+    let found = space::verify::verify_weighted(&points, &weights, &tetrahedra);
+    assert!(matches!(found, Err(Objection3::Dent(..))), "{found:?}");
+    assert!(space::verify::verify(&points, &tetrahedra).is_err());
+}
+
 #[test]
 fn equal_sites_and_bad_numbers_are_told_apart() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [0.0, 0.0]];

@@ -8,7 +8,9 @@
 
 mod weights;
 
-use delone_predicates::{Sign, are_collinear3, in_sphere, in_sphere_with_ties, lexicographic3, orient3d};
+use delone_predicates::{
+    Sign, are_collinear3, in_sphere, in_sphere_with_ties, lexicographic3, orient2d, orient3d,
+};
 
 use crate::error::Error;
 use crate::mesh::tetrahedra::FACETS;
@@ -229,10 +231,11 @@ fn check_border(points: &[[f64; 3]], sides: &[Side]) -> Result<usize, Objection3
     met[0] = true;
     while let Some(f) = pending.pop() {
         let [a, b, c] = facets[f];
-        for (u, v) in [(a, b), (b, c), (c, a)] {
+        for (u, v, w) in [(a, b, c), (b, c, a), (c, a, b)] {
             let g = across(u, v)?;
             let tip = facets[g].into_iter().find(|w| ![u, v].contains(w)).unwrap_or(u);
-            if orient3d(points[a], points[b], points[c], points[tip]).is_positive() {
+            let side = orient3d(points[a], points[b], points[c], points[tip]);
+            if side.is_positive() || (side.is_zero() && is_folded([u, v, w, tip].map(|i| points[i]))) {
                 return Err(Objection3::Dent(u, v));
             }
             if !std::mem::replace(&mut met[g], true) {
@@ -244,6 +247,16 @@ fn check_border(points: &[[f64; 3]], sides: &[Side]) -> Result<usize, Objection3
         Some(f) => Err(Objection3::Border(facets[f][0])),
         None => Ok(facets.len()),
     }
+}
+
+/// Whether coplanar triangles at an edge, with the corners w and x across it, lie over each other: on the same side of the edge, as
+/// seen along an axis along which the plane is not seen from the side.
+fn is_folded([u, v, w, x]: [[f64; 3]; 4]) -> bool {
+    let seen = |axis: usize| {
+        let [u, v, w, x] = [u, v, w, x].map(|p| [p[(axis + 1) % 3], p[(axis + 2) % 3]]);
+        Some((orient2d(u, v, w), orient2d(u, v, x))).filter(|(w, _)| !w.is_zero())
+    };
+    (0..3).find_map(seen).is_none_or(|(w, x)| w * x != Sign::Negative)
 }
 
 /// Whether corners, edges, facets and tetrahedra add up as those of a ball do.

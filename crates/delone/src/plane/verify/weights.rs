@@ -43,8 +43,9 @@ pub fn verify_weighted(
     check_weights(weights)?;
     let (triangles, negative) = oriented(points, triangles)?;
     if triangles.is_empty() {
-        let (duplicates, _) = check_coverage(points, &triangles)?;
-        return Ok(Verdict { other_ties: 0, negative: 0, duplicates, hull: 0 });
+        check_coverage(points, &triangles)?;
+        let duplicates = Regular2::from_parts(points, weights)?.duplicates().count();
+        return Ok(Verdict { other_ties: 0, negative, duplicates, hull: 0 });
     }
     let sides = sides(&triangles);
     check_overlap(&sides)?;

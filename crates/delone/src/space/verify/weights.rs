@@ -39,7 +39,8 @@ pub fn verify_weighted(
     check_weights(weights)?;
     let (tetrahedra, negative) = oriented(points, tetrahedra)?;
     if tetrahedra.is_empty() {
-        let duplicates = check_coverage(points, &tetrahedra)?;
+        check_coverage(points, &tetrahedra)?;
+        let duplicates = Regular3::from_parts(points, weights)?.duplicates().count();
         return Ok(Verdict { other_ties: 0, negative, duplicates, hull: 0 });
     }
     let sides = sides(&tetrahedra)?;
