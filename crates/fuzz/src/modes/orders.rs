@@ -26,8 +26,11 @@ impl Attack for Orders {
     type Item = [f64; 2];
 
     fn make(random: &mut Random) -> Vec<[f64; 2]> {
-        let most = if once_in(random, 12) { 34 } else { FEW };
-        nasty::points(random, most)
+        match random.below(24) {
+            0 => wheel(random),
+            1 => nasty::points(random, 34),
+            _ => nasty::points(random, FEW),
+        }
     }
 
     fn judge(points: &[[f64; 2]], seed: u64) -> Judgement {
@@ -46,6 +49,25 @@ impl Attack for Orders {
         same(&first, &third).map_err(|wrong| format!("one by one: {wrong}"))?;
         if points.len() <= FEW { live(points, second, &mut random) } else { Ok(()) }
     }
+}
+
+/// Points with a region that has more neighbours than holes are filled side by side for: most of a circle of the lattice or of a
+/// line, and few others.
+fn wheel(random: &mut Random) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = if once_in(random, 3) {
+        (0..32).map(|i| [f64::from(i), 0.0]).collect()
+    } else {
+        let lattice = (-65..=65).flat_map(|x| (-65..=65).map(move |y| [f64::from(x), f64::from(y)]));
+        lattice.filter(|p| p[0] * p[0] + p[1] * p[1] == 4225.0).collect()
+    };
+    if once_in(random, 2) {
+        points.iter_mut().for_each(|p| *p = p.map(|x| nasty::nudged(random, x)));
+    }
+    random.shuffle(&mut points);
+    points.truncate(28 + random.below(6));
+    points.extend((0..=random.below(3)).map(|_| [(); 2].map(|()| nasty::integer(random, 9))));
+    random.shuffle(&mut points);
+    points
 }
 
 /// Vertices come, go and move. Now and then all is judged, and compared with what a triangulation without a past says.
