@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use delone::{Delaunay2, Region2, Regular2};
+use delone::{Delaunay2, Error, Region2, Regular2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
@@ -14,8 +14,9 @@ use crate::stats::Stats;
 use crate::weighted::{Weighted, beside};
 use crate::{files, weighted};
 
-/// The largest part of itself by which an area may be wrong.
+/// The part of itself by which an area may be wrong, where rounding allows; and by which none may be.
 const TOLERANCE: f64 = 1e-9;
+const TOO_WRONG: f64 = 1e-3;
 
 pub(crate) fn run(
     args: &VoronoiArgs,
@@ -80,24 +81,30 @@ fn with_areas(
         weighted::check_beside(&args.input, said)?;
     }
     let (points, about) = room::read::<Delaunay2>(&args.input, quiet)?;
-    let shares = if is_equal {
-        vec![1.0; points.len()]
+    let (shares, label) = if is_equal {
+        (vec![1.0; points.len()], args.input.label())
     } else {
-        beside(&args.input, said, points.len(), "areas", quiet)?.0
+        beside(&args.input, said, points.len(), "areas", quiet)?
     };
     let region = clip(args, &points, quiet)?;
     stats.phase("read");
     let phase = Phase::start(quiet, "weighing");
-    let (r, prescribed) = Regular2::with_areas(&points, &shares, &region, TOLERANCE)
-        .map_err(|error| Failure::points(&args.input.label(), &error))?;
+    let (r, prescribed) =
+        Regular2::with_areas(&points, &shares, &region, TOLERANCE).map_err(|error| match error {
+            Error::Area { .. } => Failure::points(&label, &error),
+            error => Failure::points(&args.input.label(), &error),
+        })?;
     drop(phase);
     stats.phase("build");
-    if prescribed.error > TOLERANCE {
+    if prescribed.error > TOO_WRONG {
         let found = format!(
             "no weights were found for these areas: one is still wrong by {:.1e} of itself",
             prescribed.error
         );
-        return Err(Failure::new(found, "clip to a region in one piece whose parts all cells can reach"));
+        return Err(Failure::new(
+            found,
+            "cells are rounded to 1e-16 of the whole: ask for no smaller ones, and clip to a region in one piece",
+        ));
     }
     note(
         quiet,

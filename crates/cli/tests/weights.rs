@@ -166,5 +166,6 @@ fn cells_have_the_areas_that_were_asked_for() {
     fail("--areas equal --relax 2", 2, "--relax is for sites without weights");
     fail("--areas q", 1, "there is no column");
     place.file("zero.csv", "1\n0\n1\n");
-    fail("--areas zero.csv --box 0,0,1,1", 1, "a share of the area");
+    fail("--areas zero.csv --box 0,0,1,1", 1, "zero.csv: site 1 is to have the area 0");
+    fail("--areas equal --box=-1e200,-1e200,1e200,1e200", 1, "the area of the region");
 }

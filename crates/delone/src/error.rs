@@ -16,6 +16,14 @@ pub enum Error {
         /// The coordinate.
         value: f64,
     },
+    /// An area that is prescribed and is none.
+    #[error("site {index} is to have the area {value}; it must be positive and finite")]
+    Area {
+        /// The index of the site in the input.
+        index: usize,
+        /// The area.
+        value: f64,
+    },
     /// A site without area where one is prescribed.
     #[error("site {site} has no cell in the region: it is outside, or at the point of another one")]
     NoCell {

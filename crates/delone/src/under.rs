@@ -127,3 +127,10 @@ impl<C: Copy + Ord> Under<C> {
         taken.extend(std::mem::take(&mut self.sites).into_iter().map(|(id, site)| (id, site.place)));
     }
 }
+
+/// Puts sites into an order in which few that become vertices are hidden by a later one.
+pub(crate) fn heaviest_first(sites: &mut [(VertexId, Place)], weights: &[f64]) {
+    sites.sort_unstable_by(|&(id, place), &(other, there)| {
+        weights[there.index()].total_cmp(&weights[place.index()]).then(id.cmp(&other))
+    });
+}

@@ -103,7 +103,17 @@ fn prescribed_areas_come_out() {
     let prescribe = |points: &[[f64; 2]], shares: &[f64]| Regular2::with_areas(points, shares, square, 1e-9);
     assert_eq!(prescribe(&[[0.5, 0.5], [0.5, 0.5]], &[1.0, 1.0]).unwrap_err(), Error::NoCell { site: 1 });
     assert_eq!(prescribe(&[[0.5, 0.5], [9.0, 0.5]], &[1.0, 1.0]).unwrap_err(), Error::NoCell { site: 1 });
-    assert!(matches!(prescribe(&[[0.5, 0.5]], &[0.0]), Err(Error::Parameter { .. })));
+    assert_eq!(prescribe(&[[0.5, 0.5]], &[0.0]).unwrap_err(), Error::Area { index: 0, value: 0.0 });
+    // At every scale there is an end, and areas that are no numbers are refused.
+    for scale in [1e-160, 1e-130, 1e-82, 1e80, 1e140, 1e152, 1e160] {
+        let at = |p: [f64; 2]| p.map(|x| x * scale);
+        let points = [[0.1, 0.1], [0.2, 0.9], [0.7, 0.4]].map(at);
+        let region = Region2::rectangle([0.0, 0.0], at([1.0, 1.0])).expect("a box");
+        match Regular2::with_areas(&points, &[1.0, 2.0, 3.0], &region, 1e-9) {
+            Ok((_, found)) => assert!(found.error <= 1e-9 && scale > 1e-140 && scale < 1e151, "{scale:e}"),
+            Err(error) => assert!(matches!(error, Error::Parameter { .. }), "{scale:e}: {error}"),
+        }
+    }
     assert!(matches!(prescribe(&[[0.5, 0.5]], &[1.0, 1.0]), Err(Error::Length { .. })));
     assert_eq!(prescribe(&[], &[]).expect("nothing").1.steps, 0);
 }

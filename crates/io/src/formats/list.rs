@@ -14,13 +14,18 @@ pub(crate) fn read(source: Box<dyn Source>) -> Result<Vec<f64>, Error> {
         let is_first = std::mem::take(&mut is_first);
         match word.parse() {
             Ok(number) => numbers.push(number),
-            Err(_) if is_first => {}
+            // A heading has no number in it; several numbers are one too many.
+            Err(_) if is_first && !holds_number(word) => {}
             Err(_) => {
                 return Err(line.error(format!("{:?} where one number is wanted", excerpt(word))));
             }
         }
     }
     Ok(numbers)
+}
+
+fn holds_number(line: &str) -> bool {
+    line.split([',', ';', ' ', '\t']).any(|word| word.trim().parse::<f64>().is_ok())
 }
 
 #[cfg(test)]
@@ -38,5 +43,6 @@ mod tests {
         let error = of("1\n2,3\n").expect_err("two numbers").to_string();
         assert!(error.contains("line 2") && error.contains("2,3"), "{error}");
         assert!(of("1\nx\n").is_err());
+        assert!(of("0.5,0.25\n1\n").expect_err("two numbers").to_string().contains("line 1"));
     }
 }

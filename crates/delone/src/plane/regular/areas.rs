@@ -16,6 +16,9 @@ use crate::points::Position2;
 
 /// Systems are solved to this share of what they are to make up for: more would not make fewer steps.
 const PRECISION: f64 = 1e-4;
+/// The areas that a region may have, so that those of its parts are numbers, and weights are.
+const SMALLEST: f64 = 1e-280;
+const LARGEST: f64 = 1e300;
 /// A step is halved so often at most.
 const HALVINGS: usize = 40;
 
@@ -33,7 +36,7 @@ impl Regular2 {
     /// Sites whose power cells, clipped to a region, divide its area in given shares: positive numbers, of which only the ratios
     /// matter. Ends when no area is wrong by more than a share of itself, or a step does not come nearer; the error tells.
     ///
-    /// In a convex region that contains all sites it comes as near as rounding allows. A region of several parts that no cell
+    /// In a convex region that contains all sites it comes as near as rounding allows: areas are wrong by some 1e-16 of the whole. A region of several parts that no cell
     /// joins may have no solution.
     ///
     /// ```
@@ -48,7 +51,8 @@ impl Regular2 {
     /// ```
     ///
     /// # Errors
-    /// As [`Self::from_parts`]; [`Error::Parameter`] for a share that is not positive or a tolerance below zero; [`Error::NoCell`]
+    /// As [`Self::from_parts`]; [`Error::Area`] for a share that is not positive; [`Error::Parameter`] for a tolerance below zero, and
+    /// for a region whose area is beyond 1e-280 to 1e300; [`Error::NoCell`]
     /// for a site that has no area even without weights: outside of the region, or at the point of another one.
     pub fn with_areas<P: Position2>(
         points: &[P],
@@ -59,12 +63,13 @@ impl Regular2 {
         if points.len() != shares.len() {
             return Err(Error::Length { expected: points.len(), found: shares.len() });
         }
-        if let Some(&value) = shares.iter().find(|share| !(share.is_finite() && **share > 0.0)) {
-            return Err(Error::Parameter {
-                name: "a share of the area",
-                value,
-                range: "positive and finite",
-            });
+        if let Some(index) = shares.iter().position(|share| !(share.is_finite() && *share > 0.0)) {
+            return Err(Error::Area { index, value: shares[index] });
+        }
+        let unit = region.area();
+        if !(SMALLEST..LARGEST).contains(&unit) {
+            let range = "from 1e-280 to 1e300, so that its parts are numbers";
+            return Err(Error::Parameter { name: "the area of the region", value: unit, range });
         }
         if tolerance.is_nan() || tolerance < 0.0 {
             let range = "at least zero";
@@ -78,11 +83,15 @@ impl Regular2 {
         }
         let largest = shares.iter().fold(0.0, |m: f64, &share| m.max(share));
         let whole: f64 = shares.iter().map(|share| share / largest).sum();
-        let wanted: Vec<f64> = shares.iter().map(|share| share / largest / whole * region.area()).collect();
+        // In units of the region's area, whose square may be no number.
+        let wanted: Vec<f64> = shares.iter().map(|share| share / largest / whole).collect();
+        if let Some(index) = wanted.iter().position(|&wanted| wanted < f64::MIN_POSITIVE) {
+            return Err(Error::Area { index, value: wanted[index] });
+        }
         let smallest = |areas: &[f64]| areas.iter().fold(f64::INFINITY, |m, &area| m.min(area));
-        let floor = smallest(&now.areas).min(smallest(&wanted)) / 2.0;
+        let floor = (smallest(&now.areas) / unit).min(smallest(&wanted)) / 2.0;
         let missing = |now: &Jacobian2| -> Vec<f64> {
-            wanted.iter().zip(&now.areas).map(|(wanted, area)| wanted - area).collect()
+            wanted.iter().zip(&now.areas).map(|(wanted, area)| wanted - area / unit).collect()
         };
         // Neighbours in the plane are to be neighbours in memory.
         let mut order: Vec<usize> = (0..points.len()).collect();
@@ -97,7 +106,7 @@ impl Regular2 {
             let mut share = 1.0;
             let mut halvings = 0;
             loop {
-                let other: Vec<f64> = weights.iter().zip(&step).map(|(w, s)| w + share * s).collect();
+                let other: Vec<f64> = weights.iter().zip(&step).map(|(w, s)| w + share * s * unit).collect();
                 if halvings == HALVINGS || other.iter().any(|w| !w.is_finite()) {
                     r.set_weights(&weights)?;
                     return Ok((r, Prescribed2 { steps, error: worst(&rest) }));
@@ -105,7 +114,8 @@ impl Regular2 {
                 r.set_weights(&other)?;
                 let then = r.power().jacobian(region);
                 let left = missing(&then);
-                if smallest(&then.areas) >= floor && length(&left) <= (1.0 - share / 2.0) * length(&rest) {
+                let is_nearer = length(&left) < (1.0 - share / 2.0) * length(&rest);
+                if smallest(&then.areas) / unit >= floor && is_nearer {
                     (weights, now, rest) = (other, then, left);
                     break;
                 }

@@ -15,12 +15,14 @@ use crate::locate::{Start, Strategy, Walk};
 use crate::mesh::Names;
 use crate::plane::layer::insert::Spot;
 use crate::points::{Position2, check_weights, finite};
+use crate::under::heaviest_first;
 
 /// Below so many vertices any hint will do.
 const SMALL: usize = 32;
 
 impl Regular2 {
-    /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average.
+    /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average, and O(log n)
+    /// for each site that was above a triangle that goes.
     ///
     /// # Errors
     /// [`Error::Coordinate`], [`Error::Weight`] if a number is not finite, [`Error::TooManyPoints`]; then nothing changes.
@@ -91,7 +93,7 @@ impl Regular2 {
             self.under.take_all(&mut freed);
             self.hints.take();
         }
-        freed.sort_unstable();
+        heaviest_first(&mut freed, &self.base.weights);
         freed.into_iter().for_each(|(id, place)| self.settle_again(id, place));
         Ok(kept)
     }

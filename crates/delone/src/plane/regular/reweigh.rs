@@ -65,7 +65,10 @@ impl Regular2 {
             return Ok(Reweighed::Rebuilt);
         };
         self.take_surfacing(&mut loose);
-        loose.sort_unstable_by_key(|site| site.id);
+        loose.sort_unstable_by(|a, b| {
+            let [v, w] = [a, b].map(|site| self.base.weights[site.place.index()]);
+            w.total_cmp(&v).then(a.id.cmp(&b.id))
+        });
         for &Loose { id, place, near } in &loose {
             let is_known = near != EdgeId::NONE && self.mesh().is_triangle(near.triangle());
             let start = if is_known { Start::At(near, Walk::Visibility) } else { Start::Anywhere };

@@ -12,6 +12,7 @@ use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::{Start, Strategy};
 use crate::points::{Position3, check_weights, finite};
 use crate::regular::Reweighed;
+use crate::under::heaviest_first;
 use delone_predicates::Site;
 
 /// One site in so many may have another weight before building anew is faster.
@@ -21,7 +22,7 @@ const SMALL: usize = 32;
 
 impl Regular3 {
     /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average on
-    /// evenly spread sites.
+    /// evenly spread sites, and O(log n) for each site that was above a tetrahedron that goes.
     ///
     /// # Errors
     /// [`Error::Coordinate`], [`Error::Weight`] if a number is not finite, [`Error::TooManyPoints`], [`Error::TooManyTetrahedra`];
@@ -131,7 +132,7 @@ impl Regular3 {
             self.under.take_all(&mut freed);
             self.hints.take();
         }
-        freed.sort_unstable();
+        heaviest_first(&mut freed, &self.base.weights);
         for (id, place) in freed {
             self.settle(id, place)?;
         }
