@@ -106,6 +106,33 @@ fn what_is_folded_flat_is_no_triangulation() {
     assert!(space::verify::verify(&points, &tetrahedra).is_err());
 }
 
+/// Eight tetrahedra of which one has a wrong corner: their border is convex at every edge, and winds around a vertex twice.
+#[test]
+fn what_winds_twice_is_no_triangulation() {
+    let points: [[f64; 3]; 8] = [
+        [2.0, 1.0, 2.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 2.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 2.0, 2.0],
+        [2.0, 1.0, 0.0],
+        [1.0, 2.0, 1.0],
+    ];
+    let tetrahedra = [
+        [7, 4, 2, 5],
+        [7, 4, 3, 2],
+        [0, 7, 3, 2],
+        [0, 7, 2, 5],
+        [1, 0, 7, 3],
+        [1, 2, 6, 7],
+        [1, 7, 4, 3],
+        [1, 7, 6, 4],
+    ];
+    assert!(space::verify::verify(&points, &tetrahedra).is_err());
+    assert!(space::verify::verify_weighted(&points, &[0.0; 8], &tetrahedra).is_err());
+}
+
 #[test]
 fn equal_sites_and_bad_numbers_are_told_apart() {
     let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [0.0, 0.0]];

@@ -163,7 +163,7 @@ pub(super) fn check_winding<W: Lift>(layer: &Layer<W>) -> Result<(), Flaw3> {
 /// Whether the cone from `v` over a closed polygon, counter-clockwise from outside, is convex and goes once around, if
 /// it is convex at every edge: seen from its first edge it turns by half a circle at most and never back. Where it is
 /// flat, a plane through `v` must cut it twice.
-fn goes_once(v: [f64; 3], link: &[[f64; 3]]) -> bool {
+pub(super) fn goes_once(v: [f64; 3], link: &[[f64; 3]]) -> bool {
     let [first, .., last] = link else { return false };
     let next = |i: usize| &link[(i + 1) % link.len()];
     let is_beyond = |p: &[f64; 3], q: &[f64; 3], r: &[f64; 3]| orient3d(v, *p, *q, *r).is_positive();

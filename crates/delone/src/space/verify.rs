@@ -2,7 +2,7 @@
 //! one?
 //!
 //! Nothing is believed. Tetrahedra that are in positive order, glued in pairs across facets, with a connected border
-//! that is nowhere dented, cover the hull everywhere equally often (their boundary is that of the hull); so it is enough
+//! that is convex at every edge and goes around every vertex once, cover the hull everywhere equally often (their boundary is that of the hull); so it is enough
 //! that one point is covered once, and that they add up to a ball. Then empty spheres across facets make all spheres empty. All is proved with exact
 //! predicates. Cost: O(n log n).
 
@@ -15,6 +15,7 @@ use delone_predicates::{
 use crate::error::Error;
 use crate::mesh::tetrahedra::FACETS;
 use crate::points::check_in_space;
+use crate::space::check::goes_once;
 use crate::verdict::Verdict;
 pub use weights::verify_weighted;
 
@@ -243,10 +244,34 @@ fn check_border(points: &[[f64; 3]], sides: &[Side]) -> Result<usize, Objection3
             }
         }
     }
-    match met.iter().position(|met| !met) {
-        Some(f) => Err(Objection3::Border(facets[f][0])),
-        None => Ok(facets.len()),
+    if let Some(f) = met.iter().position(|met| !met) {
+        return Err(Objection3::Border(facets[f][0]));
     }
+    // Convex at edges it may still wind around a vertex more than once.
+    let mut fans: Vec<(usize, usize)> =
+        facets.iter().enumerate().flat_map(|(f, facet)| facet.map(|v| (v, f))).collect();
+    fans.sort_unstable();
+    let mut link = Vec::new();
+    for fan in fans.chunk_by(|one, other| one.0 == other.0) {
+        let (v, first) = fan[0];
+        let mut f = first;
+        link.clear();
+        loop {
+            let i = facets[f].iter().position(|&w| w == v).unwrap_or_default();
+            link.push(points[facets[f][(i + 1) % 3]]);
+            f = across(facets[f][(i + 2) % 3], v)?;
+            if f == first || link.len() > fan.len() {
+                break;
+            }
+        }
+        if link.len() != fan.len() {
+            return Err(Objection3::Border(v));
+        }
+        if !goes_once(points[v], &link) {
+            return Err(Objection3::Cover(2));
+        }
+    }
+    Ok(facets.len())
 }
 
 /// Whether coplanar triangles at an edge, with the corners w and x across it, lie over each other: on the same side of the edge, as
