@@ -107,6 +107,34 @@ impl Regular {
         Ok(())
     }
 
+    /// Takes the weights for which the cells in a polygon with holes have prescribed areas, in proportion: these weights, and by how
+    /// much of itself an area is wrong at most.
+    fn adjust_weights<'py>(
+        &mut self,
+        py: Python<'py>,
+        areas: PyReadonlyArray1<'_, f64>,
+        rings: Vec<PyReadonlyArray2<'py, f64>>,
+        tolerance: f64,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, f64)> {
+        let Core::Plane(state) = &mut self.core else {
+            return Err(PyValueError::new_err("power cells are clipped in the plane"));
+        };
+        let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
+        let shares = areas.as_slice()?.to_vec();
+        let (r, count) = (&state.triangulation, shares.len());
+        let points: Vec<[f64; 2]> =
+            (0..count).filter_map(|i| r.site(VertexId::new(i)).map(|site| site.0)).collect();
+        let built = interruptible(py, count, move || {
+            let region = Region2::polygon(&rings)?;
+            Regular2::with_areas(&points, &shares, &region, tolerance)
+        })?;
+        let (r, prescribed) = built.map_err(python_error)?;
+        let weight = |i| r.site(VertexId::new(i)).map_or(0.0, |site| site.1);
+        let weights: Vec<f64> = (0..count).map(weight).collect();
+        **state = State::of(r);
+        Ok((PyArray1::from_vec(py, weights), prescribed.error))
+    }
+
     /// The site with the least power at each point; -1 if there is none.
     fn nearest<'py>(
         &self,

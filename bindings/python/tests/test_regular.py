@@ -66,3 +66,18 @@ def test_what_is_wrong_is_named():
         delone.PowerDiagram(rng.random((5, 3)))
     empty = delone.RegularTriangulation(np.empty((0, 2)))
     assert empty.nsimplex == 0 and empty.nearest([[0.0, 0.0]]).tolist() == [-1]
+
+
+def test_prescribed_areas_come_out():
+    sites, areas = rng.random((60, 2)), 0.2 + rng.random(60)
+    diagram = delone.PowerDiagram(sites, domain=[[-0.5, -0.5], [1.5, -0.5], [1.5, 1.5], [-0.5, 1.5]])
+    assert diagram.adjust_weights(areas) <= 1e-9
+    assert np.allclose(diagram.integrals(), 4 * areas / areas.sum(), rtol=1e-8)
+    anew = delone.PowerDiagram(sites, diagram.weights)
+    assert sorted(map(sorted, diagram.simplices.tolist())) == sorted(map(sorted, anew.simplices.tolist()))
+    for wrong, word in [([1, 2], "shape"), (np.zeros(60), "site 0"), (np.full(60, np.nan), "site 0")]:
+        with pytest.raises(ValueError, match=word):
+            diagram.adjust_weights(wrong)
+    assert delone.PowerDiagram(np.zeros((0, 2))).adjust_weights() == 0
+    with pytest.raises(ValueError, match="site 1 has no cell"):
+        delone.PowerDiagram([[0.5, 0.5], [0.5, 0.5]]).adjust_weights()

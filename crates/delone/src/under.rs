@@ -25,13 +25,15 @@ pub(crate) struct Under<C> {
     sites: BTreeMap<VertexId, Below<C>>,
     /// Those whose simplex is known, by simplex.
     cells: BTreeSet<(C, VertexId)>,
+    /// Those that equal a vertex, by vertex.
+    equals: BTreeSet<(VertexId, VertexId)>,
     /// Whether those of all are known.
     pub(crate) are_known: bool,
 }
 
 impl<C> Default for Under<C> {
     fn default() -> Self {
-        Self { sites: BTreeMap::new(), cells: BTreeSet::new(), are_known: false }
+        Self { sites: BTreeMap::new(), cells: BTreeSet::new(), equals: BTreeSet::new(), are_known: false }
     }
 }
 
@@ -84,18 +86,27 @@ impl<C: Copy + Ord> Under<C> {
             (names[id.index()], site)
         };
         self.sites = std::mem::take(&mut self.sites).into_iter().map(renamed).collect();
+        self.equals = self.duplicates_by_vertex().collect();
     }
 
     /// What equals one vertex equals another one from now on.
     pub(crate) fn equal_instead(&mut self, old: VertexId, new: VertexId) {
-        let equal = self.sites.values_mut().filter(|site| site.equal == Some(old));
-        equal.for_each(|site| site.equal = Some(new));
+        let all = (old, VertexId::new(0))..=(old, VertexId::GHOST);
+        let ids: Vec<VertexId> = self.equals.range(all).map(|&(_, id)| id).collect();
+        ids.into_iter().for_each(|id| self.set_equal(id, Some(new)));
     }
 
     pub(crate) fn set_equal(&mut self, id: VertexId, vertex: Option<VertexId>) {
         if let Some(site) = self.sites.get_mut(&id) {
-            site.equal = vertex;
+            if let Some(old) = std::mem::replace(&mut site.equal, vertex) {
+                self.equals.remove(&(old, id));
+            }
+            self.equals.extend(vertex.map(|vertex| (vertex, id)));
         }
+    }
+
+    fn duplicates_by_vertex(&self) -> impl Iterator<Item = (VertexId, VertexId)> + '_ {
+        self.sites.iter().filter_map(|(&id, site)| Some((site.equal?, id)))
     }
 
     /// Another one, or one above another simplex.
@@ -103,6 +114,7 @@ impl<C: Copy + Ord> Under<C> {
         self.take(id);
         self.sites.insert(id, Below { place, equal, cell });
         self.cells.extend(cell.map(|t| (t, id)));
+        self.equals.extend(equal.map(|vertex| (vertex, id)));
     }
 
     /// Takes one away.
@@ -110,6 +122,9 @@ impl<C: Copy + Ord> Under<C> {
         let site = self.sites.remove(&id)?;
         if let Some(t) = site.cell {
             self.cells.remove(&(t, id));
+        }
+        if let Some(vertex) = site.equal {
+            self.equals.remove(&(vertex, id));
         }
         Some(site.place)
     }
@@ -124,6 +139,7 @@ impl<C: Copy + Ord> Under<C> {
     /// Takes all away.
     pub(crate) fn take_all(&mut self, taken: &mut Vec<(VertexId, Place)>) {
         self.cells.clear();
+        self.equals.clear();
         taken.extend(std::mem::take(&mut self.sites).into_iter().map(|(id, site)| (id, site.place)));
     }
 }
