@@ -34,7 +34,7 @@ use crate::mesh::triangles::{HalfEdge, Mesh2};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
 use crate::order::quantize::scaled;
 use crate::parallel;
-use crate::plane::layer::kernel::{NearestSites, Power};
+use crate::plane::layer::kernel::NearestSites;
 use crate::points::{Bounds, survey};
 use crate::tally::{Counters, Merges};
 
@@ -94,58 +94,6 @@ pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
     InOrder { mesh, points, indices, duplicates: sorted(duplicates), counters }
 }
 
-/// The regular triangulation of sites with weights, the heaviest of those at one point, with vertices at their positions in Morton
-/// order. Positions that are hidden have no star.
-pub(in crate::plane) struct Weighted {
-    pub(in crate::plane) mesh: Mesh2,
-    /// By position.
-    pub(in crate::plane) points: Vec<[f64; 2]>,
-    pub(in crate::plane) weights: Vec<f64>,
-    /// The indices of the sites at all positions.
-    pub(in crate::plane) indices: Vec<u32>,
-    /// Other sites at the points of these, with their positions.
-    pub(in crate::plane) others: Vec<(u32, Place)>,
-    pub(in crate::plane) counters: Merges,
-}
-
-/// See [`Weighted`].
-pub(in crate::plane) fn weighted(points: &[[f64; 2]], weights: &[f64]) -> Weighted {
-    let Sorted { points: ordered, mut indices, cuts, boxes, duplicates } =
-        morton::sort(points, &survey(points).0);
-    let others = heaviest_first(&mut indices, duplicates, weights);
-    let ordered_weights = parallel::collect(indices.len(), |k| weights[indices[k] as usize]);
-    let (edges, counters) = build::<Power>(&ordered, &ordered_weights, &cuts, &boxes);
-    let n = ordered.len();
-    let mut mesh = Mesh2 { edges, vertex_count: n, ..Mesh2::empty(0) };
-    mesh.lone = if n == 1 { Some(Place::new(0)) } else { None };
-    mesh.number_vertices::<true>(n, |position| position);
-    mesh.forget_unused();
-    Weighted { mesh, points: ordered, weights: ordered_weights, indices, others, counters }
-}
-
-/// Of sites at one point the heaviest, and of these the first, takes the position; the others are returned.
-fn heaviest_first(indices: &mut [u32], duplicates: Vec<(u32, u32)>, weights: &[f64]) -> Vec<(u32, Place)> {
-    if duplicates.is_empty() {
-        return Vec::new();
-    }
-    let mut positions = parallel::filled(Place::GHOST, weights.len());
-    indices.iter().enumerate().for_each(|(k, &i)| positions[i as usize] = Place::new(k));
-    let stands_before = |i: u32, j: u32| {
-        let (w, v) = (weights[i as usize], weights[j as usize]);
-        w > v || (w == v && i < j)
-    };
-    let place = |(other, first): (u32, u32)| {
-        let position = positions[first as usize];
-        let there = &mut indices[position.index()];
-        let mut lighter = other;
-        if stands_before(other, *there) {
-            lighter = std::mem::replace(there, other);
-        }
-        (lighter, position)
-    };
-    duplicates.into_iter().map(place).collect()
-}
-
 fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
     let named = |(point, vertex): (u32, u32)| Duplicate {
         point: point as usize,
@@ -156,7 +104,7 @@ fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
     duplicates
 }
 
-fn build<K: Merging>(
+pub(super) fn build<K: Merging>(
     ordered: &[[f64; 2]],
     weights: &[K::Weight],
     cuts: &[Cut],

@@ -7,8 +7,10 @@ pub(super) mod incremental;
 mod leaf;
 mod merge;
 mod number;
+mod weighted;
 
-pub(super) use divide_and_conquer::{InOrder, Weighted, in_order, weighted};
+pub(super) use divide_and_conquer::{InOrder, in_order};
+pub(super) use weighted::{Weighted, weighted};
 
 use crate::error::Error;
 use crate::ids::Duplicate;
