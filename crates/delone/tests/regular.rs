@@ -367,7 +367,7 @@ fn steps<const D: usize, R: Regular<Point = [f64; D]>>(
 fn other_weights_at_once_are_as_good_as_new() {
     let mut random = Random::new(8);
     let mut counts = [[0; 2]; 2];
-    for round in 0..8 {
+    for round in 0..12 {
         for kind in [Kind::Uniform, Kind::Grid, Kind::Clusters, Kind::Circle] {
             let [repaired, settled] = steps::<2, Regular2>(&kind.points(400, round), &mut random);
             counts[0] = [counts[0][0] + repaired, counts[0][1] + settled];

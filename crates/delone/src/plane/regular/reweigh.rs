@@ -27,6 +27,8 @@ use crate::regular::Reweighed;
 /// One edge in so many may be wrong before building anew is faster; the first so many always may.
 const WRONG: usize = 10;
 const FEW: usize = 16;
+/// One site in so many may fall again before building anew is faster, whatever they fall into; the first so many always may.
+const FALLING: usize = 16;
 /// So many flips a vertex may be needed before building anew is faster.
 const FLIPS: usize = 4;
 /// So many triangles are looked at together.
@@ -65,6 +67,10 @@ impl Regular2 {
             return Ok(Reweighed::Rebuilt);
         };
         self.take_surfacing(&mut loose);
+        if loose.len() > (self.vertex_count() + loose.len()) / FALLING + FEW {
+            self.build_anew(loose);
+            return Ok(Reweighed::Rebuilt);
+        }
         loose.sort_unstable_by(|a, b| {
             let [v, w] = [a, b].map(|site| self.base.weights[site.place.index()]);
             w.total_cmp(&v).then(a.id.cmp(&b.id))
