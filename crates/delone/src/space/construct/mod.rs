@@ -77,10 +77,7 @@ pub(super) fn by_flips<T: Tally>(
     let mut layer = Layer::new(points.to_vec());
     layer.mesh.names = Names::identical(points.len(), |_| true);
     let rest = flips::build(&mut layer, seed, tally)?;
-    let mut duplicates = Vec::new();
-    note_equal(&mut layer, &rest.equal, &mut duplicates);
-    settle(&mut duplicates);
-    Some((layer, duplicates))
+    Some(with_duplicates((layer, rest)))
 }
 
 /// Sizes of sets whose products are in the range of the filters: 2^-130 to 2^90.
