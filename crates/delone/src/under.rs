@@ -145,8 +145,9 @@ impl<C: Copy + Ord> Under<C> {
 }
 
 /// Puts sites into an order in which few that become vertices are hidden by a later one.
-pub(crate) fn heaviest_first(sites: &mut [(VertexId, Place)], weights: &[f64]) {
-    sites.sort_unstable_by(|&(id, place), &(other, there)| {
+pub(crate) fn heaviest_first<S>(sites: &mut [S], weights: &[f64], site: impl Fn(&S) -> (VertexId, Place)) {
+    sites.sort_unstable_by(|a, b| {
+        let [(id, place), (other, there)] = [a, b].map(&site);
         weights[there.index()].total_cmp(&weights[place.index()]).then(id.cmp(&other))
     });
 }

@@ -93,7 +93,7 @@ impl Regular2 {
             self.under.take_all(&mut freed);
             self.hints.take();
         }
-        heaviest_first(&mut freed, &self.base.weights);
+        heaviest_first(&mut freed, &self.base.weights, |&site| site);
         freed.into_iter().for_each(|(id, place)| self.settle_again(id, place));
         Ok(kept)
     }

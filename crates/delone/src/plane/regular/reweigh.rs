@@ -23,6 +23,7 @@ use crate::plane::layer::kernel::{Kernel, Power};
 use crate::points::check_weights;
 use crate::prefetch::prefetch;
 use crate::regular::Reweighed;
+use crate::under::heaviest_first;
 
 /// One edge in so many may be wrong before building anew is faster; the first so many always may.
 const WRONG: usize = 10;
@@ -71,10 +72,7 @@ impl Regular2 {
             self.build_anew(loose);
             return Ok(Reweighed::Rebuilt);
         }
-        loose.sort_unstable_by(|a, b| {
-            let [v, w] = [a, b].map(|site| self.base.weights[site.place.index()]);
-            w.total_cmp(&v).then(a.id.cmp(&b.id))
-        });
+        heaviest_first(&mut loose, &self.base.weights, |site| (site.id, site.place));
         for &Loose { id, place, near } in &loose {
             let is_known = near != EdgeId::NONE && self.mesh().is_triangle(near.triangle());
             let start = if is_known { Start::At(near, Walk::Visibility) } else { Start::Anywhere };

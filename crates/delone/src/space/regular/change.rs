@@ -132,7 +132,7 @@ impl Regular3 {
             self.under.take_all(&mut freed);
             self.hints.take();
         }
-        heaviest_first(&mut freed, &self.base.weights);
+        heaviest_first(&mut freed, &self.base.weights, |&site| site);
         for (id, place) in freed {
             self.settle(id, place)?;
         }
