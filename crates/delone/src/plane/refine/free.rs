@@ -11,7 +11,6 @@ use super::mesher::{Known, Mesher};
 use super::queue::{Fault, Task};
 use super::report::Reason;
 use super::shape::Shape;
-use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
@@ -28,25 +27,19 @@ enum Met {
 
 impl Mesher<'_> {
     /// Mends a triangle: with a new vertex, by noting constraints that must be split first, or not at all.
-    pub(super) fn mend(&mut self, task: &Task) -> Result<(), Error> {
+    pub(super) fn mend(&mut self, task: &Task) {
         if self.count >= self.rules.budget {
             self.leave(task.corners, Reason::Budget);
-            return Ok(());
+            return;
         }
-        let Some(shape) = Shape::of(self.layer, task.edge) else { return Ok(()) };
+        let Some(shape) = Shape::of(self.layer, task.edge.triangle()) else { return };
         let reach = if task.fault() == Fault::Angle { self.rules.reach } else { f64::INFINITY };
         let centre = shape.centre(reach);
         let q = if centre.iter().all(|x| x.is_finite()) { centre } else { shape.centre(self.rules.reach) };
         match self.walk(shape.shortest, q) {
             Met::Triangle(t) => self.place(task, q, t),
-            Met::Constraint(e) => {
-                self.split_first(task, &[e]);
-                Ok(())
-            }
-            Met::Nothing => {
-                self.leave(task.corners, Reason::Precision);
-                Ok(())
-            }
+            Met::Constraint(e) => self.split_first(task, &[e]),
+            Met::Nothing => self.leave(task.corners, Reason::Precision),
         }
     }
 
@@ -94,7 +87,7 @@ impl Mesher<'_> {
     }
 
     /// Makes a point in a triangle a vertex, unless it is too near to constraints or to others.
-    fn place(&mut self, task: &Task, q: [f64; 2], t: TriangleId) -> Result<(), Error> {
+    fn place(&mut self, task: &Task, q: [f64; 2], t: TriangleId) {
         let mut cavity = std::mem::take(&mut self.layer.cavity);
         let sites = Sites { points: &self.layer.points, weights: &self.layer.weights };
         cavity.dig::<NearestSites>(&mut self.layer.mesh, &sites, (q, ()), t);
@@ -117,12 +110,12 @@ impl Mesher<'_> {
             } else {
                 self.split_first(task, &near);
             }
-            return Ok(());
+            return;
         }
         let v = self.layer.place_for(Spot::Triangle(t), q);
         self.fill(v);
         self.note_vertex(v, Known { on: [Place::GHOST; 2], scale });
-        self.look_around(v)
+        self.look_around(v);
     }
 
     /// Leaves the cavity that was dug as it is.

@@ -15,6 +15,7 @@ use super::shape::{Shape, squared, squared_obtuseness};
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::Layer;
+use crate::prefetch::prefetch;
 
 /// A vertex nearer than this part of a scale is refused.
 const PART: f64 = 1.0 / 64.0;
@@ -89,21 +90,24 @@ impl<'a> Mesher<'a> {
         };
         constraints.into_iter().for_each(|e| self.look_at_constraint(e));
         for t in self.layer.mesh.triangles().collect::<Vec<_>>() {
-            self.look_at(t.edge(0))?;
+            self.look_at(t);
         }
-        while let Some(task) = self.queue.pop(&self.layer.points) {
+        while let Some(task) =
+            self.queue.pop(&self.layer.points, |e| prefetch(&self.layer.mesh.edges, e.index()))
+        {
             if task.fault() == Fault::Constraint {
                 if let Some(e) = self.constraint(&task) {
-                    self.split(e)?;
+                    self.split(e);
                 }
                 continue;
             }
-            let is_alive = self.is_alive(&task) && self.task_of(task.edge)?.is_some_and(|now| now.is(&task));
+            let is_alive =
+                self.is_alive(&task) && self.task_of(task.edge.triangle()).is_some_and(|now| now.is(&task));
             if is_alive {
-                self.mend(&task)?;
+                self.mend(&task);
             }
         }
-        Ok(())
+        self.rules.flaw()
     }
 
     /// Whether the triangle of a task is still there.
@@ -143,33 +147,31 @@ impl<'a> Mesher<'a> {
 
     /// Notes a triangle if something is wrong with it.
     #[inline]
-    pub(super) fn look_at(&mut self, e: EdgeId) -> Result<(), Error> {
-        if let Some(task) = self.task_of(e)? {
+    pub(super) fn look_at(&mut self, t: TriangleId) {
+        if let Some(task) = self.task_of(t) {
             self.queue.push(task, &self.layer.points);
         }
-        Ok(())
     }
 
-    /// What is wrong with the triangle of an edge.
+    /// What is wrong with a triangle.
     #[inline]
-    fn task_of(&self, e: EdgeId) -> Result<Option<Task>, Error> {
+    fn task_of(&self, t: TriangleId) -> Option<Task> {
         let mesh = &self.layer.mesh;
-        let domain = mesh.domain(e.triangle());
+        let domain = mesh.domain(t);
         if !self.rules.is_inside(domain) {
-            return Ok(None);
+            return None;
         }
-        let Some(shape) = Shape::of(self.layer, e) else { return Ok(None) };
+        let shape = Shape::of(self.layer, t)?;
         let e = shape.shortest;
-        let corners = [mesh.tail(e), mesh.head(e), mesh.tip(e)];
-        let fault = if shape.is_sharp(self.rules.squared_cosine) && !self.is_forced(&corners) {
+        let corners = || [mesh.tail(e), mesh.head(e), mesh.tip(e)];
+        let fault = if shape.is_sharp(self.rules.squared_cosine) && !self.is_forced(&corners()) {
             Fault::Angle
-        } else if self.rules.is_large(&shape, domain)? {
+        } else if self.rules.is_large(&shape, domain) {
             Fault::Size
         } else {
-            return Ok(None);
+            return None;
         };
-        let task = self.queue.task(fault, shape.squares[0], shape.points[0], e, corners);
-        Ok(Some(task))
+        Some(self.queue.task(fault, shape.squares[0], shape.points[0], e, corners()))
     }
 
     /// Whether the shortest edge of a triangle joins two constraints that meet, at the same distance from where they do: its angle
@@ -273,14 +275,14 @@ impl<'a> Mesher<'a> {
     }
 
     /// Looks at what is new around a vertex.
-    pub(super) fn look_around(&mut self, v: Place) -> Result<(), Error> {
+    pub(super) fn look_around(&mut self, v: Place) {
         let first = self.layer.mesh.incident[v.index()];
         let mut spoke = first;
         loop {
-            self.look_at(spoke)?;
+            self.look_at(spoke.triangle());
             spoke = self.layer.mesh.spin(spoke);
             if spoke == first {
-                return Ok(());
+                return;
             }
         }
     }

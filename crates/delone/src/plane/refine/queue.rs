@@ -61,9 +61,20 @@ const AXIS: u32 = 25;
 /// See the module.
 #[derive(Clone, Debug)]
 pub(super) struct Queue {
-    heap: Vec<Task>,
+    /// By the bits of the key above the place.
+    classes: Vec<(u64, Class)>,
+    /// All before this one are empty.
+    first: usize,
     low: [f64; 2],
     scale: [f64; 2],
+}
+
+/// Tasks of a class: most of them are sorted when the first one is taken, what comes later is in a heap.
+#[derive(Clone, Debug, Default)]
+struct Class {
+    /// The last one first.
+    sorted: Vec<Task>,
+    heap: Vec<Task>,
 }
 
 impl Queue {
@@ -74,7 +85,7 @@ impl Queue {
             let scale = cells / (bounds.high[k] - bounds.low[k]);
             if scale.is_finite() { scale } else { 0.0 }
         });
-        Self { heap: Vec::new(), low: bounds.low, scale }
+        Self { classes: Vec::new(), first: 0, low: bounds.low, scale }
     }
 
     /// A task at a place, with the square of a length.
@@ -96,6 +107,33 @@ impl Queue {
     /// Adds a task.
     #[inline]
     pub(super) fn push(&mut self, task: Task, points: &[[f64; 2]]) {
+        let class = task.key >> LENGTH;
+        let at = self.classes.partition_point(|entry| entry.0 < class);
+        if self.classes.get(at).is_none_or(|entry| entry.0 != class) {
+            self.classes.insert(at, (class, Class::default()));
+        }
+        self.classes[at].1.push(task, points);
+        self.first = self.first.min(at);
+    }
+
+    /// Takes the first task. `ahead` hears of those that are likely to come soon.
+    #[inline]
+    pub(super) fn pop(&mut self, points: &[[f64; 2]], ahead: impl Fn(EdgeId)) -> Option<Task> {
+        loop {
+            let (_, class) = self.classes.get_mut(self.first)?;
+            if let Some(task) = class.pop(points) {
+                let soon = class.sorted.len().checked_sub(AHEAD).and_then(|at| class.sorted.get(at));
+                soon.into_iter().for_each(|task| ahead(task.edge));
+                return Some(task);
+            }
+            self.first += 1;
+        }
+    }
+}
+
+impl Class {
+    #[inline]
+    fn push(&mut self, task: Task, points: &[[f64; 2]]) {
         let mut at = self.heap.len();
         self.heap.push(task);
         while at > 0 {
@@ -109,9 +147,20 @@ impl Queue {
         self.heap[at] = task;
     }
 
-    /// Takes the first task.
     #[inline]
-    pub(super) fn pop(&mut self, points: &[[f64; 2]]) -> Option<Task> {
+    fn pop(&mut self, points: &[[f64; 2]]) -> Option<Task> {
+        if self.sorted.is_empty() && self.heap.len() > MANY {
+            std::mem::swap(&mut self.sorted, &mut self.heap);
+            self.sorted.sort_unstable_by(|p, q| q.key.cmp(&p.key).then_with(|| by_corners(q, p, points)));
+        }
+        match (self.sorted.last(), self.heap.first()) {
+            (Some(last), Some(top)) if is_before(top, last, points) => self.pop_heap(points),
+            (Some(_), _) => self.sorted.pop(),
+            (None, _) => self.pop_heap(points),
+        }
+    }
+
+    fn pop_heap(&mut self, points: &[[f64; 2]]) -> Option<Task> {
         let last = self.heap.pop()?;
         let Some(&first) = self.heap.first() else { return Some(last) };
         let count = self.heap.len();
@@ -138,6 +187,10 @@ impl Queue {
     }
 }
 
+/// So many tasks ahead memory is asked for their triangles.
+const AHEAD: usize = 4;
+/// So many tasks of a class are sorted rather than taken from a heap.
+const MANY: usize = 32;
 /// Children of a node of the heap: four are on one or two lines of the cache.
 const ARITY: usize = 4;
 

@@ -1,5 +1,7 @@
 //! What is wanted of a mesh, as numbers that are quick to ask.
 
+use std::cell::Cell;
+
 use super::shape::Shape;
 use super::{Keep, Refinement};
 use crate::error::Error;
@@ -28,8 +30,12 @@ pub(super) struct Rules<'a> {
     longest: f64,
     /// By domain, those inside from 1 on; there is nothing at 0.
     areas: Vec<f64>,
+    /// Whether there is any bound of sizes, and whether one is asked for each place.
+    has_sizes: bool,
+    has_fields: bool,
     area_at: Option<Field<'a>>,
     size_at: Option<Field<'a>>,
+    flaw: Cell<Option<(f64, [f64; 2])>>,
 }
 
 /// A number for each place.
@@ -55,6 +61,8 @@ impl<'a> Rules<'a> {
         let own = |&part: &usize| area(domains.parts()[part].region).map_or(general, |own| own.min(general));
         let areas = before.parts[..before.inside].iter().map(own);
         let lens = (2.0 * angle.max(NARROWEST.to_radians())).cos();
+        let areas: Vec<f64> = std::iter::once(f64::INFINITY).chain(areas).collect();
+        let has_fields = wanted.area_at.is_some() || wanted.size_at.is_some();
         Self {
             squared_cosine: if angle > 0.0 { angle.cos() * angle.cos() } else { 2.0 },
             lens: lens * lens,
@@ -64,29 +72,41 @@ impl<'a> Rules<'a> {
             budget: wanted.max_vertices.map_or(before.room, |most| most.min(before.room)),
             keep: wanted.keep,
             longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
-            areas: std::iter::once(f64::INFINITY).chain(areas).collect(),
+            has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
+            areas,
+            has_fields,
             area_at: wanted.area_at,
             size_at: wanted.size_at,
+            flaw: Cell::new(None),
         }
     }
 
-    /// Whether a triangle is larger than it may be.
+    /// Whether a triangle is larger than it may be. A bound that is none is remembered.
     #[inline]
-    pub(super) fn is_large(&self, shape: &Shape, domain: usize) -> Result<bool, Error> {
-        if shape.longest() > self.longest || shape.area() > self.areas[domain] {
-            return Ok(true);
-        }
-        if self.area_at.is_none() && self.size_at.is_none() {
-            return Ok(false);
-        }
-        let at = shape.centroid();
-        let asked = |field: Option<Field>| field.map_or(Ok(f64::INFINITY), |field| Self::size(field(at), at));
-        let (area, size) = (asked(self.area_at)?, asked(self.size_at)?);
-        Ok(shape.area() > area || shape.longest() > size * size)
+    pub(super) fn is_large(&self, shape: &Shape, domain: usize) -> bool {
+        self.has_sizes
+            && (shape.longest() > self.longest
+                || shape.area() > self.areas[domain]
+                || (self.has_fields && self.is_larger_than_wanted(shape)))
     }
 
-    fn size(value: f64, at: [f64; 2]) -> Result<f64, Error> {
-        if value > 0.0 { Ok(value) } else { Err(Error::Size { value, at }) }
+    fn is_larger_than_wanted(&self, shape: &Shape) -> bool {
+        let at = shape.centroid();
+        let asked = |field: Option<Field>| {
+            let value = field.map_or(f64::INFINITY, |field| field(at));
+            if value > 0.0 {
+                return value;
+            }
+            self.flaw.set(self.flaw.get().or(Some((value, at))));
+            f64::INFINITY
+        };
+        let size = asked(self.size_at);
+        shape.area() > asked(self.area_at) || shape.longest() > size * size
+    }
+
+    /// The first bound that was none.
+    pub(super) fn flaw(&self) -> Result<(), Error> {
+        self.flaw.get().map_or(Ok(()), |(value, at)| Err(Error::Size { value, at }))
     }
 
     /// Whether a constraint may not be split, with the mesh on both sides or on one.

@@ -6,11 +6,9 @@
 //! Sources: Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG 1993 (circumcentres); Üngör, "Off-centers: a new
 //! type of Steiner points for computing size-optimal quality-guaranteed Delaunay triangulations", LATIN 2004.
 
-use std::cmp::Ordering;
-
 use delone_predicates::lexicographic;
 
-use crate::ids::EdgeId;
+use crate::ids::{EdgeId, TriangleId};
 use crate::plane::layer::Layer;
 
 /// Squares outside of this range are not trusted.
@@ -29,23 +27,28 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// A finite triangle, by one of its edges. `None` if its squares leave the range of numbers.
+    /// A finite triangle. `None` if its squares leave the range of numbers.
     #[inline]
-    pub(super) fn of(layer: &Layer, e: EdgeId) -> Option<Self> {
-        let edges = [e, e.next(), e.previous()];
-        let points = edges.map(|e| layer.points[layer.mesh.tail(e).index()]);
-        let squares = [0, 1, 2].map(|k| squared(points[k], points[(k + 1) % 3]));
-        let mut least = 0;
-        for k in 1..3 {
-            let order = squares[k].partial_cmp(&squares[least]).unwrap_or(Ordering::Equal);
-            if order.then_with(|| lexicographic(points[k], points[least])).is_lt() {
-                least = k;
+    pub(super) fn of(layer: &Layer, t: TriangleId) -> Option<Self> {
+        let points = layer.mesh.places(t).map(|v| layer.points[v.index()]);
+        let [a, b, c] = points;
+        let [ab, bc, ca] = [squared(a, b), squared(b, c), squared(c, a)];
+        let is_before = |p: f64, q: f64, at: [f64; 2], other: [f64; 2]| {
+            p < q || (p == q && lexicographic(at, other).is_lt())
+        };
+        let shape = if is_before(bc, ab, b, a) {
+            if is_before(ca, bc, c, b) {
+                Self { shortest: t.edge(2), points: [c, a, b], squares: [ca, ab, bc] }
+            } else {
+                Self { shortest: t.edge(1), points: [b, c, a], squares: [bc, ca, ab] }
             }
-        }
-        let at = |k: usize| (least + k) % 3;
-        let squares = [0, 1, 2].map(|k| squares[at(k)]);
-        let is_sound = squares[0] > LEAST && squares[1] < MOST && squares[2] < MOST;
-        is_sound.then(|| Self { shortest: edges[least], points: [0, 1, 2].map(|k| points[at(k)]), squares })
+        } else if is_before(ca, ab, c, a) {
+            Self { shortest: t.edge(2), points: [c, a, b], squares: [ca, ab, bc] }
+        } else {
+            Self { shortest: t.edge(0), points, squares: [ab, bc, ca] }
+        };
+        let [least, second, third] = shape.squares;
+        (least > LEAST && second < MOST && third < MOST).then_some(shape)
     }
 
     /// The scalar and the vector product of the sides at the corner across the shortest edge.

@@ -13,33 +13,32 @@ use delone_predicates::{lexicographic, orient2d};
 use super::mesher::{Known, Mesher, shared};
 use super::report::Reason;
 use super::shape::{squared, squared_height};
-use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
 
 impl Mesher<'_> {
     /// Splits a constraint, given from its lesser end on, unless that is refused.
-    pub(super) fn split(&mut self, e: EdgeId) -> Result<(), Error> {
+    pub(super) fn split(&mut self, e: EdgeId) {
         let e = if self.ends(e)[0] == self.layer.mesh.tail(e) { e } else { self.layer.mesh.twin(e) };
         if self.refusal(e).is_some() {
-            return Ok(());
+            return;
         }
         if self.count >= self.rules.budget {
             self.refuse(e, Reason::Budget);
-            return Ok(());
+            return;
         }
         let meets = self.meets(e);
         let mut e = e;
         if !self.rules.conforming && meets == [false; 2] {
-            e = self.clear(e)?;
+            e = self.clear(e);
         }
         let wanted = self.where_to_split(e, meets);
         let Some(q) = around(wanted).find(|&q| self.is_clear(e, q)) else {
             self.refuse(e, Reason::Precision);
-            return Ok(());
+            return;
         };
-        self.insert_on(e, q)
+        self.insert_on(e, q);
     }
 
     fn refuse(&mut self, e: EdgeId, reason: Reason) {
@@ -56,7 +55,7 @@ impl Mesher<'_> {
 
     /// Removes the free vertices that a constraint sees inside of its diametral circle. Gives the constraint, whose triangles may
     /// be others then.
-    fn clear(&mut self, e: EdgeId) -> Result<EdgeId, Error> {
+    fn clear(&mut self, e: EdgeId) -> EdgeId {
         let mut side = e;
         for _ in 0..2 {
             loop {
@@ -75,13 +74,12 @@ impl Mesher<'_> {
                 self.count -= 1;
                 side = self.layer.mesh.twin(outside);
                 let hole = std::mem::take(&mut self.layer.hole);
-                let looked = hole.last().0.iter().try_for_each(|t| self.look_at(t.edge(0)));
+                hole.last().0.iter().for_each(|t| self.look_at(*t));
                 self.layer.hole = hole;
-                looked?;
             }
             side = self.layer.mesh.twin(side);
         }
-        Ok(side)
+        side
     }
 
     /// Where a constraint is best split.
@@ -115,7 +113,7 @@ impl Mesher<'_> {
     }
 
     /// Makes a point the vertex that splits a constraint, unless it is too near to others.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> Result<(), Error> {
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) {
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
         let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
@@ -132,7 +130,7 @@ impl Mesher<'_> {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
             self.refuse(e, Reason::Cascade);
-            return Ok(());
+            return;
         }
         let v = self.layer.place_for(Spot::Triangle(seed), q);
         self.fill(v);
@@ -140,9 +138,8 @@ impl Mesher<'_> {
         self.known[nearest.index()].scale = self.known[nearest.index()].scale.min(scale);
         debug_assert!(tips.iter().all(|tip| tip.is_ghost() || self.layer.mesh.is_vertex(*tip)));
         self.part(v, ends, domains);
-        self.look_around(v)?;
+        self.look_around(v);
         self.look_at_constraints_around(v);
-        Ok(())
     }
 
     /// A triangle that the point beside an edge is in, or beyond the hull edge of.

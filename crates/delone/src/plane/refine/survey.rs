@@ -21,7 +21,7 @@ pub(super) fn report(
     let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
     // Cotangents fall as angles grow: so these are bounds, and the smallest angle has the largest.
     let bounds: Vec<f64> = (1..180 / BIN).map(|k| 1.0 / ((BIN * k) as f64).to_radians().tan()).collect();
-    let bin = |cotangent: f64| bounds.partition_point(|&bound| cotangent <= bound);
+    let bin = |cotangent: f64| bounds.iter().map(|&bound| usize::from(cotangent <= bound)).sum::<usize>();
     let (mut largest, mut smallest) = (f64::NEG_INFINITY, f64::INFINITY);
     for t in layer.mesh.triangles() {
         let domain = layer.mesh.domain(t);
@@ -29,7 +29,7 @@ pub(super) fn report(
             continue;
         }
         report.triangles += 1;
-        let Some(shape) = Shape::of(layer, t.edge(0)) else {
+        let Some(shape) = Shape::of(layer, t) else {
             report.left.push(Unrefined2 { triangle: t, reason: Reason::Precision });
             continue;
         };
@@ -42,7 +42,7 @@ pub(super) fn report(
         let sharpest = cotangents.into_iter().fold(f64::NEG_INFINITY, f64::max);
         report.smallest_angles[bin(sharpest).min(60 / BIN - 1)] += 1;
         let is_sharp = shape.is_sharp(rules.squared_cosine);
-        if is_sharp || rules.is_large(&shape, domain).unwrap_or(true) {
+        if is_sharp || rules.is_large(&shape, domain) {
             let e = shape.shortest;
             let corners = [layer.mesh.tail(e), layer.mesh.head(e), layer.mesh.tip(e)];
             let reason = why.get(&corners).copied().unwrap_or(Reason::InputAngle);
