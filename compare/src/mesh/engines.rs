@@ -43,7 +43,8 @@ pub const ENGINES: &[Engine] = &[
 /// Up to so many Steiner points for each point; its own default is 10.
 const BUDGET: usize = 20;
 
-/// What is inside is what an odd number of segments is around, or all.
+/// What is inside is what an odd number of segments is around, or all; where segments do not close, or have the inside on both
+/// sides, its rule may find nothing.
 fn spade(task: &Task) -> Result<Refined, String> {
     use spade::{
         AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation as _,
@@ -62,6 +63,9 @@ fn spade(task: &Task) -> Result<Refined, String> {
     let (d, result) = result.map_err(|error| format!("{error:?}"))?;
     if !result.refinement_complete {
         return Err(format!("is not done after {} points", d.num_vertices() - task.points.len()));
+    }
+    if result.excluded_faces.len() == d.num_inner_faces() {
+        return Err("(its rule finds nothing inside)".to_owned());
     }
     let mesh = move || {
         let mut is_excluded = vec![false; d.num_all_faces()];

@@ -1,5 +1,6 @@
 //! What all engines refine: distinct points, segments that meet in points only, and a point in each hole.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -43,7 +44,8 @@ impl Input {
         Self::new(&name, &graph.cloud.xy, &graph.segments, holes)
     }
 
-    /// Each point once, each segment cut at the points on it, and the inside measured.
+    /// Each point once, each segment cut at the points on it, in the order of the input, which shows in what some engines do;
+    /// and the inside measured.
     fn new(
         name: &str,
         points: &[[f64; 2]],
@@ -60,10 +62,16 @@ impl Input {
         let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
         let mut index = vec![usize::MAX; points.len()];
         c.vertices().enumerate().for_each(|(i, v)| index[v.index()] = i);
+        let chains = c.segments().filter_map(|(s, _)| c.chain(s));
+        let chains: Vec<Vec<usize>> =
+            chains.map(|chain| chain.iter().map(|v| index[v.index()]).collect()).collect();
+        let mut seen = BTreeSet::new();
+        let edges = chains.iter().flat_map(|chain| chain.array_windows().copied());
+        let segments = edges.filter(|&[a, b]: &[usize; 2]| seen.insert([a.min(b), a.max(b)])).collect();
         Ok(Self {
             name: name.to_owned(),
             points: c.vertices().map(|v| c.point(v)).collect(),
-            segments: c.constraints().map(|ends| ends.map(|v| index[v.index()])).collect(),
+            segments,
             holes,
             is_hull: domains.parts().iter().all(|part| part.is_inside),
             area: inside.map(|t| c.area(t)).sum(),

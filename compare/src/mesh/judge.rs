@@ -4,6 +4,7 @@
 use delone_oracle::exact::orient2d;
 use num_bigint::BigInt;
 
+use super::chains::lost;
 use super::input::Input;
 use super::wedges::Wedges;
 
@@ -52,19 +53,16 @@ pub fn judge(input: &Input, wedges: &Wedges, mesh: &Mesh, angle: f64) -> Verdict
     verdict
 }
 
-/// Whether all input points are there, triangles turn left, no edge has two triangles on one side, and the areas add up.
+/// Whether all input points are there, triangles turn left, no edge has two triangles on one side, the areas add up, and all
+/// segments are there.
 fn not_a_mesh_of(input: &Input, mesh: &Mesh) -> Result<(), String> {
     let n = mesh.points.len();
     if mesh.triangles.is_empty() || mesh.triangles.iter().flatten().any(|&i| i >= n) {
         return Err("has no triangles, or of no points".to_owned());
     }
-    let sorted = |points: &[[f64; 2]]| {
-        let mut points = points.to_vec();
-        points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-        points
-    };
-    let there = sorted(&mesh.points);
     let order = |p: &[f64; 2], q: &[f64; 2]| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]));
+    let mut there = mesh.points.clone();
+    there.sort_by(order);
     if input.points.iter().any(|p| there.binary_search_by(|q| order(q, p)).is_err()) {
         return Err("loses points".to_owned());
     }
@@ -81,7 +79,7 @@ fn not_a_mesh_of(input: &Input, mesh: &Mesh) -> Result<(), String> {
     if (area - input.area).abs() > 1e-6 * input.area {
         return Err(format!("has {:.4} of the area", area / input.area));
     }
-    Ok(())
+    lost(input, mesh).map_or(Ok(()), |k| Err(format!("loses segment {k}")))
 }
 
 /// The vectors from the first corner to the others.
@@ -183,11 +181,11 @@ mod tests {
         let at = |x: f64| [[0.0, 0.0], [4.0, 0.0], [x, 3.0]];
         assert!(!is_below(at(4.0), 0.36_f64.next_down()));
         assert!(is_below(at(4.0), 0.36_f64.next_up()));
-        // Half of a right angle: the square is 1/2.
+        // Half of a right angle, whose square is 1/2: less as the last corner goes right, more as it goes left.
         let half = |x: f64| [[0.0, 0.0], [1.0, 0.0], [x, 1.0]];
         assert!(!is_below(half(1.0), 0.5));
         assert!(is_below(half(1.0_f64.next_up()), 0.5));
-        assert!(is_below(half(1.0_f64.next_down()), 0.5));
+        assert!(!is_below(half(1.0_f64.next_down()), 0.5));
     }
 
     #[test]

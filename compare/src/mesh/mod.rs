@@ -2,6 +2,7 @@
 //!
 //! Every engine gets the same points, segments and points in holes, starts from these arrays, and runs in a process of its own.
 
+mod chains;
 mod child;
 mod engines;
 mod input;
@@ -168,7 +169,7 @@ fn report(input: &Input, angle: f64, entries: &[Entry]) {
         let smallest =
             if verdict.wrong.is_some() { String::new() } else { format!("{:.3}", verdict.smallest) };
         println!(
-            "  {:9} {steiner:>9} {ratio:>6} {triangles:>9} {seconds:>9.4} {:>6.0} {bytes:>6} {smallest:>8}  {remark}",
+            "  {:9} {steiner:>9} {ratio:>6} {triangles:>9} {seconds:>9.6} {:>6.0} {bytes:>6} {smallest:>8}  {remark}",
             engine.name,
             seconds * 1e9 / triangles as f64,
         );

@@ -88,7 +88,7 @@ fn boxed(points: &[[f64; 2]]) -> [[f64; 2]; 2] {
 }
 
 /// About: within the tolerance.
-fn is_on(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
+pub fn is_on(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> bool {
     let (u, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let length = u[0] * u[0] + u[1] * u[1];
     let (along, across) = (u[0] * v[0] + u[1] * v[1], u[0] * v[1] - u[1] * v[0]);
