@@ -164,6 +164,14 @@ pub enum Error {
         /// What is wrong there.
         problem: RegionProblem,
     },
+    /// The bound that a mesh is to keep somewhere is NaN, zero or negative.
+    #[error("the size wanted at ({}, {}) is {value}; it must be positive", .at[0], .at[1])]
+    Size {
+        /// What was said.
+        value: f64,
+        /// Where.
+        at: [f64; 2],
+    },
     /// A parameter is out of range.
     #[error("{name} is {value}; it must be {range}")]
     Parameter {

@@ -239,6 +239,26 @@ impl Delaunay2 {
         self.note_walk(found.steps);
     }
 
+    /// Lets places be changed without names for a while: everything is laid out as in the plane, with room between.
+    pub(super) fn begin_bulk(&mut self) {
+        self.locator.take();
+        if self.vertex_count() <= LARGEST_SPREAD {
+            self.rearrange_now();
+        } else {
+            self.names();
+        }
+    }
+
+    /// Names what is new at these places, in their order; nothing else has changed.
+    pub(super) fn end_bulk(&mut self, new: &[Place]) -> Result<(), Error> {
+        let points: Vec<[f64; 2]> = new.iter().map(|p| self.base.points[p.index()]).collect();
+        let first = self.new_names(points.into_iter())?.index();
+        let names = self.base.mesh.names();
+        new.iter().enumerate().for_each(|(k, &p)| names.bind(VertexId::new(first + k), p));
+        self.upkeep.renew(self.base.mesh.vertex_count());
+        Ok(())
+    }
+
     /// The place of a vertex, if it can be removed.
     fn removable(&self, v: VertexId) -> Result<Place, Error> {
         let place = self.base.mesh.place(v).ok_or(Error::NoSuchVertex { vertex: v })?;

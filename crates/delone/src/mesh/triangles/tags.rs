@@ -81,6 +81,20 @@ impl Mesh2 {
     }
 }
 
+impl Mesh2 {
+    /// Takes the mark of a triangle away that keeps its corners.
+    pub(crate) fn unmark(&mut self, t: TriangleId) {
+        self.edges[4 * t.index() + 3].origin = Place::GHOST;
+    }
+
+    /// Puts a triangle into a domain; 0 is none.
+    pub(crate) fn set_domain(&mut self, t: TriangleId, domain: usize) {
+        self.is_tagged |= domain > 0;
+        let tags = self.tags(t);
+        self.set_tags(t, Tags(tags.0 & EDGES | (domain as u32) << EDGES.count_ones()));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use delone_generators::{Kind, Random};

@@ -71,14 +71,14 @@ pub struct Part2 {
 #[derive(Clone, Debug, Default)]
 pub struct Domains2 {
     /// For each triangle its part; [`NONE`] for ghosts.
-    of: Vec<u32>,
-    parts: Vec<Part2>,
+    pub(super) of: Vec<u32>,
+    pub(super) parts: Vec<Part2>,
     attributes: Vec<f64>,
     /// Pairs of regions that claim one part; the first one has it.
     rivals: Vec<[usize; 2]>,
 }
 
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 impl Domains2 {
     /// The part that a triangle is in; `None` for a ghost.
@@ -196,7 +196,7 @@ impl Constrained2 {
     }
 
     /// The edges of the hull, seen from inside.
-    fn hull_edges(&self) -> impl Iterator<Item = EdgeId> + '_ {
+    pub(super) fn hull_edges(&self) -> impl Iterator<Item = EdgeId> + '_ {
         let mesh = self.mesh();
         let spanned = self.graph.base.spanned;
         mesh.star_from(mesh.ghost_edge).filter(move |_| spanned).map(|e| mesh.twin(e.next()))

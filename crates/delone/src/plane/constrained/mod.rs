@@ -27,6 +27,7 @@ mod nearest;
 mod overlaps;
 mod patch;
 mod polygons;
+mod refined;
 mod segments;
 mod sight;
 mod split;
@@ -40,6 +41,7 @@ pub use change::SegmentEnds;
 pub use check::ConstrainedFlaw2;
 pub use domains::{Domains2, Fill, Part2, RegionSeed2, Seeds2};
 pub use polygons::{PolygonTriangles2, Polygons2};
+pub(in crate::plane) use refined::Before;
 pub use segments::{Covering2, SegmentId};
 
 use super::Delaunay2;

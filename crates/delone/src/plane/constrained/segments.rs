@@ -76,6 +76,11 @@ impl Segments {
             || self.bent.get(&s).is_some_and(|chain| chain.contains(&v))
     }
 
+    /// A segment that is there runs along these vertices from now on, ends included.
+    pub(super) fn bend(&mut self, s: SegmentId, chain: Vec<VertexId>) {
+        self.bent.insert(s, chain);
+    }
+
     pub(super) fn is_bent(&self, s: SegmentId) -> bool {
         self.bent.contains_key(&s)
     }

@@ -50,6 +50,33 @@ impl Cavity {
         self.refill::<K>(mesh, v, seed);
     }
 
+    /// Finds the triangles in conflict with a point that is no vertex yet, from one of them on; they are marked. [`Self::fill`] or
+    /// [`Self::abandon`] must follow.
+    pub(in crate::plane) fn dig<K: Kernel>(
+        &mut self,
+        mesh: &mut Mesh2,
+        sites: &Sites<'_, K>,
+        q: Site<K>,
+        seed: TriangleId,
+    ) {
+        self.find(mesh, sites, q, seed, &mut ());
+    }
+
+    /// The border of what was dug, counter-clockwise: where each edge starts, and its twin outside.
+    pub(in crate::plane) fn border(&self) -> &[BorderEdge] {
+        &self.border
+    }
+
+    /// Makes `v`, whose cavity was dug, a vertex.
+    pub(in crate::plane) fn fill<K: Kernel>(&mut self, mesh: &mut Mesh2, v: Place) {
+        self.refill::<K>(mesh, v, self.triangles[0]);
+    }
+
+    /// Leaves what was dug as it is.
+    pub(in crate::plane) fn abandon(&self, mesh: &mut Mesh2) {
+        self.triangles.iter().for_each(|&t| mesh.unmark(t));
+    }
+
     /// What the last insertion did: its new triangles, the first of which were those of the cavity but for the last
     /// two; and for each new triangle the border edge of the cavity that it stands on: where it starts, and its
     /// twin outside.

@@ -1,0 +1,139 @@
+//! A new vertex for a triangle: found by a walk, checked, inserted; or a constraint in its way is to be split first.
+//!
+//! Source: Chew, SoCG 1993; the walk is Shewchuk's (CGTA 2002): from the triangle towards the point, until a constraint is met.
+//! Circles shrink on the way, because no constraint is crossed, so it ends.
+//!
+//! Cost: the walk, a few steps, and the cavity.
+
+use delone_predicates::{Sign, orient2d};
+
+use super::mesher::{Known, Mesher};
+use super::queue::{Fault, Task};
+use super::report::Reason;
+use super::shape::Shape;
+use crate::error::Error;
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::plane::layer::insert::Spot;
+use crate::plane::layer::kernel::{NearestSites, Sites};
+
+/// What a walk meets.
+enum Met {
+    /// The triangle that the point is in.
+    Triangle(TriangleId),
+    /// A constraint that it is behind, or on.
+    Constraint(EdgeId),
+    /// A vertex at the point, or nothing that can be told for want of precision.
+    Nothing,
+}
+
+impl Mesher<'_> {
+    /// Mends a triangle: with a new vertex, by noting constraints that must be split first, or not at all.
+    pub(super) fn mend(&mut self, task: &Task) -> Result<(), Error> {
+        if self.count >= self.rules.budget {
+            self.leave(task.corners, Reason::Budget);
+            return Ok(());
+        }
+        let Some(shape) = Shape::of(self.layer, task.edge) else { return Ok(()) };
+        let reach = if task.fault() == Fault::Angle { self.rules.reach } else { f64::INFINITY };
+        let centre = shape.centre(reach);
+        let q = if centre.iter().all(|x| x.is_finite()) { centre } else { shape.centre(self.rules.reach) };
+        match self.walk(shape.shortest, q) {
+            Met::Triangle(t) => self.place(task, q, t),
+            Met::Constraint(e) => {
+                self.split_first(task, &[e]);
+                Ok(())
+            }
+            Met::Nothing => {
+                self.leave(task.corners, Reason::Precision);
+                Ok(())
+            }
+        }
+    }
+
+    /// From a triangle, by an edge that `q` is not behind, to what is in the way.
+    fn walk(&self, start: EdgeId, q: [f64; 2]) -> Met {
+        let mesh = &self.layer.mesh;
+        let side = |e: EdgeId| orient2d(self.point(mesh.tail(e)), self.point(mesh.head(e)), q);
+        if !q.iter().all(|x| x.is_finite()) || side(start).is_negative() {
+            return Met::Nothing;
+        }
+        let mut from = start;
+        'walk: loop {
+            for e in [from.next(), from.previous()] {
+                if side(e).is_negative() {
+                    if mesh.is_fixed(e) {
+                        return Met::Constraint(e);
+                    }
+                    from = mesh.twin(e);
+                    continue 'walk;
+                }
+            }
+            let t = from.triangle();
+            if mesh.places(t).iter().any(|v| self.point(*v) == q) {
+                return Met::Nothing;
+            }
+            let on =
+                [0, 1, 2].map(|k| t.edge(k)).into_iter().find(|&e| mesh.is_fixed(e) && side(e) == Sign::Zero);
+            return on.map_or(Met::Triangle(t), Met::Constraint);
+        }
+    }
+
+    /// Notes constraints to be split, and the triangle to be looked at again then.
+    fn split_first(&mut self, task: &Task, constraints: &[EdgeId]) {
+        let refusals: Vec<Option<Reason>> = constraints.iter().map(|&e| self.refusal(e)).collect();
+        if let Some(reason) = refusals.iter().copied().min().flatten() {
+            self.leave(task.corners, reason);
+            return;
+        }
+        for (&e, refusal) in constraints.iter().zip(refusals) {
+            if refusal.is_none() {
+                self.note_constraint(e);
+            }
+        }
+        self.queue.push(*task, &self.layer.points);
+    }
+
+    /// Makes a point in a triangle a vertex, unless it is too near to constraints or to others.
+    fn place(&mut self, task: &Task, q: [f64; 2], t: TriangleId) -> Result<(), Error> {
+        let mut cavity = std::mem::take(&mut self.layer.cavity);
+        let sites = Sites { points: &self.layer.points, weights: &self.layer.weights };
+        cavity.dig::<NearestSites>(&mut self.layer.mesh, &sites, (q, ()), t);
+        let mesh = &self.layer.mesh;
+        let near: Vec<EdgeId> = cavity
+            .border()
+            .iter()
+            .map(|edge| edge.1)
+            .filter(|&e| mesh.is_fixed(e))
+            .filter(|&e| self.is_too_near(q, [mesh.tail(e), mesh.head(e)].map(|v| self.point(v))))
+            .collect();
+        self.layer.cavity = cavity;
+        let (nearest, square) = self.nearest(q);
+        let scale = self.known[nearest.index()].scale;
+        let refused = !near.is_empty() || Self::is_cascade(square, scale);
+        if refused {
+            self.abandon();
+            if near.is_empty() {
+                self.leave(task.corners, Reason::Cascade);
+            } else {
+                self.split_first(task, &near);
+            }
+            return Ok(());
+        }
+        let v = self.layer.place_for(Spot::Triangle(t), q);
+        self.fill(v);
+        self.note_vertex(v, Known { on: [Place::GHOST; 2], scale });
+        self.look_around(v)
+    }
+
+    /// Leaves the cavity that was dug as it is.
+    pub(super) fn abandon(&mut self) {
+        let layer = &mut *self.layer;
+        layer.cavity.abandon(&mut layer.mesh);
+    }
+
+    /// Fills the cavity that was dug.
+    pub(super) fn fill(&mut self, v: Place) {
+        let layer = &mut *self.layer;
+        layer.cavity.fill::<NearestSites>(&mut layer.mesh, v);
+    }
+}

@@ -1,0 +1,294 @@
+//! The state of a refinement, and its loop: the first task, until there is none.
+//!
+//! *It always ends.* Every vertex has a scale: of an input vertex the distance to the nearest that it sees; of a new one the
+//! scale of its nearest neighbour, or its distance from an input vertex or from the other side of a small input angle, where that
+//! is less. A vertex nearer to its nearest neighbour than 1/64 of that one's scale is refused. So scales come from a finite set,
+//! and what is accepted keeps a distance: inside of a triangle of the first triangulation all vertices see each other, hence
+//! there are finitely many. Vertices are removed only where a constraint is split, and there are finitely many of these splits.
+
+use std::collections::BTreeMap;
+
+use super::queue::{Fault, Queue, Task};
+use super::report::Reason;
+use super::rules::Rules;
+use super::shape::{Shape, squared, squared_obtuseness};
+use crate::error::Error;
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::plane::layer::Layer;
+
+/// A vertex nearer than this part of a scale is refused.
+const PART: f64 = 1.0 / 64.0;
+
+/// What is known of a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// The ends of the input constraint that it lies on; twice itself for an input vertex, the ghost for a free one.
+    pub(super) on: [Place; 2],
+    /// See the module.
+    pub(super) scale: f64,
+}
+
+impl Known {
+    pub(super) fn is_free(&self) -> bool {
+        self.on[0].is_ghost()
+    }
+
+    pub(super) fn is_input(&self) -> bool {
+        self.on[0] == self.on[1] && !self.is_free()
+    }
+}
+
+/// See the module.
+#[derive(Debug)]
+pub(super) struct Mesher<'a> {
+    pub(super) layer: &'a mut Layer,
+    pub(super) rules: &'a Rules<'a>,
+    pub(super) queue: Queue,
+    /// By place.
+    pub(super) known: Vec<Known>,
+    /// New vertices in the order in which they came, those that went since and were others' places too.
+    pub(super) born: Vec<Place>,
+    /// The number of new vertices.
+    pub(super) count: usize,
+    /// Constraints that cannot be split.
+    pub(super) refused: BTreeMap<[Place; 2], Reason>,
+    /// Triangles that cannot be mended.
+    pub(super) left: Vec<([Place; 3], Reason)>,
+}
+
+impl<'a> Mesher<'a> {
+    /// For triangles in domains, all of whose borders are fixed.
+    pub(super) fn new(layer: &'a mut Layer, rules: &'a Rules<'a>, queue: Queue) -> Self {
+        let scale = |p: Place| {
+            let own = layer.points[p.index()];
+            let others = layer.mesh.spokes(p).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
+            others.map(|w| squared(own, layer.points[w.index()])).fold(f64::INFINITY, f64::min).sqrt()
+        };
+        let known = |i: usize| {
+            let p = Place::new(i);
+            Known { on: [p; 2], scale: if layer.mesh.is_vertex(p) { scale(p) } else { 0.0 } }
+        };
+        let known = (0..layer.points.len()).map(known).collect();
+        Self {
+            layer,
+            rules,
+            queue,
+            known,
+            born: Vec::new(),
+            count: 0,
+            refused: BTreeMap::new(),
+            left: Vec::new(),
+        }
+    }
+
+    /// Mends all that can be mended.
+    pub(super) fn run(&mut self) -> Result<(), Error> {
+        let constraints: Vec<EdgeId> = {
+            let mesh = &self.layer.mesh;
+            mesh.undirected_edges().filter(|&e| mesh.is_fixed(e)).collect()
+        };
+        constraints.into_iter().for_each(|e| self.look_at_constraint(e));
+        for t in self.layer.mesh.triangles().collect::<Vec<_>>() {
+            self.look_at(t.edge(0))?;
+        }
+        while let Some(task) = self.queue.pop(&self.layer.points) {
+            if task.fault() == Fault::Constraint {
+                if let Some(e) = self.constraint(&task) {
+                    self.split(e)?;
+                }
+                continue;
+            }
+            let is_alive = self.is_alive(&task) && self.task_of(task.edge)?.is_some_and(|now| now.is(&task));
+            if is_alive {
+                self.mend(&task)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the triangle of a task is still there.
+    fn is_alive(&self, task: &Task) -> bool {
+        let (mesh, e) = (&self.layer.mesh, task.edge);
+        mesh.is_triangle(e.triangle()) && [mesh.tail(e), mesh.head(e), mesh.tip(e)] == task.corners
+    }
+
+    /// The constraint of a task, if it was not split since.
+    fn constraint(&self, task: &Task) -> Option<EdgeId> {
+        let (mesh, [a, b, _]) = (&self.layer.mesh, task.corners);
+        let is_there = |&e: &EdgeId| {
+            mesh.is_triangle(e.triangle()) && mesh.tail(e) == a && mesh.head(e) == b && mesh.is_fixed(e)
+        };
+        // Its triangle may be another one by now.
+        Some(task.edge).filter(is_there).or_else(|| mesh.edge_between(a, b).filter(is_there))
+    }
+
+    /// Whether a triangle is in a domain.
+    #[inline]
+    pub(super) fn is_inside(&self, t: TriangleId) -> bool {
+        self.rules.is_inside(self.layer.mesh.domain(t))
+    }
+
+    #[inline]
+    pub(super) fn point(&self, p: Place) -> [f64; 2] {
+        self.layer.points[p.index()]
+    }
+
+    /// The ends of an edge, the lexicographically lesser first: so it is the same from both sides.
+    pub(super) fn ends(&self, e: EdgeId) -> [Place; 2] {
+        let mesh = &self.layer.mesh;
+        let (a, b) = (mesh.tail(e), mesh.head(e));
+        let order = delone_predicates::lexicographic(self.point(a), self.point(b));
+        if order.is_lt() { [a, b] } else { [b, a] }
+    }
+
+    /// Notes a triangle if something is wrong with it.
+    #[inline]
+    pub(super) fn look_at(&mut self, e: EdgeId) -> Result<(), Error> {
+        if let Some(task) = self.task_of(e)? {
+            self.queue.push(task, &self.layer.points);
+        }
+        Ok(())
+    }
+
+    /// What is wrong with the triangle of an edge.
+    #[inline]
+    fn task_of(&self, e: EdgeId) -> Result<Option<Task>, Error> {
+        let mesh = &self.layer.mesh;
+        let domain = mesh.domain(e.triangle());
+        if !self.rules.is_inside(domain) {
+            return Ok(None);
+        }
+        let Some(shape) = Shape::of(self.layer, e) else { return Ok(None) };
+        let e = shape.shortest;
+        let corners = [mesh.tail(e), mesh.head(e), mesh.tip(e)];
+        let fault = if shape.is_sharp(self.rules.squared_cosine) && !self.is_forced(&corners) {
+            Fault::Angle
+        } else if self.rules.is_large(&shape, domain)? {
+            Fault::Size
+        } else {
+            return Ok(None);
+        };
+        let task = self.queue.task(fault, shape.squares[0], shape.points[0], e, corners);
+        Ok(Some(task))
+    }
+
+    /// Whether the shortest edge of a triangle joins two constraints that meet, at the same distance from where they do: its angle
+    /// is that of the input (Miller, Pav & Walkington, "When and why Ruppert's algorithm works", IMR 2003).
+    pub(super) fn is_forced(&self, corners: &[Place; 3]) -> bool {
+        let [p, q] = [corners[0], corners[1]].map(|v| self.known[v.index()]);
+        if p.is_free() || q.is_free() || p.is_input() || q.is_input() {
+            return false;
+        }
+        let Some(o) = shared(p.on, q.on) else { return false };
+        let [p, q] = [corners[0], corners[1]].map(|v| squared(self.point(v), self.point(o)));
+        (0.999 * p..1.001 * p).contains(&q)
+    }
+
+    /// Notes a constraint if a vertex is too near to it, or it is too long.
+    pub(super) fn look_at_constraint(&mut self, e: EdgeId) {
+        if self.is_encroached(e) {
+            self.note_constraint(e);
+        }
+    }
+
+    pub(super) fn note_constraint(&mut self, e: EdgeId) {
+        let [a, b] = self.ends(e);
+        let (p, q) = (self.point(a), self.point(b));
+        let e = if self.layer.mesh.tail(e) == a { e } else { self.layer.mesh.twin(e) };
+        let task = self.queue.task(Fault::Constraint, squared(p, q), p, e, [a, b, Place::GHOST]);
+        self.queue.push(task, &self.layer.points);
+    }
+
+    fn is_encroached(&self, e: EdgeId) -> bool {
+        let mesh = &self.layer.mesh;
+        let sides = [e, mesh.twin(e)].into_iter().filter(|e| self.is_inside(e.triangle()));
+        let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+        let mut seen = false;
+        for side in sides {
+            seen = true;
+            if self.is_too_near(self.point(mesh.tip(side)), ends) {
+                return true;
+            }
+        }
+        seen && squared(ends[0], ends[1]) > self.rules.longest_constraint
+    }
+
+    /// Whether a point is too near to a constraint: in its diametral circle, or in its diametral lens, where sides have half of
+    /// the smallest angle that there is to be.
+    #[inline]
+    pub(super) fn is_too_near(&self, q: [f64; 2], ends: [[f64; 2]; 2]) -> bool {
+        if self.rules.conforming {
+            return delone_predicates::angle(q, ends[0], ends[1]).is_negative();
+        }
+        squared_obtuseness(q, ends).is_some_and(|square| square >= self.rules.lens)
+    }
+
+    /// Why a constraint cannot be split, if it cannot.
+    pub(super) fn refusal(&self, e: EdgeId) -> Option<Reason> {
+        let mesh = &self.layer.mesh;
+        let inside = [e, mesh.twin(e)].map(|e| self.is_inside(e.triangle()));
+        if self.rules.keeps(inside[0] && inside[1]) {
+            return Some(Reason::Kept);
+        }
+        if self.refused.is_empty() {
+            return None;
+        }
+        self.refused.get(&self.ends(e)).copied()
+    }
+
+    /// Leaves a triangle as it is.
+    pub(super) fn leave(&mut self, corners: [Place; 3], reason: Reason) {
+        self.left.push((corners, reason));
+    }
+
+    /// The vertex nearest to a point among those on the border of the cavity that was dug, and the square of its distance; of
+    /// several the one of least scale.
+    pub(super) fn nearest(&self, q: [f64; 2]) -> (Place, f64) {
+        let border = self.layer.cavity.border().iter().map(|edge| edge.0).filter(|v| !v.is_ghost());
+        let mut best = (Place::GHOST, f64::INFINITY);
+        for v in border {
+            let square = squared(q, self.point(v));
+            let scale = |v: Place| self.known[v.index()].scale;
+            if square < best.1 || (square == best.1 && scale(v) < scale(best.0)) {
+                best = (v, square);
+            }
+        }
+        best
+    }
+
+    /// Whether a vertex may be so near to another one of some scale.
+    pub(super) fn is_cascade(square: f64, scale: f64) -> bool {
+        square < (PART * scale) * (PART * scale)
+    }
+
+    /// The point of a new vertex is at this place.
+    pub(super) fn note_vertex(&mut self, place: Place, known: Known) {
+        if self.known.len() <= place.index() {
+            let unused = Known { on: [Place::GHOST; 2], scale: 0.0 };
+            self.known.resize(place.index() + 1, unused);
+        }
+        self.known[place.index()] = known;
+        self.born.push(place);
+        self.count += 1;
+    }
+
+    /// Looks at what is new around a vertex.
+    pub(super) fn look_around(&mut self, v: Place) -> Result<(), Error> {
+        let first = self.layer.mesh.incident[v.index()];
+        let mut spoke = first;
+        loop {
+            self.look_at(spoke)?;
+            spoke = self.layer.mesh.spin(spoke);
+            if spoke == first {
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// The end that two constraints share, if they share one and are not the same.
+pub(super) fn shared(p: [Place; 2], q: [Place; 2]) -> Option<Place> {
+    let common = p.into_iter().find(|v| q.contains(v))?;
+    let is_same = p == q || p == [q[1], q[0]];
+    (!is_same).then_some(common)
+}

@@ -1,0 +1,167 @@
+//! What is to be mended, in an order that is a function of the geometry: so the mesh is one of the input, whatever the order of
+//! the points, and whatever memory looks like.
+//!
+//! Constraints come first, then triangles with a small angle, then those that are too large. Among equals short edges come
+//! first, in classes a quarter of an octave wide (Shewchuk, CGTA 2002, has such classes); inside of a class what is near in the
+//! plane is near in time, along a Morton curve, because each step costs cache misses otherwise. What is left of ties is decided
+//! by the corners.
+//!
+//! Cost: O(log n); 24 bytes an entry.
+
+use std::cmp::Ordering;
+
+use delone_predicates::lexicographic;
+
+use crate::ids::{EdgeId, Place};
+use crate::points::Bounds;
+
+/// What is wrong: what comes first is mended first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Fault {
+    /// A constraint with a vertex too near to it, or too long.
+    Constraint,
+    /// A triangle with a small angle.
+    Angle,
+    /// A triangle that is too large.
+    Size,
+}
+
+/// Something to be mended: a constraint, the third corner the ghost, or a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Task {
+    key: u64,
+    /// The constraint, or the shortest edge of the triangle.
+    pub(super) edge: EdgeId,
+    /// Its corners, from the origin of the edge on.
+    pub(super) corners: [Place; 3],
+}
+
+impl Task {
+    /// What is wrong.
+    pub(super) fn fault(&self) -> Fault {
+        match self.key >> CLASS {
+            0 => Fault::Constraint,
+            1 => Fault::Angle,
+            _ => Fault::Size,
+        }
+    }
+
+    /// Whether two are the same, at the same time.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        self.key == other.key && self.corners == other.corners
+    }
+}
+
+/// Bits of a key, from the top: two for the fault, 11 of exponent and one of mantissa for a squared length, and the rest for a
+/// place.
+const CLASS: u32 = 62;
+const LENGTH: u32 = 50;
+const AXIS: u32 = 25;
+
+/// See the module.
+#[derive(Clone, Debug)]
+pub(super) struct Queue {
+    heap: Vec<Task>,
+    low: [f64; 2],
+    scale: [f64; 2],
+}
+
+impl Queue {
+    /// For tasks inside of a box.
+    pub(super) fn new(bounds: &Bounds<2>) -> Self {
+        let cells = f64::from(1 << AXIS) - 1.0;
+        let scale = [0, 1].map(|k| {
+            let scale = cells / (bounds.high[k] - bounds.low[k]);
+            if scale.is_finite() { scale } else { 0.0 }
+        });
+        Self { heap: Vec::new(), low: bounds.low, scale }
+    }
+
+    /// A task at a place, with the square of a length.
+    #[inline]
+    pub(super) fn task(
+        &self,
+        fault: Fault,
+        squared: f64,
+        at: [f64; 2],
+        edge: EdgeId,
+        corners: [Place; 3],
+    ) -> Task {
+        let [x, y] = [0, 1].map(|k| spread(((at[k] - self.low[k]) * self.scale[k]) as u32));
+        let length = squared.to_bits() >> 51;
+        let key = (fault as u64) << CLASS | length << LENGTH | x << 1 | y;
+        Task { key, edge, corners }
+    }
+
+    /// Adds a task.
+    #[inline]
+    pub(super) fn push(&mut self, task: Task, points: &[[f64; 2]]) {
+        let mut at = self.heap.len();
+        self.heap.push(task);
+        while at > 0 {
+            let parent = (at - 1) / ARITY;
+            if !is_before(&task, &self.heap[parent], points) {
+                break;
+            }
+            self.heap[at] = self.heap[parent];
+            at = parent;
+        }
+        self.heap[at] = task;
+    }
+
+    /// Takes the first task.
+    #[inline]
+    pub(super) fn pop(&mut self, points: &[[f64; 2]]) -> Option<Task> {
+        let last = self.heap.pop()?;
+        let Some(&first) = self.heap.first() else { return Some(last) };
+        let count = self.heap.len();
+        let mut at = 0;
+        loop {
+            let child = ARITY * at + 1;
+            if child >= count {
+                break;
+            }
+            let mut least = child;
+            for other in child + 1..count.min(child + ARITY) {
+                if is_before(&self.heap[other], &self.heap[least], points) {
+                    least = other;
+                }
+            }
+            if !is_before(&self.heap[least], &last, points) {
+                break;
+            }
+            self.heap[at] = self.heap[least];
+            at = least;
+        }
+        self.heap[at] = last;
+        Some(first)
+    }
+}
+
+/// Children of a node of the heap: four are on one or two lines of the cache.
+const ARITY: usize = 4;
+
+#[inline]
+fn is_before(one: &Task, other: &Task, points: &[[f64; 2]]) -> bool {
+    one.key < other.key || (one.key == other.key && by_corners(one, other, points).is_lt())
+}
+
+#[cold]
+fn by_corners(one: &Task, other: &Task, points: &[[f64; 2]]) -> Ordering {
+    let pairs = one.corners.iter().zip(&other.corners).filter(|(v, w)| !v.is_ghost() && !w.is_ghost());
+    let orders = pairs.map(|(v, w)| lexicographic(points[v.index()], points[w.index()]));
+    orders.fold(Ordering::Equal, Ordering::then)
+}
+
+/// The bits of a number with a zero before each.
+#[inline]
+fn spread(x: u32) -> u64 {
+    let steps = [
+        (16, 0x0000_ffff_0000_ffff),
+        (8, 0x00ff_00ff_00ff_00ff),
+        (4, 0x0f0f_0f0f_0f0f_0f0f),
+        (2, 0x3333_3333_3333_3333),
+        (1, 0x5555_5555_5555_5555_u64),
+    ];
+    steps.into_iter().fold(u64::from(x), |x, (shift, mask)| (x | x << shift) & mask)
+}

@@ -1,0 +1,241 @@
+//! A constraint is split: where, whether that is possible, and what goes before.
+//!
+//! In the middle; but where it meets another constraint in its triangle, on a circle around that end whose radius is a power of
+//! two, so that the new vertices on both do not come nearer to each other's constraint (Ruppert, "A Delaunay refinement algorithm
+//! for quality 2-dimensional mesh generation", J. Algorithms 1995; Shewchuk, CGTA 2002). Free vertices that it sees inside of its
+//! diametral circle are removed before (Chew, SoCG 1993).
+//!
+//! A point is rounded, and may be beside the line by a unit in the last place. It must be strictly inside of the quadrilateral of
+//! both triangles: so both halves are clear of every vertex, and everything stays positive.
+
+use delone_predicates::{lexicographic, orient2d};
+
+use super::mesher::{Known, Mesher, shared};
+use super::report::Reason;
+use super::shape::{squared, squared_height};
+use crate::error::Error;
+use crate::ids::{EdgeId, Place, TriangleId};
+use crate::plane::layer::insert::Spot;
+use crate::plane::layer::kernel::{NearestSites, Sites};
+
+impl Mesher<'_> {
+    /// Splits a constraint, given from its lesser end on, unless that is refused.
+    pub(super) fn split(&mut self, e: EdgeId) -> Result<(), Error> {
+        let e = if self.ends(e)[0] == self.layer.mesh.tail(e) { e } else { self.layer.mesh.twin(e) };
+        if self.refusal(e).is_some() {
+            return Ok(());
+        }
+        if self.count >= self.rules.budget {
+            self.refuse(e, Reason::Budget);
+            return Ok(());
+        }
+        let meets = self.meets(e);
+        let mut e = e;
+        if !self.rules.conforming && meets == [false; 2] {
+            e = self.clear(e)?;
+        }
+        let wanted = self.where_to_split(e, meets);
+        let Some(q) = around(wanted).find(|&q| self.is_clear(e, q)) else {
+            self.refuse(e, Reason::Precision);
+            return Ok(());
+        };
+        self.insert_on(e, q)
+    }
+
+    fn refuse(&mut self, e: EdgeId, reason: Reason) {
+        self.refused.insert(self.ends(e), reason);
+    }
+
+    /// Whether another constraint meets a constraint at either end in one of its triangles.
+    fn meets(&self, e: EdgeId) -> [bool; 2] {
+        let mesh = &self.layer.mesh;
+        let f = mesh.twin(e);
+        let is_fixed = |side: EdgeId| self.is_inside(side.triangle()) && mesh.is_fixed(side);
+        [is_fixed(e.previous()) || is_fixed(f.next()), is_fixed(e.next()) || is_fixed(f.previous())]
+    }
+
+    /// Removes the free vertices that a constraint sees inside of its diametral circle. Gives the constraint, whose triangles may
+    /// be others then.
+    fn clear(&mut self, e: EdgeId) -> Result<EdgeId, Error> {
+        let mut side = e;
+        for _ in 0..2 {
+            loop {
+                let mesh = &self.layer.mesh;
+                let tip = mesh.tip(side);
+                let ends = [mesh.tail(side), mesh.head(side)];
+                if tip.is_ghost() || !self.is_inside(side.triangle()) || !self.known[tip.index()].is_free() {
+                    break;
+                }
+                let [a, b] = ends.map(|v| self.point(v));
+                if !delone_predicates::angle(self.point(tip), a, b).is_negative() {
+                    break;
+                }
+                let outside = mesh.twin(side);
+                self.layer.remove(tip, &mut ());
+                self.count -= 1;
+                side = self.layer.mesh.twin(outside);
+                let hole = std::mem::take(&mut self.layer.hole);
+                let looked = hole.last().0.iter().try_for_each(|t| self.look_at(t.edge(0)));
+                self.layer.hole = hole;
+                looked?;
+            }
+            side = self.layer.mesh.twin(side);
+        }
+        Ok(side)
+    }
+
+    /// Where a constraint is best split.
+    fn where_to_split(&self, e: EdgeId, meets: [bool; 2]) -> [f64; 2] {
+        let mesh = &self.layer.mesh;
+        let [a, b] = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+        if meets[0] == meets[1] {
+            return [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
+        }
+        let length = squared(a, b).sqrt();
+        let part = shell(length) / length;
+        let (from, to) = if meets[0] { (a, b) } else { (b, a) };
+        [0, 1].map(|k| from[k] + part * (to[k] - from[k]))
+    }
+
+    /// Whether a point can split a constraint.
+    fn is_clear(&self, e: EdgeId, q: [f64; 2]) -> bool {
+        let mesh = &self.layer.mesh;
+        let f = mesh.twin(e);
+        let is_strict = |[a, b, c]: [[f64; 2]; 3]| orient2d(a, b, c).is_positive();
+        let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+        let is_between = |k: usize| q[k] >= ends[0][k].min(ends[1][k]) && q[k] <= ends[0][k].max(ends[1][k]);
+        let sides = [e.next(), e.previous(), f.next(), f.previous()];
+        let inner = sides.into_iter().filter(|&side| !mesh.is_ghost(side.triangle()));
+        is_between(0)
+            && is_between(1)
+            && !ends.contains(&q)
+            && inner
+                .into_iter()
+                .all(|side| is_strict([self.point(mesh.tail(side)), self.point(mesh.head(side)), q]))
+    }
+
+    /// Makes a point the vertex that splits a constraint, unless it is too near to others.
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> Result<(), Error> {
+        let mesh = &mut self.layer.mesh;
+        let ends = [mesh.tail(e), mesh.head(e)];
+        let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
+        let tips = [e, mesh.twin(e)].map(|e| mesh.tip(e));
+        let seed = self.triangle_of(e, q);
+        let layer = &mut *self.layer;
+        layer.mesh.set_fixed(e, false);
+        let sites = Sites { points: &layer.points, weights: &layer.weights };
+        layer.cavity.dig::<NearestSites>(&mut layer.mesh, &sites, (q, ()), seed);
+        let on = self.input_of(ends);
+        let (nearest, square) = self.nearest(q);
+        let scale = self.scale_on(on, nearest, square, q);
+        if Self::is_cascade(square, scale) {
+            self.abandon();
+            self.layer.mesh.set_fixed(e, true);
+            self.refuse(e, Reason::Cascade);
+            return Ok(());
+        }
+        let v = self.layer.place_for(Spot::Triangle(seed), q);
+        self.fill(v);
+        self.note_vertex(v, Known { on, scale });
+        self.known[nearest.index()].scale = self.known[nearest.index()].scale.min(scale);
+        debug_assert!(tips.iter().all(|tip| tip.is_ghost() || self.layer.mesh.is_vertex(*tip)));
+        self.part(v, ends, domains);
+        self.look_around(v)?;
+        self.look_at_constraints_around(v);
+        Ok(())
+    }
+
+    /// A triangle that the point beside an edge is in, or beyond the hull edge of.
+    fn triangle_of(&self, e: EdgeId, q: [f64; 2]) -> TriangleId {
+        let mesh = &self.layer.mesh;
+        let side = orient2d(self.point(mesh.tail(e)), self.point(mesh.head(e)), q);
+        let (left, right) = (e.triangle(), mesh.twin(e).triangle());
+        if side.is_positive() || (side.is_zero() && !mesh.is_ghost(left)) { left } else { right }
+    }
+
+    /// The input constraint that an edge with these ends is of.
+    fn input_of(&self, ends: [Place; 2]) -> [Place; 2] {
+        let known = ends.map(|v| self.known[v.index()]);
+        known.into_iter().find(|known| !known.is_input()).map_or(ends, |known| known.on)
+    }
+
+    /// The scale of a new vertex on an input constraint; see `mesher`.
+    fn scale_on(&self, on: [Place; 2], nearest: Place, square: f64, q: [f64; 2]) -> f64 {
+        let known = self.known[nearest.index()];
+        if on.contains(&nearest) || known.is_free() {
+            return known.scale;
+        }
+        let is_feature = if known.is_input() {
+            true
+        } else {
+            // Beside a small input angle, but not at its very tip.
+            shared(known.on, on).is_some_and(|o| {
+                let apart = squared(q, self.point(o));
+                !Self::is_cascade(apart, self.known[o.index()].scale)
+            })
+        };
+        if !is_feature {
+            return known.scale;
+        }
+        let height = squared_height(self.point(nearest), on.map(|v| self.point(v)));
+        known.scale.min(height.min(square).sqrt())
+    }
+
+    /// Makes both halves of a constraint with a new vertex constraints, and puts what is on either side into its domain.
+    fn part(&mut self, v: Place, ends: [Place; 2], domains: [usize; 2]) {
+        let mesh = &mut self.layer.mesh;
+        let spokes: Vec<EdgeId> = mesh.spokes(v).collect();
+        let towards = |end: Place| spokes.iter().position(|&e| mesh.head(e) == end);
+        let (Some(to_a), Some(to_b)) = (towards(ends[0]), towards(ends[1])) else {
+            debug_assert!(false, "a new vertex sees both ends");
+            return;
+        };
+        let count = spokes.len();
+        // From the second end counter-clockwise to the first is the left side.
+        let left = (to_a + count - to_b) % count;
+        for k in 0..count {
+            let t = spokes[(to_b + k) % count].triangle();
+            mesh.set_domain(t, if mesh.is_ghost(t) { 0 } else { domains[usize::from(k >= left)] });
+        }
+        mesh.set_fixed(spokes[to_a], true);
+        mesh.set_fixed(spokes[to_b], true);
+    }
+
+    /// Looks at the constraints that end at a new vertex, or that it may be too near to.
+    fn look_at_constraints_around(&mut self, v: Place) {
+        let first = self.layer.mesh.incident[v.index()];
+        let mut spoke = first;
+        loop {
+            for e in [spoke, spoke.next()] {
+                if self.layer.mesh.is_fixed(e) {
+                    self.look_at_constraint(e);
+                }
+            }
+            spoke = self.layer.mesh.spin(spoke);
+            if spoke == first {
+                return;
+            }
+        }
+    }
+}
+
+/// The power of two that splits a length most evenly.
+fn shell(length: f64) -> f64 {
+    let mut power = 2f64.powi(length.log2().floor() as i32);
+    while length > 3.0 * power {
+        power *= 2.0;
+    }
+    while length < 1.5 * power {
+        power *= 0.5;
+    }
+    power
+}
+
+/// A point, and its neighbours among the numbers, in lexicographic order.
+fn around(q: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+    let near = |x: f64| [x.next_down(), x, x.next_up()];
+    let mut others: Vec<[f64; 2]> = near(q[0]).into_iter().flat_map(|x| near(q[1]).map(|y| [x, y])).collect();
+    others.retain(|&p| p != q);
+    others.sort_by(|&p, &r| lexicographic(p, r));
+    std::iter::once(q).chain(others)
+}

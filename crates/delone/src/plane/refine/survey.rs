@@ -1,0 +1,57 @@
+//! What came out of a refinement, measured over all triangles.
+//!
+//! Cost: O(1) a triangle.
+
+use std::collections::BTreeMap;
+
+use super::report::{BIN, Reason, RefinementReport2, Unrefined2};
+use super::rules::Rules;
+use super::shape::Shape;
+use crate::ids::Place;
+use crate::plane::layer::Layer;
+
+/// Measures what is inside. `left` says why triangles were left, by their corners from the shortest edge on.
+pub(super) fn report(
+    layer: &Layer,
+    rules: &Rules,
+    [inside, on_constraints]: [usize; 2],
+    left: &[([Place; 3], Reason)],
+) -> RefinementReport2 {
+    let mut report = RefinementReport2 { inside, on_constraints, ..RefinementReport2::default() };
+    let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
+    // Cotangents fall as angles grow: so these are bounds, and the smallest angle has the largest.
+    let bounds: Vec<f64> = (1..180 / BIN).map(|k| 1.0 / ((BIN * k) as f64).to_radians().tan()).collect();
+    let bin = |cotangent: f64| bounds.partition_point(|&bound| cotangent <= bound);
+    let (mut largest, mut smallest) = (f64::NEG_INFINITY, f64::INFINITY);
+    for t in layer.mesh.triangles() {
+        let domain = layer.mesh.domain(t);
+        if !rules.is_inside(domain) {
+            continue;
+        }
+        report.triangles += 1;
+        let Some(shape) = Shape::of(layer, t.edge(0)) else {
+            report.left.push(Unrefined2 { triangle: t, reason: Reason::Precision });
+            continue;
+        };
+        let cotangents = shape.cotangents();
+        for cotangent in cotangents {
+            report.angles[bin(cotangent)] += 1;
+            largest = largest.max(cotangent);
+            smallest = smallest.min(cotangent);
+        }
+        let sharpest = cotangents.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        report.smallest_angles[bin(sharpest).min(60 / BIN - 1)] += 1;
+        let is_sharp = shape.is_sharp(rules.squared_cosine);
+        if is_sharp || rules.is_large(&shape, domain).unwrap_or(true) {
+            let e = shape.shortest;
+            let corners = [layer.mesh.tail(e), layer.mesh.head(e), layer.mesh.tip(e)];
+            let reason = why.get(&corners).copied().unwrap_or(Reason::InputAngle);
+            report.left.push(Unrefined2 { triangle: t, reason });
+        }
+    }
+    if report.triangles > 0 {
+        let degrees = |cotangent: f64| 1f64.atan2(cotangent).to_degrees();
+        (report.smallest_angle, report.largest_angle) = (degrees(largest), degrees(smallest));
+    }
+    report
+}
