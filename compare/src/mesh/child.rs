@@ -1,8 +1,8 @@
 //! One measurement in a process of its own: peers crash, some never end, and peak memory is a process's.
 //!
 //! The folder that the child works in has the input as arrays: `points.npy`, `segments.npy`, `holes.npy`. It prints seconds,
-//! bytes of peak memory above the input, vertices and triangles, or why there is nothing; and leaves `vertices.npy` and
-//! `triangles.npy` if it should.
+//! bytes of peak memory above the input, vertices and triangles, and how many of these it says are not refined if it says so;
+//! or why there is nothing. It leaves `vertices.npy` and `triangles.npy` if it should.
 
 use std::env;
 use std::ffi::OsStr;
@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use delone_io::{Format, ReadOptions};
 
-use super::engines::{ENGINES, Engine, Refined, Task};
+use super::engines::{ENGINES, Engine, Refined, Run, Task};
 use super::input::Input;
 use super::judge::Mesh;
 use crate::memory::{CHILD, above};
@@ -27,6 +27,8 @@ pub struct Sample {
     pub bytes: f64,
     pub vertices: usize,
     pub triangles: usize,
+    /// The triangles that the engine says it could not refine.
+    pub left: Option<usize>,
 }
 
 /// Seconds that runs of a small input are repeated for, in one child.
@@ -106,8 +108,9 @@ impl Folder {
 
 fn sample(said: &str) -> Option<Sample> {
     let words: Vec<f64> = said.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
-    let &[seconds, bytes, vertices, triangles] = words.as_slice() else { return None };
-    Some(Sample { seconds, bytes, vertices: vertices as usize, triangles: triangles as usize })
+    let (&[seconds, bytes, vertices, triangles], left) = words.split_first_chunk()?;
+    let left = left.first().map(|&left| left as usize);
+    Some(Sample { seconds, bytes, vertices: vertices as usize, triangles: triangles as usize, left })
 }
 
 fn wait(child: &mut Child, limit: Duration) -> Result<ExitStatus, String> {
@@ -145,12 +148,13 @@ pub fn child(task: &str) -> Option<()> {
     let task = read_task(Path::new("."), angle.parse().ok()?, is_hull.parse().ok()?).ok()?;
     let said = match crate::engines::POOLS[0].install(|| measured(run, &task)) {
         Err(why) => why,
-        Ok((seconds, bytes, mesh)) => {
+        Ok((Sample { seconds, bytes, vertices, triangles, left }, mesh)) => {
             if writes {
                 write_points(Path::new("."), "vertices.npy", &mesh.points).ok()?;
                 write_rows(Path::new("."), "triangles.npy", &mesh.triangles).ok()?;
             }
-            format!("{seconds} {bytes} {} {}", mesh.points.len(), mesh.triangles.len())
+            let left = left.map_or(String::new(), |left| format!(" {left}"));
+            format!("{seconds} {bytes} {vertices} {triangles}{left}")
         }
     };
     println!("{said}");
@@ -158,16 +162,17 @@ pub fn child(task: &str) -> Option<()> {
 }
 
 /// Memory is that of the first run, the median of the times counts.
-fn measured(run: fn(&Task) -> Result<Refined, String>, task: &Task) -> Result<(f64, f64, Mesh), String> {
+fn measured(run: Run, task: &Task) -> Result<(Sample, Mesh), String> {
     let (refined, bytes) = above(|| run(task)).ok_or("(its memory cannot be measured here)")?;
-    let Refined { time, mesh } = refined?;
+    let Refined { time, left, mesh } = refined?;
     let mesh = mesh();
     let mut times = vec![time.as_secs_f64()];
     while times.iter().sum::<f64>() < MINIMUM {
         times.push(run(task)?.time.as_secs_f64());
     }
     times.sort_by(f64::total_cmp);
-    Ok((times[times.len() / 2], bytes, mesh))
+    let (vertices, triangles) = (mesh.points.len(), mesh.triangles.len());
+    Ok((Sample { seconds: times[times.len() / 2], bytes, vertices, triangles, left }, mesh))
 }
 
 fn read_task(folder: &Path, angle: f64, is_hull: bool) -> Result<Task, String> {

@@ -3,6 +3,8 @@
 
 use std::time::Duration;
 
+use delone::{Constrained2, Fill, Refinement, Seeds2};
+
 use super::judge::Mesh;
 use crate::engines::timed;
 
@@ -19,26 +21,60 @@ pub struct Task {
 /// What it gave: the mesh is asked for when time and memory are known.
 pub struct Refined {
     pub time: Duration,
+    /// How many triangles it says that it could not refine, if it says so.
+    pub left: Option<usize>,
     pub mesh: Box<dyn FnOnce() -> Mesh>,
 }
+
+/// An engine's own call.
+pub type Run = fn(&Task) -> Result<Refined, String>;
 
 /// Something that refines, in a process of its own.
 pub struct Engine {
     pub name: &'static str,
     /// Runs once, or says why not. The engine without is a program.
-    pub run: Option<fn(&Task) -> Result<Refined, String>>,
+    pub run: Option<Run>,
 }
 
 /// The one that all others are measured against.
 pub const TRIANGLE: &str = "triangle";
 
-/// All of them.
+/// All of them, ours first.
 pub const ENGINES: &[Engine] = &[
+    Engine { name: "delone", run: Some(delone) },
     Engine { name: TRIANGLE, run: None },
     #[cfg(cgal)]
     Engine { name: "cgal", run: Some(cgal::run) },
     Engine { name: "spade", run: Some(spade) },
 ];
+
+fn delone(task: &Task) -> Result<Refined, String> {
+    let seeds = Seeds2 { holes: task.holes.clone(), ..Seeds2::default() };
+    let refinement = Refinement::new().min_angle(task.angle).fill(Fill::Seeds(&seeds));
+    let (time, result) = timed(|| {
+        let mut c = Constrained2::from_parts(&task.points, &task.segments)?;
+        let refined = refinement.run(&mut c)?;
+        Ok::<_, delone::Error>((c, refined))
+    });
+    let (c, refined) = result.map_err(|error| error.to_string())?;
+    let report = &refined.report;
+    let steiner = report.inside + report.on_constraints;
+    if steiner + task.points.len() != c.vertex_count() {
+        return Err(format!(
+            "reports {steiner} new vertices and has {}",
+            c.vertex_count() - task.points.len()
+        ));
+    }
+    let left = Some(report.left.len());
+    let mesh = move || {
+        let inside = c.triangle_ids().filter(|&t| refined.domains.is_inside(t));
+        Mesh {
+            points: c.vertices().map(|v| c.point(v)).collect(),
+            triangles: inside.map(|t| c.mesh().corners(t).map(|v| v.index())).collect(),
+        }
+    };
+    Ok(Refined { time, left, mesh: Box::new(mesh) })
+}
 
 /// Up to so many Steiner points for each point; its own default is 10.
 const BUDGET: usize = 20;
@@ -76,7 +112,7 @@ fn spade(task: &Task) -> Result<Refined, String> {
             triangles: faces.map(|face| face.vertices().map(|v| v.fix().index())).collect(),
         }
     };
-    Ok(Refined { time, mesh: Box::new(mesh) })
+    Ok(Refined { time, left: None, mesh: Box::new(mesh) })
 }
 
 #[cfg(cgal)]
@@ -147,6 +183,7 @@ mod cgal {
             )
         };
         let handle = Handle(NonNull::new(handle).ok_or("an exception")?);
-        Ok(Refined { time: Duration::from_secs_f64(seconds), mesh: Box::new(move || handle.mesh()) })
+        let time = Duration::from_secs_f64(seconds);
+        Ok(Refined { time, left: None, mesh: Box::new(move || handle.mesh()) })
     }
 }

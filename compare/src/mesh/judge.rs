@@ -33,8 +33,8 @@ pub fn least_square_of_sine(degrees: f64) -> f64 {
     degrees.to_radians().sin().powi(2) * (1.0 - 4.0 * f64::EPSILON)
 }
 
-/// Judges all triangles, O(n log n).
-pub fn judge(input: &Input, wedges: &Wedges, mesh: &Mesh, angle: f64) -> Verdict {
+/// Judges all triangles, O(n log n). `left` is how many the engine says it could not refine.
+pub fn judge(input: &Input, wedges: &Wedges, mesh: &Mesh, angle: f64, left: Option<usize>) -> Verdict {
     let bound = least_square_of_sine(angle);
     let mut verdict =
         Verdict { smallest: 180.0, wrong: not_a_mesh_of(input, mesh).err(), ..Verdict::default() };
@@ -49,6 +49,9 @@ pub fn judge(input: &Input, wedges: &Wedges, mesh: &Mesh, angle: f64) -> Verdict
             verdict.below += 1;
             verdict.excused += usize::from(wedges.join(shortest));
         }
+    }
+    if let Some(left) = left.filter(|&left| left < verdict.below) {
+        verdict.wrong = Some(format!("{} angles are too small, of which it says {left}", verdict.below));
     }
     verdict
 }

@@ -106,7 +106,7 @@ fn measure(
                     entry.samples.push(sample);
                     if first {
                         match folder.mesh() {
-                            Ok(mesh) => entry.verdict = judge(input, wedges, &mesh, angle),
+                            Ok(mesh) => entry.verdict = judge(input, wedges, &mesh, angle, sample.left),
                             Err(why) => entry.failure = Some(why),
                         }
                     }
