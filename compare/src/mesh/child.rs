@@ -37,24 +37,36 @@ const MINIMUM: f64 = 0.05;
 /// The exit status that says that a peer is not installed.
 const NOT_INSTALLED: i32 = 3;
 
+/// Below so many points runs are repeated in one child, and the kernel would be most of the time of some: whether the C library
+/// maps and unmaps memory for each run depends on what a process did before. So there it keeps what it has, for all engines.
+const SMALL: usize = 10_000;
+
+/// How the C library of Linux is told to.
+const KEEPING: [(&str, &str); 2] =
+    [("MALLOC_MMAP_THRESHOLD_", "1000000000"), ("MALLOC_TRIM_THRESHOLD_", "1000000000")];
+
 /// A folder for the arrays of an input, gone when it is dropped.
-pub struct Folder(PathBuf);
+pub struct Folder {
+    path: PathBuf,
+    is_small: bool,
+}
 
 impl Drop for Folder {
     fn drop(&mut self) {
         // What is left of a temporary folder is the system's to clear.
-        let _ = std::fs::remove_dir_all(&self.0);
+        let _ = std::fs::remove_dir_all(&self.path);
     }
 }
 
 impl Folder {
     /// With the input in it.
     pub fn of(input: &Input) -> Result<Self, String> {
-        let folder = Self(env::temp_dir().join(format!("delone-compare-{}", std::process::id())));
-        std::fs::create_dir_all(&folder.0).map_err(|error| error.to_string())?;
-        write_points(&folder.0, "points.npy", &input.points)?;
-        write_points(&folder.0, "holes.npy", &input.holes)?;
-        write_rows(&folder.0, "segments.npy", &input.segments)?;
+        let path = env::temp_dir().join(format!("delone-compare-{}", std::process::id()));
+        let folder = Self { path, is_small: input.points.len() < SMALL };
+        std::fs::create_dir_all(&folder.path).map_err(|error| error.to_string())?;
+        write_points(&folder.path, "points.npy", &input.points)?;
+        write_points(&folder.path, "holes.npy", &input.holes)?;
+        write_rows(&folder.path, "segments.npy", &input.segments)?;
         Ok(folder)
     }
 
@@ -80,7 +92,10 @@ impl Folder {
             command.args(options);
             command
         };
-        command.current_dir(&self.0).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+        command.current_dir(&self.path).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+        if self.is_small {
+            command.envs(KEEPING);
+        }
         let Ok(mut child) = command.spawn() else { return Err("(not installed)".to_owned()) };
         let status = wait(&mut child, limit)?;
         let mut said = String::new();
@@ -97,10 +112,10 @@ impl Folder {
 
     /// The mesh that the last child left.
     pub fn mesh(&self) -> Result<Mesh, String> {
-        let rows = delone_io::read_triangles(open(&self.0, "triangles.npy")?, Format::Npy);
+        let rows = delone_io::read_triangles(open(&self.path, "triangles.npy")?, Format::Npy);
         let rows = rows.map_err(|error| error.to_string())?;
         Ok(Mesh {
-            points: read_points(&self.0, "vertices.npy")?,
+            points: read_points(&self.path, "vertices.npy")?,
             triangles: rows.into_iter().map(|t| t.map(|i| i as usize)).collect(),
         })
     }

@@ -68,10 +68,9 @@ fn delone(task: &Task) -> Result<Refined, String> {
     let left = Some(report.left.len());
     let mesh = move || {
         let inside = c.triangle_ids().filter(|&t| refined.domains.is_inside(t));
-        Mesh {
-            points: c.vertices().map(|v| c.point(v)).collect(),
-            triangles: inside.map(|t| c.mesh().corners(t).map(|v| v.index())).collect(),
-        }
+        let triangles: Vec<_> = inside.map(|t| c.mesh().corners(t).map(|v| v.index())).collect();
+        assert_eq!(triangles.len(), refined.report.triangles, "the report is wrong");
+        Mesh { points: c.vertices().map(|v| c.point(v)).collect(), triangles }
     };
     Ok(Refined { time, left, mesh: Box::new(mesh) })
 }

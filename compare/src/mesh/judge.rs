@@ -167,7 +167,70 @@ fn integer(x: f64, scale: i32) -> BigInt {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_below, is_below_exactly, least_square_of_sine, parts, smallest_angle, turned};
+    use super::{
+        Mesh, Wedges, is_below, is_below_exactly, judge, least_square_of_sine, parts, smallest_angle, turned,
+    };
+    use crate::mesh::input::Input;
+
+    /// A triangle with an angle of 10 degrees at its first corner.
+    fn wedge() -> Input {
+        let end = [10_f64.to_radians().cos(), 10_f64.to_radians().sin()];
+        Input {
+            name: String::new(),
+            points: vec![[0.0, 0.0], [1.0, 0.0], end],
+            segments: vec![[0, 1], [1, 2], [2, 0]],
+            holes: vec![],
+            is_hull: true,
+            area: end[1] / 2.0,
+        }
+    }
+
+    #[test]
+    fn small_angles_of_the_input_are_excused_and_no_others() {
+        let input = wedge();
+        let wedges = Wedges::new(&input);
+        let verdict = |mesh: &Mesh, left| judge(&input, &wedges, mesh, 20.0, left);
+        let mesh = Mesh { points: input.points.clone(), triangles: vec![[0, 1, 2]] };
+        let found = verdict(&mesh, Some(1));
+        assert_eq!((found.below, found.excused, found.wrong), (1, 1, None));
+        assert!((found.smallest - 10.0).abs() < 1e-9, "{}", found.smallest);
+        assert!(verdict(&mesh, Some(0)).wrong.is_some(), "the report is not true");
+        // From the corner to the middle of the other side: two halves, of which neither joins both sides.
+        let middle = [0, 1].map(|k| (input.points[1][k] + input.points[2][k]) / 2.0);
+        let points = input.points.iter().copied().chain([middle]).collect();
+        let found = verdict(&Mesh { points, triangles: vec![[0, 1, 3], [0, 3, 2]] }, None);
+        assert_eq!((found.below, found.excused, found.wrong), (2, 0, None));
+    }
+
+    #[test]
+    fn what_is_no_mesh_of_the_inside_is_found() {
+        let input = Input {
+            points: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+            segments: vec![[0, 1], [1, 2], [2, 3], [3, 0]],
+            area: 1.0,
+            ..wedge()
+        };
+        let wedges = Wedges::new(&input);
+        let wrong = |points: &[[f64; 2]], triangles: &[[usize; 3]]| {
+            let mesh = Mesh { points: points.to_vec(), triangles: triangles.to_vec() };
+            judge(&input, &wedges, &mesh, 20.0, None).wrong
+        };
+        let points = input.points.as_slice();
+        assert_eq!(wrong(points, &[[0, 1, 2], [0, 2, 3]]), None);
+        type Case<'a> = (&'a [[f64; 2]], &'a [[usize; 3]], &'a str);
+        let cases: [Case; 6] = [
+            (points, &[], "has no triangles"),
+            (points, &[[0, 1, 4]], "has no triangles"),
+            (&points[..3], &[[0, 1, 2]], "loses points"),
+            (points, &[[0, 1, 2], [0, 3, 2]], "triangle 1 does not turn left"),
+            (points, &[[0, 1, 2], [0, 1, 3]], "triangles overlap"),
+            (points, &[[0, 1, 2]], "has 0.5000 of the area"),
+        ];
+        for (points, triangles, why) in cases {
+            let found = wrong(points, triangles).unwrap_or_default();
+            assert!(found.starts_with(why), "{found} for {why}");
+        }
+    }
 
     #[test]
     fn digits_and_exponents_are_the_number() {
