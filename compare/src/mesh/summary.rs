@@ -32,7 +32,7 @@ impl Summary {
         }
         println!("\nall inputs and angles");
         println!(
-            "  points are Steiner points, their sums over the cases that both have; times are medians of ratios"
+            "  points are Steiner points, their sums over the cases that both have; times are medians of ratios, and their range"
         );
         for engine in engines {
             let mut said = Vec::new();
@@ -73,7 +73,8 @@ impl Summary {
         let mut ratios: Vec<f64> =
             self.pairs(engine, other).map(|(row, them)| them.seconds / row.seconds).collect();
         ratios.sort_by(f64::total_cmp);
+        let (least, most) = (ratios.first()?, ratios.last()?);
         let median = ratios.get(ratios.len() / 2)?;
-        Some(format!("{median:.2} times as fast as {other}"))
+        Some(format!("{median:.2} times as fast as {other} ({least:.2} to {most:.2})"))
     }
 }
