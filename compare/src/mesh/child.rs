@@ -86,7 +86,7 @@ impl Folder {
             command
         } else {
             let mut command = Command::new(python);
-            let script = concat!(env!("CARGO_MANIFEST_DIR"), "/mesh_of_triangle.py");
+            let script = concat!(env!("CARGO_MANIFEST_DIR"), "/with_triangle_mesh.py");
             let options = if writes { &["--write"] as &[&str] } else { &[] };
             command.args([OsStr::new(script), angle.to_string().as_ref(), MINIMUM.to_string().as_ref()]);
             command.args(options);
@@ -136,7 +136,7 @@ fn wait(child: &mut Child, limit: Duration) -> Result<ExitStatus, String> {
             Ok(None) if start.elapsed() < limit => sleep(Duration::from_millis(5)),
             Ok(None) => {
                 child.kill().and_then(|()| child.wait()).map_err(|error| error.to_string())?;
-                return Err(format!("does not end in {} s", limit.as_secs()));
+                return Err(format!("does not end in {limit:?}"));
             }
             Err(error) => return Err(error.to_string()),
         }

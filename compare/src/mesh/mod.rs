@@ -68,7 +68,7 @@ pub fn run(plan: &Plan) -> bool {
         let (folder, input) = match result {
             Ok(result) => result,
             Err(why) => {
-                println!("\n{name}: {why}");
+                println!("\nthere is no graph named {name}, and no file of one: {why}");
                 continue;
             }
         };

@@ -1,6 +1,6 @@
 """A mesh by Shewchuk's Triangle: the child that `compare -- --mesh` runs once for each measurement, in a folder of its own.
 
-python mesh_of_triangle.py ANGLE MINIMUM [--write]
+python with_triangle_mesh.py ANGLE MINIMUM [--write]
 
 Reads points.npy, segments.npy and holes.npy of the working folder. Calls the C function `triangulate` of the package's library
 itself, so that no conversion counts: what is timed is arrays to arrays of C, the constrained triangulation included, segments
