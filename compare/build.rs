@@ -8,6 +8,7 @@ fn main() {
     println!("cargo::rerun-if-changed=/usr/include/CGAL");
     if Path::new("/usr/include/CGAL/Delaunay_triangulation_2.h").exists() {
         println!("cargo::rerun-if-changed=src/cgal_constrained.cpp");
+        println!("cargo::rerun-if-changed=src/cgal_mesh.cpp");
         println!("cargo::rerun-if-changed=src/cgal_weights.cpp");
         cc::Build::new()
             .cpp(true)
@@ -17,6 +18,7 @@ fn main() {
             .warnings(false)
             .file("src/cgal.cpp")
             .file("src/cgal_constrained.cpp")
+            .file("src/cgal_mesh.cpp")
             .file("src/cgal_weights.cpp")
             .compile("cgal_shim");
         println!("cargo::rustc-cfg=cgal");

@@ -36,6 +36,10 @@ TEXT
     compare --constrained --size "$points" --runs 3
     printf '\n## Polygons: the triangles inside, many polygons of the same size\n\n'
     compare --polygons --size $((points / 10)) --runs 3
+    printf '\n## Meshes without small angles: refinement\n\n'
+    echo "Triangle takes part where TRIANGLE_PYTHON is a Python that has it (\`pip install triangle numpy\`): its licence is not free."
+    echo
+    compare --mesh --size "$points" --runs 3
     printf '\n## Voronoi cells\n\n'
     compare --voronoi --size $((points / 10)) --runs 2 --kinds uniform,grid
     printf '\n## Weights: regular triangulations, in the plane and in space\n\n'

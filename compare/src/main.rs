@@ -8,6 +8,7 @@ mod engines;
 mod graphs;
 mod hull;
 mod memory;
+mod mesh;
 mod space;
 mod voronoi;
 mod weights;
@@ -15,7 +16,7 @@ mod weights;
 use std::fs::File;
 use std::io::BufReader;
 use std::panic::{self, AssertUnwindSafe};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use clap::Parser;
@@ -67,6 +68,19 @@ struct Args {
         default_missing_value = "planar-subset,planar-grid,long,koch"
     )]
     constrained: Option<Vec<String>>,
+    /// Time refinement of these graphs (koch, ...; or files of polygons or `.poly` files) to meshes instead; of two when empty,
+    /// from the root of the repository.
+    #[arg(long, value_delimiter = ',', num_args = 0.., default_missing_value = "koch,data/great_lakes.geojson")]
+    mesh: Option<Vec<String>>,
+    /// The angles that meshes should have at least: degrees.
+    #[arg(long, value_delimiter = ',', default_value = "20,25,30,33")]
+    angles: Vec<f64>,
+    /// A Python that has the package `triangle`; the variable TRIANGLE_PYTHON, or python3, where this is not given.
+    #[arg(long)]
+    python: Option<PathBuf>,
+    /// Seconds after which the refinement of an engine is ended.
+    #[arg(long, default_value_t = 120.0)]
+    limit: f64,
     /// Time regular triangulations of sites with weights, in the plane and (up to 100,000 sites) in space, instead.
     #[arg(long)]
     weights: bool,
@@ -134,6 +148,9 @@ fn compare(args: &Args) {
         let all_right = constrained::run(names, &args.size, &args.engines, args.runs);
         std::process::exit(i32::from(!all_right));
     }
+    if let Some(names) = &args.mesh {
+        std::process::exit(i32::from(!meshes(args, names)));
+    }
     if args.weights {
         let wrong = args.size.iter().filter(|&&size| !weights::run(size, args.runs)).count();
         std::process::exit(i32::from(wrong > 0));
@@ -178,6 +195,27 @@ fn compare(args: &Args) {
         println!("\nDelone is wrong somewhere: see above");
         std::process::exit(1);
     }
+}
+
+/// Refinement; polygons have a fifth as many corners as sets have points, as in the table of constrained triangulations.
+fn meshes(args: &Args, names: &[String]) -> bool {
+    let python = args.python.clone().or_else(|| std::env::var_os("TRIANGLE_PYTHON").map(PathBuf::from));
+    let python = python.unwrap_or_else(|| "python3".into());
+    // Children work in folders of their own; a bare name is looked for in the path.
+    let is_path = python.components().count() > 1;
+    let python = if is_path { std::path::absolute(&python).unwrap_or(python) } else { python };
+    let run = |&size: &usize| {
+        mesh::run(&mesh::Plan {
+            names,
+            size: size / 5,
+            angles: &args.angles,
+            engines: &args.engines,
+            runs: args.runs,
+            python: python.clone(),
+            limit: Duration::from_secs_f64(args.limit),
+        })
+    };
+    args.size.iter().filter(|size| !run(size)).count() == 0
 }
 
 /// Small sets are built so often that this many points are built in a run.

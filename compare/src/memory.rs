@@ -18,8 +18,12 @@ fn status(field: &str) -> Option<f64> {
     Some(1024.0 * kilobytes)
 }
 
-/// The child: `engine kind n`; prints bytes per point above the input. In space the engine is `space/NAME`.
+/// The child: `engine kind n`; prints bytes per point above the input. In space the engine is `space/NAME`. Meshes have a
+/// protocol of their own.
 pub fn child(task: &str) -> Option<()> {
+    if let Some(task) = task.strip_prefix("mesh ") {
+        return crate::mesh::child(task);
+    }
     let words: Vec<&str> = task.split(' ').collect();
     let &[name, kind, n] = words.as_slice() else { return None };
     let n: usize = n.parse().ok()?;
@@ -33,11 +37,18 @@ pub fn child(task: &str) -> Option<()> {
 }
 
 fn measured(n: usize, work: impl FnOnce() -> Option<()>) -> Option<()> {
+    let (done, bytes) = above(work)?;
+    done?;
+    println!("{}", bytes / n as f64);
+    Some(())
+}
+
+/// What the work gives, and the bytes of the peak above what was resident before.
+pub fn above<T>(work: impl FnOnce() -> T) -> Option<(T, f64)> {
     fs::write("/proc/self/clear_refs", "5").ok()?;
     let before = status("VmRSS")?;
-    work()?;
-    println!("{}", (status("VmHWM")? - before) / n as f64);
-    Some(())
+    let result = work();
+    Some((result, status("VmHWM")? - before))
 }
 
 /// Bytes per point above the engine's own copy of the input, or nothing where that cannot be measured.
