@@ -49,10 +49,13 @@ pub fn write_voronoi_node<T: Triangulation<Point = [f64; 2]>>(
         let [a, b, c] = corners.map(|v| mesh.point(v));
         centres.push(circumcentre(a, b, c).ok_or(Error::FarCentre { triangle: mesh.base + i })?);
         if let Some(attributes) = mesh.attributes {
-            let weights = weights([a, b, c]);
+            let [_, u, w] = weights([a, b, c]);
             let rows = corners.map(|v| attributes.row(v.index()));
-            let value = |k: usize| rows.iter().map(move |row| row.get(k).copied().unwrap_or_default());
-            values.extend((0..width).map(|k| value(k).zip(weights).map(|(x, w)| x * w).sum::<f64>()));
+            // Differences, so that what is the same at all corners is the same at the centre.
+            values.extend((0..width).map(|k| {
+                let [x, y, z] = rows.map(|row| row.get(k).copied().unwrap_or_default());
+                x + (u * (y - x) + w * (z - x))
+            }));
         }
     }
     let rows =
