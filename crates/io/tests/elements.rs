@@ -428,3 +428,18 @@ fn files_of_gmsh_are_read() {
         assert!(error.contains(message), "{error}, not {message}");
     }
 }
+
+#[test]
+fn points_on_a_line_are_no_elements() {
+    let points = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]];
+    let d = Delaunay2::from_points(&points).expect("finite");
+    for second_order in [false, true] {
+        let mesh = Mesh { second_order, ..Mesh::new(&d, &points) };
+        let text = |format: Format| String::from_utf8(written(format, &mesh)).expect("text");
+        let seen = [gmsh(&text(Format::Msh)), abaqus(&text(Format::Inp))];
+        assert!(
+            seen.iter().all(|seen| seen.elements.is_empty() && seen.nodes.is_empty() && seen.sets.is_empty())
+        );
+        assert!(text(Format::Node).starts_with("3 2 0 0\n") && text(Format::Ele).starts_with("0 "));
+    }
+}
