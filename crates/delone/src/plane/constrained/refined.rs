@@ -24,6 +24,8 @@ pub(in crate::plane) struct Before {
     pub(in crate::plane) parts: Vec<usize>,
     /// How many of them are.
     pub(in crate::plane) inside: usize,
+    /// How many points there are.
+    pub(in crate::plane) given: usize,
     /// How many vertices may be added.
     pub(in crate::plane) room: usize,
 }
@@ -65,8 +67,8 @@ impl Constrained2 {
         }
         self.cover.take();
         self.graph.begin_bulk();
-        let room = MAX_POINTS - self.points().len();
-        Before { chains, inside: of(true).count(), parts, room }
+        let given = self.points().len();
+        Before { chains, inside: of(true).count(), parts, given, room: MAX_POINTS - given }
     }
 
     /// The triangulation itself.

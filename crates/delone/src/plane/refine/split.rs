@@ -24,7 +24,8 @@ impl Mesher<'_> {
         if self.refusal(e).is_some() {
             return;
         }
-        if self.count >= self.rules.budget {
+        let is_long = self.is_long(e);
+        if self.rules.is_enough(self.count, self.for_sizes, is_long) {
             self.refuse(e, Reason::Budget);
             return;
         }
@@ -38,7 +39,9 @@ impl Mesher<'_> {
             self.refuse(e, Reason::Precision);
             return;
         };
-        self.insert_on(e, q);
+        if self.insert_on(e, q) {
+            self.for_sizes += usize::from(is_long);
+        }
     }
 
     fn refuse(&mut self, e: EdgeId, reason: Reason) {
@@ -112,8 +115,8 @@ impl Mesher<'_> {
                 .all(|side| is_strict([self.point(mesh.tail(side)), self.point(mesh.head(side)), q]))
     }
 
-    /// Makes a point the vertex that splits a constraint, unless it is too near to others.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) {
+    /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
         let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
@@ -130,7 +133,7 @@ impl Mesher<'_> {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
             self.refuse(e, Reason::Cascade);
-            return;
+            return false;
         }
         let v = self.layer.place_for(Spot::Triangle(seed), q);
         self.fill(v);
@@ -140,6 +143,7 @@ impl Mesher<'_> {
         self.part(v, ends, domains);
         self.look_around(v);
         self.look_at_constraints_around(v);
+        true
     }
 
     /// A triangle that the point beside an edge is in, or beyond the hull edge of.

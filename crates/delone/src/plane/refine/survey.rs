@@ -49,7 +49,7 @@ pub(super) fn report(
             report.left.push(Unrefined2 { triangle: t, reason });
         }
     }
-    if report.triangles > 0 {
+    if largest > f64::NEG_INFINITY {
         let degrees = |cotangent: f64| 1f64.atan2(cotangent).to_degrees();
         (report.smallest_angle, report.largest_angle) = (degrees(largest), degrees(smallest));
     }
