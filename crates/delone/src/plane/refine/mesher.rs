@@ -53,6 +53,8 @@ pub(super) struct Mesher<'a> {
     pub(super) count: usize,
     /// How many of them are there because something was too large.
     pub(super) for_sizes: usize,
+    /// Which input vertices are tips of very small angles, as far as that was asked.
+    pub(super) tips: BTreeMap<Place, bool>,
     /// Constraints that cannot be split.
     pub(super) refused: BTreeMap<[Place; 2], Reason>,
     /// Triangles that cannot be mended.
@@ -80,6 +82,7 @@ impl<'a> Mesher<'a> {
             born: Vec::new(),
             count: 0,
             for_sizes: 0,
+            tips: BTreeMap::new(),
             refused: BTreeMap::new(),
             left: Vec::new(),
         }
