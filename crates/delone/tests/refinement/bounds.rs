@@ -48,6 +48,37 @@ fn bounds_hold() {
     }
 }
 
+/// However far below the distances of the input.
+#[test]
+fn small_sizes_are_reached() {
+    let (points, segments) = (vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], Vec::new());
+    let size = |_: [f64; 2]| 0.008;
+    for (name, how) in [
+        ("area", Refinement::new().max_area(3e-5)),
+        ("edge", Refinement::new().max_edge(0.008)),
+        ("size", Refinement::new().size(&size)),
+    ] {
+        let (c, refined) = refine(&points, &segments, how, Fill::All, 25.0, name);
+        assert!(refined.report.left.is_empty() && c.triangle_count() > 30_000, "{name}");
+    }
+    // Where a border may not be split, too, as far as that goes.
+    let how = Refinement::new().max_area(1e-4).keep(Keep::Border);
+    let (c, refined) = refine(&points, &segments, how, Fill::All, 25.0, "kept");
+    assert!(c.triangle_count() > 5_000 && refined.report.left.len() < 500);
+}
+
+#[test]
+fn it_can_be_stopped() {
+    let (points, segments) = square();
+    let mut c = Constrained2::from_parts(&points, &segments).expect("planar");
+    let asked = std::cell::Cell::new(0);
+    let stop = || asked.replace(asked.get() + 1) == 3;
+    let stopped = Refinement::new().max_area(1e-6).stop_if(&stop).run(&mut c);
+    assert_eq!(stopped.map(|refined| refined.report), Err(Error::Stopped));
+    assert!(asked.get() == 4 && c.vertex_count() > 100 && c.vertex_count() < 10_000);
+    c.check().expect("valid");
+}
+
 #[test]
 fn regions_have_areas_of_their_own() {
     let (points, segments) = square();

@@ -5,26 +5,26 @@ use std::collections::BTreeSet;
 use delone::{Constrained2, Crossings, Fill, Refined2, Refinement, TriangleId};
 use delone_oracle::exact;
 
-pub type Points = Vec<[f64; 2]>;
-pub type Segments = Vec<[usize; 2]>;
+pub(crate) type Points = Vec<[f64; 2]>;
+pub(crate) type Segments = Vec<[usize; 2]>;
 
-pub fn squared_cosine(degrees: f64) -> f64 {
+pub(crate) fn squared_cosine(degrees: f64) -> f64 {
     // A unit in the last place: what a cosine may be rounded by.
     let cosine = degrees.to_radians().cos();
     cosine * cosine * (1.0 + 4.0 * f64::EPSILON)
 }
 
-pub fn corners(c: &Constrained2, t: TriangleId) -> [[f64; 2]; 3] {
+pub(crate) fn corners(c: &Constrained2, t: TriangleId) -> [[f64; 2]; 3] {
     c.mesh().corners(t).map(|v| c.point(v))
 }
 
-pub fn has_angles([a, b, c]: [[f64; 2]; 3], degrees: f64) -> bool {
+pub(crate) fn has_angles([a, b, c]: [[f64; 2]; 3], degrees: f64) -> bool {
     let bound = squared_cosine(degrees);
     [(a, b, c), (b, c, a), (c, a, b)].into_iter().all(|(o, p, q)| exact::is_angle_at_least(o, p, q, bound))
 }
 
 /// All that must be true of any refined mesh.
-pub fn judge(before: &Constrained2, c: &Constrained2, refined: &Refined2, degrees: f64, name: &str) {
+pub(crate) fn judge(before: &Constrained2, c: &Constrained2, refined: &Refined2, degrees: f64, name: &str) {
     c.check().unwrap_or_else(|flaw| panic!("{name}: {flaw:?}"));
     let Refined2 { domains, report, .. } = refined;
     // Nothing that was there is lost or moved, and what is counted is there.
@@ -72,12 +72,12 @@ pub fn judge(before: &Constrained2, c: &Constrained2, refined: &Refined2, degree
     assert_eq!(chains.collect::<BTreeSet<_>>(), c.constraints().collect(), "{name}");
 }
 
-pub fn area(c: &Constrained2, is_inside: impl Fn(TriangleId) -> bool) -> f64 {
+pub(crate) fn area(c: &Constrained2, is_inside: impl Fn(TriangleId) -> bool) -> f64 {
     c.triangle_ids().filter(|&t| is_inside(t)).map(|t| c.area(t)).sum()
 }
 
 /// Refines, judges, and gives the mesh.
-pub fn refine(
+pub(crate) fn refine(
     points: &[[f64; 2]],
     segments: &[[usize; 2]],
     how: Refinement,
@@ -95,7 +95,7 @@ pub fn refine(
     (c, refined)
 }
 
-pub fn coordinates(c: &Constrained2, refined: &Refined2) -> Vec<[[f64; 2]; 3]> {
+pub(crate) fn coordinates(c: &Constrained2, refined: &Refined2) -> Vec<[[f64; 2]; 3]> {
     let inside = c.triangle_ids().filter(|&t| refined.domains.is_inside(t));
     delone_oracle::brute::normalized(inside.map(|t| corners(c, t)))
 }

@@ -4,7 +4,7 @@ use delone_generators::{Graph, Kind};
 
 use crate::judge::{Points, Segments};
 
-pub fn wedge(degrees: f64, length: f64, in_box: bool) -> (Points, Segments) {
+pub(crate) fn wedge(degrees: f64, length: f64, in_box: bool) -> (Points, Segments) {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let mut points = vec![[0.0, 0.0], [1.0, 0.0], [length * cos, length * sin]];
     let mut segments = vec![[0, 1], [0, 2]];
@@ -17,7 +17,7 @@ pub fn wedge(degrees: f64, length: f64, in_box: bool) -> (Points, Segments) {
     (points, segments)
 }
 
-pub fn hub(spokes: usize) -> (Points, Segments) {
+pub(crate) fn hub(spokes: usize) -> (Points, Segments) {
     let end = |i: usize| {
         let (sin, cos) = (std::f64::consts::TAU * i as f64 / spokes as f64).sin_cos();
         let length = 1.0 + 0.3 * ((7 * i) % 5) as f64;
@@ -28,7 +28,7 @@ pub fn hub(spokes: usize) -> (Points, Segments) {
 }
 
 /// A square with two parallel slits, or a vertex, so near to each other.
-pub fn slit(gap: f64) -> (Points, Segments) {
+pub(crate) fn slit(gap: f64) -> (Points, Segments) {
     let points = vec![
         [0.0, 0.0],
         [1.0, 0.0],
@@ -44,7 +44,7 @@ pub fn slit(gap: f64) -> (Points, Segments) {
 }
 
 /// Two circles that touch.
-pub fn cusp(n: usize) -> (Points, Segments) {
+pub(crate) fn cusp(n: usize) -> (Points, Segments) {
     let mut parts: (Points, Segments) = Default::default();
     for (x, radius) in [(0.0, 1.0), (0.5, 0.5)] {
         let first = parts.0.len();
@@ -58,7 +58,7 @@ pub fn cusp(n: usize) -> (Points, Segments) {
 }
 
 /// All of them, with names.
-pub fn nasty() -> Vec<(String, Points, Segments)> {
+pub(crate) fn nasty() -> Vec<(String, Points, Segments)> {
     let mut all = Vec::new();
     for graph in Graph::ALL {
         let (points, segments) = graph.parts(60, 3);

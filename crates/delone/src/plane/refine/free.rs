@@ -86,9 +86,10 @@ impl Mesher<'_> {
             }
             return;
         }
+        let fault = if task.fault() == Fault::Size { Fault::LargeConstraint } else { Fault::Constraint };
         for (&e, refusal) in constraints.iter().zip(refusals) {
             if refusal.is_none() {
-                self.note_constraint(e);
+                self.note_constraint(e, fault);
             }
         }
         self.queue.push(*task, &self.layer.points);
@@ -116,7 +117,13 @@ impl Mesher<'_> {
             .collect();
         self.layer.cavity = cavity;
         let (nearest, square) = self.nearest(q);
-        let scale = self.known[nearest.index()].scale;
+        // The ends of the shortest edge made it necessary.
+        let [v, w] = [task.corners[0], task.corners[1]];
+        let mut scale =
+            [nearest, v, w].map(|v| self.known[v.index()].scale).into_iter().fold(f64::INFINITY, f64::min);
+        if task.fault() == Fault::Size {
+            scale = scale.min(square.sqrt());
+        }
         let refused = !near.is_empty() || Self::is_cascade(square, scale);
         if refused {
             self.abandon();
