@@ -105,7 +105,7 @@ impl<'a> Mesher<'a> {
             self.queue.pop(&self.layer.points, |e| prefetch(&self.layer.mesh.edges, e.index()))
         {
             steps += 1;
-            if steps % PAUSE == 0 {
+            if steps.is_multiple_of(PAUSE) {
                 self.rules.go_on()?;
             }
             if task.fault() <= Fault::LargeConstraint {
