@@ -57,6 +57,14 @@ for source in ["points", "flat"]:
         same(mesh.cells_dict["triangle"], mesh.points, expected)
         assert np.array_equal(mesh.points[:, 2], heights), f"meshio: heights of {kind}"
         print(f"meshio reads {source}.{kind}")
+    for kind in ["msh", "inp"]:
+        run("triangulate", f"{source}.npy", "-o", f"{source}.{kind}")
+        mesh = meshio.read(folder / f"{source}.{kind}")
+        same(mesh.cells_dict["triangle"], mesh.points, expected)
+        assert kind == "msh" or np.array_equal(mesh.points[:, :2], points[:, :2]), "meshio: points of inp"
+        assert mesh.points.shape[1] == 2 or np.array_equal(np.sort(mesh.points[:, 2]), np.sort(heights))
+        assert "region_0" in mesh.cell_sets and "marker_1" in {**mesh.cell_sets, **mesh.point_sets}
+        print(f"meshio reads {source}.{kind}")
     for kind in ["ply", "obj", "stl"]:
         mesh = trimesh.load(folder / f"{source}.{kind}", process=False)
         assert len(mesh.faces) == len(triangles), f"trimesh: {kind}"
@@ -87,10 +95,15 @@ assert worst < 1e-3, f"STL is {worst} off"
 
 # Tetrahedra, hulls and cells.
 run("generate", "ball", "-n", 300, "-o", "ball.npy")
-run("triangulate", "ball.npy", "--dim", 3, "-o", "ball.vtu", "-o", "ball.npy.npy")
+run("triangulate", "ball.npy", "--dim", 3, "-o", "ball.vtu", "-o", "ball.npy.npy", "-o", "ball.msh", "-o", "ball.inp")
 cells = np.load(folder / "ball.npy.npy")
 assert np.array_equal(meshio.read(folder / "ball.vtu").cells_dict["tetra"], cells)
 assert pyvista.read(folder / "ball.vtu").n_cells == len(cells)
+for kind in ["msh", "inp"]:
+    mesh = meshio.read(folder / f"ball.{kind}")
+    corners = mesh.points[mesh.cells_dict["tetra"]]
+    volumes = np.linalg.det(corners[:, 1:] - corners[:, :1])
+    assert len(corners) == len(cells) and volumes.min() > 0, f"meshio: tetrahedra of {kind}"
 run("hull", "ball.npy", "--dim", 3, "-o", "hull.stl", "-o", "hull.ply")
 for kind in ["stl", "ply"]:
     assert trimesh.load(folder / f"hull.{kind}").is_watertight, f"the hull in {kind} has holes"

@@ -285,7 +285,7 @@ pub(crate) fn simplices<T>(
     if is_standard(path) {
         return Err(Failure::usage(
             "triangles are not read from standard input",
-            "name a file: npy ele ply obj",
+            "name a file: npy ele ply obj off msh",
         ));
     }
     let format = format(path, None, "the extension")?;

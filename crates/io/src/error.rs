@@ -77,6 +77,15 @@ pub enum Error {
     /// The format holds no tetrahedra.
     #[error("tetrahedra are not read from {0} files")]
     NotTetrahedra(Format),
+    /// The format holds no elements of second order, or none of space.
+    #[error("elements of second order are not written to {0} files")]
+    NotSecondOrder(Format),
+    /// The circumcentre of a triangle is no finite number.
+    #[error("the circumcentre of triangle {triangle} is too far away to be written")]
+    FarCentre {
+        /// Its number in the `.ele` file.
+        triangle: usize,
+    },
     /// The format holds no triangulation of space.
     #[error("triangulations of space are not written to {0} files")]
     NotABody(Format),
@@ -109,19 +118,23 @@ impl Error {
             Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {
-                "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu pcd geojson wkt wkb"
+                "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu msh pcd geojson wkt wkb"
             }
-            Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off",
+            Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off msh",
             Self::NotEdges(_) => "edges: npy csv geojson; in the plane also svg png",
             Self::NotCells(_) => "cells: geojson svg png",
             Self::NotPatches(_) => "triangles of polygons: npy csv ply obj stl vtu geojson wkt wkb svg png",
-            Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele",
+            Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele msh",
+            Self::NotSecondOrder(_) => {
+                "triangles of second order, of the plane: node ele neigh edge poly vtu msh inp svg png"
+            }
+            Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
             Self::NotABody(_) => {
-                "tetrahedra: npy ele neigh node edge vtu; their hull: ply obj stl; pictures: svg png"
+                "tetrahedra: npy ele neigh node edge vtu msh inp; their hull: ply obj stl; pictures: svg png"
             }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
             Self::NotAMesh(_) => {
-                "meshes: npy node ele neigh edge poly ply obj stl vtu geojson wkt wkb svg png"
+                "meshes: npy node ele neigh edge poly ply obj stl vtu msh inp geojson wkt wkb svg png"
             }
         }
     }

@@ -56,6 +56,10 @@ pub enum Format {
     Wkt,
     /// Well-known binary of geometries.
     Wkb,
+    /// Meshes of Gmsh.
+    Msh,
+    /// Meshes of Abaqus.
+    Inp,
     /// Vector pictures.
     Svg,
     /// Pixel pictures.
@@ -99,6 +103,8 @@ const NAMES: &[(&str, Format)] = &[
     ("ewkt", Format::Wkt),
     ("wkb", Format::Wkb),
     ("ewkb", Format::Wkb),
+    ("msh", Format::Msh),
+    ("inp", Format::Inp),
     ("svg", Format::Svg),
     ("png", Format::Png),
 ];

@@ -7,6 +7,7 @@
 mod cloud;
 mod crs;
 mod diagram;
+mod elements;
 mod error;
 mod filtration;
 mod format;
@@ -14,7 +15,9 @@ mod formats;
 mod graph;
 mod guard;
 mod input;
+mod iteration;
 mod mesh;
+mod middles;
 mod output;
 mod patches;
 pub mod picture;
@@ -30,8 +33,10 @@ pub use format::Format;
 pub use formats::edges::{Edges, write_edges};
 pub use formats::las::LAS_CLASSES;
 pub use formats::poly::Beside;
+pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing};
 pub use input::decompressed;
+pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};
 pub use patches::{Patches, write_patches};
@@ -66,7 +71,7 @@ pub struct ReadOptions {
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
     use formats::{
-        e57, geojson, las, npy, obj, off, pcd, ply, poly, raw, stl, text, triangle, vtk, wkb, wkt,
+        e57, geojson, las, msh, npy, obj, off, pcd, ply, poly, raw, stl, text, triangle, vtk, wkb, wkt,
     };
     match format {
         Format::Text => text::read(source, &options.columns),
@@ -88,14 +93,16 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Vtu => vtk::read_xml(source),
         Format::Vtk => vtk::read_legacy(source),
         Format::Pcd => pcd::read(source),
+        Format::Msh => msh::read_points(source),
         _ => Err(Error::NotPoints(format)),
     }
 }
 
 /// Reads the triangles of a mesh file as indices into its points, from 0.
 pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 3]>, Error> {
-    use formats::{npy, obj, off, ply, triangle};
+    use formats::{msh, npy, obj, off, ply, triangle};
     match format {
+        Format::Msh => msh::read_simplices(source),
         Format::Off => off::read_triangles(source),
         Format::Npy => npy::read_simplices(source),
         Format::Ele => Ok(triangle::read_ele(source, false)?.0),
@@ -108,6 +115,7 @@ pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u6
 /// Reads the tetrahedra of a mesh file as indices into its points, from 0.
 pub fn read_tetrahedra(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 4]>, Error> {
     match format {
+        Format::Msh => formats::msh::read_simplices(source),
         Format::Npy => formats::npy::read_simplices(source),
         Format::Ele => Ok(formats::triangle::read_ele(source, false)?.0),
         _ => Err(Error::NotTetrahedra(format)),
@@ -276,7 +284,7 @@ pub fn write_points<const D: usize>(
         Format::Text => text::write(out, points)?,
         Format::Npy => npy::write_points(out, points)?,
         Format::Raw => raw::write(out, points)?,
-        Format::Node => triangle::write_node(out, 0, D, points, None)?,
+        Format::Node => triangle::NodeRows::of(D, points).write(out)?,
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,

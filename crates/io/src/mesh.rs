@@ -5,8 +5,9 @@ use std::io::Write;
 
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, npy, obj, ply, poly, stl, triangle, vtu, wkb, wkt};
-use crate::{Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
+use crate::formats::{geojson, inp, msh, npy, obj, ply, poly, stl, triangle, vtu, wkb, wkt};
+use crate::middles::Middles;
+use crate::{Attributes, Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
 /// A triangulation to be written, with what lies beside it.
 ///
@@ -39,6 +40,14 @@ pub struct Mesh<'a, T: Triangulation> {
     pub constraints: Option<&'a Constraints<'a>>,
     /// The region of each simplex, by its index.
     pub regions: Option<&'a [f64]>,
+    /// Values of the points by id, which `.node` and `.poly` files have instead of heights.
+    pub attributes: Option<&'a Attributes>,
+    /// A number for each of the points, for `.node` and `.poly` files.
+    pub point_markers: Option<&'a [i64]>,
+    /// In the plane, whether triangles have six nodes: their corners and the middles of their edges. These follow the points, by the
+    /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
+    /// all formats hold that: see [`Drawable::check_second_order`].
+    pub second_order: bool,
 }
 
 /// The constraints of a triangulation, and what a `.poly` file says beside them.
@@ -90,6 +99,9 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             trim: None,
             constraints: None,
             regions: None,
+            attributes: None,
+            point_markers: None,
+            second_order: false,
         }
     }
 
@@ -117,6 +129,16 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
         self.simplices().map(|s| self.triangulation.corners(s).indices())
     }
 
+    /// The nodes of a simplex: its corners, and then the middles of a triangle from corner 1 to 2, 2 to 3 and 3 to 1.
+    pub(crate) fn nodes(
+        &self,
+        s: T::Simplex,
+        middles: Option<&Middles>,
+    ) -> impl Iterator<Item = usize> + use<T> {
+        let corners = self.triangulation.corners(s);
+        corners.indices().chain(middles.map(|middles| middles.of_triangle(corners)).into_iter().flatten())
+    }
+
     /// The region of each simplex that is not left out.
     pub(crate) fn region_values(&self) -> Option<impl Iterator<Item = f64> + '_> {
         let regions = self.regions?;
@@ -124,14 +146,30 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
         Some(self.simplices().map(of))
     }
 
+    /// The markers of constraints, by the ends of these in order; those that have none are 0.
+    fn constraint_markers(&self) -> HashMap<[VertexId; 2], i64> {
+        let Constraints { edges, markers, .. } = self.constraints.copied().unwrap_or_default();
+        let marker = |i: usize| markers.and_then(|markers| markers.get(i)).copied().unwrap_or_default();
+        edges.iter().enumerate().map(|(i, &ends)| (ordered(ends), marker(i))).collect()
+    }
+
     /// The edges with their markers: that of the constraint that the edge is, or else 1 on the border and 0 inside.
     pub(crate) fn marked_edges(&self) -> impl Iterator<Item = ([VertexId; 2], i64)> + '_ {
-        let Constraints { edges, markers, .. } = self.constraints.copied().unwrap_or_default();
-        let marked = edges.iter().zip(markers.unwrap_or_default());
-        let markers: HashMap<_, i64> = marked.map(|(&ends, &marker)| (ordered(ends), marker)).collect();
+        let markers = self.constraint_markers();
         self.edges().map(move |(ends, is_border)| {
             let marker = markers.get(&ordered(ends)).copied().filter(|&marker| marker != 0);
             (ends, marker.unwrap_or(i64::from(is_border)))
+        })
+    }
+
+    /// The edges that are constraints or on the border, with their markers.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = ([VertexId; 2], i64)> + '_ {
+        let markers = self.constraint_markers();
+        self.edges().filter_map(move |(ends, is_border)| {
+            let marker = markers.get(&ordered(ends)).copied();
+            let is_side = is_border || marker.is_some();
+            let marker = marker.filter(|&marker| marker != 0).unwrap_or(i64::from(is_border));
+            is_side.then_some((ends, marker))
         })
     }
 
@@ -200,7 +238,7 @@ fn pairs<C: Corners>(corners: C) -> impl Iterator<Item = [VertexId; 2]> {
 }
 
 /// The ends of an edge, the lesser first.
-fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
+pub(crate) fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
     [v.min(w), v.max(w)]
 }
 
@@ -235,12 +273,21 @@ pub trait Drawable: Coordinates {
     /// The formats that hold triangulations of such points.
     const FORMATS: &'static [Format];
 
+    /// Those of them that hold elements of second order, or what does not depend on the order.
+    const SECOND_ORDER: &'static [Format];
+
     /// Why a triangulation is not written in another format.
     fn refusal(format: Format) -> Error;
 
     /// Whether triangulations of such points are written in a format.
     fn check(format: Format) -> Result<(), Error> {
         if Self::FORMATS.contains(&format) { Ok(()) } else { Err(Self::refusal(format)) }
+    }
+
+    /// Whether triangulations of such points are written in a format if their elements are of second order.
+    fn check_second_order(format: Format) -> Result<(), Error> {
+        Self::check(format)?;
+        if Self::SECOND_ORDER.contains(&format) { Ok(()) } else { Err(Error::NotSecondOrder(format)) }
     }
 
     /// Writes the triangles of a triangulation, or draws it.
@@ -254,8 +301,15 @@ pub trait Drawable: Coordinates {
 
 impl Drawable for [f64; 2] {
     const FORMATS: &'static [Format] = &{
-        use Format::{Edge, Ele, GeoJson, Neigh, Node, Npy, Obj, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt};
-        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Ply, Obj, Stl, GeoJson, Wkt, Wkb, Svg, Png]
+        use Format::{
+            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt,
+        };
+        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Ply, Obj, Stl, GeoJson, Wkt, Wkb, Svg, Png]
+    };
+
+    const SECOND_ORDER: &'static [Format] = &{
+        use Format::{Edge, Ele, Inp, Msh, Neigh, Node, Png, Poly, Svg, Vtu};
+        [Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Svg, Png]
     };
 
     fn refusal(format: Format) -> Error {
@@ -285,9 +339,11 @@ impl Drawable for [f64; 2] {
 
 impl Drawable for [f64; 3] {
     const FORMATS: &'static [Format] = &{
-        use Format::{Edge, Ele, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
-        [Npy, Node, Ele, Neigh, Edge, Vtu, Ply, Obj, Stl, Svg, Png]
+        use Format::{Edge, Ele, Inp, Msh, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
+        [Npy, Node, Ele, Neigh, Edge, Vtu, Msh, Inp, Ply, Obj, Stl, Svg, Png]
     };
+
+    const SECOND_ORDER: &'static [Format] = &[];
 
     fn refusal(format: Format) -> Error {
         Error::NotABody(format)
@@ -306,26 +362,26 @@ impl Drawable for [f64; 3] {
 
 /// Writes a triangulation, or draws it as the options say. Indices in the file are those of the input points (duplicates
 /// are written as points that no simplex uses), from 0 unless the format counts from 1. Of space, formats that hold
-/// triangles alone get the border, with the points on it.
+/// triangles alone get the border, with the points on it. The formats of finite elements, `msh` and `inp`, leave out points that no
+/// simplex uses, and have the border and the constraints too, in groups by marker.
 pub fn write_mesh<T: Triangulation<Point: Drawable>>(
     out: &mut dyn Write,
     format: Format,
     mesh: &Mesh<T>,
     options: &picture::Options,
 ) -> Result<Remark, Error> {
+    if mesh.second_order {
+        T::Point::check_second_order(format)?;
+    }
     match format {
         Format::Npy => npy::write_simplices(out, mesh.simplex_count(), Mesh::<T>::WIDTH, mesh.rows())?,
-        Format::Node => {
-            triangle::write_node(out, mesh.base, T::Point::COUNT, mesh.points, mesh.heights)?;
-        }
+        Format::Node => triangle::write_node(out, mesh)?,
         Format::Ele => triangle::write_ele(out, mesh)?,
         Format::Neigh => triangle::write_neigh(out, mesh)?,
         Format::Edge => triangle::write_edge(out, mesh)?,
-        Format::Vtu => {
-            let (points, cells) = (mesh.points.len(), mesh.simplex_count());
-            let grid = vtu::Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH };
-            grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values())?;
-        }
+        Format::Vtu => vtu::write_mesh(out, mesh)?,
+        Format::Msh => msh::write(out, mesh)?,
+        Format::Inp => inp::write(out, mesh)?,
         _ => return T::Point::write_triangles(out, format, mesh, options),
     }
     Ok(None)

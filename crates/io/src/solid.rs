@@ -31,7 +31,7 @@ impl Solid {
 }
 
 /// The corners of the facet opposite to each corner, counter-clockwise seen from outside.
-const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 impl<T: Triangulation<Point = [f64; 3]>> Mesh<'_, T> {
     /// The border: the hull with its vertices alone, by increasing index; or, if something is left out, that of the rest.

@@ -74,7 +74,7 @@ pub(crate) struct CheckArgs {
     pub(crate) input: InputArgs,
     #[command(flatten)]
     pub(crate) dim: DimArgs,
-    /// File of triangles (npy ele ply obj) or of tetrahedra (npy ele).
+    /// File of triangles (npy ele ply obj off msh) or of tetrahedra (npy ele msh).
     #[arg(value_name = "MESH")]
     pub(crate) mesh: PathBuf,
     /// In the plane, file of segments between the points: two indices a line from 0 (csv npy edge poly).

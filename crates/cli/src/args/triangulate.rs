@@ -26,15 +26,15 @@ use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, length};
   delone triangulate points.npy --weights weights.npy -o triangles.npy
 
 x and y are triangulated; heights are kept. Segments of poly, geojson, wkt and wkb files and of --segments are edges of
-the triangulation, and what is inside is written, as --fill says. With --dim 3 npy, ele and vtu hold tetrahedra (the first three corners are
+the triangulation, and what is inside is written, as --fill says. With --dim 3 npy, ele, vtu, msh and inp hold tetrahedra (the first three corners are
 seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
 from 0.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy node ele neigh edge poly ply obj stl vtu geojson wkt wkb svg png), or - for standard output; may be
-    /// repeated. For several instances {} stands for the name of each.
+    /// Output file (npy node ele neigh edge poly ply obj stl vtu msh inp geojson wkt wkb svg png), or - for standard output; may
+    /// be repeated. For several instances {} stands for the name of each.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.

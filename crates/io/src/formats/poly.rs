@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use delone::{RegionSeed2, Triangulation};
 
 use super::lines::{Line, Lines};
-use super::triangle::{AHEAD, Nodes, count, write_node};
-use crate::{Attributes, Cloud, Constraints, Error, Graph, Mesh, Source};
+use super::triangle::{AHEAD, NodeRows, Nodes, count};
+use crate::{Cloud, Constraints, Error, Graph, Mesh, Source};
 
 /// What opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
@@ -200,26 +200,23 @@ pub(crate) fn read_areas(source: Box<dyn Source>) -> Result<Vec<Option<f64>>, Er
 /// Writes a graph, with all that it has; a graph without attributes writes its heights as one.
 pub(crate) fn write_graph(out: &mut dyn Write, graph: &Graph) -> io::Result<()> {
     let Graph { cloud, attributes, point_markers, .. } = graph;
-    let heights = cloud.z.as_ref().filter(|_| attributes.width == 0);
-    let heights = heights.map(|values| Attributes { width: 1, values: values.clone() });
-    let attributes = heights.as_ref().unwrap_or(attributes);
-    let has_markers = u8::from(point_markers.is_some());
-    writeln!(out, "{} 2 {} {has_markers}", cloud.xy.len(), attributes.width)?;
-    for (i, [x, y]) in cloud.xy.iter().enumerate() {
-        write!(out, "{} {x:?} {y:?}", cloud.base + i)?;
-        attributes.row(i).iter().try_for_each(|value| write!(out, " {value:?}"))?;
-        if let Some(markers) = point_markers {
-            write!(out, " {}", markers.get(i).copied().unwrap_or_default())?;
-        }
-        writeln!(out)?;
-    }
+    let (width, values) = match &cloud.z {
+        Some(heights) if attributes.width == 0 => (1, heights),
+        _ => (attributes.width, &attributes.values),
+    };
+    let (base, points, markers) = (cloud.base, &cloud.xy[..], point_markers.as_deref());
+    NodeRows { base, columns: 2, points, width, values, markers }.write(out)?;
     let Graph { segments, markers, holes, regions, .. } = graph;
     Rest { segments, markers: markers.as_deref(), holes, regions }.write(out, cloud.base)
 }
 
-/// Writes the points of a mesh, and its constraints as segments; the border where there are none.
-pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
-    write_node(out, mesh.base, 2, mesh.points, mesh.heights)?;
+/// Writes the points of a mesh, and its constraints as segments; the border where there are none. The middles of edges are no
+/// points of a graph, whatever the order of the triangles is.
+pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
+    out: &mut dyn Write,
+    mesh: &Mesh<T>,
+) -> io::Result<()> {
+    NodeRows::of_mesh(mesh).write(out)?;
     let Some(&Constraints { edges, markers, holes, regions }) = mesh.constraints else {
         let border = mesh.edges().filter(|edge| edge.1);
         let segments: Vec<_> = border.map(|(ends, _)| ends.map(|v| v.index())).collect();

@@ -3,9 +3,10 @@
 
 use std::io::{self, Write};
 
-use delone::Triangulation;
+use delone::{Coordinates, Corners, Triangulation};
 
 use super::lines::Lines;
+use crate::middles::Middles;
 use crate::{Attributes, Cloud, Error, Graph, Mesh, Source};
 
 /// Rows there is room for before they are read: what a header claims is not believed beyond.
@@ -144,31 +145,82 @@ pub(crate) fn read_ele<const N: usize>(
     Ok((simplices, Attributes { width, values }))
 }
 
-/// Writes points of `columns` coordinates, and their heights if they have some besides; they count from `base`.
-pub(crate) fn write_node<P: AsRef<[f64]>>(
-    out: &mut dyn Write,
-    base: usize,
-    columns: usize,
-    points: &[P],
-    heights: Option<&[f64]>,
-) -> io::Result<()> {
-    writeln!(out, "{} {columns} {} 0", points.len(), u8::from(heights.is_some()))?;
-    for (i, p) in points.iter().enumerate() {
-        write!(out, "{}", base + i)?;
-        let height = heights.map(|heights| heights.get(i).unwrap_or(&0.0));
-        p.as_ref().iter().chain(height).try_for_each(|x| write!(out, " {x:?}"))?;
-        writeln!(out)?;
-    }
-    Ok(())
+/// Points that are written: of so many coordinates, with rows of so many values, and with markers if there are any. What the
+/// values and markers lack is 0.
+pub(crate) struct NodeRows<'a, P> {
+    pub(crate) base: usize,
+    pub(crate) columns: usize,
+    pub(crate) points: &'a [P],
+    pub(crate) width: usize,
+    pub(crate) values: &'a [f64],
+    pub(crate) markers: Option<&'a [i64]>,
 }
 
-/// Simplices, with the numbers of their regions; they and the points count from the base.
+impl<'a, P: AsRef<[f64]>> NodeRows<'a, P> {
+    /// Bare points.
+    pub(crate) fn of(columns: usize, points: &'a [P]) -> Self {
+        Self { base: 0, columns, points, width: 0, values: &[], markers: None }
+    }
+
+    pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Self { base, columns, points, width, values, markers } = *self;
+        writeln!(out, "{} {columns} {width} {}", points.len(), u8::from(markers.is_some()))?;
+        for (i, p) in points.iter().enumerate() {
+            write!(out, "{}", base + i)?;
+            let row = (i * width..(i + 1) * width).map(|k| values.get(k).unwrap_or(&0.0));
+            p.as_ref().iter().chain(row).try_for_each(|x| write!(out, " {x:?}"))?;
+            if let Some(markers) = markers {
+                write!(out, " {}", markers.get(i).copied().unwrap_or_default())?;
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    }
+}
+
+impl<'a, P: Coordinates> NodeRows<'a, P> {
+    /// The points of a mesh. Heights are values where there are no attributes: where there are, the first is the height.
+    pub(crate) fn of_mesh<T: Triangulation<Point = P>>(mesh: &Mesh<'a, T>) -> Self {
+        let (width, values) = match (mesh.attributes.filter(|attributes| attributes.width > 0), mesh.heights)
+        {
+            (Some(attributes), _) => (attributes.width, &attributes.values[..]),
+            (None, Some(heights)) => (1, heights),
+            (None, None) => (0, &[][..]),
+        };
+        let (base, points, markers) = (mesh.base, mesh.points, mesh.point_markers);
+        Self { base, columns: P::COUNT, points, width, values, markers }
+    }
+}
+
+/// The points of a mesh, and the middles of edges if triangles have them as nodes.
+pub(crate) fn write_node<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+    let rows = NodeRows::of_mesh(mesh);
+    if !mesh.second_order {
+        return rows.write(out);
+    }
+    let middles = Middles::of(mesh);
+    let points = middles.points(rows.points);
+    let values = middles.values(rows.width, rows.values);
+    let markers = rows.markers.map(|markers| middles.markers(markers));
+    NodeRows { points: &points, values: &values, markers: markers.as_deref(), ..rows }.write(out)
+}
+
+/// Simplices, with the numbers of their regions; they and the points count from the base. Triangles of second order have the
+/// middles of their edges after their corners.
 pub(crate) fn write_ele<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
-    writeln!(out, "{} {} {}", mesh.simplex_count(), Mesh::<T>::WIDTH, u8::from(mesh.regions.is_some()))?;
+    let middles = mesh.second_order.then(|| Middles::of(mesh));
+    let width = if mesh.second_order { 6 } else { Mesh::<T>::WIDTH };
+    writeln!(out, "{} {width} {}", mesh.simplex_count(), u8::from(mesh.regions.is_some()))?;
     let mut regions = mesh.region_values();
-    for (i, mut corners) in mesh.rows().enumerate() {
+    for (i, s) in mesh.simplices().enumerate() {
+        let corners = mesh.triangulation.corners(s);
         write!(out, "{}", mesh.base + i)?;
-        corners.try_for_each(|corner| write!(out, " {}", mesh.base + corner))?;
+        corners.indices().try_for_each(|corner| write!(out, " {}", mesh.base + corner))?;
+        if let Some(middles) = &middles {
+            // Each is opposite to a corner, in the order of these.
+            let [third, first, second] = middles.of_triangle(corners);
+            [first, second, third].iter().try_for_each(|node| write!(out, " {}", mesh.base + node))?;
+        }
         if let Some(region) = regions.as_mut().and_then(Iterator::next) {
             write!(out, " {region:?}")?;
         }

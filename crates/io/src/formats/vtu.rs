@@ -2,15 +2,34 @@
 
 use std::io::{self, Write};
 
-use crate::Shape;
+use delone::Triangulation;
 
-/// VTK's numbers for a triangle and for a tetrahedron.
-const KINDS: [(usize, u8); 2] = [(3, 5), (4, 10)];
+use crate::middles::Middles;
+use crate::{Mesh, Shape};
+
+/// VTK's numbers for a triangle, for a tetrahedron, and for a triangle of second order, by their nodes.
+const KINDS: [(usize, u8); 3] = [(3, 5), (4, 10), (6, 22)];
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let (points, cells) = (shape.positions().count(), shape.triangles().count());
     let grid = Grid { points, heights: shape.heights(), cells, width: 3 };
     grid.write(out, shape.positions(), shape.triangles(), shape.region_values())
+}
+
+/// Writes a mesh of simplices; the middles of edges after the points, if triangles have them as nodes.
+pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+    let (points, cells) = (mesh.points.len(), mesh.simplex_count());
+    let grid = Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH };
+    if !mesh.second_order {
+        return grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values());
+    }
+    let middles = Middles::of(mesh);
+    let positions: Vec<[f64; 3]> = mesh.positions().collect();
+    let positions = middles.points(&positions);
+    let heights = mesh.heights.map(|heights| middles.values(1, heights));
+    let grid = Grid { points: positions.len(), heights: heights.as_deref(), cells, width: 6 };
+    let rows = mesh.simplices().map(|s| mesh.nodes(s, Some(&middles)));
+    grid.write(out, positions.into_iter(), rows, mesh.region_values())
 }
 
 /// What a file holds: so many points, a value for each, and so many cells of so many corners, perhaps in regions.

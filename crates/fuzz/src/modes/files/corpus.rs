@@ -205,7 +205,8 @@ fn meshes() -> Seeds {
     seeds.push((Format::Off, off.as_bytes().to_vec()));
     seeds.push(written(Format::Node));
     seeds.extend(GRAPHS.map(|(format, text)| (format, text.as_bytes().to_vec())));
-    seeds.extend([Format::Poly, Format::Edge, Format::Vtu].map(mesh));
+    seeds.extend([Format::Poly, Format::Edge, Format::Vtu, Format::Msh].map(mesh));
+    seeds.push((Format::Msh, OLD_GMSH.as_bytes().to_vec()));
     let legacy = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n1 2 3 4\n5 6\n";
     seeds.push((Format::Vtk, legacy.as_bytes().to_vec()));
     let xml = "<VTKFile type=\"PolyData\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece><Points>\
@@ -231,6 +232,11 @@ const GRAPHS: [(Format, &str); 4] = [
     (Format::Area, "3\n1 0.5\n2 -1\n3 1e9\n"),
     (Format::Ele, "2 6 1\n1 1 2 3 4 5 6 0.5\n2 2 3 4 5 6 7 1.5\n"),
 ];
+
+/// What Gmsh wrote before it had entities.
+const OLD_GMSH: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"plate\"\n$EndPhysicalNames\n$Nodes\n4\n\
+    10 0 0 0\n20 1 0 0.5\n30 1 1 0\n25 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 10\n2 1 2 0 1 10 20\n3 2 2 5 1 10 20 30\n\
+    4 4 2 0 1 10 20 30 25\n$EndElements\n";
 
 /// Geometries as text and as bytes.
 const GEOMETRIES: [&str; 3] = [

@@ -1,0 +1,51 @@
+//! Input files of Abaqus (`.inp`), which other programs read too: nodes, elements in sets by region, and the nodes of sides in
+//! sets by marker. Nodes are numbered as their points, from 1.
+//!
+//! Triangles of the plane are plane-stress elements, those with heights are shells: their names are easily exchanged.
+
+use std::io::{self, Write};
+
+use delone::Triangulation;
+
+use crate::Mesh;
+use crate::elements::Elements;
+
+/// No line of a set may have more numbers.
+const IN_LINE: usize = 16;
+
+pub(crate) fn write<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+    let elements = Elements::of(mesh);
+    let is_flat = elements.dimension == 2 && !elements.has_heights;
+    writeln!(out, "*HEADING\n{} elements\n*NODE", elements.cell_count())?;
+    let is_used = elements.is_used();
+    for (i, [x, y, z]) in elements.positions.iter().enumerate().filter(|&(i, _)| is_used[i]) {
+        write!(out, "{}, {x:?}, {y:?}", i + 1)?;
+        if is_flat { writeln!(out)? } else { writeln!(out, ", {z:?}")? }
+    }
+    let kind = match (elements.dimension, elements.has_heights, elements.second_order) {
+        (3, ..) => "C3D4",
+        (_, false, false) => "CPS3",
+        (_, false, true) => "CPS6",
+        (_, true, false) => "S3",
+        (_, true, true) => "STRI65",
+    };
+    let mut number = 0;
+    for group in &elements.cells {
+        writeln!(out, "*ELEMENT, TYPE={kind}, ELSET={}", group.name)?;
+        for row in group.rows() {
+            number += 1;
+            write!(out, "{number}")?;
+            row.iter().try_for_each(|node| write!(out, ", {}", node + 1))?;
+            writeln!(out)?;
+        }
+    }
+    for group in &elements.sides {
+        writeln!(out, "*NSET, NSET={}", group.name)?;
+        for part in group.nodes().chunks(IN_LINE) {
+            write!(out, "{}", part[0] + 1)?;
+            part[1..].iter().try_for_each(|node| write!(out, ", {}", node + 1))?;
+            writeln!(out)?;
+        }
+    }
+    Ok(())
+}

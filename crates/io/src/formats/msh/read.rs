@@ -1,0 +1,277 @@
+//! Reads meshes of Gmsh, as text, of versions 2 and 4.1: points, and triangles or tetrahedra. Points are in the order of
+//! their numbers, which may have gaps; other sections are passed over.
+
+use crate::error::excerpt;
+use crate::formats::lines::{Line, Lines};
+use crate::formats::triangle::AHEAD;
+use crate::{Cloud, Error, Source};
+
+/// Reads the points.
+pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    let Some((nodes, ..)) = Reader::start(source)?.nodes()? else {
+        return Err(Error::content("MSH: it has no $Nodes"));
+    };
+    let mut cloud = Cloud::with_capacity(nodes.len(), true);
+    nodes.iter().for_each(|&(_, [x, y, z])| cloud.push([x, y], z));
+    Ok(cloud)
+}
+
+/// Reads the triangles (N = 3) or tetrahedra (N = 4), of any order by their corners, as indices of the points. Elements of
+/// fewer corners are passed over, and so are tetrahedra where triangles are wanted.
+pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
+    let Some((nodes, mut reader)) = Reader::start(source)?.nodes()? else {
+        return Err(Error::content("MSH: it has no $Nodes"));
+    };
+    let tags: Vec<u64> = nodes.into_iter().map(|(tag, _)| tag).collect();
+    while let Some(section) = reader.section()? {
+        if section == "Elements" {
+            let mut rows = Rows { tags: &tags, simplices: Vec::new() };
+            match reader.version {
+                Version::Two => reader.listed(&mut rows)?,
+                Version::Four => reader.in_blocks(&mut rows)?,
+            }
+            reader.end("Elements")?;
+            return Ok(rows.simplices);
+        }
+        reader.pass(&section)?;
+    }
+    Err(Error::content("MSH: it has no $Elements"))
+}
+
+#[derive(Clone, Copy)]
+enum Version {
+    Two,
+    Four,
+}
+
+/// Numbers and coordinates of nodes, by increasing number.
+type Nodes = Vec<(u64, [f64; 3])>;
+
+struct Reader {
+    lines: Lines,
+    version: Version,
+}
+
+impl Reader {
+    /// Reads the section that begins a file.
+    fn start(source: Box<dyn Source>) -> Result<Self, Error> {
+        let mut reader = Self { lines: Lines::new(source), version: Version::Four };
+        loop {
+            match reader.section()?.as_deref() {
+                Some("MeshFormat") => break,
+                Some("Comments") => reader.pass("Comments")?,
+                _ => return Err(Error::content("MSH: it does not begin with $MeshFormat")),
+            }
+        }
+        let line = reader.line("in $MeshFormat")?;
+        let mut words = line.text.split_whitespace();
+        let version = words.next().unwrap_or_default();
+        if line.number::<u32>(words.next(), "the type of the file")? != 0 {
+            return Err(line.error("a binary file: save it as text (ASCII)"));
+        }
+        reader.version = match version.split_once('.').unwrap_or((version, "")) {
+            ("2", _) => Version::Two,
+            ("4", "1") => Version::Four,
+            _ => {
+                let version = excerpt(version);
+                return Err(line.error(format!("version {version:?} is not read: save it as 4.1 or as 2.2")));
+            }
+        };
+        reader.end("MeshFormat")?;
+        Ok(reader)
+    }
+
+    fn line(&mut self, place: &str) -> Result<Line<'_>, Error> {
+        self.lines.next()?.ok_or_else(|| Error::Truncated(place.to_owned()))
+    }
+
+    /// The name of the section that begins here; nothing at the end of the file.
+    fn section(&mut self) -> Result<Option<String>, Error> {
+        let Some(line) = self.lines.next()? else { return Ok(None) };
+        match line.text.strip_prefix('$') {
+            Some(name) if !name.starts_with("End") => Ok(Some(name.to_owned())),
+            _ => Err(line.error(format!("{:?} where a section begins", excerpt(line.text)))),
+        }
+    }
+
+    /// Passes over the rest of a section.
+    fn pass(&mut self, section: &str) -> Result<(), Error> {
+        loop {
+            let line = self.line(&format!("in ${}", excerpt(section)))?;
+            if line.text.strip_prefix("$End") == Some(section) {
+                return Ok(());
+            }
+        }
+    }
+
+    fn end(&mut self, section: &str) -> Result<(), Error> {
+        let line = self.line(&format!("in ${section}"))?;
+        if line.text.strip_prefix("$End") == Some(section) {
+            return Ok(());
+        }
+        Err(line.error(format!("{:?} where ${section} ends by its counts", excerpt(line.text))))
+    }
+
+    /// Reads the nodes, and returns what follows them.
+    fn nodes(mut self) -> Result<Option<(Nodes, Self)>, Error> {
+        while let Some(section) = self.section()? {
+            match &section[..] {
+                "Nodes" => {
+                    let mut nodes = match self.version {
+                        Version::Two => self.listed_nodes()?,
+                        Version::Four => self.nodes_in_blocks()?,
+                    };
+                    self.end("Nodes")?;
+                    nodes.sort_by_key(|node| node.0);
+                    if let Some(pair) = nodes.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+                        return Err(Error::content(format!("MSH: node {} is there twice", pair[0].0)));
+                    }
+                    return Ok(Some((nodes, self)));
+                }
+                "Elements" => return Err(Error::content("MSH: $Elements is before $Nodes")),
+                _ => self.pass(&section)?,
+            }
+        }
+        Ok(None)
+    }
+
+    /// Version 2: `count`, then `number x y z` each.
+    fn listed_nodes(&mut self) -> Result<Nodes, Error> {
+        let line = self.line("in $Nodes")?;
+        let count: usize = line.number(line.text.split_whitespace().next(), "the number of nodes")?;
+        let mut nodes = Vec::with_capacity(count.min(AHEAD));
+        for i in 0..count {
+            let line = self.line_of("nodes", i, count)?;
+            let mut words = line.text.split_whitespace();
+            let tag = line.number(words.next(), "the number of the node")?;
+            nodes.push((tag, position(&line, words)?));
+        }
+        Ok(nodes)
+    }
+
+    /// Version 4.1: `blocks count least most`, then for each block `dimension entity parametric count`, the numbers in a line
+    /// each, and `x y z` each.
+    fn nodes_in_blocks(&mut self) -> Result<Nodes, Error> {
+        let (blocks, count) = self.heading("nodes")?;
+        let mut nodes = Vec::with_capacity(count.min(AHEAD));
+        for _ in 0..blocks {
+            let line = self.line("in $Nodes")?;
+            let more: usize = line.number(line.text.split_whitespace().nth(3), "the nodes of the block")?;
+            let start = nodes.len();
+            if more > count - start {
+                return Err(line.error(format!("{more} nodes after {start} of {count}")));
+            }
+            for i in start..start + more {
+                let line = self.line_of("nodes", i, count)?;
+                let tag = line.number(Some(line.text), "the number of the node")?;
+                nodes.push((tag, [0.0; 3]));
+            }
+            for (i, node) in nodes.iter_mut().enumerate().skip(start) {
+                let line = self.line_of("nodes", i, count)?;
+                node.1 = position(&line, line.text.split_whitespace())?;
+            }
+        }
+        if nodes.len() < count {
+            return Err(Error::content(format!("MSH: {} nodes in all blocks, not {count}", nodes.len())));
+        }
+        Ok(nodes)
+    }
+
+    /// Version 2: `count`, then `number kind tags tag ... node ...` each.
+    fn listed<const N: usize>(&mut self, rows: &mut Rows<N>) -> Result<(), Error> {
+        let line = self.line("in $Elements")?;
+        let count: usize = line.number(line.text.split_whitespace().next(), "the number of elements")?;
+        for i in 0..count {
+            let line = self.line_of("elements", i, count)?;
+            let mut words = line.text.split_whitespace().skip(1);
+            let kind = line.number(words.next(), "the kind of the element")?;
+            let tags: usize = line.number(words.next(), "the number of tags")?;
+            if is_wanted::<N>(&line, kind)? {
+                rows.push(&line, words.skip(tags))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Version 4.1: `blocks count least most`, then for each block `dimension entity kind count` and `number node ...` each.
+    fn in_blocks<const N: usize>(&mut self, rows: &mut Rows<N>) -> Result<(), Error> {
+        let (blocks, count) = self.heading("elements")?;
+        let mut done = 0;
+        for _ in 0..blocks {
+            let line = self.line("in $Elements")?;
+            let mut words = line.text.split_whitespace().skip(2);
+            let kind = line.number(words.next(), "the kind of the elements")?;
+            let more: usize = line.number(words.next(), "the elements of the block")?;
+            if more > count - done {
+                return Err(line.error(format!("{more} elements after {done} of {count}")));
+            }
+            let wanted = is_wanted::<N>(&line, kind)?;
+            for i in done..done + more {
+                let line = self.line_of("elements", i, count)?;
+                if wanted {
+                    rows.push(&line, line.text.split_whitespace().skip(1))?;
+                }
+            }
+            done += more;
+        }
+        if done < count {
+            return Err(Error::content(format!("MSH: {done} elements in all blocks, not {count}")));
+        }
+        Ok(())
+    }
+
+    /// The number of blocks of a section, and of things in all of them.
+    fn heading(&mut self, what: &str) -> Result<(usize, usize), Error> {
+        let line = self.line(&format!("before the number of {what}"))?;
+        let mut words = line.text.split_whitespace();
+        let blocks = line.number(words.next(), "the number of blocks")?;
+        Ok((blocks, line.number(words.next(), &format!("the number of {what}"))?))
+    }
+
+    fn line_of(&mut self, what: &str, i: usize, count: usize) -> Result<Line<'_>, Error> {
+        self.lines.next()?.ok_or_else(|| Error::Truncated(format!("after {i} of {count} {what}")))
+    }
+}
+
+/// Coordinates; what follows them are parameters on an entity.
+fn position<'a>(line: &Line, mut words: impl Iterator<Item = &'a str>) -> Result<[f64; 3], Error> {
+    let mut position = [0.0; 3];
+    for (slot, axis) in position.iter_mut().zip(["x", "y", "z"]) {
+        *slot = line.number(words.next(), axis)?;
+    }
+    Ok(position)
+}
+
+/// Whether elements of a kind have N corners; an error if they are no simplices.
+fn is_wanted<const N: usize>(line: &Line, kind: u32) -> Result<bool, Error> {
+    let corners = match kind {
+        15 => 1,
+        1 | 8 | 26..=28 => 2,
+        2 | 9 | 20..=25 => 3,
+        4 | 11 | 29..=31 => 4,
+        _ => return Err(line.error(format!("elements of kind {kind} are no triangles or tetrahedra"))),
+    };
+    Ok(corners == N)
+}
+
+/// What is read of elements.
+struct Rows<'a, const N: usize> {
+    /// The numbers of the nodes, increasing.
+    tags: &'a [u64],
+    simplices: Vec<[u64; N]>,
+}
+
+impl<const N: usize> Rows<'_, N> {
+    /// Takes the corners of an element; other nodes follow them.
+    fn push<'a>(&mut self, line: &Line, mut words: impl Iterator<Item = &'a str>) -> Result<(), Error> {
+        let mut corners = [0; N];
+        for slot in &mut corners {
+            let tag: u64 = line.number(words.next(), "a corner")?;
+            let index =
+                self.tags.binary_search(&tag).map_err(|_| line.error(format!("there is no node {tag}")))?;
+            *slot = index as u64;
+        }
+        self.simplices.push(corners);
+        Ok(())
+    }
+}
