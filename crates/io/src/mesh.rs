@@ -5,7 +5,7 @@ use std::io::Write;
 
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, inp, msh, npy, obj, ply, poly, stl, triangle, vtu, wkb, wkt};
+use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vtu, wkb, wkt};
 use crate::middles::Middles;
 use crate::{Attributes, Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
@@ -302,9 +302,9 @@ pub trait Drawable: Coordinates {
 impl Drawable for [f64; 2] {
     const FORMATS: &'static [Format] = &{
         use Format::{
-            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt,
+            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Off, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt,
         };
-        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Ply, Obj, Stl, GeoJson, Wkt, Wkb, Svg, Png]
+        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Ply, Obj, Off, Stl, GeoJson, Wkt, Wkb, Svg, Png]
     };
 
     const SECOND_ORDER: &'static [Format] = &{
@@ -325,6 +325,7 @@ impl Drawable for [f64; 2] {
         match format {
             Format::Ply => ply::write(out, mesh)?,
             Format::Obj => obj::write(out, mesh)?,
+            Format::Off => off::write(out, mesh)?,
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
             Format::Poly => poly::write(out, mesh)?,
