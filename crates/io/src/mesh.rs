@@ -44,6 +44,8 @@ pub struct Mesh<'a, T: Triangulation> {
     pub attributes: Option<&'a Attributes>,
     /// A number for each of the points, for `.node` and `.poly` files.
     pub point_markers: Option<&'a [i64]>,
+    /// Whether `.edge` files have a marker for each edge.
+    pub edge_markers: bool,
     /// In the plane, whether triangles have six nodes: their corners and the middles of their edges. These follow the points, by the
     /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
     /// all formats hold that: see [`Drawable::check_second_order`].
@@ -101,6 +103,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             regions: None,
             attributes: None,
             point_markers: None,
+            edge_markers: true,
             second_order: false,
         }
     }

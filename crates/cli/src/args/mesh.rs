@@ -24,6 +24,7 @@ const SAID: [&str; 9] = [
 /// Make meshes.
 #[derive(Debug, Args)]
 #[command(after_help = mesh_help())]
+#[allow(clippy::struct_excessive_bools)] // they are options
 pub(crate) struct MeshArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,

@@ -18,15 +18,11 @@ pub(super) fn of(c: &Constrained2, graph: &Graph, domains: &Domains2) -> Markers
     points.resize(c.points().len(), 0);
     for (s, _) in c.segments() {
         let marker = of_segment(s.index());
-        if marker != 0 {
-            let chain = c.chain(s).unwrap_or_default();
-            chain
-                .iter()
-                .filter(|v| points[v.index()] == 0)
-                .copied()
-                .collect::<Vec<_>>()
-                .iter()
-                .for_each(|v| points[v.index()] = marker);
+        let chain = if marker == 0 { None } else { c.chain(s) };
+        for v in chain.unwrap_or_default() {
+            if points[v.index()] == 0 {
+                points[v.index()] = marker;
+            }
         }
     }
     let mut edges = Vec::new();

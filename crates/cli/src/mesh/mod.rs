@@ -77,6 +77,9 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(left) = tell::left(report).filter(|_| args.strict) {
         return Err(Failure::new(left, "ask for less, or leave --strict out to write what there is"));
     }
+    if report.triangles == 0 && c.triangle_count() > 0 {
+        note(quiet, "nothing is inside: no segments close; see --fill and --convex");
+    }
     let kept = Kept::of(c, &made.refined.domains, plan.traits.drop_unused);
     tell::count(report, kept.points.len(), &mut stats);
     stats.set("hull", c.hull_facets().count());
@@ -196,6 +199,7 @@ impl Made {
             regions: regions.as_deref(),
             attributes: attributes.as_ref(),
             point_markers: points.as_deref(),
+            edge_markers: plan.markers != Written::Never,
             second_order: plan.traits.second_order,
             ..Mesh::new(kept, &kept.points)
         };

@@ -184,13 +184,27 @@ impl Sources {
             .filter(|same| same.len() == 1)
             .map(|same| same[0])
             .collect();
-        graph.is_border = vec![false; graph.segments.len()];
-        graph.is_border.resize(graph.segments.len() + border.len(), true);
-        if let Some(markers) = &mut graph.markers {
-            markers.resize(markers.len() + border.len(), 0);
-        }
-        graph.segments.extend(border);
+        add_border(graph, &border);
         Ok(Again { elements, attributes, areas })
+    }
+}
+
+/// Makes these sides the border, and the only one. Those that are segments already need not be added.
+fn add_border(graph: &mut Graph, border: &[[usize; 2]]) {
+    graph.is_border = vec![false; graph.segments.len()];
+    let mut is_there = vec![false; border.len()];
+    for (segment, is_border) in graph.segments.iter().zip(&mut graph.is_border) {
+        let [from, to] = *segment;
+        if let Ok(at) = border.binary_search(&[from.min(to), from.max(to)]) {
+            // Of equal segments one, because even and odd are counted.
+            *is_border = !std::mem::replace(&mut is_there[at], true);
+        }
+    }
+    let missing = border.iter().zip(is_there).filter(|side| !side.1).map(|side| *side.0);
+    graph.segments.extend(missing);
+    graph.is_border.resize(graph.segments.len(), true);
+    if let Some(markers) = &mut graph.markers {
+        markers.resize(graph.segments.len(), 0);
     }
 }
 
