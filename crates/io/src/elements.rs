@@ -10,7 +10,9 @@ use delone::{Coordinates, Triangulation};
 
 use crate::Mesh;
 use crate::middles::Middles;
-use crate::solid::FACETS;
+
+/// The corners of the facet of a tetrahedron opposite to each corner, counter-clockwise seen from outside.
+pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 /// What is written, with nodes by the indices of their points, from 0.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use std::io::Write;
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vtu, wkb, wkt};
-use crate::middles::Middles;
+use crate::middles::{Middles, ordered};
 use crate::{Attributes, Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
 /// A triangulation to be written, with what lies beside it.
@@ -238,11 +238,6 @@ fn pairs<C: Corners>(corners: C) -> impl Iterator<Item = [VertexId; 2]> {
     let count = corners.as_ref().len();
     let each = (0..count).flat_map(move |i| (i + 1..count).map(move |j| (i, j)));
     each.map(move |(i, j)| ordered([corners.as_ref()[i], corners.as_ref()[j]]))
-}
-
-/// The ends of an edge, the lesser first.
-pub(crate) fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
-    [v.min(w), v.max(w)]
 }
 
 impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {

@@ -5,7 +5,6 @@
 use delone::{Coordinates, Corners, Triangulation, VertexId};
 
 use crate::Mesh;
-use crate::mesh::ordered;
 
 /// The edges of all triangles that are not left out, with their markers.
 #[derive(Debug)]
@@ -61,4 +60,9 @@ impl Middles {
         let given = (0..self.first).map(|i| markers.get(i).copied().unwrap_or_default());
         given.chain(self.edges.iter().map(|edge| edge.1)).collect()
     }
+}
+
+/// The ends of an edge, the lesser first.
+pub(crate) fn ordered([v, w]: [VertexId; 2]) -> [VertexId; 2] {
+    [v.min(w), v.max(w)]
 }

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use delone::{Corners, Dimension, Hull3, Triangulation, VertexId};
 
+use crate::elements::FACETS;
 use crate::{Error, Format, Mesh, Remark, Shape, picture};
 
 /// Flat convex faces around a body.
@@ -29,9 +30,6 @@ impl Solid {
         }
     }
 }
-
-/// The corners of the facet opposite to each corner, counter-clockwise seen from outside.
-pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 impl<T: Triangulation<Point = [f64; 3]>> Mesh<'_, T> {
     /// The border: the hull with its vertices alone, by increasing index; or, if something is left out, that of the rest.

@@ -10,7 +10,7 @@ use delone::{Triangulation, VertexId};
 use delone_predicates::circumcentre;
 
 use super::triangle::NodeRows;
-use crate::mesh::ordered;
+use crate::middles::ordered;
 use crate::{Error, Mesh};
 
 /// Writes the corners of the Voronoi diagram, as a `.node` file: the circumcentres of the triangles that are not left out, in

@@ -118,6 +118,7 @@ impl Constrained2 {
             graph,
             segments: Segments::new(ends, bent),
             cover: OnceLock::new(),
+            has_chains: report.through_vertices > 0 || report.rounds > 0,
             report,
             channel: Channel::default(),
         })

@@ -49,6 +49,7 @@ impl Constrained2 {
         }
         self.graph.insert_named(v, found, q, &mut ());
         if let Some([a, b]) = ends {
+            self.has_chains = true;
             self.fix([[a, v], [v, b]]);
             if let Some(cover) = self.cover.get_mut() {
                 cover.replace(&[[a, b]], &[[a, v], [v, b]]);
@@ -233,6 +234,7 @@ impl Constrained2 {
         let each = |mesh: &Mesh2, e: EdgeId| edges.push([mesh.origin(e), mesh.destination(e)]);
         let forced = self.graph.base.force(places, &mut self.channel, each);
         debug_assert!(forced.is_ok(), "nothing is crossed");
+        self.has_chains |= edges.len() > 1;
         if let Some(cover) = self.cover.get_mut() {
             edges.into_iter().for_each(|edge| cover.add(s, edge));
         }

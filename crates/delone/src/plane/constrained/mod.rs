@@ -79,6 +79,8 @@ pub struct Constrained2 {
     cover: OnceLock<Cover>,
     report: ConstraintReport2,
     channel: Channel,
+    /// Whether a segment may be a chain of several edges; if not, none is.
+    has_chains: bool,
 }
 
 /// What became of the segments that a triangulation was built of. Where crossings were split, their pieces are counted.

@@ -24,6 +24,8 @@ pub(in crate::plane) struct Before {
     pub(in crate::plane) parts: Vec<usize>,
     /// How many of them are.
     pub(in crate::plane) inside: usize,
+    /// How many points there are.
+    pub(in crate::plane) given: usize,
     /// How many vertices may be added.
     pub(in crate::plane) room: usize,
 }
@@ -46,8 +48,11 @@ impl Constrained2 {
             let [a, b] = ends.map(|v| self.mesh().place(v));
             a.zip(b).is_some_and(|(a, b)| self.mesh().edge_between(a, b).is_some())
         };
-        let longer = self.segments().filter(|&(s, ends)| self.segments.is_bent(s) || !is_single(ends));
-        let chains = longer.filter_map(|(s, _)| Some((s, self.chain(s)?))).collect();
+        let longer = |&(s, ends): &(SegmentId, Ends)| self.segments.is_bent(s) || !is_single(ends);
+        let chains = match self.has_chains {
+            false => BTreeMap::new(),
+            true => self.segments().filter(longer).filter_map(|(s, _)| Some((s, self.chain(s)?))).collect(),
+        };
         let of = |inside: bool| {
             let parts = domains.parts().iter().enumerate();
             parts.filter(move |(_, part)| part.is_inside == inside).map(|(number, _)| number)
@@ -62,8 +67,8 @@ impl Constrained2 {
         }
         self.cover.take();
         self.graph.begin_bulk();
-        let room = MAX_POINTS - self.points().len();
-        Before { chains, inside: of(true).count(), parts, room }
+        let given = self.points().len();
+        Before { chains, inside: of(true).count(), parts, given, room: MAX_POINTS - given }
     }
 
     /// The triangulation itself.
@@ -97,6 +102,7 @@ impl Constrained2 {
         along.sort_unstable();
         let counts = [new.len() - along.len(), along.len()];
         let along: Vec<Along> = along.chunk_by(|p, q| p.0 == q.0).map(|on| self.chain_on(on)).collect();
+        self.has_chains |= !along.is_empty();
         self.bend(before, &along);
         Ok(counts)
     }

@@ -28,12 +28,13 @@ enum Met {
 impl Mesher<'_> {
     /// Mends a triangle: with a new vertex, by noting constraints that must be split first, or not at all.
     pub(super) fn mend(&mut self, task: &Task) {
-        if self.count >= self.rules.budget {
+        let is_for_size = task.fault() == Fault::Size;
+        if self.rules.is_enough(self.count, self.for_sizes, is_for_size) {
             self.leave(task.corners, Reason::Budget);
             return;
         }
         let Some(shape) = Shape::of(self.layer, task.edge.triangle()) else { return };
-        let reach = if task.fault() == Fault::Angle { self.rules.reach } else { f64::INFINITY };
+        let reach = if is_for_size { f64::INFINITY } else { self.rules.reach };
         let centre = shape.centre(reach);
         let q = if centre.iter().all(|x| x.is_finite()) { centre } else { shape.centre(self.rules.reach) };
         match self.walk(shape.shortest, q) {
@@ -115,6 +116,7 @@ impl Mesher<'_> {
         let v = self.layer.place_for(Spot::Triangle(t), q);
         self.fill(v);
         self.note_vertex(v, Known { on: [Place::GHOST; 2], scale });
+        self.for_sizes += usize::from(task.fault() == Fault::Size);
         self.look_around(v);
     }
 

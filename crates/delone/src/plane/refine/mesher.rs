@@ -51,6 +51,10 @@ pub(super) struct Mesher<'a> {
     pub(super) born: Vec<Place>,
     /// The number of new vertices.
     pub(super) count: usize,
+    /// How many of them are there because something was too large.
+    pub(super) for_sizes: usize,
+    /// Which input vertices are tips of very small angles, as far as that was asked.
+    pub(super) tips: BTreeMap<Place, bool>,
     /// Constraints that cannot be split.
     pub(super) refused: BTreeMap<[Place; 2], Reason>,
     /// Triangles that cannot be mended.
@@ -77,6 +81,8 @@ impl<'a> Mesher<'a> {
             known,
             born: Vec::new(),
             count: 0,
+            for_sizes: 0,
+            tips: BTreeMap::new(),
             refused: BTreeMap::new(),
             left: Vec::new(),
         }
@@ -203,16 +209,16 @@ impl<'a> Mesher<'a> {
 
     fn is_encroached(&self, e: EdgeId) -> bool {
         let mesh = &self.layer.mesh;
-        let sides = [e, mesh.twin(e)].into_iter().filter(|e| self.is_inside(e.triangle()));
+        let sides = || [e, mesh.twin(e)].into_iter().filter(|e| self.is_inside(e.triangle()));
         let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
-        let mut seen = false;
-        for side in sides {
-            seen = true;
-            if self.is_too_near(self.point(mesh.tip(side)), ends) {
-                return true;
-            }
-        }
-        seen && squared(ends[0], ends[1]) > self.rules.longest_constraint
+        let has_near = || sides().any(|side| self.is_too_near(self.point(mesh.tip(side)), ends));
+        (self.rules.clears_constraints() && has_near()) || (self.is_long(e) && sides().next().is_some())
+    }
+
+    /// Whether a constraint is longer than it may be.
+    pub(super) fn is_long(&self, e: EdgeId) -> bool {
+        let mesh = &self.layer.mesh;
+        squared(self.point(mesh.tail(e)), self.point(mesh.head(e))) > self.rules.longest_constraint
     }
 
     /// Whether a point is too near to a constraint: in its diametral circle, or in its diametral lens, where sides have half of

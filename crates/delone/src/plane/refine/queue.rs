@@ -8,7 +8,7 @@
 //!
 //! Cost: O(log n); 24 bytes an entry.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 
 use delone_predicates::lexicographic;
 
@@ -151,7 +151,10 @@ impl Class {
     fn pop(&mut self, points: &[[f64; 2]]) -> Option<Task> {
         if self.sorted.is_empty() && self.heap.len() > MANY {
             std::mem::swap(&mut self.sorted, &mut self.heap);
-            self.sorted.sort_unstable_by(|p, q| q.key.cmp(&p.key).then_with(|| by_corners(q, p, points)));
+            // Ties are few: by themselves they leave the sort without a call.
+            self.sorted.sort_unstable_by_key(|task| Reverse(task.key));
+            let ties = self.sorted.chunk_by_mut(|p, q| p.key == q.key).filter(|ties| ties.len() > 1);
+            ties.for_each(|ties| ties.sort_unstable_by(|p, q| by_corners(q, p, points)));
         }
         match (self.sorted.last(), self.heap.first()) {
             (Some(last), Some(top)) if is_before(top, last, points) => self.pop_heap(points),

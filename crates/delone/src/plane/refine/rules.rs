@@ -13,6 +13,12 @@ const NARROWEST: f64 = 20.0;
 /// Off-centres are this part of the way: what is made passes with room to spare (Shewchuk's choice).
 const SHORT: f64 = 0.95;
 
+/// Without a largest number of new vertices so many may serve angles: a gap as narrow as a rounding error would take more than
+/// there is memory for. It is this number, or so many times that of the points; and so many more for each one that sizes ask for.
+const MANY: usize = 1 << 21;
+const EACH: usize = 64;
+const AROUND: usize = 16;
+
 /// See the module.
 #[derive(Clone)]
 pub(super) struct Rules<'a> {
@@ -25,7 +31,10 @@ pub(super) struct Rules<'a> {
     pub(super) conforming: bool,
     /// The square of the longest constraint.
     pub(super) longest_constraint: f64,
-    pub(super) budget: usize,
+    /// New vertices that there may be at most.
+    most: usize,
+    /// And for the sake of angles, before and for each one that was asked for by a size.
+    for_angles: usize,
     keep: Keep,
     longest: f64,
     /// By domain, those inside from 1 on; there is nothing at 0.
@@ -69,7 +78,8 @@ impl<'a> Rules<'a> {
             reach: SHORT * 0.5 / (0.5 * angle.max(NARROWEST.to_radians())).tan(),
             conforming: wanted.conforming,
             longest_constraint: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
-            budget: wanted.max_vertices.map_or(before.room, |most| most.min(before.room)),
+            most: wanted.max_vertices.map_or(before.room, |most| most.min(before.room)),
+            for_angles: wanted.max_vertices.map_or_else(|| MANY.max(EACH * before.given), |_| before.room),
             keep: wanted.keep,
             longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
@@ -116,6 +126,18 @@ impl<'a> Rules<'a> {
             Keep::Border => !is_between,
             Keep::Constraints => true,
         }
+    }
+
+    /// Whether there are enough new vertices, so many of them for the sake of sizes.
+    #[inline]
+    pub(super) fn is_enough(&self, count: usize, for_sizes: usize, is_for_size: bool) -> bool {
+        let for_angles = self.for_angles.saturating_add(AROUND.saturating_mul(for_sizes));
+        count >= if is_for_size { self.most } else { self.most.min(for_angles) }
+    }
+
+    /// Whether constraints are split because of vertices that are too near, before any is added.
+    pub(super) fn clears_constraints(&self) -> bool {
+        self.conforming || self.squared_cosine <= 1.0
     }
 
     /// Whether a domain is inside.

@@ -24,7 +24,8 @@ impl Mesher<'_> {
         if self.refusal(e).is_some() {
             return;
         }
-        if self.count >= self.rules.budget {
+        let is_long = self.is_long(e);
+        if self.rules.is_enough(self.count, self.for_sizes, is_long) {
             self.refuse(e, Reason::Budget);
             return;
         }
@@ -38,7 +39,9 @@ impl Mesher<'_> {
             self.refuse(e, Reason::Precision);
             return;
         };
-        self.insert_on(e, q);
+        if self.insert_on(e, q) {
+            self.for_sizes += usize::from(is_long);
+        }
     }
 
     fn refuse(&mut self, e: EdgeId, reason: Reason) {
@@ -83,9 +86,13 @@ impl Mesher<'_> {
     }
 
     /// Where a constraint is best split.
-    fn where_to_split(&self, e: EdgeId, meets: [bool; 2]) -> [f64; 2] {
-        let mesh = &self.layer.mesh;
-        let [a, b] = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+    fn where_to_split(&mut self, e: EdgeId, meets: [bool; 2]) -> [f64; 2] {
+        let ends = [self.layer.mesh.tail(e), self.layer.mesh.head(e)];
+        let on = self.input_of(ends);
+        if let Some(tip) = self.tip_near(on, ends) {
+            return self.on_ring(tip, on, ends);
+        }
+        let [a, b] = ends.map(|v| self.point(v));
         if meets[0] == meets[1] {
             return [0, 1].map(|k| 0.5 * a[k] + 0.5 * b[k]);
         }
@@ -93,6 +100,58 @@ impl Mesher<'_> {
         let part = shell(length) / length;
         let (from, to) = if meets[0] { (a, b) } else { (b, a) };
         [0, 1].map(|k| from[k] + part * (to[k] - from[k]))
+    }
+
+    /// The nearer end of an input constraint at which another one meets it at a very small angle.
+    fn tip_near(&mut self, on: [Place; 2], ends: [Place; 2]) -> Option<Place> {
+        let tips = on.map(|end| Some(end).filter(|_| self.is_tip(end)));
+        let apart = |tip: Place| {
+            squared(self.point(tip), self.point(ends[0])) + squared(self.point(tip), self.point(ends[1]))
+        };
+        tips.into_iter().flatten().min_by(|&p, &q| {
+            apart(p).total_cmp(&apart(q)).then_with(|| lexicographic(self.point(p), self.point(q)))
+        })
+    }
+
+    /// Whether two constraints with the mesh between them meet at a very small angle at an input vertex.
+    fn is_tip(&mut self, v: Place) -> bool {
+        if let Some(known) = self.tips.get(&v) {
+            return *known;
+        }
+        let mesh = &self.layer.mesh;
+        let fixed = mesh.spokes(v).filter(|&e| mesh.is_fixed(e)).collect::<Vec<_>>();
+        let own = self.point(v);
+        let is_narrow = |k: usize| {
+            let pair = [fixed[k], fixed[(k + 1) % fixed.len()]];
+            let [p, q] = pair.map(|e| self.point(mesh.head(e)));
+            let (p, q) = ([p[0] - own[0], p[1] - own[1]], [q[0] - own[0], q[1] - own[1]]);
+            let (dot, cross) = (p[0] * q[0] + p[1] * q[1], p[0] * q[1] - p[1] * q[0]);
+            dot > 0.0 && cross >= 0.0 && cross < NARROW * dot && self.is_inside(pair[0].triangle())
+        };
+        let is_tip = fixed.len() > 1 && (0..fixed.len()).any(is_narrow);
+        self.tips.insert(v, is_tip);
+        is_tip
+    }
+
+    /// Where a constraint is split near a small angle: at the roundest distance from its tip in the middle third. So the vertices
+    /// on both sides are at the same distances, and the triangles between them are left alone; otherwise they would be as small as
+    /// the gap is narrow.
+    fn on_ring(&self, tip: Place, on: [Place; 2], ends: [Place; 2]) -> [f64; 2] {
+        let from = self.point(tip);
+        let [mut near, mut far] = ends.map(|v| squared(from, self.point(v)).sqrt());
+        if near > far {
+            (near, far) = (far, near);
+        }
+        let third = (far - near) / 3.0;
+        let (low, high) = (near + third, far - third);
+        let mut step = 2f64.powi(far.log2().ceil() as i32);
+        while step > 0.0 && (high / step).floor() * step <= low {
+            step *= 0.5;
+        }
+        let ring = (high / step).floor() * step;
+        let other = self.point(if on[0] == tip { on[1] } else { on[0] });
+        let part = ring / squared(from, other).sqrt();
+        [0, 1].map(|k| from[k] + part * (other[k] - from[k]))
     }
 
     /// Whether a point can split a constraint.
@@ -112,8 +171,8 @@ impl Mesher<'_> {
                 .all(|side| is_strict([self.point(mesh.tail(side)), self.point(mesh.head(side)), q]))
     }
 
-    /// Makes a point the vertex that splits a constraint, unless it is too near to others.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) {
+    /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
         let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
@@ -130,7 +189,7 @@ impl Mesher<'_> {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
             self.refuse(e, Reason::Cascade);
-            return;
+            return false;
         }
         let v = self.layer.place_for(Spot::Triangle(seed), q);
         self.fill(v);
@@ -140,6 +199,7 @@ impl Mesher<'_> {
         self.part(v, ends, domains);
         self.look_around(v);
         self.look_at_constraints_around(v);
+        true
     }
 
     /// A triangle that the point beside an edge is in, or beyond the hull edge of.
@@ -215,6 +275,9 @@ impl Mesher<'_> {
         }
     }
 }
+
+/// The tangent of what counts as a very small angle: five degrees.
+const NARROW: f64 = 0.0875;
 
 /// The power of two that splits a length most evenly.
 fn shell(length: f64) -> f64 {

@@ -21,7 +21,7 @@ pub(super) fn report(
     let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
     // Cotangents fall as angles grow: so these are bounds, and the smallest angle has the largest.
     let bounds: Vec<f64> = (1..180 / BIN).map(|k| 1.0 / ((BIN * k) as f64).to_radians().tan()).collect();
-    let bin = |cotangent: f64| bounds.iter().map(|&bound| usize::from(cotangent <= bound)).sum::<usize>();
+    let bin = |cotangent: f64| bounds.partition_point(|&bound| cotangent <= bound);
     let (mut largest, mut smallest) = (f64::NEG_INFINITY, f64::INFINITY);
     for t in layer.mesh.triangles() {
         let domain = layer.mesh.domain(t);
@@ -49,7 +49,7 @@ pub(super) fn report(
             report.left.push(Unrefined2 { triangle: t, reason });
         }
     }
-    if report.triangles > 0 {
+    if largest > f64::NEG_INFINITY {
         let degrees = |cotangent: f64| 1f64.atan2(cotangent).to_degrees();
         (report.smallest_angle, report.largest_angle) = (degrees(largest), degrees(smallest));
     }
