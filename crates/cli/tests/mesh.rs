@@ -247,7 +247,9 @@ fn many_formats_are_read_and_written() {
         "-q mesh ring.wkt --min-angle 30 -o m.v.node -o m.v.edge -o m.neigh -o m.npy -o m.ply -o m.obj -o m.off -o m.stl -o m.vtu \
          -o m.msh -o m.inp -o m.geojson -o m.wkt -o m.wkb -o m.svg -o m.png --color angle",
     );
-    assert!(read(&place, "m.off").starts_with("OFF\n"));
+    // Geomview's file has the points and the triangles.
+    place.succeed("-q mesh m.off --refine m.off --min-angle 0 -o off.node -o off.ele");
+    assert!((mesh(&place, "off").area() - 60.0).abs() < 1e-9);
     assert!(read(&place, "m.svg").contains("<svg"));
     place.succeed("-q mesh ring.wkt --second-order -o six.node -o six.ele -o six.msh");
     assert_eq!(numbers(&read(&place, "six.ele"))[0][1], 6.0);
@@ -311,6 +313,11 @@ fn sizes_come_from_a_file() {
         lengths.fold(0.0, f64::max)
     };
     assert!(longest(&self::mesh(&place, "m")) <= 0.5);
+    // Of a file of Triangle the first attribute counts.
+    place.file("one.node", "1 2 2 0\n1 100 100 0.5 7\n");
+    let one = read(&place, "m.node");
+    place.succeed("-q mesh square.poly --size one.node -o m.node");
+    assert_eq!(read(&place, "m.node"), one);
     for (bad, named) in [("0", "is 0"), ("-1", "is -1"), ("nan", "is NaN"), ("-inf", "is -inf")] {
         place.file("bad.csv", format!("0,0,1\n8,0,{bad}\n"));
         place.fail("mesh square.poly --size bad.csv -o m.vtu", 1, &format!("the size at point 1 {named}"));

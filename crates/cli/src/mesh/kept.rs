@@ -1,5 +1,7 @@
 //! The triangles inside as a triangulation of their own, with all points or with those alone that they use.
 
+use std::sync::OnceLock;
+
 use delone::mesh::Dimension;
 use delone::{Constrained2, Domains2, Duplicate, TriangleId, Triangulation, VertexId};
 
@@ -15,8 +17,8 @@ pub(super) struct Kept<'a> {
     pub(super) old: Vec<usize>,
     /// And the other way.
     new: Vec<Option<VertexId>>,
-    /// The edges of the triangles, by their ends in order.
-    edges: Vec<[VertexId; 2]>,
+    /// The edges of the triangles, by their ends in order, once somebody wants them.
+    edges: OnceLock<Vec<[VertexId; 2]>>,
 }
 
 impl<'a> Kept<'a> {
@@ -34,16 +36,7 @@ impl<'a> Kept<'a> {
         let mut new = vec![None; is_used.len()];
         old.iter().enumerate().for_each(|(k, &i)| new[i] = Some(VertexId::new(k)));
         let points = old.iter().map(|&i| all.points()[i]).collect();
-        let mut kept = Self { all, is_inside, triangles, points, old, new, edges: Vec::new() };
-        let sides = |t| {
-            let [a, b, c] = kept.corners(t);
-            [[a, b], [b, c], [c, a]].map(|[v, w]: [VertexId; 2]| [v.min(w), v.max(w)])
-        };
-        let mut edges: Vec<[VertexId; 2]> = kept.simplices().flat_map(sides).collect();
-        edges.sort_unstable();
-        edges.dedup();
-        kept.edges = edges;
-        kept
+        Self { all, is_inside, triangles, points, old, new, edges: OnceLock::new() }
     }
 
     /// What a vertex is called here.
@@ -92,7 +85,17 @@ impl Triangulation for Kept<'_> {
     }
 
     fn edges(&self) -> impl Iterator<Item = [VertexId; 2]> + '_ {
-        self.edges.iter().copied()
+        let sides = |t| {
+            let [a, b, c] = self.corners(t);
+            [[a, b], [b, c], [c, a]].map(|[v, w]: [VertexId; 2]| [v.min(w), v.max(w)])
+        };
+        let edges = self.edges.get_or_init(|| {
+            let mut edges: Vec<[VertexId; 2]> = self.simplices().flat_map(sides).collect();
+            edges.sort_unstable();
+            edges.dedup();
+            edges
+        });
+        edges.iter().copied()
     }
 
     fn simplices(&self) -> impl Iterator<Item = TriangleId> + Send + '_ {
