@@ -17,7 +17,7 @@ use delone_io::{
 };
 use delone_predicates::orient2d;
 
-use crate::args::{ColorName, MeshArgs, triangle_table};
+use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
 use crate::constrained::{Constrained, extended};
 use crate::files;
 use crate::message::{Failure, answer, note};
@@ -60,12 +60,12 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     let label = sources.input.label();
     let Material { graph, fill, again, .. } = material;
     let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
-    let made = Made::of(c, &plan, sizes.as_ref(), again, &label, quiet)?;
+    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), &label, quiet)?;
     stats.phase("build");
     let (c, report) = (&made.triangulation, &made.refined.report);
     if plan.traits.check {
         let _phase = Phase::start(quiet, "checking");
-        if let Some(flaw) = proof::flaw(c, &made.refined, &plan) {
+        if let Some(flaw) = proof::flaw(c, &made.refined, &made.seeds, &plan) {
             return Err(Failure::new(
                 format!("the mesh is wrong: {flaw}"),
                 "please report this with the input: it is a bug",
@@ -111,16 +111,18 @@ impl Made {
     fn of(
         from: Constrained,
         plan: &Plan,
-        sizes: Option<&Sizes>,
-        again: Option<Again>,
+        (fill, sizes, again): (FillName, Option<&Sizes>, Option<Again>),
         label: &Path,
         quiet: bool,
     ) -> Result<Self, Failure> {
         let Constrained { mut triangulation, mut graph, inside, heights, .. } = from;
-        let seeds = Seeds2 {
-            holes: outside(&triangulation, &inside, label)?,
-            regions: std::mem::take(&mut graph.regions),
-            keep_concavities: true,
+        let regions = std::mem::take(&mut graph.regions);
+        // Seeds say for all rules what is inside, so that regions are known, and that files mean the same.
+        let seeds = if fill == FillName::Seeds {
+            Seeds2 { holes: graph.holes.clone(), regions, keep_concavities: plan.traits.convex }
+        } else {
+            let holes = outside(&triangulation, &inside, label)?;
+            Seeds2 { holes, regions, keep_concavities: true }
         };
         let size = |p: [f64; 2]| sizes.map_or(f64::INFINITY, |sizes| sizes.at(p));
         let area = |p: [f64; 2]| again.as_ref().map_or(f64::INFINITY, |again| again.area(p));

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use delone::{Constrained2, Refined2, TriangleId};
+use delone::{Constrained2, Refined2, Seeds2, TriangleId};
 use delone_predicates::orient2d;
 
 use super::plan::Plan;
@@ -15,7 +15,7 @@ use super::plan::Plan;
 const ANGLE_ERROR: f64 = 8.0 * f64::EPSILON;
 
 /// What is wrong with a mesh, if anything is.
-pub(super) fn flaw(c: &Constrained2, refined: &Refined2, plan: &Plan) -> Option<String> {
+pub(super) fn flaw(c: &Constrained2, refined: &Refined2, seeds: &Seeds2, plan: &Plan) -> Option<String> {
     if let Err(flaw) = c.check() {
         return Some(flaw.to_string());
     }
@@ -38,7 +38,9 @@ pub(super) fn flaw(c: &Constrained2, refined: &Refined2, plan: &Plan) -> Option<
         if smallest < bound {
             return Some(format!("{} has an angle of {} degrees", name(), smallest.to_degrees()));
         }
-        if let Some(most) = plan.max_area.filter(|most| c.area(t) > most * (1.0 + ANGLE_ERROR)) {
+        let own = refined.domains.region(t).and_then(|region| seeds.regions[region].max_area);
+        let is_larger = |most: &f64| c.area(t) > most * (1.0 + ANGLE_ERROR);
+        if let Some(most) = plan.max_area.into_iter().chain(own).find(is_larger) {
             return Some(format!("{} is larger than {most}", name()));
         }
         let longest = [[p, q], [q, r], [r, p]].map(length).into_iter().fold(0.0, f64::max);
