@@ -158,6 +158,7 @@ fn a_mesh_is_what_was_asked_for() {
         ("--min-angle 33", 33.0, f64::INFINITY),
         ("--min-angle 30 --max-area 0.3", 30.0, 0.3),
         ("--max-edge 0.8", 20.0, 0.4),
+        ("--smooth 5 --min-angle 25 --max-area 0.3", 25.0, 0.3),
         ("--conforming --max-area 0.5", 20.0, 0.5),
         ("--drop-unused --min-angle 25 --max-area 1", 25.0, 1.0),
     ] {
@@ -265,6 +266,23 @@ fn many_formats_are_read_and_written() {
     let output = program.wait_with_output().expect("ended");
     place.file("plan.poly", PLAN);
     assert_eq!(text(&output.stdout), place.succeed("-q mesh plan.poly -o - --to ele"));
+}
+
+#[test]
+fn smoothing_makes_angles_larger() {
+    let place = Place::new();
+    place.file("plan.poly", PLAN);
+    let mean = |rounds: usize| {
+        place.succeed(&format!(
+            "-q mesh plan.poly --max-area 0.2 --smooth {rounds} --check -o m.node -o m.ele"
+        ));
+        let mesh = mesh(&place, "m");
+        let angles = mesh.angles();
+        angles.chunks(3).map(|three| three.iter().copied().fold(180.0, f64::min)).sum::<f64>()
+            / mesh.triangles.len() as f64
+    };
+    let (before, after) = (mean(0), mean(5));
+    assert!(after > before + 1.0, "{before} {after}");
 }
 
 #[test]

@@ -69,6 +69,9 @@ pub(crate) struct MeshArgs {
     /// File of the largest area within each triangle of --refine (area).
     #[arg(long, value_name = "FILE", requires = "refine", help_heading = "Quality")]
     pub(crate) areas: Option<PathBuf>,
+    /// Rounds of smoothing: new vertices inside move to where angles are larger [default: 0].
+    #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
+    pub(crate) smooth: Option<usize>,
     #[command(flatten)]
     pub(crate) graph: GraphArgs,
     /// Keep the bays of the convex hull that no segments close, where seeds say what is inside.

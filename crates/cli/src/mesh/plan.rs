@@ -22,6 +22,8 @@ pub(super) struct Plan {
     pub(super) max_edge: Option<f64>,
     pub(super) max_vertices: Option<usize>,
     pub(super) keep: Keep,
+    /// Rounds of smoothing.
+    pub(super) smooth: usize,
     /// What happens to segments that cross.
     pub(super) crossings: CrossingsName,
     /// Whether the regions of triangles are written.
@@ -79,6 +81,7 @@ impl Plan {
                 Some(KeepName::Constraints) => Keep::Constraints,
                 Some(KeepName::Nothing) | None => Keep::Nothing,
             },
+            smooth: args.smooth.unwrap_or_default(),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Refuse),
             regions: Written::AsGiven,
             markers: Written::AsGiven,
@@ -122,6 +125,7 @@ impl Plan {
                 1 => Keep::Border,
                 _ => Keep::Constraints,
             },
+            smooth: args.smooth.unwrap_or_default(),
             crossings: args.graph.crossings.unwrap_or(CrossingsName::Split),
             regions: match (switches.has('A'), switches.has('r')) {
                 (true, _) => Written::Always,
@@ -145,8 +149,11 @@ impl Plan {
 
     /// The same for the library; what is inside and what is asked by place comes from files.
     pub(super) fn refinement<'a>(&self) -> Refinement<'a> {
-        let mut wanted =
-            Refinement::new().min_angle(self.min_angle).keep(self.keep).conforming(self.traits.conforming);
+        let mut wanted = Refinement::new()
+            .min_angle(self.min_angle)
+            .smooth(self.smooth)
+            .keep(self.keep)
+            .conforming(self.traits.conforming);
         if let Some(area) = self.max_area {
             wanted = wanted.max_area(area);
         }

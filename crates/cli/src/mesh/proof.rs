@@ -38,12 +38,13 @@ pub(super) fn flaw(c: &Constrained2, refined: &Refined2, seeds: &Seeds2, plan: &
         if smallest < bound {
             return Some(format!("{} has an angle of {} degrees", name(), smallest.to_degrees()));
         }
+        let longest = [[p, q], [q, r], [r, p]].map(length).into_iter().fold(0.0, f64::max);
         let own = refined.domains.region(t).and_then(|region| seeds.regions[region].max_area);
-        let is_larger = |most: &f64| c.area(t) > most * (1.0 + ANGLE_ERROR);
+        // What a product is off by is small beside the sides, not beside the area.
+        let is_larger = |most: &f64| c.area(t) > most + ANGLE_ERROR * longest * longest;
         if let Some(most) = plan.max_area.into_iter().chain(own).find(is_larger) {
             return Some(format!("{} is larger than {most}", name()));
         }
-        let longest = [[p, q], [q, r], [r, p]].map(length).into_iter().fold(0.0, f64::max);
         if let Some(most) = plan.max_edge.filter(|most| longest > most * (1.0 + ANGLE_ERROR)) {
             return Some(format!("{} has an edge longer than {most}", name()));
         }
