@@ -215,13 +215,13 @@ impl<'a> Refinement<'a> {
             ran = mesher.run();
         }
         let new = mesher.alive();
-        let Mesher { known, left, .. } = mesher;
+        let Mesher { known, left, refused, .. } = mesher;
         let on = |p: Place| {
             let known = known[p.index()];
             (!known.is_free()).then_some(known.on)
         };
         let added = c.end_refinement(&before, &new, on)?;
-        let report = survey::report(c.layer(), &rules, added, &left);
+        let report = survey::report(c.layer(), &rules, added, &left, &refused);
         let domains = c.domains_of_tags(&before, domains);
         ran?;
         Ok(Refined2 { domains, report })
