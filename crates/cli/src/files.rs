@@ -168,6 +168,16 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
 
 /// Reads the points and segments of a command.
 pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> Result<Graph, Failure> {
+    Ok(graph_with_points(args, segments, quiet)?.0)
+}
+
+/// The same, and says which files of points were read beside those that were named.
+pub(crate) fn graph_with_points(
+    args: &InputArgs,
+    segments: Option<&Path>,
+    quiet: bool,
+) -> Result<(Graph, Vec<PathBuf>), Failure> {
+    let mut besides = Vec::new();
     let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension: 2 };
     let mut all = Graph::default();
     for path in &args.input {
@@ -180,6 +190,7 @@ pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> R
                 std::io::Error::new(error.kind(), format!("its points in {}: {error}", beside.display()))
             };
             let file = File::open(&beside).map_err(named)?;
+            besides.push(beside);
             Ok(Box::new(BufReader::new(file)) as Box<dyn Source>)
         };
         let graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
@@ -206,7 +217,7 @@ pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> R
         all.is_border.resize(all.is_border.len() + more.len(), true);
         all.segments.extend(more);
     }
-    Ok(all)
+    Ok((all, besides))
 }
 
 /// Reads a number for each point.
@@ -247,11 +258,15 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
 
 /// Reads points that are asked for.
 pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+    cloud(path, &ReadOptions { dimension, ..ReadOptions::default() }, quiet)
+}
+
+/// Reads the points of a file beside those of the input.
+pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<Cloud, Failure> {
     let format = format(path, None, "the extension")?;
-    let options = ReadOptions { dimension, ..ReadOptions::default() };
     let (source, _phase) = open(path, format, quiet)?;
     let cloud =
-        delone_io::read_points(source, format, &options).map_err(|error| Failure::file(path, &error))?;
+        delone_io::read_points(source, format, options).map_err(|error| Failure::file(path, &error))?;
     for remark in &cloud.remarks {
         note(quiet, format_args!("{}: {remark}", path.display()));
     }
@@ -276,12 +291,12 @@ pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
     })
 }
 
-/// Reads the simplices of a mesh.
+/// Reads the simplices of a mesh, or what else is said of them.
 pub(crate) fn simplices<T>(
     path: &Path,
     quiet: bool,
-    read: impl Fn(Box<dyn Source>, Format) -> Result<Vec<T>, delone_io::Error>,
-) -> Result<Vec<T>, Failure> {
+    read: impl Fn(Box<dyn Source>, Format) -> Result<T, delone_io::Error>,
+) -> Result<T, Failure> {
     if is_standard(path) {
         return Err(Failure::usage(
             "triangles are not read from standard input",

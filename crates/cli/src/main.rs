@@ -18,6 +18,7 @@ mod info;
 mod instances;
 mod locate;
 mod memory;
+mod mesh;
 mod message;
 mod nearest;
 mod orders;
@@ -64,6 +65,7 @@ fn main() -> ExitCode {
     start_threads(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
+        Command::Mesh(args) => mesh::run(&args, quiet),
         Command::Polygons(args) => polygons::run(&args, quiet),
         Command::Check(args) => in_room!(check, args, quiet),
         Command::Generate(args) => generate::run(&args, quiet),

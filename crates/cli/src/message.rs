@@ -46,6 +46,7 @@ impl Failure {
                 | Error::NotASolid(_)
                 | Error::NotTetrahedra(_)
                 | Error::NotABody(_)
+                | Error::NotSecondOrder(_)
         );
         Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
     }
@@ -143,6 +144,13 @@ pub(crate) fn say(quiet: bool, text: impl Display) {
 pub(crate) fn note(quiet: bool, text: impl Display) {
     if !quiet {
         tell(format_args!("note: {text}"));
+    }
+}
+
+/// What a user should look at, on standard error.
+pub(crate) fn warn(quiet: bool, text: impl Display) {
+    if !quiet {
+        tell(format_args!("warning: {text}"));
     }
 }
 

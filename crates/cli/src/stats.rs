@@ -81,8 +81,12 @@ impl Stats {
             let count = self.get(name).as_u64()?;
             Some(format!("{} {}", grouped(count), if count == 1 { one } else { many }))
         });
-        let seconds: f64 = self.seconds.values().filter_map(Value::as_f64).sum();
-        say(quiet, format_args!("{} ({seconds:.2} s)", counts.collect::<Vec<_>>().join(", ")));
+        say(quiet, format_args!("{} ({:.2} s)", counts.collect::<Vec<_>>().join(", "), self.total()));
+    }
+
+    /// The seconds of all phases.
+    pub(crate) fn total(&self) -> f64 {
+        self.seconds.values().filter_map(Value::as_f64).sum()
     }
 
     /// Writes all of it, if a file was named.
@@ -111,7 +115,7 @@ fn hull<T: Triangulation>(d: &T) -> usize {
 }
 
 /// A number in groups of three digits.
-fn grouped(n: u64) -> String {
+pub(crate) fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let groups: Vec<&str> =
         digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();

@@ -134,7 +134,7 @@ impl Error {
             }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
             Self::NotAMesh(_) => {
-                "meshes: npy node ele neigh edge poly ply obj stl vtu msh inp geojson wkt wkb svg png"
+                "meshes: npy node ele neigh edge poly ply obj off stl vtu msh inp geojson wkt wkb svg png"
             }
         }
     }

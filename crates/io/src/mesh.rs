@@ -5,7 +5,7 @@ use std::io::Write;
 
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, inp, msh, npy, obj, ply, poly, stl, triangle, vtu, wkb, wkt};
+use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vtu, wkb, wkt};
 use crate::middles::{Middles, ordered};
 use crate::{Attributes, Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
@@ -44,6 +44,8 @@ pub struct Mesh<'a, T: Triangulation> {
     pub attributes: Option<&'a Attributes>,
     /// A number for each of the points, for `.node` and `.poly` files.
     pub point_markers: Option<&'a [i64]>,
+    /// Whether `.edge` files have a marker for each edge.
+    pub edge_markers: bool,
     /// In the plane, whether triangles have six nodes: their corners and the middles of their edges. These follow the points, by the
     /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
     /// all formats hold that: see [`Drawable::check_second_order`].
@@ -101,6 +103,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             regions: None,
             attributes: None,
             point_markers: None,
+            edge_markers: true,
             second_order: false,
         }
     }
@@ -297,9 +300,9 @@ pub trait Drawable: Coordinates {
 impl Drawable for [f64; 2] {
     const FORMATS: &'static [Format] = &{
         use Format::{
-            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt,
+            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Off, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt,
         };
-        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Ply, Obj, Stl, GeoJson, Wkt, Wkb, Svg, Png]
+        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Ply, Obj, Off, Stl, GeoJson, Wkt, Wkb, Svg, Png]
     };
 
     const SECOND_ORDER: &'static [Format] = &{
@@ -320,6 +323,7 @@ impl Drawable for [f64; 2] {
         match format {
             Format::Ply => ply::write(out, mesh)?,
             Format::Obj => obj::write(out, mesh)?,
+            Format::Off => off::write(out, mesh)?,
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
             Format::Poly => poly::write(out, mesh)?,

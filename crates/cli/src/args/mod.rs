@@ -4,11 +4,13 @@
 mod alpha;
 mod ask;
 mod graph;
+mod mesh;
 mod points;
 mod polygons;
 mod proximity;
 mod shapes;
 mod strategy;
+mod triangle;
 mod triangulate;
 mod weights;
 
@@ -21,11 +23,13 @@ use delone_io::{Format, LAS_CLASSES};
 pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
+pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
+pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 pub(crate) use weights::WeightArgs;
 
@@ -49,6 +53,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Triangulate points.
     Triangulate(TriangulateArgs),
+    /// Make meshes with good angles and sizes: new vertices until all triangles are as wanted.
+    Mesh(Box<MeshArgs>),
     /// Triangulate the insides of polygons, each alone.
     Polygons(PolygonsArgs),
     /// Find the triangle that contains each of many points.

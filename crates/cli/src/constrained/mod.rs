@@ -1,8 +1,8 @@
 //! Points with segments: read, triangulated, told of and written.
 
-mod heights;
+mod values;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use delone::{
     Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
@@ -16,6 +16,8 @@ use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
+
+pub(crate) use values::extended;
 
 /// Whether a command is about segments: they were asked for, or files hold them.
 pub(crate) fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
@@ -68,12 +70,12 @@ pub(crate) fn draw(
 /// A triangulation with segments, and what is inside of it.
 pub(crate) struct Constrained {
     pub(crate) triangulation: Constrained2,
-    graph: Graph,
-    inside: Domains2,
+    pub(crate) graph: Graph,
+    pub(crate) inside: Domains2,
     /// What the regions of the input are, if there are some.
     regions: Option<Domains2>,
     /// The height of every point, those added too.
-    heights: Option<Vec<f64>>,
+    pub(crate) heights: Option<Vec<f64>>,
 }
 
 impl Constrained {
@@ -86,20 +88,32 @@ impl Constrained {
     ) -> Result<Self, Failure> {
         let graph = files::graph(input, args.segments.as_deref(), quiet)?;
         stats.phase("read");
-        let label = input.label();
-        let refused = |error: delone::Error| Failure::graph(&label, &error);
-        let crossings = match args.crossings {
-            Some(CrossingsName::Split) => Crossings::Split,
-            _ => Crossings::Refuse,
+        let crossings = args.crossings.unwrap_or(CrossingsName::Refuse);
+        let name = args.fill.unwrap_or_else(|| usual(input, &graph));
+        Self::of(graph, crossings, (name, false), &input.label(), stats, quiet)
+    }
+
+    /// Triangulates, and tells what a user should know. Where seeds say what is inside bays of the hull may be kept.
+    pub(crate) fn of(
+        graph: Graph,
+        crossings: CrossingsName,
+        (fill, keep_concavities): (FillName, bool),
+        label: &Path,
+        stats: &mut Stats,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let refused = |error: delone::Error| Failure::graph(label, &error);
+        let crossings = match crossings {
+            CrossingsName::Split => Crossings::Split,
+            CrossingsName::Refuse => Crossings::Refuse,
         };
         let phase = Phase::start(quiet, "triangulating");
         let triangulation =
             Constrained2::with_crossings(&graph.cloud.xy, &graph.segments, crossings).map_err(refused)?;
-        let seeds =
-            Seeds2 { holes: graph.holes.clone(), regions: graph.regions.clone(), keep_concavities: false };
+        let (holes, regions) = (graph.holes.clone(), graph.regions.clone());
+        let seeds = Seeds2 { holes, regions, keep_concavities };
         let is_border = |s: SegmentId| graph.is_border.get(s.index()).copied().unwrap_or(true);
-        let name = args.fill.unwrap_or_else(|| usual(input, &graph));
-        let fill = match name {
+        let fill = match fill {
             FillName::All => Fill::All,
             FillName::EvenOdd => Fill::EvenOdd,
             FillName::Nonzero => Fill::NonZero,
@@ -113,7 +127,16 @@ impl Constrained {
         };
         drop(phase);
         stats.phase("build");
-        let heights = heights::of_all(&triangulation, graph.cloud.z.as_deref(), quiet);
+        let heights = graph.cloud.z.as_deref().map(|given| {
+            let (heights, widest) = values::extended(&triangulation, 1, given, |_| None);
+            if widest > 0.0 {
+                let text = format!(
+                    "where segments cross their heights differ by {widest} at most; the mean was taken"
+                );
+                note(quiet, text);
+            }
+            heights
+        });
         let c = Self { triangulation, graph, inside, regions, heights };
         c.tell(stats, quiet);
         Ok(c)
@@ -216,7 +239,7 @@ impl Constrained {
 }
 
 /// What is inside where nothing else is said.
-fn usual(input: &InputArgs, graph: &Graph) -> FillName {
+pub(crate) fn usual(input: &InputArgs, graph: &Graph) -> FillName {
     let is_poly = |path: &PathBuf| input.from.or_else(|| Format::of(path).ok()) == Some(Format::Poly);
     if input.input.iter().any(is_poly) {
         FillName::Seeds

@@ -1,7 +1,9 @@
 //! Object files of Geomview (`OFF`): vertices, and triangles among the faces.
 
+use std::io::{self, Write};
+
 use super::lines::Lines;
-use crate::{Cloud, Error, Source};
+use crate::{Cloud, Error, Shape, Source};
 
 /// Reads the vertices.
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
@@ -42,6 +44,18 @@ pub(crate) fn read_triangles(source: Box<dyn Source>) -> Result<Vec<[u64; 3]>, E
         triangles.push([corner()?, corner()?, corner()?]);
     }
     Ok(triangles)
+}
+
+/// Writes points, at their heights or at 0, and triangles.
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+    writeln!(out, "OFF\n{} {} 0", shape.positions().count(), shape.triangles().count())?;
+    for [x, y, z] in shape.positions() {
+        writeln!(out, "{x:?} {y:?} {z:?}")?;
+    }
+    for [a, b, c] in shape.triangles() {
+        writeln!(out, "3 {a} {b} {c}")?;
+    }
+    Ok(())
 }
 
 /// The numbers of vertices and of faces, beside the first word or in a line of their own.

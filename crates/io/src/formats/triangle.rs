@@ -247,12 +247,16 @@ pub(crate) fn write_neigh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>)
     Ok(())
 }
 
-/// Edges with a marker: that of the constraint that the edge is, or else 1 on the border.
+/// Edges, with a marker unless it is left out: that of the constraint that the edge is, or else 1 on the border.
 pub(crate) fn write_edge<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
-    writeln!(out, "{} 1", mesh.edges().count())?;
+    writeln!(out, "{} {}", mesh.edges().count(), u8::from(mesh.edge_markers))?;
     for (i, (ends, marker)) in mesh.marked_edges().enumerate() {
         let [from, to] = ends.map(|v| mesh.base + v.index());
-        writeln!(out, "{} {from} {to} {marker}", mesh.base + i)?;
+        write!(out, "{} {from} {to}", mesh.base + i)?;
+        if mesh.edge_markers {
+            write!(out, " {marker}")?;
+        }
+        writeln!(out)?;
     }
     Ok(())
 }

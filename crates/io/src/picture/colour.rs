@@ -43,6 +43,10 @@ pub(super) const HEIGHT: Ramp = Ramp(&[
 pub(super) const DENSITY: Ramp =
     Ramp(&[[247, 244, 220], [199, 226, 180], [127, 196, 187], [65, 153, 192], [44, 97, 170], [30, 45, 110]]);
 
+/// Smallest angles: from small (dark) to those of equilateral triangles (light), readable without colour vision.
+pub(super) const ANGLE: Ramp =
+    Ramp(&[[60, 10, 40], [150, 30, 70], [214, 84, 66], [243, 153, 73], [250, 214, 130], [252, 248, 220]]);
+
 impl Ramp {
     /// The colour at `t` from 0 to 1.
     pub(super) fn at(&self, t: f64) -> Rgb {

@@ -53,6 +53,8 @@ pub struct Options {
     pub faint: Vec<[[f64; 2]; 2]>,
     /// In the plane, draw the edges of what is left out faintly.
     pub outside: bool,
+    /// In the plane, colour triangles by their smallest angle, whatever regions and heights there are.
+    pub angles: bool,
     /// In the plane, the corners of the box that is shown, if it is not that of the points.
     pub window: Option<[[f64; 2]; 2]>,
 }
@@ -69,6 +71,7 @@ impl Default for Options {
             links: Vec::new(),
             faint: Vec::new(),
             outside: false,
+            angles: false,
             window: None,
         }
     }
@@ -89,10 +92,11 @@ impl Layers {
         let n = mesh.triangulation.vertex_count().max(1);
         let spacing = (f64::from(view.width) * f64::from(view.height) / n as f64).sqrt();
         let relief = mesh.heights.is_some();
+        let is_coloured = relief || options.angles;
         Self {
-            fill: options
-                .fill
-                .unwrap_or(relief || mesh.regions.is_some() || (spacing < 60.0 && options.disks.is_none())),
+            fill: options.fill.unwrap_or(
+                is_coloured || mesh.regions.is_some() || (spacing < 60.0 && options.disks.is_none()),
+            ),
             edges: options.edges.unwrap_or(spacing > if relief { 14.0 } else { 5.0 }),
             points: options.points.unwrap_or(spacing > if relief { 40.0 } else { 12.0 }),
             spacing,

@@ -24,7 +24,7 @@ pub(super) fn draw(
     options: &Options,
 ) -> Result<Canvas, Error> {
     let d = mesh.triangulation;
-    let paint = Paint::of(mesh);
+    let paint = Paint::of(mesh, options.angles);
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if layers.fill {
         fill(&mut raster, mesh, view, &paint);
@@ -196,6 +196,7 @@ impl Canvas {
         if let Some(ramp) = paint.ramp().filter(|_| filled) {
             let (low, high) = match paint {
                 Paint::Relief(relief) => (Short(relief.low).to_string(), Short(relief.high).to_string()),
+                Paint::Angles(_) => ("0".to_owned(), "60 degrees".to_owned()),
                 _ => ("sparse".to_owned(), "dense".to_owned()),
             };
             self.legend(view, ramp, &low, &high);

@@ -1,8 +1,8 @@
-//! What colour a triangle has: that of its region, shaded height, or density.
+//! What colour a triangle has: that of its region, shaded height, density, or its smallest angle.
 
 use delone::Triangulation;
 
-use super::colour::{DENSITY, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
+use super::colour::{ANGLE, DENSITY, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
 use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
@@ -18,6 +18,8 @@ pub(super) enum Paint<'a> {
     },
     /// By the number of the region of each triangle.
     Regions(Vec<usize>),
+    /// By the smallest angle of each triangle, as a part of 60 degrees.
+    Angles(Vec<f64>),
 }
 
 /// Height colours and light at each point.
@@ -30,7 +32,11 @@ pub(super) struct Relief<'a> {
 }
 
 impl<'a> Paint<'a> {
-    pub(super) fn of(mesh: &'a Mesh<impl Triangulation<Point = [f64; 2]>>) -> Self {
+    pub(super) fn of(mesh: &'a Mesh<impl Triangulation<Point = [f64; 2]>>, angles: bool) -> Self {
+        if angles {
+            let share = |triangle: [usize; 3]| smallest_angle(triangle.map(|i| mesh.points[i])) / 60.0;
+            return Self::Angles(mesh.triangles().map(share).collect());
+        }
         if let Some(regions) = mesh.region_values() {
             return Self::regions(regions.collect());
         }
@@ -62,6 +68,7 @@ impl<'a> Paint<'a> {
             Self::Relief(_) => Some(&HEIGHT),
             Self::Density { .. } => Some(&DENSITY),
             Self::Regions(_) => None,
+            Self::Angles(_) => Some(&ANGLE),
         }
     }
 
@@ -70,6 +77,7 @@ impl<'a> Paint<'a> {
     pub(super) fn corners(&self, i: usize, triangle: [usize; 3], area: f64) -> [[f64; 2]; 3] {
         match self {
             Self::Regions(numbers) => [[numbers[i] as f64, 1.0]; 3],
+            Self::Angles(shares) => [[shares[i], 1.0]; 3],
             Self::Relief(relief) => triangle.map(|i| [relief.value(i), relief.light[i]]),
             Self::Density { low, high } => [[1.0 - fraction(area.ln(), *low, *high), 1.0]; 3],
         }
@@ -108,6 +116,22 @@ pub(super) fn area(corners: [[f64; 2]; 3]) -> f64 {
     let is_large = |axis: usize| corners.iter().any(|p| p[axis].abs() > 2f64.powi(500));
     let [x, y] = [0, 1].map(|axis| if is_large(axis) { 2f64.powi(-520) } else { 1.0 });
     of(corners.map(|p| [p[0] * x, p[1] * y])) / x / y
+}
+
+/// The smallest angle of a triangle in degrees, rounded.
+fn smallest_angle([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let at = |[p, q, r]: [[f64; 2]; 3]| {
+        // Halves of coordinates, so that differences are numbers; the longer coordinate is 1, so that products are.
+        let toward = |q: [f64; 2]| [0, 1].map(|k| q[k] / 2.0 - p[k] / 2.0);
+        let unit = |u: [f64; 2]| {
+            let longer = u[0].abs().max(u[1].abs());
+            u.map(|x| x / longer)
+        };
+        let (u, v) = (unit(toward(q)), unit(toward(r)));
+        (u[0] * v[1] - u[1] * v[0]).atan2(u[0] * v[0] + u[1] * v[1])
+    };
+    let smallest = [[a, b, c], [b, c, a], [c, a, b]].map(at).into_iter().fold(f64::INFINITY, f64::min);
+    if smallest.is_finite() { smallest.to_degrees().max(0.0) } else { 0.0 }
 }
 
 /// Where a value lies between two others, 0.5 if these are equal.

@@ -20,7 +20,7 @@ pub(super) fn write(
     let d = mesh.triangulation;
     open(out, view)?;
     if layers.fill {
-        let paint = Paint::of(mesh);
+        let paint = Paint::of(mesh, options.angles);
         writeln!(out, r#"<g stroke-width="0.6" stroke-linejoin="round">"#)?;
         for (i, triangle) in mesh.triangles().enumerate() {
             let corners = triangle.map(|i| mesh.points[i]);

@@ -1,0 +1,142 @@
+//! What `mesh` takes.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use delone_io::Format;
+
+use super::triangle::{Switches, table};
+use super::{GraphArgs, InputArgs, count};
+
+/// Options that Triangle's switches say too.
+const SAID: [&str; 9] = [
+    "min_angle",
+    "max_area",
+    "max_vertices",
+    "keep",
+    "conforming",
+    "convex",
+    "ignore_holes",
+    "second_order",
+    "drop_unused",
+];
+
+/// Make meshes.
+#[derive(Debug, Args)]
+#[command(after_help = mesh_help())]
+#[allow(clippy::struct_excessive_bools)] // they are options
+pub(crate) struct MeshArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Output file (node ele neigh edge poly v.node v.edge off npy ply obj stl vtu msh inp geojson wkt wkb svg png), or - for
+    /// standard output; may be repeated. With --triangle it may be left out.
+    #[arg(long, short, value_name = "OUT", required_unless_present = "triangle")]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// Triangle's switches, such as pq30a.1; without -o its files are written beside the input.
+    #[arg(long, value_name = "SWITCHES", value_parser = Switches::parse, allow_hyphen_values = true, conflicts_with_all = SAID)]
+    pub(crate) triangle: Option<Switches>,
+    /// No smaller angles, in degrees, but where the input forces them: 0 to 34, or less than 60 with --max-vertices [default: 20].
+    #[arg(long, value_name = "DEGREES", help_heading = "Quality")]
+    pub(crate) min_angle: Option<f64>,
+    /// No larger triangles. Regions of .poly files may have smaller bounds of their own.
+    #[arg(long, value_name = "AREA", help_heading = "Quality")]
+    pub(crate) max_area: Option<f64>,
+    /// No longer edges.
+    #[arg(long, value_name = "LENGTH", help_heading = "Quality")]
+    pub(crate) max_edge: Option<f64>,
+    /// So many new vertices at most.
+    #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
+    pub(crate) max_vertices: Option<usize>,
+    /// Segments that may not be split [default: nothing].
+    #[arg(long, value_name = "WHAT", help_heading = "Quality")]
+    pub(crate) keep: Option<KeepName>,
+    /// No vertex inside of the circle around a segment, so that what is inside is a Delaunay triangulation.
+    #[arg(long, help_heading = "Quality")]
+    pub(crate) conforming: bool,
+    /// File of points with the longest edge that is wanted there (the third column of text, the height, the first attribute of a
+    /// .node file); linear between the points, the value of the nearest one around them.
+    #[arg(long, value_name = "FILE", help_heading = "Quality")]
+    pub(crate) size: Option<PathBuf>,
+    /// Columns of a text file of --size that are x, y and the size: names or numbers from 1.
+    #[arg(long, value_name = "COLUMN", value_delimiter = ',', requires = "size", help_heading = "Quality")]
+    pub(crate) size_columns: Vec<String>,
+    /// Triangles between the points of the input (ele npy ply obj off msh), which are refined: a mesh once more.
+    #[arg(long, value_name = "FILE", help_heading = "Quality")]
+    pub(crate) refine: Option<PathBuf>,
+    /// File of the largest area within each triangle of --refine (area).
+    #[arg(long, value_name = "FILE", requires = "refine", help_heading = "Quality")]
+    pub(crate) areas: Option<PathBuf>,
+    /// Rounds of smoothing: new vertices inside move to where angles are larger [default: 0].
+    #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
+    pub(crate) smooth: Option<usize>,
+    #[command(flatten)]
+    pub(crate) graph: GraphArgs,
+    /// Keep the bays of the convex hull that no segments close, where seeds say what is inside.
+    #[arg(long, help_heading = "Segments")]
+    pub(crate) convex: bool,
+    /// Fill the holes of .poly files.
+    #[arg(long, help_heading = "Segments")]
+    pub(crate) ignore_holes: bool,
+    /// Triangles with six nodes: their corners and the middles of their edges.
+    #[arg(long)]
+    pub(crate) second_order: bool,
+    /// Leave out vertices that no triangle uses: the others are numbered anew, in their order.
+    #[arg(long)]
+    pub(crate) drop_unused: bool,
+    /// Fail, and write nothing, if triangles are left that are not as they were to be.
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Prove the result with exact arithmetic, and measure all of its triangles again, before writing it.
+    #[arg(long)]
+    pub(crate) check: bool,
+    /// Print how many angles there are of each size.
+    #[arg(long)]
+    pub(crate) histogram: bool,
+    /// What colours mean in pictures [default: regions, heights or density].
+    #[arg(long, value_name = "WHAT")]
+    pub(crate) color: Option<ColorName>,
+}
+
+/// Segments that may not be split.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KeepName {
+    /// All may.
+    Nothing,
+    /// Those with the mesh on one side only.
+    Border,
+    /// All segments.
+    Constraints,
+}
+
+/// What colours mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ColorName {
+    /// The smallest angle of each triangle.
+    Angle,
+}
+
+/// Examples, and Triangle's letters.
+fn mesh_help() -> String {
+    format!(
+        "Examples:
+  delone mesh plan.poly --min-angle 30 -o plan.msh -o plan.png --color angle
+  delone mesh lakes.geojson --max-area 100 --check --stats stats.json -o lakes.vtu
+  delone mesh coast.poly --size depth.csv --size-columns x,y,edge -o coast.1.node -o coast.1.ele
+  delone mesh coast.1.node --refine coast.1.ele --areas coast.1.area -o coast.2.node -o coast.2.ele
+  delone mesh plan.poly --triangle pq30a.1
+
+New vertices follow those of the input, in the order in which they came. What is inside is written, as --fill says; vertices
+outside stay, without triangles, unless --drop-unused. Heights and attributes of new vertices are linear between those of the
+input. Triangles that could not be refined are counted in a warning, with the reasons.
+
+Triangle's switches:
+{}
+With --triangle segments that cross are split, as Triangle does. Files without a known extension are .poly with p, or else
+.node. x.poly becomes x.1.node, x.1.ele and x.1.poly; x.1.poly becomes x.2.node, and so on.
+Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.",
+        table()
+    )
+}

@@ -1,0 +1,310 @@
+//! `delone mesh`: points and segments in, triangles of wanted angles and sizes out.
+
+mod field;
+mod kept;
+mod markers;
+mod names;
+mod plan;
+mod proof;
+mod source;
+mod tell;
+
+use std::path::Path;
+
+use delone::{Constrained2, Domains2, Error, Fill, Location2, Refined2, Seeds2, Triangulation, VertexId};
+use delone_io::{
+    Attributes, Constraints, Format, Graph, Mesh, picture, write_mesh, write_voronoi_edge, write_voronoi_node,
+};
+use delone_predicates::orient2d;
+
+use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
+use crate::constrained::{Constrained, extended};
+use crate::files;
+use crate::message::{Failure, answer, note};
+use crate::progress::Phase;
+use crate::stats::Stats;
+use field::{Sizes, along, between};
+use kept::Kept;
+use names::{Content, Target};
+use plan::{Plan, Written};
+use source::{Again, Material, Sources};
+
+pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
+    if args.triangle.as_ref().is_some_and(|switches| switches.has('h')) {
+        return answer(&triangle_table());
+    }
+    let quiet = quiet || args.triangle.as_ref().is_some_and(|switches| switches.has('Q'));
+    let plan = Plan::of(args, quiet)?;
+    let sources = Sources::of(args)?;
+    let inputs = sources.paths(args);
+    let mut targets = names::named(args, &plan, &inputs)?;
+    if plan.traits.histogram && args.output.iter().any(|path| path == Path::new("-")) {
+        return Err(Failure::usage(
+            "the histogram and a mesh cannot both go to standard output",
+            "leave --histogram out, or name a file",
+        ));
+    }
+    let by_triangle = args.triangle.as_ref().filter(|_| args.output.is_empty());
+    if by_triangle.is_some() {
+        names::input(args)?;
+    }
+    let mut stats = Stats::start();
+    let sizes = match &args.size {
+        Some(path) => Some(Sizes::read(path, &args.size_columns, quiet)?),
+        None => None,
+    };
+    let material = sources.read(args, &plan, &mut stats, quiet)?;
+    if let Some(switches) = by_triangle {
+        targets = names::beside(args, switches, &inputs, &material)?;
+    }
+    let label = sources.input.label();
+    let Material { graph, fill, again, .. } = material;
+    let c = Constrained::of(graph, plan.crossings, (fill, plan.traits.convex), &label, &mut stats, quiet)?;
+    let made = Made::of(c, &plan, (fill, sizes.as_ref(), again), &label, quiet)?;
+    stats.phase("build");
+    let (c, report) = (&made.triangulation, &made.refined.report);
+    if plan.traits.check {
+        let _phase = Phase::start(quiet, "checking");
+        if let Some(flaw) = proof::flaw(c, &made.refined, &made.seeds, &plan) {
+            return Err(Failure::new(
+                format!("the mesh is wrong: {flaw}"),
+                "please report this with the input: it is a bug",
+            ));
+        }
+        stats.phase("check");
+        note(quiet, "checked: constrained Delaunay, and all triangles are as wanted but those that are left");
+    }
+    if let Some(left) = tell::left(report).filter(|_| args.strict) {
+        return Err(Failure::new(left, "ask for less, or leave --strict out to write what there is"));
+    }
+    if report.triangles == 0 && c.triangle_count() > 0 {
+        note(quiet, "nothing is inside: no segments close; see --fill and --convex");
+    }
+    let kept = Kept::of(c, &made.refined.domains, plan.traits.drop_unused);
+    tell::count(report, kept.points.len(), &mut stats);
+    stats.set("hull", c.hull_facets().count());
+    stats.set("vertices", kept.vertex_count());
+    let options =
+        picture::Options { angles: args.color == Some(ColorName::Angle), ..picture::Options::default() };
+    made.write(&kept, &plan, &targets, &options, quiet)?;
+    stats.phase("write");
+    tell::summary(report, &stats, quiet);
+    if plan.traits.histogram {
+        answer(&tell::histogram(report))?;
+    }
+    stats.write(args.input.stats.as_deref())
+}
+
+/// A mesh, and what is written beside it.
+struct Made {
+    triangulation: Constrained2,
+    refined: Refined2,
+    graph: Graph,
+    seeds: Seeds2,
+    heights: Option<Vec<f64>>,
+    attributes: Option<Attributes>,
+    again: Option<Again>,
+}
+
+impl Made {
+    /// Refines.
+    fn of(
+        from: Constrained,
+        plan: &Plan,
+        (fill, sizes, again): (FillName, Option<&Sizes>, Option<Again>),
+        label: &Path,
+        quiet: bool,
+    ) -> Result<Self, Failure> {
+        let Constrained { mut triangulation, mut graph, inside, heights, .. } = from;
+        let regions = std::mem::take(&mut graph.regions);
+        // Seeds say for all rules what is inside, so that regions are known, and that files mean the same.
+        let seeds = if fill == FillName::Seeds {
+            Seeds2 { holes: graph.holes.clone(), regions, keep_concavities: plan.traits.convex }
+        } else {
+            let holes = outside(&triangulation, &inside, label)?;
+            Seeds2 { holes, regions, keep_concavities: true }
+        };
+        let size = |p: [f64; 2]| sizes.map_or(f64::INFINITY, |sizes| sizes.at(p));
+        let area = |p: [f64; 2]| again.as_ref().map_or(f64::INFINITY, |again| again.area(p));
+        let mut wanted = plan.refinement().fill(Fill::Seeds(&seeds));
+        if sizes.is_some() {
+            wanted = wanted.size(&size);
+        }
+        if again.as_ref().is_some_and(Again::has_areas) {
+            wanted = wanted.max_area_at(&area);
+        }
+        let width = graph.attributes.width;
+        let has_values = heights.is_some() || width > 0;
+        let before = has_values.then(|| triangulation.clone());
+        let refined = {
+            let _phase = Phase::start(quiet, "refining");
+            wanted.run(&mut triangulation).map_err(|error| refused(label, &error))?
+        };
+        let _phase = Phase::start(quiet, "interpolating");
+        let c = &triangulation;
+        let spread = |width: usize, values: &[f64]| match &before {
+            Some(before) => extended(c, width, values, |p| Some(at(before, p, width, values))).0,
+            None => Vec::new(),
+        };
+        let heights = heights.map(|values| spread(1, &values));
+        let attributes = (width > 0).then(|| {
+            let first = before.as_ref().map_or_else(Vec::new, |before| {
+                extended(before, width, &graph.attributes.values, |_| None).0
+            });
+            Attributes { width, values: spread(width, &first) }
+        });
+        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again })
+    }
+
+    /// Writes all files.
+    fn write(
+        &self,
+        kept: &Kept,
+        plan: &Plan,
+        targets: &[Target],
+        options: &picture::Options,
+        quiet: bool,
+    ) -> Result<(), Failure> {
+        let (c, graph, domains) = (&self.triangulation, &self.graph, &self.refined.domains);
+        let has_markers = match plan.markers {
+            Written::AsGiven => graph.markers.is_some() || graph.point_markers.is_some(),
+            Written::Always => true,
+            Written::Never => false,
+        };
+        let markers = has_markers.then(|| markers::of(c, graph, domains));
+        let mut edges: Vec<[VertexId; 2]> = Vec::new();
+        let mut edge_markers = Vec::new();
+        for (i, [v, w]) in c.constraints().enumerate() {
+            if let (Some(v), Some(w)) = (kept.name(v), kept.name(w)) {
+                edges.push([v, w]);
+                edge_markers.extend(markers.as_ref().map(|markers| markers.edges[i]));
+            }
+        }
+        let constraints = Constraints {
+            edges: &edges,
+            markers: has_markers.then_some(&edge_markers[..]),
+            holes: &self.seeds.holes,
+            regions: &self.seeds.regions,
+        };
+        let points = markers.as_ref().map(|markers| kept.rows(1, &markers.points));
+        let heights = self.heights.as_ref().map(|heights| kept.rows(1, heights));
+        let attributes = self.attributes.as_ref().map(|attributes| Attributes {
+            width: attributes.width,
+            values: kept.rows(attributes.width, &attributes.values),
+        });
+        let regions = self.regions(plan);
+        let mesh = Mesh {
+            heights: heights.as_deref(),
+            crs: graph.cloud.crs.as_ref(),
+            base: plan.base.unwrap_or(graph.cloud.base),
+            constraints: Some(&constraints),
+            regions: regions.as_deref(),
+            attributes: attributes.as_ref(),
+            point_markers: points.as_deref(),
+            edge_markers: plan.markers != Written::Never,
+            second_order: plan.traits.second_order,
+            ..Mesh::new(kept, &kept.points)
+        };
+        let _phase = Phase::start(quiet, "writing");
+        for (path, content) in targets {
+            files::write_mesh(path, quiet, |out| match content {
+                // Its faces have corners alone.
+                Content::Mesh(format @ Format::Off) => {
+                    write_mesh(out, *format, &Mesh { second_order: false, ..mesh }, options)
+                }
+                Content::Mesh(format) => write_mesh(out, *format, &mesh, options),
+                Content::VoronoiNode => write_voronoi_node(out, &mesh).map(|()| None),
+                Content::VoronoiEdge => write_voronoi_edge(out, &mesh).map(|()| None),
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The region of each triangle, if regions are written.
+    fn regions(&self, plan: &Plan) -> Option<Vec<f64>> {
+        let (c, domains) = (&self.triangulation, &self.refined.domains);
+        let again = self.again.as_ref().filter(|again| again.has_attributes());
+        let is_given = again.is_some() || !self.seeds.regions.is_empty();
+        let is_written = match plan.regions {
+            Written::AsGiven => is_given,
+            Written::Always => true,
+            Written::Never => false,
+        };
+        let of = |t| match again {
+            Some(again) => again.attribute(centroid(c.mesh().corners(t).map(|v| c.point(v)))),
+            None => domains.attribute(t).unwrap_or_default(),
+        };
+        is_written.then(|| {
+            let mut regions = vec![0.0; c.slot_count()];
+            c.triangle_ids().filter(|&t| domains.is_inside(t)).for_each(|t| regions[c.index(t)] = of(t));
+            regions
+        })
+    }
+}
+
+/// What the library refuses.
+fn refused(label: &Path, error: &Error) -> Failure {
+    match error {
+        Error::Size { .. } => Failure::new(error, "sizes and areas are positive wherever they are asked for"),
+        _ => Failure::graph(label, error),
+    }
+}
+
+/// A point in each part of a triangulation that is outside.
+fn outside(c: &Constrained2, inside: &Domains2, label: &Path) -> Result<Vec<[f64; 2]>, Failure> {
+    // The middle of the largest triangle that has it strictly inside.
+    let mut best: Vec<Option<(f64, [f64; 2])>> = vec![None; inside.parts().len()];
+    for t in c.triangle_ids().filter(|&t| !inside.is_inside(t)) {
+        let corners = c.mesh().corners(t).map(|v| c.point(v));
+        let [p, q, r] = corners;
+        let middle = centroid(corners);
+        let is_in = [[p, q], [q, r], [r, p]].iter().all(|&[a, b]| orient2d(a, b, middle).is_positive());
+        let Some(part) = inside.part(t).filter(|_| is_in) else { continue };
+        let area = c.area(t);
+        if best[part].is_none_or(|(known, _)| area > known) {
+            best[part] = Some((area, middle));
+        }
+    }
+    let mut seeds: Vec<[f64; 2]> = Vec::new();
+    for (part, best) in inside.parts().iter().zip(best).filter(|(part, _)| !part.is_inside) {
+        let Some((_, middle)) = best else {
+            return Err(Failure::new(
+                format!(
+                    "{}: one of {} parts outside, of {} triangles, is so narrow that no point is in it",
+                    label.display(),
+                    inside.parts().len(),
+                    part.triangles
+                ),
+                "join the points there that are so near each other",
+            ));
+        };
+        seeds.push(middle);
+    }
+    Ok(seeds)
+}
+
+/// The values at a place of a triangulation, linear in each triangle.
+fn at(c: &Constrained2, p: [f64; 2], width: usize, values: &[f64]) -> Vec<f64> {
+    let value = |v: VertexId, k: usize| values[v.index() * width + k];
+    let mesh = c.mesh();
+    let each = |of: &dyn Fn(usize) -> f64| (0..width).map(of).collect();
+    match c.locate(p) {
+        Ok(Location2::Triangle(t)) => {
+            let corners = mesh.corners(t);
+            let places = corners.map(|v| c.point(v));
+            each(&|k| between(p, places, corners.map(|v| value(v, k))))
+        }
+        Ok(Location2::Edge(e) | Location2::Outside(e)) => {
+            let ends = [mesh.origin(e), mesh.destination(e)];
+            let places = ends.map(|v| c.point(v));
+            each(&|k| along(p, places, ends.map(|v| value(v, k))))
+        }
+        Ok(Location2::Vertex(v)) => each(&|k| value(v, k)),
+        _ => each(&|_| 0.0),
+    }
+}
+
+/// The middle of a triangle.
+fn centroid(corners: [[f64; 2]; 3]) -> [f64; 2] {
+    [0, 1].map(|k| corners.iter().map(|p| p[k] / 3.0).sum())
+}

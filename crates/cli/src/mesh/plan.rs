@@ -1,0 +1,168 @@
+//! What is wanted of a mesh and of its files: as options or Triangle's switches say.
+
+use delone::{Constrained2, Keep, Refinement};
+
+use crate::args::{CrossingsName, KeepName, MeshArgs, Switches};
+use crate::message::{Failure, note};
+
+/// Whether something that files can hold is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Written {
+    /// If the input has it.
+    AsGiven,
+    Always,
+    Never,
+}
+
+/// What is wanted.
+#[derive(Clone, Debug)]
+pub(super) struct Plan {
+    pub(super) min_angle: f64,
+    pub(super) max_area: Option<f64>,
+    pub(super) max_edge: Option<f64>,
+    pub(super) max_vertices: Option<usize>,
+    pub(super) keep: Keep,
+    /// Rounds of smoothing.
+    pub(super) smooth: usize,
+    /// What happens to segments that cross.
+    pub(super) crossings: CrossingsName,
+    /// Whether the regions of triangles are written.
+    pub(super) regions: Written,
+    /// Whether the markers of points and segments are.
+    pub(super) markers: Written,
+    /// What the first point is called, if not as in the input.
+    pub(super) base: Option<usize>,
+    pub(super) traits: Traits,
+}
+
+/// What is so or not.
+#[derive(Clone, Copy, Debug)]
+#[allow(clippy::struct_excessive_bools)] // they are switches
+pub(super) struct Traits {
+    pub(super) conforming: bool,
+    /// Whether regions have largest areas of their own.
+    pub(super) region_areas: bool,
+    pub(super) convex: bool,
+    pub(super) ignore_holes: bool,
+    pub(super) second_order: bool,
+    pub(super) drop_unused: bool,
+    pub(super) check: bool,
+    pub(super) histogram: bool,
+}
+
+impl Plan {
+    /// What a command line says, if it can be done.
+    pub(super) fn of(args: &MeshArgs, quiet: bool) -> Result<Self, Failure> {
+        let plan = match &args.triangle {
+            Some(switches) => Self::of_switches(args, switches, quiet)?,
+            None => Self::of_options(args),
+        };
+        // Wrong numbers are refused before anything is read.
+        plan.refinement().run(&mut Constrained2::new()).map_err(|error| {
+            let help = match error {
+                delone::Error::Parameter { name: "min_angle", value, .. } if value > 0.0 && value < 60.0 => {
+                    "ask for 34 degrees at most, or bound the new vertices with --max-vertices (S in Triangle's switches)"
+                }
+                _ => "give a number in that range",
+            };
+            Failure::usage(error.to_string().replace('_', "-"), help)
+        })?;
+        Ok(plan)
+    }
+
+    fn of_options(args: &MeshArgs) -> Self {
+        Self {
+            min_angle: args.min_angle.unwrap_or(20.0),
+            max_area: args.max_area,
+            max_edge: args.max_edge,
+            max_vertices: args.max_vertices,
+            keep: match args.keep {
+                Some(KeepName::Border) => Keep::Border,
+                Some(KeepName::Constraints) => Keep::Constraints,
+                Some(KeepName::Nothing) | None => Keep::Nothing,
+            },
+            smooth: args.smooth.unwrap_or_default(),
+            crossings: args.graph.crossings.unwrap_or(CrossingsName::Refuse),
+            regions: Written::AsGiven,
+            markers: Written::AsGiven,
+            base: None,
+            traits: Traits {
+                conforming: args.conforming,
+                region_areas: true,
+                convex: args.convex,
+                ignore_holes: args.ignore_holes,
+                second_order: args.second_order,
+                drop_unused: args.drop_unused,
+                check: args.check,
+                histogram: args.histogram,
+            },
+        }
+    }
+
+    fn of_switches(args: &MeshArgs, switches: &Switches, quiet: bool) -> Result<Self, Failure> {
+        for (letter, why) in switches.ignored() {
+            note(quiet, format_args!("the switch {letter} is ignored ({why})"));
+        }
+        if switches.has('u') && args.size.is_none() {
+            return Err(Failure::usage(
+                "the switch u is for a size of one's own, and none is named",
+                "name a file of points with the longest edges wanted there, as in --size sizes.csv",
+            ));
+        }
+        if switches.has('r') && switches.has('I') {
+            return Err(Failure::usage(
+                "with the switches r and I the mesh that is read would be written over",
+                "leave one of them out",
+            ));
+        }
+        Ok(Self {
+            min_angle: switches.min_angle.unwrap_or(0.0),
+            max_area: switches.max_area,
+            max_edge: args.max_edge,
+            max_vertices: switches.max_vertices,
+            keep: match switches.count('Y') {
+                0 => Keep::Nothing,
+                1 => Keep::Border,
+                _ => Keep::Constraints,
+            },
+            smooth: args.smooth.unwrap_or_default(),
+            crossings: args.graph.crossings.unwrap_or(CrossingsName::Split),
+            regions: match (switches.has('A'), switches.has('r')) {
+                (true, _) => Written::Always,
+                (_, true) => Written::AsGiven,
+                _ => Written::Never,
+            },
+            markers: if switches.has('B') { Written::Never } else { Written::Always },
+            base: switches.has('z').then_some(0),
+            traits: Traits {
+                conforming: switches.has('D'),
+                region_areas: switches.has_areas && !switches.has('r'),
+                convex: switches.has('c'),
+                ignore_holes: switches.has('O'),
+                second_order: switches.has('o'),
+                drop_unused: switches.has('j'),
+                check: args.check || switches.has('C'),
+                histogram: args.histogram || switches.has('V'),
+            },
+        })
+    }
+
+    /// The same for the library; what is inside and what is asked by place comes from files.
+    pub(super) fn refinement<'a>(&self) -> Refinement<'a> {
+        let mut wanted = Refinement::new()
+            .min_angle(self.min_angle)
+            .smooth(self.smooth)
+            .keep(self.keep)
+            .conforming(self.traits.conforming);
+        if let Some(area) = self.max_area {
+            wanted = wanted.max_area(area);
+        }
+        if let Some(length) = self.max_edge {
+            wanted = wanted.max_edge(length);
+        }
+        if let Some(count) = self.max_vertices {
+            wanted = wanted.max_vertices(count);
+        }
+        wanted
+    }
+}

@@ -1,0 +1,107 @@
+//! What is said of a mesh: counts, angles, and what is left.
+
+use delone::{Reason, RefinementReport2};
+use serde_json::{Map, Value, json};
+
+use crate::message::{say, warn};
+use crate::stats::{Stats, grouped};
+
+/// Characters of the longest bar.
+const LONGEST: usize = 50;
+
+/// Notes all for the statistics.
+pub(super) fn count(report: &RefinementReport2, points: usize, stats: &mut Stats) {
+    let left = Reason::ALL.map(|reason| (key(reason).to_owned(), json!(report.left_for(reason))));
+    stats.set("points", points);
+    stats.set("simplices", report.triangles);
+    stats.set("steiner_inside", report.inside);
+    stats.set("steiner_on_constraints", report.on_constraints);
+    stats.set("smallest_angle", report.smallest_angle);
+    stats.set("largest_angle", report.largest_angle);
+    stats.set("histogram", report.angles.to_vec());
+    stats.set("smallest_angles", report.smallest_angles.to_vec());
+    stats.set("left", Value::Object(Map::from_iter(left)));
+}
+
+/// What statistics call a reason.
+fn key(reason: Reason) -> &'static str {
+    match reason {
+        Reason::InputAngle => "input_angle",
+        Reason::Precision => "precision",
+        Reason::Cascade => "cascade",
+        Reason::Budget => "budget",
+        Reason::Kept => "kept",
+        _ => "other",
+    }
+}
+
+/// How many triangles are left, by reason; nothing if there are none.
+pub(super) fn left(report: &RefinementReport2) -> Option<String> {
+    let count = report.left.len();
+    let reasons = Reason::ALL.iter().filter_map(|&reason| match report.left_for(reason) {
+        0 => None,
+        count => Some(format!("{} {}", grouped(count as u64), reason.text())),
+    });
+    let what = if count == 1 { "triangle is" } else { "triangles are" };
+    let reasons = reasons.collect::<Vec<_>>().join(", ");
+    (count > 0).then(|| format!("{} {what} not as wanted: {reasons}", grouped(count as u64)))
+}
+
+/// Says in a line what was done, and warns of what could not be.
+pub(super) fn summary(report: &RefinementReport2, stats: &Stats, quiet: bool) {
+    if let Some(left) = left(report) {
+        warn(quiet, left);
+    }
+    let [points, triangles, inside, on] = ["points", "simplices", "steiner_inside", "steiner_on_constraints"]
+        .map(|name| grouped(stats.get(name).as_u64().unwrap_or_default()));
+    say(
+        quiet,
+        format_args!(
+            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles, angles from {:.2} to {:.2} degrees ({:.2} s)",
+            report.smallest_angle,
+            report.largest_angle,
+            stats.total()
+        ),
+    );
+}
+
+/// How many angles there are of each size, as bars.
+pub(super) fn histogram(report: &RefinementReport2) -> String {
+    let most = report.angles.iter().copied().max().unwrap_or_default().max(1);
+    let width = 180 / report.angles.len();
+    let wide = grouped(most as u64).len();
+    let line = |(k, &count): (usize, &usize)| {
+        // Whatever there is can be seen.
+        let bar = (count * LONGEST).div_ceil(most);
+        let text = format!(
+            "{:>3} to {:>3} degrees  {:>wide$}  {}",
+            k * width,
+            (k + 1) * width,
+            grouped(count as u64),
+            "#".repeat(bar)
+        );
+        format!("{}\n", text.trim_end())
+    };
+    report.angles.iter().enumerate().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{histogram, left};
+    use delone::{Constrained2, Refinement};
+
+    #[test]
+    fn a_histogram_has_a_bar_for_each_ten_degrees() {
+        let mut c = Constrained2::from_parts(&[[0, 0], [1, 0], [0, 1]], &[]).expect("a triangle");
+        let refined = Refinement::new().run(&mut c).expect("refined");
+        let text = histogram(&refined.report);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 18);
+        assert!(
+            lines[4] == format!(" 40 to  50 degrees  2  {}", "#".repeat(50)) || lines[4].ends_with('#'),
+            "{text}"
+        );
+        assert_eq!(lines[0], "  0 to  10 degrees  0");
+        assert_eq!(left(&refined.report), None);
+    }
+}
