@@ -1,10 +1,11 @@
 //! The state of a refinement, and its loop: the first task, until there is none.
 //!
 //! *It always ends.* Every vertex has a scale: of an input vertex the distance to the nearest that it sees; of a new one the
-//! scale of its nearest neighbour or of the vertex that made it necessary, or its distance from an input vertex or from the other
-//! side of a small input angle, where that is less; if a size asked for it, its distance from its neighbours. A vertex nearer to its nearest neighbour than 1/64 of that one's scale is refused. So scales come from a finite set,
-//! and what is accepted keeps a distance: inside of a triangle of the first triangulation all vertices see each other, hence
-//! there are finitely many. Vertices are removed only where a constraint is split, and there are finitely many of these splits.
+//! scale of its nearest neighbour or of the vertices that made it necessary, or its distance from an input vertex or from the other
+//! side of a small input angle, or the size that is wanted there, where that is less. A vertex nearer to its nearest neighbour than
+//! 1/64 of that one's scale is refused. So scales come from a finite set, and what is accepted keeps a distance: inside of a
+//! triangle of the first triangulation all vertices see each other, hence there are finitely many. Vertices are removed only where
+//! a constraint is split, and there are finitely many of these splits.
 
 use std::collections::BTreeMap;
 
@@ -55,8 +56,8 @@ pub(super) struct Mesher<'a> {
     pub(super) count: usize,
     /// How many of them are there because something was too large.
     pub(super) for_sizes: usize,
-    /// Which input vertices are tips of very small angles, as far as that was asked.
-    pub(super) tips: BTreeMap<Place, bool>,
+    /// How small the smallest angles between constraints are at input vertices, as far as that was asked.
+    pub(super) tips: BTreeMap<Place, f64>,
     /// Constraints that cannot be split.
     pub(super) refused: BTreeMap<[Place; 2], Reason>,
     /// Triangles that cannot be mended.

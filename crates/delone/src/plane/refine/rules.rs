@@ -116,6 +116,16 @@ impl<'a> Rules<'a> {
         shape.area() > asked(self.area_at) || shape.longest() > size * size
     }
 
+    /// How long edges may be at a place of a domain, about. What is refused for being too small is far below.
+    pub(super) fn size_at(&self, at: [f64; 2], domain: usize) -> f64 {
+        if !self.has_sizes {
+            return f64::INFINITY;
+        }
+        let asked = |field: Option<Field>| field.map_or(f64::INFINITY, |field| field(at)).max(0.0);
+        let area = self.areas.get(domain).copied().unwrap_or(f64::INFINITY).min(asked(self.area_at));
+        self.longest.min(asked(self.size_at)).min(area.sqrt())
+    }
+
     /// Not if a bound was none, or somebody wants to stop.
     pub(super) fn go_on(&self) -> Result<(), Error> {
         match self.flaw.get() {

@@ -38,7 +38,7 @@ impl Mesher<'_> {
             self.refuse(e, Reason::Precision);
             return;
         };
-        if self.insert_on(e, q, is_for_size) {
+        if self.insert_on(e, q) {
             self.for_sizes += usize::from(is_for_size);
         }
     }
@@ -101,35 +101,48 @@ impl Mesher<'_> {
         [0, 1].map(|k| from[k] + part * (to[k] - from[k]))
     }
 
-    /// The nearer end of an input constraint at which another one meets it at a very small angle.
+    /// The nearer end of an input constraint at which another one meets it at a very small angle, if the gap between them is
+    /// narrower than this part of the constraint is long.
     fn tip_near(&mut self, on: [Place; 2], ends: [Place; 2]) -> Option<Place> {
-        let tips = on.map(|end| Some(end).filter(|_| self.is_tip(end)));
-        let apart = |tip: Place| {
-            squared(self.point(tip), self.point(ends[0])) + squared(self.point(tip), self.point(ends[1]))
-        };
-        tips.into_iter().flatten().min_by(|&p, &q| {
-            apart(p).total_cmp(&apart(q)).then_with(|| lexicographic(self.point(p), self.point(q)))
-        })
+        let [p, q] = ends.map(|v| self.point(v));
+        let length = squared(p, q).sqrt();
+        let mut best: Option<(f64, Place)> = None;
+        for tip in on {
+            let own = self.point(tip);
+            let far = squared(own, p).max(squared(own, q)).sqrt();
+            let is_narrow = self.tangent_at(tip) * far < length;
+            let is_better = best.is_none_or(|(least, other)| {
+                far < least || (far == least && lexicographic(own, self.point(other)).is_lt())
+            });
+            if is_narrow && is_better {
+                best = Some((far, tip));
+            }
+        }
+        best.map(|(_, tip)| tip)
     }
 
-    /// Whether two constraints with the mesh between them meet at a very small angle at an input vertex.
-    fn is_tip(&mut self, v: Place) -> bool {
-        if let Some(known) = self.tips.get(&v) {
-            return *known;
+    /// The tangent of the smallest angle between constraints with the mesh between them at an input vertex, if it is very small;
+    /// infinite otherwise.
+    fn tangent_at(&mut self, v: Place) -> f64 {
+        if let Some(&known) = self.tips.get(&v) {
+            return known;
         }
         let mesh = &self.layer.mesh;
         let fixed = mesh.spokes(v).filter(|&e| mesh.is_fixed(e)).collect::<Vec<_>>();
         let own = self.point(v);
-        let is_narrow = |k: usize| {
+        let tangent = |k: usize| {
             let pair = [fixed[k], fixed[(k + 1) % fixed.len()]];
             let [p, q] = pair.map(|e| self.point(mesh.head(e)));
             let (p, q) = ([p[0] - own[0], p[1] - own[1]], [q[0] - own[0], q[1] - own[1]]);
             let (dot, cross) = (p[0] * q[0] + p[1] * q[1], p[0] * q[1] - p[1] * q[0]);
-            dot > 0.0 && cross >= 0.0 && cross < NARROW * dot && self.is_inside(pair[0].triangle())
+            let is_tip =
+                dot > 0.0 && cross >= 0.0 && cross < NARROW * dot && self.is_inside(pair[0].triangle());
+            if is_tip { cross / dot } else { f64::INFINITY }
         };
-        let is_tip = fixed.len() > 1 && (0..fixed.len()).any(is_narrow);
-        self.tips.insert(v, is_tip);
-        is_tip
+        let pairs = if fixed.len() > 1 { fixed.len() } else { 0 };
+        let least = (0..pairs).map(tangent).fold(f64::INFINITY, f64::min);
+        self.tips.insert(v, least);
+        least
     }
 
     /// Where a constraint is split near a small angle: at the roundest distance from its tip in the middle third. So the vertices
@@ -177,7 +190,7 @@ impl Mesher<'_> {
     }
 
     /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2], is_for_size: bool) -> bool {
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
         let near: Vec<Place> = self.tips_near(e).collect();
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
@@ -192,9 +205,7 @@ impl Mesher<'_> {
         let (nearest, square) = self.nearest(q);
         let mut scale = self.scale_on(on, nearest, square, q);
         scale = near.into_iter().map(|tip| self.known[tip.index()].scale).fold(scale, f64::min);
-        if is_for_size {
-            scale = scale.min(square.sqrt());
-        }
+        scale = domains.map(|domain| self.rules.size_at(q, domain)).into_iter().fold(scale, f64::min);
         if Self::is_cascade(square, scale) {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
