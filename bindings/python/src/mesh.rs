@@ -74,7 +74,7 @@ struct Plan {
 enum Failed {
     Error(Error),
     /// It would have so many vertices at least.
-    Memory(f64),
+    Memory(usize),
 }
 
 impl From<Error> for Failed {
@@ -88,7 +88,7 @@ impl From<Failed> for PyErr {
         match failed {
             Failed::Error(error) => python_error(error),
             Failed::Memory(vertices) => PyMemoryError::new_err(format!(
-                "the areas and lengths that are wanted need at least {vertices:.1e} vertices, and there is no room for them"
+                "the areas and lengths that are wanted need at least {vertices} vertices, and there is no room for them"
             )),
         }
     }
@@ -332,10 +332,8 @@ impl Plan {
         let domains = made.domains(fill)?;
         let inside = made.triangle_ids().filter(|&t| domains.is_inside(t));
         let area: f64 = inside.map(|t| made.area(t)).sum();
-        let least = area / largest / 2.0;
-        let least = least.min(self.max_vertices.map_or(f64::INFINITY, |most| most as f64));
-        let room = TRIANGULATION.check(2, least as usize);
-        if least.is_finite() && least < delone::MAX_POINTS as f64 && room.is_ok() {
+        let least = ((area / largest / 2.0) as usize).min(self.max_vertices.unwrap_or(usize::MAX));
+        if least < delone::MAX_POINTS && TRIANGULATION.check(2, least).is_ok() {
             return Ok(());
         }
         Err(Failed::Memory(least))
