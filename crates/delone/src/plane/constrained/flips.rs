@@ -12,7 +12,7 @@ use crate::plane::layer::Layer;
 
 impl Layer {
     /// Flips edges that are neither fixed nor Delaunay, starting from some that may be.
-    pub(super) fn legalize(&mut self, mut pending: Vec<EdgeId>) {
+    pub(in crate::plane) fn legalize(&mut self, mut pending: Vec<EdgeId>) {
         while let Some(e) = pending.pop() {
             if !self.is_illegal(e) {
                 continue;

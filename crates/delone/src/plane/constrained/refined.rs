@@ -81,16 +81,10 @@ impl Constrained2 {
     pub(in crate::plane) fn end_refinement(
         &mut self,
         before: &Before,
-        born: &[Place],
+        new: &[Place],
         on: impl Fn(Place) -> Option<[Place; 2]>,
     ) -> Result<[usize; 2], Error> {
-        let base = &self.graph.base;
-        let mut is_known = vec![false; base.points.len()];
-        let mut new: Vec<Place> = born.iter().rev().copied().collect();
-        // Of a place that was used again the last vertex counts.
-        new.retain(|p| base.mesh.is_vertex(*p) && !std::mem::replace(&mut is_known[p.index()], true));
-        new.reverse();
-        self.graph.end_bulk(&new)?;
+        self.graph.end_bulk(new)?;
         let mut along: Vec<(Ends, Place)> = new
             .iter()
             .filter_map(|&p| {

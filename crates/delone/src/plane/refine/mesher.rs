@@ -116,6 +116,17 @@ impl<'a> Mesher<'a> {
         self.rules.flaw()
     }
 
+    /// The new vertices that there are, in the order in which they came.
+    pub(super) fn alive(&self) -> Vec<Place> {
+        let mut is_known = vec![false; self.layer.points.len()];
+        let mut alive: Vec<Place> = self.born.iter().rev().copied().collect();
+        // Of a place that was used again the last vertex counts.
+        let mesh = &self.layer.mesh;
+        alive.retain(|p| mesh.is_vertex(*p) && !std::mem::replace(&mut is_known[p.index()], true));
+        alive.reverse();
+        alive
+    }
+
     /// Whether the triangle of a task is still there.
     fn is_alive(&self, task: &Task) -> bool {
         let (mesh, e) = (&self.layer.mesh, task.edge);

@@ -19,6 +19,7 @@ mod queue;
 mod report;
 mod rules;
 mod shape;
+mod smooth;
 mod split;
 mod survey;
 
@@ -69,6 +70,7 @@ pub struct Refinement<'a> {
     max_vertices: Option<usize>,
     keep: Keep,
     conforming: bool,
+    smoothing: usize,
     fill: Fill<'a>,
 }
 
@@ -91,6 +93,7 @@ impl std::fmt::Debug for Refinement<'_> {
             .field("max_vertices", &self.max_vertices)
             .field("keep", &self.keep)
             .field("conforming", &self.conforming)
+            .field("smoothing", &self.smoothing)
             .field("fill", &self.fill)
             .finish_non_exhaustive()
     }
@@ -117,6 +120,7 @@ impl<'a> Refinement<'a> {
             max_vertices: None,
             keep: Keep::Nothing,
             conforming: false,
+            smoothing: 0,
             fill: Fill::All,
         }
     }
@@ -170,6 +174,13 @@ impl<'a> Refinement<'a> {
         Self { conforming, ..self }
     }
 
+    /// So many rounds of smoothing afterwards (see `smooth` in the source): angles become larger, and what was asked for still
+    /// holds, because what smoothing made too large is refined once more.
+    #[must_use]
+    pub fn smooth(self, rounds: usize) -> Self {
+        Self { smoothing: rounds, ..self }
+    }
+
     /// What is inside. Where the hull is its border that becomes a constraint.
     #[must_use]
     pub fn fill(self, fill: Fill<'a>) -> Self {
@@ -198,13 +209,18 @@ impl<'a> Refinement<'a> {
         let layer = c.layer();
         let queue = Queue::new(&bounds(&layer.points).0);
         let mut mesher = Mesher::new(layer, &rules, queue);
-        let ran = mesher.run();
-        let Mesher { born, known, left, .. } = mesher;
+        let mut ran = mesher.run();
+        if self.smoothing > 0 && ran.is_ok() {
+            (0..self.smoothing).for_each(|_| mesher.smooth());
+            ran = mesher.run();
+        }
+        let new = mesher.alive();
+        let Mesher { known, left, .. } = mesher;
         let on = |p: Place| {
             let known = known[p.index()];
             (!known.is_free()).then_some(known.on)
         };
-        let added = c.end_refinement(&before, &born, on)?;
+        let added = c.end_refinement(&before, &new, on)?;
         let report = survey::report(c.layer(), &rules, added, &left);
         let domains = c.domains_of_tags(&before, domains);
         ran?;

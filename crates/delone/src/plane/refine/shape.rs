@@ -69,6 +69,12 @@ impl Shape {
         dot * dot > squared_cosine * (1.0 - 64.0 * f64::EPSILON) * (self.squares[1] * self.squares[2])
     }
 
+    /// The squared cosine of the smallest angle, rounded.
+    pub(super) fn squared_cosine(&self) -> f64 {
+        let (dot, _) = self.across();
+        dot * dot / (self.squares[1] * self.squares[2])
+    }
+
     /// The cotangents of the angles, rounded.
     pub(super) fn cotangents(&self) -> [f64; 3] {
         let (dot, cross) = self.across();

@@ -5,10 +5,10 @@
 //! for quality 2-dimensional mesh generation", J. Algorithms 1995; Shewchuk, CGTA 2002). Free vertices that it sees inside of its
 //! diametral circle are removed before (Chew, SoCG 1993).
 //!
-//! A point is rounded, and may be beside the line by a unit in the last place. It must be strictly inside of the quadrilateral of
-//! both triangles: so both halves are clear of every vertex, and everything stays positive.
+//! A point is rounded, and may be beside the line by a unit in the last place. It must be strictly inside of the triangle that it is
+//! in: so both halves are clear of every vertex, and everything stays positive.
 
-use delone_predicates::{lexicographic, orient2d};
+use delone_predicates::{Sign, lexicographic, orient2d};
 
 use super::mesher::{Known, Mesher, shared};
 use super::report::Reason;
@@ -154,21 +154,27 @@ impl Mesher<'_> {
         [0, 1].map(|k| from[k] + part * (other[k] - from[k]))
     }
 
-    /// Whether a point can split a constraint.
+    /// Whether a point can split a constraint: it is strictly inside of the triangle that it is in, and seen from the far corner
+    /// of the other one where the mesh is there too. Outside of the mesh there may be what is as thin as a rounding error.
     fn is_clear(&self, e: EdgeId, q: [f64; 2]) -> bool {
         let mesh = &self.layer.mesh;
+        let [a, b] = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+        let is_between = |k: usize| q[k] >= a[k].min(b[k]) && q[k] <= a[k].max(b[k]);
+        if !is_between(0) || !is_between(1) || q == a || q == b {
+            return false;
+        }
+        let is_left_of =
+            |e: EdgeId| orient2d(self.point(mesh.tail(e)), self.point(mesh.head(e)), q).is_positive();
+        let is_strict = |side: EdgeId| {
+            mesh.is_ghost(side.triangle()) || (is_left_of(side.next()) && is_left_of(side.previous()))
+        };
+        let is_strict_or_outside = |side: EdgeId| !self.is_inside(side.triangle()) || is_strict(side);
         let f = mesh.twin(e);
-        let is_strict = |[a, b, c]: [[f64; 2]; 3]| orient2d(a, b, c).is_positive();
-        let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
-        let is_between = |k: usize| q[k] >= ends[0][k].min(ends[1][k]) && q[k] <= ends[0][k].max(ends[1][k]);
-        let sides = [e.next(), e.previous(), f.next(), f.previous()];
-        let inner = sides.into_iter().filter(|&side| !mesh.is_ghost(side.triangle()));
-        is_between(0)
-            && is_between(1)
-            && !ends.contains(&q)
-            && inner
-                .into_iter()
-                .all(|side| is_strict([self.point(mesh.tail(side)), self.point(mesh.head(side)), q]))
+        match orient2d(a, b, q) {
+            Sign::Positive => is_strict(e) && is_strict_or_outside(f),
+            Sign::Zero => is_strict(e) && is_strict(f),
+            Sign::Negative => is_strict(f) && is_strict_or_outside(e),
+        }
     }
 
     /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
