@@ -50,6 +50,7 @@ pub struct Wishes<'py> {
     max_vertices: Option<usize>,
     keep: String,
     conforming: bool,
+    smooth: usize,
     /// A function, or a length for each point.
     size: Option<Bound<'py, PyAny>>,
     /// An area for each triangle of a mesh: of the one that is refined again, or else of this one.
@@ -68,6 +69,7 @@ struct Plan {
     max_vertices: Option<usize>,
     keep: Keep,
     conforming: bool,
+    smooth: usize,
 }
 
 /// Why there is no mesh.
@@ -276,8 +278,9 @@ impl<'py> Wishes<'py> {
             "constraints" => Keep::Constraints,
             other => return Err(PyValueError::new_err(format!("nothing to keep is called {other}"))),
         };
-        let Self { fill, min_angle, max_area, max_edge, max_vertices, conforming, .. } = self;
-        let plan = Plan { fill, seeds, min_angle, max_area, max_edge, max_vertices, keep, conforming };
+        let Self { fill, min_angle, max_area, max_edge, max_vertices, conforming, smooth, .. } = self;
+        let plan =
+            Plan { fill, seeds, min_angle, max_area, max_edge, max_vertices, keep, conforming, smooth };
         Ok((plan, self.size))
     }
 }
@@ -298,16 +301,17 @@ impl Plan {
             _ => Fill::All,
         };
         self.make_room(&made, &fill)?;
+        // A bound for all places is one of these too, so that they are asked for each triangle, and may end the work.
+        let most = self.max_area.unwrap_or(f64::INFINITY);
+        let area = |at| area(at).min(most);
         let mut wanted = Refinement::new()
             .min_angle(self.min_angle)
             .keep(self.keep)
             .conforming(self.conforming)
             .fill(fill)
             .size(length)
-            .max_area_at(area);
-        if let Some(area) = self.max_area {
-            wanted = wanted.max_area(area);
-        }
+            .max_area_at(&area)
+            .smooth(self.smooth);
         if let Some(length) = self.max_edge {
             wanted = wanted.max_edge(length);
         }

@@ -179,6 +179,7 @@ def _wishes(switches: Switches, fill: str) -> Wishes:
         "max_vertices": switches.max_vertices,
         "keep": ("nothing", "border", "constraints")[min(switches.keep, 2)],
         "conforming": switches.conforming,
+        "smooth": 0,
         "size": None,
         "max_areas": None,
         "of": None,

@@ -27,6 +27,7 @@ class Wanted(TypedDict):
     max_vertices: int | None
     keep: str
     conforming: bool
+    smooth: int
     size: Callable[[float, float], float] | NDArray[np.float64] | None
 
 
@@ -83,6 +84,7 @@ def mesh(
     max_vertices: int | None = None,
     keep: str = "nothing",
     conforming: bool = False,
+    smooth: int = 0,
     fill: str | None = None,
     crossings: str = "refuse",
     keep_concavities: bool = False,
@@ -120,6 +122,8 @@ def mesh(
         Segments that are not split: "nothing", those at the "border" of the mesh, or all "constraints".
     conforming : bool
         No point is inside of the diametral circle of a segment, so that all triangles are Delaunay.
+    smooth : int
+        Rounds of smoothing afterwards: new points move a little, and angles become larger. What was asked for still holds.
     fill : str, optional
         What is inside. "all": the convex hull, whose edges become segments. "even-odd": what an odd number of segments is
         around. "nonzero": what segments wind around, counter-clockwise less clockwise. "seeds": all but holes and what no
@@ -164,7 +168,7 @@ def mesh(
         "holes": _seeds(holes),
         "regions": seeds,
         "keep_concavities": concave,
-        **_wanted(min_angle, max_area, max_edge, max_vertices, keep, conforming, size, len(given)),
+        **_wanted(min_angle, max_area, max_edge, max_vertices, keep, conforming, smooth, size, len(given)),
         "max_areas": None,
         "of": None,
     }
@@ -304,6 +308,7 @@ class Mesh:
         max_vertices: int | None = None,
         keep: str = "nothing",
         conforming: bool = False,
+        smooth: int = 0,
     ) -> Mesh:
         """A finer mesh of the same, which has all points of this one under the indices that they have.
 
@@ -311,7 +316,7 @@ class Mesh:
         ----------
         max_areas : array_like of floats, shape (t,), optional
             The largest areas for what is in each triangle, by the centroids of new triangles. Infinite is no bound.
-        min_angle, max_area, max_edge, size, max_vertices, keep, conforming
+        min_angle, max_area, max_edge, size, max_vertices, keep, conforming, smooth
             As for `mesh`; a size in an array is one for each of `points`. Largest areas of regions hold again.
 
         Raises
@@ -335,7 +340,7 @@ class Mesh:
             "holes": old["holes"],
             "regions": old["regions"],
             "keep_concavities": old["keep_concavities"],
-            **_wanted(min_angle, max_area, max_edge, max_vertices, keep, conforming, size, len(self.points)),
+            **_wanted(min_angle, max_area, max_edge, max_vertices, keep, conforming, smooth, size, len(self.points)),
             "max_areas": areas,
             "of": None,
         }
@@ -359,30 +364,33 @@ def _wanted(
     max_vertices: int | None,
     keep: str,
     conforming: bool,
+    smooth: int,
     size: Any,
     count: int,
 ) -> Wanted:
-    """What is wanted of a mesh, checked; the library checks ranges."""
+    """What is wanted of a mesh, checked."""
     most = None if max_vertices is None else as_index(max_vertices, "max_vertices")
     if most is not None and not 0 <= most < 2**62:
         raise ValueError(f"max_vertices must be from 0 to 2**62, not {most}")
-    lengths = [None if max_edge is None else _number(max_edge, "max_edge")]
+    rounds = as_index(smooth, "smooth")
+    if not 0 <= rounds < 2**31:
+        raise ValueError(f"smooth must be from 0 to 2**31, not {rounds}")
+    lengths = [] if max_edge is None else [_bound(max_edge, "max_edge")]
     field = size
     if size is not None and not callable(size):
         if np.ndim(size) == 0:
-            lengths.append(_positive(np.array([_number(size, "size")]), "size").item())
+            lengths.append(_bound(size, "size"))
             field = None
         else:
             field = _numbers(size, "size", count, finite=True)
-    edges = [length for length in lengths if length is not None]
     return {
         "min_angle": _number(min_angle, "min_angle"),
-        "max_area": None if max_area is None else _number(max_area, "max_area"),
-        # A bound that is none is told by the library, so it may not get lost.
-        "max_edge": None if not edges else float(np.min(edges)),
+        "max_area": None if max_area is None else _bound(max_area, "max_area"),
+        "max_edge": min(lengths, default=None),
         "max_vertices": most,
         "keep": as_choice(keep, _KEPT, "keep"),
         "conforming": as_flag(conforming, "conforming"),
+        "smooth": rounds,
         "size": field,
     }
 
@@ -392,6 +400,10 @@ def _number(value: Any, what: str) -> float:
     if array.ndim or array.dtype.kind == "b":
         raise TypeError(f"{what} must be a number, not {value!r}")
     return float(array)
+
+
+def _bound(value: Any, what: str) -> float:
+    return float(_positive(np.array([_number(value, what)]), what)[0])
 
 
 def _numbers(values: Any, what: str, count: int, finite: bool = False) -> NDArray[np.float64]:
@@ -406,7 +418,7 @@ def _positive(numbers: NDArray[np.float64], what: str, finite: bool = False) -> 
     wrong = ~(numbers > 0) | (np.isinf(numbers) if finite else False)
     if wrong.any():
         row = int(np.argmax(wrong))
-        place = f"{what}[{row}]" if len(numbers) > 1 else what
+        place = f"{what}[{row}]" if finite or len(numbers) > 1 else what
         raise ValueError(f"{place} is {numbers[row]}; it must be positive{' and finite' if finite else ''}")
     return numbers
 
