@@ -330,12 +330,15 @@ impl Plan {
         // Of triangles with short edges the equilateral one is largest.
         let of_edge = self.max_edge.map_or(f64::INFINITY, |length| length * length * 0.75f64.sqrt() / 2.0);
         let largest = self.max_area.unwrap_or(f64::INFINITY).min(of_edge);
-        if largest.is_infinite() || largest.is_nan() || largest <= 0.0 {
+        if largest.is_infinite() {
             return Ok(());
         }
         let domains = made.domains(fill)?;
         let inside = made.triangle_ids().filter(|&t| domains.is_inside(t));
         let area: f64 = inside.map(|t| made.area(t)).sum();
+        if area == 0.0 {
+            return Ok(());
+        }
         let least = ((area / largest / 2.0) as usize).min(self.max_vertices.unwrap_or(usize::MAX));
         if least < delone::MAX_POINTS && TRIANGULATION.check(2, least).is_ok() {
             return Ok(());
