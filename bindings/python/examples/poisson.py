@@ -8,6 +8,7 @@ On the square the solution is known, so the error is too: with edges half as lon
 
 # %% Linear elements on a mesh: -Δu = f inside, u = 0 on the border
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import delone
@@ -71,9 +72,7 @@ rings = [
     ring(6.5, 1.5, 0.8, 0.8, 50),
 ]
 points, starts = np.concatenate(rings), np.cumsum([0, *map(len, rings)])
-segments = np.concatenate(
-    [np.column_stack([k := np.arange(a, b), np.roll(k, -1)]) for a, b in zip(starts, starts[1:], strict=False)]
-)
+segments = np.concatenate([np.column_stack([k := np.arange(a, b), np.roll(k, -1)]) for a, b in pairwise(starts)])
 centres = np.array([np.mean(r, axis=0) for r in rings[1:]])
 
 
