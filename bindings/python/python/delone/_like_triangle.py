@@ -148,14 +148,14 @@ def refined(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
 def _refined_again(given: Given, switches: Switches) -> tuple[Mesh, Ints, Old]:
     """What is inside is what an odd number of borders is around: of those that are inside there are two each."""
     old = Old(given)
-    edges, counts = np.unique(_edges(given.triangles), axis=0, return_counts=True)
-    border = edges[counts % 2 == 1]
+    keys, counts = np.unique(_keys(_edges(given.triangles)), return_counts=True)
+    border = _pairs(keys[counts % 2 == 1])
     own = np.sort(given.segments, axis=1)
     is_border = _among(own, border)
     twice = np.flatnonzero(~is_border)
     missing = border[~_among(border, own)]
     on_border = np.flatnonzero(is_border)
-    _, firsts = np.unique(own[on_border], axis=0, return_index=True)
+    _, firsts = np.unique(_keys(own[on_border]), return_index=True)
     on_border = on_border[np.sort(firsts)] if len(on_border) else on_border
     segments = np.concatenate([own[on_border], own[twice], own[twice], missing])
     origins = np.concatenate([on_border, twice, twice, np.full(len(missing), -1)]).astype(np.int64)
@@ -198,7 +198,7 @@ class Old:
         """With the segments, and with all edges of a mesh that is refined."""
         own = self._given.segments
         if len(self._given.triangles):
-            own = np.unique(np.concatenate([_edges(self._given.triangles), np.sort(own, axis=1)]), axis=0)
+            own = _pairs(np.unique(_keys(np.concatenate([_edges(self._given.triangles), np.sort(own, axis=1)]))))
         return ConstrainedDelaunay(self._given.vertices, own, crossings="split")
 
     @cached_property
@@ -295,12 +295,15 @@ class Result:
         """What switches want of it; nothing that is empty."""
         s, corners = self.switches, self.mesh.triangles
         points, attributes = self.mesh.points, self.old.attributes(self.mesh.points)
-        edges, sides = np.unique(_edges(corners), axis=0, return_inverse=True)
+        is_wanted = s.edges or s.second_order
+        keys, sides = np.unique(_keys(_edges(corners if is_wanted else corners[:0])), return_inverse=True)
+        edges = _pairs(keys)
         at_segments = self._segment_markers()
         markers = self._vertex_markers(at_segments)
         # For each edge the marker of the segment that it is on. All borders are segments.
         at_edges = np.zeros(len(edges), np.int64)
-        at_edges[_places(np.sort(self.mesh.segments, axis=1), edges)] = at_segments
+        if is_wanted:
+            at_edges[np.searchsorted(keys, _keys(np.sort(self.mesh.segments, axis=1)))] = at_segments
         segments, edges_of = self.mesh.segments, edges
         if s.jettison:
             used = np.zeros(len(points), bool)
@@ -373,12 +376,6 @@ def _typed(array: NDArray[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(array, np.int32 if array.dtype.kind in "iu" else np.float64)
 
 
-def _places(rows: Ints, among: Ints) -> Ints:
-    """Where pairs are among others, which are sorted and hold all of them."""
-    both = np.unique(np.concatenate([among, rows]), axis=0, return_inverse=True)[1].ravel()
-    return np.asarray(both[len(among) :])
-
-
 def _along(points: Floats, ends: Floats, values: Floats) -> Floats:
     step = ends[1] - ends[0]
     part = np.clip((points - ends[0]) @ step / (step @ step), 0, 1)
@@ -401,7 +398,16 @@ def _edges(triangles: Ints) -> Ints:
     return np.sort(triangles[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
 
 
+def _keys(pairs: Ints) -> Ints:
+    """A number for each pair of indices, in their order; NumPy is many times as fast with numbers as with rows."""
+    return np.asarray((pairs[:, 0] << 32) | pairs[:, 1])
+
+
+def _pairs(keys: Ints) -> Ints:
+    """The pairs that have these numbers."""
+    return np.column_stack([keys >> 32, keys & 0xFFFFFFFF])
+
+
 def _among(rows: Ints, others: Ints) -> NDArray[np.bool_]:
     """Which pairs are among others."""
-    both = np.unique(np.concatenate([others, rows]), axis=0, return_inverse=True)[1].ravel()
-    return np.asarray(np.isin(both[len(others) :], both[: len(others)]))
+    return np.asarray(np.isin(_keys(rows), _keys(others)))
