@@ -172,6 +172,9 @@ pub enum Error {
         /// Where.
         at: [f64; 2],
     },
+    /// Somebody wanted to stop.
+    #[error("the work was stopped")]
+    Stopped,
     /// A parameter is out of range.
     #[error("{name} is {value}; it must be {range}")]
     Parameter {

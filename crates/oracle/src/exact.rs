@@ -218,3 +218,14 @@ pub fn compare_lengths<const D: usize>([a, b]: [[f64; D]; 2], [c, d]: [[f64; D];
     let squared = |i: usize, j: usize| (0..D).map(|k| (&p[j][k] - &p[i][k]).pow(2)).sum::<BigInt>();
     sign(&(squared(0, 1) - squared(2, 3)))
 }
+
+/// Whether the angle at `o` between `a` and `b` is at least an acute one whose squared cosine is given.
+pub fn is_angle_at_least(o: Point2, a: Point2, b: Point2, squared_cosine: f64) -> bool {
+    let p = integers(&[o, a, b]);
+    let product =
+        |i: usize, j: usize| (0..2).map(|k| (&p[i][k] - &p[0][k]) * (&p[j][k] - &p[0][k])).sum::<BigInt>();
+    let dot = product(1, 2);
+    // One and the bound in the same unit.
+    let bound = integers(&[[1.0, squared_cosine]]);
+    dot <= BigInt::ZERO || dot.pow(2) * &bound[0][0] <= product(1, 1) * product(2, 2) * &bound[0][1]
+}

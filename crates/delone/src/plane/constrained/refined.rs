@@ -49,10 +49,9 @@ impl Constrained2 {
             a.zip(b).is_some_and(|(a, b)| self.mesh().edge_between(a, b).is_some())
         };
         let longer = |&(s, ends): &(SegmentId, Ends)| self.segments.is_bent(s) || !is_single(ends);
-        let chains = match self.has_chains {
-            false => BTreeMap::new(),
-            true => self.segments().filter(longer).filter_map(|(s, _)| Some((s, self.chain(s)?))).collect(),
-        };
+        let with_chain = |(s, _)| Some((s, self.chain(s)?));
+        let candidates = self.segments().filter(|_| self.has_chains);
+        let chains = candidates.filter(longer).filter_map(with_chain).collect();
         let of = |inside: bool| {
             let parts = domains.parts().iter().enumerate();
             parts.filter(move |(_, part)| part.is_inside == inside).map(|(number, _)| number)

@@ -10,7 +10,7 @@ use delone_predicates::{Sign, orient2d};
 use super::mesher::{Known, Mesher};
 use super::queue::{Fault, Task};
 use super::report::Reason;
-use super::shape::Shape;
+use super::shape::{Shape, squared_obtuseness};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
@@ -38,8 +38,8 @@ impl Mesher<'_> {
         let centre = shape.centre(reach);
         let q = if centre.iter().all(|x| x.is_finite()) { centre } else { shape.centre(self.rules.reach) };
         match self.walk(shape.shortest, q) {
-            Met::Triangle(t) => self.place(task, q, t),
-            Met::Constraint(e) => self.split_first(task, &[e]),
+            Met::Triangle(t) => self.place(task, q, t, false),
+            Met::Constraint(e) => self.split_first(task, &[e], false),
             Met::Nothing => self.leave(task.corners, Reason::Precision),
         }
     }
@@ -72,23 +72,35 @@ impl Mesher<'_> {
         }
     }
 
-    /// Notes constraints to be split, and the triangle to be looked at again then.
-    fn split_first(&mut self, task: &Task, constraints: &[EdgeId]) {
+    /// Notes constraints to be split, and the triangle to be looked at again then. What is too large beside constraints that are
+    /// to be kept gets its centroid, if that was not tried.
+    fn split_first(&mut self, task: &Task, constraints: &[EdgeId], is_last: bool) {
         let refusals: Vec<Option<Reason>> = constraints.iter().map(|&e| self.refusal(e)).collect();
         if let Some(reason) = refusals.iter().copied().min().flatten() {
-            self.leave(task.corners, reason);
+            let t = task.edge.triangle();
+            match Shape::of(self.layer, t) {
+                Some(shape) if reason == Reason::Kept && !is_last && self.is_large(&shape, t) => {
+                    self.place(task, shape.centroid(), t, true);
+                }
+                _ => self.leave(task.corners, reason),
+            }
             return;
         }
+        let fault = if task.fault() == Fault::Size { Fault::LargeConstraint } else { Fault::Constraint };
         for (&e, refusal) in constraints.iter().zip(refusals) {
             if refusal.is_none() {
-                self.note_constraint(e);
+                self.note_constraint(e, fault);
             }
         }
         self.queue.push(*task, &self.layer.points);
     }
 
     /// Makes a point in a triangle a vertex, unless it is too near to constraints or to others.
-    fn place(&mut self, task: &Task, q: [f64; 2], t: TriangleId) {
+    fn place(&mut self, task: &Task, q: [f64; 2], t: TriangleId, is_last: bool) {
+        if is_last && !self.is_strictly_in(t, q) {
+            self.leave(task.corners, Reason::Precision);
+            return;
+        }
         let mut cavity = std::mem::take(&mut self.layer.cavity);
         let sites = Sites { points: &self.layer.points, weights: &self.layer.weights };
         cavity.dig::<NearestSites>(&mut self.layer.mesh, &sites, (q, ()), t);
@@ -98,18 +110,27 @@ impl Mesher<'_> {
             .iter()
             .map(|edge| edge.1)
             .filter(|&e| mesh.is_fixed(e))
-            .filter(|&e| self.is_too_near(q, [mesh.tail(e), mesh.head(e)].map(|v| self.point(v))))
+            .filter(|&e| {
+                let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+                if is_last { is_flat(q, ends) } else { self.is_too_near(q, ends) }
+            })
             .collect();
         self.layer.cavity = cavity;
         let (nearest, square) = self.nearest(q);
-        let scale = self.known[nearest.index()].scale;
+        // The ends of the shortest edge made it necessary.
+        let [v, w] = [task.corners[0], task.corners[1]];
+        let mut scale =
+            [nearest, v, w].map(|v| self.known[v.index()].scale).into_iter().fold(f64::INFINITY, f64::min);
+        if task.fault() == Fault::Size {
+            scale = scale.min(square.sqrt());
+        }
         let refused = !near.is_empty() || Self::is_cascade(square, scale);
         if refused {
             self.abandon();
             if near.is_empty() {
                 self.leave(task.corners, Reason::Cascade);
             } else {
-                self.split_first(task, &near);
+                self.split_first(task, &near, is_last);
             }
             return;
         }
@@ -118,6 +139,15 @@ impl Mesher<'_> {
         self.note_vertex(v, Known { on: [Place::GHOST; 2], scale });
         self.for_sizes += usize::from(task.fault() == Fault::Size);
         self.look_around(v);
+    }
+
+    fn is_large(&self, shape: &Shape, t: TriangleId) -> bool {
+        self.rules.is_large(shape, self.layer.mesh.domain(t))
+    }
+
+    fn is_strictly_in(&self, t: TriangleId, q: [f64; 2]) -> bool {
+        let [a, b, c] = self.layer.mesh.places(t).map(|v| self.point(v));
+        [[a, b], [b, c], [c, a]].into_iter().all(|[p, r]| orient2d(p, r, q).is_positive())
     }
 
     /// Leaves the cavity that was dug as it is.
@@ -131,4 +161,10 @@ impl Mesher<'_> {
         let layer = &mut *self.layer;
         layer.cavity.fill::<NearestSites>(&mut layer.mesh, v);
     }
+}
+
+/// Whether a point sees the ends of a constraint that is kept under more than 170 degrees.
+fn is_flat(q: [f64; 2], ends: [[f64; 2]; 2]) -> bool {
+    const FLAT: f64 = 0.9698;
+    squared_obtuseness(q, ends).is_some_and(|square| square > FLAT)
 }

@@ -1,8 +1,8 @@
 //! The state of a refinement, and its loop: the first task, until there is none.
 //!
 //! *It always ends.* Every vertex has a scale: of an input vertex the distance to the nearest that it sees; of a new one the
-//! scale of its nearest neighbour, or its distance from an input vertex or from the other side of a small input angle, where that
-//! is less. A vertex nearer to its nearest neighbour than 1/64 of that one's scale is refused. So scales come from a finite set,
+//! scale of its nearest neighbour or of the vertex that made it necessary, or its distance from an input vertex or from the other
+//! side of a small input angle, where that is less; if a size asked for it, its distance from its neighbours. A vertex nearer to its nearest neighbour than 1/64 of that one's scale is refused. So scales come from a finite set,
 //! and what is accepted keeps a distance: inside of a triangle of the first triangulation all vertices see each other, hence
 //! there are finitely many. Vertices are removed only where a constraint is split, and there are finitely many of these splits.
 
@@ -17,6 +17,8 @@ use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::Layer;
 use crate::prefetch::prefetch;
 
+/// After so many tasks it is asked whether to go on.
+const PAUSE: usize = 1024;
 /// A vertex nearer than this part of a scale is refused.
 const PART: f64 = 1.0 / 64.0;
 
@@ -98,12 +100,17 @@ impl<'a> Mesher<'a> {
         for t in self.layer.mesh.triangles().collect::<Vec<_>>() {
             self.look_at(t);
         }
+        let mut steps = 0_usize;
         while let Some(task) =
             self.queue.pop(&self.layer.points, |e| prefetch(&self.layer.mesh.edges, e.index()))
         {
-            if task.fault() == Fault::Constraint {
+            steps += 1;
+            if steps % PAUSE == 0 {
+                self.rules.go_on()?;
+            }
+            if task.fault() <= Fault::LargeConstraint {
                 if let Some(e) = self.constraint(&task) {
-                    self.split(e);
+                    self.split(e, task.fault() == Fault::LargeConstraint);
                 }
                 continue;
             }
@@ -113,7 +120,7 @@ impl<'a> Mesher<'a> {
                 self.mend(&task);
             }
         }
-        self.rules.flaw()
+        self.rules.go_on()
     }
 
     /// The new vertices that there are, in the order in which they came.
@@ -206,30 +213,37 @@ impl<'a> Mesher<'a> {
     /// Notes a constraint if a vertex is too near to it, or it is too long.
     pub(super) fn look_at_constraint(&mut self, e: EdgeId) {
         if self.is_encroached(e) {
-            self.note_constraint(e);
+            self.note_constraint(e, Fault::Constraint);
+        } else if self.is_long(e) {
+            self.note_constraint(e, Fault::LargeConstraint);
         }
     }
 
-    pub(super) fn note_constraint(&mut self, e: EdgeId) {
+    pub(super) fn note_constraint(&mut self, e: EdgeId, fault: Fault) {
         let [a, b] = self.ends(e);
         let (p, q) = (self.point(a), self.point(b));
         let e = if self.layer.mesh.tail(e) == a { e } else { self.layer.mesh.twin(e) };
-        let task = self.queue.task(Fault::Constraint, squared(p, q), p, e, [a, b, Place::GHOST]);
+        let task = self.queue.task(fault, squared(p, q), p, e, [a, b, Place::GHOST]);
         self.queue.push(task, &self.layer.points);
     }
 
     fn is_encroached(&self, e: EdgeId) -> bool {
-        let mesh = &self.layer.mesh;
-        let sides = || [e, mesh.twin(e)].into_iter().filter(|e| self.is_inside(e.triangle()));
-        let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
-        let has_near = || sides().any(|side| self.is_too_near(self.point(mesh.tip(side)), ends));
-        (self.rules.clears_constraints() && has_near()) || (self.is_long(e) && sides().next().is_some())
+        self.rules.clears_constraints() && self.tips_near(e).next().is_some()
     }
 
-    /// Whether a constraint is longer than it may be.
-    pub(super) fn is_long(&self, e: EdgeId) -> bool {
+    /// The vertices across a constraint in the mesh that are too near to it.
+    pub(super) fn tips_near(&self, e: EdgeId) -> impl Iterator<Item = Place> + '_ {
+        let mesh = &self.layer.mesh;
+        let ends = [mesh.tail(e), mesh.head(e)].map(|v| self.point(v));
+        let sides = [e, mesh.twin(e)].into_iter().filter(|e| self.is_inside(e.triangle()));
+        sides.map(|e| mesh.tip(e)).filter(move |&tip| self.is_too_near(self.point(tip), ends))
+    }
+
+    /// Whether a constraint of the mesh is longer than it may be.
+    fn is_long(&self, e: EdgeId) -> bool {
         let mesh = &self.layer.mesh;
         squared(self.point(mesh.tail(e)), self.point(mesh.head(e))) > self.rules.longest_constraint
+            && (self.is_inside(e.triangle()) || self.is_inside(mesh.twin(e).triangle()))
     }
 
     /// Whether a point is too near to a constraint: in its diametral circle, or in its diametral lens, where sides have half of

@@ -71,6 +71,7 @@ pub struct Refinement<'a> {
     keep: Keep,
     conforming: bool,
     smoothing: usize,
+    stop: Option<&'a dyn Fn() -> bool>,
     fill: Fill<'a>,
 }
 
@@ -121,6 +122,7 @@ impl<'a> Refinement<'a> {
             keep: Keep::Nothing,
             conforming: false,
             smoothing: 0,
+            stop: None,
             fill: Fill::All,
         }
     }
@@ -181,6 +183,12 @@ impl<'a> Refinement<'a> {
         Self { smoothing: rounds, ..self }
     }
 
+    /// Ends with [`Error::Stopped`] soon after this says so; it is asked now and then.
+    #[must_use]
+    pub fn stop_if(self, stop: &'a dyn Fn() -> bool) -> Self {
+        Self { stop: Some(stop), ..self }
+    }
+
     /// What is inside. Where the hull is its border that becomes a constraint.
     #[must_use]
     pub fn fill(self, fill: Fill<'a>) -> Self {
@@ -194,8 +202,8 @@ impl<'a> Refinement<'a> {
     ///
     /// # Errors
     /// [`Error::Parameter`] for bounds that are out of range, [`Error::Seed`] as [`Constrained2::domains`]; nothing has changed
-    /// then. [`Error::Size`] if a bound that is asked for a place is not positive, [`Error::TooManyPoints`]: the triangulation is
-    /// a valid one then, refined in part.
+    /// then. [`Error::Size`] if a bound that is asked for a place is not positive, [`Error::Stopped`]: the triangulation is a valid
+    /// one then, refined in part.
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
         let domains = c.domains(&self.fill)?;
@@ -215,13 +223,13 @@ impl<'a> Refinement<'a> {
             ran = mesher.run();
         }
         let new = mesher.alive();
-        let Mesher { known, left, .. } = mesher;
+        let Mesher { known, left, refused, .. } = mesher;
         let on = |p: Place| {
             let known = known[p.index()];
             (!known.is_free()).then_some(known.on)
         };
         let added = c.end_refinement(&before, &new, on)?;
-        let report = survey::report(c.layer(), &rules, added, &left);
+        let report = survey::report(c.layer(), &rules, added, &left, &refused);
         let domains = c.domains_of_tags(&before, domains);
         ran?;
         Ok(Refined2 { domains, report })

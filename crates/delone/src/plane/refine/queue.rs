@@ -18,8 +18,10 @@ use crate::points::Bounds;
 /// What is wrong: what comes first is mended first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Fault {
-    /// A constraint with a vertex too near to it, or too long.
+    /// A constraint with a vertex too near to it.
     Constraint,
+    /// A constraint that is too long, or in the way of what is too large.
+    LargeConstraint,
     /// A triangle with a small angle.
     Angle,
     /// A triangle that is too large.
@@ -41,7 +43,8 @@ impl Task {
     pub(super) fn fault(&self) -> Fault {
         match self.key >> CLASS {
             0 => Fault::Constraint,
-            1 => Fault::Angle,
+            1 => Fault::LargeConstraint,
+            2 => Fault::Angle,
             _ => Fault::Size,
         }
     }

@@ -45,6 +45,7 @@ pub(super) struct Rules<'a> {
     area_at: Option<Field<'a>>,
     size_at: Option<Field<'a>>,
     flaw: Cell<Option<(f64, [f64; 2])>>,
+    stop: Option<&'a dyn Fn() -> bool>,
 }
 
 /// A number for each place.
@@ -88,6 +89,7 @@ impl<'a> Rules<'a> {
             area_at: wanted.area_at,
             size_at: wanted.size_at,
             flaw: Cell::new(None),
+            stop: wanted.stop,
         }
     }
 
@@ -114,9 +116,13 @@ impl<'a> Rules<'a> {
         shape.area() > asked(self.area_at) || shape.longest() > size * size
     }
 
-    /// The first bound that was none.
-    pub(super) fn flaw(&self) -> Result<(), Error> {
-        self.flaw.get().map_or(Ok(()), |(value, at)| Err(Error::Size { value, at }))
+    /// Not if a bound was none, or somebody wants to stop.
+    pub(super) fn go_on(&self) -> Result<(), Error> {
+        match self.flaw.get() {
+            Some((value, at)) => Err(Error::Size { value, at }),
+            None if self.stop.is_some_and(|stop| stop()) => Err(Error::Stopped),
+            None => Ok(()),
+        }
     }
 
     /// Whether a constraint may not be split, with the mesh on both sides or on one.

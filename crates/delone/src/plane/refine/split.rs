@@ -18,14 +18,13 @@ use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
 
 impl Mesher<'_> {
-    /// Splits a constraint, given from its lesser end on, unless that is refused.
-    pub(super) fn split(&mut self, e: EdgeId) {
+    /// Splits a constraint, perhaps because of a size, unless that is refused.
+    pub(super) fn split(&mut self, e: EdgeId, is_for_size: bool) {
         let e = if self.ends(e)[0] == self.layer.mesh.tail(e) { e } else { self.layer.mesh.twin(e) };
         if self.refusal(e).is_some() {
             return;
         }
-        let is_long = self.is_long(e);
-        if self.rules.is_enough(self.count, self.for_sizes, is_long) {
+        if self.rules.is_enough(self.count, self.for_sizes, is_for_size) {
             self.refuse(e, Reason::Budget);
             return;
         }
@@ -39,8 +38,8 @@ impl Mesher<'_> {
             self.refuse(e, Reason::Precision);
             return;
         };
-        if self.insert_on(e, q) {
-            self.for_sizes += usize::from(is_long);
+        if self.insert_on(e, q, is_for_size) {
+            self.for_sizes += usize::from(is_for_size);
         }
     }
 
@@ -178,7 +177,8 @@ impl Mesher<'_> {
     }
 
     /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
-    fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
+    fn insert_on(&mut self, e: EdgeId, q: [f64; 2], is_for_size: bool) -> bool {
+        let near: Vec<Place> = self.tips_near(e).collect();
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
         let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
@@ -190,7 +190,11 @@ impl Mesher<'_> {
         layer.cavity.dig::<NearestSites>(&mut layer.mesh, &sites, (q, ()), seed);
         let on = self.input_of(ends);
         let (nearest, square) = self.nearest(q);
-        let scale = self.scale_on(on, nearest, square, q);
+        let mut scale = self.scale_on(on, nearest, square, q);
+        scale = near.into_iter().map(|tip| self.known[tip.index()].scale).fold(scale, f64::min);
+        if is_for_size {
+            scale = scale.min(square.sqrt());
+        }
         if Self::is_cascade(square, scale) {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);

@@ -4,18 +4,22 @@
 
 use std::collections::BTreeMap;
 
+use delone_predicates::angle;
+
 use super::report::{BIN, Reason, RefinementReport2, Unrefined2};
 use super::rules::Rules;
 use super::shape::Shape;
-use crate::ids::Place;
+use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::Layer;
 
-/// Measures what is inside. `left` says why triangles were left, by their corners from the shortest edge on.
+/// Measures what is inside. `left` says why triangles were left, by their corners from the shortest edge on, and `refused` why
+/// constraints were not split.
 pub(super) fn report(
     layer: &Layer,
     rules: &Rules,
     [inside, on_constraints]: [usize; 2],
     left: &[([Place; 3], Reason)],
+    refused: &BTreeMap<[Place; 2], Reason>,
 ) -> RefinementReport2 {
     let mut report = RefinementReport2 { inside, on_constraints, ..RefinementReport2::default() };
     let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
@@ -47,6 +51,10 @@ pub(super) fn report(
             let corners = [layer.mesh.tail(e), layer.mesh.head(e), layer.mesh.tip(e)];
             let reason = why.get(&corners).copied().unwrap_or(Reason::InputAngle);
             report.left.push(Unrefined2 { triangle: t, reason });
+        } else if let Some(ends) = encroached(layer, t).filter(|_| rules.conforming) {
+            let [v, w] = ends;
+            let reason = refused.get(&[v, w]).or_else(|| refused.get(&[w, v]));
+            report.left.push(Unrefined2 { triangle: t, reason: reason.copied().unwrap_or(Reason::Kept) });
         }
     }
     if largest > f64::NEG_INFINITY {
@@ -54,4 +62,15 @@ pub(super) fn report(
         (report.smallest_angle, report.largest_angle) = (degrees(largest), degrees(smallest));
     }
     report
+}
+
+/// The ends of a constraint of a triangle whose diametral circle the third corner is in.
+fn encroached(layer: &Layer, t: TriangleId) -> Option<[Place; 2]> {
+    let mesh = &layer.mesh;
+    let is_near = |e: &EdgeId| {
+        let [o, a, b] = [mesh.tip(*e), mesh.tail(*e), mesh.head(*e)].map(|v| layer.points[v.index()]);
+        mesh.is_fixed(*e) && angle(o, a, b).is_negative()
+    };
+    let near = [0, 1, 2].map(|k| t.edge(k)).into_iter().find(is_near);
+    near.map(|e| [mesh.tail(e), mesh.head(e)])
 }
