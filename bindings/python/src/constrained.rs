@@ -16,7 +16,7 @@ use crate::pool::{FEW, detached};
 use crate::triangulation::{Rows, State, coordinates, table};
 
 /// Bytes that a segment takes, the input apart.
-const SEGMENT: usize = 60;
+pub const SEGMENT: usize = 60;
 /// Lines of sight that one task follows.
 const SIGHTS: usize = 256;
 
@@ -306,7 +306,7 @@ impl Constrained {
 }
 
 impl Constrained {
-    fn made(&self) -> &Constrained2 {
+    pub fn made(&self) -> &Constrained2 {
         &self.state.triangulation
     }
 
@@ -329,7 +329,7 @@ pub fn work(points: usize, segments: usize, split: bool) -> usize {
 }
 
 /// The rows of an array of two columns.
-fn pairs<'a>(array: &'a PyReadonlyArray2<'_, i64>) -> PyResult<&'a [[i64; 2]]> {
+pub fn pairs<'a>(array: &'a PyReadonlyArray2<'_, i64>) -> PyResult<&'a [[i64; 2]]> {
     match array.shape()[1] {
         2 => Ok(array.as_slice()?.as_chunks().0),
         columns => Err(PyValueError::new_err(format!("{columns} columns where there must be 2"))),
@@ -337,7 +337,7 @@ fn pairs<'a>(array: &'a PyReadonlyArray2<'_, i64>) -> PyResult<&'a [[i64; 2]]> {
 }
 
 /// An index that is none stays so.
-fn index(of: i64) -> usize {
+pub fn index(of: i64) -> usize {
     usize::try_from(of).unwrap_or(usize::MAX)
 }
 

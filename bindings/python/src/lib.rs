@@ -12,10 +12,12 @@ mod hints;
 mod hull;
 mod interrupt;
 mod memory;
+mod mesh;
 mod orders;
 mod polygons;
 mod pool;
 mod regular;
+mod sizes;
 mod triangulation;
 mod voronoi;
 
@@ -28,6 +30,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<alpha::Alpha>()?;
     m.add_class::<hints::Hints>()?;
     m.add_class::<constrained::Constrained>()?;
+    m.add_class::<mesh::Mesh>()?;
     m.add_class::<regular::Regular>()?;
     m.add_class::<orders::Orders>()?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;

@@ -11,13 +11,15 @@ delone.AlphaComplex(points).outline(alpha)
 delone.OrderVoronoi(points, 3).locate(queries)
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
+delone.mesh(points, segments, min_angle=30, max_area=0.1).triangles
+delone.triangle.triangulate(dictionary, "pq30a.1")      # as the package triangle
 delone.euclidean_minimum_spanning_tree(points)
 delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
 
 import os
 
-from . import _delone
+from . import _delone, triangle
 from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
@@ -32,6 +34,7 @@ from ._graphs import (
 from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator
+from ._mesh import Mesh, MeshReport, mesh
 from ._orders import OrderVoronoi
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
@@ -51,6 +54,8 @@ __all__ = [
     "Delaunay",
     "Hints",
     "LinearInterpolator",
+    "Mesh",
+    "MeshReport",
     "OrderVoronoi",
     "PolygonTriangles",
     "PowerDiagram",
@@ -61,8 +66,10 @@ __all__ = [
     "euclidean_minimum_spanning_tree",
     "gabriel_graph",
     "knn_graph",
+    "mesh",
     "plot",
     "relative_neighborhood_graph",
+    "triangle",
     "triangulate_polygon",
     "triangulate_polygons",
 ]

@@ -1,0 +1,360 @@
+//! A refined mesh: what is wanted of it, its arrays, and its refinement again.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use delone::{
+    Constrained2, Crossings, Error, Fill, Keep, Reason, Refined2, Refinement, RegionSeed2, Seeds2,
+    TriangleId, Triangulation as _,
+};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyMemoryError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::constrained::{Constrained, SEGMENT, index, pairs, work};
+use crate::errors::python_error;
+use crate::interrupt::interruptible;
+use crate::memory::TRIANGULATION;
+use crate::sizes::{Asked, Field, Wanted};
+use crate::triangulation::coordinates;
+
+/// However few points there are: what comes out may take for ever.
+const LONG: usize = usize::MAX;
+/// Coordinates or indices, a row each.
+type Table<'py, T> = Bound<'py, PyArray2<T>>;
+
+/// See `_delone.pyi`.
+#[pyclass(module = "delone._delone")]
+pub struct Mesh {
+    made: Constrained2,
+    refined: Refined2,
+    /// The rows of triangles: those inside, by their slots; -1 for all else.
+    rows: Vec<i64>,
+    inside: Vec<TriangleId>,
+    /// Segments that were given; the border of a hull gets ids beyond.
+    given: usize,
+}
+
+/// What is inside, and what is wanted of it.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Wishes<'py> {
+    fill: String,
+    holes: PyReadonlyArray2<'py, f64>,
+    /// Places and largest areas, which may be infinite.
+    regions: PyReadonlyArray2<'py, f64>,
+    keep_concavities: bool,
+    min_angle: f64,
+    max_area: Option<f64>,
+    max_edge: Option<f64>,
+    max_vertices: Option<usize>,
+    keep: String,
+    conforming: bool,
+    smooth: usize,
+    /// A function, or a length for each point.
+    size: Option<Bound<'py, PyAny>>,
+    /// An area for each triangle of a mesh: of the one that is refined again, or else of this one.
+    max_areas: Option<PyReadonlyArray1<'py, f64>>,
+    of: Option<Bound<'py, Constrained>>,
+}
+
+/// The same without Python.
+#[derive(Clone)]
+struct Plan {
+    fill: String,
+    seeds: Seeds2,
+    min_angle: f64,
+    max_area: Option<f64>,
+    max_edge: Option<f64>,
+    max_vertices: Option<usize>,
+    keep: Keep,
+    conforming: bool,
+    smooth: usize,
+}
+
+/// Why there is no mesh.
+enum Failed {
+    Error(Error),
+    /// It would have so many vertices at least.
+    Memory(usize),
+}
+
+impl From<Error> for Failed {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}
+
+impl From<Failed> for PyErr {
+    fn from(failed: Failed) -> Self {
+        match failed {
+            Failed::Error(error) => python_error(error),
+            Failed::Memory(vertices) => PyMemoryError::new_err(format!(
+                "the areas and lengths that are wanted need at least {vertices} vertices, and there is no room for them"
+            )),
+        }
+    }
+}
+
+#[pymethods]
+impl Mesh {
+    /// Of points and segments.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        points: PyReadonlyArray2<'_, f64>,
+        segments: PyReadonlyArray2<'_, i64>,
+        split: bool,
+        wishes: Wishes<'_>,
+    ) -> PyResult<Self> {
+        let points: Vec<[f64; 2]> = coordinates(&points)?;
+        let segments: Vec<[usize; 2]> = pairs(&segments)?.iter().map(|ends| ends.map(index)).collect();
+        let given = segments.len();
+        TRIANGULATION.check_with(2, points.len(), given.saturating_mul(SEGMENT))?;
+        let size = work(points.len(), given, split);
+        let how = if split { Crossings::Split } else { Crossings::Refuse };
+        let built = interruptible(py, size, move || Constrained2::with_crossings(&points, &segments, how))?;
+        let areas = match &wishes.of {
+            Some(old) => {
+                let old = old.try_borrow()?;
+                wishes.areas(old.made(), &old.made().triangle_ids().collect::<Vec<_>>())?
+            }
+            None => None,
+        };
+        Self::refined(py, built.map_err(python_error)?, given, areas, wishes)
+    }
+
+    /// Refines it again; a new one.
+    fn again(&self, py: Python<'_>, wishes: Wishes<'_>) -> PyResult<Self> {
+        let areas = wishes.areas(&self.made, &self.inside)?;
+        Self::refined(py, self.made.clone(), self.given, areas, wishes)
+    }
+
+    /// The coordinates of all points.
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, f64>> {
+        let points = self.made.points();
+        PyArray1::from_slice(py, points.as_flattened()).reshape([points.len(), 2])
+    }
+
+    /// The corners and neighbours of the triangles inside.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Table<'py, i64>)> {
+        let (corners, neighbors) = py.detach(|| {
+            let c = &self.made;
+            let of = |t: TriangleId| c.corners(t).map(|v| v.index() as i64);
+            let row = |next: Option<TriangleId>| next.map_or(-1, |t| self.rows[t.index()]);
+            let corners: Vec<i64> = self.inside.iter().flat_map(|&t| of(t)).collect();
+            let beside = |&t: &TriangleId| [0, 1, 2].map(|k| row(c.across(t, k)));
+            (corners, self.inside.iter().flat_map(beside).collect::<Vec<i64>>())
+        });
+        let table = |values| PyArray1::from_vec(py, values).reshape([self.inside.len(), 3]);
+        Ok((table(corners)?, table(neighbors)?))
+    }
+
+    /// The region of each triangle inside, or -1.
+    fn regions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let of = |&t: &TriangleId| self.refined.domains.region(t).map_or(-1, |region| region as i64);
+        PyArray1::from_iter(py, self.inside.iter().map(of))
+    }
+
+    /// Constraint edges beside triangles inside: their ends, and the first segment on each or -1.
+    fn segments<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Bound<'py, PyArray1<i64>>)> {
+        let (ends, origins) = py.detach(|| {
+            let c = &self.made;
+            let inside = |t: TriangleId| self.rows.get(t.index()).is_some_and(|&row| row >= 0);
+            let (mut ends, mut origins) = (Vec::new(), Vec::new());
+            for e in c.constraint_edges() {
+                if !inside(e.triangle()) && !inside(c.mesh().twin(e).triangle()) {
+                    continue;
+                }
+                let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < self.given);
+                let mut pair = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index() as i64);
+                if first.is_some_and(|on| !on.is_forward) {
+                    pair.reverse();
+                }
+                ends.extend(pair);
+                origins.push(first.map_or(-1, |on| on.segment.index() as i64));
+            }
+            (ends, origins)
+        });
+        let count = origins.len();
+        Ok((PyArray1::from_vec(py, ends).reshape([count, 2])?, PyArray1::from_vec(py, origins)))
+    }
+
+    /// Vertices added inside and on constraints.
+    #[getter]
+    fn added(&self) -> (usize, usize) {
+        (self.refined.report.inside, self.refined.report.on_constraints)
+    }
+
+    /// The smallest and the largest angle, and how many triangles have a smallest angle, and how many angles there are, every
+    /// ten degrees.
+    #[getter]
+    fn angles(&self) -> (f64, f64, Vec<usize>, Vec<usize>) {
+        let report = &self.refined.report;
+        (report.smallest_angle, report.largest_angle, report.smallest_angles.into(), report.angles.into())
+    }
+
+    /// The rows of triangles that are not as they were to be, and why.
+    #[getter]
+    fn left(&self) -> Vec<(i64, &'static str)> {
+        let left = self.refined.report.left.iter();
+        left.map(|left| (self.rows[left.triangle.index()], word(left.reason))).collect()
+    }
+
+    /// Proves that it is the canonical triangulation of its points and constraints.
+    fn check(&self, py: Python<'_>) -> PyResult<()> {
+        let checked = py.detach(|| self.made.check());
+        checked.map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
+    }
+}
+
+impl Mesh {
+    /// Refines what was built, under Python's lock only where Python is asked.
+    fn refined(
+        py: Python<'_>,
+        made: Constrained2,
+        given: usize,
+        areas: Option<Field>,
+        wishes: Wishes<'_>,
+    ) -> PyResult<Self> {
+        let (plan, size) = wishes.plan()?;
+        let values = match size {
+            Some(function) if function.is_callable() => {
+                let asked = Asked::new(function);
+                let areas = areas.unwrap_or(Field::Everywhere);
+                let at = |at| asked.length(at);
+                let done = plan.refine(made, given, &at, &|at| areas.area(at));
+                asked.end()?;
+                return Ok(done?);
+            }
+            Some(values) => Some(values.extract::<PyReadonlyArray1<f64>>()?.as_slice()?.to_vec()),
+            None => None,
+        };
+        let is_wanted = Arc::new(AtomicBool::new(true));
+        let seen = Arc::clone(&is_wanted);
+        let done = interruptible(py, LONG, move || {
+            let lengths = match values {
+                Some(values) => Field::lengths(made.points()[..values.len()].to_vec(), values)?,
+                None => Field::Everywhere,
+            };
+            let areas = areas.unwrap_or(Field::Everywhere);
+            let wanted = Wanted(&seen);
+            plan.refine(made, given, &|at| wanted.or_none(|| lengths.length(at)), &|at| areas.area(at))
+        });
+        // Whoever still works at it after an interruption does so in vain.
+        is_wanted.store(done.is_ok(), Ordering::Relaxed);
+        Ok(done??)
+    }
+}
+
+impl<'py> Wishes<'py> {
+    /// Areas of triangles, by the triangles of a mesh that they are in order.
+    fn areas(&self, mesh: &Constrained2, triangles: &[TriangleId]) -> PyResult<Option<Field>> {
+        let Some(areas) = &self.max_areas else { return Ok(None) };
+        if areas.len() != triangles.len() {
+            let (areas, count) = (areas.len(), triangles.len());
+            return Err(PyValueError::new_err(format!("{areas} areas for {count} triangles")));
+        }
+        let mut by_slot = vec![f64::INFINITY; mesh.slot_count()];
+        triangles.iter().zip(areas.as_slice()?).for_each(|(t, &area)| by_slot[t.index()] = area);
+        Ok(Some(Field::areas(mesh.clone(), by_slot)))
+    }
+
+    /// What of it is plain, and the rest.
+    fn plan(self) -> PyResult<(Plan, Option<Bound<'py, PyAny>>)> {
+        let region =
+            |row: &[f64]| RegionSeed2 { at: [row[0], row[1]], attribute: 0.0, max_area: Some(row[2]) };
+        if self.regions.shape()[1] != 3 {
+            return Err(PyValueError::new_err("regions are rows of three numbers"));
+        }
+        let seeds = Seeds2 {
+            holes: coordinates(&self.holes)?,
+            regions: self.regions.as_slice()?.chunks_exact(3).map(region).collect(),
+            keep_concavities: self.keep_concavities,
+        };
+        let keep = match self.keep.as_str() {
+            "nothing" => Keep::Nothing,
+            "border" => Keep::Border,
+            "constraints" => Keep::Constraints,
+            other => return Err(PyValueError::new_err(format!("nothing to keep is called {other}"))),
+        };
+        let Self { fill, min_angle, max_area, max_edge, max_vertices, conforming, smooth, .. } = self;
+        let plan =
+            Plan { fill, seeds, min_angle, max_area, max_edge, max_vertices, keep, conforming, smooth };
+        Ok((plan, self.size))
+    }
+}
+
+impl Plan {
+    fn refine(
+        &self,
+        made: Constrained2,
+        given: usize,
+        length: &dyn Fn([f64; 2]) -> f64,
+        area: &dyn Fn([f64; 2]) -> f64,
+    ) -> Result<Mesh, Failed> {
+        let mut made = made;
+        let fill = match self.fill.as_str() {
+            "even-odd" => Fill::EvenOdd,
+            "nonzero" => Fill::NonZero,
+            "seeds" => Fill::Seeds(&self.seeds),
+            _ => Fill::All,
+        };
+        self.make_room(&made, &fill)?;
+        // A bound for all places is one of these too, so that they are asked for each triangle, and may end the work.
+        let most = self.max_area.unwrap_or(f64::INFINITY);
+        let area = |at| area(at).min(most);
+        let mut wanted = Refinement::new()
+            .min_angle(self.min_angle)
+            .keep(self.keep)
+            .conforming(self.conforming)
+            .fill(fill)
+            .size(length)
+            .max_area_at(&area)
+            .smooth(self.smooth);
+        if let Some(length) = self.max_edge {
+            wanted = wanted.max_edge(length);
+        }
+        if let Some(count) = self.max_vertices {
+            wanted = wanted.max_vertices(count);
+        }
+        let refined = wanted.run(&mut made)?;
+        let inside: Vec<TriangleId> = made.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();
+        let mut rows = vec![-1; made.slot_count()];
+        inside.iter().zip(0..).for_each(|(t, row)| rows[t.index()] = row);
+        Ok(Mesh { made, refined, rows, inside, given })
+    }
+
+    /// Whether there is memory for as many triangles as bounds for all places ask for at least.
+    fn make_room(&self, made: &Constrained2, fill: &Fill) -> Result<(), Failed> {
+        // Of triangles with short edges the equilateral one is largest.
+        let of_edge = self.max_edge.map_or(f64::INFINITY, |length| length * length * 0.75f64.sqrt() / 2.0);
+        let largest = self.max_area.unwrap_or(f64::INFINITY).min(of_edge);
+        if largest.is_infinite() {
+            return Ok(());
+        }
+        let domains = made.domains(fill)?;
+        let inside = made.triangle_ids().filter(|&t| domains.is_inside(t));
+        let area: f64 = inside.map(|t| made.area(t)).sum();
+        if area == 0.0 {
+            return Ok(());
+        }
+        let least = ((area / largest / 2.0) as usize).min(self.max_vertices.unwrap_or(usize::MAX));
+        if least < delone::MAX_POINTS && TRIANGULATION.check(2, least).is_ok() {
+            return Ok(());
+        }
+        Err(Failed::Memory(least))
+    }
+}
+
+/// The name of a reason.
+fn word(reason: Reason) -> &'static str {
+    match reason {
+        Reason::InputAngle => "input angle",
+        Reason::Precision => "precision",
+        Reason::Cascade => "cascade",
+        Reason::Budget => "budget",
+        Reason::Kept => "kept",
+        other => other.text(),
+    }
+}

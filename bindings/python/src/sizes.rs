@@ -1,0 +1,110 @@
+//! How large elements of a mesh may be: numbers for all places, or what Python says for each.
+//!
+//! Cost: a question costs one location of a point, some hundred nanoseconds, or a call of Python.
+
+use std::cell::{Cell, RefCell};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use delone::{Ask, Constrained2, Delaunay2, Error, Triangulation as _, VertexId};
+use pyo3::prelude::*;
+
+/// A number for each place, asked for without Python.
+pub enum Field {
+    /// None wanted.
+    Everywhere,
+    /// Lengths, linear on the triangles of points that have one each; infinite outside of their hull.
+    Lengths(Box<Delaunay2>, Vec<f64>),
+    /// Areas, one for each triangle of a mesh, in the order of its triangles; infinite outside.
+    Areas(Box<Constrained2>, Vec<f64>),
+}
+
+impl Field {
+    /// Of values at points; of equal points the first one counts.
+    pub fn lengths(points: Vec<[f64; 2]>, values: Vec<f64>) -> Result<Self, Error> {
+        Ok(Self::Lengths(Box::new(Delaunay2::from_vec(points)?), values))
+    }
+
+    /// Of areas of the triangles of a mesh, by their indices among all slots; infinite for those that have none.
+    pub fn areas(mesh: Constrained2, areas: Vec<f64>) -> Self {
+        Self::Areas(Box::new(mesh), areas)
+    }
+
+    /// The length wanted at a place.
+    pub fn length(&self, at: [f64; 2]) -> f64 {
+        match self {
+            Self::Lengths(d, values) => linear(d, values, at).unwrap_or(f64::INFINITY),
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The area wanted at a place.
+    pub fn area(&self, at: [f64; 2]) -> f64 {
+        let Self::Areas(mesh, areas) = self else { return f64::INFINITY };
+        let found = mesh.find(at).ok().and_then(|found| found.simplex);
+        found.and_then(|t| areas.get(t.index()).copied()).unwrap_or(f64::INFINITY)
+    }
+}
+
+/// Linear interpolation: a positive mean of what is at the corners of the triangle that holds a point.
+fn linear(d: &Delaunay2, values: &[f64], at: [f64; 2]) -> Option<f64> {
+    let corners: [VertexId; 3] = d.corners(d.find(at).ok()?.simplex?);
+    let [a, b, c] = corners.map(|v| d.point(v));
+    let twice = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+        ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).max(0.0)
+    };
+    // Rounded, they may be none of them positive in a flat triangle; any corner is as good then.
+    let weights = [twice(b, c, at), twice(c, a, at), twice(a, b, at)];
+    let sum: f64 = weights.iter().sum();
+    let value = |k: usize| values[corners[k].index()];
+    let mean = || (0..3).map(|k| weights[k] / sum * value(k)).sum();
+    Some(if sum.is_normal() { mean() } else { value(0) })
+}
+
+/// Whether a refinement is still wanted: a question for a place ends it if not.
+pub struct Wanted<'a>(pub &'a AtomicBool);
+
+impl Wanted<'_> {
+    /// A bound that is none when nobody waits any more, and else the one given.
+    pub fn or_none(&self, bound: impl FnOnce() -> f64) -> f64 {
+        if self.0.load(Ordering::Relaxed) { bound() } else { f64::NAN }
+    }
+}
+
+/// Questions between looking for signals.
+const QUESTIONS: u32 = 256;
+
+/// A function of Python from coordinates to a length. Its first exception ends the work, and is kept.
+pub struct Asked<'py> {
+    function: Bound<'py, PyAny>,
+    error: RefCell<Option<PyErr>>,
+    count: Cell<u32>,
+}
+
+impl<'py> Asked<'py> {
+    pub fn new(function: Bound<'py, PyAny>) -> Self {
+        Self { function, error: RefCell::new(None), count: Cell::new(0) }
+    }
+
+    /// What it says of a place; NaN, which is no bound, after an exception.
+    pub fn length(&self, at: [f64; 2]) -> f64 {
+        if self.error.borrow().is_some() {
+            return f64::NAN;
+        }
+        self.count.set(self.count.get().wrapping_add(1));
+        let signals = || match self.count.get() % QUESTIONS {
+            0 => self.function.py().check_signals(),
+            _ => Ok(()),
+        };
+        let answer =
+            signals().and_then(|()| self.function.call1((at[0], at[1]))).and_then(|said| said.extract());
+        answer.unwrap_or_else(|error| {
+            *self.error.borrow_mut() = Some(error);
+            f64::NAN
+        })
+    }
+
+    /// The exception, if there was one.
+    pub fn end(self) -> PyResult<()> {
+        self.error.into_inner().map_or(Ok(()), Err)
+    }
+}
