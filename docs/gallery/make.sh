@@ -28,6 +28,10 @@ $delone generate uniform -n 300 --seed 4 -o "$work/seeds.csv"
 awk 'BEGIN { for (i = 0; i < 300; i++) print 1 + (i * 37 % 100) ^ 2 / 1250 }' > "$work/sizes.csv"
 $delone voronoi "$work/seeds.csv" --areas "$work/sizes.csv" --box 0,0,1,1 -o $here/areas.png --size 640
 
+# Meshes, coloured by the smallest angle of each triangle: a machine part, and lakes.
+$delone mesh $here/part.poly --min-angle 30 --max-area 12 --color angle -o $here/part.png --picture-size 800
+$delone mesh data/great_lakes.geojson --min-angle 30 --color angle -o $here/meshed-lakes.png --picture-size 960
+
 $delone generate clusters -n 3000 --seed 1 -o "$work/clusters.csv"
 $delone voronoi "$work/clusters.csv" -o $here/clusters.png --size 640
 $delone alpha data/autzen_trim.laz --class ground --radius 12 -o $here/alpha.png --size 640
@@ -69,7 +73,7 @@ done
 # A scanned head, if there is one.
 scan=${SCAN:-../shared/data/igea.ply}
 if [ -e "$scan" ]; then
-    $delone draw "$scan" --dim 3 --view 30,20 --cut 1,0,0,0 -o $here/scan.png --size 800
+    $delone draw "$scan" --dim 3 --view 30,20 --cut 1,0,0,0 -o $here/scan.png
 else
     echo "no $scan: its picture stays as it is"
 fi

@@ -30,6 +30,7 @@
 //! | --- | --- | --- | --- |
 //! | points, all at once or coming and going | [`Delaunay2`] | [`Delaunay3`] | O(n log n), in space where the result is linear; a change O(log n) on average |
 //! | points and segments that must be edges; what is inside | [`Constrained2`], [`Domains2`] | | as the points, and O(k log k) for k edges that a segment crosses |
+//! | meshes: triangles with angles and sizes as wanted | [`Refinement`] | | O(log n) for each new vertex |
 //! | polygons with holes to triangles, one or many | [`Polygons2`] | | O(n log n) |
 //! | points known nearly beforehand, in many instances | [`Hints2`] | [`Hints3`] | O(n) an instance |
 //! | edges of points known by disks, in every and in some instance | [`DiskEdges2`] | | about O(n) where disks overlap little |

@@ -95,6 +95,9 @@ pub(crate) struct MeshArgs {
     /// Print how many angles there are of each size.
     #[arg(long)]
     pub(crate) histogram: bool,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) picture_size: u32,
     /// What colours mean in pictures [default: regions, heights or density].
     #[arg(long, value_name = "WHAT")]
     pub(crate) color: Option<ColorName>,

@@ -84,8 +84,8 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     tell::count(report, kept.points.len(), &mut stats);
     stats.set("hull", c.hull_facets().count());
     stats.set("vertices", kept.vertex_count());
-    let options =
-        picture::Options { angles: args.color == Some(ColorName::Angle), ..picture::Options::default() };
+    let angles = args.color == Some(ColorName::Angle);
+    let options = picture::Options { angles, size: args.picture_size, ..picture::Options::default() };
     made.write(&kept, &plan, &targets, &options, quiet)?;
     stats.phase("write");
     tell::summary(report, &stats, quiet);
