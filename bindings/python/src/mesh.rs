@@ -15,7 +15,7 @@ use crate::constrained::{Constrained, SEGMENT, index, pairs, work};
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
-use crate::sizes::{Asked, Field, Wanted};
+use crate::sizes::{Asked, Field};
 use crate::triangulation::coordinates;
 
 /// However few points there are: what comes out may take for ever.
@@ -223,7 +223,7 @@ impl Mesh {
                 let asked = Asked::new(function);
                 let areas = areas.unwrap_or(Field::Everywhere);
                 let at = |at| asked.length(at);
-                let done = plan.refine(made, given, &at, &|at| areas.area(at));
+                let done = plan.refine(made, given, Some(&at), &areas, &|| asked.has_failed());
                 asked.end()?;
                 return Ok(done?);
             }
@@ -238,10 +238,11 @@ impl Mesh {
                 None => Field::Everywhere,
             };
             let areas = areas.unwrap_or(Field::Everywhere);
-            let wanted = Wanted(&seen);
-            plan.refine(made, given, &|at| wanted.or_none(|| lengths.length(at)), &|at| areas.area(at))
+            let length = |at| lengths.length(at);
+            let stop = || !seen.load(Ordering::Relaxed);
+            plan.refine(made, given, lengths.is_asked().then_some(&length as _), &areas, &stop)
         });
-        // Whoever still works at it after an interruption does so in vain.
+        // Whoever still works at it after an interruption need not go on.
         is_wanted.store(done.is_ok(), Ordering::Relaxed);
         Ok(done??)
     }
@@ -290,8 +291,9 @@ impl Plan {
         &self,
         made: Constrained2,
         given: usize,
-        length: &dyn Fn([f64; 2]) -> f64,
-        area: &dyn Fn([f64; 2]) -> f64,
+        length: Option<&dyn Fn([f64; 2]) -> f64>,
+        areas: &Field,
+        stop: &dyn Fn() -> bool,
     ) -> Result<Mesh, Failed> {
         let mut made = made;
         let fill = match self.fill.as_str() {
@@ -301,17 +303,23 @@ impl Plan {
             _ => Fill::All,
         };
         self.make_room(&made, &fill)?;
-        // A bound for all places is one of these too, so that they are asked for each triangle, and may end the work.
-        let most = self.max_area.unwrap_or(f64::INFINITY);
-        let area = |at| area(at).min(most);
+        let area = |at| areas.area(at);
         let mut wanted = Refinement::new()
             .min_angle(self.min_angle)
             .keep(self.keep)
             .conforming(self.conforming)
             .fill(fill)
-            .size(length)
-            .max_area_at(&area)
-            .smooth(self.smooth);
+            .smooth(self.smooth)
+            .stop_if(stop);
+        if let Some(length) = length {
+            wanted = wanted.size(length);
+        }
+        if areas.is_asked() {
+            wanted = wanted.max_area_at(&area);
+        }
+        if let Some(area) = self.max_area {
+            wanted = wanted.max_area(area);
+        }
         if let Some(length) = self.max_edge {
             wanted = wanted.max_edge(length);
         }

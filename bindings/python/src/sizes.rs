@@ -3,7 +3,6 @@
 //! Cost: a question costs one location of a point, some hundred nanoseconds, or a call of Python.
 
 use std::cell::{Cell, RefCell};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use delone::{Ask, Constrained2, Delaunay2, Error, Triangulation as _, VertexId};
 use pyo3::prelude::*;
@@ -27,6 +26,11 @@ impl Field {
     /// Of areas of the triangles of a mesh, by their indices among all slots; infinite for those that have none.
     pub fn areas(mesh: Constrained2, areas: Vec<f64>) -> Self {
         Self::Areas(Box::new(mesh), areas)
+    }
+
+    /// Whether it says anything.
+    pub fn is_asked(&self) -> bool {
+        !matches!(self, Self::Everywhere)
     }
 
     /// The length wanted at a place.
@@ -60,16 +64,6 @@ fn linear(d: &Delaunay2, values: &[f64], at: [f64; 2]) -> Option<f64> {
     Some(if sum.is_normal() { mean() } else { value(0) })
 }
 
-/// Whether a refinement is still wanted: a question for a place ends it if not.
-pub struct Wanted<'a>(pub &'a AtomicBool);
-
-impl Wanted<'_> {
-    /// A bound that is none when nobody waits any more, and else the one given.
-    pub fn or_none(&self, bound: impl FnOnce() -> f64) -> f64 {
-        if self.0.load(Ordering::Relaxed) { bound() } else { f64::NAN }
-    }
-}
-
 /// Questions between looking for signals.
 const QUESTIONS: u32 = 256;
 
@@ -101,6 +95,11 @@ impl<'py> Asked<'py> {
             *self.error.borrow_mut() = Some(error);
             f64::NAN
         })
+    }
+
+    /// Whether there was an exception.
+    pub fn has_failed(&self) -> bool {
+        self.error.borrow().is_some()
     }
 
     /// The exception, if there was one.
