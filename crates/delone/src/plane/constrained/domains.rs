@@ -254,42 +254,68 @@ impl Constrained2 {
     /// of several the one with the least numbers, so that the answer does not depend on where the search begins.
     fn depths(&self, domains: &Domains2, weights: &[Weight]) -> Vec<Depth> {
         let mesh = self.mesh();
-        // Left of the edge is more than right of it.
-        let across = |e: EdgeId| {
+        let beyond = |(count, winding): Depth, (more, covering): (i32, usize)| {
+            (count + covering, winding.saturating_add(more))
+        };
+        let borders = self.borders(domains, weights);
+        let mut depths: Vec<Option<Depth>> = vec![None; domains.parts.len()];
+        // The parts that are entered, and how deep they are then. From outside it is over hull edges, of which not all are constraints.
+        let from_outside = |e: EdgeId| {
             let twin = mesh.twin(e);
             let found = weights.binary_search_by_key(&e.min(twin), |weight| weight.0);
             let (along, count) = found.map_or((0, 0), |at| (weights[at].1, weights[at].2));
-            (if e < twin { along } else { -along }, count)
+            let more = if e < twin { along } else { -along };
+            Some((domains.part(e.triangle())?, beyond((0, 0), (more, count))))
         };
-        let borders = self.borders(domains);
-        let mut depths: Vec<Option<Depth>> = vec![None; domains.parts.len()];
-        // The edges across which parts are entered, seen from there, and what is behind them.
-        let mut entered: Vec<(EdgeId, Depth)> = self.hull_edges().map(|e| (e, (0, 0))).collect();
+        let mut entered: Vec<(usize, Depth)> = self.hull_edges().filter_map(from_outside).collect();
         while !entered.is_empty() {
-            let beyond = |(e, (count, winding)): (EdgeId, Depth)| {
-                let (more, covering) = across(e);
-                Some((domains.part(e.triangle())?, (count + covering, winding.saturating_add(more))))
-            };
-            let mut reached: Vec<(usize, Depth)> = entered.drain(..).filter_map(beyond).collect();
+            let mut reached = std::mem::take(&mut entered);
             reached.retain(|(part, _)| depths[*part].is_none());
             reached.sort_unstable();
             reached.dedup_by_key(|(part, _)| *part);
             for &(part, depth) in &reached {
                 depths[part] = Some(depth);
-                let start = borders.partition_point(|border| (border.0 as usize) < part);
-                let of_part = borders[start..].iter().take_while(|border| border.0 as usize == part);
-                entered.extend(of_part.map(|border| (mesh.twin(border.1), depth)));
+                let start = borders.partition_point(|border| (border.part as usize) < part);
+                let of_part = borders[start..].iter().take_while(|border| border.part as usize == part);
+                let next = of_part.filter_map(|border| {
+                    let other = domains.part(border.outside.triangle())?;
+                    Some((other, beyond(depth, (border.more, border.covering))))
+                });
+                entered.extend(next.filter(|(other, _)| depths[*other].is_none()));
             }
         }
         depths.into_iter().map(Option::unwrap_or_default).collect()
     }
 
-    /// The constraint edges around each part, seen from inside, part by part.
-    fn borders(&self, domains: &Domains2) -> Vec<(u32, EdgeId)> {
+    /// The constraint edges around each part, part by part.
+    fn borders(&self, domains: &Domains2, weights: &[Weight]) -> Vec<Border> {
         let mesh = self.mesh();
-        let both = self.constraint_edges().flat_map(|e| [e, mesh.twin(e)]);
-        let mut borders: Vec<_> = both.map(|e| (domains.of[e.triangle().index()], e)).collect();
-        borders.sort_unstable();
+        let mut weights = weights.iter().peekable();
+        // Both are in the order of the edges, so each weight is met in passing.
+        let both = self.constraint_edges().flat_map(|e| {
+            while weights.next_if(|weight| weight.0 < e).is_some() {}
+            let (along, covering) =
+                weights.peek().filter(|weight| weight.0 == e).map_or((0, 0), |weight| (weight.1, weight.2));
+            let twin = mesh.twin(e);
+            let part = |e: EdgeId| domains.of[e.triangle().index()];
+            // Left of the edge is more than right of it.
+            [
+                Border { part: part(e), outside: twin, more: -along, covering },
+                Border { part: part(twin), outside: e, more: along, covering },
+            ]
+        });
+        let mut borders: Vec<Border> = both.collect();
+        borders.sort_unstable_by_key(|border| border.part);
         borders
     }
+}
+
+/// A constraint edge seen from inside of a part: what is behind it, how much more segments wind around that, and how many
+/// cover the edge.
+#[derive(Clone, Copy)]
+struct Border {
+    part: u32,
+    outside: EdgeId,
+    more: i32,
+    covering: usize,
 }
