@@ -75,8 +75,7 @@ impl Mesher<'_> {
     /// Notes constraints to be split, and the triangle to be looked at again then. What is too large beside constraints that are
     /// to be kept gets its centroid, if that was not tried.
     fn split_first(&mut self, task: &Task, constraints: &[EdgeId], is_last: bool) {
-        let refusals: Vec<Option<Reason>> = constraints.iter().map(|&e| self.refusal(e)).collect();
-        if let Some(reason) = refusals.iter().copied().min().flatten() {
+        if let Some(reason) = constraints.iter().map(|&e| self.refusal(e)).min().flatten() {
             let t = task.edge.triangle();
             match Shape::of(self.layer, t) {
                 Some(shape) if reason == Reason::Kept && !is_last && self.is_large(&shape, t) => {
@@ -87,8 +86,8 @@ impl Mesher<'_> {
             return;
         }
         let fault = if task.fault() == Fault::Size { Fault::LargeConstraint } else { Fault::Constraint };
-        for (&e, refusal) in constraints.iter().zip(refusals) {
-            if refusal.is_none() {
+        for &e in constraints {
+            if self.refusal(e).is_none() {
                 self.note_constraint(e, fault);
             }
         }

@@ -34,7 +34,8 @@ impl Mesher<'_> {
             e = self.clear(e);
         }
         let wanted = self.where_to_split(e, meets);
-        let Some(q) = around(wanted).find(|&q| self.is_clear(e, q)) else {
+        let first = Some(wanted).filter(|&q| self.is_clear(e, q));
+        let Some(q) = first.or_else(|| around(wanted).into_iter().find(|&q| self.is_clear(e, q))) else {
             self.refuse(e, Reason::Precision);
             return;
         };
@@ -191,7 +192,7 @@ impl Mesher<'_> {
 
     /// Makes a point the vertex that splits a constraint, unless it is too near to others. Returns whether it did.
     fn insert_on(&mut self, e: EdgeId, q: [f64; 2]) -> bool {
-        let near: Vec<Place> = self.tips_near(e).collect();
+        let near = self.tips_near(e).map(|tip| self.known[tip.index()].scale).fold(f64::INFINITY, f64::min);
         let mesh = &mut self.layer.mesh;
         let ends = [mesh.tail(e), mesh.head(e)];
         let domains = [e, mesh.twin(e)].map(|e| mesh.domain(e.triangle()));
@@ -203,9 +204,8 @@ impl Mesher<'_> {
         layer.cavity.dig::<NearestSites>(&mut layer.mesh, &sites, (q, ()), seed);
         let on = self.input_of(ends);
         let (nearest, square) = self.nearest(q);
-        let mut scale = self.scale_on(on, nearest, square, q);
-        scale = near.into_iter().map(|tip| self.known[tip.index()].scale).fold(scale, f64::min);
-        scale = domains.map(|domain| self.rules.size_at(q, domain)).into_iter().fold(scale, f64::min);
+        let wanted = domains.map(|domain| self.rules.size_at(q, domain));
+        let scale = wanted.into_iter().fold(self.scale_on(on, nearest, square, q).min(near), f64::min);
         if Self::is_cascade(square, scale) {
             self.abandon();
             self.layer.mesh.set_fixed(e, true);
@@ -262,21 +262,23 @@ impl Mesher<'_> {
     /// Makes both halves of a constraint with a new vertex constraints, and puts what is on either side into its domain.
     fn part(&mut self, v: Place, ends: [Place; 2], domains: [usize; 2]) {
         let mesh = &mut self.layer.mesh;
-        let spokes: Vec<EdgeId> = mesh.spokes(v).collect();
-        let towards = |end: Place| spokes.iter().position(|&e| mesh.head(e) == end);
+        let towards = |end: Place| mesh.spokes(v).find(|&e| mesh.head(e) == end);
         let (Some(to_a), Some(to_b)) = (towards(ends[0]), towards(ends[1])) else {
             debug_assert!(false, "a new vertex sees both ends");
             return;
         };
-        let count = spokes.len();
         // From the second end counter-clockwise to the first is the left side.
-        let left = (to_a + count - to_b) % count;
-        for k in 0..count {
-            let t = spokes[(to_b + k) % count].triangle();
-            mesh.set_domain(t, if mesh.is_ghost(t) { 0 } else { domains[usize::from(k >= left)] });
+        for (from, to, domain) in [(to_b, to_a, domains[0]), (to_a, to_b, domains[1])] {
+            let mut spoke = from;
+            while spoke != to {
+                let t = spoke.triangle();
+                let domain = if mesh.is_ghost(t) { 0 } else { domain };
+                mesh.set_domain(t, domain);
+                spoke = mesh.spin(spoke);
+            }
         }
-        mesh.set_fixed(spokes[to_a], true);
-        mesh.set_fixed(spokes[to_b], true);
+        mesh.set_fixed(to_a, true);
+        mesh.set_fixed(to_b, true);
     }
 
     /// Looks at the constraints that end at a new vertex, or that it may be too near to.
@@ -312,11 +314,12 @@ fn shell(length: f64) -> f64 {
     power
 }
 
-/// A point, and its neighbours among the numbers, in lexicographic order.
-fn around(q: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+/// The neighbours of a point among the numbers, in lexicographic order.
+#[cold]
+fn around(q: [f64; 2]) -> Vec<[f64; 2]> {
     let near = |x: f64| [x.next_down(), x, x.next_up()];
     let mut others: Vec<[f64; 2]> = near(q[0]).into_iter().flat_map(|x| near(q[1]).map(|y| [x, y])).collect();
     others.retain(|&p| p != q);
     others.sort_by(|&p, &r| lexicographic(p, r));
-    std::iter::once(q).chain(others)
+    others
 }
