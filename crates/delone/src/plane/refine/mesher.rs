@@ -199,7 +199,7 @@ impl<'a> Mesher<'a> {
         Some(self.queue.task(fault, shape.squares[0], shape.points[0], e, corners()))
     }
 
-    /// Whether the shortest edge of a triangle joins two constraints that meet, at the same distance from where they do: its angle
+    /// Whether the shortest edge of a triangle joins two constraints that meet at less than 60 degrees, at the same distance from where they do: its angle
     /// is that of the input (Miller, Pav & Walkington, "When and why Ruppert's algorithm works", IMR 2003).
     pub(super) fn is_forced(&self, corners: &[Place; 3]) -> bool {
         let [p, q] = [corners[0], corners[1]].map(|v| self.known[v.index()]);
@@ -207,8 +207,9 @@ impl<'a> Mesher<'a> {
             return false;
         }
         let Some(o) = shared(p.on, q.on) else { return false };
+        let apart = squared(self.point(corners[0]), self.point(corners[1]));
         let [p, q] = [corners[0], corners[1]].map(|v| squared(self.point(v), self.point(o)));
-        (0.999 * p..1.001 * p).contains(&q)
+        (0.999 * p..1.001 * p).contains(&q) && apart < p
     }
 
     /// Notes a constraint if a vertex is too near to it, or it is too long.
@@ -282,12 +283,18 @@ impl<'a> Mesher<'a> {
         let mut best = (Place::GHOST, f64::INFINITY);
         for v in border {
             let square = squared(q, self.point(v));
-            let scale = |v: Place| self.known[v.index()].scale;
-            if square < best.1 || (square == best.1 && scale(v) < scale(best.0)) {
+            if square < best.1 || (square == best.1 && self.is_finer(v, best.0)) {
                 best = (v, square);
             }
         }
         best
+    }
+
+    /// Whether a vertex has a lesser scale than another one, or the same and comes first.
+    fn is_finer(&self, v: Place, w: Place) -> bool {
+        let [one, other] = [v, w].map(|v| self.known[v.index()].scale);
+        let order = one.total_cmp(&other);
+        order.then_with(|| delone_predicates::lexicographic(self.point(v), self.point(w))).is_lt()
     }
 
     /// Whether a vertex may be so near to another one of some scale.

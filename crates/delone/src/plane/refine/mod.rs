@@ -79,7 +79,9 @@ pub struct Refinement<'a> {
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Refined2 {
-    /// The parts of the triangulation, and which are inside; valid as long as nothing changes.
+    /// The parts of the triangulation, and which are inside; valid as long as nothing changes. Where a border was rounded
+    /// inwards, what is between it and its old line, thinner than a unit in the last place, is in no part; asked anew,
+    /// [`Constrained2::domains`] knows nothing of that.
     pub domains: Domains2,
     /// What was done, and what could not be done.
     pub report: RefinementReport2,
@@ -196,7 +198,7 @@ impl<'a> Refinement<'a> {
     }
 
     /// Refines a triangulation. New vertices have the next ids, in the order in which they came; segments are split, and bend by
-    /// a unit in the last place where a new vertex is not exactly on them.
+    /// a unit in the last place where a new vertex is not exactly on them, which is much for what is hardly wider than that.
     ///
     /// Cost: see the module.
     ///
