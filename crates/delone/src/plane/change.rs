@@ -13,6 +13,7 @@ use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::tree::Tree;
 use crate::locate::{Locate, Start, Strategy, Walk};
 use crate::mesh::Names;
+use crate::mesh::triangles::Room;
 use crate::order;
 use crate::points::check_finite;
 use crate::points::{Position2, finite};
@@ -243,7 +244,7 @@ impl Delaunay2 {
     pub(super) fn begin_bulk(&mut self) {
         self.locator.take();
         if self.vertex_count() <= LARGEST_SPREAD {
-            self.rearrange_now();
+            self.rearrange_now(Room::Some);
         } else {
             self.names();
         }
@@ -252,6 +253,7 @@ impl Delaunay2 {
     /// Names what is new at these places, in their order; nothing else has changed.
     pub(super) fn end_bulk(&mut self, new: &[Place]) -> Result<(), Error> {
         let points: Vec<[f64; 2]> = new.iter().map(|p| self.base.points[p.index()]).collect();
+        self.named.iter_mut().for_each(|named| named.reserve_exact(points.len()));
         let first = self.new_names(points.into_iter())?.index();
         let names = self.base.mesh.names();
         new.iter().enumerate().for_each(|(k, &p)| names.bind(VertexId::new(first + k), p));
@@ -286,9 +288,9 @@ impl Delaunay2 {
     }
 
     /// A new layout, with hints for it.
-    pub(super) fn rearrange_now(&mut self) {
+    pub(super) fn rearrange_now(&mut self, room: Room) {
         self.names();
-        let moved = self.base.lay_out();
+        let moved = self.base.lay_out(room);
         if let Some(locator) = self.locator.get_mut() {
             locator.rearranged(&self.base, &moved);
         }
@@ -303,7 +305,7 @@ impl Delaunay2 {
         self.upkeep.renew(count);
         if (sparse || grown) && count <= LARGEST_SPREAD {
             self.upkeep.laid_out = count;
-            self.rearrange_now();
+            self.rearrange_now(Room::Much);
         } else if let Some(Locator::Tree(hints)) = self.locator.get_mut() {
             hints.tree = Tree::build(&self.base);
         }
@@ -349,7 +351,7 @@ impl Upkeep {
 mod tests {
     use delone_generators::Kind;
 
-    use super::{IN_CACHE, SLACK, Upkeep};
+    use super::{IN_CACHE, Room, SLACK, Upkeep};
     use crate::Delaunay2;
 
     #[test]
@@ -417,14 +419,16 @@ mod tests {
     #[test]
     fn a_layout_changes_nothing_that_can_be_seen() {
         for kind in Kind::ALL {
-            for n in [0, 1, 2, 3, 4, 10, 100, 1000] {
+            for (n, room) in
+                [0, 1, 2, 3, 4, 10, 100, 1000].into_iter().flat_map(|n| [(n, Room::Much), (n, Room::Some)])
+            {
                 let points = kind.points(n, 1);
                 let mut d = Delaunay2::from_points(&points).expect("finite");
                 let mut kept: Vec<_> = d.mesh().vertices().collect();
                 kept.retain(|v| v.index() % 3 > 0 || d.remove(*v).is_err());
                 let before: Vec<_> =
                     kept.iter().map(|&v| d.mesh().neighbors(v).collect::<Vec<_>>()).collect();
-                d.rearrange_now();
+                d.rearrange_now(room);
                 d.check().expect("canonical");
                 for (&v, before) in kept.iter().zip(before) {
                     let mut now: Vec<_> = d.mesh().neighbors(v).collect();

@@ -287,6 +287,6 @@ impl Delaunay2 {
 
     /// Moves everything to other places, as changes do in the long run.
     pub(crate) fn lay_out(&mut self) {
-        self.rearrange_now();
+        self.rearrange_now(crate::mesh::triangles::Room::Much);
     }
 }

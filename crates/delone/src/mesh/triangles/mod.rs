@@ -38,7 +38,7 @@ mod tags;
 
 pub use check::MeshFlaw2;
 pub use iterate::{Hull, Star};
-pub(crate) use layout::with_spare;
+pub(crate) use layout::{Room, with_spare};
 
 use bytemuck::Zeroable;
 

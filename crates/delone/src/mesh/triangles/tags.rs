@@ -41,6 +41,14 @@ impl Mesh2 {
         self.tags(e.triangle()).0 >> e.corner() & 1 == 1
     }
 
+    /// The fixed edges, each in one of its two directions. Cost: O(n), little for a triangle that has none.
+    pub(crate) fn fixed_edges(&self) -> impl Iterator<Item = EdgeId> + '_ {
+        let has_some = |&t: &TriangleId| self.tags(t).0 & EDGES != 0 && self.is_triangle(t);
+        let triangles = (0..self.slot_count()).map(TriangleId::new).filter(has_some);
+        let edges = triangles.flat_map(|t| [0, 1, 2].map(|k| t.edge(k)));
+        edges.filter(|&e| self.is_fixed(e) && e < self.twin(e))
+    }
+
     /// The number of the domain that a triangle is in; 0 if there are none.
     pub fn domain(&self, t: TriangleId) -> usize {
         (self.tags(t).0 >> EDGES.count_ones()) as usize

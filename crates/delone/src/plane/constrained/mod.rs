@@ -140,7 +140,7 @@ impl Constrained2 {
 
     /// The constraint edges by id, each in one of its directions.
     pub fn constraint_edges(&self) -> impl Iterator<Item = EdgeId> + '_ {
-        self.mesh().undirected_edges().filter(|&e| self.is_constraint(e))
+        self.mesh().fixed_edges()
     }
 
     /// The segments that there are, with their ends, by increasing id; none of no length.

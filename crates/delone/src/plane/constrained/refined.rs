@@ -42,8 +42,8 @@ impl Constrained2 {
         open.into_iter().try_for_each(|[a, b]| self.insert_segment(a, b).map(|_| ()))
     }
 
-    /// Puts all triangles into domains, and what is near in the plane near in memory, with room between.
-    pub(in crate::plane) fn begin_refinement(&mut self, domains: &Domains2) -> Before {
+    /// Puts all triangles into domains, whose tags say it from then on, and what is near in the plane near in memory, with room between.
+    pub(in crate::plane) fn begin_refinement(&mut self, domains: &mut Domains2) -> Before {
         let is_single = |ends: Ends| {
             let [a, b] = ends.map(|v| self.mesh().place(v));
             a.zip(b).is_some_and(|(a, b)| self.mesh().edge_between(a, b).is_some())
@@ -52,11 +52,9 @@ impl Constrained2 {
         let with_chain = |(s, _)| Some((s, self.chain(s)?));
         let candidates = self.segments().filter(|_| self.has_chains);
         let chains = candidates.filter(longer).filter_map(with_chain).collect();
-        let of = |inside: bool| {
-            let parts = domains.parts().iter().enumerate();
-            parts.filter(move |(_, part)| part.is_inside == inside).map(|(number, _)| number)
-        };
-        let parts: Vec<usize> = of(true).chain(of(false)).collect();
+        let mut parts: Vec<usize> = (0..domains.parts().len()).collect();
+        parts.sort_by_key(|&part| !domains.parts()[part].is_inside);
+        let inside = parts.partition_point(|&part| domains.parts()[part].is_inside);
         let mut number = vec![0; parts.len()];
         parts.iter().enumerate().for_each(|(k, &part)| number[part] = k + 1);
         let triangles: Vec<TriangleId> = self.triangle_ids().collect();
@@ -64,10 +62,11 @@ impl Constrained2 {
             let domain = domains.part(t).map_or(0, |part| number[part]);
             self.graph.base.mesh.set_domain(t, domain);
         }
+        domains.of = Vec::new();
         self.cover.take();
         self.graph.begin_bulk();
         let given = self.points().len();
-        Before { chains, inside: of(true).count(), parts, given, room: MAX_POINTS - given }
+        Before { chains, inside, parts, given, room: MAX_POINTS - given }
     }
 
     /// The triangulation itself.
@@ -75,23 +74,21 @@ impl Constrained2 {
         &mut self.graph.base
     }
 
-    /// Gives new vertices their names, in their order, and segments their chains. `on` says of a vertex on a constraint between
-    /// which input vertices it is.
+    /// Gives new vertices their names, in their order, and segments their chains. `on` says of those on constraints between
+    /// which input vertices they are.
     pub(in crate::plane) fn end_refinement(
         &mut self,
         before: &Before,
         new: &[Place],
-        on: impl Fn(Place) -> Option<[Place; 2]>,
+        on: &[([Place; 2], Place)],
     ) -> Result<[usize; 2], Error> {
         self.graph.end_bulk(new)?;
-        let mut along: Vec<(Ends, Place)> = new
-            .iter()
-            .filter_map(|&p| {
-                let mut ends = on(p)?.map(|end| self.mesh().name(end));
-                ends.sort_unstable();
-                Some((ends, p))
-            })
-            .collect();
+        let named = |&(ends, p): &([Place; 2], Place)| {
+            let mut ends = ends.map(|end| self.mesh().name(end));
+            ends.sort_unstable();
+            (ends, p)
+        };
+        let mut along: Vec<(Ends, Place)> = on.iter().map(named).collect();
         along.sort_unstable();
         let counts = [new.len() - along.len(), along.len()];
         let along: Vec<Along> = along.chunk_by(|p, q| p.0 == q.0).map(|on| self.chain_on(on)).collect();

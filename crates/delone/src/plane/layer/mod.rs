@@ -21,7 +21,7 @@ use delone_predicates::{Sign, angle, compare_distances, orient2d};
 use crate::ids::{EdgeId, Place};
 use crate::locate::{Ground, Level, Nearest, Start};
 use crate::memory::{make_room, room_for};
-use crate::mesh::triangles::with_spare;
+use crate::mesh::triangles::{Room, with_spare};
 use crate::mesh::{Dimension, Mesh2, Slots};
 use crate::order::morton::{self, Sorted};
 use crate::points::survey;
@@ -145,25 +145,24 @@ impl<K: Kernel> Layer<K> {
 
     /// Lays everything out in memory as in the plane, with room between neighbours. Returns for each old place
     /// the new one.
-    pub(in crate::plane) fn lay_out(&mut self) -> Vec<Place> {
-        let order = self.sort();
-        let (moved, free) = self.mesh.lay_out(&order);
+    pub(in crate::plane) fn lay_out(&mut self, room: Room) -> Vec<Place> {
+        let order = self.sort(room);
+        let (moved, free) = self.mesh.lay_out(&order, room);
         self.free = free;
         moved
     }
 
     /// Puts the points in the order of the new layout. Returns the old place of each.
-    fn sort(&mut self) -> Vec<Place> {
+    fn sort(&mut self, room: Room) -> Vec<Place> {
         let places: Vec<Place> = self.mesh.inhabited().collect();
         let points: Vec<[f64; 2]> = places.iter().map(|p| self.points[p.index()]).collect();
         // Copied: what comes may use the memory.
         self.points = Vec::new();
         let Sorted { points, indices, .. } = morton::sort(&points, &survey(&points).0);
-        self.points = room_for(with_spare(2 * points.len()));
-        self.points.extend(points.iter().flat_map(|&p| [p, p]));
-        let weights: Vec<K::Weight> =
-            indices.iter().map(|&i| K::Weight::at(&self.weights, places[i as usize])).collect();
-        self.weights = weights.into_iter().flat_map(|w| [w, w]).collect();
+        self.points = room_for(with_spare(room.place(points.len())));
+        self.points.extend(room.spread(points.iter().copied()));
+        let weights = indices.iter().map(|&i| K::Weight::at(&self.weights, places[i as usize]));
+        self.weights = room.spread(weights).collect();
         indices.iter().map(|&i| places[i as usize]).collect()
     }
 }

@@ -27,13 +27,12 @@ enum Met {
 
 impl Mesher<'_> {
     /// Mends a triangle: with a new vertex, by noting constraints that must be split first, or not at all.
-    pub(super) fn mend(&mut self, task: &Task) {
+    pub(super) fn mend(&mut self, task: &Task, shape: &Shape) {
         let is_for_size = task.fault() == Fault::Size;
         if self.rules.is_enough(self.count, self.for_sizes, is_for_size) {
             self.leave(task.corners, Reason::Budget);
             return;
         }
-        let Some(shape) = Shape::of(self.layer, task.edge.triangle()) else { return };
         let reach = if is_for_size { f64::INFINITY } else { self.rules.reach };
         let centre = shape.centre(reach);
         let q = if centre.iter().all(|x| x.is_finite()) { centre } else { shape.centre(self.rules.reach) };

@@ -64,6 +64,19 @@ pub(super) struct Mesher<'a> {
     pub(super) left: Vec<([Place; 3], Reason)>,
 }
 
+/// What a refinement did.
+#[derive(Debug)]
+pub(super) struct Done {
+    /// The new vertices that there are, in the order in which they came.
+    pub(super) new: Vec<Place>,
+    /// Those on constraints, after the ends of the input constraint that each is on.
+    pub(super) on: Vec<([Place; 2], Place)>,
+    /// Why triangles were left, by their corners from the shortest edge on.
+    pub(super) left: Vec<([Place; 3], Reason)>,
+    /// Why constraints were not split.
+    pub(super) refused: BTreeMap<[Place; 2], Reason>,
+}
+
 impl<'a> Mesher<'a> {
     /// For triangles in domains, all of whose borders are fixed.
     pub(super) fn new(layer: &'a mut Layer, rules: &'a Rules<'a>, queue: Queue) -> Self {
@@ -95,7 +108,7 @@ impl<'a> Mesher<'a> {
     pub(super) fn run(&mut self) -> Result<(), Error> {
         let constraints: Vec<EdgeId> = {
             let mesh = &self.layer.mesh;
-            mesh.undirected_edges().filter(|&e| mesh.is_fixed(e)).collect()
+            mesh.fixed_edges().collect()
         };
         constraints.into_iter().for_each(|e| self.look_at_constraint(e));
         for t in self.layer.mesh.triangles().collect::<Vec<_>>() {
@@ -115,13 +128,20 @@ impl<'a> Mesher<'a> {
                 }
                 continue;
             }
-            let is_alive =
-                self.is_alive(&task) && self.task_of(task.edge.triangle()).is_some_and(|now| now.is(&task));
-            if is_alive {
-                self.mend(&task);
+            if let Some(shape) = self.shape_of(&task) {
+                self.mend(&task, &shape);
             }
         }
         self.rules.go_on()
+    }
+
+    /// Gives back what memory the work has taken.
+    pub(super) fn finish(self) -> Done {
+        let new = self.alive();
+        let on = |p: &Place| {
+            Some(self.known[p.index()]).filter(|known| !known.is_free()).map(|known| (known.on, *p))
+        };
+        Done { on: new.iter().filter_map(on).collect(), new, left: self.left, refused: self.refused }
     }
 
     /// The new vertices that there are, in the order in which they came.
@@ -135,10 +155,14 @@ impl<'a> Mesher<'a> {
         alive
     }
 
-    /// Whether the triangle of a task is still there.
-    fn is_alive(&self, task: &Task) -> bool {
+    /// The triangle of a task, if it is still there and not as it should be. What has the same corners may be another one: places
+    /// are used again.
+    fn shape_of(&self, task: &Task) -> Option<Shape> {
         let (mesh, e) = (&self.layer.mesh, task.edge);
-        mesh.is_triangle(e.triangle()) && [mesh.tail(e), mesh.head(e), mesh.tip(e)] == task.corners
+        let is_there =
+            mesh.is_triangle(e.triangle()) && [mesh.tail(e), mesh.head(e), mesh.tip(e)] == task.corners;
+        let (now, shape) = if is_there { self.task_of(e.triangle())? } else { return None };
+        now.is(task).then_some(shape)
     }
 
     /// The constraint of a task, if it was not split since.
@@ -173,14 +197,14 @@ impl<'a> Mesher<'a> {
     /// Notes a triangle if something is wrong with it.
     #[inline]
     pub(super) fn look_at(&mut self, t: TriangleId) {
-        if let Some(task) = self.task_of(t) {
+        if let Some((task, _)) = self.task_of(t) {
             self.queue.push(task, &self.layer.points);
         }
     }
 
     /// What is wrong with a triangle.
     #[inline]
-    fn task_of(&self, t: TriangleId) -> Option<Task> {
+    fn task_of(&self, t: TriangleId) -> Option<(Task, Shape)> {
         let mesh = &self.layer.mesh;
         let domain = mesh.domain(t);
         if !self.rules.is_inside(domain) {
@@ -196,7 +220,7 @@ impl<'a> Mesher<'a> {
         } else {
             return None;
         };
-        Some(self.queue.task(fault, shape.squares[0], shape.points[0], e, corners()))
+        Some((self.queue.task(fault, shape.squares[0], shape.points[0], e, corners()), shape))
     }
 
     /// Whether the shortest edge of a triangle joins two constraints that meet at less than 60 degrees, at the same distance from where they do: its angle

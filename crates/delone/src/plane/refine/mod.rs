@@ -27,7 +27,6 @@ pub use report::{Reason, RefinementReport2, Unrefined2};
 
 use super::constrained::{Constrained2, Domains2, Fill};
 use crate::error::Error;
-use crate::ids::Place;
 use crate::points::survey as bounds;
 use mesher::Mesher;
 use queue::Queue;
@@ -208,13 +207,13 @@ impl<'a> Refinement<'a> {
     /// one then, refined in part.
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
-        let domains = c.domains(&self.fill)?;
+        let mut domains = c.domains(&self.fill)?;
         c.close(&domains)?;
         let regions: Vec<Option<f64>> = match self.fill {
             Fill::Seeds(seeds) => seeds.regions.iter().map(|seed| seed.max_area).collect(),
             _ => Vec::new(),
         };
-        let before = c.begin_refinement(&domains);
+        let before = c.begin_refinement(&mut domains);
         let rules = Rules::new(self, &domains, &regions, &before);
         let layer = c.layer();
         let queue = Queue::new(&bounds(&layer.points).0);
@@ -224,14 +223,9 @@ impl<'a> Refinement<'a> {
             (0..self.smoothing).for_each(|_| mesher.smooth());
             ran = mesher.run();
         }
-        let new = mesher.alive();
-        let Mesher { known, left, refused, .. } = mesher;
-        let on = |p: Place| {
-            let known = known[p.index()];
-            (!known.is_free()).then_some(known.on)
-        };
-        let added = c.end_refinement(&before, &new, on)?;
-        let report = survey::report(c.layer(), &rules, added, &left, &refused);
+        let done = mesher.finish();
+        let added = c.end_refinement(&before, &done.new, &done.on)?;
+        let report = survey::report(c.layer(), &rules, added, &done);
         let domains = c.domains_of_tags(&before, domains);
         ran?;
         Ok(Refined2 { domains, report })

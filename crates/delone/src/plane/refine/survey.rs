@@ -6,21 +6,21 @@ use std::collections::BTreeMap;
 
 use delone_predicates::angle;
 
+use super::mesher::Done;
 use super::report::{BIN, Reason, RefinementReport2, Unrefined2};
 use super::rules::Rules;
 use super::shape::Shape;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::Layer;
 
-/// Measures what is inside. `left` says why triangles were left, by their corners from the shortest edge on, and `refused` why
-/// constraints were not split.
+/// Measures what is inside.
 pub(super) fn report(
     layer: &Layer,
     rules: &Rules,
     [inside, on_constraints]: [usize; 2],
-    left: &[([Place; 3], Reason)],
-    refused: &BTreeMap<[Place; 2], Reason>,
+    done: &Done,
 ) -> RefinementReport2 {
+    let Done { left, refused, .. } = done;
     let mut report = RefinementReport2 { inside, on_constraints, ..RefinementReport2::default() };
     let why: BTreeMap<[Place; 3], Reason> = left.iter().copied().collect();
     // Cotangents fall as angles grow: so these are bounds, and the smallest angle has the largest.
