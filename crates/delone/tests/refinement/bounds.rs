@@ -199,6 +199,14 @@ fn what_cannot_be_is_an_error() {
             d.check().expect("valid all the same");
         }
     }
+    // More triangles than there can be; their squares may be no numbers.
+    for tiny in [1e-20, 1e-200, 5e-324] {
+        parameter(Refinement::new().max_area(tiny), "max_area");
+        parameter(Refinement::new().max_edge(tiny), "max_edge");
+        let mut d = c.clone();
+        Refinement::new().max_edge(tiny).max_vertices(1000).run(&mut d).expect("a budget");
+        assert_eq!(d.points().len(), 1007);
+    }
     let infinite = |_: [f64; 2]| f64::INFINITY;
     let mut d = c.clone();
     Refinement::new().size(&infinite).run(&mut d).expect("no bound");

@@ -44,6 +44,20 @@ fn assert_is_gabriel(c: &Constrained2, refined: &Refined2, name: &str) {
     }
 }
 
+/// Every new vertex is in the circles of all triangles that are left: with one beside the other in time this would take hours.
+#[test]
+fn corners_on_a_circle_are_no_burden() {
+    let corner = |i: usize| {
+        let (sin, cos) = (std::f64::consts::TAU * i as f64 / 200_000.0).sin_cos();
+        [cos, sin]
+    };
+    let points: Points = (0..200_000).map(corner).collect();
+    let mut c = Constrained2::from_parts(&points, &[]).expect("finite");
+    let report = Refinement::new().run(&mut c).expect("angles").report;
+    assert!(report.left.is_empty() && report.smallest_angle >= 20.0, "{report:?}");
+    assert!((150_000..220_000).contains(&(report.inside + report.on_constraints)), "{report:?}");
+}
+
 /// From 0 to 34 degrees by half a degree.
 #[test]
 fn it_always_ends() {

@@ -27,6 +27,7 @@ pub use report::{Reason, RefinementReport2, Unrefined2};
 
 use super::constrained::{Constrained2, Domains2, Fill};
 use crate::error::Error;
+use crate::ids::MAX_POINTS;
 use crate::points::survey as bounds;
 use mesher::Mesher;
 use queue::Queue;
@@ -202,12 +203,13 @@ impl<'a> Refinement<'a> {
     /// Cost: see the module.
     ///
     /// # Errors
-    /// [`Error::Parameter`] for bounds that are out of range, [`Error::Seed`] as [`Constrained2::domains`]; nothing has changed
+    /// [`Error::Parameter`] for bounds that are out of range, or ask for more triangles than there can be, [`Error::Seed`] as [`Constrained2::domains`]; nothing has changed
     /// then. [`Error::Size`] if a bound that is asked for a place is not positive, [`Error::Stopped`]: the triangulation is a valid
     /// one then, refined in part.
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
         let mut domains = c.domains(&self.fill)?;
+        self.check_count(c, &domains)?;
         c.close(&domains)?;
         let regions: Vec<Option<f64>> = match self.fill {
             Fill::Seeds(seeds) => seeds.regions.iter().map(|seed| seed.max_area).collect(),
@@ -229,6 +231,26 @@ impl<'a> Refinement<'a> {
         let domains = c.domains_of_tags(&before, domains);
         ran?;
         Ok(Refined2 { domains, report })
+    }
+
+    /// Whether there may be as many triangles as the sizes ask for, which are the same everywhere.
+    fn check_count(&self, c: &Constrained2, domains: &Domains2) -> Result<(), Error> {
+        let range = "large enough for at most 2^30 triangles, or with a largest number of new vertices";
+        // The largest triangle with edges of some length is equilateral.
+        let equilateral = |edge: f64| edge * edge * (0.75_f64.sqrt() / 2.0);
+        let bounds = [
+            ("max_area", self.max_area, self.max_area),
+            ("max_edge", self.max_edge, self.max_edge.map(equilateral)),
+        ];
+        for (name, value, largest) in bounds {
+            let (Some(value), Some(largest), None) = (value, largest, self.max_vertices) else { continue };
+            let inside = c.triangle_ids().filter(|&t| domains.is_inside(t));
+            let area: f64 = inside.map(|t| c.area(t)).sum();
+            if area > largest * (2 * MAX_POINTS) as f64 {
+                return Err(Error::Parameter { name, value, range });
+            }
+        }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), Error> {

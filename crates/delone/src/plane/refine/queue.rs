@@ -112,7 +112,6 @@ impl Queue {
         let [x, y] = [0, 1].map(|k| spread(((at[k] - self.low[k]) * self.scale[k]) as u32));
         let length = squared.to_bits() >> 51;
         let place = x << 1 | y;
-        let place = x << 1 | y;
         let round = ROUNDS - (place.wrapping_mul(HASH) | 1 << (63 - ROUNDS * SHARE)).leading_zeros() / SHARE;
         let key = (fault as u64) << CLASS | length << LENGTH | u64::from(round) << ROUND | place;
         Task { key, edge, corners }
