@@ -240,10 +240,11 @@ impl Delaunay2 {
         self.note_walk(found.steps);
     }
 
-    /// Lets places be changed without names for a while: everything is laid out as in the plane, with room between.
+    /// Lets places be changed without names for a while: what does not stay in the cache is laid out as in the plane, with room
+    /// between.
     pub(super) fn begin_bulk(&mut self) {
         self.locator.take();
-        if self.vertex_count() <= LARGEST_SPREAD {
+        if (IN_CACHE..=LARGEST_SPREAD).contains(&self.vertex_count()) {
             self.rearrange_now(Room::Some);
         } else {
             self.names();
