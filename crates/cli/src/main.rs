@@ -32,6 +32,7 @@ mod replay;
 mod room;
 mod signals;
 mod stats;
+mod tiles;
 mod triangulate;
 mod voronoi;
 mod weighted;
@@ -65,6 +66,7 @@ fn main() -> ExitCode {
     start_threads(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
+        Command::Tiles(args) => tiles::run(&args, quiet),
         Command::Mesh(args) => mesh::run(&args, quiet),
         Command::Polygons(args) => polygons::run(&args, quiet),
         Command::Check(args) => in_room!(check, args, quiet),
