@@ -129,6 +129,15 @@ impl<'a> Buckets<'a> {
     }
 }
 
+/// Removes all buckets of a folder.
+pub(super) fn remove_all(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_name().to_string_lossy().starts_with("bucket-") {
+            _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 fn unwritten(path: &Path, error: &io::Error) -> Failure {
     let help = "make room on the disk, or check the permissions; then go on with --resume";
     Failure::new(format!("cannot write {}: {error}", path.display()), help)

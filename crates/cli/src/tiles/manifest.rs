@@ -96,7 +96,7 @@ impl Manifest {
             "heights": self.has_heights,
             "left_out": self.left_out,
             "input": self.input,
-            "cuts": self.cuts.iter().map(cut).collect::<Vec<_>>(),
+            "cuts": self.cuts.cuts().into_iter().map(cut).collect::<Vec<_>>(),
         });
         if let Some(buckets) = &self.buckets {
             let counts = buckets.iter().map(|(node, count)| json!([node.number(), count]));
@@ -188,6 +188,22 @@ impl Manifest {
             outcome,
         }))
     }
+}
+
+/// That of a folder, and what came out; an error if it is not done.
+pub(super) fn finished(folder: &Path) -> Result<(Manifest, Outcome), Failure> {
+    let mut plan = Manifest::read(folder)?.ok_or_else(|| no_tiles(folder))?;
+    let Some(outcome) = plan.outcome.take() else {
+        let what = format!("{}: the tiles are not finished", folder.display());
+        return Err(Failure::new(what, "go on with delone tiles --resume"));
+    };
+    Ok((plan, outcome))
+}
+
+/// A folder without.
+pub(super) fn no_tiles(folder: &Path) -> Failure {
+    let what = format!("{} is a folder without {NAME}", folder.display());
+    Failure::new(what, "name a folder that delone tiles made, or a file")
 }
 
 /// Nodes by their numbers.

@@ -6,16 +6,21 @@
 
 mod buckets;
 mod budget;
+mod describe;
 mod input;
 mod leaf;
 mod manifest;
 mod node;
 mod seams;
+mod verdict;
 
 use std::fs;
 use std::path::Path;
 
 use delone::tiles::{Cuts, Fingerprint, Node};
+
+pub(crate) use describe::describe;
+pub(crate) use verdict::check;
 
 use buckets::Buckets;
 use budget::Budget;
@@ -142,12 +147,8 @@ fn distribute(
     budget: &Budget,
     quiet: bool,
 ) -> Result<(), Failure> {
-    // Buckets of a run that was stopped while it filled them.
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        if entry.file_name().to_string_lossy().starts_with("bucket-") {
-            _ = fs::remove_file(entry.path());
-        }
-    }
+    // Those of a run that was stopped while it filled them.
+    buckets::remove_all(folder);
     let has_heights = plan.has_heights;
     let buffer = budget.buffer(plan.cuts.tiles().len());
     let mut buckets = Buckets::new(folder, &plan.cuts, Node::ROOT, has_heights, buffer)?;
@@ -217,6 +218,9 @@ fn finish(folder: &Path, plan: &mut Manifest, budget: &Budget, quiet: bool) -> R
 fn clean(folder: &Path, plan: &Manifest) {
     let nodes = plan.outcome.iter().flat_map(|outcome| &outcome.nodes);
     nodes.filter_map(Done::parse).for_each(|done| node::forget(folder, done.node));
+    if plan.outcome.is_some() {
+        buckets::remove_all(folder);
+    }
 }
 
 /// Says what was done.

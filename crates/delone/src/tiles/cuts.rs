@@ -203,6 +203,11 @@ impl Cuts {
         at.and_then(|at| self.steps[at].cut).map(|(cut, _)| cut)
     }
 
+    /// Whether a node is a tile.
+    pub fn is_tile(&self, node: Node) -> bool {
+        self.way_to(node).last().is_some_and(|at| self.steps[at].node == node && self.steps[at].cut.is_none())
+    }
+
     /// The halves of a node that is cut.
     pub fn halves(&self, node: Node) -> Option<[Node; 2]> {
         self.cut_of(node).and_then(|_| node.halves())
@@ -230,9 +235,12 @@ impl Cuts {
         if self.steps.len() == 1 { vec![Node::ROOT] } else { self.parts(Node::ROOT, u32::BITS) }
     }
 
-    /// The cuts with their nodes, those of parents before those of their halves.
-    pub fn iter(&self) -> impl Iterator<Item = (Node, Cut)> + '_ {
-        self.steps.iter().filter_map(|step| step.cut.map(|(cut, _)| (step.node, cut)))
+    /// The cuts by increasing node, so those of parents come before those of their halves.
+    pub fn cuts(&self) -> Vec<(Node, Cut)> {
+        let cut = |step: &Step| step.cut.map(|(cut, _)| (step.node, cut));
+        let mut cuts: Vec<(Node, Cut)> = self.steps.iter().filter_map(cut).collect();
+        cuts.sort_unstable_by_key(|&(node, _)| node);
+        cuts
     }
 }
 
@@ -281,7 +289,8 @@ mod tests {
                     let around = tiles.iter().filter(|&&tile| cuts.region(tile).contains(p));
                     assert!(around.eq([&own]), "{}", kind.name());
                 }
-                let again = Cuts::from_cuts(cuts.iter()).expect("the same cuts");
+                let again = Cuts::from_cuts(cuts.cuts()).expect("the same cuts");
+                assert_eq!(again.cuts(), cuts.cuts());
                 assert!(again.tiles() == tiles && tiles.iter().all(|&t| again.region(t) == cuts.region(t)));
                 assert_eq!(cuts.region(Node::ROOT), Region::ALL);
             }
