@@ -11,6 +11,12 @@ use crate::stats::Stats;
 use crate::{constrained, files, weighted};
 
 pub(crate) fn run<R: Room>(args: &CheckArgs, quiet: bool) -> Result<(), Failure> {
+    if args.input.input.is_empty() {
+        return Err(Failure::usage(
+            format!("{}: points and triangles are needed", args.mesh.display()),
+            "name the file of points, then the file of triangles; or a folder that delone tiles made",
+        ));
+    }
     let mut inputs = args.input.paths_and(&args.mesh);
     inputs.extend(args.segments.as_deref());
     inputs.extend(args.weights.file());

@@ -10,6 +10,9 @@ use crate::args::InputArgs;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 
+/// What progress says while a file is read.
+const READING: &str = "reading";
+
 /// The format of a file: as said, or by its extension.
 pub(crate) fn format(path: &Path, said: Option<Format>, option: &str) -> Result<Format, Failure> {
     match said {
@@ -107,16 +110,21 @@ pub(crate) fn index_format(path: &Path, said: Option<Format>) -> Result<Format, 
 }
 
 /// Opens a file, or takes all of standard input, or of what is no file, into memory; decompresses.
-fn open(path: &Path, format: Format, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
-    let (source, phase) = open_raw(path, quiet)?;
+pub(crate) fn open(
+    path: &Path,
+    format: Format,
+    what: &'static str,
+    quiet: bool,
+) -> Result<(Box<dyn Source>, Phase), Failure> {
+    let (source, phase) = open_raw(path, what, quiet)?;
     let source = decompressed(source, format).map_err(|error| Failure::file(path, &error))?;
     Ok((source, phase))
 }
 
-fn open_raw(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
+fn open_raw(path: &Path, what: &'static str, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failure> {
     let failed = |error: std::io::Error| Failure::file(path, &error.into());
     if is_standard(path) {
-        let phase = Phase::start(quiet, "reading");
+        let phase = Phase::start(quiet, what);
         let mut bytes = Vec::new();
         std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
         return Ok((Box::new(Cursor::new(bytes)), phase));
@@ -128,18 +136,18 @@ fn open_raw(path: &Path, quiet: bool) -> Result<(Box<dyn Source>, Phase), Failur
     }
     if !about.is_file() {
         // Nobody can go back in a pipe.
-        let phase = Phase::start(quiet, "reading");
+        let phase = Phase::start(quiet, what);
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes).map_err(failed)?;
         return Ok((Box::new(Cursor::new(bytes)), phase));
     }
-    let phase = Phase::bytes(quiet, "reading", about.len());
+    let phase = Phase::bytes(quiet, what, about.len());
     let reader = phase.watch(BufReader::with_capacity(1 << 16, file));
     Ok((Box::new(reader), phase))
 }
 
-/// Reads the points of a command.
-pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+/// The formats of the files of a command, to which what is said of them applies.
+pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
     let mut formats = Vec::new();
     for path in &args.input {
         formats.push(format(path, args.from, "--from")?);
@@ -150,11 +158,17 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
     if !args.columns.is_empty() && !formats.contains(&Format::Text) {
         return Err(Failure::usage("--columns is for text files", "leave --columns out"));
     }
+    Ok(formats)
+}
+
+/// Reads the points of a command.
+pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+    let formats = formats(args)?;
     let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension };
     let mut all = Cloud::default();
     for (path, format) in args.input.iter().zip(formats) {
         let failed = |error| Failure::file(path, &error);
-        let (source, _phase) = open(path, format, quiet)?;
+        let (source, _phase) = open(path, format, READING, quiet)?;
         let cloud = delone_io::read_points(source, format, &options).map_err(failed)?;
         for remark in &cloud.remarks {
             note(quiet, format_args!("{}: {remark}", path.display()));
@@ -183,7 +197,7 @@ pub(crate) fn graph_with_points(
     for path in &args.input {
         let format = format(path, args.from, "--from")?;
         let failed = |error| Failure::file(path, &error);
-        let (source, _phase) = open(path, format, quiet)?;
+        let (source, _phase) = open(path, format, READING, quiet)?;
         let mut beside = |extension: &str| {
             let beside = path.with_extension(extension);
             let named = |error: std::io::Error| {
@@ -204,7 +218,7 @@ pub(crate) fn graph_with_points(
     if let Some(path) = segments {
         let format = format(path, None, "the extension")?;
         let failed = |error| Failure::file(path, &error);
-        let (source, _phase) = open(path, format, quiet)?;
+        let (source, _phase) = open(path, format, READING, quiet)?;
         let more = delone_io::read_segments(source, format).map_err(failed)?;
         let count = all.cloud.xy.len();
         let wrong = |(s, ends): (usize, &[usize; 2])| ends.iter().find(|&&i| i >= count).map(|&i| (s, i));
@@ -223,7 +237,7 @@ pub(crate) fn graph_with_points(
 /// Reads a number for each point.
 pub(crate) fn numbers(path: &Path, quiet: bool) -> Result<Vec<f64>, Failure> {
     let format = format(path, None, "the extension")?;
-    let (source, _phase) = open(path, format, quiet)?;
+    let (source, _phase) = open(path, format, READING, quiet)?;
     delone_io::read_numbers(source, format).map_err(|error| Failure::file(path, &error))
 }
 
@@ -246,7 +260,7 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
     let mut all = Vec::new();
     for path in &args.input {
         let options = ReadOptions { columns: vec![name.to_owned(); 2], ..ReadOptions::default() };
-        let (source, _phase) = open(path, Format::Text, quiet)?;
+        let (source, _phase) = open(path, Format::Text, READING, quiet)?;
         let cloud = delone_io::read_points(source, Format::Text, &options).map_err(|error| {
             let what = format!("{}: {name} is no file, and as a column: {error}", path.display());
             Failure::new(what, NUMBERS)
@@ -264,7 +278,7 @@ pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Clou
 /// Reads the points of a file beside those of the input.
 pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<Cloud, Failure> {
     let format = format(path, None, "the extension")?;
-    let (source, _phase) = open(path, format, quiet)?;
+    let (source, _phase) = open(path, format, READING, quiet)?;
     let cloud =
         delone_io::read_points(source, format, options).map_err(|error| Failure::file(path, &error))?;
     for remark in &cloud.remarks {
@@ -276,13 +290,13 @@ pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<C
 /// Reads the rings of polygons.
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     let format = format(path, None, "the extension")?;
-    let (source, _phase) = open(path, format, quiet)?;
+    let (source, _phase) = open(path, format, READING, quiet)?;
     delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))
 }
 
 /// Reads a text.
 pub(crate) fn text(path: &Path, quiet: bool) -> Result<String, Failure> {
-    let (mut source, _phase) = open(path, Format::Text, quiet)?;
+    let (mut source, _phase) = open(path, Format::Text, READING, quiet)?;
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(|error| Failure::file(path, &error.into()))?;
     String::from_utf8(bytes).map_err(|error| {
@@ -304,7 +318,7 @@ pub(crate) fn simplices<T>(
         ));
     }
     let format = format(path, None, "the extension")?;
-    let (source, _phase) = open(path, format, quiet)?;
+    let (source, _phase) = open(path, format, READING, quiet)?;
     read(source, format).map_err(|error| Failure::file(path, &error))
 }
 

@@ -32,6 +32,7 @@ mod replay;
 mod room;
 mod signals;
 mod stats;
+mod tiles;
 mod triangulate;
 mod voronoi;
 mod weighted;
@@ -65,13 +66,20 @@ fn main() -> ExitCode {
     start_threads(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
+        Command::Tiles(args) => tiles::run(&args, quiet),
         Command::Mesh(args) => mesh::run(&args, quiet),
         Command::Polygons(args) => polygons::run(&args, quiet),
-        Command::Check(args) => in_room!(check, args, quiet),
+        Command::Check(mut args) => match args.folder() {
+            Some(folder) => tiles::check(&folder, args.input.stats.as_deref(), quiet),
+            None => in_room!(check, args, quiet),
+        },
         Command::Generate(args) => generate::run(&args, quiet),
         Command::Draw(args) => in_room!(draw, args, quiet),
         Command::Animate(args) => animate::run(&args, quiet),
-        Command::Info(args) => in_room!(info, args, quiet),
+        Command::Info(args) => match args.folder() {
+            Some(folder) => tiles::describe(folder, args.input.stats.as_deref()),
+            None => in_room!(info, args, quiet),
+        },
         Command::Reduce(args) => reduce::run(&args, quiet),
         Command::Locate(args) => in_room!(locate, args, quiet),
         Command::Nearest(args) => in_room!(nearest, args, quiet),

@@ -39,6 +39,7 @@ impl Failure {
             Error::UnknownExtension(_)
                 | Error::NotPoints(_)
                 | Error::NotTriangles(_)
+                | Error::NotInChunks(_)
                 | Error::NotAMesh(_)
                 | Error::NotCells(_)
                 | Error::NotEdges(_)

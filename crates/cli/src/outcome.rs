@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
+use delone::tiles::Fingerprint;
 use delone_io::{Cloud, Format, picture, write_mesh};
 
 use crate::args::TriangulateArgs;
 use crate::files;
-use crate::message::{Failure, note};
+use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
@@ -35,6 +36,12 @@ pub(crate) fn finish<R: Room>(
         note(quiet, "checked: this is the canonical Delaunay triangulation");
     }
     stats.triangulation(d, d.counters());
+    if args.fingerprint {
+        let fingerprint = Fingerprint::of(d).to_string();
+        answer(&format!("{fingerprint}\n"))?;
+        stats.set("fingerprint", fingerprint);
+        stats.phase("fingerprint");
+    }
     let trim = room::trim(d, args.max_edge, stats);
     let mesh = room::mesh(d, points, about, trim.as_ref());
     let phase = Phase::start(quiet, "writing");

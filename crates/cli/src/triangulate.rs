@@ -1,5 +1,7 @@
 //! `delone triangulate`: points in, simplices out.
 
+use std::path::Path;
+
 use clap::ValueEnum;
 
 use crate::args::{AlgorithmName, TriangulateArgs};
@@ -11,6 +13,9 @@ use crate::{constrained, files, instances, outcome, weighted};
 pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     if args.max_edge.is_some() && R::is_space() {
         return Err(Failure::usage("--max-edge is for the plane", "leave it or --dim 3 out"));
+    }
+    if args.fingerprint {
+        refuse_beside_fingerprint::<R>(args)?;
     }
     let by_points = args.algorithm.is_some() || args.strategy.locate.is_some() || args.hints.is_some();
     if args.graph.is_given() && (R::is_space() || by_points) {
@@ -66,4 +71,22 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
         stats.set("threads", rayon::current_num_threads());
     }
     stats.write(stats_path)
+}
+
+/// Fingerprints are of points alone, and alone on standard output.
+fn refuse_beside_fingerprint<R: Room>(args: &TriangulateArgs) -> Result<(), Failure> {
+    let is_graph = !R::is_space() && constrained::is_meant(&args.input, &args.graph);
+    if is_graph || args.weights.given().is_some() || args.hints.is_some() {
+        return Err(Failure::usage(
+            "--fingerprint is for points without segments, weights and hints",
+            "leave --fingerprint out, or those",
+        ));
+    }
+    if args.output.iter().any(|path| path == Path::new("-")) {
+        return Err(Failure::usage(
+            "the fingerprint goes to standard output, and so would the triangles",
+            "name a file for the triangles",
+        ));
+    }
+    Ok(())
 }

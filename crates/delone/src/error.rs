@@ -172,6 +172,30 @@ pub enum Error {
         /// Where.
         at: [f64; 2],
     },
+    /// A point that is not in the region of its tile.
+    #[error("point {index} at ({}, {}) is not in the region of its tile", .at[0], .at[1])]
+    OutsideRegion {
+        /// The index of the point in the input.
+        index: usize,
+        /// The point.
+        at: [f64; 2],
+    },
+    /// A cut of the plane into tiles that is none, or where none can be.
+    #[error("the tiles cannot be cut at node {node}: {problem}")]
+    Cut {
+        /// The number of the node.
+        node: u32,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// The border of a tile that is none, or that does not belong to the others.
+    #[error("border {index}: {problem}")]
+    Border {
+        /// Which of the borders, from 0.
+        index: usize,
+        /// What is wrong with it.
+        problem: BorderProblem,
+    },
     /// Somebody wanted to stop.
     #[error("the work was stopped")]
     Stopped,
@@ -194,6 +218,60 @@ fn others(count: usize) -> String {
         2 => ", and so does another pair".to_owned(),
         _ => format!(", and so do {} other pairs", count - 1),
     }
+}
+
+/// What can be wrong with the border of a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BorderProblem {
+    /// Bytes that do not begin as a border does.
+    #[error("these bytes are no border of a tile, or one of another version")]
+    Unknown,
+    /// Bytes that end too early or too late.
+    #[error("{found} bytes where there should be {expected}")]
+    Length {
+        /// How many there should be.
+        expected: u64,
+        /// How many there are.
+        found: u64,
+    },
+    /// Bytes that were changed since they were written.
+    #[error("the bytes are damaged: their sum is not the one that was written")]
+    Damaged,
+    /// Not as many names as points.
+    #[error("{ids} ids for {points} points")]
+    Ids {
+        /// The number of points.
+        points: usize,
+        /// The number of ids.
+        ids: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("point {point} is not finite")]
+    NotFinite {
+        /// The index of the point in the border.
+        point: usize,
+    },
+    /// An open triangle without a corner.
+    #[error("triangle {triangle} has a corner that is none of the {points} points")]
+    Corner {
+        /// The index of the triangle.
+        triangle: usize,
+        /// The number of points.
+        points: usize,
+    },
+    /// A point that is not in the region.
+    #[error("point {point} is not in the region")]
+    Outside {
+        /// The index of the point in the border.
+        point: usize,
+    },
+    /// A point that is given twice, by this border or by an earlier one.
+    #[error("point {point} is in an earlier border too, or a second time in this one")]
+    Twice {
+        /// The index of the point in the border.
+        point: usize,
+    },
 }
 
 /// What can be wrong with the border of a region.

@@ -45,6 +45,7 @@
 //! | cells of points with weights, and how their areas change | [`Power2`], [`Jacobian2`] | | O(n) |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
+//! | more points than memory, on one machine or many | [`tiles`] | | as the points, and little for the seams |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
 //! | data of your own on vertices | [`VertexMap`] | [`VertexMap`] | O(1) |
 //! | code for any kind of triangulation | [`Triangulation`], [`Ask`], [`Change`] | the same | |
@@ -89,6 +90,7 @@ mod prefetch;
 mod regular;
 pub mod space;
 mod tally;
+pub mod tiles;
 mod triangulation;
 mod under;
 mod verdict;
@@ -96,7 +98,7 @@ mod vertex_map;
 mod weight;
 
 pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, OutlinePart};
-pub use error::{Error, RegionProblem};
+pub use error::{BorderProblem, Error, RegionProblem};
 pub use graphs::Graph;
 pub use hull::{Hull2, Hull3, HullHistory3};
 pub use ids::{

@@ -17,10 +17,11 @@ const FLOORS: &[&[&str]] = &[
     &["triangulation", "graphs"],
     &["alpha"],
     &["plane", "space"],
+    &["tiles"],
 ];
 
 /// Rooms that decide by the predicates.
-const DECIDE: [&str; 5] = ["graphs", "hull", "alpha", "plane", "space"];
+const DECIDE: [&str; 6] = ["graphs", "hull", "alpha", "plane", "space", "tiles"];
 
 /// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

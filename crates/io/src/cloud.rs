@@ -37,6 +37,12 @@ impl Cloud {
         }
     }
 
+    /// Forgets the points and their heights.
+    pub(crate) fn clear(&mut self) {
+        self.xy.clear();
+        self.z.iter_mut().for_each(Vec::clear);
+    }
+
     /// Appends the points of another cloud of the same kind.
     pub(crate) fn append(&mut self, mut other: Self) {
         self.xy.append(&mut other.xy);

@@ -59,6 +59,9 @@ pub enum Error {
     /// The format holds no points, or cannot be read yet.
     #[error("points are not read from or written to {0} files")]
     NotPoints(Format),
+    /// The format is not read in chunks.
+    #[error("{0} files are not read piece by piece")]
+    NotInChunks(Format),
     /// The format holds no triangles.
     #[error("triangles are not read from {0} files")]
     NotTriangles(Format),
@@ -120,6 +123,7 @@ impl Error {
             Self::NotPoints(_) => {
                 "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu msh pcd geojson wkt wkb"
             }
+            Self::NotInChunks(_) => "more points than memory are read from: npy las laz csv xyz txt tsv bin",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off msh",
             Self::NotEdges(_) => "edges: npy csv geojson; in the plane also svg png",
             Self::NotCells(_) => "cells: geojson svg png",

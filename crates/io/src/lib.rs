@@ -4,6 +4,7 @@
 //! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
 //! ([`Output`]), so no reader ever sees half a file.
 
+mod chunks;
 mod cloud;
 mod crs;
 mod diagram;
@@ -24,6 +25,7 @@ pub mod picture;
 mod solid;
 mod trim;
 
+pub use chunks::Take;
 pub use cloud::Cloud;
 pub use crs::Crs;
 pub use diagram::{Diagram, OrderDiagram};
@@ -32,6 +34,7 @@ pub use filtration::write_filtration;
 pub use format::Format;
 pub use formats::edges::{Edges, write_edges};
 pub use formats::las::LAS_CLASSES;
+pub use formats::npy::{Element, write_array};
 pub use formats::poly::Beside;
 pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing};
@@ -45,6 +48,7 @@ pub use trim::{Cut, Trim};
 
 use std::io::{BufRead, Seek};
 
+use chunks::Chunks;
 use delone::Triangulation;
 
 /// What a user should know of a file that was written.
@@ -96,6 +100,51 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Msh => msh::read_points(source),
         _ => Err(Error::NotPoints(format)),
     }
+}
+
+/// Reads the points of a file in its order, about `most` at a time: `take` is given them, and may refuse to go on. What is
+/// returned has no points, and all else that the file tells.
+///
+/// Formats are text, npy, raw numbers, and LAS or LAZ, where all files of a kind have heights or none has. Costs memory for
+/// some 100 bytes a point of `most`, and 64 megabytes where chunks of LAZ are decoded on all cores.
+///
+/// # Errors
+/// [`Error::NotInChunks`] for other formats; what `take` returns; else as [`read_points`].
+///
+/// ```
+/// use std::io::Cursor;
+/// use delone_io::{Format, ReadOptions, read_chunks};
+///
+/// let mut counts = Vec::new();
+/// let text = Box::new(Cursor::new("x,y\n1,2\n3,4\n5,6\n"));
+/// read_chunks(text, Format::Text, &ReadOptions::default(), 2, &mut |points, _| {
+///     counts.push(points.len());
+///     Ok(())
+/// })?;
+/// assert_eq!(counts, [2, 1]);
+/// # Ok::<(), delone_io::Error>(())
+/// ```
+pub fn read_chunks(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    most: usize,
+    take: Take,
+) -> Result<Cloud, Error> {
+    use formats::{las, npy, raw, text};
+    let mut chunks = Chunks(Some((most.max(1), &mut *take)));
+    let mut rest = match format {
+        Format::Text => text::read_in(source, &options.columns, &mut chunks),
+        Format::Npy => npy::read_in(source, &mut chunks),
+        Format::Raw => raw::read_in(source, options.dimension, &mut chunks),
+        Format::Las => las::read_in(source, &options.classes, &mut chunks),
+        _ => Err(Error::NotInChunks(format)),
+    }?;
+    if !rest.xy.is_empty() {
+        take(&rest.xy, rest.z.as_deref())?;
+        rest.clear();
+    }
+    Ok(rest)
 }
 
 /// Reads the triangles of a mesh file as indices into its points, from 0.

@@ -192,6 +192,26 @@ pub fn centre_direction(o: Point2, a: Point2, b: Point2) -> [i8; 2] {
     centre(&p[0], &p[1], &p[2]).map(|x| sign(&x))
 }
 
+/// Whether the closed disk through o, a, b, which are not collinear, is in the inside of a box. Sides may be infinite.
+pub fn circle_is_within([o, a, b]: [Point2; 3], low: Point2, high: Point2) -> bool {
+    let (a, b) = if orient2d(o, a, b) > 0 { (a, b) } else { (b, a) };
+    (0..2).all(|k| {
+        [(low[k], -1), (high[k], 1)].into_iter().all(|(side, outward)| {
+            if side == f64::INFINITY * f64::from(outward) {
+                return true;
+            }
+            let p = integers(&[o, a, b, [side, side]]);
+            let from_o = |i: usize| [&p[i][0] - &p[0][0], &p[i][1] - &p[0][1]];
+            let (u, v) = (from_o(1), from_o(2));
+            // The centre is c / d, and the square of the radius |c|^2 / d^2.
+            let d = (&u[0] * &v[1] - &u[1] * &v[0]) * 2;
+            let c = centre(&p[0], &p[1], &p[2]);
+            let apart: BigInt = ((&p[3][k] - &p[0][k]) * d - &c[k]) * outward;
+            apart > BigInt::ZERO && apart.pow(2) > c[0].pow(2) + c[1].pow(2)
+        })
+    })
+}
+
 /// The sign of the scalar product (a - o) . (b - o).
 pub fn angle(o: Point2, a: Point2, b: Point2) -> i8 {
     let p = integers(&[o, a, b]);

@@ -19,7 +19,7 @@ pub(crate) const UNIT: f64 = f64::EPSILON / 2.0;
 /// Flatter tetrahedra, with this share of their size to the third, have spheres that nobody knows.
 pub(crate) const FLAT: f64 = 1.0 / (1 << 30) as f64;
 /// No product overflows or loses bits by being small for differences from 2^-200 to 2^200.
-const SIZES: std::ops::Range<f64> = 6.2e-61..1.6e60;
+pub(crate) const SIZES: std::ops::Range<f64> = 6.2e-61..1.6e60;
 
 /// Whether the sphere through four points certainly has no point of a box inside of it or on it. The answer `false` says
 /// nothing; it is rare where the sphere is far from the box by a millionth of its radius. O(1).

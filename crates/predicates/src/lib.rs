@@ -50,6 +50,7 @@ mod power;
 mod sign;
 #[cfg(test)]
 mod stages;
+mod within;
 
 pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
@@ -80,6 +81,7 @@ pub use power::{
     in_power_sphere_with_ties,
 };
 pub use sign::Sign;
+pub use within::stays_within;
 
 /// A point of the plane: x, then y. Both finite.
 pub type Point2 = [f64; 2];

@@ -10,6 +10,7 @@ mod polygons;
 mod proximity;
 mod shapes;
 mod strategy;
+mod tiles;
 mod triangle;
 mod triangulate;
 mod weights;
@@ -29,6 +30,7 @@ pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
+pub(crate) use tiles::TilesArgs;
 pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 pub(crate) use weights::WeightArgs;
@@ -53,6 +55,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Triangulate points.
     Triangulate(TriangulateArgs),
+    /// Triangulate more points than memory, in tiles.
+    Tiles(TilesArgs),
     /// Make meshes with good angles and sizes: new vertices until all triangles are as wanted.
     Mesh(Box<MeshArgs>),
     /// Triangulate the insides of polygons, each alone.

@@ -1,6 +1,6 @@
 //! What commands take that make, describe and judge points and meshes: `generate`, `info`, `check`, `reduce`, `experiment`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -45,9 +45,12 @@ pub(crate) struct GenerateArgs {
 
 /// Describe points.
 #[derive(Debug, Args)]
-#[command(after_help = "Example:
+#[command(after_help = "Examples:
   delone info tile.laz --class 2
-  delone info plan.poly")]
+  delone info plan.poly
+  delone info tiles
+
+Of a folder that delone tiles made it tells how far the tiles are, and what came out.")]
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
@@ -55,33 +58,63 @@ pub(crate) struct InfoArgs {
     pub(crate) dim: DimArgs,
 }
 
+impl InfoArgs {
+    /// The folder of tiles that is to be described.
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        match &self.input.input[..] {
+            [one] if one.is_dir() => Some(one),
+            _ => None,
+        }
+    }
+}
+
 /// Judge triangles.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:
+#[command(
+    override_usage = "delone check [OPTIONS] <IN>... <MESH>\n       delone check [OPTIONS] <FOLDER>",
+    after_help = "Examples:
   delone check points.npy triangles.npy
   delone check points.node other.1.ele
   delone check points.npy tetrahedra.npy --dim 3
   delone check plan.poly other.1.ele
   delone check points.csv triangles.npy --segments segments.csv
   delone check sites.csv triangles.npy --weights w
+  delone check tiles
 
+The last file has the triangles (npy ele ply obj off msh) or tetrahedra (npy ele msh). Of a folder that delone tiles made all
+tiles and seams are judged.
 Of points with segments all triangles of the hull are judged: whether they are the constrained Delaunay triangulation; of points
 with weights, whether they are a regular triangulation, and hidden points are hidden.
 
-Exit status: 0 Delaunay (the answer says whether canonical too), 1 not Delaunay or bad data, 2 wrong usage.")]
+Exit status: 0 Delaunay (the answer says whether canonical too), 1 not Delaunay or bad data, 2 wrong usage."
+)]
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
     #[command(flatten)]
     pub(crate) dim: DimArgs,
-    /// File of triangles (npy ele ply obj off msh) or of tetrahedra (npy ele msh).
-    #[arg(value_name = "MESH")]
+    /// The last of the files.
+    #[arg(skip)]
     pub(crate) mesh: PathBuf,
     /// In the plane, file of segments between the points: two indices a line from 0 (csv npy edge poly).
     #[arg(long, value_name = "FILE", conflicts_with_all = ["weights", "radii"])]
     pub(crate) segments: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) weights: WeightArgs,
+}
+
+impl CheckArgs {
+    /// The folder of tiles that is to be judged; otherwise the last file is set apart, which has the triangles.
+    pub(crate) fn folder(&mut self) -> Option<PathBuf> {
+        let files = &mut self.input.input;
+        if let [one] = &files[..]
+            && one.is_dir()
+        {
+            return files.pop();
+        }
+        self.mesh = files.pop().unwrap_or_default();
+        None
+    }
 }
 
 /// Shrink points.

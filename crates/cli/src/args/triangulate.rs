@@ -14,6 +14,7 @@ use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, length};
   delone triangulate tile.laz --class ground --max-edge 50 -o terrain.ply -o terrain.png
   delone triangulate north.laz south.laz -o both.ply
   delone triangulate points.npy -o triangles.npy --check --stats stats.json
+  delone triangulate points.npy --fingerprint
   delone triangulate points.npy -o triangles.npy --algorithm incremental --locate hierarchy --ratio 8 --stats stats.json
   delone generate uniform -n 1000 -o - --to csv | delone triangulate - --from csv -o - --to ele
   delone triangulate model.ply --dim 3 -o tetrahedra.npy -o grid.vtu -o hull.stl -o picture.png
@@ -35,7 +36,7 @@ pub(crate) struct TriangulateArgs {
     pub(crate) input: InputArgs,
     /// Output file (npy node ele neigh edge poly ply obj stl vtu msh inp geojson wkt wkb svg png), or - for standard output; may
     /// be repeated. For several instances {} stands for the name of each.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    #[arg(long, short, value_name = "OUT", required_unless_present = "fingerprint")]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -56,6 +57,10 @@ pub(crate) struct TriangulateArgs {
     /// gaps at the border of the data.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) max_edge: Option<f64>,
+    /// Print the fingerprint of the set of triangles: a number that depends on the coordinates of their corners alone, as delone
+    /// tiles and delone check FOLDER have it.
+    #[arg(long)]
+    pub(crate) fingerprint: bool,
     /// Prove the result with exact arithmetic before writing it.
     #[arg(long)]
     pub(crate) check: bool,

@@ -33,6 +33,7 @@ pub use constrained::{
     PolygonTriangles2, Polygons2, RegionSeed2, Seeds2, SegmentEnds, SegmentId,
 };
 pub use construct::Algorithm2;
+pub(crate) use construct::{InOrder, in_order};
 pub use delaunay::Delaunay2;
 pub use disk_edges::DiskEdges2;
 pub use furthest::{EnclosingCircle, Furthest2};

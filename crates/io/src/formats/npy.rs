@@ -6,8 +6,13 @@ use std::sync::mpsc::sync_channel;
 use crate::{Cloud, Error, Source};
 
 mod archive;
+mod array;
+mod blocks;
 mod header;
 mod stored;
+
+pub use array::{Element, write_array};
+pub(crate) use blocks::read_in;
 
 use header::Header;
 
@@ -75,12 +80,7 @@ fn exact(value: i128) -> Result<f64, Error> {
 /// Reads points of shape (n, 2) or (n, 3), or transposed, of floating point or whole numbers.
 pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
     let file = open(source)?;
-    let shape = &file.header.shape;
-    let (rows, columns, transposed) = match shape[..] {
-        [rows, columns @ (2 | 3)] => (rows as usize, columns as usize, false),
-        [columns @ (2 | 3), rows] => (rows as usize, columns as usize, true),
-        _ => return Err(Error::content(format!("the array has the shape {shape:?}, not (n, 2) or (n, 3)"))),
-    };
+    let (rows, columns, transposed) = shape_of_points(&file.header.shape)?;
     // Point after point, or column after column: all x, all y, all z.
     let by_columns = file.header.by_columns != transposed;
     let take = |values: &mut dyn Iterator<Item = Result<f64, Error>>| fill(values, rows, columns, by_columns);
@@ -97,6 +97,15 @@ pub(crate) fn read_points<R: Read + Seek>(source: R) -> Result<Cloud, Error> {
         cloud.remarks.push(format!("the array of shape ({columns}, {rows}) was taken as {rows} points"));
     }
     Ok(cloud)
+}
+
+/// The numbers of points and of their coordinates, and whether the array is transposed.
+fn shape_of_points(shape: &[u64]) -> Result<(usize, usize, bool), Error> {
+    match *shape {
+        [rows, columns @ (2 | 3)] => Ok((rows as usize, columns as usize, false)),
+        [columns @ (2 | 3), rows] => Ok((rows as usize, columns as usize, true)),
+        _ => Err(Error::content(format!("the array has the shape {shape:?}, not (n, 2) or (n, 3)"))),
+    }
 }
 
 /// Reads numbers of shape (n,), (n, 1) or (1, n), floating point or whole.

@@ -2,10 +2,21 @@
 
 use std::io::{self, Write};
 
+use crate::chunks::Chunks;
 use crate::{Cloud, Error, Source};
 
-pub(crate) fn read(mut source: Box<dyn Source>, dimension: usize) -> Result<Cloud, Error> {
+pub(crate) fn read(source: Box<dyn Source>, dimension: usize) -> Result<Cloud, Error> {
+    read_in(source, dimension, &mut Chunks::default())
+}
+
+/// Reads in chunks.
+pub(crate) fn read_in(
+    mut source: Box<dyn Source>,
+    dimension: usize,
+    chunks: &mut Chunks,
+) -> Result<Cloud, Error> {
     let mut cloud = Cloud::with_capacity(0, dimension == 3);
+    let mut before = 0;
     let mut record = vec![0; 8 * dimension.max(2)];
     loop {
         let mut filled = 0;
@@ -13,7 +24,7 @@ pub(crate) fn read(mut source: Box<dyn Source>, dimension: usize) -> Result<Clou
             match source.read(&mut record[filled..])? {
                 0 if filled == 0 => return Ok(cloud),
                 0 => {
-                    let at = cloud.xy.len();
+                    let at = before + cloud.xy.len();
                     return Err(Error::Truncated(format!("inside point {at} of {dimension} numbers each")));
                 }
                 count => filled += count,
@@ -24,6 +35,7 @@ pub(crate) fn read(mut source: Box<dyn Source>, dimension: usize) -> Result<Clou
             *number = f64::from_le_bytes(*bytes);
         }
         cloud.push([numbers[0], numbers[1]], numbers[2]);
+        before += chunks.offer(&mut cloud)?;
     }
 }
 

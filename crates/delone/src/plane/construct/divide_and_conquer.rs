@@ -52,13 +52,13 @@ pub(super) fn triangulate(points: &[[f64; 2]], bounds: &Bounds<2>) -> (Mesh2, Ve
 }
 
 /// The triangulation of points, with vertices at their positions in Morton order.
-pub(in crate::plane) struct InOrder {
-    pub(in crate::plane) mesh: Mesh2,
+pub(crate) struct InOrder {
+    pub(crate) mesh: Mesh2,
     /// The vertices' points.
-    pub(in crate::plane) points: Vec<[f64; 2]>,
+    pub(crate) points: Vec<[f64; 2]>,
     /// Their indices.
-    pub(in crate::plane) indices: Vec<u32>,
-    pub(in crate::plane) duplicates: Vec<Duplicate>,
+    pub(crate) indices: Vec<u32>,
+    pub(crate) duplicates: Vec<Duplicate>,
     counters: Merges,
 }
 
@@ -84,7 +84,7 @@ impl InOrder {
 }
 
 /// The same as `triangulate`, in the order of memory.
-pub(in crate::plane) fn in_order(points: &[[f64; 2]]) -> InOrder {
+pub(crate) fn in_order(points: &[[f64; 2]]) -> InOrder {
     let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points, &survey(points).0);
     let (edges, counters) = build::<NearestSites>(&points, &[], &cuts, &boxes);
     let n = points.len();

@@ -9,7 +9,7 @@ mod merge;
 mod number;
 mod weighted;
 
-pub(super) use divide_and_conquer::{InOrder, in_order};
+pub(crate) use divide_and_conquer::{InOrder, in_order};
 pub(super) use weighted::{Weighted, weighted};
 
 use crate::error::Error;

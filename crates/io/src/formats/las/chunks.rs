@@ -12,6 +12,7 @@ use laz::{DecompressionSelection, LazItem, LazItemType};
 use rayon::prelude::*;
 
 use super::{CHUNK, Kept, Tile, broken};
+use crate::chunks::Chunks;
 use crate::{Cloud, Error, guard};
 
 /// Bytes before the first chunk: where the table is.
@@ -29,7 +30,7 @@ struct Chunk {
 }
 
 /// Reads all points of a compressed file.
-pub(super) fn read(tile: &mut Tile, kept: &mut Kept) -> Result<(), Error> {
+pub(super) fn read(tile: &mut Tile, kept: &mut Kept, takers: &mut Chunks) -> Result<(), Error> {
     let compressed = laszip_record(tile)?;
     let vlr = LazVlr::from_buffer(&compressed).map_err(broken)?;
     // The kind is the record's first number; the crate does not tell it.
@@ -43,7 +44,7 @@ pub(super) fn read(tile: &mut Tile, kept: &mut Kept) -> Result<(), Error> {
         return Err(broken("its compressed fields are not those of its points"));
     }
     if kind == CompressorType::PointWise as u16 {
-        return decode_on(tile, items, tile.start, u64::MAX, kept);
+        return decode_on(tile, items, tile.start, u64::MAX, kept, takers);
     }
     if kind != CompressorType::PointWiseChunked as u16 && !layered {
         return Err(broken(format!("compression of kind {kind} is not known")));
@@ -54,9 +55,9 @@ pub(super) fn read(tile: &mut Tile, kept: &mut Kept) -> Result<(), Error> {
         None if vlr.uses_variable_size_chunks() => {
             return Err(broken("it has no table of chunks, which its variable chunks need"));
         }
-        None => return decode_on(tile, items, tile.start + OFFSET, vlr.chunk_size().into(), kept),
+        None => return decode_on(tile, items, tile.start + OFFSET, vlr.chunk_size().into(), kept, takers),
     };
-    decode_all(tile, items, layered, &chunks, kept)
+    decode_all(tile, items, layered, &chunks, kept, takers)
 }
 
 /// The record about compression.
@@ -167,6 +168,7 @@ fn decode_all(
     layered: bool,
     chunks: &[Chunk],
     kept: &mut Kept,
+    takers: &mut Chunks,
 ) -> Result<(), Error> {
     let mut rest = tile.total;
     let mut waiting = chunks.iter().copied().filter(|chunk| chunk.points > 0).peekable();
@@ -202,6 +204,7 @@ fn decode_all(
         for part in decoded {
             kept.append(part?);
         }
+        takers.offer(&mut kept.cloud)?;
     }
     Ok(())
 }
@@ -258,6 +261,7 @@ fn decode_on(
     start: u64,
     size: u64,
     kept: &mut Kept,
+    takers: &mut Chunks,
 ) -> Result<(), Error> {
     let (mut data, items) = (tile.buffer(), items.to_vec());
     tile.source.seek(SeekFrom::Start(start))?;
@@ -274,6 +278,7 @@ fn decode_on(
             seen += 1;
         }
         kept.take(&data);
+        takers.offer(&mut kept.cloud)?;
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ use std::io::{Read, Seek, SeekFrom};
 use las::raw;
 use las::{Builder, PointData, PointDataBuilder, Vlr};
 
+use crate::chunks::Chunks;
 use crate::guard;
 use crate::{Cloud, Error, Source};
 
@@ -22,7 +23,12 @@ const POINTS_A_BYTE: u64 = 4096;
 
 /// Reads x, y and z of the points whose class is among `classes` (of all, if that is empty).
 pub(crate) fn read(source: Box<dyn Source>, classes: &[u8]) -> Result<Cloud, Error> {
-    guard::decode("LAS", || Tile::open(source)?.read(classes))
+    read_in(source, classes, &mut Chunks::default())
+}
+
+/// Reads in chunks.
+pub(crate) fn read_in(source: Box<dyn Source>, classes: &[u8], chunks: &mut Chunks) -> Result<Cloud, Error> {
+    guard::decode("LAS", || Tile::open(source)?.read(classes, chunks))
 }
 
 fn broken(error: impl std::fmt::Display) -> Error {
@@ -94,7 +100,7 @@ impl Tile {
         Ok(Self { source, length, start, total, record, about })
     }
 
-    fn read(mut self, classes: &[u8]) -> Result<Cloud, Error> {
+    fn read(mut self, classes: &[u8], takers: &mut Chunks) -> Result<Cloud, Error> {
         let bytes = self.length - self.start;
         let (fits, claim) = if self.about.point_format.is_compressed {
             (bytes.saturating_mul(POINTS_A_BYTE), bytes)
@@ -104,11 +110,12 @@ impl Tile {
         if self.total > fits {
             return Err(Error::Truncated(format!("after {fits} of {} points", self.total)));
         }
-        let capacity = if classes.is_empty() { self.total.min(claim) as usize } else { 0 };
+        let capacity =
+            if classes.is_empty() && takers.is_whole() { self.total.min(claim) as usize } else { 0 };
         let mut kept = Kept { cloud: Cloud::with_capacity(capacity, true), classes, counts: [0; 256] };
         self.source.seek(SeekFrom::Start(self.start))?;
         if self.about.point_format.is_compressed {
-            chunks::read(&mut self, &mut kept)?;
+            chunks::read(&mut self, &mut kept, takers)?;
         } else {
             let mut data = self.buffer();
             let mut seen = 0;
@@ -116,6 +123,7 @@ impl Tile {
                 let count = CHUNK.min(self.total - seen);
                 self.source.read_exact(data.resize_for(count as usize))?;
                 kept.take(&data);
+                takers.offer(&mut kept.cloud)?;
                 seen += count;
             }
         }

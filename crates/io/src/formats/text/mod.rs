@@ -14,6 +14,7 @@ use self::fields::{Separator, number, remark};
 use super::lines::Lines;
 use super::shapes::Heights;
 use super::wkt;
+use crate::chunks::Chunks;
 use crate::error::excerpt;
 use crate::{Cloud, Error, Source};
 
@@ -22,6 +23,11 @@ const LONGEST: usize = 1 << 26;
 
 /// Reads points; `said` are header names or numbers from 1 for x, y and perhaps z, or none to find them.
 pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Error> {
+    read_in(source, said, &mut Chunks::default())
+}
+
+/// Reads in chunks.
+pub(crate) fn read_in(source: Box<dyn Source>, said: &[String], chunks: &mut Chunks) -> Result<Cloud, Error> {
     if !(said.is_empty() || (2..=3).contains(&said.len())) {
         return Err(Error::content("two or three columns are needed, x,y or x,y,z"));
     }
@@ -71,6 +77,7 @@ pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Er
             None => table.first(at, sign, &record)?,
             Some(_) => table.row(at, sign, &record)?,
         }
+        table.before += chunks.offer(&mut table.cloud)?;
     }
     table.end()
 }
@@ -79,6 +86,8 @@ pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Er
 struct Table<'a> {
     said: &'a [String],
     cloud: Cloud,
+    /// How many points were given away.
+    before: usize,
     columns: Option<Columns>,
     width: usize,
     /// The remarks before the first line, one of which may hold its names.
@@ -95,7 +104,7 @@ impl<'a> Table<'a> {
     fn new(said: &'a [String]) -> Self {
         let cloud = Cloud::default();
         let (columns, above, count) = (None, Vec::new(), None);
-        Self { said, cloud, columns, width: 0, above, left_out: 0, count, after_header: false }
+        Self { said, cloud, before: 0, columns, width: 0, above, left_out: 0, count, after_header: false }
     }
 
     /// Whether a line that looks like a remark may be a row: its first field, such as #ff0000, is not a coordinate, and
@@ -234,7 +243,7 @@ impl<'a> Table<'a> {
 
     fn geometry(&mut self, text: &str) -> Result<(), String> {
         let (xy, heights) = wkt::read_one(text)?.positions();
-        let is_first = self.cloud.xy.is_empty();
+        let is_first = self.before == 0 && self.cloud.xy.is_empty();
         match (heights, &mut self.cloud.z) {
             _ if xy.is_empty() => {}
             (Heights::OfAll(mut more), Some(z)) => z.append(&mut more),
@@ -256,8 +265,9 @@ impl<'a> Table<'a> {
             Some((_, line)) if self.columns.is_none() => {
                 return Err(Error::Line { line, what: "a point needs two numbers, x and y".to_owned() });
             }
-            Some((number, _)) if self.cloud.xy.len() < number => {
-                return Err(Error::Truncated(format!("after {} of {number} points", self.cloud.xy.len())));
+            Some((number, _)) if self.before + self.cloud.xy.len() < number => {
+                let found = self.before + self.cloud.xy.len();
+                return Err(Error::Truncated(format!("after {found} of {number} points")));
             }
             _ => {}
         }

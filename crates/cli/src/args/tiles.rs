@@ -1,0 +1,90 @@
+//! What `tiles` takes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{InputArgs, count};
+
+/// Triangulate more points than memory, in tiles.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone tiles survey/*.laz --class ground --heights -o tiles --memory 4G
+  delone tiles points.npy -o tiles --memory 1G --workers 4 --stats stats.json
+  delone tiles points.npy -o tiles --memory 8G --resume
+  delone info tiles
+  delone check tiles
+
+The triangles are those of delone triangulate, to the last tie, whatever the memory. Input: npy las laz csv xyz txt tsv bin; several
+files are one set, in their order. Each file is read twice. The folder then holds
+  tiles.json            count, triangles, fingerprint, cuts, and what each node has
+  points-NNNNN.npy      the points of tile N that differ, along a curve: float64 (n, 2), with --heights (n, 3)
+  ids-NNNNN.npy         for each of them its index in the input, from 0: uint64 (n,)
+  triangles-NNNNN.npy   its triangles, counter-clockwise, as indices of its points: uint32 (t, 3)
+  seam-NNNNN.npy        triangles between tiles, uint64 (t, 3): the number of the tile times 2^32, and the index there
+The fingerprint is that of the set of triangles by coordinates: delone triangulate --fingerprint prints the same.
+
+A run that was stopped, at any moment, goes on with --resume, and what was finished is not done again.
+Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
+pub(crate) struct TilesArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    /// Folder for the tiles, which is made.
+    #[arg(long, short, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+    /// Memory that may be taken, as in 500M or 4G: it decides how many tiles there are. From 64M on.
+    #[arg(long, value_name = "SIZE", default_value = "1G", value_parser = size)]
+    pub(crate) memory: u64,
+    /// Go on with a run that was stopped.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Tiles that are triangulated at once, each on its share of threads and memory [default: as many as threads].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) workers: Option<u16>,
+    /// Keep the heights of the points: the files must have them.
+    #[arg(long)]
+    pub(crate) heights: bool,
+    /// Points of a tile at most, instead of as many as memory allows.
+    #[arg(long, value_name = "N", value_parser = count)]
+    pub(crate) tile: Option<usize>,
+}
+
+/// A number of bytes: 64M, 1.5G, 2GiB, 1e9.
+fn size(text: &str) -> Result<u64, String> {
+    let wrong = || "a size is a number of bytes, as in 500M or 4G".to_owned();
+    let text = text.trim();
+    let bare = text.trim_end_matches(['b', 'B']);
+    let bare = bare.strip_suffix('i').unwrap_or(bare);
+    let (number, scale) = match bare.char_indices().next_back() {
+        Some((at, 'k' | 'K')) => (&bare[..at], 10),
+        Some((at, 'm' | 'M')) => (&bare[..at], 20),
+        Some((at, 'g' | 'G')) => (&bare[..at], 30),
+        Some((at, 't' | 'T')) => (&bare[..at], 40),
+        _ => (bare, 0),
+    };
+    let bytes = number.parse::<f64>().map_err(|_| wrong())? * f64::from(1_u32 << 10).powi(scale / 10);
+    if (1.0..1e18).contains(&bytes) { Ok(bytes as u64) } else { Err(wrong()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::size;
+
+    #[test]
+    fn sizes_are_read() {
+        for (text, bytes) in [
+            ("1", 1),
+            ("1e9", 1_000_000_000),
+            ("64M", 64 << 20),
+            ("1.5G", 3 << 29),
+            ("2GiB", 2 << 30),
+            ("3kB", 3072),
+            ("1T", 1 << 40),
+        ] {
+            assert_eq!(size(text), Ok(bytes), "{text}");
+        }
+        for text in ["", "M", "-1G", "0", "x", "1X", "nan", "inf", "1e30G", "1 2"] {
+            assert!(size(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! Points on their way to tiles: a file for each tile, with the points as they came and their indices.
+//!
+//! A record is x, y, perhaps z, as f64, and the index as u64, all with the least byte first. Records of a bucket are in the order of the
+//! input, so of equal points the first is met first. No file stays open: there may be more tiles than files may be.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+
+use delone::tiles::{Cuts, Node};
+use rayon::prelude::*;
+
+use super::input::hashed;
+use super::manifest::place;
+use crate::message::Failure;
+
+/// Where the bucket of a tile is.
+pub(super) fn bucket(folder: &Path, node: Node) -> PathBuf {
+    place(folder, "bucket", node, "bin")
+}
+
+/// What a bucket holds.
+#[derive(Default)]
+pub(super) struct Content {
+    pub(super) points: Vec<[f64; 2]>,
+    /// As many, or none where heights are not kept.
+    pub(super) heights: Vec<f64>,
+    pub(super) ids: Vec<u64>,
+}
+
+/// Bytes of a record.
+pub(super) fn width(has_heights: bool) -> usize {
+    if has_heights { 32 } else { 24 }
+}
+
+/// Buckets that are being filled.
+pub(super) struct Buckets<'a> {
+    folder: &'a Path,
+    cuts: &'a Cuts,
+    has_heights: bool,
+    /// Bytes that a bucket gathers.
+    buffer: usize,
+    tiles: Vec<Node>,
+    waiting: Vec<Vec<u8>>,
+    counts: Vec<u64>,
+}
+
+impl<'a> Buckets<'a> {
+    /// Empty ones, for the tiles at a node and below.
+    pub(super) fn new(
+        folder: &'a Path,
+        cuts: &'a Cuts,
+        below: Node,
+        has_heights: bool,
+        buffer: usize,
+    ) -> Result<Self, Failure> {
+        let mut tiles = cuts.parts(below, u32::BITS);
+        if tiles.is_empty() {
+            tiles.push(below);
+        }
+        tiles.sort_unstable();
+        for &tile in &tiles {
+            let path = bucket(folder, tile);
+            match fs::remove_file(&path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(unwritten(&path, &error));
+                }
+                _ => {}
+            }
+        }
+        let count = tiles.len();
+        Ok(Self {
+            folder,
+            cuts,
+            has_heights,
+            buffer,
+            tiles,
+            waiting: vec![Vec::new(); count],
+            counts: vec![0; count],
+        })
+    }
+
+    /// Takes points whose indices are consecutive.
+    pub(super) fn take(
+        &mut self,
+        first: u64,
+        points: &[[f64; 2]],
+        heights: Option<&[f64]>,
+    ) -> Result<(), Failure> {
+        let ids: Vec<u64> = (first..first + points.len() as u64).collect();
+        self.put(points, heights.unwrap_or_default(), &ids)
+    }
+
+    fn put(&mut self, points: &[[f64; 2]], heights: &[f64], ids: &[u64]) -> Result<(), Failure> {
+        let tile_of = |&p: &[f64; 2]| self.tiles.partition_point(|&tile| tile < self.cuts.tile_of(p)) as u32;
+        let found: Vec<u32> = points.par_iter().with_min_len(1 << 12).map(tile_of).collect();
+        for (k, tile) in found.into_iter().enumerate() {
+            let tile = tile as usize;
+            let waiting = &mut self.waiting[tile];
+            points[k].iter().for_each(|x| waiting.extend_from_slice(&x.to_le_bytes()));
+            if self.has_heights {
+                waiting.extend_from_slice(&heights[k].to_le_bytes());
+            }
+            waiting.extend_from_slice(&ids[k].to_le_bytes());
+            self.counts[tile] += 1;
+            if waiting.len() >= self.buffer {
+                self.write(tile)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, tile: usize) -> Result<(), Failure> {
+        let path = bucket(self.folder, self.tiles[tile]);
+        let append =
+            || OpenOptions::new().append(true).create(true).open(&path)?.write_all(&self.waiting[tile]);
+        append().map_err(|error| unwritten(&path, &error))?;
+        self.waiting[tile].clear();
+        Ok(())
+    }
+
+    /// Writes what is left, and tells how many points each tile has.
+    pub(super) fn finish(mut self) -> Result<BTreeMap<Node, u64>, Failure> {
+        for tile in 0..self.tiles.len() {
+            self.write(tile)?;
+        }
+        Ok(self.tiles.into_iter().zip(self.counts).collect())
+    }
+}
+
+/// Removes all buckets of a folder.
+pub(super) fn remove_all(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_name().to_string_lossy().starts_with("bucket-") {
+            _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+fn unwritten(path: &Path, error: &io::Error) -> Failure {
+    let help = "make room on the disk, or check the permissions; then go on with --resume";
+    Failure::new(format!("cannot write {}: {error}", path.display()), help)
+}
+
+/// Reads a bucket that should have so many points.
+pub(super) fn read(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<Content, Failure> {
+    let mut content = Content::default();
+    content.points.reserve_exact(count as usize);
+    content.ids.reserve_exact(count as usize);
+    content.heights.reserve_exact(if has_heights { count as usize } else { 0 });
+    each(folder, node, count, has_heights, &mut |mut part| {
+        content.points.append(&mut part.points);
+        content.ids.append(&mut part.ids);
+        content.heights.append(&mut part.heights);
+        Ok(())
+    })?;
+    Ok(content)
+}
+
+/// Reads a bucket piece by piece.
+fn each(
+    folder: &Path,
+    node: Node,
+    count: u64,
+    has_heights: bool,
+    take: &mut dyn FnMut(Content) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let path = bucket(folder, node);
+    let lost = |what: &str| {
+        let help = "its points are lost: start again in another folder, or with this one empty";
+        Failure::new(format!("{}: {what}", path.display()), help)
+    };
+    let file =
+        File::open(&path).map_err(|error| lost(&format!("the bucket of a tile cannot be read: {error}")))?;
+    let length = file.metadata().map_err(|error| lost(&error.to_string()))?.len();
+    let width = width(has_heights);
+    if length != count * width as u64 {
+        return Err(lost(&format!(
+            "the bucket has {length} bytes, and {count} points are {}",
+            count * width as u64
+        )));
+    }
+    let mut source = BufReader::with_capacity(1 << 16, file);
+    let mut bytes = vec![0; width << 14];
+    let mut rest = count as usize;
+    while rest > 0 {
+        let now = rest.min(1 << 14);
+        let bytes = &mut bytes[..now * width];
+        source.read_exact(bytes).map_err(|error| lost(&error.to_string()))?;
+        let mut part = Content::default();
+        for record in bytes.chunks_exact(width) {
+            let (words, _) = record.as_chunks::<8>();
+            let number = |k: usize| f64::from_le_bytes(words[k]);
+            part.points.push([number(0), number(1)]);
+            if has_heights {
+                part.heights.push(number(2));
+            }
+            part.ids.push(u64::from_le_bytes(words[words.len() - 1]));
+        }
+        take(part)?;
+        rest -= now;
+    }
+    Ok(())
+}
+
+/// Cuts buckets again that have more points than a tile may have: the sample did not see them. Of points that are all equal the first
+/// is kept; says how many were left out.
+pub(super) fn cut_again(
+    folder: &Path,
+    cuts: &mut Cuts,
+    counts: &mut BTreeMap<Node, u64>,
+    has_heights: bool,
+    most: u64,
+    buffer: usize,
+) -> Result<u64, Failure> {
+    let mut left_out = 0;
+    while let Some((&node, &count)) = counts.iter().find(|&(_, &count)| count > most) {
+        let tiles = count.div_ceil((most * 4 / 5).max(1)) as usize;
+        let sample = sample_of(folder, node, count, has_heights)?;
+        let is_cut =
+            cuts.cut(node, &sample, tiles.max(2)).map_err(|error| Failure::points(folder, &error))?;
+        let old = bucket(folder, node);
+        counts.remove(&node);
+        if is_cut {
+            let mut parts = Buckets::new(folder, cuts, node, has_heights, buffer)?;
+            each(folder, node, count, has_heights, &mut |part| {
+                parts.put(&part.points, &part.heights, &part.ids)
+            })?;
+            counts.extend(parts.finish()?);
+            fs::remove_file(&old).map_err(|error| unwritten(&old, &error))?;
+        } else {
+            let shorten = || OpenOptions::new().write(true).open(&old)?.set_len(width(has_heights) as u64);
+            shorten().map_err(|error| unwritten(&old, &error))?;
+            counts.insert(node, 1);
+            left_out += count - 1;
+        }
+    }
+    Ok(left_out)
+}
+
+/// Some points of a bucket; two that differ among them, if there are any.
+fn sample_of(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<Vec<[f64; 2]>, Failure> {
+    /// Enough to cut into a few tiles.
+    const SOME: u64 = 1 << 14;
+    let step = count.div_ceil(SOME);
+    let mut sample: Vec<[f64; 2]> = Vec::new();
+    let mut other = None;
+    each(folder, node, count, has_heights, &mut |part| {
+        for (&p, &id) in part.points.iter().zip(&part.ids) {
+            let first = *sample.first().unwrap_or(&p);
+            if sample.is_empty() || hashed(id).is_multiple_of(step) {
+                sample.push(p);
+            }
+            if other.is_none() && p != first {
+                other = Some(p);
+            }
+        }
+        Ok(())
+    })?;
+    sample.extend(other);
+    Ok(sample)
+}

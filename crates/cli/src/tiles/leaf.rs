@@ -1,0 +1,96 @@
+//! Tiles: each bucket is triangulated by itself, and what is final written.
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use delone::tiles::{Cuts, Node, Tile};
+use delone_io::write_array;
+
+use super::buckets::{self, Content};
+use super::manifest::place;
+use super::node::Done;
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+
+/// Triangulates the tiles that are not done, so many at once, each on its share of the threads.
+pub(super) fn all(
+    folder: &Path,
+    cuts: &Cuts,
+    open: &[(Node, u64)],
+    has_heights: bool,
+    workers: usize,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let phase = Phase::count(quiet, "triangulating tiles", open.len() as u64);
+    let (next, stop, failure) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
+    let work = || {
+        while let Some(&(node, count)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if stop.load(Ordering::Relaxed) {
+                return;
+            }
+            match one(folder, cuts, node, count, has_heights) {
+                Ok(()) => phase.advance(),
+                Err(error) => {
+                    stop.store(true, Ordering::Relaxed);
+                    if let Ok(mut first) = failure.lock() {
+                        first.get_or_insert(error);
+                    }
+                }
+            }
+        }
+    };
+    let workers = workers.min(open.len());
+    let share = (rayon::current_num_threads() / workers.max(1)).max(1);
+    if workers <= 1 {
+        work();
+    } else {
+        // Work of one pool would be taken over by those who wait in another tile: each worker has a pool of its own.
+        std::thread::scope(|scope| {
+            for _ in 0..workers {
+                scope.spawn(|| match rayon::ThreadPoolBuilder::new().num_threads(share).build() {
+                    Ok(pool) => pool.install(work),
+                    Err(_) => work(),
+                });
+            }
+        });
+    }
+    failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// Triangulates one tile, and removes its bucket in the end.
+fn one(folder: &Path, cuts: &Cuts, node: Node, count: u64, has_heights: bool) -> Result<(), Failure> {
+    let Content { points, heights, ids } = buckets::read(folder, node, count, has_heights)?;
+    let bucket = buckets::bucket(folder, node);
+    let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Failure::points(&bucket, &error))?;
+    drop(points);
+    let (vertices, order) = (tile.points(), tile.order());
+    files::write(&place(folder, "points", node, "npy"), |out| {
+        if has_heights {
+            let rows = vertices.iter().zip(order).flat_map(|(p, &i)| [p[0], p[1], heights[i as usize]]);
+            return Ok(write_array(out, &[vertices.len(), 3], rows)?);
+        }
+        Ok(write_array(out, &[vertices.len(), 2], vertices.as_flattened().iter().copied())?)
+    })?;
+    drop(heights);
+    files::write(&place(folder, "ids", node, "npy"), |out| {
+        Ok(write_array(out, &[vertices.len()], order.iter().map(|&i| ids[i as usize]))?)
+    })?;
+    drop(ids);
+    let fingerprint = tile.fingerprint();
+    files::write(&place(folder, "triangles", node, "npy"), |out| {
+        Ok(write_array(out, &[fingerprint.count() as usize, 3], tile.finals().flatten())?)
+    })?;
+    let border = tile.border(|v| node.id(v));
+    let done = Done {
+        node,
+        vertices: vertices.len() as u64,
+        duplicates: tile.duplicates().len() as u64,
+        fingerprint,
+        border: border.points.len() as u64,
+    };
+    done.write(folder, &border)?;
+    _ = std::fs::remove_file(bucket);
+    Ok(())
+}

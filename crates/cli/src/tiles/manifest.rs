@@ -1,0 +1,213 @@
+//! `tiles.json`: what a folder of tiles is made of, how far the work is, and what came out.
+//!
+//! It is written whole at the end of each stage: planned (points are counted, the plane is cut), distributed (every point is in its
+//! bucket), done. What is finished between shows in the folder, where every file has its name when it is whole.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+use delone::tiles::{Cut, Cuts, Fingerprint, Node};
+use serde_json::{Value, json};
+
+use crate::files;
+use crate::message::Failure;
+
+/// Its name in the folder.
+pub(crate) const NAME: &str = "tiles.json";
+
+/// What it says that it is, and in which version.
+const FORMAT: &str = "delone tiles";
+const VERSION: u64 = 1;
+
+/// The plan of a run.
+#[derive(Debug)]
+pub(crate) struct Manifest {
+    /// The files, as they were when they were read, and how.
+    pub(super) input: Value,
+    /// The number of points of all files.
+    pub(super) count: u64,
+    pub(super) has_heights: bool,
+    pub(super) cuts: Cuts,
+    /// For each tile the number of its points, once all are in their buckets.
+    pub(super) buckets: Option<BTreeMap<Node, u64>>,
+    /// Points that were left out because they equal the only one of their tile.
+    pub(super) left_out: u64,
+    /// What came out, once all is done.
+    pub(super) outcome: Option<Outcome>,
+}
+
+/// What all tiles and seams have together.
+#[derive(Debug)]
+pub(crate) struct Outcome {
+    pub(super) fingerprint: Fingerprint,
+    pub(super) vertices: u64,
+    pub(super) duplicates: u64,
+    pub(super) hull: u64,
+    /// What is known of each node.
+    pub(super) nodes: Vec<Value>,
+}
+
+impl Outcome {
+    pub(super) fn triangles(&self) -> u64 {
+        self.fingerprint.count()
+    }
+}
+
+/// Where a folder's file of a kind is for a node.
+pub(super) fn place(folder: &Path, kind: &str, node: Node, extension: &str) -> PathBuf {
+    folder.join(format!("{kind}-{:05}.{extension}", node.number()))
+}
+
+/// Files as they are now: names, sizes and times.
+pub(super) fn describe(paths: &[PathBuf]) -> Result<Value, Failure> {
+    let of = |path: &PathBuf| {
+        let failed = |error: std::io::Error| Failure::file(path, &error.into());
+        let about = path.metadata().map_err(failed)?;
+        let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+        let place = path.canonicalize().map_err(failed)?;
+        Ok(json!({
+            "file": place.to_string_lossy(),
+            "bytes": about.len(),
+            "modified": modified.map(|time| format!("{}.{:09}", time.as_secs(), time.subsec_nanos())),
+        }))
+    };
+    paths.iter().map(of).collect()
+}
+
+impl Manifest {
+    /// Writes it, whole.
+    pub(super) fn write(&self, folder: &Path) -> Result<(), Failure> {
+        let stage = match (&self.buckets, &self.outcome) {
+            (_, Some(_)) => "done",
+            (Some(_), None) => "distributed",
+            (None, None) => "planned",
+        };
+        let cut = |(node, cut): (Node, Cut)| {
+            // Exact bits, beside what can be read.
+            json!({ "node": node.number(), "axis": cut.axis, "at": cut.at, "bits": format!("{:016x}", cut.at.to_bits()) })
+        };
+        let mut all = json!({
+            "format": FORMAT,
+            "version": VERSION,
+            "stage": stage,
+            "count": self.count,
+            "heights": self.has_heights,
+            "left_out": self.left_out,
+            "input": self.input,
+            "cuts": self.cuts.cuts().into_iter().map(cut).collect::<Vec<_>>(),
+        });
+        if let Some(buckets) = &self.buckets {
+            let counts = buckets.iter().map(|(node, count)| json!([node.number(), count]));
+            all["buckets"] = counts.collect();
+        }
+        if let Some(outcome) = &self.outcome {
+            all["triangles"] = json!(outcome.triangles());
+            all["fingerprint"] = json!(outcome.fingerprint.to_string());
+            all["vertices"] = json!(outcome.vertices);
+            all["duplicates"] = json!(outcome.duplicates);
+            all["hull"] = json!(outcome.hull);
+            all["nodes"] = json!(outcome.nodes);
+        }
+        let text = format!("{all:#}\n");
+        files::write(&folder.join(NAME), |out| Ok(out.write_all(text.as_bytes())?))
+    }
+
+    /// Reads that of a folder, if there is one.
+    pub(crate) fn read(folder: &Path) -> Result<Option<Self>, Failure> {
+        let path = folder.join(NAME);
+        let text = match std::fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(Failure::file(&path, &error.into())),
+        };
+        let wrong = |what: &str| {
+            let help = "start again in another folder; tiles.json is written by delone tiles alone";
+            Failure::new(format!("{}: {what}", path.display()), help)
+        };
+        let all: Value = serde_json::from_str(&text).map_err(|_| wrong("it is not JSON"))?;
+        if all["format"] != FORMAT {
+            return Err(wrong("it does not describe tiles"));
+        }
+        match all["version"].as_u64() {
+            Some(VERSION) => {}
+            Some(other) => {
+                let what =
+                    format!("{}: it is of version {other}, and this program knows {VERSION}", path.display());
+                return Err(Failure::new(what, "use the version of delone that began it, or start again"));
+            }
+            None => return Err(wrong("it has no version")),
+        }
+        Self::parse(&all)
+            .ok_or_else(|| wrong("something is missing in it, or wrong"))?
+            .map(Some)
+            .map_err(|error| wrong(&error.to_string()))
+    }
+
+    fn parse(all: &Value) -> Option<Result<Self, delone::Error>> {
+        let node = |value: &Value| Node::new(u32::try_from(value.as_u64()?).ok()?);
+        let cut = |value: &Value| {
+            let bits = u64::from_str_radix(value["bits"].as_str()?, 16).ok()?;
+            let axis = usize::try_from(value["axis"].as_u64()?).ok()?;
+            Some((node(&value["node"])?, Cut { axis, at: f64::from_bits(bits) }))
+        };
+        let cuts: Vec<(Node, Cut)> = all["cuts"].as_array()?.iter().map(cut).collect::<Option<_>>()?;
+        let cuts = match Cuts::from_cuts(cuts) {
+            Ok(cuts) => cuts,
+            Err(error) => return Some(Err(error)),
+        };
+        let buckets: Option<BTreeMap<Node, u64>> = match &all["buckets"] {
+            Value::Null => None,
+            counts => {
+                let entry = |entry: &Value| Some((node(&entry[0])?, entry[1].as_u64()?));
+                Some(counts.as_array()?.iter().map(entry).collect::<Option<_>>()?)
+            }
+        };
+        if buckets.as_ref().is_some_and(|buckets| !buckets.keys().copied().eq(sorted(cuts.tiles()))) {
+            return None;
+        }
+        let outcome = match all["stage"].as_str()? {
+            "done" => Some(Outcome {
+                fingerprint: all["fingerprint"].as_str()?.parse().ok()?,
+                vertices: all["vertices"].as_u64()?,
+                duplicates: all["duplicates"].as_u64()?,
+                hull: all["hull"].as_u64()?,
+                nodes: all["nodes"].as_array()?.clone(),
+            }),
+            "planned" | "distributed" => None,
+            _ => return None,
+        };
+        Some(Ok(Self {
+            input: all["input"].clone(),
+            count: all["count"].as_u64()?,
+            has_heights: all["heights"].as_bool()?,
+            cuts,
+            buckets,
+            left_out: all["left_out"].as_u64()?,
+            outcome,
+        }))
+    }
+}
+
+/// That of a folder, and what came out; an error if it is not done.
+pub(super) fn finished(folder: &Path) -> Result<(Manifest, Outcome), Failure> {
+    let mut plan = Manifest::read(folder)?.ok_or_else(|| no_tiles(folder))?;
+    let Some(outcome) = plan.outcome.take() else {
+        let what = format!("{}: the tiles are not finished", folder.display());
+        return Err(Failure::new(what, "go on with delone tiles --resume"));
+    };
+    Ok((plan, outcome))
+}
+
+/// A folder without.
+pub(super) fn no_tiles(folder: &Path) -> Failure {
+    let what = format!("{} is a folder without {NAME}", folder.display());
+    Failure::new(what, "name a folder that delone tiles made, or a file")
+}
+
+/// Nodes by their numbers.
+fn sorted(mut nodes: Vec<Node>) -> Vec<Node> {
+    nodes.sort_unstable();
+    nodes
+}

@@ -1,0 +1,264 @@
+//! `delone tiles`: more points than memory, triangulated in tiles on disk (see [`delone::tiles`]).
+//!
+//! Two passes over the input: one counts and draws the sample that the cuts are taken from, one puts each point into the bucket of its
+//! tile. Then tiles, by several workers, then seams. Every file gets its name when it is whole, and the border of a node is written
+//! last, so whatever has a border is done, and a run that was killed goes on from there.
+
+mod buckets;
+mod budget;
+mod describe;
+mod input;
+mod leaf;
+mod manifest;
+mod node;
+mod seams;
+mod verdict;
+
+use std::fs;
+use std::path::Path;
+
+use delone::tiles::{Cuts, Fingerprint, Node};
+
+pub(crate) use describe::describe;
+pub(crate) use verdict::check;
+
+use buckets::Buckets;
+use budget::Budget;
+use input::Input;
+use manifest::{Manifest, Outcome};
+use node::Done;
+use seams::Joins;
+
+use crate::args::TilesArgs;
+use crate::files;
+use crate::message::{Failure, note, say};
+use crate::progress::Phase;
+use crate::stats::{Stats, grouped};
+
+pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
+    files::keep_apart(&args.input.paths(), args.input.stats.as_deref())?;
+    let workers = args.workers.map_or(rayon::current_num_threads(), usize::from);
+    let budget = Budget::new(args.memory, workers, args.tile)?;
+    let input = Input::new(args)?;
+    let folder = &args.output;
+    let mut stats = Stats::start();
+    let mut plan = match begin(folder, args.resume)? {
+        Some(plan) => {
+            check_input(&plan, &input, folder)?;
+            plan
+        }
+        None => survey(folder, &input, &budget, quiet)?,
+    };
+    stats.phase("read");
+    if plan.outcome.is_none() {
+        if plan.buckets.is_none() {
+            distribute(folder, &mut plan, &input, &budget, quiet)?;
+        }
+        stats.phase("distribute");
+        triangulate(folder, &plan, &budget, quiet)?;
+        stats.phase("build");
+        finish(folder, &mut plan, &budget, quiet)?;
+        stats.phase("join");
+    } else {
+        note(quiet, format_args!("{} was done before", folder.display()));
+    }
+    clean(folder, &plan);
+    tell(&plan, &mut stats, quiet);
+    stats.write(args.input.stats.as_deref())
+}
+
+/// Makes the folder, or finds what is in it.
+fn begin(folder: &Path, resume: bool) -> Result<Option<Manifest>, Failure> {
+    let failed = |error: std::io::Error| {
+        let help = "name a folder that can be made or written";
+        Failure::new(format!("{}: {error}", folder.display()), help)
+    };
+    fs::create_dir_all(folder).map_err(failed)?;
+    let mut is_empty = true;
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        if resume && entry.file_name().to_string_lossy().starts_with(".delone-") {
+            // Half a file of a run that was killed.
+            _ = fs::remove_file(entry.path());
+        } else {
+            is_empty = false;
+        }
+    }
+    if is_empty {
+        return Ok(None);
+    }
+    let plan = Manifest::read(folder)?;
+    match (resume, plan) {
+        (false, None) => {
+            let what = format!("{} is not empty", folder.display());
+            Err(Failure::usage(what, "name another folder for the tiles"))
+        }
+        (false, Some(_)) => {
+            let what = format!("{} has tiles already", folder.display());
+            Err(Failure::usage(what, "go on with --resume, or name another folder"))
+        }
+        (true, None) => {
+            let what = format!("{} is not empty and has no {}", folder.display(), manifest::NAME);
+            Err(Failure::usage(what, "name the folder of the run that is to go on"))
+        }
+        (true, Some(plan)) => Ok(Some(plan)),
+    }
+}
+
+/// Refuses to go on with other files, or with the same ones read in another way.
+fn check_input(plan: &Manifest, input: &Input, folder: &Path) -> Result<(), Failure> {
+    let now = input.describe()?;
+    if now == plan.input {
+        return Ok(());
+    }
+    let what = if now["files"] == plan.input["files"] {
+        "--from, --class, --columns or --heights are others than"
+    } else if names(&now["files"]) == names(&plan.input["files"]) {
+        "the input has changed since"
+    } else {
+        "the input is another one than that of"
+    };
+    let what = format!("{what} the run in {}", folder.display());
+    Err(Failure::usage(what, "go on with what that run began with, or start again in another folder"))
+}
+
+fn names(files: &serde_json::Value) -> Vec<&serde_json::Value> {
+    files.as_array().into_iter().flatten().map(|file| &file["file"]).collect()
+}
+
+/// Counts the points and cuts the plane.
+fn survey(folder: &Path, input: &Input, budget: &Budget, quiet: bool) -> Result<Manifest, Failure> {
+    let described = input.describe()?;
+    let (count, sample) = input.survey(budget.sample(), quiet)?;
+    let cuts =
+        Cuts::from_sample(&sample, budget.tiles(count)).map_err(|error| Failure::points(folder, &error))?;
+    let has_heights = described["heights"] == true;
+    let plan =
+        Manifest { input: described, count, has_heights, cuts, buckets: None, left_out: 0, outcome: None };
+    plan.write(folder)?;
+    Ok(plan)
+}
+
+/// Puts every point into the bucket of its tile.
+fn distribute(
+    folder: &Path,
+    plan: &mut Manifest,
+    input: &Input,
+    budget: &Budget,
+    quiet: bool,
+) -> Result<(), Failure> {
+    // Those of a run that was stopped while it filled them.
+    buckets::remove_all(folder);
+    let has_heights = plan.has_heights;
+    let buffer = budget.buffer(plan.cuts.tiles().len());
+    let mut buckets = Buckets::new(folder, &plan.cuts, Node::ROOT, has_heights, buffer)?;
+    let mut count = 0;
+    input.read("distributing", quiet, &mut |_, first, points, heights| {
+        count += points.len() as u64;
+        buckets.take(first, points, heights)
+    })?;
+    let mut counts = buckets.finish()?;
+    if count != plan.count || input.describe()? != plan.input {
+        let what = format!("the input changed while it was read: {count} points, {} before", plan.count);
+        return Err(Failure::new(what, "start again in another folder when nobody writes to it"));
+    }
+    plan.left_out =
+        buckets::cut_again(folder, &mut plan.cuts, &mut counts, has_heights, budget.most(), buffer)?;
+    plan.buckets = Some(counts);
+    plan.write(folder)
+}
+
+/// Triangulates all tiles that are not done.
+fn triangulate(folder: &Path, plan: &Manifest, budget: &Budget, quiet: bool) -> Result<(), Failure> {
+    let mut open = Vec::new();
+    for (&node, &count) in plan.buckets.iter().flatten() {
+        if Done::find(folder, node)?.is_none() {
+            open.push((node, count));
+        }
+    }
+    let largest = open.iter().map(|&(_, count)| count).max().unwrap_or(0);
+    let workers = budget.workers(largest)?;
+    leaf::all(folder, &plan.cuts, &open, plan.has_heights, workers, quiet)
+}
+
+/// Joins all borders, and adds up what there is.
+fn finish(folder: &Path, plan: &mut Manifest, budget: &Budget, quiet: bool) -> Result<(), Failure> {
+    let cuts = &plan.cuts;
+    let phase = Phase::start(quiet, "joining");
+    let joins = Joins { folder, cuts, budget, count: plan.count, phase };
+    let root = joins.settle(Node::ROOT)?;
+    let mut nodes = Vec::new();
+    let mut waiting = vec![Node::ROOT];
+    let (mut fingerprint, mut vertices, mut duplicates) = (Fingerprint::default(), 0, plan.left_out);
+    while let Some(node) = waiting.pop() {
+        waiting.extend(cuts.halves(node).into_iter().flatten().rev());
+        let Some(done) = Done::find(folder, node)? else { continue };
+        fingerprint += done.fingerprint;
+        vertices += done.vertices;
+        duplicates += done.duplicates;
+        nodes.push(done.describe());
+    }
+    let (triangles, hull) = (fingerprint.count(), root.border);
+    let is_whole = triangles + hull + 2 == 2 * vertices || triangles == 0 && hull == vertices;
+    if vertices + duplicates != plan.count || !is_whole {
+        let what = format!(
+            "{}: {vertices} vertices, {duplicates} duplicates, {triangles} triangles and {hull} vertices of the hull are no \
+             triangulation of {} points",
+            folder.display(),
+            plan.count
+        );
+        let help = "start again in another folder; if nobody changed files in this one, please report it: it is a bug";
+        return Err(Failure::new(what, help));
+    }
+    plan.outcome = Some(Outcome { fingerprint, vertices, duplicates, hull, nodes });
+    plan.write(folder)
+}
+
+/// Removes what nobody needs any more.
+fn clean(folder: &Path, plan: &Manifest) {
+    let nodes = plan.outcome.iter().flat_map(|outcome| &outcome.nodes);
+    nodes.filter_map(Done::parse).for_each(|done| node::forget(folder, done.node));
+    if plan.outcome.is_some() {
+        buckets::remove_all(folder);
+    }
+}
+
+/// Says what was done.
+fn tell(plan: &Manifest, stats: &mut Stats, quiet: bool) {
+    let Some(outcome) = &plan.outcome else { return };
+    if outcome.duplicates > 0 {
+        note(
+            quiet,
+            format_args!(
+                "{} of {} points equal earlier ones and are no vertices",
+                outcome.duplicates, plan.count
+            ),
+        );
+    }
+    let tiles = plan.cuts.tiles().len();
+    let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
+    let of_tiles = nodes.iter().filter(|done| plan.cuts.halves(done.node).is_none());
+    let border: u64 = of_tiles.map(|done| done.border).sum();
+    stats.set("points", plan.count);
+    stats.set("duplicates", outcome.duplicates);
+    stats.set("vertices", outcome.vertices);
+    stats.set("simplices", outcome.triangles());
+    stats.set("hull", outcome.hull);
+    stats.set("fingerprint", outcome.fingerprint.to_string());
+    stats.set("tiles", tiles);
+    stats.set("joins", nodes.len() - tiles);
+    stats.set("border", border);
+    stats.set("threads", rayon::current_num_threads());
+    say(
+        quiet,
+        format_args!(
+            "{} points, {} triangles, {} on the hull, in {} tiles with {} points of borders ({:.2} s)",
+            grouped(plan.count),
+            grouped(outcome.triangles()),
+            grouped(outcome.hull),
+            grouped(tiles as u64),
+            grouped(border),
+            stats.total()
+        ),
+    );
+}

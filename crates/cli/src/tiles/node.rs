@@ -1,0 +1,105 @@
+//! What is finished of a node: a file with a line that tells what it has, and its border behind.
+//!
+//! A node is done when this file has its name, because it is written last.
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+
+use delone::tiles::{Border, Fingerprint, Node};
+use serde_json::{Value, json};
+
+use super::manifest::place;
+use crate::files;
+use crate::message::Failure;
+
+/// What a node has.
+#[derive(Clone, Debug)]
+pub(super) struct Done {
+    pub(super) node: Node,
+    /// Its distinct points and those that equal them, if it is a tile.
+    pub(super) vertices: u64,
+    pub(super) duplicates: u64,
+    /// Of its final triangles; of a node that is cut, of those of its seam.
+    pub(super) fingerprint: Fingerprint,
+    /// The points of its border.
+    pub(super) border: u64,
+}
+
+fn path(folder: &Path, node: Node) -> PathBuf {
+    place(folder, "border", node, "bin")
+}
+
+fn damaged(path: &Path, what: impl std::fmt::Display) -> Failure {
+    let help =
+        "remove that file to have the node made again, if its bucket or the borders of its parts are there";
+    Failure::new(format!("{}: {what}", path.display()), help)
+}
+
+impl Done {
+    /// As the manifest has it.
+    pub(super) fn describe(&self) -> Value {
+        json!({
+            "node": self.node.number(),
+            "vertices": self.vertices,
+            "duplicates": self.duplicates,
+            "triangles": self.fingerprint.count(),
+            "fingerprint": self.fingerprint.to_string(),
+            "border": self.border,
+        })
+    }
+
+    pub(super) fn parse(value: &Value) -> Option<Self> {
+        let count = |name: &str| value[name].as_u64();
+        Some(Self {
+            node: Node::new(u32::try_from(count("node")?).ok()?)?,
+            vertices: count("vertices")?,
+            duplicates: count("duplicates")?,
+            fingerprint: value["fingerprint"].as_str()?.parse().ok()?,
+            border: count("border")?,
+        })
+    }
+
+    /// Writes it with its border: the node is done then.
+    pub(super) fn write(&self, folder: &Path, border: &Border) -> Result<(), Failure> {
+        files::write(&path(folder, self.node), |out| {
+            writeln!(out, "{}", self.describe())?;
+            Ok(out.write_all(&border.to_bytes())?)
+        })
+    }
+
+    /// What is known of a node, if it is done.
+    pub(super) fn find(folder: &Path, node: Node) -> Result<Option<Self>, Failure> {
+        let path = path(folder, node);
+        let file = match File::open(&path) {
+            Ok(file) => file,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(Failure::file(&path, &error.into())),
+        };
+        Self::head(&path, &mut BufReader::new(file)).map(Some)
+    }
+
+    fn head(path: &Path, source: &mut impl BufRead) -> Result<Self, Failure> {
+        let mut line = Vec::new();
+        let read = source.take(1 << 12).read_until(b'\n', &mut line);
+        read.map_err(|error| Failure::file(path, &error.into()))?;
+        let value = serde_json::from_slice(&line).unwrap_or(Value::Null);
+        Self::parse(&value).ok_or_else(|| damaged(path, "it does not begin with what a node has"))
+    }
+}
+
+/// The border of a node that is done.
+pub(super) fn border(folder: &Path, node: Node) -> Result<Border, Failure> {
+    let path = path(folder, node);
+    let failed = |error: std::io::Error| Failure::file(&path, &error.into());
+    let mut source = BufReader::new(File::open(&path).map_err(failed)?);
+    Done::head(&path, &mut source)?;
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes).map_err(failed)?;
+    Border::from_bytes(&bytes).map_err(|problem| damaged(&path, problem))
+}
+
+/// Forgets the border of a node: all is done.
+pub(super) fn forget(folder: &Path, node: Node) {
+    _ = std::fs::remove_file(path(folder, node));
+}

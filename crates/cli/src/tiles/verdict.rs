@@ -1,0 +1,281 @@
+//! `delone check FOLDER`: whether tiles and seams are the canonical triangulation of their points, proved by exact decisions.
+//!
+//! Every triangle is counter-clockwise; across every edge is another triangle, in the other direction, whose far corner is outside of
+//! the circle under the canonical rule; edges without are the border, which is convex and goes around once; and there are as
+//! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all,
+//! Delaunay. One tile at a time; what has no twin in its tile waits for the seams.
+//!
+//! Cost: O(n log n); memory for the largest tile, some 150 bytes a point, and for all edges between tiles.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use delone::tiles::{Fingerprint, Node};
+use delone_io::{Format, ReadOptions};
+use delone_predicates::{Sign, in_circle, lexicographic, orient2d};
+use rayon::prelude::*;
+
+use super::manifest::{self, Manifest, place};
+use super::node::Done;
+use crate::message::{Failure, answer};
+use crate::progress::Phase;
+use crate::stats::{Stats, grouped};
+
+/// A corner by its name, and where it is.
+type Corner = (u64, [f64; 2]);
+
+/// A directed edge with its triangle on the left, whose third corner is the apex.
+#[derive(Clone, Copy)]
+struct Edge {
+    from: Corner,
+    to: Corner,
+    apex: Corner,
+}
+
+impl Edge {
+    /// The same for both directions.
+    fn key(&self) -> [u64; 2] {
+        [self.from.0.min(self.to.0), self.from.0.max(self.to.0)]
+    }
+}
+
+/// Judges a folder.
+pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Result<(), Failure> {
+    let mut stats = Stats::start();
+    let (plan, outcome) = manifest::finished(folder)?;
+    let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
+    let wrong = |what: String| Failure::new(format!("{}: {what}", folder.display()), HELP);
+    let (tiles, seams): (Vec<Done>, Vec<Done>) =
+        nodes.into_iter().partition(|done| plan.cuts.halves(done.node).is_none());
+    let phase = Phase::count(quiet, "checking", (tiles.len() + seams.len()) as u64);
+    let mut judge =
+        Judge { folder, plan: &plan, waiting: Vec::new(), fingerprint: Fingerprint::default(), vertices: 0 };
+    for tile in &tiles {
+        judge.tile(tile)?;
+        phase.advance();
+    }
+    for seam in &seams {
+        judge.seam(seam)?;
+        phase.advance();
+    }
+    drop(phase);
+    if judge.fingerprint != outcome.fingerprint {
+        return Err(wrong(format!(
+            "its fingerprint is {}, and tiles.json has {}",
+            judge.fingerprint, outcome.fingerprint
+        )));
+    }
+    let (triangles, vertices) = (judge.fingerprint.count(), judge.vertices);
+    let hull = judge.outline()?;
+    if triangles == 0 {
+        judge.line(&tiles)?;
+    } else if triangles + hull + 2 != 2 * vertices || hull != outcome.hull {
+        return Err(wrong(format!(
+            "{triangles} triangles and {hull} edges of the hull are not those of {vertices} vertices"
+        )));
+    }
+    stats.phase("check");
+    stats.set("points", plan.count);
+    stats.set("duplicates", outcome.duplicates);
+    stats.set("simplices", triangles);
+    stats.set("hull", outcome.hull);
+    stats.set("fingerprint", outcome.fingerprint.to_string());
+    stats.write(stats_path)?;
+    answer(&format!(
+        "Delaunay, and the canonical triangulation: {triangles} triangles of {vertices} vertices in {} tiles\nfingerprint {}\n",
+        grouped(tiles.len() as u64),
+        outcome.fingerprint
+    ))
+}
+
+const HELP: &str = "files of the folder were changed or lost: start again in another folder";
+
+struct Judge<'a> {
+    folder: &'a Path,
+    plan: &'a Manifest,
+    /// Edges without a twin so far.
+    waiting: Vec<Edge>,
+    fingerprint: Fingerprint,
+    vertices: u64,
+}
+
+impl Judge<'_> {
+    fn points(&self, node: Node) -> Result<Vec<[f64; 2]>, Failure> {
+        let path = place(self.folder, "points", node, "npy");
+        read(&path, |source| Ok(delone_io::read_points(source, Format::Npy, &ReadOptions::default())?.xy))
+    }
+
+    /// Judges the triangles of a tile, all edges between two of them, and keeps the others.
+    fn tile(&mut self, tile: &Done) -> Result<(), Failure> {
+        let points = self.points(tile.node)?;
+        let region = self.plan.cuts.region(tile.node);
+        let path = place(self.folder, "points", tile.node, "npy");
+        if points.len() as u64 != tile.vertices {
+            return Err(wrong(
+                &path,
+                format!("{} points, and tiles.json has {}", points.len(), tile.vertices),
+            ));
+        }
+        if let Some(outside) = points.iter().position(|&p| !region.contains(p)) {
+            return Err(wrong(&path, format!("point {outside} is not in the region of the tile")));
+        }
+        self.vertices += tile.vertices;
+        let path = place(self.folder, "triangles", tile.node, "npy");
+        let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+        let id = |v: u64| {
+            u32::try_from(v)
+                .ok()
+                .filter(|&v| (v as usize) < points.len())
+                .map(|v| (tile.node.id(v), points[v as usize]))
+        };
+        let edges = self.judged(&path, &triangles, tile, id)?;
+        let rest = pair(&path, edges)?;
+        self.waiting.extend(rest);
+        Ok(())
+    }
+
+    /// Judges the triangles of a seam, whose edges wait for those of others.
+    fn seam(&mut self, seam: &Done) -> Result<(), Failure> {
+        let path = place(self.folder, "seam", seam.node, "npy");
+        let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+        let mut ids: Vec<u64> = triangles.iter().flatten().copied().collect();
+        ids.sort_unstable();
+        ids.dedup();
+        let mut corners: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
+        for of_tile in ids.chunk_by(|a, b| a >> 32 == b >> 32) {
+            let node = Node::new((of_tile[0] >> 32) as u32).filter(|&node| self.plan.cuts.is_tile(node));
+            let node = node.ok_or_else(|| wrong(&path, format!("{} is of no tile", of_tile[0])))?;
+            let points = self.points(node)?;
+            for &id in of_tile {
+                let p = points.get((id & u64::from(u32::MAX)) as usize);
+                corners.insert(id, *p.ok_or_else(|| wrong(&path, format!("{id} is no point of its tile")))?);
+            }
+        }
+        let edges = self.judged(&path, &triangles, seam, |id| corners.get(&id).map(|&p| (id, p)))?;
+        self.waiting.extend(edges);
+        Ok(())
+    }
+
+    /// The edges of triangles that are counter-clockwise and have the fingerprint that is known of them.
+    fn judged(
+        &mut self,
+        path: &Path,
+        triangles: &[[u64; 3]],
+        done: &Done,
+        corner: impl Fn(u64) -> Option<Corner> + Sync,
+    ) -> Result<Vec<Edge>, Failure> {
+        let judge = |(t, &[a, b, c]): (usize, &[u64; 3])| {
+            let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else {
+                return Err(wrong(path, format!("triangle {t} has a corner that is no point")));
+            };
+            if orient2d(a.1, b.1, c.1) != Sign::Positive {
+                return Err(wrong(path, format!("triangle {t} is not counter-clockwise")));
+            }
+            let edge = |from, to, apex| Edge { from, to, apex };
+            Ok([edge(a, b, c), edge(b, c, a), edge(c, a, b)])
+        };
+        let edges: Vec<[Edge; 3]> = triangles.par_iter().enumerate().map(judge).collect::<Result<_, _>>()?;
+        let mut fingerprint = Fingerprint::default();
+        edges.iter().for_each(|t| fingerprint.add(t.map(|edge| edge.from.1)));
+        if fingerprint != done.fingerprint {
+            return Err(wrong(path, "the triangles are not those that tiles.json knows".to_owned()));
+        }
+        self.fingerprint += fingerprint;
+        Ok(edges.into_iter().flatten().collect())
+    }
+
+    /// Pairs the edges between tiles; what is left is the border, which is convex and goes around once. Says how long it is.
+    fn outline(&mut self) -> Result<u64, Failure> {
+        let border = pair(self.folder, std::mem::take(&mut self.waiting))?;
+        let wrong = |what: &str| Err(wrong(self.folder, what.to_owned()));
+        let mut next: BTreeMap<u64, Edge> = BTreeMap::new();
+        for edge in &border {
+            if next.insert(edge.from.0, *edge).is_some() {
+                return wrong("the border meets itself, or there are holes");
+            }
+        }
+        let Some(&first) = border.first() else { return Ok(0) };
+        let (mut edge, mut length, mut lowest) = (first, 0, 0);
+        loop {
+            let Some(&following) = next.get(&edge.to.0) else {
+                return wrong("the border is not closed, or there are holes");
+            };
+            let (p, q, r) = (edge.from.1, edge.to.1, following.to.1);
+            if orient2d(p, q, r) == Sign::Negative {
+                return wrong("the border is not convex, or there are holes");
+            }
+            lowest += usize::from(lexicographic(p, q).is_gt() && lexicographic(q, r).is_lt());
+            length += 1;
+            edge = following;
+            if edge.from.0 == first.from.0 {
+                break;
+            }
+            if length > border.len() {
+                return wrong("the border does not come back");
+            }
+        }
+        if length != border.len() || lowest != 1 {
+            return wrong("the border does not go around once, or there are holes");
+        }
+        Ok(length as u64)
+    }
+
+    /// Whether all points are on a line, if there are no triangles.
+    fn line(&self, tiles: &[Done]) -> Result<(), Failure> {
+        let mut ends: Vec<[f64; 2]> = Vec::new();
+        for tile in tiles {
+            for p in self.points(tile.node)? {
+                match ends[..] {
+                    [a, b] if orient2d(a, b, p) != Sign::Zero => {
+                        return Err(wrong(
+                            self.folder,
+                            "there are no triangles, and points are not on a line".to_owned(),
+                        ));
+                    }
+                    [_, _] => {}
+                    _ => ends.push(p),
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Edges that have no twin among others; those that have are Delaunay.
+fn pair(path: &Path, mut edges: Vec<Edge>) -> Result<Vec<Edge>, Failure> {
+    edges.par_sort_unstable_by_key(Edge::key);
+    let mut rest = Vec::new();
+    for group in edges.chunk_by(|e, f| e.key() == f.key()) {
+        match *group {
+            [edge] => rest.push(edge),
+            [e, f] if e.from.0 == f.to.0 => {
+                if in_circle(e.from.1, e.to.1, e.apex.1, f.apex.1) == Sign::Positive {
+                    let what = format!(
+                        "the edge from {:?} to {:?} is not Delaunay, or not canonical",
+                        e.from.1, e.to.1
+                    );
+                    return Err(wrong(path, what));
+                }
+            }
+            _ => {
+                let (from, to) = (group[0].from.1, group[0].to.1);
+                return Err(wrong(path, format!("triangles overlap at the edge from {from:?} to {to:?}")));
+            }
+        }
+    }
+    Ok(rest)
+}
+
+fn wrong(path: &Path, what: String) -> Failure {
+    Failure::new(format!("{}: {what}", path.display()), HELP)
+}
+
+fn read<T>(
+    path: &PathBuf,
+    content: impl Fn(Box<dyn delone_io::Source>) -> Result<T, delone_io::Error>,
+) -> Result<T, Failure> {
+    let open = || content(Box::new(BufReader::new(File::open(path)?)));
+    open().map_err(|error| wrong(path, error.to_string()))
+}
