@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use delone::tiles::{Border, Cut, Cuts, Fingerprint, Node, Region, Tile, join};
-use delone::{BorderProblem, Delaunay2, Error};
+use delone::{BorderProblem, Delaunay2, Error, Triangulation as _};
 use delone_generators::{Kind, Random};
 use delone_oracle::brute;
 
@@ -267,4 +267,69 @@ fn borders_that_are_none_are_named() {
     assert_eq!(found(broken), problem(1, BorderProblem::Corner { triangle: 1, points: 2 }));
     let strange = Border { points: vec![[2.0, 0.0], [f64::INFINITY, 1.0]], ..border(2.0) };
     assert_eq!(found(strange), problem(1, BorderProblem::NotFinite { point: 1 }));
+}
+
+/// A window grows until nothing is open in it, by what is open and by guesses; what is seen then is what memory shows.
+#[test]
+fn what_is_seen_through_a_window_is_final() {
+    let clip = |box_: Region, p: [f64; 2]| (0..2).all(|k| box_.low[k] <= p[k] && p[k] <= box_.high[k]);
+    let (mut alone, mut seen) = (0, 0);
+    for &kind in Kind::ALL {
+        let points = kind.points(3000, 5);
+        let all = Delaunay2::from_points(&points).expect("finite");
+        let mut sorted: Vec<Triangle> =
+            all.simplices().map(|t| all.corners(t).map(|v| all.point(v))).collect();
+        sorted.iter_mut().for_each(|t| t.sort_by(|p, q| p.partial_cmp(q).expect("numbers")));
+        for centre in points.iter().step_by(601) {
+            let near = points.iter().map(|p| (p[0] - centre[0]).abs().max((p[1] - centre[1]).abs()));
+            let mut near: Vec<f64> = near.collect();
+            near.sort_by(f64::total_cmp);
+            let side = near[20];
+            let window = Region { low: centre.map(|x| x - side), high: centre.map(|x| x + side) };
+            let mut region = window;
+            let tile = loop {
+                let inside: Vec<_> = points.iter().copied().filter(|&p| region.contains(p)).collect();
+                let tile = Tile::new(&inside, &region).expect("inside");
+                let open = tile.border(u64::from).open_in(&region, &window);
+                if open.is_empty() {
+                    break tile;
+                }
+                for k in 0..2 {
+                    let low = open.iter().map(|r| r.low[k]).fold(f64::INFINITY, f64::min);
+                    let high = open.iter().map(|r| r.high[k]).fold(f64::NEG_INFINITY, f64::max);
+                    let step = 0.5 * (region.high[k] - region.low[k]) + side;
+                    // A step at least, and not more than is asked for beyond it; where nothing is known, all.
+                    let is_all = step > 1e3 * side || !step.is_finite() || step == 0.0;
+                    region.low[k] = if is_all {
+                        f64::NEG_INFINITY
+                    } else {
+                        (region.low[k] - step).max(low).min(region.low[k] - 0.1 * step)
+                    };
+                    region.high[k] = if is_all {
+                        f64::INFINITY
+                    } else {
+                        (region.high[k] + step).min(high).max(region.high[k] + 0.1 * step)
+                    };
+                }
+            };
+            alone += usize::from(tile.points().len() < points.len() / 4);
+            let meets = |t: &Triangle| {
+                (0..2).all(|k| {
+                    t.iter().any(|p| p[k] >= window.low[k]) && t.iter().any(|p| p[k] <= window.high[k])
+                })
+            };
+            let of_tile = tile.finals().chain(tile.open()).map(|t| t.map(|v| tile.points()[v as usize]));
+            let mut of_tile: Vec<Triangle> =
+                of_tile.filter(|t| meets(t) && t.iter().any(|&p| clip(window, p))).collect();
+            of_tile.iter_mut().for_each(|t| t.sort_by(|p, q| p.partial_cmp(q).expect("numbers")));
+            of_tile.sort_by(|s, t| s.partial_cmp(t).expect("numbers"));
+            let mut of_all: Vec<Triangle> =
+                sorted.iter().copied().filter(|t| t.iter().any(|&p| clip(window, p))).collect();
+            of_all.sort_by(|s, t| s.partial_cmp(t).expect("numbers"));
+            assert_eq!(of_tile, of_all, "{} {centre:?}", kind.name());
+            seen += of_all.len();
+        }
+    }
+    // Most were alone, so this has seen what it should.
+    assert!(alone > 50 && seen > 5000, "{alone} {seen}");
 }

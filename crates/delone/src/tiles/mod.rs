@@ -66,6 +66,7 @@ mod fingerprint;
 mod join;
 mod region;
 mod tile;
+mod window;
 
 pub use border::Border;
 pub use cuts::{Cut, Cuts, Node};
