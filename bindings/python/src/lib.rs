@@ -18,6 +18,7 @@ mod polygons;
 mod pool;
 mod regular;
 mod sizes;
+mod tiles;
 mod triangulation;
 mod voronoi;
 
@@ -33,6 +34,11 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<mesh::Mesh>()?;
     m.add_class::<regular::Regular>()?;
     m.add_class::<orders::Orders>()?;
+    m.add_class::<tiles::PyCuts>()?;
+    m.add_class::<tiles::PyBorder>()?;
+    m.add_class::<tiles::PyFingerprint>()?;
+    m.add_function(wrap_pyfunction!(tiles::triangulate_tile, m)?)?;
+    m.add_function(wrap_pyfunction!(tiles::join_borders, m)?)?;
     m.add_function(wrap_pyfunction!(polygons::triangulate_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(graphs::proximity_graph, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;

@@ -14,12 +14,13 @@ delone.triangulate_polygons(geometries)
 delone.mesh(points, segments, min_angle=30, max_area=0.1).triangles
 delone.triangle.triangulate(dictionary, "pq30a.1")      # as the package triangle
 delone.euclidean_minimum_spanning_tree(points)
+delone.tiles.triangulate(points, region), delone.dask.triangulate(array)       # more points than memory
 delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
 
 import os
 
-from . import _delone, triangle
+from . import _delone, tiles, triangle
 from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
@@ -69,6 +70,7 @@ __all__ = [
     "mesh",
     "plot",
     "relative_neighborhood_graph",
+    "tiles",
     "triangle",
     "triangulate_polygon",
     "triangulate_polygons",

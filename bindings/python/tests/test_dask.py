@@ -1,0 +1,73 @@
+import os
+
+import delone
+import numpy as np
+import pytest
+
+dask = pytest.importorskip("dask")
+distributed = pytest.importorskip("distributed")
+da = pytest.importorskip("dask.array")
+
+import delone.dask  # noqa: E402
+
+RANDOM = np.random.default_rng(3)
+
+
+def expected(points):
+    return delone.tiles.fingerprint(points, delone.Delaunay(points).simplices)
+
+
+@pytest.mark.parametrize("chunk", [700, 10_000])
+@pytest.mark.parametrize("count", [1, 2, 20, None])
+def test_chunks_and_tiles_do_not_matter(chunk, count):
+    grid = np.stack(np.meshgrid(np.arange(70.0), np.arange(70.0)), axis=-1).reshape(-1, 2)
+    for points in [RANDOM.random((4000, 2)), np.concatenate([grid, grid[::3]])]:
+        made = delone.dask.triangulate(da.from_array(points, chunks=(chunk, 2)), tiles=count)
+        triangles, total = dask.compute(made.triangles, made.fingerprint)
+        assert total == expected(points)
+        assert delone.tiles.fingerprint(points, triangles) == total
+
+
+def test_unknown_chunks_and_one_coordinate_each():
+    points = RANDOM.random((5000, 2))
+    array = da.from_array(points, chunks=(900, 1))
+    array = array[array[:, 0] > 0.25]
+    made = delone.dask.triangulate(array, tiles=6)
+    assert made.fingerprint.compute() == expected(points[points[:, 0] > 0.25])
+
+
+def test_what_cannot_be_is_refused():
+    with pytest.raises(ValueError, match="shape"):
+        delone.dask.triangulate(da.zeros((10, 3)))
+    points = RANDOM.random((1000, 2))
+    points[777] = np.nan
+    with pytest.raises(ValueError, match="from row 750 on"):
+        delone.dask.triangulate(da.from_array(points, chunks=(250, 2)), tiles=4)
+
+
+def kill_once(block, path):
+    """Ends the worker that comes here first."""
+    try:
+        os.close(os.open(path, os.O_CREAT | os.O_EXCL))
+    except FileExistsError:
+        return block
+    os._exit(1)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_worker_that_dies_is_no_loss(tmp_path):
+    points = RANDOM.random((50_000, 2))
+    config = {"distributed.worker.daemon": False, "distributed.scheduler.allowed-failures": 5}
+    with (
+        dask.config.set(config),
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster,
+        distributed.Client(cluster),
+    ):
+        array = da.from_array(points, chunks=(10_000, 2))
+        assert delone.dask.triangulate(array, tiles=8).fingerprint.compute() == expected(points)
+        # The cuts are made before; then a worker ends while others have done their part.
+        made = delone.dask.triangulate(array, tiles=8)
+        dying = dask.delayed(kill_once)(made.tiles[made.cuts.nodes[-1]], str(tmp_path / "killed"))
+        total, tile = dask.compute(made.fingerprint, dying)
+        assert total == expected(points)
+        assert (tmp_path / "killed").exists() and len(tile.points) > 0
