@@ -307,7 +307,9 @@ impl<'a> Mesher<'a> {
         let mut best = (Place::GHOST, f64::INFINITY);
         for v in border {
             let square = squared(q, self.point(v));
-            if square < best.1 || (square == best.1 && self.is_finer(v, best.0)) {
+            // The square of what is far may be infinite.
+            let is_first = best.0.is_ghost();
+            if is_first || square < best.1 || (square == best.1 && self.is_finer(v, best.0)) {
                 best = (v, square);
             }
         }

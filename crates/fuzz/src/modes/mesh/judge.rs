@@ -265,13 +265,24 @@ impl Case<'_> {
         }
         let border: f64 =
             c.constraint_edges().map(|e| c.segment(e)).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum();
-        let area = |c: &Constrained2, domains: &delone::Domains2, part: usize| -> f64 {
-            c.triangle_ids().filter(|&t| domains.part(t) == Some(part)).map(|t| c.area(t)).sum()
+        // The vertices of before are here, too.
+        let mut points = c.points().to_vec();
+        points.push([1.0, 1e-9]);
+        points.push([1.0, BEND * unit(c) * border]);
+        if !points.iter().flatten().all(|x| x.is_finite()) {
+            return Ok(());
+        }
+        let exact = integers(&points);
+        let [part, bend] = [c.points().len(), c.points().len() + 1].map(|k| &exact[k]);
+        let twice = |c: &Constrained2, domains: &delone::Domains2, part: usize| -> BigInt {
+            let triangles = c.triangle_ids().filter(|&t| domains.part(t) == Some(part));
+            triangles.map(|t| product(&exact, c.mesh().corners(t).map(|v| v.index()))).sum()
         };
-        for part in 0..domains.parts().len() {
-            let [old, new] = [area(self.before, &domains, part), area(c, &refined.domains, part)];
-            if old.is_finite() && (old - new).abs() > 1e-9 * old + BEND * unit(c) * border {
-                return Err(format!("part {part} had {old} and has {new}"));
+        for k in 0..domains.parts().len() {
+            let [old, new] = [twice(self.before, &domains, k), twice(c, &refined.domains, k)];
+            let off = BigInt::from((&old - &new).magnitude().clone()) * &part[0];
+            if off > &old * &part[1] + 2 * &bend[0] * &bend[1] * &part[0] {
+                return Err(format!("part {k} had {old} and has {new}"));
             }
         }
         Ok(())
@@ -309,15 +320,18 @@ impl Case<'_> {
     fn is_small(&self, points: [Point; 3], area: Option<f64>, slack: f64) -> bool {
         let longest = |length: f64| {
             let most = length * (1.0 + slack);
-            !most.is_finite()
-                || sides(points).into_iter().all(|side| compare_lengths(side, [[0.0; 2], [most, 0.0]]) <= 0)
+            most > 0.0
+                && (most.is_infinite()
+                    || sides(points)
+                        .into_iter()
+                        .all(|side| compare_lengths(side, [[0.0; 2], [most, 0.0]]) <= 0))
         };
         // Products of sides are rounded, and the area is their difference.
         let length = |[p, q]: [Point; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
         let rounded = slack * sides(points).map(length).into_iter().fold(0.0, f64::max).powi(2);
         let largest = |area: f64| {
             let most = area * (1.0 + slack) + rounded;
-            !most.is_finite() || (most > 0.0 && is_area_at_most(points, most))
+            most > 0.0 && (most.is_infinite() || is_area_at_most(points, most))
         };
         let centre = [0, 1].map(|k| points.iter().map(|p| p[k] / 3.0).sum::<f64>());
         // What is asked for at the centroid is asked for at a rounded one.
