@@ -263,25 +263,26 @@ impl Case<'_> {
         if parts(domains.parts()) != parts(refined.domains.parts()) {
             return Err("other parts".to_owned());
         }
-        let border: f64 =
-            c.constraint_edges().map(|e| c.segment(e)).map(|[p, q]| (q[0] - p[0]).hypot(q[1] - p[1])).sum();
         // The vertices of before are here, too.
         let mut points = c.points().to_vec();
-        points.push([1.0, 1e-9]);
-        points.push([1.0, BEND * unit(c) * border]);
-        if !points.iter().flatten().all(|x| x.is_finite()) {
-            return Ok(());
-        }
+        points.push([1e-9, 1.0]);
+        points.push([BEND * unit(c), 0.0]);
         let exact = integers(&points);
-        let [part, bend] = [c.points().len(), c.points().len() + 1].map(|k| &exact[k]);
+        let ([part, one], bend) =
+            ([0, 1].map(|k| &exact[c.points().len()][k]), &exact[c.points().len() + 1][0]);
+        let length = |e: EdgeId| {
+            let [v, w] = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| &exact[v.index()]);
+            minus(v, w).iter().map(|x| BigInt::from(x.magnitude().clone())).sum::<BigInt>()
+        };
+        let border: BigInt = c.constraint_edges().map(length).sum();
         let twice = |c: &Constrained2, domains: &delone::Domains2, part: usize| -> BigInt {
             let triangles = c.triangle_ids().filter(|&t| domains.part(t) == Some(part));
             triangles.map(|t| product(&exact, c.mesh().corners(t).map(|v| v.index()))).sum()
         };
         for k in 0..domains.parts().len() {
             let [old, new] = [twice(self.before, &domains, k), twice(c, &refined.domains, k)];
-            let off = BigInt::from((&old - &new).magnitude().clone()) * &part[0];
-            if off > &old * &part[1] + 2 * &bend[0] * &bend[1] * &part[0] {
+            let off = BigInt::from((&old - &new).magnitude().clone());
+            if off * one > &old * part + 2 * bend * &border * one {
                 return Err(format!("part {k} had {old} and has {new}"));
             }
         }
