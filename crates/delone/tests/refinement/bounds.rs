@@ -74,9 +74,13 @@ fn it_can_be_stopped() {
     let mut c = Constrained2::from_parts(&points, &segments).expect("planar");
     let asked = std::cell::Cell::new(0);
     let stop = || asked.replace(asked.get() + 1) == 3;
-    let stopped = Refinement::new().max_area(1e-6).stop_if(&stop).run(&mut c);
+    let told = std::cell::RefCell::new(Vec::new());
+    let watch = |count| told.borrow_mut().push(count);
+    let stopped = Refinement::new().max_area(1e-6).stop_if(&stop).watch(&watch).run(&mut c);
     assert_eq!(stopped.map(|refined| refined.report), Err(Error::Stopped));
     assert!(asked.get() == 4 && c.vertex_count() > 100 && c.vertex_count() < 10_000);
+    let told = told.into_inner();
+    assert!(told.len() == 4 && told.is_sorted() && 7 + told[3] == c.vertex_count(), "{told:?}");
     c.check().expect("valid");
 }
 

@@ -120,7 +120,7 @@ impl<'a> Mesher<'a> {
         {
             steps += 1;
             if steps.is_multiple_of(PAUSE) {
-                self.rules.go_on()?;
+                self.rules.go_on(self.count)?;
             }
             if task.fault() <= Fault::LargeConstraint {
                 if let Some(e) = self.constraint(&task) {
@@ -132,7 +132,7 @@ impl<'a> Mesher<'a> {
                 self.mend(&task, &shape);
             }
         }
-        self.rules.go_on()
+        self.rules.go_on(self.count)
     }
 
     /// Gives back what memory the work has taken.
