@@ -49,10 +49,10 @@ corners = np.round(points[triangles][..., :2], 4)
 expected = sorted(sorted(map(tuple, triangle)) for triangle in corners.tolist())
 
 for source in ["points", "flat"]:
-    for kind in ["ply", "obj", "stl", "vtu", "geojson", "wkt", "wkb", "svg", "png", "node", "ele"]:
+    for kind in ["ply", "obj", "stl", "vtu", "geojson", "wkt", "wkb", "svg", "png", "node", "ele", "off"]:
         run("triangulate", f"{source}.npy", "-o", f"{source}.{kind}")
     heights = points[:, 2] if source == "points" else np.zeros(len(points))
-    for kind in ["ply", "obj", "vtu"]:
+    for kind in ["ply", "obj", "vtu", "off"]:
         mesh = meshio.read(folder / f"{source}.{kind}")
         same(mesh.cells_dict["triangle"], mesh.points, expected)
         assert np.array_equal(mesh.points[:, 2], heights), f"meshio: heights of {kind}"
@@ -65,7 +65,7 @@ for source in ["points", "flat"]:
         assert mesh.points.shape[1] == 2 or np.array_equal(np.sort(mesh.points[:, 2]), np.sort(heights))
         assert "region_0" in mesh.cell_sets and "marker_1" in {**mesh.cell_sets, **mesh.point_sets}
         print(f"meshio reads {source}.{kind}")
-    for kind in ["ply", "obj", "stl"]:
+    for kind in ["ply", "obj", "stl", "off"]:
         mesh = trimesh.load(folder / f"{source}.{kind}", process=False)
         assert len(mesh.faces) == len(triangles), f"trimesh: {kind}"
         assert abs(mesh.area - trimesh.Trimesh(np.c_[points[:, :2], heights], triangles).area) < 1.0

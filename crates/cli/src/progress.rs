@@ -35,6 +35,17 @@ impl Phase {
         Self::with_bar(quiet, bar, what, "{spinner} {msg} {wide_bar} {pos}/{len} {eta}")
     }
 
+    /// A phase of unknown length that makes something, which is counted.
+    pub(crate) fn making(quiet: bool, what: &'static str, things: &'static str) -> Self {
+        let template = format!("{{spinner}} {{msg}} {{elapsed}}, {{human_pos}} {things}");
+        Self::with_bar(quiet, ProgressBar::hidden(), what, &template)
+    }
+
+    /// So much was made.
+    pub(crate) fn made(&self, count: usize) {
+        self.bar.set_position(count as u64);
+    }
+
     /// One part of it is done.
     pub(crate) fn advance(&self) {
         self.bar.inc(1);

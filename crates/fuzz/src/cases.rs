@@ -7,7 +7,7 @@ use delone_generators::Random;
 use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
-    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mixtures, motion, orders, plane,
+    alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders, plane,
     predicates, proximity, space, weights,
 };
 
@@ -71,6 +71,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Cells, _) => made::<cells::Cells>(seed),
         (Mode::Graphs, 0) => made::<graphs::Graphs>(seed),
         (Mode::Graphs, _) => made::<graph_lives::GraphLives>(seed),
+        (Mode::Mesh, _) => made::<mesh::Mesh>(seed),
         (Mode::Alphas, 0) => made::<alphas::Planar>(seed),
         (Mode::Alphas, _) => made::<alphas::Spatial>(seed),
         (Mode::Orders, _) => made::<orders::Orders>(seed),

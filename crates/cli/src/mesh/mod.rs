@@ -137,8 +137,9 @@ impl Made {
         let has_values = heights.is_some() || width > 0;
         let before = has_values.then(|| triangulation.clone());
         let refined = {
-            let _phase = Phase::start(quiet, "refining");
-            wanted.run(&mut triangulation).map_err(|error| refused(label, &error))?
+            let phase = Phase::making(quiet, "refining", "new vertices");
+            let watch = |count| phase.made(count);
+            wanted.watch(&watch).run(&mut triangulation).map_err(|error| refused(label, &error))?
         };
         let _phase = Phase::start(quiet, "interpolating");
         let c = &triangulation;

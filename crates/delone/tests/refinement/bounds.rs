@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use delone::{Constrained2, Error, Fill, Keep, Reason, Refinement, RegionSeed2, Seeds2};
+use delone_generators::Random;
 use delone_oracle::exact;
 
 use crate::judge::{Points, Segments, coordinates, corners, judge, refine};
@@ -73,9 +74,13 @@ fn it_can_be_stopped() {
     let mut c = Constrained2::from_parts(&points, &segments).expect("planar");
     let asked = std::cell::Cell::new(0);
     let stop = || asked.replace(asked.get() + 1) == 3;
-    let stopped = Refinement::new().max_area(1e-6).stop_if(&stop).run(&mut c);
+    let told = std::cell::RefCell::new(Vec::new());
+    let watch = |count| told.borrow_mut().push(count);
+    let stopped = Refinement::new().max_area(1e-6).stop_if(&stop).watch(&watch).run(&mut c);
     assert_eq!(stopped.map(|refined| refined.report), Err(Error::Stopped));
     assert!(asked.get() == 4 && c.vertex_count() > 100 && c.vertex_count() < 10_000);
+    let told = told.into_inner();
+    assert!(told.len() == 4 && told.is_sorted() && 7 + told[3] == c.vertex_count(), "{told:?}");
     c.check().expect("valid");
 }
 
@@ -235,11 +240,37 @@ fn sizes_at_the_ends_of_the_range() {
     for scale in [1e-300, 1e-150, 1e-100, 1e100, 1e150, 1e300] {
         let (points, segments) = square();
         let points: Points = points.iter().map(|p| p.map(|x| scale * x)).collect();
-        let mut c = Constrained2::from_parts(&points, &segments).expect("finite");
+        let before = Constrained2::from_parts(&points, &segments).expect("finite");
+        let mut c = before.clone();
         let refined = Refinement::new().min_angle(30.0).run(&mut c).expect("an end");
         c.check().expect("canonical");
         let is_measured = (1e-130..1e130).contains(&scale);
         assert_eq!(refined.report.left.is_empty(), is_measured, "{scale:e}");
         assert_eq!(refined.report.left.len(), refined.report.left_for(Reason::Precision));
+        if is_measured {
+            judge(&before, &c, &refined, 30.0, &format!("{scale:e}"));
+        }
+        let mut c = before;
+        let how = Refinement::new().conforming(true).max_vertices(1000);
+        how.run(&mut c).expect("whatever can be measured");
+        c.check().expect("canonical");
+    }
+}
+
+/// At a few units in the last place circumcentres are rounded out of their circles. What is left is not for an angle of the input.
+#[test]
+fn what_no_vertex_mends_is_left_for_precision() {
+    let mut random = Random::new(7);
+    for _ in 0..200 {
+        let coordinate = |random: &mut Random| 4_503_599_627_370_496.0 + random.below(16) as f64;
+        let points: Points = (0..40).map(|_| [(); 2].map(|()| coordinate(&mut random))).collect();
+        let mut c = Constrained2::from_parts(&points, &[]).expect("finite");
+        let how = Refinement::new().min_angle(45.0).max_vertices(2000);
+        let report = how.run(&mut c).expect("an end").report;
+        let is_on = |v| c.mesh().star(v).any(|e| c.is_constraint(e));
+        for left in report.left.iter().filter(|left| left.reason == Reason::InputAngle) {
+            let on = c.mesh().corners(left.triangle).into_iter().filter(|&v| is_on(v)).count();
+            assert!(on >= 2, "{:?} is left for an angle of the input", corners(&c, left.triangle));
+        }
     }
 }

@@ -28,7 +28,7 @@ pub(crate) enum Item {
 }
 
 /// Points, of which many are equal, and segments between them.
-fn parts(items: &[Item]) -> (Vec<Point>, Vec<[usize; 2]>) {
+pub(crate) fn parts(items: &[Item]) -> (Vec<Point>, Vec<[usize; 2]>) {
     let (mut points, mut segments) = (Vec::new(), Vec::new());
     for item in items {
         match item {

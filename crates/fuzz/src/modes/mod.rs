@@ -9,6 +9,7 @@ pub(crate) mod graph_lives;
 pub(crate) mod graphs;
 pub(crate) mod hulls;
 pub(crate) mod lives;
+pub(crate) mod mesh;
 pub(crate) mod mixtures;
 pub(crate) mod motion;
 pub(crate) mod orders;

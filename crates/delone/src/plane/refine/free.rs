@@ -113,6 +113,8 @@ impl Mesher<'_> {
                 if is_last { is_flat(q, ends) } else { self.is_too_near(q, ends) }
             })
             .collect();
+        // Rounded, a point may be outside of the circle that it is to be the centre of; it would mend nothing.
+        let mends = mesh.is_marked(task.edge.triangle());
         self.layer.cavity = cavity;
         let (nearest, square) = self.nearest(q);
         // The ends of the shortest edge made it necessary.
@@ -122,11 +124,11 @@ impl Mesher<'_> {
         if task.fault() == Fault::Size {
             scale = scale.min(square.sqrt());
         }
-        let refused = !near.is_empty() || Self::is_cascade(square, scale);
-        if refused {
+        let reason = if Self::is_cascade(square, scale) { Reason::Cascade } else { Reason::Precision };
+        if !near.is_empty() || !mends || reason == Reason::Cascade {
             self.abandon();
             if near.is_empty() {
-                self.leave(task.corners, Reason::Cascade);
+                self.leave(task.corners, reason);
             } else {
                 self.split_first(task, &near, is_last);
             }

@@ -120,7 +120,7 @@ impl<'a> Mesher<'a> {
         {
             steps += 1;
             if steps.is_multiple_of(PAUSE) {
-                self.rules.go_on()?;
+                self.rules.go_on(self.count)?;
             }
             if task.fault() <= Fault::LargeConstraint {
                 if let Some(e) = self.constraint(&task) {
@@ -132,7 +132,7 @@ impl<'a> Mesher<'a> {
                 self.mend(&task, &shape);
             }
         }
-        self.rules.go_on()
+        self.rules.go_on(self.count)
     }
 
     /// Gives back what memory the work has taken.
@@ -307,7 +307,9 @@ impl<'a> Mesher<'a> {
         let mut best = (Place::GHOST, f64::INFINITY);
         for v in border {
             let square = squared(q, self.point(v));
-            if square < best.1 || (square == best.1 && self.is_finer(v, best.0)) {
+            // The square of what is far may be infinite.
+            let is_first = best.0.is_ghost();
+            if is_first || square < best.1 || (square == best.1 && self.is_finer(v, best.0)) {
                 best = (v, square);
             }
         }

@@ -72,6 +72,7 @@ pub struct Refinement<'a> {
     conforming: bool,
     smoothing: usize,
     stop: Option<&'a dyn Fn() -> bool>,
+    watch: Option<&'a dyn Fn(usize)>,
     fill: Fill<'a>,
 }
 
@@ -125,6 +126,7 @@ impl<'a> Refinement<'a> {
             conforming: false,
             smoothing: 0,
             stop: None,
+            watch: None,
             fill: Fill::All,
         }
     }
@@ -189,6 +191,13 @@ impl<'a> Refinement<'a> {
     #[must_use]
     pub fn stop_if(self, stop: &'a dyn Fn() -> bool) -> Self {
         Self { stop: Some(stop), ..self }
+    }
+
+    /// Is told how many new vertices there are, as often as [`Self::stop_if`] is asked; where constraints are split it may be fewer
+    /// than before.
+    #[must_use]
+    pub fn watch(self, watch: &'a dyn Fn(usize)) -> Self {
+        Self { watch: Some(watch), ..self }
     }
 
     /// What is inside. Where the hull is its border that becomes a constraint.

@@ -46,6 +46,7 @@ pub(super) struct Rules<'a> {
     size_at: Option<Field<'a>>,
     flaw: Cell<Option<(f64, [f64; 2])>>,
     stop: Option<&'a dyn Fn() -> bool>,
+    watch: Option<&'a dyn Fn(usize)>,
 }
 
 /// A number for each place.
@@ -90,6 +91,7 @@ impl<'a> Rules<'a> {
             size_at: wanted.size_at,
             flaw: Cell::new(None),
             stop: wanted.stop,
+            watch: wanted.watch,
         }
     }
 
@@ -126,8 +128,11 @@ impl<'a> Rules<'a> {
         self.longest.min(asked(self.size_at)).min(area.sqrt())
     }
 
-    /// Not if a bound was none, or somebody wants to stop.
-    pub(super) fn go_on(&self) -> Result<(), Error> {
+    /// Not if a bound was none, or somebody wants to stop, who is told the number of new vertices.
+    pub(super) fn go_on(&self, count: usize) -> Result<(), Error> {
+        if let Some(watch) = self.watch {
+            watch(count);
+        }
         match self.flaw.get() {
             Some((value, at)) => Err(Error::Size { value, at }),
             None if self.stop.is_some_and(|stop| stop()) => Err(Error::Stopped),

@@ -6,6 +6,8 @@
 //! Sources: Chew, "Guaranteed-quality mesh generation for curved surfaces", SoCG 1993 (circumcentres); Üngör, "Off-centers: a new
 //! type of Steiner points for computing size-optimal quality-guaranteed Delaunay triangulations", LATIN 2004.
 
+use std::ops::Range;
+
 use delone_predicates::lexicographic;
 
 use crate::ids::{EdgeId, TriangleId};
@@ -14,6 +16,8 @@ use crate::plane::layer::Layer;
 /// Squares outside of this range are not trusted.
 const LEAST: f64 = 1e-280;
 const MOST: f64 = 1e280;
+/// Products of squares, which leave the range of numbers sooner, are trusted here.
+const PRODUCTS: Range<f64> = 1e-290..1e290;
 
 /// A triangle from its shortest edge on.
 #[derive(Clone, Copy, Debug)]
@@ -66,13 +70,18 @@ impl Shape {
     #[inline]
     pub(super) fn is_sharp(&self, squared_cosine: f64) -> bool {
         let (dot, _) = self.across();
-        dot * dot > squared_cosine * (1.0 - 64.0 * f64::EPSILON) * (self.squares[1] * self.squares[2])
+        let bound = squared_cosine * (1.0 - 64.0 * f64::EPSILON);
+        let product = self.squares[1] * self.squares[2];
+        if PRODUCTS.contains(&product) {
+            return dot * dot > bound * product;
+        }
+        ratio(dot, self.squares[1], self.squares[2]) > bound
     }
 
     /// The squared cosine of the smallest angle, rounded.
     pub(super) fn squared_cosine(&self) -> f64 {
         let (dot, _) = self.across();
-        dot * dot / (self.squares[1] * self.squares[2])
+        ratio(dot, self.squares[1], self.squares[2])
     }
 
     /// The cotangents of the angles, rounded.
@@ -119,6 +128,13 @@ impl Shape {
     }
 }
 
+/// The square of a scalar product, as a part of the product of two squares.
+#[inline]
+fn ratio(dot: f64, p: f64, q: f64) -> f64 {
+    let product = p * q;
+    if PRODUCTS.contains(&product) { dot * dot / product } else { (dot / p) * (dot / q) }
+}
+
 /// The square of a distance.
 #[inline]
 pub(super) fn squared(p: [f64; 2], q: [f64; 2]) -> f64 {
@@ -139,5 +155,5 @@ pub(super) fn squared_height(q: [f64; 2], [a, b]: [[f64; 2]; 2]) -> f64 {
 pub(super) fn squared_obtuseness(q: [f64; 2], [a, b]: [[f64; 2]; 2]) -> Option<f64> {
     let (u, v) = ([a[0] - q[0], a[1] - q[1]], [b[0] - q[0], b[1] - q[1]]);
     let dot = u[0] * v[0] + u[1] * v[1];
-    (dot < 0.0).then(|| dot * dot / (squared(a, q) * squared(b, q)))
+    (dot < 0.0).then(|| ratio(dot, squared(a, q), squared(b, q)))
 }

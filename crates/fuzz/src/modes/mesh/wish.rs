@@ -1,0 +1,146 @@
+//! What is asked of a mesh, at random.
+
+use std::cell::Cell;
+
+use delone::{Constrained2, Error, Fill, Keep, Refined2, Refinement, RegionSeed2, Seeds2};
+use delone_generators::Random;
+
+use crate::nasty::{self, once_in, pick};
+
+type Point = [f64; 2];
+
+/// How large triangles may be at a place: so much, and so much more for each unit along the axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Field {
+    from: f64,
+    base: f64,
+    pub(super) slope: f64,
+}
+
+impl Field {
+    pub(super) fn at(&self, p: Point) -> f64 {
+        self.base + self.slope * (p[0] - self.from).abs()
+    }
+}
+
+/// What is asked of a mesh.
+#[derive(Clone, Debug)]
+pub(super) struct Wish {
+    pub(super) min_angle: f64,
+    pub(super) max_area: Option<f64>,
+    pub(super) max_edge: Option<f64>,
+    pub(super) size: Option<Field>,
+    pub(super) area: Option<Field>,
+    /// Beyond this the size is none.
+    pub(super) none_beyond: Option<f64>,
+    pub(super) keep: Keep,
+    pub(super) conforming: bool,
+    pub(super) smooth: usize,
+    pub(super) most: usize,
+    pub(super) stop: Option<usize>,
+    /// 0 all, 1 parity, 2 winding, 3 seeds.
+    fill: usize,
+    seeds: Seeds2,
+}
+
+impl Wish {
+    /// For a set of points, whose size sizes follow.
+    pub(super) fn random(random: &mut Random, points: &[Point]) -> Self {
+        let extent = |k: usize| {
+            let (low, high) = points
+                .iter()
+                .map(|p| p[k])
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+            high / 2.0 - low / 2.0
+        };
+        let span = extent(0).max(extent(1));
+        // Sizes that are no numbers are refused before anything is done.
+        let positive = |x: f64| Some(x).filter(|x| x.is_finite() && *x > 0.0);
+        let part =
+            |random: &mut Random| span * 2f64.powi(-(random.below(10) as i32)) * random.between(0.5, 1.5);
+        let mut sometimes = |n: usize| if once_in(random, n) { positive(part(random)) } else { None };
+        let [edge, area, size, area_at] = [4, 3, 5, 6].map(&mut sometimes);
+        let field = |base: f64, slope: f64| {
+            let from = points.first().map_or(0.0, |p| p[0]);
+            Some(Field { from, base, slope }).filter(|field| positive(field.base).is_some())
+        };
+        let mut seeds = Seeds2 { keep_concavities: once_in(random, 2), ..Seeds2::default() };
+        for _ in 0..random.below(3) {
+            let at = nasty::query(random, points);
+            let max_area = if once_in(random, 2) { positive(span * span * 0.01) } else { None };
+            if once_in(random, 2) {
+                seeds.holes.push(at);
+            } else {
+                seeds.regions.push(RegionSeed2 { at, attribute: 1.0, max_area });
+            }
+        }
+        Self {
+            min_angle: pick(random, &[0.0, 1.0, 15.0, 20.0, 25.0, 28.6, 30.0, 33.0, 34.0, 45.0]),
+            max_area: area.and_then(|x| positive(0.3 * x * x)),
+            max_edge: edge,
+            size: size.and_then(|x| field(0.2 * x, 0.3)),
+            area: area_at.and_then(|x| field(0.1 * x * x, 0.1 * x)),
+            none_beyond: if once_in(random, 30) { points.last().map(|p| p[0]) } else { None },
+            keep: pick(random, &[Keep::Nothing, Keep::Nothing, Keep::Border, Keep::Constraints]),
+            conforming: once_in(random, 4),
+            smooth: if once_in(random, 4) { 1 + random.below(3) } else { 0 },
+            most: pick(random, &[0, 1, 7, 50, 300, 300, 2000]),
+            stop: if once_in(random, 20) { Some(random.below(3)) } else { None },
+            fill: pick(random, &[0, 0, 1, 1, 2, 3]),
+            seeds,
+        }
+    }
+
+    /// Whether directions of segments say nothing.
+    pub(super) fn may_turn(&self) -> bool {
+        self.fill != 2
+    }
+
+    pub(super) fn fill(&self) -> Fill<'_> {
+        match self.fill {
+            0 => Fill::All,
+            1 => Fill::EvenOdd,
+            2 => Fill::NonZero,
+            _ => Fill::Seeds(&self.seeds),
+        }
+    }
+
+    /// The largest area of a region's own, if there are regions.
+    pub(super) fn area_of(&self, region: Option<usize>) -> Option<f64> {
+        let own = region.filter(|_| self.fill == 3).and_then(|r| self.seeds.regions[r].max_area);
+        [own, self.max_area].into_iter().flatten().reduce(f64::min)
+    }
+
+    /// Does it.
+    pub(super) fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
+        let size = |p: Point| match (self.none_beyond, self.size) {
+            (Some(x), _) if p[0] > x => f64::NAN,
+            (_, Some(field)) => field.at(p),
+            _ => f64::INFINITY,
+        };
+        let area = |p: Point| self.area.map_or(f64::INFINITY, |field| field.at(p));
+        let asked = Cell::new(0);
+        let stop = || asked.replace(asked.get() + 1) >= self.stop.unwrap_or(usize::MAX);
+        let mut how = Refinement::new()
+            .min_angle(self.min_angle)
+            .keep(self.keep)
+            .conforming(self.conforming)
+            .smooth(self.smooth)
+            .max_vertices(self.most)
+            .stop_if(&stop)
+            .fill(self.fill());
+        if let Some(most) = self.max_area {
+            how = how.max_area(most);
+        }
+        if let Some(most) = self.max_edge {
+            how = how.max_edge(most);
+        }
+        if self.size.is_some() || self.none_beyond.is_some() {
+            how = how.size(&size);
+        }
+        if self.area.is_some() {
+            how = how.max_area_at(&area);
+        }
+        how.run(c)
+    }
+}
