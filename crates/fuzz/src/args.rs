@@ -55,6 +55,8 @@ pub(crate) enum Mode {
     Cells,
     /// Segments between points: building, crossings, changes.
     Graphs,
+    /// Points in tiles: cuts, borders, joins, bytes.
+    Tiles,
     /// Points with weights: building, hidden sites, changes.
     Weights,
     /// Alpha complexes and their shapes, with weights.
@@ -107,13 +109,14 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 20] = [
+    pub(crate) const REAL: [Self; 21] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
         Self::Motion,
         Self::Cells,
         Self::Graphs,
+        Self::Tiles,
         Self::Weights,
         Self::Alphas,
         Self::Orders,
