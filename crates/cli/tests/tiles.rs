@@ -258,7 +258,7 @@ fn refusals_say_what_to_do() {
         ("tiles p.npy -o u --memory 1M", 2, "64M are the least"),
         ("tiles p.npy -o u --memory lots", 2, "a size is a number of bytes"),
         ("tiles p.npy -o u --tile 0", 2, "--tile 0"),
-        ("tiles - --from csv -o u", 1, "No such file"),
+        ("tiles - --from csv -o u", 2, "- cannot be read piece by piece, twice"),
         ("tiles none.npy -o u", 1, "No such file"),
         ("tiles p.npy -o p.ply", 1, "p.ply"),
         ("check nowhere", 2, "points and triangles are needed"),

@@ -57,6 +57,8 @@ pub(crate) enum Mode {
     Graphs,
     /// Refinement of graphs: bounds of angles and sizes, what is kept, orders of the input.
     Mesh,
+    /// Points in tiles: cuts, borders, joins, bytes.
+    Tiles,
     /// Points with weights: building, hidden sites, changes.
     Weights,
     /// Alpha complexes and their shapes, with weights.
@@ -117,6 +119,7 @@ impl Mode {
         Self::Cells,
         Self::Graphs,
         Self::Mesh,
+        Self::Tiles,
         Self::Weights,
         Self::Alphas,
         Self::Orders,

@@ -1,6 +1,6 @@
 //! How memory is shared: among workers, into tiles, for joins.
 //!
-//! Bytes a point are what was measured, rounded up (`docs/performance.md`); a test of the program holds the sum to what was asked.
+//! Bytes a point are what was measured, rounded up; a test of the program holds the sum to what was asked.
 
 use crate::message::Failure;
 

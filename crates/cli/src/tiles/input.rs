@@ -27,7 +27,9 @@ impl<'a> Input<'a> {
     pub(super) fn new(args: &'a TilesArgs) -> Result<Self, Failure> {
         let formats = files::formats(&args.input)?;
         for (path, &format) in args.input.input.iter().zip(&formats) {
-            let is_file = path.metadata().map_err(|error| Failure::file(path, &error.into()))?.is_file();
+            let is_standard = path == Path::new("-");
+            let is_file = !is_standard
+                && path.metadata().map_err(|error| Failure::file(path, &error.into()))?.is_file();
             let is_compressed =
                 path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
             if !is_file || is_compressed && format != Format::Text {

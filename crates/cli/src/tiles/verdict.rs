@@ -5,7 +5,7 @@
 //! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all,
 //! Delaunay. One tile at a time; what has no twin in its tile waits for the seams.
 //!
-//! Cost: O(n log n); memory for the largest tile, some 150 bytes a point, and for all edges between tiles.
+//! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, and for all edges between tiles.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -130,9 +130,14 @@ impl Judge<'_> {
                 .filter(|&v| (v as usize) < points.len())
                 .map(|v| (tile.node.id(v), points[v as usize]))
         };
-        let edges = self.judged(&path, &triangles, tile, id)?;
-        let rest = pair(&path, edges)?;
-        self.waiting.extend(rest);
+        self.judge(&path, &triangles, tile, id)?;
+        let rest = pair_in_tile(&path, &points, &triangles)?;
+        let name = |v: u32| (tile.node.id(v), points[v as usize]);
+        self.waiting.extend(rest.into_iter().map(|[from, to, apex]| Edge {
+            from: name(from),
+            to: name(to),
+            apex: name(apex),
+        }));
         Ok(())
     }
 
@@ -153,37 +158,45 @@ impl Judge<'_> {
                 corners.insert(id, *p.ok_or_else(|| wrong(&path, format!("{id} is no point of its tile")))?);
             }
         }
-        let edges = self.judged(&path, &triangles, seam, |id| corners.get(&id).map(|&p| (id, p)))?;
-        self.waiting.extend(edges);
+        self.judge(&path, &triangles, seam, |id| corners.get(&id).map(|&p| (id, p)))?;
+        for t in &triangles {
+            let [a, b, c] = t.map(|id| (id, corners[&id]));
+            let edge = |from, to, apex| Edge { from, to, apex };
+            self.waiting.extend([edge(a, b, c), edge(b, c, a), edge(c, a, b)]);
+        }
         Ok(())
     }
 
-    /// The edges of triangles that are counter-clockwise and have the fingerprint that is known of them.
-    fn judged(
+    /// Whether triangles are counter-clockwise, and have the fingerprint that is known of them.
+    fn judge(
         &mut self,
         path: &Path,
         triangles: &[[u64; 3]],
         done: &Done,
         corner: impl Fn(u64) -> Option<Corner> + Sync,
-    ) -> Result<Vec<Edge>, Failure> {
-        let judge = |(t, &[a, b, c]): (usize, &[u64; 3])| {
-            let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else {
+    ) -> Result<(), Failure> {
+        let judge = |(t, &corners): (usize, &[u64; 3])| {
+            let [Some(a), Some(b), Some(c)] = corners.map(&corner) else {
                 return Err(wrong(path, format!("triangle {t} has a corner that is no point")));
             };
             if orient2d(a.1, b.1, c.1) != Sign::Positive {
                 return Err(wrong(path, format!("triangle {t} is not counter-clockwise")));
             }
-            let edge = |from, to, apex| Edge { from, to, apex };
-            Ok([edge(a, b, c), edge(b, c, a), edge(c, a, b)])
+            let mut one = Fingerprint::default();
+            one.add([a.1, b.1, c.1]);
+            Ok(one)
         };
-        let edges: Vec<[Edge; 3]> = triangles.par_iter().enumerate().map(judge).collect::<Result<_, _>>()?;
-        let mut fingerprint = Fingerprint::default();
-        edges.iter().for_each(|t| fingerprint.add(t.map(|edge| edge.from.1)));
+        let add = |mut all: Fingerprint, one: Fingerprint| {
+            all += one;
+            Ok(all)
+        };
+        let each = triangles.par_iter().enumerate().map(judge);
+        let fingerprint = each.try_reduce(Fingerprint::default, add)?;
         if fingerprint != done.fingerprint {
             return Err(wrong(path, "the triangles are not those that tiles.json knows".to_owned()));
         }
         self.fingerprint += fingerprint;
-        Ok(edges.into_iter().flatten().collect())
+        Ok(())
     }
 
     /// Pairs the edges between tiles; what is left is the border, which is convex and goes around once. Says how long it is.
@@ -243,6 +256,50 @@ impl Judge<'_> {
     }
 }
 
+/// The edges of the triangles of a tile that have no twin there, with the third corner; those that have are Delaunay.
+fn pair_in_tile(path: &Path, points: &[[f64; 2]], triangles: &[[u64; 3]]) -> Result<Vec<[u32; 3]>, Failure> {
+    // Both ends, the lower first; the third corner; whether it runs from the upper end.
+    let edge = |from: u64, to: u64, apex: u64| (from.min(to) << 32 | from.max(to), apex as u32, from > to);
+    let of = |&[a, b, c]: &[u64; 3]| [edge(a, b, c), edge(b, c, a), edge(c, a, b)];
+    let mut edges: Vec<(u64, u32, bool)> = triangles.iter().flat_map(of).collect();
+    edges.par_sort_unstable();
+    let mut rest = Vec::new();
+    for group in edges.chunk_by(|e, f| e.0 == f.0) {
+        let [low, high] = [(group[0].0 >> 32) as u32, group[0].0 as u32];
+        let at = |v: u32| points[v as usize];
+        match *group {
+            [(_, apex, false)] => rest.push([low, high, apex]),
+            [(_, apex, true)] => rest.push([high, low, apex]),
+            [(_, left, one), (_, right, other)] if one != other => {
+                let (left, right) = if one { (right, left) } else { (left, right) };
+                judge_edge(path, [at(low), at(high)], at(left), at(right))?;
+            }
+            _ => return Err(overlap(path, at(low), at(high))),
+        }
+    }
+    Ok(rest)
+}
+
+/// Whether the far corner across an edge is outside of the circle through its ends and the corner on its left.
+fn judge_edge(
+    path: &Path,
+    [from, to]: [[f64; 2]; 2],
+    left: [f64; 2],
+    right: [f64; 2],
+) -> Result<(), Failure> {
+    if in_circle(from, to, left, right) == Sign::Positive {
+        return Err(wrong(
+            path,
+            format!("the edge from {from:?} to {to:?} is not Delaunay, or not canonical"),
+        ));
+    }
+    Ok(())
+}
+
+fn overlap(path: &Path, from: [f64; 2], to: [f64; 2]) -> Failure {
+    wrong(path, format!("triangles overlap at the edge from {from:?} to {to:?}"))
+}
+
 /// Edges that have no twin among others; those that have are Delaunay.
 fn pair(path: &Path, mut edges: Vec<Edge>) -> Result<Vec<Edge>, Failure> {
     edges.par_sort_unstable_by_key(Edge::key);
@@ -250,19 +307,8 @@ fn pair(path: &Path, mut edges: Vec<Edge>) -> Result<Vec<Edge>, Failure> {
     for group in edges.chunk_by(|e, f| e.key() == f.key()) {
         match *group {
             [edge] => rest.push(edge),
-            [e, f] if e.from.0 == f.to.0 => {
-                if in_circle(e.from.1, e.to.1, e.apex.1, f.apex.1) == Sign::Positive {
-                    let what = format!(
-                        "the edge from {:?} to {:?} is not Delaunay, or not canonical",
-                        e.from.1, e.to.1
-                    );
-                    return Err(wrong(path, what));
-                }
-            }
-            _ => {
-                let (from, to) = (group[0].from.1, group[0].to.1);
-                return Err(wrong(path, format!("triangles overlap at the edge from {from:?} to {to:?}")));
-            }
+            [e, f] if e.from.0 == f.to.0 => judge_edge(path, [e.from.1, e.to.1], e.apex.1, f.apex.1)?,
+            _ => return Err(overlap(path, group[0].from.1, group[0].to.1)),
         }
     }
     Ok(rest)

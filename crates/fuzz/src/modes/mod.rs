@@ -19,4 +19,5 @@ pub(crate) mod proximity;
 pub(crate) mod queries;
 pub(crate) mod space;
 pub(crate) mod spheres;
+pub(crate) mod tiles;
 pub(crate) mod weights;

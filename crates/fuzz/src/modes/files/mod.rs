@@ -8,7 +8,7 @@ use std::fs;
 use std::io::Cursor;
 
 use delone_generators::Random;
-use delone_io::{Format, Graph, ReadOptions, Source, decompressed};
+use delone_io::{Cloud, Format, Graph, ReadOptions, Source, decompressed};
 
 use self::mutation::Mutation;
 use crate::attack::{Attack, Judgement};
@@ -55,8 +55,10 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
     let options = |dimension, classes| ReadOptions { dimension, classes, ..ReadOptions::default() };
     let mut said = Vec::new();
     for (dimension, classes) in [(2, vec![]), (3, vec![2])] {
-        match source().and_then(|source| delone_io::read_points(source, format, &options(dimension, classes)))
-        {
+        let options = options(dimension, classes);
+        let whole = source().and_then(|source| delone_io::read_points(source, format, &options));
+        in_chunks(source(), format, &options, &whole)?;
+        match whole {
             Ok(cloud) if cloud.z.as_ref().is_some_and(|z| z.len() != cloud.xy.len()) => {
                 return Err(format!("{} points and {:?} heights", cloud.xy.len(), cloud.z.map(|z| z.len())));
             }
@@ -85,6 +87,37 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
     match said.iter().find(|text| text.len() > LONGEST_MESSAGE) {
         Some(text) => Err(format!("a message of {} bytes", text.len())),
         None => Ok(()),
+    }
+}
+
+/// Whether points that are read in chunks are those that are read at once.
+fn in_chunks(
+    source: Result<Box<dyn Source>, delone_io::Error>,
+    format: Format,
+    options: &ReadOptions,
+    whole: &Result<Cloud, delone_io::Error>,
+) -> Judgement {
+    let bits = |xy: &[[f64; 2]]| xy.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
+    let (mut xy, mut z) = (Vec::new(), Vec::new());
+    let mut take = |points: &[[f64; 2]], heights: Option<&[f64]>| {
+        xy.extend(bits(points));
+        z.extend(heights.into_iter().flatten().map(|z| z.to_bits()));
+        Ok(())
+    };
+    let found = source.and_then(|source| delone_io::read_chunks(source, format, options, 3, &mut take));
+    match (whole, found) {
+        (_, Err(delone_io::Error::NotInChunks(_))) | (Err(_), Err(_)) => Ok(()),
+        (Ok(whole), Ok(_)) => {
+            let heights = whole.z.iter().flatten().map(|z| z.to_bits());
+            let are_same = bits(&whole.xy) == xy && heights.eq(z.iter().copied());
+            if are_same {
+                Ok(())
+            } else {
+                Err(format!("{} points in chunks, {} at once", xy.len(), whole.xy.len()))
+            }
+        }
+        (Ok(_), Err(error)) => Err(format!("read at once, and in chunks: {error}")),
+        (Err(error), Ok(_)) => Err(format!("read in chunks, and at once: {error}")),
     }
 }
 

@@ -171,11 +171,17 @@ fn decode_all(
     takers: &mut Chunks,
 ) -> Result<(), Error> {
     let mut rest = tile.total;
+    // Whoever takes chunks has little memory.
+    let (ahead, most) = if takers.is_whole() {
+        (AHEAD, 16 * CHUNK)
+    } else {
+        (AHEAD / 4, CHUNK * 4.max(rayon::current_num_threads() as u64))
+    };
     let mut waiting = chunks.iter().copied().filter(|chunk| chunk.points > 0).peekable();
     while rest > 0 {
         let mut batch = Vec::new();
         let (mut bytes, mut points) = (0, 0);
-        while let Some(mut chunk) = waiting.next_if(|chunk| batch.is_empty() || bytes + chunk.length <= AHEAD)
+        while let Some(mut chunk) = waiting.next_if(|chunk| batch.is_empty() || bytes + chunk.length <= ahead)
         {
             chunk.points = chunk.points.min(rest);
             let mut compressed = vec![0; chunk.length as usize];
@@ -185,7 +191,7 @@ fn decode_all(
             bytes += chunk.length;
             points += chunk.points;
             rest -= chunk.points;
-            if rest == 0 || points >= 16 * CHUNK {
+            if rest == 0 || points >= most {
                 break;
             }
         }
