@@ -111,7 +111,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 21] = [
+    pub(crate) const REAL: [Self; 22] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
