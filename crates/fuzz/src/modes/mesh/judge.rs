@@ -307,13 +307,12 @@ impl Case<'_> {
         match left {
             None if !is_measurable(points) => Err("is not measured, and not left".to_owned()),
             None if !is_certainly(ROUNDED) => Err("is not left".to_owned()),
-            None => Ok(()),
             Some(Reason::Precision) if !is_measurable(points) => Ok(()),
             Some(_) if is_certainly(-ROUNDED) => Err("is left for nothing".to_owned()),
             Some(Reason::Budget) if added < wish.most => Err(format!("only {added} of {}", wish.most)),
             Some(Reason::Kept) if wish.keep == Keep::Nothing => Err("nothing is to be kept".to_owned()),
             Some(Reason::InputAngle) if !self.is_forced(t, along) => Err("no angle of the input".to_owned()),
-            Some(_) => Ok(()),
+            _ => Ok(()),
         }
     }
 

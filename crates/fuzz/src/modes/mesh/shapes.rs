@@ -68,7 +68,7 @@ fn shape(random: &mut Random) -> Shape {
         }
         // Polygons in each other, which may touch.
         3 => {
-            for _ in 0..1 + random.below(3) {
+            for _ in 0..=random.below(3) {
                 let corners = polygon(
                     3 + random.below(16),
                     [integer(random, 2), 0.0],
@@ -96,7 +96,7 @@ fn shape(random: &mut Random) -> Shape {
         }
         // Tips.
         6 => {
-            for _ in 0..1 + random.below(3) {
+            for _ in 0..=random.below(3) {
                 let degrees: f64 = pick(random, &[1e-13, 1e-6, 0.01, 1.0, 7.0, 30.0, 59.0]);
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 let (length, tip) = (random.between(0.1, 2.0), [integer(random, 3), integer(random, 3)]);
