@@ -398,6 +398,7 @@ fn what_cannot_be_is_said() {
     place.fail("mesh plan.poly --min-angle 60 --max-vertices 5 -o m.vtu", 2, "min-angle is 60");
     place.fail("mesh none.poly --min-angle nan -o m.vtu", 2, "min-angle is NaN");
     place.fail("mesh plan.poly --max-area 0 -o m.vtu", 2, "max-area is 0");
+    place.fail("mesh plan.poly --max-area 1e-20 -o m.vtu", 1, "more than 2^30 triangles");
     place.fail("mesh plan.poly --max-edge=-1 -o m.vtu", 2, "max-edge is -1");
     place.fail("mesh plan.poly", 2, "--output");
     place.fail("mesh plan.poly -o plan.poly", 2, "would overwrite");

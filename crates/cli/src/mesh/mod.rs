@@ -78,7 +78,12 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::new(left, "ask for less, or leave --strict out to write what there is"));
     }
     if report.triangles == 0 && c.triangle_count() > 0 {
-        note(quiet, "nothing is inside: no segments close; see --fill and --convex");
+        let why = if made.graph.holes.is_empty() {
+            "no segments close"
+        } else {
+            "no segments close, or holes take all"
+        };
+        note(quiet, format_args!("nothing is inside: {why}; see --fill and --convex"));
     }
     let kept = Kept::of(c, &made.refined.domains, plan.traits.drop_unused);
     tell::count(report, kept.points.len(), &mut stats);
@@ -247,6 +252,10 @@ impl Made {
 fn refused(label: &Path, error: &Error) -> Failure {
     match error {
         Error::Size { .. } => Failure::new(error, "sizes and areas are positive wherever they are asked for"),
+        Error::Parameter { name, value, .. } => Failure::new(
+            format!("{} is {value}: more than 2^30 triangles would be needed", name.replace('_', "-")),
+            "ask for larger ones, or bound the new vertices with --max-vertices (S in Triangle's switches)",
+        ),
         _ => Failure::graph(label, error),
     }
 }

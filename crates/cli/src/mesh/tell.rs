@@ -54,13 +54,16 @@ pub(super) fn summary(report: &RefinementReport2, stats: &Stats, quiet: bool) {
     }
     let [points, triangles, inside, on] = ["points", "simplices", "steiner_inside", "steiner_on_constraints"]
         .map(|name| grouped(stats.get(name).as_u64().unwrap_or_default()));
+    let angles = if report.largest_angle > 0.0 {
+        format!(", angles from {:.2} to {:.2} degrees", report.smallest_angle, report.largest_angle)
+    } else {
+        String::new() // None was measured.
+    };
+    let seconds = stats.total();
     say(
         quiet,
         format_args!(
-            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles, angles from {:.2} to {:.2} degrees ({:.2} s)",
-            report.smallest_angle,
-            report.largest_angle,
-            stats.total()
+            "{points} points ({inside} new inside, {on} on constraints), {triangles} triangles{angles} ({seconds:.2} s)"
         ),
     );
 }
