@@ -1,4 +1,5 @@
 import os
+from pathlib import Path
 
 import delone
 import numpy as np
@@ -43,6 +44,16 @@ def test_what_cannot_be_is_refused():
     points[777] = np.nan
     with pytest.raises(ValueError, match="from row 750 on"):
         delone.dask.triangulate(da.from_array(points, chunks=(250, 2)), tiles=4)
+
+
+def test_clouds_from_las():
+    laspy = pytest.importorskip("laspy")
+    path = str(Path(__file__).parents[3] / "data" / "autzen_trim.laz")
+    cloud = laspy.read(path)
+    ground = np.column_stack([cloud.x, cloud.y])[cloud.classification == 2]
+    array = delone.dask.from_las([path, path], chunk=30_000, classes=[2])
+    assert delone.dask.triangulate(array, tiles=7).fingerprint.compute() == expected(ground)
+    assert delone.dask.from_las(path).shape == (len(cloud.points), 2)
 
 
 def kill_once(block, path):

@@ -3,7 +3,7 @@
     import dask.array as da
     import delone.dask
 
-    points = da.from_npy_stack("survey/")                  # shape (n, 2)
+    points = da.from_zarr("survey.zarr")                    # shape (n, 2); or delone.dask.from_las(["a.laz", "b.laz"])
     made = delone.dask.triangulate(points, tiles=64)
     made.triangles                                         # dask.array of shape (nan, 3): rows of points
     made.fingerprint.compute()
@@ -14,6 +14,7 @@ the points. Needs the package `dask`.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,7 +27,7 @@ from numpy.typing import NDArray
 from . import tiles as _tiles
 from ._points import as_index, as_points
 
-__all__ = ["TiledTriangulation", "triangulate"]
+__all__ = ["TiledTriangulation", "from_las", "triangulate"]
 
 _SAMPLE = 1_000_000
 _TILE = 1_000_000
@@ -105,6 +106,51 @@ def triangulate(points: Any, tiles: int | None = None) -> TiledTriangulation:
     triangles = da.concatenate([da.from_delayed(block, (np.nan, 3), np.int64) for block in blocks], allow_unknown_chunksizes=True)
     prints = [dask.delayed(_print)(part) for part in [*made.values(), *seams.values()]]
     return TiledTriangulation(cuts, triangles, made, seams, dask.delayed(_sum)(prints))
+
+
+def from_las(paths: str | Iterable[str], *, chunk: int = 5_000_000, classes: Iterable[int] | None = None) -> da.Array:
+    """The points of LAS and LAZ files, one file after the other, in chunks that are read when they are computed.
+
+    Parameters
+    ----------
+    paths : str or iterable of str
+        The files; workers must find them under the same names.
+    chunk : int
+        Points in a chunk at the most.
+    classes : iterable of int, optional
+        Only points of these classes: 2 is ground. The numbers of rows are unknown then.
+
+    Returns
+    -------
+    dask.array
+        x and y in the units of the files, shape (n, 2). Needs the package `laspy` with a backend for LAZ.
+    """
+    import laspy
+
+    wanted = None if classes is None else [as_index(number, "a class") for number in classes]
+    blocks = []
+    for path in [paths] if isinstance(paths, str) else paths:
+        with laspy.open(path) as file:
+            count = file.header.point_count
+        for start in range(0, count, as_index(chunk, "chunk")):
+            rows = min(chunk, count - start)
+            block = dask.delayed(_from_las)(path, start, rows, wanted)
+            blocks.append(da.from_delayed(block, (rows if wanted is None else np.nan, 2), np.float64))
+    if not blocks:
+        return da.empty((0, 2))
+    return da.concatenate(blocks, allow_unknown_chunksizes=True)
+
+
+def _from_las(path: str, start: int, count: int, classes: list[int] | None) -> NDArray[np.float64]:
+    import laspy
+
+    with laspy.open(path) as file:
+        file.seek(start)
+        points = file.read_points(count)
+    if len(points) != count:
+        raise ValueError(f"{path} ends after {start + len(points)} points, and its header says more")
+    rows = slice(None) if classes is None else np.isin(points.classification, classes)
+    return np.column_stack([points.x, points.y]).astype(np.float64)[rows]
 
 
 def _join(cuts: _tiles.Cuts, node: int, borders: dict[int, Delayed], seams: dict[int, Delayed]) -> Delayed:
