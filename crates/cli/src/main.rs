@@ -67,6 +67,7 @@ fn main() -> ExitCode {
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
         Command::Tiles(args) => tiles::run(&args, quiet),
+        Command::Window(args) => tiles::window(&args, quiet),
         Command::Mesh(args) => mesh::run(&args, quiet),
         Command::Polygons(args) => polygons::run(&args, quiet),
         Command::Check(mut args) => match args.folder() {

@@ -30,7 +30,7 @@ pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
-pub(crate) use tiles::TilesArgs;
+pub(crate) use tiles::{TilesArgs, WindowArgs};
 pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 pub(crate) use weights::WeightArgs;
@@ -57,6 +57,8 @@ pub(crate) enum Command {
     Triangulate(TriangulateArgs),
     /// Triangulate more points than memory, in tiles.
     Tiles(TilesArgs),
+    /// Cut a part, or an overview, out of a folder of tiles.
+    Window(WindowArgs),
     /// Make meshes with good angles and sizes: new vertices until all triangles are as wanted.
     Mesh(Box<MeshArgs>),
     /// Triangulate the insides of polygons, each alone.

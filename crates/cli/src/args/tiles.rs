@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use delone_io::Format;
 
 use super::{InputArgs, count};
 
@@ -47,6 +48,49 @@ pub(crate) struct TilesArgs {
     /// Points of a tile at most, instead of as many as memory allows.
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) tile: Option<usize>,
+}
+
+/// Cut a part, or an overview, out of a folder of tiles.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone window tiles --box 637000,851000,637200,851200 -o part.vtu -o part.png
+  delone window tiles --points 100000 -o overview.png
+  delone window tiles --box 0,0,1,1 --tiles -o tiles.svg
+
+Of a box all triangles that may meet it, which are those of all points, with heights where tiles have them. Of an overview as many
+points as are asked for, about, at equal steps along the curve of each tile, triangulated.
+Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
+pub(crate) struct WindowArgs {
+    /// Folder that delone tiles made.
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+    /// Mesh or picture; may be repeated.
+    #[arg(long, short, value_name = "OUT", required = true)]
+    pub(crate) output: Vec<PathBuf>,
+    /// Format of outputs whose extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+    /// The part, in coordinate units: least x and y, greatest x and y.
+    #[arg(
+        long = "box",
+        value_name = "X,Y,X,Y",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true
+    )]
+    pub(crate) box_: Vec<f64>,
+    /// An overview of so many points.
+    #[arg(long, value_name = "N")]
+    pub(crate) points: Option<std::num::NonZero<u64>>,
+    /// In pictures, colour triangles by tile, those of seams apart, and draw the cuts.
+    #[arg(long)]
+    pub(crate) tiles: bool,
+    /// The longer side of pictures in pixels.
+    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
+    pub(crate) size: u32,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
 }
 
 /// A number of bytes: 64M, 1.5G, 2GiB, 1e9.

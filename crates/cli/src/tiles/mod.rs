@@ -13,6 +13,7 @@ mod manifest;
 mod node;
 mod seams;
 mod verdict;
+mod window;
 
 use std::fs;
 use std::path::Path;
@@ -21,6 +22,7 @@ use delone::tiles::{Cuts, Fingerprint, Node};
 
 pub(crate) use describe::describe;
 pub(crate) use verdict::check;
+pub(crate) use window::run as window;
 
 use buckets::Buckets;
 use budget::Budget;

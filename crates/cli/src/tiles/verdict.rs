@@ -318,7 +318,12 @@ fn wrong(path: &Path, what: String) -> Failure {
     Failure::new(format!("{}: {what}", path.display()), HELP)
 }
 
-fn read<T>(
+/// A name that is of no point.
+pub(super) fn foreign(path: &Path) -> Failure {
+    wrong(path, "a triangle has a corner that is no point".to_owned())
+}
+
+pub(super) fn read<T>(
     path: &PathBuf,
     content: impl Fn(Box<dyn delone_io::Source>) -> Result<T, delone_io::Error>,
 ) -> Result<T, Failure> {

@@ -1,0 +1,240 @@
+//! `delone window`: a part of a folder of tiles, or some of its points, as one mesh.
+//!
+//! Of a box: every triangle that may meet it, from the tiles whose region does and from all seams. They are those of the whole: the
+//! triangulation of their corners has all of them, because what is empty of all points is empty of some, and the others are left
+//! out. Of an overview: points at equal steps along the curve of each tile, triangulated.
+//!
+//! Cost: reading the tiles and seams concerned, one at a time, and the triangulation of what is shown.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use delone::tiles::{Node, Region};
+use delone::{Delaunay2, Triangulation as _};
+use delone_io::{Format, Mesh, ReadOptions, Trim, picture, write_mesh};
+
+use super::manifest::{self, Manifest, place};
+use super::node::Done;
+use super::verdict::read;
+use crate::args::WindowArgs;
+use crate::files;
+use crate::message::{Failure, say};
+use crate::progress::Phase;
+use crate::room;
+use crate::stats::{Stats, grouped};
+
+/// More triangles are not made one mesh without a box.
+const MANY: u64 = 20_000_000;
+/// In a picture the triangles of a tile have one of so many colours, and those of seams another.
+const COLOURS: u32 = 7;
+
+/// Points by name, with heights if there are some, and triangles.
+#[derive(Default)]
+struct Part {
+    corners: BTreeMap<u64, ([f64; 2], f64)>,
+    triangles: BTreeSet<[u64; 3]>,
+}
+
+pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
+    let mut stats = Stats::start();
+    let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &[])?;
+    room::check_formats::<Delaunay2>(&outputs)?;
+    let (plan, outcome) = manifest::finished(&args.folder)?;
+    let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
+    let window = window(args)?;
+    if args.box_.is_empty() && args.points.is_none() && outcome.triangles() > MANY {
+        let what = format!("{} has {} triangles", args.folder.display(), grouped(outcome.triangles()));
+        return Err(Failure::usage(what, "choose a part with --box, or an overview with --points"));
+    }
+    let of_window = Reader { folder: &args.folder, plan: &plan, window, quiet };
+    let part = match args.points {
+        Some(points) => of_window.overview(&nodes, (outcome.vertices / points.get()).max(1) as usize)?,
+        None => of_window.part(&nodes)?,
+    };
+    stats.phase("read");
+    let names: Vec<u64> = part.corners.keys().copied().collect();
+    let points: Vec<[f64; 2]> = part.corners.values().map(|corner| corner.0).collect();
+    let heights: Vec<f64> = part.corners.values().map(|corner| corner.1).collect();
+    let d = Delaunay2::from_points(&points).map_err(|error| Failure::points(&args.folder, &error))?;
+    let is_chosen = |t| part.triangles.contains(&sorted(d.corners(t).map(|v| names[v.index()])));
+    let trim = args.points.is_none().then(|| Trim::keeping(&d, is_chosen));
+    let regions: Option<Vec<f64>> = args.tiles.then(|| colours(&d, &names));
+    stats.phase("build");
+    let shown = trim.as_ref().map_or(0, Trim::count);
+    stats.set("points", plan.count);
+    stats.set("vertices", points.len());
+    stats.set("simplices", d.simplices().count() - shown);
+    let mesh = Mesh {
+        heights: plan.has_heights.then_some(&heights[..]),
+        regions: regions.as_deref(),
+        trim: trim.as_ref(),
+        ..Mesh::new(&d, &points)
+    };
+    let options = picture::Options {
+        size: args.size,
+        links: if args.tiles { cut_lines(&plan, &window, &points) } else { Vec::new() },
+        window: args.box_.first().map(|_| [window.low, window.high]),
+        ..picture::Options::default()
+    };
+    for (path, format) in &outputs {
+        files::write(path, |out| write_mesh(out, *format, &mesh, &options))?;
+    }
+    stats.phase("write");
+    let triangles = grouped((d.simplices().count() - shown) as u64);
+    let vertices = grouped(points.len() as u64);
+    say(quiet, format_args!("{vertices} points, {triangles} triangles ({:.2} s)", stats.total()));
+    stats.write(args.stats.as_deref())
+}
+
+/// The box that was asked for; all if none was.
+fn window(args: &WindowArgs) -> Result<Region, Failure> {
+    match args.box_[..] {
+        [] => Ok(Region::ALL),
+        [a, b, c, d] if a <= c && b <= d => Ok(Region { low: [a, b], high: [c, d] }),
+        _ => {
+            let help = "as in --box 0,0,100,50: the least x and y, then the greatest";
+            Err(Failure::usage("--box takes four numbers", help))
+        }
+    }
+}
+
+/// Whoever reads the tiles of a window.
+struct Reader<'a> {
+    folder: &'a Path,
+    plan: &'a Manifest,
+    window: Region,
+    quiet: bool,
+}
+
+impl Reader<'_> {
+    /// The triangles that may meet the window.
+    fn part(&self, nodes: &[Node]) -> Result<Part, Failure> {
+        let mut part = Part::default();
+        let mut seams: Vec<[u64; 3]> = Vec::new();
+        let phase = Phase::count(self.quiet, "reading", nodes.len() as u64);
+        for &node in nodes.iter().filter(|&&node| self.plan.cuts.is_tile(node) && self.meets(node)) {
+            let points = self.points(node)?;
+            let path = place(self.folder, "triangles", node, "npy");
+            for t in read(&path, |source| delone_io::read_triangles(source, Format::Npy))? {
+                let Some(corners) = corners(&points, t) else { return Err(super::verdict::foreign(&path)) };
+                if self.shows(corners.map(|corner| corner.0)) {
+                    part.add(t.map(|v| node.id(v as u32)), corners);
+                }
+            }
+            phase.advance();
+        }
+        for &node in nodes.iter().filter(|&&node| !self.plan.cuts.is_tile(node)) {
+            let path = place(self.folder, "seam", node, "npy");
+            seams.extend(read(&path, |source| delone_io::read_triangles(source, Format::Npy))?);
+            phase.advance();
+        }
+        // Each tile is read once, for the corners of seams that are in it.
+        let mut ids: Vec<u64> = seams.iter().flatten().copied().collect();
+        ids.sort_unstable();
+        ids.dedup();
+        let mut known: BTreeMap<u64, ([f64; 2], f64)> = BTreeMap::new();
+        for of_tile in ids.chunk_by(|a, b| a >> 32 == b >> 32) {
+            let node = Node::new((of_tile[0] >> 32) as u32).filter(|&node| self.plan.cuts.is_tile(node));
+            let node = node.ok_or_else(|| super::verdict::foreign(self.folder))?;
+            let points = self.points(node)?;
+            for &id in of_tile {
+                let corner = points.get((id & u64::from(u32::MAX)) as usize);
+                known.insert(id, *corner.ok_or_else(|| super::verdict::foreign(self.folder))?);
+            }
+        }
+        for t in seams {
+            let corners = t.map(|id| known[&id]);
+            if self.shows(corners.map(|corner| corner.0)) {
+                part.add(t, corners);
+            }
+        }
+        Ok(part)
+    }
+
+    /// Of the points in the window one in so many.
+    fn overview(&self, nodes: &[Node], step: usize) -> Result<Part, Failure> {
+        let mut part = Part::default();
+        let phase = Phase::count(self.quiet, "reading", nodes.len() as u64);
+        for &node in nodes.iter().filter(|&&node| self.plan.cuts.is_tile(node) && self.meets(node)) {
+            let points = self.points(node)?;
+            let chosen =
+                points.iter().enumerate().step_by(step).filter(|(_, point)| self.window.contains(point.0));
+            part.corners.extend(chosen.map(|(v, &point)| (node.id(v as u32), point)));
+            phase.advance();
+        }
+        Ok(part)
+    }
+
+    /// The points of a tile, with heights or zeros.
+    fn points(&self, node: Node) -> Result<Vec<([f64; 2], f64)>, Failure> {
+        let path = place(self.folder, "points", node, "npy");
+        let cloud =
+            read(&path, |source| delone_io::read_points(source, Format::Npy, &ReadOptions::default()))?;
+        let heights = cloud.z.unwrap_or_else(|| vec![0.0; cloud.xy.len()]);
+        Ok(cloud.xy.into_iter().zip(heights).collect())
+    }
+
+    /// Whether the region of a node meets the window.
+    fn meets(&self, node: Node) -> bool {
+        let region = self.plan.cuts.region(node);
+        (0..2).all(|k| region.low[k] <= self.window.high[k] && self.window.low[k] <= region.high[k])
+    }
+
+    /// Whether the box of a triangle meets the window.
+    fn shows(&self, corners: [[f64; 2]; 3]) -> bool {
+        (0..2).all(|k| {
+            corners.iter().any(|p| p[k] >= self.window.low[k])
+                && corners.iter().any(|p| p[k] <= self.window.high[k])
+        })
+    }
+}
+
+impl Part {
+    fn add(&mut self, ids: [u64; 3], corners: [([f64; 2], f64); 3]) {
+        self.corners.extend(ids.into_iter().zip(corners));
+        self.triangles.insert(sorted(ids));
+    }
+}
+
+/// The corners of a triangle of a tile, if they are points of it.
+fn corners(points: &[([f64; 2], f64)], t: [u64; 3]) -> Option<[([f64; 2], f64); 3]> {
+    let [a, b, c] = t.map(|v| points.get(usize::try_from(v).ok()?).copied());
+    Some([a?, b?, c?])
+}
+
+fn sorted(mut ids: [u64; 3]) -> [u64; 3] {
+    ids.sort_unstable();
+    ids
+}
+
+/// For each triangle, by its index, a number for its tile; that of seams is another one.
+fn colours(d: &Delaunay2, names: &[u64]) -> Vec<f64> {
+    let mut colours = vec![0.0; d.slot_count()];
+    for t in d.simplices() {
+        let [a, b, c] = d.corners(t).map(|v| (names[v.index()] >> 32) as u32);
+        let is_one = a == b && b == c;
+        colours[d.index(t)] = if is_one { f64::from(1 + a % COLOURS) } else { 0.0 };
+    }
+    colours
+}
+
+/// The cuts as far as they are in the window and the box of the points.
+fn cut_lines(plan: &Manifest, window: &Region, points: &[[f64; 2]]) -> Vec<[[f64; 2]; 2]> {
+    let clip = |k: usize, x: f64| {
+        let of_points = points.iter().map(|p| p[k]);
+        let low = of_points.clone().fold(f64::INFINITY, f64::min).max(window.low[k]);
+        let high = of_points.fold(f64::NEG_INFINITY, f64::max).min(window.high[k]);
+        x.max(low).min(high)
+    };
+    let line = |(node, cut): (Node, delone::tiles::Cut)| {
+        let region = plan.cuts.region(node);
+        let end = |side: [f64; 2]| {
+            let mut end = [clip(0, side[0]), clip(1, side[1])];
+            end[cut.axis] = cut.at;
+            end
+        };
+        let is_seen = cut.at >= clip(cut.axis, f64::NEG_INFINITY) && cut.at <= clip(cut.axis, f64::INFINITY);
+        is_seen.then(|| [end(region.low), end(region.high)])
+    };
+    plan.cuts.cuts().into_iter().filter_map(line).collect()
+}
