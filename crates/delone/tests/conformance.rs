@@ -69,6 +69,13 @@ fn agreed(points: &[[f64; 2]], what: &str, algorithms: Vec<Algorithm2>) -> Vec<[
         assert_eq!(d.dimension(), first.dimension(), "{what} {algorithm:?}");
         assert_eq!(d.hull_vertices().count(), first.hull_vertices().count(), "{what} {algorithm:?}");
     }
+    let (d, order) = Delaunay2::along_curve(points).expect("finite points");
+    assert_eq!(d.check(), Ok(()), "{what} along a curve");
+    assert!(triangles(&d) == expected, "{what} along a curve differs");
+    assert!(d.vertices().map(|v| d.point(v)).eq(order.iter().map(|&i| points[i as usize])), "{what}");
+    let mut indices: Vec<usize> = order.iter().map(|&i| i as usize).collect();
+    indices.sort_unstable();
+    assert!(first.vertices().map(|v| v.index()).eq(indices), "{what} along a curve: other vertices");
     expected
 }
 

@@ -225,6 +225,11 @@ fn clean(folder: &Path, plan: &Manifest) {
     }
 }
 
+/// So many, in words.
+fn in_tiles(count: usize) -> String {
+    format!("{} {}", grouped(count as u64), if count == 1 { "tile" } else { "tiles" })
+}
+
 /// Says what was done.
 fn tell(plan: &Manifest, stats: &mut Stats, quiet: bool) {
     let Some(outcome) = &plan.outcome else { return };
@@ -254,11 +259,11 @@ fn tell(plan: &Manifest, stats: &mut Stats, quiet: bool) {
     say(
         quiet,
         format_args!(
-            "{} points, {} triangles, {} on the hull, in {} tiles with {} points of borders ({:.2} s)",
+            "{} points, {} triangles, {} on the hull, in {} with {} points of borders ({:.2} s)",
             grouped(plan.count),
             grouped(outcome.triangles()),
             grouped(outcome.hull),
-            grouped(tiles as u64),
+            in_tiles(tiles),
             grouped(border),
             stats.total()
         ),

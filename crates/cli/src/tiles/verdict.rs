@@ -21,7 +21,7 @@ use super::manifest::{self, Manifest, place};
 use super::node::Done;
 use crate::message::{Failure, answer};
 use crate::progress::Phase;
-use crate::stats::{Stats, grouped};
+use crate::stats::Stats;
 
 /// A corner by its name, and where it is.
 type Corner = (u64, [f64; 2]);
@@ -84,8 +84,8 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
     stats.set("fingerprint", outcome.fingerprint.to_string());
     stats.write(stats_path)?;
     answer(&format!(
-        "Delaunay, and the canonical triangulation: {triangles} triangles of {vertices} vertices in {} tiles\nfingerprint {}\n",
-        grouped(tiles.len() as u64),
+        "Delaunay, and the canonical triangulation: {triangles} triangles of {vertices} vertices in {}\nfingerprint {}\n",
+        super::in_tiles(tiles.len()),
         outcome.fingerprint
     ))
 }

@@ -101,6 +101,30 @@ impl Delaunay2 {
         Self::build(points, Algorithm2::default())
     }
 
+    /// Triangulates points, and numbers those that differ along a curve: what is near in the plane is near in memory, so whoever
+    /// goes through all triangles meets what belongs to their corners (heights, say) nearly in order. Says for each vertex which
+    /// point it is, of equal ones the first. O(n log n).
+    ///
+    /// # Errors
+    /// As [`Self::from_points`].
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    ///
+    /// let points = [[5.0, 0.0], [0.0, 0.0], [5.0, 0.0], [4.0, 1.0], [1.0, 3.0]];
+    /// let (triangulation, order) = Delaunay2::along_curve(&points)?;
+    /// assert_eq!((triangulation.points().len(), order.len()), (4, 4));
+    /// assert!(triangulation.vertices().all(|v| triangulation.point(v) == points[order[v.index()] as usize]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn along_curve<P: Position2>(points: &[P]) -> Result<(Self, Vec<u32>), Error> {
+        check_count(points.len(), MAX_POINTS)?;
+        let points = P::all(points);
+        check_finite(points.iter().copied())?;
+        let (built, order) = construct::in_order(&points).distinct();
+        Ok((Self::assemble(built), order))
+    }
+
     fn build(points: Vec<[f64; 2]>, algorithm: Algorithm2) -> Result<Self, Error> {
         if algorithm != Algorithm2::DivideAndConquer {
             check_finite(points.iter().copied())?;

@@ -75,6 +75,13 @@ impl InOrder {
         positions
     }
 
+    /// The vertices as points of their own, and their indices.
+    pub(in crate::plane) fn distinct(self) -> (Built, Vec<u32>) {
+        let Self { mesh, points, indices, counters, .. } = self;
+        let counters = Counters::DivideAndConquer(counters);
+        (Built { points, mesh, duplicates: Vec::new(), counters }, indices)
+    }
+
     /// The same with vertices at the places of their indices among all points, its fixed edges kept.
     pub(in crate::plane) fn numbered(self, points: Vec<[f64; 2]>) -> Built {
         let Self { mut mesh, indices, duplicates, counters, .. } = self;
