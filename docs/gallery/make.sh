@@ -78,6 +78,11 @@ else
     echo "no $scan: its picture stays as it is"
 fi
 
+# Tiles, and the seams between them.
+$delone generate uniform -n 3000 --seed 5 -o "$work/tiled.csv"
+$delone tiles "$work/tiled.csv" -o "$work/tiles" --tile 220
+$delone window "$work/tiles" --tiles -o $here/tiles.png --size 700
+
 # Constraints: the Great Lakes, and a snowflake.
 $delone draw data/great_lakes.geojson -o $here/lakes.png --size 1200
 $delone generate koch -n 768 -o "$work/koch.poly"

@@ -6,11 +6,11 @@
 //!
 //! Cost: reading the tiles and seams concerned, one at a time, and the triangulation of what is shown.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use delone::tiles::{Node, Region};
-use delone::{Delaunay2, Triangulation as _};
+use delone::{Delaunay2, TriangleId, Triangulation as _};
 use delone_io::{Format, Mesh, ReadOptions, Trim, picture, write_mesh};
 
 use super::manifest::{self, Manifest, place};
@@ -32,7 +32,8 @@ const COLOURS: u32 = 7;
 #[derive(Default)]
 struct Part {
     corners: BTreeMap<u64, ([f64; 2], f64)>,
-    triangles: BTreeSet<[u64; 3]>,
+    /// By their sorted corners, with the tile that they are of, if it is one.
+    triangles: BTreeMap<[u64; 3], Option<Node>>,
 }
 
 pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
@@ -56,9 +57,9 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let points: Vec<[f64; 2]> = part.corners.values().map(|corner| corner.0).collect();
     let heights: Vec<f64> = part.corners.values().map(|corner| corner.1).collect();
     let d = Delaunay2::from_points(&points).map_err(|error| Failure::points(&args.folder, &error))?;
-    let is_chosen = |t| part.triangles.contains(&sorted(d.corners(t).map(|v| names[v.index()])));
-    let trim = args.points.is_none().then(|| Trim::keeping(&d, is_chosen));
-    let regions: Option<Vec<f64>> = args.tiles.then(|| colours(&d, &names));
+    let origin = |t| part.triangles.get(&sorted(d.corners(t).map(|v| names[v.index()])));
+    let trim = args.points.is_none().then(|| Trim::keeping(&d, |t| origin(t).is_some()));
+    let regions: Option<Vec<f64>> = args.tiles.then(|| colours(&d, |t| origin(t).copied().flatten()));
     stats.phase("build");
     let shown = trim.as_ref().map_or(0, Trim::count);
     stats.set("points", plan.count);
@@ -118,7 +119,7 @@ impl Reader<'_> {
             for t in read(&path, |source| delone_io::read_triangles(source, Format::Npy))? {
                 let Some(corners) = corners(&points, t) else { return Err(super::verdict::foreign(&path)) };
                 if self.shows(corners.map(|corner| corner.0)) {
-                    part.add(t.map(|v| node.id(v as u32)), corners);
+                    part.add(t.map(|v| node.id(v as u32)), corners, Some(node));
                 }
             }
             phase.advance();
@@ -145,7 +146,7 @@ impl Reader<'_> {
         for t in seams {
             let corners = t.map(|id| known[&id]);
             if self.shows(corners.map(|corner| corner.0)) {
-                part.add(t, corners);
+                part.add(t, corners, None);
             }
         }
         Ok(part)
@@ -190,9 +191,9 @@ impl Reader<'_> {
 }
 
 impl Part {
-    fn add(&mut self, ids: [u64; 3], corners: [([f64; 2], f64); 3]) {
+    fn add(&mut self, ids: [u64; 3], corners: [([f64; 2], f64); 3], tile: Option<Node>) {
         self.corners.extend(ids.into_iter().zip(corners));
-        self.triangles.insert(sorted(ids));
+        self.triangles.insert(sorted(ids), tile);
     }
 }
 
@@ -208,12 +209,10 @@ fn sorted(mut ids: [u64; 3]) -> [u64; 3] {
 }
 
 /// For each triangle, by its index, a number for its tile; that of seams is another one.
-fn colours(d: &Delaunay2, names: &[u64]) -> Vec<f64> {
+fn colours(d: &Delaunay2, tile: impl Fn(TriangleId) -> Option<Node>) -> Vec<f64> {
     let mut colours = vec![0.0; d.slot_count()];
     for t in d.simplices() {
-        let [a, b, c] = d.corners(t).map(|v| (names[v.index()] >> 32) as u32);
-        let is_one = a == b && b == c;
-        colours[d.index(t)] = if is_one { f64::from(1 + a % COLOURS) } else { 0.0 };
+        colours[d.index(t)] = tile(t).map_or(0.0, |node| f64::from(1 + node.number() % COLOURS));
     }
     colours
 }
