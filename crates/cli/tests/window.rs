@@ -1,6 +1,7 @@
-//! A part of a folder of tiles is that part of the whole, and an overview has the points that it should.
+//! What is made of a folder of tiles: a part is that part of the whole, an overview has the points that it should, neighbours know each
+//! other.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use delone::Delaunay2;
@@ -70,6 +71,71 @@ fn a_part_is_that_of_the_whole() {
             assert_eq!(part, expected, "{kind} {given}");
             assert!(from > 1.0 || !part.is_empty(), "{kind} {given}");
         }
+        fs::remove_dir_all(place.path("t")).expect("removed");
+    }
+}
+
+/// The rows of three numbers of a file.
+fn rows(place: &Place, name: &str) -> Vec<[u64; 3]> {
+    let file = std::io::BufReader::new(fs::File::open(place.path(name)).expect("written"));
+    delone_io::read_triangles(Box::new(file), delone_io::Format::Npy).expect("rows")
+}
+
+#[test]
+fn what_is_across_an_edge_is_known() {
+    let place = Place::new();
+    for (kind, size, tile) in
+        [("uniform", 2000, 200), ("grid", 1600, 100), ("uniform", 300, 1000), ("circle", 200, 30)]
+    {
+        place.succeed(&format!("-q generate {kind} -n {size} --seed 3 -o p.csv"));
+        place.succeed(&format!("-q tiles p.csv -o t --tile {tile}"));
+        // Of tiles that are done, and again.
+        place.succeed(&format!("-q tiles p.csv -o t --tile {tile} --resume --neighbors"));
+        place.succeed(&format!("-q tiles p.csv -o t --tile {tile} --resume --neighbors"));
+        let manifest: serde_json::Value =
+            serde_json::from_slice(&fs::read(place.path("t/tiles.json")).expect("written")).expect("JSON");
+        // By name: corners, and what is across, the outline as nothing.
+        let mut all: BTreeMap<u64, ([u64; 3], [Option<u64>; 3])> = BTreeMap::new();
+        for node in manifest["nodes"].as_array().expect("nodes") {
+            let node = node["node"].as_u64().expect("a number");
+            let triangles = format!("t/triangles-{node:05}.npy");
+            if place.path(&triangles).exists() {
+                let beside = rows(&place, &format!("t/neighbors-{node:05}.npy"));
+                for (row, (t, beside)) in rows(&place, &triangles).into_iter().zip(beside).enumerate() {
+                    let beside =
+                        beside.map(|next| (next != u64::from(u32::MAX)).then_some(node << 32 | next));
+                    all.insert(node << 32 | row as u64, (t.map(|v| node << 32 | v), beside));
+                }
+                for [row, corner, other] in rows(&place, &format!("t/across-{node:05}.npy")) {
+                    let known = &mut all.get_mut(&(node << 32 | row)).expect("a triangle").1[corner as usize];
+                    assert_eq!(known.replace(other), None);
+                }
+            } else {
+                let beside = rows(&place, &format!("t/neighbors-{node:05}.npy"));
+                let seam = rows(&place, &format!("t/seam-{node:05}.npy"));
+                assert_eq!(seam.len(), beside.len());
+                for (row, (t, beside)) in seam.into_iter().zip(beside).enumerate() {
+                    let beside = beside.map(|next| (next != u64::MAX).then_some(next));
+                    all.insert(node << 32 | row as u64, (t, beside));
+                }
+            }
+        }
+        assert_eq!(Some(all.len() as u64), manifest["triangles"].as_u64());
+        let mut outline = 0;
+        for (&name, (corners, beside)) in &all {
+            for k in 0..3 {
+                let Some(other) = beside[k] else {
+                    outline += 1;
+                    continue;
+                };
+                let (far, back) = &all[&other];
+                let j = back.iter().position(|&next| next == Some(name)).expect("both know each other");
+                assert_eq!(corners[(k + 1) % 3], far[(j + 2) % 3]);
+                assert_eq!(corners[(k + 2) % 3], far[(j + 1) % 3]);
+            }
+        }
+        assert_eq!(Some(outline), manifest["hull"].as_u64(), "{kind}");
+        place.succeed("check t");
         fs::remove_dir_all(place.path("t")).expect("removed");
     }
 }

@@ -23,6 +23,10 @@ files are one set, in their order. Each file is read twice. The folder then hold
   ids-NNNNN.npy         for each of them its index in the input, from 0: uint64 (n,)
   triangles-NNNNN.npy   its triangles, counter-clockwise, as indices of its points: uint32 (t, 3)
   seam-NNNNN.npy        triangles between tiles, uint64 (t, 3): the number of the tile times 2^32, and the index there
+With --neighbors, number k of a row being across the edge opposite to corner k:
+  neighbors-NNNNN.npy   of a tile the rows of the same file, uint32 (t, 3), 2^32 - 1 where there is none; of a seam triangles,
+                        uint64 (t, 3): the number of the node times 2^32, and the row there; 2^64 - 1 outside
+  across-NNNNN.npy      of a tile what is across other edges, uint64 (k, 3): row, corner, triangle as above
 The fingerprint is that of the set of triangles by coordinates: delone triangulate --fingerprint prints the same.
 
 A run that was stopped, at any moment, goes on with --resume, and what was finished is not done again.
@@ -45,6 +49,9 @@ pub(crate) struct TilesArgs {
     /// Keep the heights of the points: the files must have them.
     #[arg(long)]
     pub(crate) heights: bool,
+    /// Write what is across each edge too; with --resume also for tiles that are done.
+    #[arg(long)]
+    pub(crate) neighbors: bool,
     /// Points of a tile at most, instead of as many as memory allows.
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) tile: Option<usize>,

@@ -10,6 +10,7 @@ mod describe;
 mod input;
 mod leaf;
 mod manifest;
+mod neighbors;
 mod node;
 mod seams;
 mod verdict;
@@ -65,6 +66,10 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
         note(quiet, format_args!("{} was done before", folder.display()));
     }
     clean(folder, &plan);
+    if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.neighbors) {
+        neighbors::write(folder, &plan, outcome, quiet)?;
+        stats.phase("neighbors");
+    }
     tell(&plan, &mut stats, quiet);
     stats.write(args.input.stats.as_deref())
 }

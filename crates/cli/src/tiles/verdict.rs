@@ -318,9 +318,9 @@ fn wrong(path: &Path, what: String) -> Failure {
     Failure::new(format!("{}: {what}", path.display()), HELP)
 }
 
-/// A name that is of no point.
-pub(super) fn foreign(path: &Path) -> Failure {
-    wrong(path, "a triangle has a corner that is no point".to_owned())
+/// What is wrong with a file that nobody should have changed.
+pub(super) fn damaged(path: &Path, what: &str) -> Failure {
+    wrong(path, what.to_owned())
 }
 
 pub(super) fn read<T>(

@@ -15,7 +15,7 @@ use delone_io::{Format, Mesh, ReadOptions, Trim, picture, write_mesh};
 
 use super::manifest::{self, Manifest, place};
 use super::node::Done;
-use super::verdict::read;
+use super::verdict::{damaged, read};
 use crate::args::WindowArgs;
 use crate::files;
 use crate::message::{Failure, say};
@@ -27,6 +27,9 @@ use crate::stats::{Stats, grouped};
 const MANY: u64 = 20_000_000;
 /// In a picture the triangles of a tile have one of so many colours, and those of seams another.
 const COLOURS: u32 = 7;
+
+/// A name that is of no point.
+const FOREIGN: &str = "a triangle has a corner that is no point";
 
 /// Points by name, with heights if there are some, and triangles.
 #[derive(Default)]
@@ -117,7 +120,7 @@ impl Reader<'_> {
             let points = self.points(node)?;
             let path = place(self.folder, "triangles", node, "npy");
             for t in read(&path, |source| delone_io::read_triangles(source, Format::Npy))? {
-                let Some(corners) = corners(&points, t) else { return Err(super::verdict::foreign(&path)) };
+                let Some(corners) = corners(&points, t) else { return Err(damaged(&path, FOREIGN)) };
                 if self.shows(corners.map(|corner| corner.0)) {
                     part.add(t.map(|v| node.id(v as u32)), corners, Some(node));
                 }
@@ -136,11 +139,11 @@ impl Reader<'_> {
         let mut known: BTreeMap<u64, ([f64; 2], f64)> = BTreeMap::new();
         for of_tile in ids.chunk_by(|a, b| a >> 32 == b >> 32) {
             let node = Node::new((of_tile[0] >> 32) as u32).filter(|&node| self.plan.cuts.is_tile(node));
-            let node = node.ok_or_else(|| super::verdict::foreign(self.folder))?;
+            let node = node.ok_or_else(|| damaged(self.folder, FOREIGN))?;
             let points = self.points(node)?;
             for &id in of_tile {
                 let corner = points.get((id & u64::from(u32::MAX)) as usize);
-                known.insert(id, *corner.ok_or_else(|| super::verdict::foreign(self.folder))?);
+                known.insert(id, *corner.ok_or_else(|| damaged(self.folder, FOREIGN))?);
             }
         }
         for t in seams {

@@ -1,0 +1,146 @@
+//! `--neighbors`: what is across each edge of each triangle, in tiles, in seams and between them.
+//!
+//! Inside of a tile it is a row of the same file. What has no triangle of its tile across waits for the seams: no edge is between
+//! final triangles of two tiles, because these have no corner in common.
+//!
+//! Cost: O(n log n); memory for the largest tile, some 150 bytes a point, and for all edges between tiles, 80 bytes each.
+
+use std::path::Path;
+
+use delone::tiles::Node;
+use delone_io::{Format, write_array};
+use rayon::prelude::*;
+
+use super::manifest::{Manifest, Outcome, place};
+use super::node::Done;
+use super::verdict::{damaged, read};
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+
+/// Nothing is across: the outline, or in a tile what its file of other neighbours has.
+const NONE: u32 = u32::MAX;
+
+/// An edge of a triangle, opposite to one of its corners.
+#[derive(Clone, Copy)]
+struct Side {
+    /// The names of its ends, the lesser first.
+    ends: [u64; 2],
+    /// The number of the node times 2^32, and the row.
+    triangle: u64,
+    corner: u64,
+}
+
+/// Writes the neighbours of all nodes.
+pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bool) -> Result<(), Failure> {
+    let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
+    let phase = Phase::count(quiet, "finding neighbours", nodes.len() as u64);
+    let mut waiting = Vec::new();
+    for done in &nodes {
+        if plan.cuts.is_tile(done.node) {
+            in_tile(folder, done.node, &mut waiting)?;
+        } else {
+            in_seam(folder, done.node, &mut waiting)?;
+        }
+        phase.advance();
+    }
+    let across = pair(folder, waiting)?;
+    let mut rest = &across[..];
+    let mut of_node = |node: Node| {
+        let count = rest.partition_point(|found| found[0] >> 32 <= u64::from(node.number()));
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        own
+    };
+    let mut sorted = nodes;
+    sorted.sort_unstable_by_key(|done| done.node);
+    for done in &sorted {
+        let found = of_node(done.node);
+        let row = |triangle: u64| triangle & u64::from(u32::MAX);
+        if plan.cuts.is_tile(done.node) {
+            let rows = found.iter().flat_map(|&[triangle, corner, other]| [row(triangle), corner, other]);
+            files::write(&place(folder, "across", done.node, "npy"), |out| {
+                Ok(write_array(out, &[found.len(), 3], rows.clone())?)
+            })?;
+        } else {
+            let mut neighbors = vec![u64::MAX; 3 * done.fingerprint.count() as usize];
+            for &[triangle, corner, other] in found {
+                neighbors[(3 * row(triangle) + corner) as usize] = other;
+            }
+            files::write(&place(folder, "neighbors", done.node, "npy"), |out| {
+                Ok(write_array(out, &[neighbors.len() / 3, 3], neighbors.iter().copied())?)
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// The neighbours inside of a tile; what has none there waits.
+fn in_tile(folder: &Path, node: Node, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+    let path = place(folder, "triangles", node, "npy");
+    let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+    let count = triangles.len();
+    // Both ends, the lesser first, and three times the row with the corner.
+    let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * count);
+    for (row, t) in triangles.into_iter().enumerate() {
+        edges.extend((0..3).map(|k| {
+            let [a, b] = ends(t, k);
+            (a << 32 | b, (3 * row + k) as u32)
+        }));
+    }
+    edges.par_sort_unstable();
+    let mut neighbors = vec![NONE; 3 * count];
+    for group in edges.chunk_by(|e, f| e.0 == f.0) {
+        match *group {
+            [(_, one), (_, other)] => {
+                neighbors[one as usize] = other / 3;
+                neighbors[other as usize] = one / 3;
+            }
+            [(key, slot)] => waiting.push(Side {
+                ends: [key >> 32, key & u64::from(u32::MAX)].map(|v| node.id(v as u32)),
+                triangle: node.id(slot / 3),
+                corner: u64::from(slot % 3),
+            }),
+            _ => return Err(damaged(&path, "triangles overlap")),
+        }
+    }
+    files::write(&place(folder, "neighbors", node, "npy"), |out| {
+        Ok(write_array(out, &[count, 3], neighbors.iter().copied())?)
+    })
+}
+
+/// All edges of a seam wait for each other and for those of tiles.
+fn in_seam(folder: &Path, node: Node, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+    let path = place(folder, "seam", node, "npy");
+    for (row, t) in
+        read(&path, |source| delone_io::read_triangles(source, Format::Npy))?.into_iter().enumerate()
+    {
+        let side = |k: usize| Side { ends: ends(t, k), triangle: node.id(row as u32), corner: k as u64 };
+        waiting.extend((0..3).map(side));
+    }
+    Ok(())
+}
+
+/// The ends of the edge of a triangle that is opposite to a corner, the lesser first.
+fn ends(t: [u64; 3], corner: usize) -> [u64; 2] {
+    let [a, b] = [t[(corner + 1) % 3], t[(corner + 2) % 3]];
+    [a.min(b), a.max(b)]
+}
+
+/// Triangle, corner and what is across, for all that found another one, by triangle.
+fn pair(folder: &Path, mut waiting: Vec<Side>) -> Result<Vec<[u64; 3]>, Failure> {
+    waiting.par_sort_unstable_by_key(|side| side.ends);
+    let mut across = Vec::new();
+    for group in waiting.chunk_by(|one, other| one.ends == other.ends) {
+        match *group {
+            [one, other] => {
+                across.push([one.triangle, one.corner, other.triangle]);
+                across.push([other.triangle, other.corner, one.triangle]);
+            }
+            [_] => {}
+            _ => return Err(damaged(folder, "triangles overlap")),
+        }
+    }
+    across.par_sort_unstable();
+    Ok(across)
+}
