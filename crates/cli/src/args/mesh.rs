@@ -39,13 +39,13 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "SWITCHES", value_parser = Switches::parse, allow_hyphen_values = true, conflicts_with_all = SAID)]
     pub(crate) triangle: Option<Switches>,
     /// No smaller angles, in degrees, but where the input forces them: 0 to 34, or less than 60 with --max-vertices [default: 20].
-    #[arg(long, value_name = "DEGREES", help_heading = "Quality")]
+    #[arg(long, allow_negative_numbers = true, value_name = "DEGREES", help_heading = "Quality")]
     pub(crate) min_angle: Option<f64>,
     /// No larger triangles. Regions of .poly files may have smaller bounds of their own.
-    #[arg(long, value_name = "AREA", help_heading = "Quality")]
+    #[arg(long, allow_negative_numbers = true, value_name = "AREA", help_heading = "Quality")]
     pub(crate) max_area: Option<f64>,
     /// No longer edges.
-    #[arg(long, value_name = "LENGTH", help_heading = "Quality")]
+    #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
     pub(crate) max_edge: Option<f64>,
     /// So many new vertices at most.
     #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
