@@ -6,6 +6,8 @@
 
 mod chunks;
 mod cloud;
+#[cfg(feature = "parquet")]
+mod columns;
 mod crs;
 mod diagram;
 mod elements;
@@ -27,6 +29,8 @@ mod trim;
 
 pub use chunks::Take;
 pub use cloud::Cloud;
+#[cfg(feature = "parquet")]
+pub use columns::{Column, write_columns};
 pub use crs::Crs;
 pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;

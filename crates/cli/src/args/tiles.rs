@@ -8,6 +8,7 @@ use delone_io::Format;
 use super::{InputArgs, count};
 
 /// Triangulate more points than memory, in tiles.
+#[expect(clippy::struct_excessive_bools, reason = "each is an option")]
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   delone tiles survey/*.laz --class ground --heights -o tiles --memory 4G
@@ -27,6 +28,9 @@ With --neighbors, number k of a row being across the edge opposite to corner k:
   neighbors-NNNNN.npy   of a tile the rows of the same file, uint32 (t, 3), 2^32 - 1 where there is none; of a seam triangles,
                         uint64 (t, 3): the number of the node times 2^32, and the row there; 2^64 - 1 outside
   across-NNNNN.npy      of a tile what is across other edges, uint64 (k, 3): row, corner, triangle as above
+With --parquet, tables whose names count over all tiles: the number of a tile times 2^32, and the index there:
+  points-NNNNN.parquet      vertex, row of the input from 0, x, y, with --heights z
+  triangles-NNNNN.parquet   a, b, c: vertices, of tiles and of seams
 The fingerprint is that of the set of triangles by coordinates: delone triangulate --fingerprint prints the same.
 
 A run that was stopped, at any moment, goes on with --resume, and what was finished is not done again.
@@ -52,6 +56,10 @@ pub(crate) struct TilesArgs {
     /// Write what is across each edge too; with --resume also for tiles that are done.
     #[arg(long)]
     pub(crate) neighbors: bool,
+    /// Write tables in Parquet too; with --resume also for tiles that are done.
+    #[cfg(feature = "parquet")]
+    #[arg(long)]
+    pub(crate) parquet: bool,
     /// Points of a tile at most, instead of as many as memory allows.
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) tile: Option<usize>,

@@ -13,6 +13,8 @@ mod manifest;
 mod neighbors;
 mod node;
 mod seams;
+#[cfg(feature = "parquet")]
+mod tables;
 mod verdict;
 mod window;
 
@@ -69,6 +71,11 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.neighbors) {
         neighbors::write(folder, &plan, outcome, quiet)?;
         stats.phase("neighbors");
+    }
+    #[cfg(feature = "parquet")]
+    if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.parquet) {
+        tables::write(folder, &plan, outcome, quiet)?;
+        stats.phase("tables");
     }
     tell(&plan, &mut stats, quiet);
     stats.write(args.input.stats.as_deref())

@@ -1,0 +1,66 @@
+//! `--parquet`: the folder once more as tables, for programs that read Parquet.
+//!
+//! Names count over all tiles here, so all files of a kind are one table: `read_parquet('tiles/triangles-*.parquet')`.
+//!
+//! Cost: O(n); memory for the largest tile, some 120 bytes a point.
+
+use std::path::Path;
+
+use delone::tiles::Node;
+use delone_io::{Column, Format, ReadOptions, write_columns};
+
+use super::manifest::{Manifest, Outcome, place};
+use super::node::Done;
+use super::verdict::{damaged, read};
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+
+/// Writes the tables of all nodes.
+pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bool) -> Result<(), Failure> {
+    let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
+    let phase = Phase::count(quiet, "writing tables", nodes.len() as u64);
+    for node in nodes {
+        if plan.cuts.is_tile(node) {
+            points(folder, node)?;
+            triangles(folder, "triangles", node, |v| node.id(v as u32))?;
+        } else {
+            triangles(folder, "seam", node, |v| v)?;
+        }
+        phase.advance();
+    }
+    Ok(())
+}
+
+fn points(folder: &Path, node: Node) -> Result<(), Failure> {
+    let path = place(folder, "points", node, "npy");
+    let cloud = read(&path, |source| delone_io::read_points(source, Format::Npy, &ReadOptions::default()))?;
+    let ids = place(folder, "ids", node, "npy");
+    // Indices are far below 2^53.
+    let rows: Vec<i64> = read(&ids, |source| delone_io::read_numbers(source, Format::Npy))?
+        .into_iter()
+        .map(|row| row as i64)
+        .collect();
+    if rows.len() != cloud.xy.len() {
+        return Err(damaged(&path, "it has not as many points as there are ids"));
+    }
+    let names: Vec<i64> = (0..cloud.xy.len()).map(|v| node.id(v as u32) as i64).collect();
+    let [x, y] = [0, 1].map(|k| cloud.xy.iter().map(|p| p[k]).collect::<Vec<f64>>());
+    let mut columns = vec![
+        ("vertex", Column::Integers(&names)),
+        ("row", Column::Integers(&rows)),
+        ("x", Column::Numbers(&x)),
+        ("y", Column::Numbers(&y)),
+    ];
+    columns.extend(cloud.z.as_ref().map(|z| ("z", Column::Numbers(z))));
+    files::write(&place(folder, "points", node, "parquet"), |out| write_columns(out, &columns))
+}
+
+fn triangles(folder: &Path, kind: &str, node: Node, name: impl Fn(u64) -> u64) -> Result<(), Failure> {
+    let path = place(folder, kind, node, "npy");
+    let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+    let corner = |k: usize| triangles.iter().map(|t| name(t[k]) as i64).collect::<Vec<i64>>();
+    let [a, b, c] = [0, 1, 2].map(corner);
+    let columns = [("a", Column::Integers(&a)), ("b", Column::Integers(&b)), ("c", Column::Integers(&c))];
+    files::write(&place(folder, "triangles", node, "parquet"), |out| write_columns(out, &columns))
+}
