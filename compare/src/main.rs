@@ -10,6 +10,7 @@ mod hull;
 mod memory;
 mod mesh;
 mod space;
+mod tiles;
 mod voronoi;
 mod weights;
 
@@ -53,6 +54,9 @@ struct Args {
     /// Time proximity graphs instead of building.
     #[arg(long)]
     graphs: bool,
+    /// Time triangulation in tiles instead of building.
+    #[arg(long)]
+    tiles: bool,
     /// Time convex hulls in space instead of building.
     #[arg(long)]
     hull: bool,
@@ -128,6 +132,9 @@ fn compare(args: &Args) {
         let chosen = changes::chosen(&args.engines);
         let run = |kind, size, runs| changes::run(&chosen, kind, size, runs);
         std::process::exit(i32::from(!each_set(args, run)));
+    }
+    if args.tiles {
+        std::process::exit(i32::from(!each_set(args, tiles::run)));
     }
     if args.graphs {
         std::process::exit(i32::from(!each_set(args, graphs::run)));
