@@ -173,14 +173,16 @@ pub enum Error {
         at: [f64; 2],
     },
     /// A point that is not in the region of its tile.
-    #[error("point {index} at ({}, {}) is not in the region of its tile", .at[0], .at[1])]
+    #[error("point {index} has the {} coordinate {value}, which is not in the region of its tile", ["x", "y", "z"][*.axis])]
     OutsideRegion {
         /// The index of the point in the input.
         index: usize,
-        /// The point.
-        at: [f64; 2],
+        /// 0 for x, 1 for y, 2 for z: the first that is outside.
+        axis: usize,
+        /// The coordinate.
+        value: f64,
     },
-    /// A cut of the plane into tiles that is none, or where none can be.
+    /// A cut of the plane or of space into tiles that is none, or where none can be.
     #[error("the tiles cannot be cut at node {node}: {problem}")]
     Cut {
         /// The number of the node.
@@ -227,6 +229,14 @@ pub enum BorderProblem {
     /// Bytes that do not begin as a border does.
     #[error("these bytes are no border of a tile, or one of another version")]
     Unknown,
+    /// Bytes of a border of the plane where one of space should be, or the other way round.
+    #[error("a border of points with {found} coordinates, where they should have {expected}")]
+    Dimension {
+        /// How many coordinates points should have.
+        expected: usize,
+        /// How many they have.
+        found: usize,
+    },
     /// Bytes that end too early or too late.
     #[error("{found} bytes where there should be {expected}")]
     Length {
@@ -252,11 +262,11 @@ pub enum BorderProblem {
         /// The index of the point in the border.
         point: usize,
     },
-    /// An open triangle without a corner.
-    #[error("triangle {triangle} has a corner that is none of the {points} points")]
+    /// An open triangle, or tetrahedron, without a corner.
+    #[error("simplex {simplex} has a corner that is none of the {points} points")]
     Corner {
-        /// The index of the triangle.
-        triangle: usize,
+        /// The index of the triangle or tetrahedron.
+        simplex: usize,
         /// The number of points.
         points: usize,
     },

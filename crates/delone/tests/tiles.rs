@@ -246,7 +246,8 @@ fn points_that_are_none_are_named() {
     ));
     for at in [[1.0, 0.5], [0.5, 1.0], [-0.1, 0.5], [0.5, -0.1]] {
         let found = Tile::new(&[[0.0, 0.0], at, [7.0, 7.0]], &region).err();
-        assert_eq!(found, Some(Error::OutsideRegion { index: 1, at }));
+        let axis = usize::from((0.0..1.0).contains(&at[0]));
+        assert_eq!(found, Some(Error::OutsideRegion { index: 1, axis, value: at[axis] }));
     }
     assert!(Tile::new(&[], &region).is_ok_and(|tile| tile.border(u64::from) == Border::default()));
 }
@@ -264,7 +265,7 @@ fn borders_that_are_none_are_named() {
     let without = Border { ids: vec![1], ..border(2.0) };
     assert_eq!(found(without), problem(1, BorderProblem::Ids { points: 2, ids: 1 }));
     let broken = Border { open: vec![[0, 1, 0], [0, 1, 2]], ..border(2.0) };
-    assert_eq!(found(broken), problem(1, BorderProblem::Corner { triangle: 1, points: 2 }));
+    assert_eq!(found(broken), problem(1, BorderProblem::Corner { simplex: 1, points: 2 }));
     let strange = Border { points: vec![[2.0, 0.0], [f64::INFINITY, 1.0]], ..border(2.0) };
     assert_eq!(found(strange), problem(1, BorderProblem::NotFinite { point: 1 }));
 }

@@ -212,6 +212,34 @@ pub fn circle_is_within([o, a, b]: [Point2; 3], low: Point2, high: Point2) -> bo
     })
 }
 
+/// Whether the closed ball of the sphere through o, a, b, c, which are not coplanar, is in the inside of a box. Sides may be
+/// infinite.
+pub fn sphere_is_within([o, a, b, c]: [Point3; 4], low: Point3, high: Point3) -> bool {
+    (0..3).all(|k| {
+        [(low[k], -1), (high[k], 1)].into_iter().all(|(side, outward)| {
+            if side == f64::INFINITY * f64::from(outward) {
+                return true;
+            }
+            let p = integers(&[o, a, b, c, [side; 3]]);
+            let from_o = |i: usize| (0..3).map(|k| &p[i][k] - &p[0][k]).collect::<Vec<BigInt>>();
+            let rows = [1, 2, 3].map(from_o);
+            // The centre is x / d, where x.u = d |u|^2 / 2 for each row u, by Cramer's rule; the square of the radius |x|^2 / d^2.
+            let squares = [0, 1, 2].map(|i| rows[i].iter().map(|u| u.pow(2)).sum::<BigInt>());
+            let with_squares = |k: usize| {
+                let mut rows = rows.clone();
+                rows.iter_mut().zip(&squares).for_each(|(row, square)| row[k] = square.clone());
+                determinant(&rows)
+            };
+            let (mut d, mut x): (BigInt, _) = (determinant(&rows) * 2, [0, 1, 2].map(with_squares));
+            if d < BigInt::ZERO {
+                (d, x) = (-d, x.map(|x| -x));
+            }
+            let apart: BigInt = ((&p[4][k] - &p[0][k]) * d - &x[k]) * outward;
+            apart > BigInt::ZERO && apart.pow(2) > x.iter().map(|x| x.pow(2)).sum::<BigInt>()
+        })
+    })
+}
+
 /// The sign of the scalar product (a - o) . (b - o).
 pub fn angle(o: Point2, a: Point2, b: Point2) -> i8 {
     let p = integers(&[o, a, b]);

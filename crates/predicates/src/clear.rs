@@ -95,10 +95,10 @@ pub fn keeps_clear_of_sites([a, b, c, d]: [Site<3>; 4], low: Point3, high: Point
     apart - lost - needed > 8.0 * UNIT * (apart.abs() + lost + needed.abs())
 }
 
-fn cross(p: Point3, q: Point3) -> Point3 {
+pub(crate) fn cross(p: Point3, q: Point3) -> Point3 {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
-fn dot(p: Point3, q: Point3) -> f64 {
+pub(crate) fn dot(p: Point3, q: Point3) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }

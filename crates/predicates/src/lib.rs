@@ -81,7 +81,7 @@ pub use power::{
     in_power_sphere_with_ties,
 };
 pub use sign::Sign;
-pub use within::stays_within;
+pub use within::{stays_within, stays_within3};
 
 /// A point of the plane: x, then y. Both finite.
 pub type Point2 = [f64; 2];

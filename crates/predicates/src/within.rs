@@ -1,4 +1,4 @@
-//! Does the circle of a triangle stay inside of a box? "Certainly", or "perhaps not".
+//! Does the circle of a triangle, or the sphere of a tetrahedron, stay inside of a box? "Certainly", or "perhaps not".
 //!
 //! As for [`crate::keeps_clear`], those who ask lose only time if a circle is not seen to stay inside, so there is no exact
 //! stage: floating point with a proven bound.
@@ -11,9 +11,14 @@
 //! e <= u (32 m + 20 |c|) m^2 / |D| in all: the 4 are for terms of the second order, small while |D| >= 2^-30 m^2.
 //! The radius, at least as great as |c|, is off by sqrt(2) e + 2 u of itself, the distance s of a side by u |s|; their sum
 //! with c by less than 3 e + 8 u (radius + |s|). The comparison allows 4 e and 16 u.
+//!
+//! In space the centre is that of [`crate::keeps_clear`], a coordinate off by e <= u (256 m + 128 |c|) m^3 / |D|. The radius is
+//! off by sqrt(3) e + 3 u of itself; the sum with c and a side by less than 2.8 e + 8 u (radius + |s|), because the two
+//! subtractions lose 4 u radius + u |s| and the side itself u |s|. As a corner is m away, radius >= m / 2, so with
+//! |D| >= 2^-30 m^3 all e are below 1e-4 radius: what is computed stands for what it is in the bound, and 4 e and 16 u are enough.
 
-use crate::Point2;
-use crate::clear::{FLAT, SIZES, UNIT};
+use crate::clear::{FLAT, SIZES, UNIT, cross, dot};
+use crate::{Point2, Point3};
 
 /// Whether the closed disk of the circle through three points is certainly in the inside of a box, whose sides may be
 /// infinite: nothing is beyond these. The answer `false` says nothing; it is rare where the circle stays away from
@@ -51,6 +56,50 @@ pub fn stays_within([a, b, c]: [Point2; 3], low: Point2, high: Point2) -> bool {
     // False where a distance is no number or too large for one.
     let is_beyond = |gap: f64, side: f64| gap > off + 16.0 * UNIT * (radius + side.abs());
     (0..2).all(|k| {
+        let (below, above) = (low[k] - a[k], high[k] - a[k]);
+        (low[k] == f64::NEG_INFINITY || is_beyond(centre[k] - radius - below, below))
+            && (high[k] == f64::INFINITY || is_beyond(above - centre[k] - radius, above))
+    })
+}
+
+/// Whether the closed ball of the sphere through four points is certainly in the inside of a box, whose sides may be
+/// infinite: nothing is beyond these. The answer `false` says nothing; it is rare where the sphere stays away from
+/// all sides by a millionth of its radius. O(1).
+///
+/// ```
+/// use delone_predicates::stays_within3;
+///
+/// // Around (1, 1, 1), radius 1.73.
+/// let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]];
+/// assert!(stays_within3(corners, [-0.75, -0.75, -0.75], [2.75, 2.75, f64::INFINITY]));
+/// assert!(!stays_within3(corners, [-0.7, -0.75, -0.75], [2.75, 2.75, f64::INFINITY]));
+/// assert!(!stays_within3(corners, [-0.75, -0.75, -0.75], [2.75, 2.7, f64::INFINITY]));
+/// ```
+#[must_use]
+#[inline]
+pub fn stays_within3([a, b, c, d]: [Point3; 4], low: Point3, high: Point3) -> bool {
+    if low == [f64::NEG_INFINITY; 3] && high == [f64::INFINITY; 3] {
+        return true;
+    }
+    let from = |p: Point3| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
+    let (b, c, d) = (from(b), from(c), from(d));
+    let size = b.into_iter().chain(c).chain(d).fold(0.0_f64, |m, x| m.max(x.abs()));
+    if !SIZES.contains(&size) {
+        return false;
+    }
+    let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
+    let det = 2.0 * dot(b, cd);
+    let cube = size * size * size;
+    if det.abs() < FLAT * cube {
+        return false;
+    }
+    let (bb, cc, dd) = (dot(b, b), dot(c, c), dot(d, d));
+    let centre = [0, 1, 2].map(|k| (bb * cd[k] + cc * db[k] + dd * bc[k]) / det);
+    let radius = dot(centre, centre).sqrt();
+    let off = 4.0 * UNIT * (256.0 * size + 128.0 * radius) * cube / det.abs();
+    // False where a distance is no number or too large for one.
+    let is_beyond = |gap: f64, side: f64| gap > off + 16.0 * UNIT * (radius + side.abs());
+    (0..3).all(|k| {
         let (below, above) = (low[k] - a[k], high[k] - a[k]);
         (low[k] == f64::NEG_INFINITY || is_beyond(centre[k] - radius - below, below))
             && (high[k] == f64::INFINITY || is_beyond(above - centre[k] - radius, above))

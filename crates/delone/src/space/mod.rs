@@ -16,6 +16,7 @@ mod regular;
 mod triangulation;
 pub mod verify;
 
+pub(crate) use construct::{InOrder3, in_order};
 pub use delaunay::{Algorithm3, Delaunay3};
 pub use imprecise::Hints3;
 pub use locate::Location3;

@@ -1,7 +1,7 @@
-//! How the plane is cut into the regions of tiles: a tree of cuts, each by x or by y, taken from a sample of the points.
+//! How the plane, or space, is cut into the regions of tiles: a tree of cuts, each by one coordinate, taken from a sample of the points.
 //!
 //! Which tile a point is in is a function of its coordinates, so equal points are in one tile, and nothing else hangs on the sample:
-//! whatever the cuts, the triangles are the same.
+//! whatever the cuts, the triangles, or tetrahedra, are the same.
 //!
 //! Cost: O(s log t) for a sample of s points and t tiles; O(log t) to find the tile of a point, if the tree is balanced.
 
@@ -15,7 +15,7 @@ use crate::points::{Bounds, check_finite};
 pub struct Node(u32);
 
 impl Node {
-    /// All of the plane.
+    /// All of the plane, or of space.
     pub const ROOT: Self = Self(1);
 
     /// The node with a number; none has 0.
@@ -46,16 +46,16 @@ impl Node {
     }
 }
 
-/// A line parallel to an axis. What is on it belongs to the upper side.
+/// A line parallel to an axis, a plane in space. What is on it belongs to the upper side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
-    /// The coordinate that decides: 0 for x, 1 for y.
+    /// The coordinate that decides: 0 for x, 1 for y, 2 for z.
     pub axis: usize,
     /// Its least value above the cut.
     pub at: f64,
 }
 
-/// A tree of cuts.
+/// A tree of cuts, of the plane unless it is said to be of space: `Cuts<3>`.
 ///
 /// ```
 /// use delone::tiles::{Cuts, Node};
@@ -67,7 +67,7 @@ pub struct Cut {
 /// # Ok::<(), delone::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Cuts {
+pub struct Cuts<const D: usize = 2> {
     /// The root is the first.
     steps: Vec<Step>,
 }
@@ -79,20 +79,20 @@ struct Step {
     cut: Option<(Cut, [u32; 2])>,
 }
 
-impl Default for Cuts {
+impl<const D: usize> Default for Cuts<D> {
     /// One tile.
     fn default() -> Self {
         Self { steps: vec![Step { node: Node::ROOT, cut: None }] }
     }
 }
 
-impl Cuts {
-    /// Cuts the plane into so many tiles with nearly as many points of a sample each; into fewer where the sample has not so many
+impl<const D: usize> Cuts<D> {
+    /// Cuts the plane, or space, into so many tiles with nearly as many points of a sample each; into fewer where the sample has not so many
     /// points that differ.
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::Cut`] below 31 cuts.
-    pub fn from_sample(sample: &[[f64; 2]], tiles: usize) -> Result<Self, Error> {
+    pub fn from_sample(sample: &[[f64; D]], tiles: usize) -> Result<Self, Error> {
         let mut cuts = Self::default();
         cuts.cut(Node::ROOT, sample, tiles)?;
         Ok(cuts)
@@ -116,12 +116,9 @@ impl Cuts {
     /// # Errors
     /// [`Error::Cut`] if this is no tile, or below 31 cuts; [`Error::NotFinite`]; [`Error::OutsideRegion`] names the first
     /// point that is not in the tile.
-    pub fn cut(&mut self, node: Node, sample: &[[f64; 2]], tiles: usize) -> Result<bool, Error> {
+    pub fn cut(&mut self, node: Node, sample: &[[f64; D]], tiles: usize) -> Result<bool, Error> {
         check_finite(sample.iter().copied())?;
-        let region = self.region(node);
-        if let Some(index) = sample.iter().position(|&p| !region.contains(p)) {
-            return Err(Error::OutsideRegion { index, at: sample[index] });
-        }
+        self.region(node).check(sample)?;
         let mut waiting = vec![(node, sample.to_vec(), tiles)];
         let mut is_cut = false;
         while let Some((node, mut points, tiles)) = waiting.pop() {
@@ -146,8 +143,8 @@ impl Cuts {
             .filter(|&at| self.steps[at].node == node && self.steps[at].cut.is_none());
         let at = at.ok_or(wrong("it is no tile"))?;
         let region = self.region(node);
-        if cut.axis > 1 {
-            return Err(wrong("the plane has two axes, 0 and 1"));
+        if cut.axis >= D {
+            return Err(wrong("there is no such axis"));
         }
         if !(cut.at.is_finite() && region.low[cut.axis] < cut.at && cut.at < region.high[cut.axis]) {
             return Err(wrong("the cut is not inside of its region"));
@@ -161,7 +158,7 @@ impl Cuts {
 
     /// The tile of a point, whose coordinates are not NaN.
     #[inline]
-    pub fn tile_of(&self, p: [f64; 2]) -> Node {
+    pub fn tile_of(&self, p: [f64; D]) -> Node {
         let mut step = &self.steps[0];
         while let Some((cut, next)) = step.cut {
             step = &self.steps[next[usize::from(p[cut.axis] >= cut.at)] as usize];
@@ -170,7 +167,7 @@ impl Cuts {
     }
 
     /// The region of a node; of one that the tree does not have, that of the last node on the way to it.
-    pub fn region(&self, node: Node) -> Region {
+    pub fn region(&self, node: Node) -> Region<D> {
         let mut region = Region::ALL;
         let way: Vec<usize> = self.way_to(node).collect();
         for step in way.windows(2) {
@@ -244,14 +241,15 @@ impl Cuts {
     }
 }
 
-/// Cuts the longer side of the box around points where those below are to those above as half of the tiles to the other half,
-/// nearly, with some on each side; the shorter one if all have the same coordinate. None if all are equal.
-fn best_cut(points: &mut [[f64; 2]], tiles: usize) -> Option<Cut> {
-    let [width, height] = Bounds::of(points.iter().copied()).extent();
-    let longer = usize::from(height > width);
+/// Cuts the longest side of the box around points where those below are to those above as half of the tiles to the other half,
+/// nearly, with some on each side; the next one if all have the same coordinate. None if all are equal.
+fn best_cut<const D: usize>(points: &mut [[f64; D]], tiles: usize) -> Option<Cut> {
+    let extent = Bounds::of(points.iter().copied()).extent();
+    let mut axes: [usize; D] = std::array::from_fn(|axis| axis);
+    axes.sort_by(|&i, &j| extent[j].total_cmp(&extent[i]));
     let rank = (points.len() as u128 * (tiles / 2) as u128 / tiles as u128) as usize;
-    [longer, 1 - longer].into_iter().find_map(|axis| {
-        let by_axis = |p: &[f64; 2], q: &[f64; 2]| p[axis].total_cmp(&q[axis]);
+    axes.into_iter().find_map(|axis| {
+        let by_axis = |p: &[f64; D], q: &[f64; D]| p[axis].total_cmp(&q[axis]);
         let middle = (!points.is_empty()).then(|| points.select_nth_unstable_by(rank, by_axis).1[axis])?;
         let below = points.iter().filter(|p| p[axis] < middle).count();
         let up_to = points.iter().filter(|p| p[axis] <= middle).count();
@@ -313,7 +311,7 @@ mod tests {
     #[test]
     fn what_cannot_be_cut_is_not() {
         assert_eq!(Cuts::from_sample(&[[1.0, 2.0]; 50], 8).expect("finite").tiles(), [Node::ROOT]);
-        assert_eq!(Cuts::from_sample(&[], 8).expect("finite").tiles(), [Node::ROOT]);
+        assert_eq!(<Cuts>::from_sample(&[], 8).expect("finite").tiles(), [Node::ROOT]);
         // Two places, of which one is nearly always.
         let mut points = vec![[-0.0, 2.0]; 50];
         points[17] = [0.0, 3.0];
@@ -337,8 +335,8 @@ mod tests {
         let no_tile = Error::Cut { node: tile.number(), problem: "it is no tile" };
         assert_eq!(cuts.cut(tile, &inside, 3), Err(no_tile));
         let outside = points.iter().position(|&p| !cuts.region(tile).contains(p)).expect("some");
-        let error = Error::OutsideRegion { index: outside, at: points[outside] };
-        assert_eq!(cuts.cut(tile, &points, 3), Err(error));
+        let found = cuts.cut(tile, &points, 3);
+        assert!(matches!(found, Err(Error::OutsideRegion { index, .. }) if index == outside));
         let bad = [[0.0, 1.0], [f64::NAN, 2.0]];
         assert!(matches!(Cuts::from_sample(&bad, 2), Err(Error::NotFinite { index: 1, axis: 0, .. })));
     }
@@ -357,12 +355,12 @@ mod tests {
             (3, 1, f64::INFINITY),
             (2, 2, 1.0),
         ] {
-            let found = Cuts::from_cuts([good, (node(number), Cut { axis, at })]);
+            let found = <Cuts>::from_cuts([good, (node(number), Cut { axis, at })]);
             assert!(matches!(found, Err(Error::Cut { node, .. }) if node == number), "{number} {axis} {at}");
         }
         let chain = (0..32).map(|k| (node(1 << k), Cut { axis: 0, at: -f64::from(k) }));
-        assert!(matches!(Cuts::from_cuts(chain.clone()), Err(Error::Cut { .. })));
-        assert_eq!(Cuts::from_cuts(chain.take(31)).expect("31 cuts").tiles().len(), 32);
+        assert!(matches!(<Cuts>::from_cuts(chain.clone()), Err(Error::Cut { .. })));
+        assert_eq!(<Cuts>::from_cuts(chain.take(31)).expect("31 cuts").tiles().len(), 32);
         assert_eq!(Node::new(0), None);
         assert_eq!(Node::ROOT.parent(), None);
     }

@@ -10,7 +10,7 @@ use std::fmt;
 use std::ops::AddAssign;
 use std::str::FromStr;
 
-use crate::triangulation::{Coordinates, Triangulation};
+use crate::triangulation::Triangulation;
 
 /// Of a set of triangles, or of tetrahedra: two sums of hashes, and how many there are. As text 48 hexadecimal digits.
 ///
@@ -44,7 +44,7 @@ impl Fingerprint {
 
     /// Takes in a simplex by its corners, in any order.
     #[inline]
-    pub fn add<P: Coordinates>(&mut self, corners: impl IntoIterator<Item = P>) {
+    pub fn add<P: AsRef<[f64]>>(&mut self, corners: impl IntoIterator<Item = P>) {
         let (mut sum, mut parity) = (0u64, 0u64);
         for p in corners {
             // Minus zero is the same number as zero, with other bits.

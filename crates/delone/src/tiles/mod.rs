@@ -7,6 +7,8 @@
 //! together, and keeps a triangle if its corners are of different parts, or if it was open in its part. Of those kept some are
 //! final now, the *seam*; the rest is the border of the region. At the root all are final.
 //!
+//! In space it is the same with spheres and tetrahedra: `Cuts<3>`, `Region<3>`, [`Tile3`], [`Border3`], [`join3`].
+//!
 //! Two pure functions of points and a region: no files, no threads of its own, no clock, no neighbours, no rounds. One process can walk
 //! the tree, many machines can share it.
 //!
@@ -15,7 +17,7 @@
 //! Delaunay triangulations in shared and distributed memory", ALENEX 2017).
 //!
 //! Cost: that of the triangulation of each tile, and O(b log b) for the b points of borders: of evenly spread points as many as lie along the
-//! cuts, 0.3% of a billion in 256 tiles. Where no circle is small (all points on one circle, or on a line) nothing is final before
+//! cuts, 0.3% of a billion in 256 tiles; in space as many as lie along planes, so that tiles should be larger. Where no circle is small (all points on one circle, or on a line) nothing is final before
 //! the root, and all points travel.
 //!
 //! # Why it is right
@@ -39,6 +41,8 @@
 //! is not in U_j, which lies outside of F_j. Outside of F it has corners of different parts or is in U_j, by (b). The two are told
 //! apart by what is asked.
 //!
+//! The same words hold in space, with tetrahedra and spheres, and facets for edges.
+//!
 //! ```
 //! use delone::tiles::{Cuts, Fingerprint, Node, Tile, join};
 //! use delone::Delaunay2;
@@ -59,6 +63,7 @@
 //! # Ok::<(), delone::Error>(())
 //! ```
 
+mod along;
 mod border;
 mod bytes;
 mod cuts;
@@ -66,11 +71,13 @@ mod fingerprint;
 mod join;
 mod region;
 mod tile;
+mod tile3;
 mod window;
 
-pub use border::Border;
+pub use border::{Border, Border3, BorderOf};
 pub use cuts::{Cut, Cuts, Node};
 pub use fingerprint::{Fingerprint, NoFingerprint};
-pub use join::{Seam, join};
+pub use join::{Seam, Seam3, join, join3};
 pub use region::Region;
 pub use tile::Tile;
+pub use tile3::Tile3;

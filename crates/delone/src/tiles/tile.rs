@@ -3,11 +3,11 @@
 //! Cost: as for [`crate::Delaunay2`], and O(k) for k open triangles: only these, and those at their side, are asked for a
 //! certificate. About 120 bytes a point at the most.
 
+use super::along::Along;
 use super::{Border, Fingerprint, Region};
 use crate::error::Error;
-use crate::ids::{Duplicate, MAX_POINTS, TriangleId};
-use crate::mesh::Mesh2;
-use crate::plane::{InOrder, in_order};
+use crate::ids::{Duplicate, TriangleId};
+use crate::plane::InOrder;
 use crate::points::{check_count, check_finite, survey};
 
 /// The triangulation of the points of a region, with vertices along a curve: what is near in the plane is near in memory, and in
@@ -26,10 +26,7 @@ use crate::points::{check_count, check_finite, survey};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Tile {
-    mesh: Mesh2,
-    points: Vec<[f64; 2]>,
-    order: Vec<u32>,
-    duplicates: Vec<Duplicate>,
+    along: InOrder,
     /// By increasing index.
     open: Vec<TriangleId>,
 }
@@ -39,88 +36,81 @@ impl Tile {
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate, [`Error::OutsideRegion`] the first point that is not in the
-    /// region; [`Error::TooManyPoints`] is returned beyond [`MAX_POINTS`].
+    /// region; [`Error::TooManyPoints`] is returned beyond [`crate::MAX_POINTS`].
     pub fn new(points: &[[f64; 2]], region: &Region) -> Result<Self, Error> {
-        check_count(points.len(), MAX_POINTS)?;
-        let (bounds, are_finite) = survey(points);
-        if !are_finite {
-            check_finite(points.iter().copied())?;
-        }
-        let are_inside = region.contains(bounds.low) && region.contains(bounds.high);
-        let mut outside = points.iter().take_while(|_| !are_inside);
-        if let Some(index) = outside.position(|&p| !region.contains(p)) {
-            return Err(Error::OutsideRegion { index, at: points[index] });
-        }
-        let InOrder { mesh, points, indices, duplicates, .. } = in_order(points);
-        let open = open(&mesh, &points, region);
-        Ok(Self { mesh, points, order: indices, duplicates, open })
+        let (along, open) = certified::<InOrder, 2, 3>(points, region)?;
+        Ok(Self { along, open })
     }
 
     /// The vertices: the points that differ, along the curve.
     pub fn points(&self) -> &[[f64; 2]] {
-        &self.points
+        &self.along.points
     }
 
     /// For each vertex the index of its point in the input: of equal ones the first.
     pub fn order(&self) -> &[u32] {
-        &self.order
+        &self.along.indices
     }
 
     /// The points that equal an earlier one, by increasing index: both are indices of the input.
     pub fn duplicates(&self) -> &[Duplicate] {
-        &self.duplicates
+        &self.along.duplicates
     }
 
     /// The triangles that nothing outside of the region can change, along the curve: indices of [`Self::points`], counter-clockwise.
     pub fn finals(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let mut open = self.open.iter().copied().peekable();
-        let is_final = move |t: &TriangleId| open.next_if_eq(t).is_none();
-        self.mesh.triangles().filter(is_final).map(|t| self.corners(t))
+        finals(&self.along, &self.open)
     }
 
     /// The other triangles, as [`Self::finals`].
     pub fn open(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        self.open.iter().map(|&t| self.corners(t))
+        self.open.iter().map(|&t| self.along.corners(t))
     }
 
     /// The fingerprint of the final triangles.
     pub fn fingerprint(&self) -> Fingerprint {
-        let mut finals = Fingerprint::default();
-        self.finals().for_each(|t| finals.add(t.map(|v| self.points[v as usize])));
-        finals
+        fingerprint(self.points(), self.finals())
     }
 
     /// What is to be joined with the borders of other tiles. It names each vertex of it, given its index, as others shall know it.
     pub fn border(&self, name: impl Fn(u32) -> u64) -> Border {
-        Border::of(&self.mesh, &self.points, &self.open, |v| name(v as u32))
-    }
-
-    fn corners(&self, t: TriangleId) -> [u32; 3] {
-        self.mesh.places(t).map(|p| p.index() as u32)
+        Border::of(&self.along, &self.open, name)
     }
 }
 
-/// The triangles that are met from outside without crossing one that the region certifies, by increasing index.
-fn open(mesh: &Mesh2, points: &[[f64; 2]], region: &Region) -> Vec<TriangleId> {
-    let ghosts = mesh.star_from(mesh.ghost_edge).map(|e| e.triangle());
-    let mut open: Vec<TriangleId> = Vec::new();
-    let mut is_known = vec![false; mesh.slot_count()];
-    let mut meet = |t: TriangleId, open: &mut Vec<TriangleId>| {
-        for next in mesh.adjacent(t) {
-            if !is_known[next.index()] && !mesh.is_ghost(next) {
-                is_known[next.index()] = true;
-                if !region.certifies(mesh.places(next).map(|p| points[p.index()])) {
-                    open.push(next);
-                }
-            }
-        }
-    };
-    ghosts.for_each(|ghost| meet(ghost, &mut open));
-    let mut done = 0;
-    while let Some(&t) = open.get(done) {
-        done += 1;
-        meet(t, &mut open);
+/// Triangulates the points of a region, and finds what is open, by increasing id.
+pub(super) fn certified<A: Along<D, C>, const D: usize, const C: usize>(
+    points: &[[f64; D]],
+    region: &Region<D>,
+) -> Result<(A, Vec<A::Id>), Error> {
+    check_count(points.len(), A::MOST)?;
+    let (bounds, are_finite) = survey(points);
+    if !are_finite {
+        check_finite(points.iter().copied())?;
     }
-    open.sort_unstable();
-    open
+    if !(region.contains(bounds.low) && region.contains(bounds.high)) {
+        region.check(points)?;
+    }
+    let along = A::of(points)?;
+    let open = along.open(region);
+    Ok((along, open))
+}
+
+/// The simplices that are not open, by increasing id.
+pub(super) fn finals<'a, A: Along<D, C>, const D: usize, const C: usize>(
+    along: &'a A,
+    open: &'a [A::Id],
+) -> impl Iterator<Item = [u32; C]> + use<'a, A, D, C> {
+    let mut open = open.iter().copied().peekable();
+    let is_final = move |t: &A::Id| open.next_if_eq(t).is_none();
+    along.simplices().filter(is_final).map(|t| along.corners(t))
+}
+
+pub(super) fn fingerprint<const D: usize, const C: usize>(
+    points: &[[f64; D]],
+    simplices: impl Iterator<Item = [u32; C]>,
+) -> Fingerprint {
+    let mut all = Fingerprint::default();
+    simplices.for_each(|t| all.add(t.map(|v| points[v as usize])));
+    all
 }

@@ -52,6 +52,7 @@ pub(super) fn triangulate(points: &[[f64; 2]], bounds: &Bounds<2>) -> (Mesh2, Ve
 }
 
 /// The triangulation of points, with vertices at their positions in Morton order.
+#[derive(Clone, Debug)]
 pub(crate) struct InOrder {
     pub(crate) mesh: Mesh2,
     /// The vertices' points.

@@ -9,7 +9,10 @@
 mod apart;
 mod cut;
 pub(super) mod flips;
+mod in_order;
 mod part;
+
+pub(crate) use in_order::{InOrder3, in_order};
 
 use std::ops::Range;
 
