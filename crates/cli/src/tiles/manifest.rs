@@ -11,6 +11,7 @@ use std::time::UNIX_EPOCH;
 use delone::tiles::{Cut, Cuts, Fingerprint, Node};
 use serde_json::{Value, json};
 
+use super::node::Done;
 use crate::files;
 use crate::message::Failure;
 
@@ -52,6 +53,27 @@ pub(crate) struct Outcome {
 impl Outcome {
     pub(super) fn triangles(&self) -> u64 {
         self.fingerprint.count()
+    }
+
+    /// Whether it is what its nodes have together, and these are all tiles and perhaps seams; none if a node cannot be read.
+    fn adds_up(&self, cuts: &Cuts, count: u64, left_out: u64) -> Option<bool> {
+        let mut nodes: Vec<Done> = self.nodes.iter().map(Done::parse).collect::<Option<_>>()?;
+        nodes.sort_unstable_by_key(|done| done.node);
+        let are_one = nodes.is_sorted_by(|one, other| one.node < other.node);
+        let (tiles, seams): (Vec<Node>, Vec<Node>) =
+            nodes.iter().map(|done| done.node).partition(|&node| cuts.is_tile(node));
+        let are_known =
+            tiles == sorted(cuts.tiles()) && seams.iter().all(|&node| cuts.halves(node).is_some());
+        let vertices = nodes.iter().try_fold(0, |sum: u64, done| sum.checked_add(done.vertices))?;
+        let duplicates = nodes.iter().try_fold(left_out, |sum, done| sum.checked_add(done.duplicates))?;
+        let fingerprint: Fingerprint = nodes.iter().map(|done| done.fingerprint).sum();
+        Some(
+            are_one
+                && are_known
+                && (vertices, duplicates) == (self.vertices, self.duplicates)
+                && vertices.checked_add(duplicates) == Some(count)
+                && fingerprint == self.fingerprint,
+        )
     }
 }
 
@@ -178,13 +200,19 @@ impl Manifest {
             "planned" | "distributed" => None,
             _ => return None,
         };
+        let (count, left_out) = (all["count"].as_u64()?, all["left_out"].as_u64()?);
+        if let Some(outcome) = &outcome {
+            let is_sum =
+                all["triangles"] == outcome.triangles() && outcome.adds_up(&cuts, count, left_out)?;
+            is_sum.then_some(())?;
+        }
         Some(Ok(Self {
             input: all["input"].clone(),
-            count: all["count"].as_u64()?,
+            count,
             has_heights: all["heights"].as_bool()?,
             cuts,
             buckets,
-            left_out: all["left_out"].as_u64()?,
+            left_out,
             outcome,
         }))
     }

@@ -22,6 +22,7 @@ use std::fs;
 use std::path::Path;
 
 use delone::tiles::{Cuts, Fingerprint, Node};
+use delone_io::followed;
 
 pub(crate) use describe::describe;
 pub(crate) use verdict::check;
@@ -47,7 +48,9 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     let input = Input::new(args)?;
     let folder = &args.output;
     let mut stats = Stats::start();
-    let mut plan = match begin(folder, args.resume)? {
+    let begun = begin(folder, args.resume)?;
+    keep_out(folder, args.input.stats.as_deref())?;
+    let mut plan = match begun {
         Some(plan) => {
             check_input(&plan, &input, folder)?;
             plan
@@ -79,6 +82,26 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     }
     tell(&plan, &mut stats, quiet);
     stats.write(args.input.stats.as_deref())
+}
+
+/// Refuses outputs in a folder of tiles: they might be files of it.
+fn keep_out<'a>(folder: &Path, outputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+    let place = |folder: &Path| {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        folder.canonicalize().ok()
+    };
+    let here = place(folder);
+    let inside = |path: &&Path| {
+        let path = followed(path).unwrap_or_else(|_| path.to_path_buf());
+        here.is_some() && path.parent().and_then(place) == here && path != Path::new("-")
+    };
+    match outputs.into_iter().find(inside) {
+        Some(path) => {
+            let what = format!("{} is in the folder of the tiles", path.display());
+            Err(Failure::usage(what, "name an output somewhere else"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Makes the folder, or finds what is in it.

@@ -5,7 +5,7 @@
 //!
 //! Cost: O(n log n); memory for the largest tile, some 150 bytes a point, and for all edges between tiles, 80 bytes each.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use delone::tiles::Node;
 use delone_io::{Format, write_array};
@@ -38,9 +38,9 @@ pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bo
     let mut waiting = Vec::new();
     for done in &nodes {
         if plan.cuts.is_tile(done.node) {
-            in_tile(folder, done.node, &mut waiting)?;
+            in_tile(folder, done, &mut waiting)?;
         } else {
-            in_seam(folder, done.node, &mut waiting)?;
+            in_seam(folder, done, &mut waiting)?;
         }
         phase.advance();
     }
@@ -76,10 +76,14 @@ pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bo
 }
 
 /// The neighbours inside of a tile; what has none there waits.
-fn in_tile(folder: &Path, node: Node, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+fn in_tile(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+    let node = done.node;
     let path = place(folder, "triangles", node, "npy");
-    let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+    let triangles = triangles(&path, done)?;
     let count = triangles.len();
+    if triangles.as_flattened().iter().any(|&v| v >= done.vertices) {
+        return Err(damaged(&path, "a triangle has a corner that is no point"));
+    }
     // Both ends, the lesser first, and three times the row with the corner.
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * count);
     for (row, t) in triangles.into_iter().enumerate() {
@@ -110,15 +114,22 @@ fn in_tile(folder: &Path, node: Node, waiting: &mut Vec<Side>) -> Result<(), Fai
 }
 
 /// All edges of a seam wait for each other and for those of tiles.
-fn in_seam(folder: &Path, node: Node, waiting: &mut Vec<Side>) -> Result<(), Failure> {
-    let path = place(folder, "seam", node, "npy");
-    for (row, t) in
-        read(&path, |source| delone_io::read_triangles(source, Format::Npy))?.into_iter().enumerate()
-    {
+fn in_seam(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+    let node = done.node;
+    for (row, t) in triangles(&place(folder, "seam", node, "npy"), done)?.into_iter().enumerate() {
         let side = |k: usize| Side { ends: ends(t, k), triangle: node.id(row as u32), corner: k as u64 };
         waiting.extend((0..3).map(side));
     }
     Ok(())
+}
+
+/// As many triangles as the node has.
+fn triangles(path: &PathBuf, done: &Done) -> Result<Vec<[u64; 3]>, Failure> {
+    let triangles = read(path, |source| delone_io::read_triangles(source, Format::Npy))?;
+    if triangles.len() as u64 != done.fingerprint.count() {
+        return Err(damaged(path, "the triangles are not those that tiles.json knows"));
+    }
+    Ok(triangles)
 }
 
 /// The ends of the edge of a triangle that is opposite to a corner, the lesser first.

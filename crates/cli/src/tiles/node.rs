@@ -51,11 +51,15 @@ impl Done {
 
     pub(super) fn parse(value: &Value) -> Option<Self> {
         let count = |name: &str| value[name].as_u64();
-        Some(Self {
+        let fingerprint: Fingerprint = value["fingerprint"].as_str()?.parse().ok()?;
+        // Rows of a file have numbers of 32 bits.
+        let is_count =
+            u32::try_from(fingerprint.count()).is_ok() && count("triangles")? == fingerprint.count();
+        is_count.then_some(Self {
             node: Node::new(u32::try_from(count("node")?).ok()?)?,
             vertices: count("vertices")?,
             duplicates: count("duplicates")?,
-            fingerprint: value["fingerprint"].as_str()?.parse().ok()?,
+            fingerprint,
             border: count("border")?,
         })
     }

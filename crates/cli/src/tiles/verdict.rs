@@ -2,10 +2,11 @@
 //!
 //! Every triangle is counter-clockwise; across every edge is another triangle, in the other direction, whose far corner is outside of
 //! the circle under the canonical rule; edges without are the border, which is convex and goes around once; and there are as
-//! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all,
+//! many triangles as so many vertices have. Each vertex has an index of its own among the points. So triangles cover the inside of the border once, and are locally, hence all,
 //! Delaunay. One tile at a time; what has no twin in its tile waits for the seams.
 //!
-//! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, and for all edges between tiles.
+//! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, for all edges between tiles, and a bit
+//! for each point.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -44,14 +45,21 @@ impl Edge {
 /// Judges a folder.
 pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
+    super::keep_out(folder, stats_path)?;
     let (plan, outcome) = manifest::finished(folder)?;
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
     let wrong = |what: String| Failure::new(format!("{}: {what}", folder.display()), HELP);
     let (tiles, seams): (Vec<Done>, Vec<Done>) =
         nodes.into_iter().partition(|done| plan.cuts.halves(done.node).is_none());
     let phase = Phase::count(quiet, "checking", (tiles.len() + seams.len()) as u64);
-    let mut judge =
-        Judge { folder, plan: &plan, waiting: Vec::new(), fingerprint: Fingerprint::default(), vertices: 0 };
+    let mut judge = Judge {
+        folder,
+        plan: &plan,
+        waiting: Vec::new(),
+        fingerprint: Fingerprint::default(),
+        vertices: 0,
+        known: vec![0; plan.count.div_ceil(64) as usize],
+    };
     for tile in &tiles {
         judge.tile(tile)?;
         phase.advance();
@@ -99,12 +107,42 @@ struct Judge<'a> {
     waiting: Vec<Edge>,
     fingerprint: Fingerprint,
     vertices: u64,
+    /// A bit for each point of the input, set if a vertex was seen that is it.
+    known: Vec<u64>,
 }
 
 impl Judge<'_> {
     fn points(&self, node: Node) -> Result<Vec<[f64; 2]>, Failure> {
         let path = place(self.folder, "points", node, "npy");
-        read(&path, |source| Ok(delone_io::read_points(source, Format::Npy, &ReadOptions::default())?.xy))
+        let cloud =
+            read(&path, |source| delone_io::read_points(source, Format::Npy, &ReadOptions::default()))?;
+        if cloud.z.is_some() != self.plan.has_heights {
+            return Err(wrong(&path, "tiles.json says otherwise whether there are heights".to_owned()));
+        }
+        Ok(cloud.xy)
+    }
+
+    /// Whether the vertices of a tile are points of the input that no other vertex is.
+    fn ids(&mut self, tile: &Done) -> Result<(), Failure> {
+        let path = place(self.folder, "ids", tile.node, "npy");
+        // Numbers that a float does not hold are beyond all points.
+        let ids = read(&path, |source| delone_io::read_numbers(source, Format::Npy))?;
+        if ids.len() as u64 != tile.vertices {
+            return Err(wrong(&path, format!("{} indices of {} points", ids.len(), tile.vertices)));
+        }
+        for (row, id) in ids.into_iter().enumerate() {
+            let index = id as u64;
+            if id.fract() != 0.0 || id < 0.0 || index >= self.plan.count {
+                let what = format!("row {row} is {id}, and there are {} points", self.plan.count);
+                return Err(wrong(&path, what));
+            }
+            let (word, bit) = (&mut self.known[(index / 64) as usize], 1 << (index % 64));
+            if *word & bit != 0 {
+                return Err(wrong(&path, format!("row {row} is point {index}, which is another vertex")));
+            }
+            *word |= bit;
+        }
+        Ok(())
     }
 
     /// Judges the triangles of a tile, all edges between two of them, and keeps the others.
@@ -121,6 +159,7 @@ impl Judge<'_> {
         if let Some(outside) = points.iter().position(|&p| !region.contains(p)) {
             return Err(wrong(&path, format!("point {outside} is not in the region of the tile")));
         }
+        self.ids(tile)?;
         self.vertices += tile.vertices;
         let path = place(self.folder, "triangles", tile.node, "npy");
         let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;

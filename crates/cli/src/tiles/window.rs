@@ -43,6 +43,8 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &[])?;
     room::check_formats::<Delaunay2>(&outputs)?;
+    let paths = outputs.iter().map(|(path, _)| path.as_path());
+    super::keep_out(&args.folder, paths.chain(args.stats.as_deref()))?;
     let (plan, outcome) = manifest::finished(&args.folder)?;
     let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
     let window = window(args)?;

@@ -1,0 +1,130 @@
+//! A folder of tiles that somebody changed: it is noticed, nothing panics, and no output goes over its files.
+
+use std::fs;
+
+mod place;
+
+use place::Place;
+
+/// Copies the folder `t` as `u`.
+fn copy(place: &Place) {
+    _ = fs::remove_dir_all(place.path("u"));
+    fs::create_dir(place.path("u")).expect("room");
+    for entry in fs::read_dir(place.path("t")).expect("there") {
+        let entry = entry.expect("there");
+        fs::copy(entry.path(), place.path("u").join(entry.file_name())).expect("room");
+    }
+}
+
+fn tiles(place: &Place) {
+    place.succeed("-q generate grid -n 500 --seed 3 -o p.csv");
+    place.succeed("-q tiles p.csv p.csv -o t --tile 100");
+}
+
+#[test]
+fn numbers_of_tiles_json_are_checked() {
+    let place = Place::new();
+    tiles(&place);
+    let text = fs::read_to_string(place.path("t/tiles.json")).expect("written");
+    let known: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let refuse = |changed: &serde_json::Value| {
+        copy(&place);
+        fs::write(place.path("u/tiles.json"), changed.to_string()).expect("room");
+        for command in
+            ["check u", "info u", "window u -o x.off", "tiles p.csv p.csv -o u --resume --neighbors"]
+        {
+            place.fail(command, 1, "tiles.json");
+        }
+    };
+    let more =
+        |value: &mut serde_json::Value, add: u64| *value = (value.as_u64().expect("a number") + add).into();
+    for name in ["count", "vertices", "duplicates", "triangles", "left_out"] {
+        let mut changed = known.clone();
+        more(&mut changed[name], 1);
+        refuse(&changed);
+    }
+    let nodes = known["nodes"].as_array().expect("nodes").len();
+    for (node, name) in [(0, "triangles"), (nodes - 1, "vertices"), (nodes - 1, "duplicates")] {
+        let mut changed = known.clone();
+        more(&mut changed["nodes"][node][name], 1);
+        refuse(&changed);
+    }
+    for count in ["0000000000000000", "4000000000000000", "ffffffffffffffff"] {
+        let mut changed = known.clone();
+        let old = known["nodes"][0]["fingerprint"].as_str().expect("a text");
+        changed["nodes"][0]["fingerprint"] = format!("{}{count}", &old[..32]).into();
+        refuse(&changed);
+        changed["nodes"][0]["triangles"] = u64::from_str_radix(count, 16).expect("digits").into();
+        refuse(&changed);
+    }
+    let mut changed = known.clone();
+    changed["nodes"].as_array_mut().expect("nodes").pop();
+    refuse(&changed);
+    let mut changed = known.clone();
+    changed["nodes"].as_array_mut().expect("nodes").push(known["nodes"][0].clone());
+    refuse(&changed);
+}
+
+#[test]
+fn indices_are_checked() {
+    let place = Place::new();
+    tiles(&place);
+    let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("UTF-8");
+    let mut names: Vec<String> = fs::read_dir(place.path("t"))
+        .expect("there")
+        .map(|entry| name(entry.expect("there")))
+        .filter(|name| name.starts_with("ids-"))
+        .collect();
+    names.sort_unstable();
+    let at = |place: &Place, k: usize| place.path(&format!("u/{}", names[k]));
+    let change = |message: &str, change: &dyn Fn(&mut Vec<u8>)| {
+        copy(&place);
+        let mut bytes = fs::read(at(&place, 0)).expect("there");
+        change(&mut bytes);
+        fs::write(at(&place, 0), bytes).expect("room");
+        place.fail("check u", 1, message);
+    };
+    // The last eight bytes are an index, those before it another one.
+    change("another vertex", &|bytes| bytes.copy_within(bytes.len() - 8.., bytes.len() - 16));
+    change("there are 1000 points", &|bytes| *bytes.last_mut().expect("some") = 0xff);
+    change("ids-", &|bytes| bytes.truncate(bytes.len() - 8));
+    copy(&place);
+    fs::copy(at(&place, 0), at(&place, 1)).expect("room");
+    place.fail("check u", 1, "ids-");
+    fs::remove_file(at(&place, 1)).expect("there");
+    place.fail("check u", 1, "ids-");
+}
+
+#[test]
+fn neighbours_of_changed_triangles_are_refused() {
+    let place = Place::new();
+    tiles(&place);
+    copy(&place);
+    let seam = place.path("u/seam-00001.npy");
+    let tile = fs::read_dir(place.path("u"))
+        .expect("there")
+        .map(|entry| entry.expect("there").path())
+        .find(|path| path.display().to_string().contains("triangles-"))
+        .expect("a tile");
+    let mut bytes = fs::read(&tile).expect("there");
+    *bytes.last_mut().expect("some") = 0x7f;
+    fs::write(&tile, bytes).expect("room");
+    place.fail("tiles p.csv p.csv -o u --resume --neighbors", 1, "a corner that is no point");
+    fs::copy(&tile, seam).expect("room");
+    place.fail("tiles p.csv p.csv -o u --resume --neighbors", 1, "u");
+}
+
+#[test]
+fn no_output_is_in_the_folder() {
+    let place = Place::new();
+    tiles(&place);
+    for command in [
+        "window t -o t/tiles.json --to geojson",
+        "window t -o x.off --stats t/tiles.json",
+        "check t --stats t/tiles.json",
+        "tiles p.csv p.csv -o t --resume --stats t/tiles.json",
+    ] {
+        place.fail(command, 2, "is in the folder");
+    }
+    place.succeed("check t");
+}
