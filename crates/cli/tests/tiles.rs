@@ -310,7 +310,7 @@ fn what_changed_between_is_seen() {
         ("\"delone tiles\"", "\"other\"", "does not describe tiles"),
         ("{", "", "not JSON"),
         ("\"count\"", "\"amount\"", "something is missing"),
-        ("\"axis\": 0", "\"axis\": 7", "two axes"),
+        ("\"axis\": 0", "\"axis\": 7", "no such axis"),
     ] {
         begin();
         edit(from, to);
