@@ -82,3 +82,14 @@ def test_a_worker_that_dies_is_no_loss(tmp_path):
         total, tile = dask.compute(made.fingerprint, dying)
         assert total == expected(points)
         assert (tmp_path / "killed").exists() and len(tile.points) > 0
+
+
+@pytest.mark.parametrize("wrong", [np.eye(4, 2).astype(object), np.eye(4, 2) + 1j, np.eye(4, 2).astype(str)])
+def test_arrays_of_no_numbers_are_refused_as_in_memory(wrong):
+    with pytest.raises(TypeError, match="real numbers"):
+        delone.dask.triangulate(da.from_array(wrong, chunks=(2, 2)), tiles=2)
+
+
+def test_integers_that_are_no_floats_are_refused_as_in_memory():
+    with pytest.raises(ValueError, match="2\\*\\*53"):
+        delone.dask.triangulate(da.from_array(np.array([[2**53 + 1, 0], [1, 0], [0, 1]])), tiles=2)

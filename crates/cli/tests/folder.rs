@@ -85,9 +85,18 @@ fn indices_are_checked() {
         place.fail("check u", 1, message);
     };
     // The last eight bytes are an index, those before it another one.
-    change("another vertex", &|bytes| bytes.copy_within(bytes.len() - 8.., bytes.len() - 16));
-    change("there are 1000 points", &|bytes| *bytes.last_mut().expect("some") = 0xff);
-    change("ids-", &|bytes| bytes.truncate(bytes.len() - 8));
+    change("another vertex", &|bytes| {
+        let at = bytes.len() - 8;
+        bytes.copy_within(at.., at - 8);
+    });
+    change("there are 1000 points", &|bytes| {
+        let at = bytes.len() - 5;
+        bytes[at] = 1;
+    });
+    change("ids-", &|bytes| {
+        let at = bytes.len() - 8;
+        bytes.truncate(at);
+    });
     copy(&place);
     fs::copy(at(&place, 0), at(&place, 1)).expect("room");
     place.fail("check u", 1, "ids-");

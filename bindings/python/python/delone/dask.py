@@ -82,7 +82,8 @@ def triangulate(points: Any, tiles: int | None = None) -> TiledTriangulation:
     array = points if isinstance(points, da.Array) else da.from_array(as_points(points, "points", 2))
     if array.ndim != 2 or array.shape[1] != 2:
         raise ValueError(f"points must have the shape (n, 2), not {array.shape}")
-    array = array.rechunk({1: 2}).astype(np.float64)
+    # Chunks are made float64 where they are read: what is no number, and integers that are no float64, are refused there.
+    array = array.rechunk({1: 2})
     chunks = list(array.to_delayed().ravel())
     sizes = array.chunks[0]
     if any(np.isnan(size) for size in sizes):
