@@ -48,6 +48,7 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     let input = Input::new(args)?;
     let folder = &args.output;
     let mut stats = Stats::start();
+    let _lock = lock(folder)?;
     let begun = begin(folder, args.resume)?;
     keep_out(folder, args.input.stats.as_deref())?;
     let mut plan = match begun {
@@ -82,6 +83,19 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     }
     tell(&plan, &mut stats, quiet);
     stats.write(args.input.stats.as_deref())
+}
+
+/// Keeps other runs out of a folder, where its file system can: two would write the same buckets. It ends with the process.
+fn lock(folder: &Path) -> Result<Option<fs::File>, Failure> {
+    _ = fs::create_dir_all(folder);
+    let Ok(file) = fs::File::open(folder) else { return Ok(None) };
+    match file.try_lock() {
+        Err(fs::TryLockError::WouldBlock) => {
+            let what = format!("another run works in {}", folder.display());
+            Err(Failure::usage(what, "wait for its end, or name another folder"))
+        }
+        _ => Ok(Some(file)),
+    }
 }
 
 /// Refuses outputs in a folder of tiles: they might be files of it.
