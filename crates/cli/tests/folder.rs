@@ -137,3 +137,19 @@ fn no_output_is_in_the_folder() {
     }
     place.succeed("check t");
 }
+
+#[test]
+fn one_run_at_a_time() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 500 --seed 3 -o p.csv");
+    fs::create_dir(place.path("t")).expect("made");
+    let held = fs::File::open(place.path("t")).expect("a folder");
+    // Where folders can be locked: not everywhere.
+    if held.try_lock().is_ok() {
+        place.fail("tiles p.csv -o t", 2, "another run works in");
+        place.fail("tiles p.csv -o t --resume", 2, "another run works in");
+        assert_eq!(fs::read_dir(place.path("t")).expect("readable").count(), 0);
+    }
+    drop(held);
+    place.succeed("-q tiles p.csv -o t");
+}
