@@ -33,26 +33,43 @@ pub(crate) const SIZES: std::ops::Range<f64> = 6.2e-61..1.6e60;
 /// ```
 #[must_use]
 #[inline]
-pub fn keeps_clear([a, b, c, d]: [Point3; 4], low: Point3, high: Point3) -> bool {
+pub fn keeps_clear(corners: [Point3; 4], low: Point3, high: Point3) -> bool {
+    let Some(Sphere { centre, radius, off }) = sphere(corners) else { return false };
+    let from = |p: Point3| [0, 1, 2].map(|k| p[k] - corners[0][k]);
+    let (low, high) = (from(low), from(high));
+    let beside = [0, 1, 2].map(|k| (low[k] - centre[k]).max(centre[k] - high[k]).max(0.0));
+    let distance = dot(beside, beside).sqrt();
+    distance - radius > 4.0 * off + 32.0 * UNIT * (distance + radius)
+}
+
+/// The sphere of four points, from the first of them.
+pub(crate) struct Sphere {
+    pub(crate) centre: Point3,
+    pub(crate) radius: f64,
+    /// How much each coordinate of the centre may be off, terms of the second order left out.
+    pub(crate) off: f64,
+}
+
+/// The sphere of four points; `None` if they are too flat, or too near or far, for a bound.
+#[inline]
+pub(crate) fn sphere([a, b, c, d]: [Point3; 4]) -> Option<Sphere> {
     let from = |p: Point3| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
     let (b, c, d) = (from(b), from(c), from(d));
     let size = b.into_iter().chain(c).chain(d).fold(0.0_f64, |m, x| m.max(x.abs()));
     if !SIZES.contains(&size) {
-        return false;
+        return None;
     }
     let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
     let det = 2.0 * dot(b, cd);
     let cube = size * size * size;
     if det.abs() < FLAT * cube {
-        return false;
+        return None;
     }
     let (bb, cc, dd) = (dot(b, b), dot(c, c), dot(d, d));
     let centre = [0, 1, 2].map(|k| (bb * cd[k] + cc * db[k] + dd * bc[k]) / det);
-    let (low, high) = (from(low), from(high));
-    let beside = [0, 1, 2].map(|k| (low[k] - centre[k]).max(centre[k] - high[k]).max(0.0));
-    let (distance, radius) = (dot(beside, beside).sqrt(), dot(centre, centre).sqrt());
+    let radius = dot(centre, centre).sqrt();
     let off = UNIT * (256.0 * size + 128.0 * radius) * cube / det.abs();
-    distance - radius > 4.0 * off + 32.0 * UNIT * (distance + radius)
+    Some(Sphere { centre, radius, off })
 }
 
 /// The same for the power sphere of four sites, and sites in the box that weigh at most `most`: whether certainly none of
@@ -95,10 +112,10 @@ pub fn keeps_clear_of_sites([a, b, c, d]: [Site<3>; 4], low: Point3, high: Point
     apart - lost - needed > 8.0 * UNIT * (apart.abs() + lost + needed.abs())
 }
 
-pub(crate) fn cross(p: Point3, q: Point3) -> Point3 {
+fn cross(p: Point3, q: Point3) -> Point3 {
     [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
 }
 
-pub(crate) fn dot(p: Point3, q: Point3) -> f64 {
+fn dot(p: Point3, q: Point3) -> f64 {
     p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 }

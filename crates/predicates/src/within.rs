@@ -17,7 +17,7 @@
 //! subtractions lose 4 u radius + u |s| and the side itself u |s|. As a corner is m away, radius >= m / 2, so with
 //! |D| >= 2^-30 m^3 all e are below 1e-4 radius: what is computed stands for what it is in the bound, and 4 e and 16 u are enough.
 
-use crate::clear::{FLAT, SIZES, UNIT, cross, dot};
+use crate::clear::{FLAT, SIZES, Sphere, UNIT, sphere};
 use crate::{Point2, Point3};
 
 /// Whether the closed disk of the circle through three points is certainly in the inside of a box, whose sides may be
@@ -77,30 +77,16 @@ pub fn stays_within([a, b, c]: [Point2; 3], low: Point2, high: Point2) -> bool {
 /// ```
 #[must_use]
 #[inline]
-pub fn stays_within3([a, b, c, d]: [Point3; 4], low: Point3, high: Point3) -> bool {
+pub fn stays_within3(corners: [Point3; 4], low: Point3, high: Point3) -> bool {
     if low == [f64::NEG_INFINITY; 3] && high == [f64::INFINITY; 3] {
         return true;
     }
-    let from = |p: Point3| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
-    let (b, c, d) = (from(b), from(c), from(d));
-    let size = b.into_iter().chain(c).chain(d).fold(0.0_f64, |m, x| m.max(x.abs()));
-    if !SIZES.contains(&size) {
-        return false;
-    }
-    let (cd, db, bc) = (cross(c, d), cross(d, b), cross(b, c));
-    let det = 2.0 * dot(b, cd);
-    let cube = size * size * size;
-    if det.abs() < FLAT * cube {
-        return false;
-    }
-    let (bb, cc, dd) = (dot(b, b), dot(c, c), dot(d, d));
-    let centre = [0, 1, 2].map(|k| (bb * cd[k] + cc * db[k] + dd * bc[k]) / det);
-    let radius = dot(centre, centre).sqrt();
-    let off = 4.0 * UNIT * (256.0 * size + 128.0 * radius) * cube / det.abs();
+    let Some(Sphere { centre, radius, off }) = sphere(corners) else { return false };
+    let off = 4.0 * off;
     // False where a distance is no number or too large for one.
     let is_beyond = |gap: f64, side: f64| gap > off + 16.0 * UNIT * (radius + side.abs());
     (0..3).all(|k| {
-        let (below, above) = (low[k] - a[k], high[k] - a[k]);
+        let (below, above) = (low[k] - corners[0][k], high[k] - corners[0][k]);
         (low[k] == f64::NEG_INFINITY || is_beyond(centre[k] - radius - below, below))
             && (high[k] == f64::INFINITY || is_beyond(above - centre[k] - radius, above))
     })

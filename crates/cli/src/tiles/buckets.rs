@@ -93,7 +93,10 @@ impl<'a> Buckets<'a> {
     }
 
     fn put(&mut self, points: &[[f64; 2]], heights: &[f64], ids: &[u64]) -> Result<(), Failure> {
-        let tile_of = |&p: &[f64; 2]| self.tiles.partition_point(|&tile| tile < self.cuts.tile_of(p)) as u32;
+        let tile_of = |&p: &[f64; 2]| {
+            let own = self.cuts.tile_of(p);
+            self.tiles.partition_point(|&tile| tile < own) as u32
+        };
         let found: Vec<u32> = points.par_iter().with_min_len(1 << 12).map(tile_of).collect();
         for (k, tile) in found.into_iter().enumerate() {
             let tile = tile as usize;
@@ -146,10 +149,13 @@ fn unwritten(path: &Path, error: &io::Error) -> Failure {
 /// Reads a bucket that should have so many points.
 pub(super) fn read(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<Content, Failure> {
     let mut content = Content::default();
-    content.points.reserve_exact(count as usize);
-    content.ids.reserve_exact(count as usize);
-    content.heights.reserve_exact(if has_heights { count as usize } else { 0 });
     each(folder, node, count, has_heights, &mut |mut part| {
+        if content.points.is_empty() {
+            // It has as many, as its length says.
+            content.points.reserve_exact(count as usize);
+            content.ids.reserve_exact(count as usize);
+            content.heights.reserve_exact(if has_heights { count as usize } else { 0 });
+        }
         content.points.append(&mut part.points);
         content.ids.append(&mut part.ids);
         content.heights.append(&mut part.heights);
@@ -175,11 +181,9 @@ fn each(
         File::open(&path).map_err(|error| lost(&format!("the bucket of a tile cannot be read: {error}")))?;
     let length = file.metadata().map_err(|error| lost(&error.to_string()))?.len();
     let width = width(has_heights);
-    if length != count * width as u64 {
-        return Err(lost(&format!(
-            "the bucket has {length} bytes, and {count} points are {}",
-            count * width as u64
-        )));
+    let expected = count.saturating_mul(width as u64);
+    if length != expected {
+        return Err(lost(&format!("the bucket has {length} bytes, and {count} points are {expected}")));
     }
     let mut source = BufReader::with_capacity(1 << 16, file);
     let mut bytes = vec![0; width << 14];

@@ -65,9 +65,9 @@ impl Budget {
 
     /// Workers that can have a tile of so many points each; an error if not even one can.
     pub(super) fn workers(&self, largest: u64) -> Result<usize, Failure> {
-        let workers = (self.free() / (largest * OF_TILE).max(1)).min(self.workers);
+        let workers = (self.free() / largest.saturating_mul(OF_TILE).max(1)).min(self.workers);
         if workers == 0 {
-            let needed = largest * OF_TILE + ITSELF;
+            let needed = largest.saturating_mul(OF_TILE).saturating_add(ITSELF);
             let what = format!(
                 "a tile has {largest} points, which take {}, and --memory allows {}",
                 in_words(needed),

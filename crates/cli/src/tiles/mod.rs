@@ -13,6 +13,7 @@ mod manifest;
 mod neighbors;
 mod node;
 mod seams;
+mod shards;
 #[cfg(feature = "parquet")]
 mod tables;
 mod verdict;

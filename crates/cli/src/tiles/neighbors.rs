@@ -5,15 +5,15 @@
 //!
 //! Cost: O(n log n); memory for the largest tile, some 150 bytes a point, and for all edges between tiles, 80 bytes each.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use delone::tiles::Node;
-use delone_io::{Format, write_array};
+use delone_io::write_array;
 use rayon::prelude::*;
 
 use super::manifest::{Manifest, Outcome, place};
 use super::node::Done;
-use super::verdict::{damaged, read};
+use super::shards::{self, wrong};
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
@@ -82,7 +82,7 @@ fn in_tile(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Fa
     let triangles = triangles(&path, done)?;
     let count = triangles.len();
     if triangles.as_flattened().iter().any(|&v| v >= done.vertices) {
-        return Err(damaged(&path, "a triangle has a corner that is no point"));
+        return Err(wrong(&path, "a triangle has a corner that is no point"));
     }
     // Both ends, the lesser first, and three times the row with the corner.
     let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * count);
@@ -105,7 +105,7 @@ fn in_tile(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Fa
                 triangle: node.id(slot / 3),
                 corner: u64::from(slot % 3),
             }),
-            _ => return Err(damaged(&path, "triangles overlap")),
+            _ => return Err(wrong(&path, "triangles overlap")),
         }
     }
     files::write(&place(folder, "neighbors", node, "npy"), |out| {
@@ -124,10 +124,10 @@ fn in_seam(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Fa
 }
 
 /// As many triangles as the node has.
-fn triangles(path: &PathBuf, done: &Done) -> Result<Vec<[u64; 3]>, Failure> {
-    let triangles = read(path, |source| delone_io::read_triangles(source, Format::Npy))?;
+fn triangles(path: &Path, done: &Done) -> Result<Vec<[u64; 3]>, Failure> {
+    let triangles = shards::triangles(path)?;
     if triangles.len() as u64 != done.fingerprint.count() {
-        return Err(damaged(path, "the triangles are not those that tiles.json knows"));
+        return Err(wrong(path, "the triangles are not those that tiles.json knows"));
     }
     Ok(triangles)
 }
@@ -149,7 +149,7 @@ fn pair(folder: &Path, mut waiting: Vec<Side>) -> Result<Vec<[u64; 3]>, Failure>
                 across.push([other.triangle, other.corner, one.triangle]);
             }
             [_] => {}
-            _ => return Err(damaged(folder, "triangles overlap")),
+            _ => return Err(wrong(folder, "triangles overlap")),
         }
     }
     across.par_sort_unstable();

@@ -7,11 +7,11 @@
 use std::path::Path;
 
 use delone::tiles::Node;
-use delone_io::{Column, Format, ReadOptions, write_columns};
+use delone_io::{Column, write_columns};
 
 use super::manifest::{Manifest, Outcome, place};
 use super::node::Done;
-use super::verdict::{damaged, read};
+use super::shards::{self, wrong};
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
@@ -33,16 +33,11 @@ pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bo
 }
 
 fn points(folder: &Path, node: Node) -> Result<(), Failure> {
-    let path = place(folder, "points", node, "npy");
-    let cloud = read(&path, |source| delone_io::read_points(source, Format::Npy, &ReadOptions::default()))?;
-    let ids = place(folder, "ids", node, "npy");
-    // Indices are far below 2^53.
-    let rows: Vec<i64> = read(&ids, |source| delone_io::read_numbers(source, Format::Npy))?
-        .into_iter()
-        .map(|row| row as i64)
-        .collect();
+    let cloud = shards::points(folder, node)?;
+    let rows: Vec<i64> = shards::ids(folder, node)?.into_iter().map(|row| row as i64).collect();
     if rows.len() != cloud.xy.len() {
-        return Err(damaged(&path, "it has not as many points as there are ids"));
+        let path = place(folder, "points", node, "npy");
+        return Err(wrong(&path, "it has not as many points as there are ids"));
     }
     let names: Vec<i64> = (0..cloud.xy.len()).map(|v| node.id(v as u32) as i64).collect();
     let [x, y] = [0, 1].map(|k| cloud.xy.iter().map(|p| p[k]).collect::<Vec<f64>>());
@@ -57,8 +52,7 @@ fn points(folder: &Path, node: Node) -> Result<(), Failure> {
 }
 
 fn triangles(folder: &Path, kind: &str, node: Node, name: impl Fn(u64) -> u64) -> Result<(), Failure> {
-    let path = place(folder, kind, node, "npy");
-    let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+    let triangles = shards::triangles(&place(folder, kind, node, "npy"))?;
     let corner = |k: usize| triangles.iter().map(|t| name(t[k]) as i64).collect::<Vec<i64>>();
     let [a, b, c] = [0, 1, 2].map(corner);
     let columns = [("a", Column::Integers(&a)), ("b", Column::Integers(&b)), ("c", Column::Integers(&c))];

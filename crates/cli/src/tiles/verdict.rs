@@ -2,24 +2,22 @@
 //!
 //! Every triangle is counter-clockwise; across every edge is another triangle, in the other direction, whose far corner is outside of
 //! the circle under the canonical rule; edges without are the border, which is convex and goes around once; and there are as
-//! many triangles as so many vertices have. Each vertex has an index of its own among the points. So triangles cover the inside of the border once, and are locally, hence all,
-//! Delaunay. One tile at a time; what has no twin in its tile waits for the seams.
+//! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all, Delaunay.
+//! Each vertex has an index of its own among the points. One tile at a time; what has no twin in its tile waits for the seams.
 //!
 //! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, for all edges between tiles, and a bit
 //! for each point.
 
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufReader;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use delone::tiles::{Fingerprint, Node};
-use delone_io::{Format, ReadOptions};
 use delone_predicates::{Sign, in_circle, lexicographic, orient2d};
 use rayon::prelude::*;
 
 use super::manifest::{self, Manifest, place};
 use super::node::Done;
+use super::shards::{self, wrong};
 use crate::message::{Failure, answer};
 use crate::progress::Phase;
 use crate::stats::Stats;
@@ -48,17 +46,23 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
     super::keep_out(folder, stats_path)?;
     let (plan, outcome) = manifest::finished(folder)?;
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
-    let wrong = |what: String| Failure::new(format!("{}: {what}", folder.display()), HELP);
+    let wrong = |what: String| wrong(folder, what);
     let (tiles, seams): (Vec<Done>, Vec<Done>) =
         nodes.into_iter().partition(|done| plan.cuts.halves(done.node).is_none());
     let phase = Phase::count(quiet, "checking", (tiles.len() + seams.len()) as u64);
+    let words = plan.count.div_ceil(64) as usize;
+    let mut known = Vec::new();
+    if known.try_reserve_exact(words).is_err() {
+        return Err(wrong(format!("{} points are more than memory has bits", plan.count)));
+    }
+    known.resize(words, 0);
     let mut judge = Judge {
         folder,
         plan: &plan,
         waiting: Vec::new(),
         fingerprint: Fingerprint::default(),
         vertices: 0,
-        known: vec![0; plan.count.div_ceil(64) as usize],
+        known,
     };
     for tile in &tiles {
         judge.tile(tile)?;
@@ -98,8 +102,6 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
     ))
 }
 
-const HELP: &str = "files of the folder were changed or lost: start again in another folder";
-
 struct Judge<'a> {
     folder: &'a Path,
     plan: &'a Manifest,
@@ -113,11 +115,10 @@ struct Judge<'a> {
 
 impl Judge<'_> {
     fn points(&self, node: Node) -> Result<Vec<[f64; 2]>, Failure> {
-        let path = place(self.folder, "points", node, "npy");
-        let cloud =
-            read(&path, |source| delone_io::read_points(source, Format::Npy, &ReadOptions::default()))?;
+        let cloud = shards::points(self.folder, node)?;
         if cloud.z.is_some() != self.plan.has_heights {
-            return Err(wrong(&path, "tiles.json says otherwise whether there are heights".to_owned()));
+            let path = place(self.folder, "points", node, "npy");
+            return Err(wrong(&path, "tiles.json says otherwise whether there are heights"));
         }
         Ok(cloud.xy)
     }
@@ -126,7 +127,7 @@ impl Judge<'_> {
     fn ids(&mut self, tile: &Done) -> Result<(), Failure> {
         let path = place(self.folder, "ids", tile.node, "npy");
         // Numbers that a float does not hold are beyond all points.
-        let ids = read(&path, |source| delone_io::read_numbers(source, Format::Npy))?;
+        let ids = shards::ids(self.folder, tile.node)?;
         if ids.len() as u64 != tile.vertices {
             return Err(wrong(&path, format!("{} indices of {} points", ids.len(), tile.vertices)));
         }
@@ -162,7 +163,7 @@ impl Judge<'_> {
         self.ids(tile)?;
         self.vertices += tile.vertices;
         let path = place(self.folder, "triangles", tile.node, "npy");
-        let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
+        let triangles = shards::triangles(&path)?;
         let id = |v: u64| {
             u32::try_from(v)
                 .ok()
@@ -183,20 +184,8 @@ impl Judge<'_> {
     /// Judges the triangles of a seam, whose edges wait for those of others.
     fn seam(&mut self, seam: &Done) -> Result<(), Failure> {
         let path = place(self.folder, "seam", seam.node, "npy");
-        let triangles = read(&path, |source| delone_io::read_triangles(source, Format::Npy))?;
-        let mut ids: Vec<u64> = triangles.iter().flatten().copied().collect();
-        ids.sort_unstable();
-        ids.dedup();
-        let mut corners: BTreeMap<u64, [f64; 2]> = BTreeMap::new();
-        for of_tile in ids.chunk_by(|a, b| a >> 32 == b >> 32) {
-            let node = Node::new((of_tile[0] >> 32) as u32).filter(|&node| self.plan.cuts.is_tile(node));
-            let node = node.ok_or_else(|| wrong(&path, format!("{} is of no tile", of_tile[0])))?;
-            let points = self.points(node)?;
-            for &id in of_tile {
-                let p = points.get((id & u64::from(u32::MAX)) as usize);
-                corners.insert(id, *p.ok_or_else(|| wrong(&path, format!("{id} is no point of its tile")))?);
-            }
-        }
+        let triangles = shards::triangles(&path)?;
+        let corners = shards::corners(&path, &self.plan.cuts, &triangles, |node| self.points(node))?;
         self.judge(&path, &triangles, seam, |id| corners.get(&id).map(|&p| (id, p)))?;
         for t in &triangles {
             let [a, b, c] = t.map(|id| (id, corners[&id]));
@@ -232,7 +221,7 @@ impl Judge<'_> {
         let each = triangles.par_iter().enumerate().map(judge);
         let fingerprint = each.try_reduce(Fingerprint::default, add)?;
         if fingerprint != done.fingerprint {
-            return Err(wrong(path, "the triangles are not those that tiles.json knows".to_owned()));
+            return Err(wrong(path, "the triangles are not those that tiles.json knows"));
         }
         self.fingerprint += fingerprint;
         Ok(())
@@ -241,7 +230,7 @@ impl Judge<'_> {
     /// Pairs the edges between tiles; what is left is the border, which is convex and goes around once. Says how long it is.
     fn outline(&mut self) -> Result<u64, Failure> {
         let border = pair(self.folder, std::mem::take(&mut self.waiting))?;
-        let wrong = |what: &str| Err(wrong(self.folder, what.to_owned()));
+        let wrong = |what: &str| Err(wrong(self.folder, what));
         let mut next: BTreeMap<u64, Edge> = BTreeMap::new();
         for edge in &border {
             if next.insert(edge.from.0, *edge).is_some() {
@@ -283,7 +272,7 @@ impl Judge<'_> {
                     [a, b] if orient2d(a, b, p) != Sign::Zero => {
                         return Err(wrong(
                             self.folder,
-                            "there are no triangles, and points are not on a line".to_owned(),
+                            "there are no triangles, and points are not on a line",
                         ));
                     }
                     [_, _] => {}
@@ -351,21 +340,4 @@ fn pair(path: &Path, mut edges: Vec<Edge>) -> Result<Vec<Edge>, Failure> {
         }
     }
     Ok(rest)
-}
-
-fn wrong(path: &Path, what: String) -> Failure {
-    Failure::new(format!("{}: {what}", path.display()), HELP)
-}
-
-/// What is wrong with a file that nobody should have changed.
-pub(super) fn damaged(path: &Path, what: &str) -> Failure {
-    wrong(path, what.to_owned())
-}
-
-pub(super) fn read<T>(
-    path: &PathBuf,
-    content: impl Fn(Box<dyn delone_io::Source>) -> Result<T, delone_io::Error>,
-) -> Result<T, Failure> {
-    let open = || content(Box::new(BufReader::new(File::open(path)?)));
-    open().map_err(|error| wrong(path, error.to_string()))
 }

@@ -11,11 +11,11 @@ use std::path::Path;
 
 use delone::tiles::{Node, Region};
 use delone::{Delaunay2, TriangleId, Triangulation as _};
-use delone_io::{Format, Mesh, ReadOptions, Trim, picture, write_mesh};
+use delone_io::{Mesh, Trim, picture, write_mesh};
 
 use super::manifest::{self, Manifest, place};
 use super::node::Done;
-use super::verdict::{damaged, read};
+use super::shards::{self, wrong};
 use crate::args::WindowArgs;
 use crate::files;
 use crate::message::{Failure, say};
@@ -121,8 +121,8 @@ impl Reader<'_> {
         for &node in nodes.iter().filter(|&&node| self.plan.cuts.is_tile(node) && self.meets(node)) {
             let points = self.points(node)?;
             let path = place(self.folder, "triangles", node, "npy");
-            for t in read(&path, |source| delone_io::read_triangles(source, Format::Npy))? {
-                let Some(corners) = corners(&points, t) else { return Err(damaged(&path, FOREIGN)) };
+            for t in shards::triangles(&path)? {
+                let Some(corners) = corners(&points, t) else { return Err(wrong(&path, FOREIGN)) };
                 if self.shows(corners.map(|corner| corner.0)) {
                     part.add(t.map(|v| node.id(v as u32)), corners, Some(node));
                 }
@@ -131,23 +131,10 @@ impl Reader<'_> {
         }
         for &node in nodes.iter().filter(|&&node| !self.plan.cuts.is_tile(node)) {
             let path = place(self.folder, "seam", node, "npy");
-            seams.extend(read(&path, |source| delone_io::read_triangles(source, Format::Npy))?);
+            seams.extend(shards::triangles(&path)?);
             phase.advance();
         }
-        // Each tile is read once, for the corners of seams that are in it.
-        let mut ids: Vec<u64> = seams.iter().flatten().copied().collect();
-        ids.sort_unstable();
-        ids.dedup();
-        let mut known: BTreeMap<u64, ([f64; 2], f64)> = BTreeMap::new();
-        for of_tile in ids.chunk_by(|a, b| a >> 32 == b >> 32) {
-            let node = Node::new((of_tile[0] >> 32) as u32).filter(|&node| self.plan.cuts.is_tile(node));
-            let node = node.ok_or_else(|| damaged(self.folder, FOREIGN))?;
-            let points = self.points(node)?;
-            for &id in of_tile {
-                let corner = points.get((id & u64::from(u32::MAX)) as usize);
-                known.insert(id, *corner.ok_or_else(|| damaged(self.folder, FOREIGN))?);
-            }
-        }
+        let known = shards::corners(self.folder, &self.plan.cuts, &seams, |node| self.points(node))?;
         for t in seams {
             let corners = t.map(|id| known[&id]);
             if self.shows(corners.map(|corner| corner.0)) {
@@ -173,9 +160,7 @@ impl Reader<'_> {
 
     /// The points of a tile, with heights or zeros.
     fn points(&self, node: Node) -> Result<Vec<([f64; 2], f64)>, Failure> {
-        let path = place(self.folder, "points", node, "npy");
-        let cloud =
-            read(&path, |source| delone_io::read_points(source, Format::Npy, &ReadOptions::default()))?;
+        let cloud = shards::points(self.folder, node)?;
         let heights = cloud.z.unwrap_or_else(|| vec![0.0; cloud.xy.len()]);
         Ok(cloud.xy.into_iter().zip(heights).collect())
     }
