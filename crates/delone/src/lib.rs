@@ -89,6 +89,7 @@ mod points;
 mod prefetch;
 mod regular;
 pub mod space;
+pub mod surface;
 mod tally;
 pub mod tiles;
 mod triangulation;

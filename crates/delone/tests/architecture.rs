@@ -17,11 +17,11 @@ const FLOORS: &[&[&str]] = &[
     &["triangulation", "graphs"],
     &["alpha"],
     &["plane", "space"],
-    &["tiles"],
+    &["tiles", "surface"],
 ];
 
 /// Rooms that decide by the predicates.
-const DECIDE: [&str; 6] = ["graphs", "hull", "alpha", "plane", "space", "tiles"];
+const DECIDE: [&str; 7] = ["graphs", "hull", "alpha", "plane", "space", "tiles", "surface"];
 
 /// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

@@ -1,0 +1,5 @@
+//! Surfaces: values at the points of a triangulation, and what is between them.
+
+mod grid;
+
+pub use grid::Grid;
