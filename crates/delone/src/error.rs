@@ -91,6 +91,14 @@ pub enum Error {
         /// The number of points.
         found: usize,
     },
+    /// Another number of values than of vertices, times the values at each.
+    #[error("{found} values where there should be {expected}")]
+    Values {
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
     /// There is no such strategy of location in space: no history, of walks only the visibility walk, and no nearest vertex by
     /// circles.
     #[error(
