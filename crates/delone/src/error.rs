@@ -30,6 +30,14 @@ pub enum Error {
         /// The index of the site in the input.
         site: usize,
     },
+    /// A height is NaN or infinite.
+    #[error("point {index} has the height {value}, which is not finite")]
+    Height {
+        /// The index of the point in the input.
+        index: usize,
+        /// The height.
+        value: f64,
+    },
     /// A weight is NaN or infinite.
     #[error("site {index} has the weight {value}, which is not finite")]
     Weight {
@@ -89,6 +97,14 @@ pub enum Error {
         /// The number of centres.
         expected: usize,
         /// The number of points.
+        found: usize,
+    },
+    /// Another number of values than of vertices, times the values at each.
+    #[error("{found} values where there should be {expected}")]
+    Values {
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
         found: usize,
     },
     /// There is no such strategy of location in space: no history, of walks only the visibility walk, and no nearest vertex by
