@@ -48,6 +48,8 @@ impl Failure {
                 | Error::NotTetrahedra(_)
                 | Error::NotABody(_)
                 | Error::NotSecondOrder(_)
+                | Error::NotARaster(_)
+                | Error::NeedsAFile(_)
         );
         Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
     }

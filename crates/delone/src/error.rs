@@ -30,6 +30,14 @@ pub enum Error {
         /// The index of the site in the input.
         site: usize,
     },
+    /// A height is NaN or infinite.
+    #[error("point {index} has the height {value}, which is not finite")]
+    Height {
+        /// The index of the point in the input.
+        index: usize,
+        /// The height.
+        value: f64,
+    },
     /// A weight is NaN or infinite.
     #[error("site {index} has the weight {value}, which is not finite")]
     Weight {

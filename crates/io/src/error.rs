@@ -95,6 +95,50 @@ pub enum Error {
     /// The format holds no closed surfaces.
     #[error("surfaces in space are not written to {0} files")]
     NotASolid(Format),
+    /// The format holds no rasters.
+    #[error("rasters are not read from or written to {0} files")]
+    NotARaster(Format),
+    /// The format is finished where it begins, and this output goes forwards only.
+    #[error("{0} files are finished at their beginning: standard output, pipes and .gz go forwards only")]
+    NeedsAFile(Format),
+    /// The format has square cells alone, in rows from north to south.
+    #[error("the cells of {format} files are square, in rows from north to south, not {:?} by {:?}", step[0], step[1])]
+    NotSquare {
+        /// The format.
+        format: Format,
+        /// The steps from column to column and from row to row.
+        step: [f64; 2],
+    },
+    /// The format cannot count so many columns or rows, or there is none.
+    #[error("a raster of {columns} columns and {rows} rows is not written to {format} files")]
+    Extent {
+        /// The format.
+        format: Format,
+        /// The columns.
+        columns: usize,
+        /// The rows.
+        rows: usize,
+    },
+    /// Other than whole rows were given, or more or fewer than the raster has.
+    #[error("the raster has {rows} rows of {columns} values: {values} values are no such rows")]
+    Rows {
+        /// The columns of the raster.
+        columns: usize,
+        /// The rows of the raster.
+        rows: usize,
+        /// The values that were given.
+        values: usize,
+    },
+    /// A value is beyond the numbers of the raster.
+    #[error("the value {value:?} in column {column} of row {row} is beyond the numbers of the raster")]
+    Beyond {
+        /// The column, from 0.
+        column: usize,
+        /// The row, from 0.
+        row: usize,
+        /// The value.
+        value: f64,
+    },
 }
 
 impl Error {
@@ -121,7 +165,7 @@ impl Error {
             Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::NotPoints(_) => {
-                "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu msh pcd geojson wkt wkb"
+                "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu msh pcd tif asc geojson wkt wkb"
             }
             Self::NotInChunks(_) => "more points than memory are read from: npy las laz csv xyz txt tsv bin",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off msh",
@@ -137,6 +181,12 @@ impl Error {
                 "tetrahedra: npy ele neigh node edge vtu msh inp; their hull: ply obj stl; pictures: svg png"
             }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
+            Self::NotARaster(_) => "rasters: tif asc npy",
+            Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
+            Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",
+            Self::Extent { .. } => "choose a larger cell, or write the raster in parts",
+            Self::Rows { .. } => "give the values of whole rows, as many as the raster has",
+            Self::Beyond { .. } => "choose numbers of 64 bits, or remove that value",
             Self::NotAMesh(_) => {
                 "meshes: npy node ele neigh edge poly ply obj off stl vtu msh inp geojson wkt wkb svg png"
             }

@@ -56,6 +56,10 @@ pub enum Format {
     Wkt,
     /// Well-known binary of geometries.
     Wkb,
+    /// GeoTIFF rasters.
+    Tiff,
+    /// ESRI ASCII grids.
+    Asc,
     /// Meshes of Gmsh.
     Msh,
     /// Meshes of Abaqus.
@@ -103,6 +107,9 @@ const NAMES: &[(&str, Format)] = &[
     ("ewkt", Format::Wkt),
     ("wkb", Format::Wkb),
     ("ewkb", Format::Wkb),
+    ("tif", Format::Tiff),
+    ("tiff", Format::Tiff),
+    ("asc", Format::Asc),
     ("msh", Format::Msh),
     ("inp", Format::Inp),
     ("svg", Format::Svg),

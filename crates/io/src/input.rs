@@ -15,7 +15,7 @@ pub fn decompressed(mut source: Box<dyn Source>, format: Format) -> Result<Box<d
     }
     let mut inside = BufReader::with_capacity(1 << 16, Stream(MultiGzDecoder::new(source)));
     match format {
-        Format::Las | Format::Npy | Format::Npz | Format::E57 => {
+        Format::Las | Format::Npy | Format::Npz | Format::E57 | Format::Tiff => {
             let mut bytes = Vec::new();
             inside.read_to_end(&mut bytes)?;
             Ok(Box::new(Cursor::new(bytes)))

@@ -24,6 +24,7 @@ mod middles;
 mod output;
 mod patches;
 pub mod picture;
+mod raster;
 mod solid;
 mod trim;
 
@@ -47,6 +48,7 @@ pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};
 pub use patches::{Patches, write_patches};
+pub use raster::{Raster, RasterInfo, RasterWriter, Sample, beside_raster, read_raster};
 pub use solid::{Solid, write_solid};
 pub use trim::{Cut, Trim};
 
@@ -102,6 +104,7 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Vtk => vtk::read_legacy(source),
         Format::Pcd => pcd::read(source),
         Format::Msh => msh::read_points(source),
+        Format::Tiff | Format::Asc => read_raster(source, format).map(Raster::into_points),
         _ => Err(Error::NotPoints(format)),
     }
 }

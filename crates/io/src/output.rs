@@ -4,7 +4,7 @@
 //! mode and its owner, and, if it has several names, all of them.
 
 use std::fs::{self, File, Metadata, OpenOptions};
-use std::io::{self, BufWriter, Stderr, Stdout, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Stderr, Stdout, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -292,11 +292,23 @@ impl Write for Output {
     }
 }
 
+/// Files can be written anywhere; what is compressed, and what is no file, from its beginning to its end.
+impl Seek for Output {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match (&mut self.writer, &self.place) {
+            (Writer::Plain(Sink::File(file)), Place::Rename { .. } | Place::Copy { .. }) => file.seek(to),
+            _ => {
+                Err(io::Error::new(io::ErrorKind::NotSeekable, "it is written from its beginning to its end"))
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Output;
     use std::fs;
-    use std::io::Write;
+    use std::io::{Seek, SeekFrom, Write};
     use std::path::Path;
 
     fn write(path: &Path, content: &[u8]) {
@@ -320,6 +332,21 @@ mod tests {
         assert_eq!(fs::read(&path).expect("readable"), b"whole");
         assert!(Output::create(folder.path()).is_err());
         assert!(Output::create(&folder.path().join("no/such/folder.txt")).is_err());
+    }
+
+    #[test]
+    fn files_alone_can_be_written_anywhere() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("out.txt");
+        let mut output = Output::create(&path).expect("writable");
+        output.write_all(b"12345").expect("written");
+        output.seek(SeekFrom::Start(1)).expect("a file");
+        output.write_all(b"xy").expect("written");
+        output.commit().expect("renamed");
+        assert_eq!(fs::read(&path).expect("readable"), b"1xy45");
+        assert!(Output::create(Path::new("-")).expect("there").stream_position().is_err());
+        let mut packed = Output::create(&folder.path().join("out.txt.gz")).expect("writable");
+        assert!(packed.stream_position().is_err());
     }
 
     #[cfg(unix)]

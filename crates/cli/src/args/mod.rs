@@ -116,7 +116,7 @@ pub(crate) enum Command {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
     /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off
-    /// stl vtk vtu msh pcd geojson wkt wkb, each also with .gz. Several files are one set.
+    /// stl vtk vtu msh pcd tif asc geojson wkt wkb, each also with .gz. Several files are one set.
     #[arg(value_name = "IN", required = true)]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.

@@ -6,11 +6,13 @@
 //! | the same, smooth at the vertices too | [`Interpolator::smooth`], [`Interpolator::farin`] with [`gradients`] | the same |
 //! | at many points, on all threads | [`Interpolator::many`], [`Interpolator::matrix`] for the [`Weights`] alone | |
 //! | a linear raster | [`rasterize`], or [`Raster::paint`] for triangles from anywhere | O(1) a triangle, row and cell |
+//! | lines of equal height, and what is between them | [`Contours`] at [`Levels`] | linear in triangles and points of lines |
 //! | another raster | that first, which says which cells have values; then [`Interpolator::fill`] | |
 //!
 //! Which triangle a point is in and who its neighbours are is exact; values are rounded.
 
 mod bulk;
+mod contours;
 mod gradients;
 mod grid;
 mod interpolator;
@@ -21,6 +23,7 @@ mod real;
 mod smooth;
 
 pub use bulk::Weights;
+pub use contours::{ContourBand, ContourLine, Contours, Levels};
 pub use gradients::gradients;
 pub use grid::Grid;
 pub use interpolator::{Interpolator, Outside};

@@ -127,6 +127,37 @@ pub(crate) fn read_list<R: Read + Seek>(source: R) -> Result<Vec<f64>, Error> {
     }
 }
 
+/// Reads numbers of shape (rows, columns), floating point or whole: the numbers of rows and columns, and the values row by row.
+pub(crate) fn read_grid<R: Read + Seek>(source: R) -> Result<(usize, usize, Vec<f64>), Error> {
+    let file = open(source)?;
+    let (shape, by_columns) = (&file.header.shape, file.header.by_columns);
+    let [rows, columns] = shape[..] else {
+        return Err(Error::content(format!("the array has the shape {shape:?}, not (rows, columns)")));
+    };
+    let too_many = || Error::content(format!("the array has the shape {shape:?}, too many for memory"));
+    let (rows, columns) = (rows as usize, columns as usize);
+    let count = rows.checked_mul(columns).ok_or_else(too_many)?;
+    let take = |values: &mut dyn Iterator<Item = Result<f64, Error>>| -> Result<Vec<f64>, Error> {
+        values.take(count).collect()
+    };
+    let values = if file.header.kind.starts_with('f') {
+        numbers!(file, take, |value| Ok(Into::<f64>::into(value)), "f8" f64, "f4" f32)
+    } else {
+        numbers!(file, take, |value| exact(i128::from(value)),
+            "i1" i8, "u1" u8, "i2" i16, "u2" u16, "i4" i32, "u4" u32, "i8" i64, "u8" u64)
+    }?;
+    if by_columns {
+        let at = |i: usize| values[i % columns * rows + i / columns];
+        return Ok((rows, columns, (0..count).map(at).collect()));
+    }
+    Ok((rows, columns, values))
+}
+
+/// Writes what stands before float64 of a shape, row by row.
+pub(crate) fn write_header(out: &mut impl Write, shape: &[usize]) -> io::Result<()> {
+    header::write(out, "f8", shape)
+}
+
 /// Points from the numbers of an array.
 fn fill(
     mut values: impl Iterator<Item = Result<f64, Error>>,

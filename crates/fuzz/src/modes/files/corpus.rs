@@ -4,8 +4,9 @@ use std::io::{Cursor, Write};
 use std::sync::OnceLock;
 
 use delone::Delaunay2;
+use delone::surface::Grid;
 use delone_generators::Kind;
-use delone_io::{Crs, Format, Mesh, picture};
+use delone_io::{Crs, Format, Mesh, RasterInfo, RasterWriter, Sample, picture};
 
 use super::{ARRAYS, E57, JSON, LAS, MESHES, PLY, TEXT};
 
@@ -132,12 +133,33 @@ fn arrays() -> Seeds {
     }
     let archive = archive.finish().map(Cursor::into_inner).unwrap_or_default();
     vec![
+        raster(Format::Tiff, Sample::F32),
+        raster(Format::Tiff, Sample::F64),
+        raster(Format::Tiff, Sample::U8),
+        raster(Format::Asc, Sample::F32),
+        raster(Format::Npy, Sample::F64),
         (Format::Npy, columns),
         (Format::Npz, archive),
         (Format::Npy, gzip(&plain.1)),
         plain,
         mesh(Format::Npy),
     ]
+}
+
+/// A raster of several strips, with all that files say of it.
+fn raster(format: Format, sample: Sample) -> (Format, Vec<u8>) {
+    let write = || -> Result<Vec<u8>, delone_io::Error> {
+        let grid = Grid::new([500.0, 900.0], [2.0, -2.0], 9, 150).map_err(std::io::Error::other)?;
+        let crs = Crs { vertical: Some(7837), ..Crs::of_epsg(25_832) };
+        let info = RasterInfo { crs: Some(crs), nodata: Some(-9999.0), sample, ..RasterInfo::new(grid) };
+        let mut writer = RasterWriter::create(Cursor::new(Vec::new()), format, &info)?;
+        let height = |i: usize| if i.is_multiple_of(11) { f64::NAN } else { (i * i % 250) as f64 };
+        writer.write_rows(&(0..9 * 150).map(height).collect::<Vec<_>>())?;
+        Ok(writer.finish()?.into_inner())
+    };
+    let written = write();
+    assert!(written.is_ok(), "{format} is written");
+    (format, written.unwrap_or_default())
 }
 
 /// Tiles of all point formats, plain and compressed.

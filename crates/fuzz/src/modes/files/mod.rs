@@ -84,6 +84,16 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
     let attributes =
         source().and_then(|source| delone_io::read_triangle_attributes(source, format).map(|_| ()));
     said.extend(message(attributes));
+    match source().and_then(|source| delone_io::read_raster(source, format)) {
+        Ok(raster) if raster.values.len() as f64 != raster.grid.cells() => {
+            return Err(format!(
+                "a raster of {} cells with {} values",
+                raster.grid.cells(),
+                raster.values.len()
+            ));
+        }
+        other => said.extend(message(other.map(|_| ()))),
+    }
     match said.iter().find(|text| text.len() > LONGEST_MESSAGE) {
         Some(text) => Err(format!("a message of {} bytes", text.len())),
         None => Ok(()),

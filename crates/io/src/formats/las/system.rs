@@ -5,6 +5,7 @@ use std::io::{Read, Seek, SeekFrom};
 use las::raw::header::Evlr;
 use las::{Builder, Vlr};
 
+use crate::crs::keys::decode;
 use crate::{Crs, Error, Source};
 
 /// Who the records about coordinates belong to, and their numbers.
@@ -12,11 +13,6 @@ const OWNER: &str = "LASF_Projection";
 const KEYS: u16 = 34_735;
 const TEXTS: u16 = 34_737;
 const WELL_KNOWN_TEXT: u16 = 2_112;
-
-/// GeoTIFF keys: the number of a projected and of a geographic system, and their names.
-const PROJECTED: u16 = 3_072;
-const GEOGRAPHIC: u16 = 2_048;
-const NAMES: [u16; 3] = [3_073, 1_026, 2_049];
 
 /// Bytes of an extended record before its content.
 const HEAD: u64 = 60;
@@ -63,25 +59,10 @@ pub(super) fn find(records: &[Vlr]) -> Option<Crs> {
         .or_else(|| of_keys(content(KEYS)?, content(TEXTS).unwrap_or_default()))
 }
 
-/// The system that GeoTIFF keys name: entries of four numbers after a head of four.
+/// The system that GeoTIFF keys name.
 fn of_keys(keys: &[u8], texts: &[u8]) -> Option<Crs> {
     let numbers: Vec<u16> = keys.as_chunks().0.iter().map(|&pair| u16::from_le_bytes(pair)).collect();
-    let entry = |key: u16| {
-        let (_, entries) = numbers.split_first_chunk::<4>()?;
-        entries.as_chunks::<4>().0.iter().find(|entry| entry[0] == key).copied()
-    };
-    // 32,767 stands for a system that has no number.
-    let number =
-        |key| entry(key).filter(|e| e[1] == 0 && e[3] != 0 && e[3] != 32_767).map(|e| u32::from(e[3]));
-    let name = |key| {
-        let [_, _, count, at] = entry(key).filter(|e| e[1] == TEXTS)?;
-        let text = texts.get(usize::from(at)..)?.get(..usize::from(count))?;
-        let text = String::from_utf8_lossy(text);
-        let text = text.trim_matches(['\0', '|', ' ']);
-        (!text.is_empty()).then(|| text.to_owned())
-    };
-    let (epsg, name) = (number(PROJECTED).or_else(|| number(GEOGRAPHIC)), NAMES.into_iter().find_map(name));
-    (epsg.is_some() || name.is_some()).then_some(Crs { epsg, name, wkt: None })
+    decode(&numbers, texts)
 }
 
 #[cfg(test)]

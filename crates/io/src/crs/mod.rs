@@ -1,37 +1,69 @@
 //! Coordinate reference systems: what a file says its coordinates mean. They are passed on, not transformed.
 
+mod codes;
+pub(crate) mod keys;
+
 use std::fmt;
 
 /// A coordinate reference system, as far as a file names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Crs {
-    /// Its number in the EPSG registry.
+    /// Its number in the EPSG registry; of a compound system the number of the horizontal part.
     pub epsg: Option<u32>,
     /// Its name.
     pub name: Option<String>,
     /// Its definition as well-known text.
     pub wkt: Option<String>,
+    /// The number of the system of heights in the EPSG registry, where one is named.
+    pub vertical: Option<u32>,
+    /// Whether the axes are longitude and latitude, where the file says so or its number tells.
+    pub is_geographic: Option<bool>,
 }
 
-/// How well-known text begins the systems that have two horizontal axes.
-const HORIZONTAL: [&str; 6] = ["PROJCS[", "PROJCRS[", "GEOGCS[", "GEOGCRS[", "GEODCRS[", "LOCAL_CS["];
+/// How well-known text begins the systems that are projected, the others that have two horizontal axes, and those of heights.
+const PROJECTED: [&str; 2] = ["PROJCS[", "PROJCRS["];
+const GEOGRAPHIC: [&str; 3] = ["GEOGCS[", "GEOGCRS[", "GEODCRS["];
+const LOCAL: &str = "LOCAL_CS[";
+const VERTICAL: [&str; 4] = ["VERT_CS[", "VERTCRS[", "VERTICALCRS[", "VERTCS["];
 
 impl Crs {
     /// A system by its number.
+    ///
+    /// ```
+    /// use delone_io::Crs;
+    ///
+    /// assert_eq!(Crs::of_epsg(25832).is_geographic, Some(false));
+    /// assert_eq!(Crs::of_epsg(4326).is_geographic, Some(true));
+    /// ```
     pub fn of_epsg(epsg: u32) -> Self {
-        Self { epsg: Some(epsg), ..Self::default() }
+        let is_geographic = (!codes::is_compound(epsg)).then(|| codes::is_geographic(epsg));
+        Self { epsg: Some(epsg), is_geographic, ..Self::default() }
     }
 
-    /// A system by well-known text, version 1 or 2; of a compound system the name and number of the horizontal part.
+    /// A system by well-known text, version 1 or 2; of a compound system the name and number of the horizontal part, and the
+    /// number of the vertical one. Where there is a projected system and a geographic one, the projected one is meant.
+    ///
+    /// ```
+    /// use delone_io::Crs;
+    ///
+    /// let text = r#"COMPD_CS["both",PROJCS["UTM 32N",AUTHORITY["EPSG","25832"]],VERT_CS["DHHN2016",AUTHORITY["EPSG","7837"]]]"#;
+    /// let crs = Crs::of_wkt(text).expect("a system");
+    /// assert_eq!((crs.epsg, crs.vertical, crs.is_geographic), (Some(25832), Some(7837), Some(false)));
+    /// ```
     pub fn of_wkt(text: &str) -> Option<Self> {
         let text = text.trim_matches(|c: char| c == '\0' || c.is_whitespace());
-        let start = HORIZONTAL.iter().filter_map(|name| text.find(name)).min()?;
+        let first = |names: &[&str]| names.iter().filter_map(|name| text.find(name)).min();
+        let (start, is_geographic) = first(&PROJECTED)
+            .map(|at| (at, Some(false)))
+            .or_else(|| first(&GEOGRAPHIC).map(|at| (at, Some(true))))
+            .or_else(|| first(&[LOCAL]).map(|at| (at, None)))?;
         let part = bracketed(&text[start..]);
         let name = part.split('"').nth(1).filter(|name| !name.is_empty()).map(str::to_owned);
-        Some(Self { epsg: own_number(part), name, wkt: Some(text.to_owned()) })
+        let vertical = first(&VERTICAL).and_then(|at| own_number(bracketed(&text[at..])));
+        Some(Self { epsg: own_number(part), name, wkt: Some(text.to_owned()), vertical, is_geographic })
     }
 
-    /// The system that a name such as `EPSG:25832` or `urn:ogc:def:crs:EPSG::25832` stands for.
+    /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) or `urn:ogc:def:crs:EPSG::25832` stands for.
     pub fn of_name(name: &str) -> Option<Self> {
         let name = name.trim();
         if name.is_empty() {
@@ -39,7 +71,9 @@ impl Crs {
         }
         if name.to_ascii_uppercase().contains("EPSG") {
             let number = name.rsplit([':', '/']).next().unwrap_or_default();
-            return number.parse().ok().map(Self::of_epsg);
+            let (number, vertical) = number.split_once('+').unwrap_or((number, ""));
+            let horizontal = number.parse().ok().map(Self::of_epsg)?;
+            return Some(Self { vertical: vertical.parse().ok(), ..horizontal });
         }
         match name.rsplit(':').next() {
             Some("CRS84") => Some(Self { name: Some("OGC:CRS84".to_owned()), ..Self::default() }),
@@ -109,9 +143,13 @@ mod tests {
             VERT_CS["NAVD88",AUTHORITY["EPSG","6360"]]]"#;
         let crs = Crs::of_wkt(oregon).expect("a system");
         assert_eq!(crs.to_string(), "EPSG:2992 (NAD83 / Oregon GIC Lambert (ft))");
+        assert_eq!((crs.vertical, crs.is_geographic), (Some(6360), Some(false)));
         let second =
             Crs::of_wkt(r#"GEOGCRS["WGS 84",DATUM["x",ID["EPSG",6326]],ID["EPSG",4326]]"#).expect("one");
-        assert_eq!(second.epsg, Some(4326));
+        assert_eq!((second.epsg, second.is_geographic, second.vertical), (Some(4326), Some(true), None));
+        let third = r#"COMPOUNDCRS["both",GEOGCRS["ETRS89",ID["EPSG",4258]],VERTCRS["EVRF",VDATUM["x"],ID["EPSG",5621]]]"#;
+        let third = Crs::of_wkt(third).expect("one");
+        assert_eq!((third.epsg, third.vertical), (Some(4258), Some(5621)));
         let local = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]\0\0").expect("one");
         assert_eq!((local.epsg, local.name.as_deref()), (None, Some("ours")));
         assert_eq!(Crs::of_wkt("PROJCS[").expect("one").name, None);
@@ -127,5 +165,8 @@ mod tests {
         }
         assert_eq!(Crs::of_name("urn:ogc:def:crs:OGC:1.3:CRS84").expect("one").to_string(), "OGC:CRS84");
         assert_eq!(Crs::of_name("EPSG:"), None);
+        let both = Crs::of_name("EPSG:25832+7837").expect("two");
+        assert_eq!((both.epsg, both.vertical), (Some(25832), Some(7837)));
+        assert_eq!(Crs::of_epsg(7405).is_geographic, None, "it is compound");
     }
 }

@@ -1,0 +1,171 @@
+//! The GeoTIFF keys of a system (OGC 19-008r4), which LAS and GeoTIFF have in common.
+//!
+//! A projected system is in key 3072, a geographic one in 2048, heights are in 4096: never a number of both in one key, which
+//! no reader understands.
+
+use super::{Crs, codes};
+
+/// The keys, by number: what the model is, whether cells are areas, names, systems.
+const MODEL: u16 = 1_024;
+const RASTER: u16 = 1_025;
+const NAME: u16 = 1_026;
+const GEOGRAPHIC: u16 = 2_048;
+const GEOGRAPHIC_NAME: u16 = 2_049;
+const PROJECTED: u16 = 3_072;
+const PROJECTED_NAME: u16 = 3_073;
+const VERTICAL: u16 = 4_096;
+
+/// The tag, and the record of LAS, that texts of keys are in.
+const TEXTS: u16 = 34_737;
+
+/// What stands for a system that has no number.
+const OWN: u16 = 32_767;
+
+/// The system that keys name, entries of four numbers after a head of four. A projected system wins over a geographic one.
+pub(crate) fn decode(numbers: &[u16], texts: &[u8]) -> Option<Crs> {
+    let number = |key| {
+        let found = entry(numbers, key).filter(|e| e[1] == 0 && e[3] != 0 && e[3] != OWN);
+        found.map(|e| u32::from(e[3]))
+    };
+    let name = |key| {
+        let [_, _, count, at] = entry(numbers, key).filter(|e| e[1] == TEXTS)?;
+        let text = texts.get(usize::from(at)..)?.get(..usize::from(count))?;
+        let text = String::from_utf8_lossy(text);
+        let text = text.trim_matches(['\0', '|', ' ']);
+        (!text.is_empty()).then(|| text.to_owned())
+    };
+    let epsg = number(PROJECTED).or_else(|| number(GEOGRAPHIC));
+    let name = [PROJECTED_NAME, NAME, GEOGRAPHIC_NAME].into_iter().find_map(name);
+    let model = entry(numbers, MODEL).map(|e| e[3]);
+    let is_geographic = match (number(PROJECTED), number(GEOGRAPHIC), model) {
+        (Some(_), _, _) | (None, None, Some(1)) => Some(false),
+        (None, Some(_), _) | (None, None, Some(2)) => Some(true),
+        _ => None,
+    };
+    let vertical = number(VERTICAL);
+    (epsg.is_some() || name.is_some() || vertical.is_some()).then_some(Crs {
+        epsg,
+        name,
+        vertical,
+        is_geographic,
+        wkt: None,
+    })
+}
+
+/// Whether the points of a raster are the centres of its cells, and not their corners.
+pub(crate) fn is_point(numbers: &[u16]) -> bool {
+    entry(numbers, RASTER).is_some_and(|e| e[3] == 2)
+}
+
+fn entry(numbers: &[u16], key: u16) -> Option<[u16; 4]> {
+    let (_, entries) = numbers.split_first_chunk::<4>()?;
+    entries.as_chunks::<4>().0.iter().find(|entry| entry[0] == key).copied()
+}
+
+/// The keys of a raster whose cells are areas.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Keys {
+    pub(crate) numbers: Vec<u16>,
+    pub(crate) texts: String,
+    /// Whether the keys say all of the system.
+    pub(crate) are_complete: bool,
+}
+
+/// The keys of a system; none where none is known, because readers take keys without a system for one of their own.
+pub(crate) fn encode(crs: Option<&Crs>) -> Keys {
+    let mut keys = Keys { numbers: Vec::new(), texts: String::new(), are_complete: true };
+    let Some(crs) = crs else { return keys };
+    let code =
+        |number: Option<u32>| number.and_then(|n| u16::try_from(n).ok()).filter(|&n| n != 0 && n != OWN);
+    let epsg = code(crs.epsg.filter(|&epsg| !codes::is_compound(epsg)));
+    let vertical = code(crs.vertical);
+    let is_geographic = crs.is_geographic.or_else(|| epsg.map(|n| codes::is_geographic(n.into())));
+    keys.are_complete = epsg.is_some() && vertical.map(u32::from) == crs.vertical;
+    match is_geographic {
+        Some(true) => keys.number(MODEL, 2),
+        Some(false) => keys.number(MODEL, 1),
+        None => keys.number(MODEL, OWN),
+    }
+    keys.number(RASTER, 1);
+    let title = crs.name.clone().or_else(|| crs.epsg.map(|number| format!("EPSG:{number}")));
+    let title = title.filter(|_| epsg.is_none());
+    if let Some(title) = &title {
+        keys.text(NAME, title);
+    }
+    match is_geographic {
+        Some(true) => keys.number(GEOGRAPHIC, epsg.unwrap_or(OWN)),
+        Some(false) => keys.number(PROJECTED, epsg.unwrap_or(OWN)),
+        None => {}
+    }
+    if let (Some(title), Some(false)) = (&title, is_geographic) {
+        keys.text(PROJECTED_NAME, title);
+    }
+    if let Some(vertical) = vertical {
+        keys.number(VERTICAL, vertical);
+    }
+    keys.with_head()
+}
+
+impl Keys {
+    fn number(&mut self, key: u16, value: u16) {
+        self.numbers.extend([key, 0, 1, value]);
+    }
+
+    fn text(&mut self, key: u16, text: &str) {
+        let at = self.texts.len();
+        // ASCII, and the bar is what ends a text.
+        self.texts
+            .extend(text.chars().take(200).map(|c| if c.is_ascii_graphic() && c != '|' { c } else { ' ' }));
+        self.texts.push('|');
+        self.numbers.extend([key, TEXTS, (self.texts.len() - at) as u16, at as u16]);
+    }
+
+    fn with_head(mut self) -> Self {
+        let count = self.numbers.len() / 4;
+        self.numbers.splice(0..0, [1, 1, 0, count as u16]);
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Crs, decode, encode, is_point};
+
+    #[test]
+    fn systems_come_back_from_their_keys() {
+        let compound = Crs { vertical: Some(7837), ..Crs::of_epsg(25832) };
+        for crs in [Crs::of_epsg(25832), Crs::of_epsg(4326), compound] {
+            let keys = encode(Some(&crs));
+            assert!(keys.are_complete);
+            assert_eq!(decode(&keys.numbers, keys.texts.as_bytes()), Some(crs));
+            assert!(!is_point(&keys.numbers));
+            let order: Vec<u16> = keys.numbers[4..].iter().step_by(4).copied().collect();
+            assert!(order.is_sorted(), "{order:?}");
+        }
+        let keys = encode(None);
+        assert_eq!((decode(&keys.numbers, &[]), keys.numbers.len()), (None, 0));
+    }
+
+    #[test]
+    fn what_has_no_number_has_a_name() {
+        let ours = Crs::of_wkt("PROJCS[\"our|s \u{e9}\",UNIT[\"metre\",1]]").expect("a system");
+        let keys = encode(Some(&ours));
+        assert!(!keys.are_complete);
+        let read = decode(&keys.numbers, keys.texts.as_bytes()).expect("a system");
+        assert_eq!((read.name.as_deref(), read.is_geographic), (Some("our s"), Some(false)));
+        // A number of two systems fits no key.
+        let keys = encode(Some(&Crs::of_epsg(7405)));
+        assert!(!keys.are_complete && !keys.numbers.contains(&7405));
+        assert_eq!(
+            decode(&keys.numbers, keys.texts.as_bytes()).expect("one").name.as_deref(),
+            Some("EPSG:7405")
+        );
+    }
+
+    #[test]
+    fn a_projected_system_wins() {
+        let numbers = [1, 1, 0, 3, 2048, 0, 1, 4258, 3072, 0, 1, 25832, 4096, 0, 1, 5783];
+        let crs = decode(&numbers, &[]).expect("a system");
+        assert_eq!((crs.epsg, crs.vertical, crs.is_geographic), (Some(25832), Some(5783), Some(false)));
+    }
+}

@@ -1,0 +1,56 @@
+//! What a raster's own file cannot say of its system of coordinates: in a file beside it, where other programs look for it.
+//!
+//! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids is ESRI's.
+
+use std::path::{Path, PathBuf};
+
+use crate::crs::keys::encode;
+use crate::{Crs, Format};
+
+/// The file beside a raster that says what its coordinates mean, and its text; `None` where the raster's own file says all of
+/// it, or nothing is known.
+///
+/// ```
+/// use std::path::Path;
+/// use delone_io::{Crs, Format, beside_raster};
+///
+/// let known = Crs::of_epsg(25832);
+/// assert_eq!(beside_raster(Path::new("dem.tif"), Format::Tiff, Some(&known)), None);
+/// let ours = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]").expect("a system");
+/// let (path, text) = beside_raster(Path::new("dem.tif"), Format::Tiff, Some(&ours)).expect("a file");
+/// assert_eq!(path, Path::new("dem.tif.aux.xml"));
+/// assert!(text.contains("PROJCS[&quot;ours&quot;"));
+/// ```
+pub fn beside_raster(path: &Path, format: Format, crs: Option<&Crs>) -> Option<(PathBuf, String)> {
+    let crs = crs?;
+    if path == Path::new("-") {
+        return None;
+    }
+    match format {
+        Format::Tiff if !encode(Some(crs)).are_complete => {
+            let mut name = path.file_name()?.to_owned();
+            name.push(".aux.xml");
+            let definition = crs.wkt.clone().or_else(|| Some(format!("EPSG:{}", crs.epsg?)))?;
+            let text = format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", escaped(&definition));
+            Some((path.with_file_name(name), text))
+        }
+        Format::Asc => Some((path.with_extension("prj"), format!("{}\n", crs.wkt.as_ref()?))),
+        _ => None,
+    }
+}
+
+/// A text as XML has it, without what XML cannot hold.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            c if c.is_control() && !c.is_whitespace() => {}
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}

@@ -1,0 +1,35 @@
+//! GeoTIFF: a raster with its place and its system of coordinates (OGC 19-008r4; TIFF 6.0 and BigTIFF).
+//!
+//! Written here, strip by strip, because the directory comes last and nothing is kept of the values; read by the `tiff` crate, behind
+//! the fence.
+
+mod place;
+mod read;
+mod write;
+
+pub(super) use read::read;
+pub(super) use write::Writer;
+
+/// The tags that say what a file has, by number.
+mod tag {
+    pub(super) const WIDTH: u16 = 256;
+    pub(super) const LENGTH: u16 = 257;
+    pub(super) const BITS: u16 = 258;
+    pub(super) const COMPRESSION: u16 = 259;
+    pub(super) const MEANING: u16 = 262;
+    pub(super) const STRIPS: u16 = 273;
+    pub(super) const SAMPLES: u16 = 277;
+    pub(super) const STRIP_ROWS: u16 = 278;
+    pub(super) const STRIP_SIZES: u16 = 279;
+    pub(super) const PLANES: u16 = 284;
+    pub(super) const PREDICTOR: u16 = 317;
+    pub(super) const TILE_SIZES: u16 = 325;
+    pub(super) const SAMPLE_FORMAT: u16 = 339;
+    pub(super) const SCALE: u16 = 33_550;
+    pub(super) const TIE: u16 = 33_922;
+    pub(super) const TRANSFORM: u16 = 34_264;
+    pub(super) const KEYS: u16 = 34_735;
+    pub(super) const TEXTS: u16 = 34_737;
+    pub(super) const ABOUT: u16 = 42_112;
+    pub(super) const NO_DATA: u16 = 42_113;
+}
