@@ -104,6 +104,103 @@ fn indices_are_checked() {
     place.fail("check u", 1, "ids-");
 }
 
+/// What no proof can know: which index is whose, heights, neighbours, tables.
+#[test]
+fn content_is_checked() {
+    let place = Place::new();
+    tiles(&place);
+    let rows = fs::read_to_string(place.path("p.csv")).expect("written");
+    let with_heights = rows
+        .lines()
+        .enumerate()
+        .map(|(k, row)| if k == 0 { "x,y,z\n".into() } else { format!("{row},{k}\n") });
+    place.file("h.csv", with_heights.collect::<String>());
+    fs::remove_dir_all(place.path("t")).expect("there");
+    place.succeed("-q tiles h.csv -o t --heights --tile 100 --neighbors --parquet");
+    place.succeed("check t");
+    let named = |folder: &str, start: &str, end: &str| {
+        let entries = fs::read_dir(place.path(folder)).expect("there");
+        let names = entries.map(|entry| entry.expect("there").file_name().into_string().expect("UTF-8"));
+        let mut names: Vec<String> =
+            names.filter(|name| name.starts_with(start) && name.ends_with(end)).collect();
+        names.sort_unstable();
+        names.pop().expect("one")
+    };
+    let refuse = |name: &str, change: &dyn Fn(&mut Vec<u8>)| {
+        copy(&place);
+        let path = place.path("u").join(name);
+        let mut bytes = fs::read(&path).expect("there");
+        change(&mut bytes);
+        fs::write(&path, bytes).expect("room");
+        place.fail("check u", 1, &format!("{name}: it is not what was written"));
+    };
+    refuse(&named("t", "ids-", ".npy"), &|bytes| {
+        let at = bytes.len() - 16;
+        bytes[at..].rotate_left(8);
+    });
+    // The last height, in its last bit.
+    refuse(&named("t", "points-", ".npy"), &|bytes| {
+        let at = bytes.len() - 8;
+        bytes[at] ^= 1;
+    });
+    for (start, end) in [
+        ("neighbors-", ".npy"),
+        ("across-", ".npy"),
+        ("points-", ".parquet"),
+        ("triangles-", ".parquet"),
+        ("seam-", ".npy"),
+    ] {
+        let name = named("t", start, end);
+        if start == "seam-" {
+            // A triangle that begins with another corner is the same, and another file.
+            let turn = |bytes: &mut Vec<u8>| {
+                let at = bytes.len() - 24;
+                bytes[at..].rotate_left(8);
+            };
+            refuse(&name, &turn);
+        } else {
+            refuse(&name, &|bytes| *bytes.last_mut().expect("some") ^= 1);
+            refuse(&name, &|bytes| bytes.truncate(bytes.len() - 1));
+        }
+        copy(&place);
+        fs::remove_file(place.path("u").join(&name)).expect("there");
+        place.fail("check u", 1, &name);
+    }
+    // Files that nobody vouches for, as a kill leaves them between.
+    copy(&place);
+    fs::write(place.path("u/neighbors-00099.npy"), "half").expect("room");
+    place.fail("check u", 1, "neighbors-00099.npy: tiles.json does not know it");
+    // A hash that is missing or leads elsewhere.
+    let text = fs::read_to_string(place.path("t/tiles.json")).expect("written");
+    for (from, to, message) in [
+        ("\"ids-", "\"other-", "has no hash of it"),
+        ("\"ids-", "\"../ids-", "something is missing in it, or wrong"),
+    ] {
+        copy(&place);
+        fs::write(place.path("u/tiles.json"), text.replacen(from, to, 1)).expect("room");
+        place.fail("check u", 1, message);
+    }
+}
+
+/// Neighbours and tables of a folder that was done before, or whose run was stopped while it wrote them.
+#[test]
+fn content_that_comes_later_is_known() {
+    let place = Place::new();
+    tiles(&place);
+    place.succeed("-q tiles p.csv p.csv -o whole --tile 100 --neighbors --parquet");
+    let manifest = || fs::read_to_string(place.path("t/tiles.json")).expect("written");
+    let before = manifest();
+    place.succeed("-q tiles p.csv p.csv -o t --tile 100 --resume --neighbors");
+    assert!(manifest().contains("\"neighbors-") && !before.contains("\"neighbors-"));
+    // Stopped before they were known.
+    fs::write(place.path("t/tiles.json"), before).expect("room");
+    place.fail("check t", 1, "tiles.json does not know it");
+    place.succeed("-q tiles p.csv p.csv -o t --tile 100 --resume --neighbors --parquet");
+    place.succeed("check t");
+    place.succeed("-q tiles p.csv p.csv -o t --tile 100 --resume");
+    assert_eq!(manifest(), fs::read_to_string(place.path("whole/tiles.json")).expect("written"));
+}
+
 #[test]
 fn neighbours_of_changed_triangles_are_refused() {
     let place = Place::new();

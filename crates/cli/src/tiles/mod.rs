@@ -14,6 +14,7 @@ mod neighbors;
 mod node;
 mod seams;
 mod shards;
+mod sums;
 #[cfg(feature = "parquet")]
 mod tables;
 mod verdict;
@@ -35,6 +36,7 @@ use input::Input;
 use manifest::{Manifest, Outcome};
 use node::Done;
 use seams::Joins;
+use sums::Written;
 
 use crate::args::TilesArgs;
 use crate::files;
@@ -73,17 +75,31 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
         note(quiet, format_args!("{} was done before", folder.display()));
     }
     clean(folder, &plan);
-    if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.neighbors) {
-        neighbors::write(folder, &plan, outcome, quiet)?;
+    if args.neighbors {
+        add(folder, &mut plan, quiet, neighbors::write)?;
         stats.phase("neighbors");
     }
     #[cfg(feature = "parquet")]
-    if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.parquet) {
-        tables::write(folder, &plan, outcome, quiet)?;
+    if args.parquet {
+        add(folder, &mut plan, quiet, tables::write)?;
         stats.phase("tables");
     }
     tell(&plan, &mut stats, quiet);
     stats.write(args.input.stats.as_deref())
+}
+
+/// Writes more files of all nodes, and then what is known of them.
+fn add(
+    folder: &Path,
+    plan: &mut Manifest,
+    quiet: bool,
+    write: impl Fn(&Path, &Manifest, &Outcome, bool) -> Result<Written, Failure>,
+) -> Result<(), Failure> {
+    let Some(mut outcome) = plan.outcome.take() else { return Ok(()) };
+    let written = write(folder, plan, &outcome, quiet)?;
+    outcome.extend(written);
+    plan.outcome = Some(outcome);
+    plan.write(folder)
 }
 
 /// Keeps other runs out of a folder, where its file system can: two would write the same buckets. It ends with the process.

@@ -10,6 +10,7 @@ use delone::tiles::{Border, Fingerprint, Node};
 use serde_json::{Value, json};
 
 use super::manifest::place;
+use super::sums::Sums;
 use crate::files;
 use crate::message::Failure;
 
@@ -24,6 +25,8 @@ pub(super) struct Done {
     pub(super) fingerprint: Fingerprint,
     /// The points of its border.
     pub(super) border: u64,
+    /// The hashes of its files.
+    pub(super) sums: Sums,
 }
 
 fn path(folder: &Path, node: Node) -> PathBuf {
@@ -49,6 +52,7 @@ impl Done {
         })
     }
 
+            "files": self.sums.describe(),
     pub(super) fn parse(value: &Value) -> Option<Self> {
         let count = |name: &str| value[name].as_u64();
         let fingerprint: Fingerprint = value["fingerprint"].as_str()?.parse().ok()?;
@@ -64,6 +68,7 @@ impl Done {
         })
     }
 
+            sums: Sums::parse(&value["files"])?,
     /// Writes it with its border: the node is done then.
     pub(super) fn write(&self, folder: &Path, border: &Border) -> Result<(), Failure> {
         files::write(&path(folder, self.node), |out| {

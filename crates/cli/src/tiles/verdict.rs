@@ -3,7 +3,8 @@
 //! Every triangle is counter-clockwise; across every edge is another triangle, in the other direction, whose far corner is outside of
 //! the circle under the canonical rule; edges without are the border, which is convex and goes around once; and there are as
 //! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all, Delaunay.
-//! Each vertex has an index of its own among the points. One tile at a time; what has no twin in its tile waits for the seams.
+//! Each vertex has an index of its own among the points. One tile at a time; what has no twin in its tile waits for the seams. What no
+//! proof can know (which index is whose, heights, neighbours, tables) is held to the hashes of what was written.
 //!
 //! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, for all edges between tiles, and a bit
 //! for each point.
@@ -69,13 +70,17 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
         phase.advance();
     }
     for seam in &seams {
+        judge.content(tile, &["points", "ids", "triangles"])?;
         judge.seam(seam)?;
         phase.advance();
     }
     drop(phase);
+        judge.content(seam, &["seam"])?;
     if judge.fingerprint != outcome.fingerprint {
         return Err(wrong(format!(
             "its fingerprint is {}, and tiles.json has {}",
+    let known: Vec<&Sums> = tiles.iter().chain(&seams).map(|done| &done.sums).collect();
+    sums::check_known(folder, &known)?;
             judge.fingerprint, outcome.fingerprint
         )));
     }
@@ -184,6 +189,15 @@ impl Judge<'_> {
     /// Judges the triangles of a seam, whose edges wait for those of others.
     fn seam(&mut self, seam: &Done) -> Result<(), Failure> {
         let path = place(self.folder, "seam", seam.node, "npy");
+    /// Whether the files of a node are as they were written, these among them.
+    fn content(&self, done: &Done, kinds: &[&str]) -> Result<(), Failure> {
+        let files = kinds.iter().map(|kind| place(self.folder, kind, done.node, "npy"));
+        if let Some(path) = files.into_iter().find(|path| !done.sums.has(path)) {
+            return Err(wrong(&path, "tiles.json has no hash of it"));
+        }
+        done.sums.check(self.folder)
+    }
+
         let triangles = shards::triangles(&path)?;
         let corners = shards::corners(&path, &self.plan.cuts, &triangles, |node| self.points(node))?;
         self.judge(&path, &triangles, seam, |id| corners.get(&id).map(|&p| (id, p)))?;
