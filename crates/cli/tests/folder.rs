@@ -201,6 +201,77 @@ fn content_that_comes_later_is_known() {
     assert_eq!(manifest(), fs::read_to_string(place.path("whole/tiles.json")).expect("written"));
 }
 
+/// Numbers that somebody changed while work went on are told with their file, and are not taken for memory that is needed.
+#[test]
+fn numbers_of_a_run_that_goes_on_are_checked() {
+    let place = Place::new();
+    place.succeed("-q generate unit-circle -n 100000 --seed 1 -o p.npy");
+    // All points are on borders, and do not fit.
+    let stopped = place.run("tiles p.npy -o t --memory 64M --tile 20000");
+    assert!(place::text(&stopped.stderr).contains("--memory allows"));
+    let resume = "tiles p.npy -o u --memory 64M --resume";
+    let text = fs::read_to_string(place.path("t/tiles.json")).expect("written");
+    let known: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let with = |changed: &serde_json::Value| {
+        copy(&place);
+        fs::write(place.path("u/tiles.json"), changed.to_string()).expect("room");
+    };
+    // Of a bucket, alone: they do not add up. With the sum: the tile, or the bucket, has not so many.
+    let (mut one, mut both) = (known.clone(), known.clone());
+    let more = 1_u64 << 40;
+    one["buckets"][0][1] = more.into();
+    with(&one);
+    place.fail(resume, 1, "tiles.json: something is missing in it, or wrong");
+    let old = known["buckets"][0][1].as_u64().expect("a number");
+    both["buckets"][0][1] = more.into();
+    both["count"] = (known["count"].as_u64().expect("a number") - old + more).into();
+    let node = known["buckets"][0][0].as_u64().expect("a number");
+    with(&both);
+    place.fail(resume, 1, &format!("border-{node:05}.bin"));
+    fs::remove_file(place.path(&format!("u/border-{node:05}.bin"))).expect("there");
+    let bucket = format!("bucket-{node:05}.bin");
+    place.fail(resume, 1, &bucket);
+    fs::write(place.path("u").join(&bucket), [0; 48]).expect("room");
+    place.fail(resume, 1, &format!("{bucket}: the bucket has 48 bytes"));
+    // Such a length costs nothing where nobody wrote it: it is told which file is so long.
+    let file = fs::File::create(place.path("u").join(&bucket)).expect("room");
+    if file.set_len(24 * more).or_else(|_| file.set_len(24 << 36)).is_ok() {
+        place.fail(resume, 1, &bucket);
+    }
+    // The first line of a border.
+    let border = place.path(&format!("u/border-{node:05}.bin"));
+    for (from, message) in
+        [("\"border\":", "points"), ("\"duplicates\":", "duplicates"), ("\"node\":", "it is of node")]
+    {
+        copy(&place);
+        let bytes = fs::read(&border).expect("there");
+        let end = bytes.iter().position(|&byte| byte == b'\n').expect("a line");
+        let line = std::str::from_utf8(&bytes[..end]).expect("text");
+        let changed = [line.replacen(from, &format!("{from}7"), 1).as_bytes(), &bytes[end..]].concat();
+        fs::write(&border, changed).expect("room");
+        place.fail(resume, 1, message);
+    }
+}
+
+/// Asked before there is work to lose.
+#[test]
+fn outputs_that_cannot_be_written_are_told_first() {
+    let place = Place::new();
+    tiles(&place);
+    for command in [
+        "tiles p.csv -o v --stats no/s.json",
+        "check t --stats no/s.json",
+        "info t --stats no/s.json",
+        "window t -o x.off --stats no/s.json",
+        "triangulate p.csv -o x.npy --stats no/s.json",
+        "triangulate p.csv -o no/x.npy",
+        "experiment hierarchy --largest 100 --stats no/s.json",
+        "triangulate p.csv -o x.npy --stats t",
+    ] {
+        place.fail(command, 1, "cannot write");
+    }
+}
+
 #[test]
 fn neighbours_of_changed_triangles_are_refused() {
     let place = Place::new();

@@ -211,6 +211,10 @@ impl Manifest {
             _ => return None,
         };
         let (count, left_out) = (all["count"].as_u64()?, all["left_out"].as_u64()?);
+        if let Some(buckets) = &buckets {
+            let sum = buckets.values().try_fold(left_out, |sum, &points| sum.checked_add(points));
+            (sum == Some(count)).then_some(())?;
+        }
         if let Some(outcome) = &outcome {
             let is_sum =
                 all["triangles"] == outcome.triangles() && outcome.adds_up(&cuts, count, left_out)?;

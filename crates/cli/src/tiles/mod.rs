@@ -226,7 +226,16 @@ fn distribute(
         buckets.take(first, points, heights)
     })?;
     let mut counts = buckets.finish()?;
-    if count != plan.count || input.describe()? != plan.input {
+    let is_same = input.describe()? == plan.input;
+    if count != plan.count && is_same {
+        let path = folder.join(manifest::NAME);
+        let what = format!("{}: it has {} points, and the input {count}", path.display(), plan.count);
+        return Err(Failure::new(
+            what,
+            "it was changed: start again in another folder, or with this one empty",
+        ));
+    }
+    if !is_same {
         let what = format!("the input changed while it was read: {count} points, {} before", plan.count);
         return Err(Failure::new(what, "start again in another folder when nobody writes to it"));
     }
@@ -240,12 +249,16 @@ fn distribute(
 fn triangulate(folder: &Path, plan: &Manifest, budget: &Budget, quiet: bool) -> Result<(), Failure> {
     let mut open = Vec::new();
     for (&node, &count) in plan.buckets.iter().flatten() {
-        if Done::find(folder, node)?.is_none() {
-            open.push((node, count));
+        match Done::find(folder, node)? {
+            Some(done) => done.check_points(folder, count)?,
+            None => {
+                buckets::check(folder, node, count, plan.has_heights)?;
+                open.push((node, count));
+            }
         }
     }
-    let largest = open.iter().map(|&(_, count)| count).max().unwrap_or(0);
-    let workers = budget.workers(largest)?;
+    let Some(&(largest, count)) = open.iter().max_by_key(|&&(_, count)| count) else { return Ok(()) };
+    let workers = budget.workers(count, &buckets::bucket(folder, largest))?;
     leaf::all(folder, &plan.cuts, &open, plan.has_heights, workers, quiet)
 }
 
@@ -261,6 +274,8 @@ fn finish(folder: &Path, plan: &mut Manifest, budget: &Budget, quiet: bool) -> R
     while let Some(node) = waiting.pop() {
         waiting.extend(cuts.halves(node).into_iter().flatten().rev());
         let Some(done) = Done::find(folder, node)? else { continue };
+        let of_bucket = plan.buckets.as_ref().and_then(|buckets| buckets.get(&node));
+        done.check_points(folder, of_bucket.copied().unwrap_or(0))?;
         fingerprint += done.fingerprint;
         vertices += done.vertices;
         duplicates += done.duplicates;

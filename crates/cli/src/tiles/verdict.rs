@@ -19,6 +19,8 @@ use rayon::prelude::*;
 use super::manifest::{self, Manifest, place};
 use super::node::Done;
 use super::shards::{self, wrong};
+use super::sums::{self, Sums};
+use crate::files;
 use crate::message::{Failure, answer};
 use crate::progress::Phase;
 use crate::stats::Stats;
@@ -45,6 +47,7 @@ impl Edge {
 pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     super::keep_out(folder, stats_path)?;
+    files::keep_apart(&[], stats_path)?;
     let (plan, outcome) = manifest::finished(folder)?;
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
     let wrong = |what: String| wrong(folder, what);
@@ -67,20 +70,20 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
     };
     for tile in &tiles {
         judge.tile(tile)?;
+        judge.content(tile, &["points", "ids", "triangles"])?;
         phase.advance();
     }
     for seam in &seams {
-        judge.content(tile, &["points", "ids", "triangles"])?;
         judge.seam(seam)?;
+        judge.content(seam, &["seam"])?;
         phase.advance();
     }
     drop(phase);
-        judge.content(seam, &["seam"])?;
+    let known: Vec<&Sums> = tiles.iter().chain(&seams).map(|done| &done.sums).collect();
+    sums::check_known(folder, &known)?;
     if judge.fingerprint != outcome.fingerprint {
         return Err(wrong(format!(
             "its fingerprint is {}, and tiles.json has {}",
-    let known: Vec<&Sums> = tiles.iter().chain(&seams).map(|done| &done.sums).collect();
-    sums::check_known(folder, &known)?;
             judge.fingerprint, outcome.fingerprint
         )));
     }
@@ -186,9 +189,6 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Judges the triangles of a seam, whose edges wait for those of others.
-    fn seam(&mut self, seam: &Done) -> Result<(), Failure> {
-        let path = place(self.folder, "seam", seam.node, "npy");
     /// Whether the files of a node are as they were written, these among them.
     fn content(&self, done: &Done, kinds: &[&str]) -> Result<(), Failure> {
         let files = kinds.iter().map(|kind| place(self.folder, kind, done.node, "npy"));
@@ -198,6 +198,9 @@ impl Judge<'_> {
         done.sums.check(self.folder)
     }
 
+    /// Judges the triangles of a seam, whose edges wait for those of others.
+    fn seam(&mut self, seam: &Done) -> Result<(), Failure> {
+        let path = place(self.folder, "seam", seam.node, "npy");
         let triangles = shards::triangles(&path)?;
         let corners = shards::corners(&path, &self.plan.cuts, &triangles, |node| self.points(node))?;
         self.judge(&path, &triangles, seam, |id| corners.get(&id).map(|&p| (id, p)))?;
