@@ -299,6 +299,7 @@ fn no_output_is_in_the_folder() {
         "window t -o t/tiles.json --to geojson",
         "window t -o x.off --stats t/tiles.json",
         "check t --stats t/tiles.json",
+        "info t --stats t/tiles.json",
         "tiles p.csv p.csv -o t --resume --stats t/tiles.json",
     ] {
         place.fail(command, 2, "is in the folder");
