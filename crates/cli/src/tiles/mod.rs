@@ -249,12 +249,11 @@ fn distribute(
 fn triangulate(folder: &Path, plan: &Manifest, budget: &Budget, quiet: bool) -> Result<(), Failure> {
     let mut open = Vec::new();
     for (&node, &count) in plan.buckets.iter().flatten() {
-        match Done::find(folder, node)? {
-            Some(done) => done.check_points(folder, count)?,
-            None => {
-                buckets::check(folder, node, count, plan.has_heights)?;
-                open.push((node, count));
-            }
+        if let Some(done) = Done::find(folder, node)? {
+            done.check_points(folder, count)?;
+        } else {
+            buckets::check(folder, node, count, plan.has_heights)?;
+            open.push((node, count));
         }
     }
     let Some(&(largest, count)) = open.iter().max_by_key(|&&(_, count)| count) else { return Ok(()) };

@@ -130,8 +130,9 @@ pub(super) fn check_known(folder: &Path, known: &[&Sums]) -> Result<(), Failure>
         entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort_unstable();
     let is_shard = |name: &str| {
+        let extension = Path::new(name).extension();
         KINDS.iter().any(|kind| name.starts_with(kind))
-            && (name.ends_with(".npy") || name.ends_with(".parquet"))
+            && extension.is_some_and(|extension| extension == "npy" || extension == "parquet")
     };
     let is_known = |name: &str| known.iter().any(|sums| sums.0.contains_key(name));
     match names.into_iter().find(|name| is_shard(name) && !is_known(name)) {
