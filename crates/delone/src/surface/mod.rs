@@ -2,6 +2,8 @@
 
 mod contours;
 mod grid;
+mod thin;
 
 pub use contours::{ContourBand, ContourLine, Contours, Levels};
 pub use grid::Grid;
+pub use thin::{Thinned, Thinning};
