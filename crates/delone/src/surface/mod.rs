@@ -21,6 +21,7 @@ mod natural;
 mod raster;
 mod real;
 mod smooth;
+mod thin;
 
 pub use bulk::Weights;
 pub use contours::{ContourBand, ContourLine, Contours, Levels};
@@ -28,3 +29,4 @@ pub use gradients::gradients;
 pub use grid::Grid;
 pub use interpolator::{Interpolator, Outside};
 pub use raster::{Raster, rasterize};
+pub use thin::{Thinned, Thinning};

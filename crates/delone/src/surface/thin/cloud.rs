@@ -1,0 +1,140 @@
+//! Points anywhere, measured against planes over triangles: a tree of boxes over points along a curve, of which those that are
+//! surely not worse than the worst so far are not entered.
+//!
+//! Which points are in a triangle is exact. Cost: O(n log n) once; O(log n) for a triangle and as much again as it has points, for a
+//! large one a part of them.
+
+use std::cell::Cell;
+
+use delone_predicates::{Filter, lexicographic};
+
+use super::plane::{Plane, Worst};
+use super::{Samples, Triple};
+
+/// Points of a box that has no boxes.
+const LEAF: usize = 16;
+
+/// See the module. Points are along a curve, no two of them equal.
+#[derive(Debug)]
+pub(super) struct Cloud {
+    pub(super) points: Vec<[f64; 2]>,
+    heights: Vec<f64>,
+    filter: Filter,
+    /// A complete binary tree: the boxes in box i are 2 i and 2 i + 1.
+    boxes: Vec<Bound>,
+}
+
+/// The least and the largest x, y and height.
+#[derive(Clone, Copy, Debug)]
+struct Bound([[f64; 2]; 3]);
+
+const EMPTY: Bound = Bound([[f64::INFINITY, f64::NEG_INFINITY]; 3]);
+
+impl Bound {
+    fn with(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|k| [self.0[k][0].min(other.0[k][0]), self.0[k][1].max(other.0[k][1])]))
+    }
+}
+
+impl Cloud {
+    pub(super) fn new(points: Vec<[f64; 2]>, heights: Vec<f64>, filter: Filter) -> Self {
+        let leaves = points.len().div_ceil(LEAF).next_power_of_two();
+        let mut boxes = vec![EMPTY; 2 * leaves];
+        for (bound, (points, heights)) in
+            boxes[leaves..].iter_mut().zip(points.chunks(LEAF).zip(heights.chunks(LEAF)))
+        {
+            for (p, &z) in points.iter().zip(heights) {
+                *bound = bound.with(&Bound([[p[0]; 2], [p[1]; 2], [z; 2]]));
+            }
+        }
+        for i in (1..leaves).rev() {
+            boxes[i] = boxes[2 * i].with(&boxes[2 * i + 1]);
+        }
+        Self { points, heights, filter, boxes }
+    }
+
+    /// Tells the points in a triangle with their errors, but for those in boxes whose errors are surely below the floor, which may rise.
+    fn enter(&self, corners: Triple, floor: &Cell<f64>, mut each: impl FnMut(u32, f64)) {
+        let c = corners.map(|s| self.points[s as usize]);
+        let Some((plane, range)) = self.plane(corners) else { return };
+        let around = [0, 1].map(|k| [c[0][k].min(c[1][k]).min(c[2][k]), c[0][k].max(c[1][k]).max(c[2][k])]);
+        let leaves = self.boxes.len() / 2;
+        let mut stack = vec![1];
+        while let Some(i) = stack.pop() {
+            let Bound(bound) = &self.boxes[i];
+            let both = [0, 1].map(|k| [bound[k][0].max(around[k][0]), bound[k][1].min(around[k][1])]);
+            if both.iter().any(|side| side[0] > side[1]) {
+                continue;
+            }
+            let middle = both.map(|side| side[0] / 2.0 + side[1] / 2.0);
+            let half = both.map(|side| side[1] / 2.0 - side[0] / 2.0);
+            if plane.most(middle, half, bound[2]) < floor.get() {
+                continue;
+            }
+            if i < leaves {
+                stack.extend([2 * i + 1, 2 * i]);
+                continue;
+            }
+            let first = (i - leaves) * LEAF;
+            for s in first..(first + LEAF).min(self.points.len()) {
+                let q = self.points[s];
+                let is_beyond = |k: usize| self.filter.orient2d(c[k], c[(k + 1) % 3], q).is_negative();
+                if !corners.contains(&(s as u32)) && !(0..3).any(is_beyond) {
+                    each(s as u32, self.distance(&plane, range, s));
+                }
+            }
+        }
+    }
+
+    /// The plane over a triangle, and the least and the largest height of its corners.
+    fn plane(&self, corners: Triple) -> Option<(Plane, [f64; 2])> {
+        let z = corners.map(|s| self.heights[s as usize]);
+        let plane = Plane::new(corners.map(|s| self.points[s as usize]), z)?;
+        Some((plane, [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])]))
+    }
+
+    /// The error of a point: what is between heights stays so, however thin the triangle.
+    fn distance(&self, plane: &Plane, [low, high]: [f64; 2], sample: usize) -> f64 {
+        (self.heights[sample] - plane.at(self.points[sample]).clamp(low, high)).abs()
+    }
+}
+
+impl Samples for Cloud {
+    fn count(&self) -> usize {
+        self.points.len()
+    }
+
+    fn is_there(&self, _: u32) -> bool {
+        true
+    }
+
+    fn point(&self, sample: u32) -> [f64; 2] {
+        self.points[sample as usize]
+    }
+
+    fn height(&self, sample: u32) -> f64 {
+        self.heights[sample as usize]
+    }
+
+    fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {
+        let mut worst = Worst::above(floor);
+        let least = Cell::new(floor);
+        let order = |a: u32, b: u32| lexicographic(self.point(a), self.point(b));
+        self.enter(corners, &least, |sample, error| {
+            if error >= worst.error {
+                worst.offer(error, sample, order);
+                least.set(worst.error);
+            }
+        });
+        worst.sample.map(|sample| (worst.error, sample))
+    }
+
+    fn all(&self, corners: Triple, each: &mut dyn FnMut(u32, f64)) {
+        self.enter(corners, &Cell::new(f64::NEG_INFINITY), |sample, error| each(sample, error));
+        corners.into_iter().for_each(|corner| each(corner, 0.0));
+    }
+
+    fn error(&self, corners: Triple, sample: u32) -> f64 {
+        self.plane(corners).map_or(0.0, |(plane, range)| self.distance(&plane, range, sample as usize))
+    }
+}

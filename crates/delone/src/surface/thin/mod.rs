@@ -1,0 +1,283 @@
+//! Thinning: few of many points with heights, such that the triangles of these few are nowhere far from any of the others.
+//!
+//! Greedy insertion (Garland & Heckbert, "Fast polygonal approximation of terrains and height fields", CMU-CS-95-181, 1995, algorithm
+//! III): the corners of the hull first, then always the point that is furthest from the triangles so far. The worst point of each
+//! triangle is in a heap, and only triangles that an insertion made are measured. Ties go to the lexicographically least point and the
+//! triangulation is the canonical one, so the result is that of the set of points: neither their order nor threads show.
+//!
+//! Cost: O(log n) for each point that is chosen, its cavity, and the points in the triangles of its star, of which boxes leave most out
+//! where triangles are large.
+
+mod cloud;
+mod greedy;
+mod lattice;
+mod mesh;
+mod plane;
+#[cfg(test)]
+mod tests;
+
+use delone_predicates::{Filter, Grid as Steps};
+
+use super::Grid;
+use crate::error::Error;
+use crate::hull::Hull2;
+use crate::ids::MAX_POINTS;
+use crate::order::morton;
+use crate::plane::{Constrained2, Crossings};
+use crate::points::{check_count, check_finite, survey};
+use crate::triangulation::Triangulation;
+use cloud::Cloud;
+use greedy::Greedy;
+use lattice::Lattice;
+use mesh::{Mesh, NONE};
+
+/// Three samples: the corners of a triangle.
+type Triple = [u32; 3];
+
+/// Points with heights that are chosen from, by number.
+trait Samples {
+    /// The numbers are below this one.
+    fn count(&self) -> usize;
+    /// Whether there is a sample of a number.
+    fn is_there(&self, sample: u32) -> bool;
+    /// Where a sample is.
+    fn point(&self, sample: u32) -> [f64; 2];
+    /// Its height.
+    fn height(&self, sample: u32) -> f64;
+    /// The sample in a triangle that is furthest from its plane, if it is as far as a floor; of several the lexicographically least.
+    fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)>;
+    /// Tells every sample in a triangle, with its error.
+    fn all(&self, corners: Triple, each: &mut dyn FnMut(u32, f64));
+    /// The error of a sample in a triangle.
+    fn error(&self, corners: Triple, sample: u32) -> f64;
+}
+
+/// How far thinning goes.
+///
+/// ```
+/// use delone::surface::Thinning;
+///
+/// // A roof: its ridge and its corners are all of it.
+/// let points: Vec<[f64; 2]> = (0..25).map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
+/// let heights: Vec<f64> = points.iter().map(|p| 2.0 - (p[0] - 2.0).abs()).collect();
+/// let thinned = Thinning::new().max_error(1e-9).points(&points, &heights, &[])?;
+/// assert_eq!((thinned.vertices.len(), thinned.error), (6, 0.0));
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thinning {
+    max_error: f64,
+    max_points: usize,
+}
+
+/// What is left of the points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thinned {
+    /// The points that are left, by their indices in the input, cells of a raster row by row: those that there were to begin with (the
+    /// corners of the hull and the ends of segments, by index), then in the order in which they were chosen. Their canonical
+    /// triangulation, with the segments, is what the others were measured against.
+    pub vertices: Vec<usize>,
+    /// The largest distance in height of any input point from the triangles, computed for all of them in the end.
+    pub error: f64,
+}
+
+impl Default for Thinning {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Thinning {
+    /// As far as no point is off, with as many points as that takes.
+    pub fn new() -> Self {
+        Self { max_error: 0.0, max_points: usize::MAX }
+    }
+
+    /// How far the height of a point may be from the triangles, in the units of heights. Errors are computed in floating point: what is
+    /// above by less than 2^-48 of the largest height is rounding, and is left.
+    #[must_use]
+    pub fn max_error(self, max_error: f64) -> Self {
+        Self { max_error, ..self }
+    }
+
+    /// The number of points to stop at. The corners of the hull and the ends of segments stay, be they more.
+    #[must_use]
+    pub fn max_points(self, max_points: usize) -> Self {
+        Self { max_points, ..self }
+    }
+
+    /// Thins points with heights. Segments are between points by index; they are edges of what is left, and their ends are among its
+    /// vertices. Of points that are equal the first counts.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a largest error that is NaN or negative, [`Error::Values`] for other than one height a point,
+    /// [`Error::NotFinite`] and [`Error::Height`] for numbers that are none, [`Error::TooManyPoints`], and those of segments:
+    /// [`Error::NoSuchPoint`], [`Error::SegmentsCross`].
+    pub fn points(
+        &self,
+        points: &[[f64; 2]],
+        heights: &[f64],
+        segments: &[[usize; 2]],
+    ) -> Result<Thinned, Error> {
+        self.check()?;
+        if points.len() != heights.len() {
+            return Err(Error::Values { expected: points.len(), found: heights.len() });
+        }
+        check_count(points.len(), MAX_POINTS)?;
+        check_finite(points.iter().copied())?;
+        if let Some(index) = heights.iter().position(|z| !z.is_finite()) {
+            return Err(Error::Height { index, value: heights[index] });
+        }
+        let count = points.len();
+        for (segment, ends) in segments.iter().enumerate() {
+            if let Some(&index) = ends.iter().find(|&&end| end >= count) {
+                return Err(Error::NoSuchPoint { segment, index, count });
+            }
+        }
+        let (bounds, _) = survey(points);
+        let sorted = morton::sort(points, &bounds);
+        let mut place = vec![0_u32; count];
+        for (at, &i) in sorted.indices.iter().enumerate() {
+            place[i as usize] = at as u32;
+        }
+        for &(duplicate, first) in &sorted.duplicates {
+            place[duplicate as usize] = place[first as usize];
+        }
+        let mut start: Vec<usize> = Hull2::from_points(points)?.corners().to_vec();
+        start.extend(segments.as_flattened());
+        start.iter_mut().for_each(|i| *i = sorted.indices[place[*i] as usize] as usize);
+        start.sort_unstable();
+        start.dedup();
+        let at = |i: usize| start.partition_point(|&j| j < sorted.indices[place[i] as usize] as usize);
+        let segments: Vec<[usize; 2]> = segments.iter().map(|ends| ends.map(at)).collect();
+        let heights = sorted.indices.iter().map(|&i| heights[i as usize]).collect();
+        let filter =
+            filter(bounds.high[0] - bounds.low[0], bounds.high[1] - bounds.low[1], points.as_flattened());
+        let samples = Cloud::new(sorted.points, heights, filter);
+        let start: Vec<u32> = start.into_iter().map(|i| place[i]).collect();
+        let thinned = self.thin(&samples, &start, &segments, filter)?;
+        let all = 0..samples.points.len() as u32;
+        Ok(thinned
+            .unwrap_or_else(|| Thinned { vertices: all.map(|s| s as usize).collect(), error: 0.0 })
+            .named(&sorted.indices))
+    }
+
+    /// Thins the cells of a raster that have data: values row by row, NaN where there is none. Vertices are numbers of cells.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a largest error that is NaN or negative, [`Error::Values`] for other than one value a cell,
+    /// [`Error::Height`] for an infinite one, [`Error::TooManyPoints`].
+    ///
+    /// ```
+    /// use delone::surface::{Grid, Thinning};
+    ///
+    /// let grid = Grid::new([0.0, 3.0], [1.0, -1.0], 4, 3)?;
+    /// let slope: Vec<f64> = (0..12).map(|i| f64::from(i % 4) * 0.5).collect();
+    /// let thinned = Thinning::new().max_error(0.1).raster(&grid, &slope)?;
+    /// assert_eq!(thinned.vertices, [0, 3, 8, 11]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn raster(&self, grid: &Grid, values: &[f64]) -> Result<Thinned, Error> {
+        self.check()?;
+        let (columns, rows) = (grid.columns(), grid.rows());
+        if values.len() as f64 != grid.cells() {
+            return Err(Error::Values { expected: columns.saturating_mul(rows), found: values.len() });
+        }
+        check_count(values.len(), MAX_POINTS)?;
+        if let Some(index) = values.iter().position(|z| z.is_infinite()) {
+            return Err(Error::Height { index, value: values[index] });
+        }
+        let start: Vec<u32> = corners(grid, values)?.into_iter().map(|i| i as u32).collect();
+        let sides: Vec<f64> = (0..columns).map(|k| grid.x(k)).chain((0..rows).map(|k| grid.y(k))).collect();
+        let [width, height] = [columns, rows].map(|n| n as f64);
+        let [dx, dy] = grid.step().map(f64::abs);
+        let filter = filter(width * dx, height * dy, &sides);
+        let samples = Lattice::new(grid, values);
+        let thinned = self.thin(&samples, &start, &[], filter)?;
+        let all = || (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
+        Ok(thinned.unwrap_or_else(|| Thinned { vertices: all(), error: 0.0 }))
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        if self.max_error >= 0.0 {
+            return Ok(());
+        }
+        Err(Error::Parameter { name: "the largest error", value: self.max_error, range: "zero or positive" })
+    }
+
+    /// Chooses samples; `None` where there are no triangles, so that nothing can be left out.
+    fn thin<S: Samples>(
+        &self,
+        samples: &S,
+        start: &[u32],
+        segments: &[[usize; 2]],
+        filter: Filter,
+    ) -> Result<Option<Thinned>, Error> {
+        let points: Vec<[f64; 2]> = start.iter().map(|&s| samples.point(s)).collect();
+        let c = Constrained2::with_crossings(&points, segments, Crossings::Refuse)?;
+        if c.triangle_count() == 0 {
+            return Ok(None);
+        }
+        let mut number = vec![NONE; c.slot_count()];
+        for (n, t) in c.triangle_ids().enumerate() {
+            number[t.index()] = n as u32;
+        }
+        let mesh = c.mesh();
+        let triangles: Vec<_> = c
+            .triangle_ids()
+            .map(|t| {
+                let corners = mesh.corners(t).map(|v| v.index() as u32);
+                let across =
+                    [0, 1, 2].map(|k| Triangulation::across(&c, t, k).map_or(NONE, |u| number[u.index()]));
+                let ends = |e| [mesh.origin(e), mesh.destination(e)].map(|v| v.index() as u32);
+                let fixed: Vec<[u32; 2]> = [0, 1, 2]
+                    .map(|k| t.edge(k))
+                    .into_iter()
+                    .filter(|&e| mesh.is_fixed(e))
+                    .map(ends)
+                    .collect();
+                let is_fixed = |k: usize| fixed.contains(&[corners[(k + 1) % 3], corners[(k + 2) % 3]]);
+                (corners, across, [0, 1, 2].map(is_fixed))
+            })
+            .collect();
+        let mesh = Mesh::new(points, &triangles, filter);
+        Ok(Some(Greedy::new(samples, mesh, start).run(self.max_error, self.max_points)))
+    }
+}
+
+impl Thinned {
+    /// With other names of the samples.
+    fn named(mut self, names: &[u32]) -> Self {
+        self.vertices.iter_mut().for_each(|v| *v = names[*v] as usize);
+        self
+    }
+}
+
+/// What floating point decides in a box of this size, for coordinates on a lattice or not.
+fn filter(width: f64, height: f64, coordinates: &[f64]) -> Filter {
+    Filter::for_box(width, height, Steps::of(coordinates))
+}
+
+/// The cells at the corners of the hull of those with data, by number.
+fn corners(grid: &Grid, values: &[f64]) -> Result<Vec<usize>, Error> {
+    let (columns, count) = (grid.columns(), values.len());
+    let four = [0, columns.wrapping_sub(1), count.wrapping_sub(columns), count.wrapping_sub(1)];
+    if four.iter().all(|&i| values.get(i).is_some_and(|z| !z.is_nan())) {
+        let mut four = four.to_vec();
+        four.dedup();
+        return Ok(four);
+    }
+    // The outermost of each row are enough.
+    let mut cells = Vec::new();
+    for (r, row) in values.chunks_exact(columns.max(1)).enumerate() {
+        let first = row.iter().position(|z| !z.is_nan());
+        let last = row.iter().rposition(|z| !z.is_nan());
+        cells.extend(first.into_iter().chain(last).map(|c| r * columns + c));
+    }
+    cells.dedup();
+    let centres: Vec<[f64; 2]> = cells.iter().map(|&i| grid.centre(i % columns, i / columns)).collect();
+    let hull = Hull2::from_points(&centres)?;
+    let mut corners: Vec<usize> = hull.corners().iter().map(|&i| cells[i]).collect();
+    corners.sort_unstable();
+    Ok(corners)
+}

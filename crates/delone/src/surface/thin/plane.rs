@@ -1,0 +1,79 @@
+//! The plane over a triangle, and the worst of what was measured against it.
+
+use std::cmp::Ordering;
+
+/// The plane over a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    origin: [f64; 2],
+    height: f64,
+    slope: [f64; 2],
+}
+
+impl Plane {
+    /// From the corners in lexicographic order, so that it does not depend on theirs; `None` without an area.
+    #[inline]
+    pub(super) fn new(corners: [[f64; 2]; 3], heights: [f64; 3]) -> Option<Self> {
+        let mut c = [(corners[0], heights[0]), (corners[1], heights[1]), (corners[2], heights[2])];
+        for (i, j) in [(0, 1), (1, 2), (0, 1)] {
+            if c[j].0 < c[i].0 {
+                c.swap(i, j);
+            }
+        }
+        let [(p, z), (q, zq), (r, zr)] = c;
+        let [a, b] = [[q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]];
+        let (u, v) = (zq - z, zr - z);
+        let area = a[0] * b[1] - a[1] * b[0];
+        let slope = [(u * b[1] - v * a[1]) / area, (v * a[0] - u * b[0]) / area];
+        slope.iter().all(|x| x.is_finite()).then_some(Self { origin: p, height: z, slope })
+    }
+
+    /// The part of the height that a row has.
+    #[inline]
+    pub(super) fn row(&self, y: f64) -> f64 {
+        self.height + self.slope[1] * (y - self.origin[1])
+    }
+
+    /// The part of the height that a column has.
+    #[inline]
+    pub(super) fn along(&self, x: f64) -> f64 {
+        self.slope[0] * (x - self.origin[0])
+    }
+
+    /// The height at a place.
+    #[inline]
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        self.row(y) + self.along(x)
+    }
+
+    /// A bound of the error of heights in a range, in a box: its middle, and half of its sides.
+    #[inline]
+    pub(super) fn most(&self, middle: [f64; 2], half: [f64; 2], [least, most]: [f64; 2]) -> f64 {
+        let (z, span) = (self.at(middle), self.slope[0].abs() * half[0] + self.slope[1].abs() * half[1]);
+        (most - (z - span)).max(z + span - least)
+    }
+}
+
+/// The worst so far: the largest error, of equal ones that of the lexicographically least point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Worst<K> {
+    /// Nothing below this is of interest.
+    pub(super) error: f64,
+    pub(super) sample: Option<K>,
+}
+
+impl<K: Copy> Worst<K> {
+    /// Nothing yet; errors above the floor are of interest.
+    pub(super) fn above(floor: f64) -> Self {
+        Self { error: floor, sample: None }
+    }
+
+    /// Takes an error that is not less than the worst.
+    #[inline]
+    pub(super) fn offer(&mut self, error: f64, sample: K, order: impl Fn(K, K) -> Ordering) {
+        let is_first = |other: K| order(sample, other).is_lt();
+        if error > self.error || self.sample.is_some_and(is_first) {
+            *self = Self { error, sample: Some(sample) };
+        }
+    }
+}

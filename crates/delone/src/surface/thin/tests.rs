@@ -1,0 +1,196 @@
+//! What is left is near all points, as an independent triangulation sees it, and is what greedy insertion by definition chooses.
+
+use delone_generators::{Kind, Random};
+use delone_predicates::lexicographic;
+
+use super::{Thinned, Thinning};
+use crate::surface::Grid;
+use crate::{Constrained2, Delaunay2, Error, VertexId};
+
+fn heights(points: &[[f64; 2]]) -> Vec<f64> {
+    points.iter().map(|p| 10.0 * (6.0 * p[0]).sin() * (4.0 * p[1]).cos() + p[0]).collect()
+}
+
+/// The height of the plane over three corners, by the definition in long arithmetic order.
+fn plane(c: [[f64; 2]; 3], z: [f64; 3], q: [f64; 2]) -> f64 {
+    let cross =
+        |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let weights = [cross(q, c[1], c[2]), cross(q, c[2], c[0]), cross(q, c[0], c[1])];
+    let all: f64 = weights.iter().sum();
+    weights.iter().zip(z).map(|(w, z)| w * z).sum::<f64>() / all
+}
+
+/// The largest error of all points over the triangles of those that are left.
+fn error(points: &[[f64; 2]], z: &[f64], left: &[usize], segments: &[[usize; 2]]) -> f64 {
+    let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
+    let place = |i: usize| left.iter().position(|&j| points[j] == points[i]).expect("an end is left");
+    let segments: Vec<[usize; 2]> = segments.iter().map(|ends| ends.map(place)).collect();
+    let c = Constrained2::from_parts(&chosen, &segments).expect("valid");
+    if c.triangle_count() == 0 {
+        return 0.0;
+    }
+    let mut worst = 0.0_f64;
+    for (&q, z_q) in points.iter().zip(z) {
+        let found = crate::Ask::find(&c, q).expect("finite");
+        let t = found.simplex.expect("inside of the hull");
+        let corners = c.mesh().corners(t);
+        let height = |v: VertexId| z[left[v.index()]];
+        worst = worst.max((z_q - plane(corners.map(|v| c.point(v)), corners.map(height), q)).abs());
+    }
+    worst
+}
+
+#[test]
+fn all_points_are_near() {
+    for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid, Kind::Circle, Kind::Ellipse2] {
+        let points = kind.points(600, 5);
+        let z = heights(&points);
+        for bound in [5.0, 1.0, 0.1, 0.0] {
+            let thinned = Thinning::new().max_error(bound).points(&points, &z, &[]).expect("valid");
+            let found = error(&points, &z, &thinned.vertices, &[]);
+            // Planes over slivers are rounded more by the definition.
+            assert!(found <= bound + 1e-6, "{} {bound}: {found}", kind.name());
+            assert!((thinned.error - found).abs() < 1e-6, "{}: {} and {found}", kind.name(), thinned.error);
+        }
+    }
+}
+
+/// Greedy insertion by its definition, with a new triangulation each time.
+fn by_definition(points: &[[f64; 2]], z: &[f64], bound: f64) -> Vec<usize> {
+    let hull = crate::Hull2::from_points(points).expect("finite");
+    let mut left = hull.corners().to_vec();
+    left.sort_unstable();
+    loop {
+        let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
+        let d = Delaunay2::from_points(&chosen).expect("finite");
+        let error = |i: usize| {
+            let t = crate::Ask::find(&d, points[i]).expect("finite").simplex.expect("inside");
+            let corners = d.mesh().corners(t);
+            let height = |v: VertexId| z[left[v.index()]];
+            (z[i] - plane(corners.map(|v| d.point(v)), corners.map(height), points[i])).abs()
+        };
+        let worst = (0..points.len())
+            .filter(|i| !left.contains(i))
+            .map(|i| (error(i), i))
+            .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| lexicographic(points[b.1], points[a.1])));
+        match worst {
+            Some((error, i)) if error > bound => left.push(i),
+            _ => return left,
+        }
+    }
+}
+
+#[test]
+fn the_worst_is_chosen_each_time() {
+    for seed in 0..6 {
+        let points = Kind::Uniform.points(150, seed);
+        // Rough heights, so that rounding decides nothing.
+        let mut random = Random::new(seed);
+        let z: Vec<f64> = points.iter().map(|_| random.below(1_000_003) as f64 / 1e5).collect();
+        let thinned = Thinning::new().max_error(2.0).points(&points, &z, &[]).expect("valid");
+        assert_eq!(thinned.vertices, by_definition(&points, &z, 2.0));
+        // The first points of a longer list are those of a shorter one.
+        let few = Thinning::new().max_points(60).points(&points, &z, &[]).expect("valid");
+        let more = Thinning::new().max_points(90).points(&points, &z, &[]).expect("valid");
+        assert_eq!((few.vertices.len(), &few.vertices[..]), (60, &more.vertices[..60]));
+        assert!(few.error >= more.error || more.error < 10.0);
+    }
+}
+
+#[test]
+fn the_order_of_the_input_does_not_show() {
+    let points = Kind::Clusters.points(500, 2);
+    let z = heights(&points);
+    let thin = |points: &[[f64; 2]], z: &[f64]| {
+        let Thinned { vertices, error } =
+            Thinning::new().max_error(0.5).points(points, z, &[]).expect("valid");
+        let hull = crate::Hull2::from_points(points).expect("finite").corners().len();
+        let mut chosen: Vec<[u64; 2]> = vertices.iter().map(|&i| points[i].map(f64::to_bits)).collect();
+        chosen[..hull].sort_unstable();
+        (chosen, error)
+    };
+    let order: Vec<usize> = (0..500).map(|i| (i * 7 + 3) % 500).collect();
+    let other: Vec<[f64; 2]> = order.iter().map(|&i| points[i]).collect();
+    let z_other: Vec<f64> = order.iter().map(|&i| z[i]).collect();
+    assert_eq!(thin(&points, &z), thin(&other, &z_other));
+}
+
+#[test]
+fn segments_stay() {
+    let mut points = Kind::Uniform.points(400, 8);
+    // A cross of two breaklines that share a point, and points on one of them.
+    let first = points.len();
+    points.extend([[0.1, 0.5], [0.5, 0.5], [0.9, 0.5], [0.5, 0.1], [0.5, 0.9], [0.25, 0.5], [0.75, 0.5]]);
+    let segments =
+        [[first, first + 1], [first + 1, first + 2], [first + 3, first + 1], [first + 1, first + 4]];
+    let z: Vec<f64> = points.iter().map(|p| (p[0] - 0.5).abs() + 3.0 * (p[1] - 0.5).max(0.0)).collect();
+    for bound in [0.3, 0.05, 0.0] {
+        let thinned = Thinning::new().max_error(bound).points(&points, &z, &segments).expect("valid");
+        assert!((first..first + 5).all(|i| thinned.vertices.contains(&i)), "ends of segments");
+        let found = error(&points, &z, &thinned.vertices, &segments);
+        assert!(found <= bound + 1e-9, "{bound}: {found}");
+        assert!((thinned.error - found).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn rasters_are_thinned_as_points() {
+    for (columns, rows) in [(40, 30), (2, 2), (65, 9), (33, 64)] {
+        for missing in [0, 7, 2] {
+            let grid = Grid::new([100.0, 50.0], [0.1, -0.1], columns, rows).expect("a raster");
+            let centres: Vec<[f64; 2]> =
+                (0..rows).flat_map(|r| (0..columns).map(move |c| grid.centre(c, r))).collect();
+            let mut z = heights(&centres);
+            let has_data = |i: usize| missing == 0 || (i * i) % 11 >= missing;
+            (0..z.len()).filter(|&i| !has_data(i)).for_each(|i| z[i] = f64::NAN);
+            for bound in [3.0, 0.3, 0.0] {
+                let thinned = Thinning::new().max_error(bound).raster(&grid, &z).expect("valid");
+                let there: Vec<usize> = (0..z.len()).filter(|&i| has_data(i)).collect();
+                let points: Vec<[f64; 2]> = there.iter().map(|&i| centres[i]).collect();
+                let heights: Vec<f64> = there.iter().map(|&i| z[i]).collect();
+                let left: Vec<usize> = thinned
+                    .vertices
+                    .iter()
+                    .map(|i| there.binary_search(i).expect("a cell with data"))
+                    .collect();
+                let found = error(&points, &heights, &left, &[]);
+                assert!(found <= bound + 1e-6, "{columns} {rows} {missing} {bound}: {found}");
+                assert!((thinned.error - found).abs() <= 1e-6, "{} {found}", thinned.error);
+                // As many as of the points, but for rounding.
+                let points = Thinning::new().max_error(bound).points(&points, &heights, &[]).expect("valid");
+                let (a, b) = (points.vertices.len() as f64, left.len() as f64);
+                assert!((a - b).abs() <= 0.05 * a + 4.0, "{a} points, {b} cells");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_spans_no_plane_stays_whole() {
+    let line: Vec<[f64; 2]> = (0..5).map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect();
+    let thinned = Thinning::new().max_error(9.0).points(&line, &[1.0; 5], &[]).expect("valid");
+    assert_eq!(thinned.vertices.len(), 5);
+    let none = Thinning::new().points(&[], &[], &[]).expect("valid");
+    assert_eq!((none.vertices.len(), none.error), (0, 0.0));
+    let grid = Grid::new([0.0; 2], [1.0, -1.0], 3, 1).expect("a raster");
+    let row = Thinning::new().max_error(9.0).raster(&grid, &[1.0, f64::NAN, 2.0]).expect("valid");
+    assert_eq!(row.vertices, [0, 2]);
+    let equal =
+        Thinning::new().points(&[[0.0; 2], [1.0, 0.0], [0.0, 1.0], [0.0; 2]], &[1.0, 2.0, 3.0, 9.0], &[]);
+    assert_eq!(equal.expect("valid").vertices, [0, 1, 2]);
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
+    let thin = |bound: f64, z: &[f64], segments: &[[usize; 2]]| {
+        Thinning::new().max_error(bound).points(&points, z, segments).map(|_| ()).expect_err("refused")
+    };
+    let z = [0.0; 4];
+    assert!(matches!(thin(-1.0, &z, &[]), Error::Parameter { .. }));
+    assert!(matches!(thin(f64::NAN, &z, &[]), Error::Parameter { .. }));
+    assert!(matches!(thin(1.0, &z[..3], &[]), Error::Values { expected: 4, found: 3 }));
+    assert!(matches!(thin(1.0, &[0.0, f64::NAN, 0.0, 0.0], &[]), Error::Height { index: 1, .. }));
+    assert!(matches!(thin(1.0, &z, &[[0, 4]]), Error::NoSuchPoint { segment: 0, index: 4, count: 4 }));
+    assert!(matches!(thin(1.0, &z, &[[0, 3], [1, 2]]), Error::SegmentsCross { .. }));
+}
