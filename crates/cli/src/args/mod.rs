@@ -10,6 +10,7 @@ mod polygons;
 mod proximity;
 mod shapes;
 mod strategy;
+mod surface;
 mod tiles;
 mod triangle;
 mod triangulate;
@@ -30,6 +31,7 @@ pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
+pub(crate) use surface::{DtmArgs, DuplicatesName, InterpolateArgs, MethodName, OutsideName};
 pub(crate) use tiles::{TilesArgs, WindowArgs};
 pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
@@ -57,6 +59,10 @@ pub(crate) enum Command {
     Triangulate(TriangulateArgs),
     /// Triangulate more points than memory, in tiles.
     Tiles(TilesArgs),
+    /// Make a raster of terrain of points with heights: a DEM, with hillshade and contours.
+    Dtm(Box<DtmArgs>),
+    /// Interpolate values between points: linear, natural neighbours, smooth.
+    Interpolate(InterpolateArgs),
     /// Cut a part, or an overview, out of a folder of tiles.
     Window(WindowArgs),
     /// Make meshes with good angles and sizes: new vertices until all triangles are as wanted.
