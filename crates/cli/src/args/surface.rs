@@ -108,6 +108,9 @@ pub(crate) struct DtmArgs {
     /// Memory that may be taken, as in 500M or 4G, from 64M on; by default as much as there is.
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub(crate) memory: Option<u64>,
+    /// Points of a tile at most, and bands of few rows: for tests of what only large sets would show.
+    #[arg(long, value_name = "N", hide = true, requires = "memory")]
+    pub(crate) tile: Option<usize>,
 }
 
 /// Values between points.

@@ -21,6 +21,8 @@ pub(super) struct Lines {
     pub(super) is_level: Vec<bool>,
     /// Points of each polygon that is level, or of what else is in one file.
     polygons: Vec<std::ops::Range<usize>>,
+    /// Points that segments were cut at, each with an end of its segment.
+    cuts: Vec<[usize; 2]>,
 }
 
 impl Lines {
@@ -48,6 +50,30 @@ impl Lines {
             lines.add(graph, is_level, path, quiet)?;
         }
         Ok(lines)
+    }
+
+    /// Cuts segments into pieces that are not longer, so that what is on the other side of a line is behind its vertices.
+    pub(super) fn cut(&mut self, longest: f64) {
+        /// More would be lines of another scale than the raster.
+        const MOST: f64 = 100_000.0;
+        for s in 0..self.segments.len() {
+            let [a, b] = self.segments[s];
+            let (p, q) = (self.points[a], self.points[b]);
+            let pieces = ((p[0] - q[0]).hypot(p[1] - q[1]) / longest).ceil().min(MOST) as usize;
+            let mut last = a;
+            for k in 1..pieces {
+                let share = k as f64 / pieces as f64;
+                let between = |a: f64, b: f64| a + share * (b - a);
+                self.points.push([between(p[0], q[0]), between(p[1], q[1])]);
+                self.given.push(self.given[a].zip(self.given[b]).map(|(a, b)| between(a, b)));
+                let new = self.points.len() - 1;
+                self.cuts.push([new, a]);
+                self.segments.push([last, new]);
+                self.is_level.push(self.is_level[s]);
+                last = new;
+            }
+            self.segments[s] = [last, b];
+        }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -112,6 +138,10 @@ impl Lines {
             let lowest = heights[range.clone()].iter().copied().fold(f64::INFINITY, f64::min);
             heights[range.clone()].fill(lowest);
             levels[range.clone()].fill(Some(lowest));
+        }
+        for &[new, end] in &self.cuts {
+            levels[new] = levels[end];
+            heights[new] = levels[end].unwrap_or(heights[new]);
         }
         if self.polygons.is_empty() {
             levels.clear();

@@ -54,6 +54,7 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
                 memory,
                 heights: true,
                 duplicates: args.duplicates,
+                tile: args.tile,
                 ..inputs::tiles(input)
             };
             let (held, about) = Held::make(&tiles, &mut stats, quiet)?;
@@ -121,7 +122,10 @@ impl Job<'_> {
         inputs::check(cloud, &self.label, args)?;
         let crs = self.crs(cloud);
         let grid = self.grid(&Bounds::of(cloud.xy.iter().copied()), cloud.xy.len() as f64)?;
-        let lines = Lines::read(args, crs.as_ref(), quiet)?;
+        let mut lines = Lines::read(args, crs.as_ref(), quiet)?;
+        if args.method != MethodName::Linear {
+            lines.cut(grid.step()[0] / 4.0);
+        }
         let phase = Phase::start(quiet, "triangulating");
         let mut kind = if lines.is_empty() {
             let (d, heights) = surface::of_points(cloud, args.duplicates, &self.label)?;
@@ -161,6 +165,7 @@ impl Job<'_> {
         let free = (memory - (40 << 20)) as f64;
         // A band has its values twice, and where neighbours are asked its points.
         let rows = (free / 8.0 / 16.0 / grid.columns() as f64).max(1.0) as usize;
+        let rows = if args.tile.is_some() { 7 } else { rows };
         let mut bands = even(&grid, rows.min((AT_ONCE / grid.columns()).max(1)));
         if args.method != MethodName::Linear {
             let most = free / 2.0 / 700.0;

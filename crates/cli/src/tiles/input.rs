@@ -66,7 +66,7 @@ impl<'a> Input<'a> {
                     let outcome = match heights {
                         None if self.args.heights => {
                             let what = format!("{}: it has no heights", path.display());
-                            Err(Failure::usage(what, "leave --heights out, or that file"))
+                            Err(Failure::new(what, "give files with heights: x, y and z"))
                         }
                         _ => take(path, first, points, heights.filter(|_| self.args.heights)),
                     };
