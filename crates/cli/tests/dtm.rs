@@ -65,7 +65,7 @@ fn tiles_do_not_show() {
     let kinds = [Kind::Uniform, Kind::Grid, Kind::Clusters, Kind::Circle, Kind::Duplicates, Kind::Utm];
     for (k, kind) in kinds.into_iter().enumerate() {
         let points = kind.points(600, k as u64);
-        place.file("p.csv", &with_heights(&points, &mut random));
+        place.file("p.csv", with_heights(&points, &mut random));
         let bounds = delone::Bounds::of(points.iter().copied());
         let cell = (bounds.high[0] - bounds.low[0]).max(bounds.high[1] - bounds.low[1]) / 37.0;
         for (m, method) in ["linear", "natural", "laplace", "nearest"].into_iter().enumerate() {
@@ -163,7 +163,7 @@ fn lines_and_polygons() {
     let slope: String = (0..121).map(|i| format!("{},{},{}\n", i % 11, i / 11, i % 11)).collect();
     place.file("p.csv", &slope);
     let ring = "[[3,3],[7,3],[7,7],[3,7],[3,3]]";
-    place.file("lake.geojson", &format!(r#"{{"type":"Polygon","coordinates":[{ring}]}}"#));
+    place.file("lake.geojson", format!(r#"{{"type":"Polygon","coordinates":[{ring}]}}"#));
     for method in ["linear", "natural"] {
         place.succeed(&format!("-q dtm p.csv --cell 1 --method {method} --flat lake.geojson -o a.npy"));
         let (_, columns, values) = raster(&place, "a.npy");
@@ -183,7 +183,7 @@ fn lines_and_polygons() {
     let told = text(&place.run("dtm p.csv --cell 1 --breaklines cross.geojson -o a.npy").stderr);
     assert!(told.contains("differ by up to 4"), "{told}");
     // Without long triangles at the border, or anywhere.
-    place.file("p.csv", &format!("{slope}60,5,0\n"));
+    place.file("p.csv", format!("{slope}60,5,0\n"));
     for option in ["--carve 2", "--max-edge 2"] {
         place.succeed(&format!("-q dtm p.csv --cell 1 {option} -o a.npy"));
         assert_eq!(raster(&place, "a.npy").2.iter().filter(|z| !z.is_nan()).count(), 100, "{option}");
@@ -239,9 +239,9 @@ fn values_are_interpolated() {
     let points = Kind::Uniform.points(300, 1);
     let text: String =
         points.iter().map(|[x, y]| format!("{x:?},{y:?},{:?},{:?}\n", x + 2.0 * y, 5.0)).collect();
-    place.file("p.csv", &format!("x,y,a,b\n{text}"));
+    place.file("p.csv", format!("x,y,a,b\n{text}"));
     let asked = Kind::Uniform.points(50, 2);
-    place.file("q.csv", &asked.iter().map(|[x, y]| format!("{x:?},{y:?}\n")).collect::<String>());
+    place.file("q.csv", asked.iter().map(|[x, y]| format!("{x:?},{y:?}\n")).collect::<String>());
     let d = Delaunay2::from_points(&points).expect("finite");
     let table: Vec<f64> = points.iter().map(|[x, y]| x + 2.0 * y).collect();
     for method in ["linear", "natural", "laplace", "smooth", "farin", "nearest"] {

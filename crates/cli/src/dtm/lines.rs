@@ -47,7 +47,7 @@ impl Lines {
                 let what = format!("{}: there is no polygon in it", path.display());
                 return Err(Failure::new(what, "give polygons, or --breaklines for lines"));
             }
-            lines.add(graph, is_level, path, quiet)?;
+            lines.add(&graph, is_level, path, quiet);
         }
         Ok(lines)
     }
@@ -80,7 +80,7 @@ impl Lines {
         self.segments.is_empty()
     }
 
-    fn add(&mut self, graph: Graph, is_level: bool, path: &Path, quiet: bool) -> Result<(), Failure> {
+    fn add(&mut self, graph: &Graph, is_level: bool, path: &Path, quiet: bool) {
         let first = self.points.len();
         self.points.extend(&graph.cloud.xy);
         match &graph.cloud.z {
@@ -90,7 +90,7 @@ impl Lines {
         self.segments.extend(graph.segments.iter().map(|ends| ends.map(|i| i + first)));
         self.is_level.resize(self.segments.len(), is_level);
         if !is_level {
-            return Ok(());
+            return;
         }
         for (k, polygon) in graph.rings.chunk_by(|a, b| a.polygon == b.polygon).enumerate() {
             let corners = polygon.iter().flat_map(|ring| &graph.segments[ring.segments.clone()]).flatten();
@@ -112,7 +112,6 @@ impl Lines {
             }
             self.polygons.push(range);
         }
-        Ok(())
     }
 
     /// The height of each point; and of points of level polygons, by index, the height of the polygon.

@@ -129,7 +129,7 @@ impl Job<'_> {
         let phase = Phase::start(quiet, "triangulating");
         let mut kind = if lines.is_empty() {
             let (d, heights) = surface::of_points(cloud, args.duplicates, &self.label)?;
-            Kind::Points(Surface::new(d, heights, args, Vec::new(), &self.label)?)
+            Kind::Points(Box::new(Surface::new(d, heights, args, Vec::new(), &self.label)?))
         } else {
             surface::with_lines(cloud, &lines, args, &self.label, stats, quiet)?
         };

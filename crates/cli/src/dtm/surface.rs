@@ -30,7 +30,7 @@ pub(super) struct Surface<T: Triangulation> {
 
 /// What surfaces there are.
 pub(super) enum Kind {
-    Points(Surface<Delaunay2>),
+    Points(Box<Surface<Delaunay2>>),
     Lines(Box<Surface<Constrained2>>),
 }
 
@@ -113,7 +113,7 @@ pub(super) fn with_lines(
     }
     // Lines are edges of the triangulation of all vertices now.
     let d = Delaunay2::from_points(c.points()).map_err(failed)?;
-    Ok(Kind::Points(Surface::new(d, heights, args, level, label)?))
+    Ok(Kind::Points(Box::new(Surface::new(d, heights, args, level, label)?)))
 }
 
 /// Brings what is inside of level polygons to their height; says which triangles that are.

@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn twice_the_precision_is_exact_where_that_suffices() {
         let mut random = crate::order::random::SplitMix(3);
-        let mut next = || (random.next() >> 14) as i128 - (1 << 49);
+        let mut next = || i128::from(random.next() >> 14) - (1 << 49);
         let double = |a: i128| {
             let high = a as f64;
             Double(high, (a - high as i128) as f64)

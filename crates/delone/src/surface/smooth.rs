@@ -59,7 +59,7 @@ impl<T: Surround> Interpolator<'_, T> {
         q: T::Point,
         values: &[f64],
         gradients: &[T::Point],
-        surface: fn(T::Point, &[Neighbor<T::Point>]) -> f64,
+        surface: Bent<T::Point>,
     ) -> Result<Option<f64>, Error> {
         let d = self.triangulation();
         check_values(d, values.len(), 1)?;
@@ -78,6 +78,9 @@ impl<T: Surround> Interpolator<'_, T> {
         Ok(Some(if bent.is_finite() { bent } else { blend(weights, |v| values[v]) }))
     }
 }
+
+/// The value at a point of a surface over its natural neighbours.
+type Bent<P> = fn(P, &[Neighbor<P>]) -> f64;
 
 /// A natural neighbour.
 #[derive(Clone, Copy)]

@@ -74,7 +74,7 @@ impl<W: Write + 'static> ShadeWriter<W> {
     /// # Errors
     /// For more than 2^31 - 1 columns or rows, and none; and those of the output.
     pub fn create(out: W, grid: &Grid, light: Light) -> Result<Self, Error> {
-        let size = |n: usize| u32::try_from(n).ok().filter(|&n| n > 0 && n <= i32::MAX as u32);
+        let size = |n: usize| u32::try_from(n).ok().filter(|&n| n > 0 && i32::try_from(n).is_ok());
         let (Some(width), Some(height)) = (size(grid.columns()), size(grid.rows())) else {
             return Err(Error::content(format!(
                 "a picture of {} x {} cells cannot be",

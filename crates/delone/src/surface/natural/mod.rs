@@ -182,7 +182,8 @@ impl Cell {
         } else {
             sum::<_, P>(double, q, points, scale, (cavity, border), measure);
             let total: f64 = double.shares.iter().map(|share| share.value()).sum();
-            if !(double.doubt * f64::EPSILON * f64::EPSILON <= GOOD * total) {
+            let is_good = double.doubt * f64::EPSILON * f64::EPSILON <= GOOD * total;
+            if !is_good {
                 return false;
             }
             weights.extend(ids.iter().copied().zip(double.shares.iter().map(|share| share.value())));

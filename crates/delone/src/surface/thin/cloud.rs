@@ -130,7 +130,7 @@ impl Samples for Cloud {
     }
 
     fn all(&self, corners: Triple, each: &mut dyn FnMut(u32, f64)) {
-        self.enter(corners, &Cell::new(f64::NEG_INFINITY), |sample, error| each(sample, error));
+        self.enter(corners, &Cell::new(f64::NEG_INFINITY), &mut *each);
         corners.into_iter().for_each(|corner| each(corner, 0.0));
     }
 
