@@ -74,6 +74,7 @@
 struct Readme;
 
 mod alpha;
+mod around;
 mod duplicates;
 mod error;
 mod graphs;
@@ -99,6 +100,7 @@ mod vertex_map;
 mod weight;
 
 pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, OutlinePart};
+pub use around::{Around, Surround};
 pub use error::{BorderProblem, Error, RegionProblem};
 pub use graphs::Graph;
 pub use hull::{Hull2, Hull3, HullHistory3};

@@ -15,7 +15,7 @@ const FLOORS: &[&[&str]] = &[
     &["mesh"],
     &["locate", "hull"],
     &["triangulation", "graphs"],
-    &["alpha"],
+    &["alpha", "around"],
     &["plane", "space"],
     &["tiles", "surface"],
 ];

@@ -1,6 +1,7 @@
 //! Delaunay triangulations of the plane, and what is made of them.
 
 mod alpha;
+mod around;
 mod change;
 pub mod check;
 mod constrained;

@@ -85,20 +85,27 @@ impl Triangulation for Delaunay2 {
     }
 }
 
-impl Ask for Delaunay2 {
-    fn find_observed<O: Tally>(&self, q: [f64; 2], observer: &mut O) -> Result<Found<TriangleId>, Error> {
+impl Delaunay2 {
+    /// What was found, in vertices.
+    pub(super) fn found(&self, location: Location2) -> Found<TriangleId> {
         let mesh = self.mesh();
         let finite = |edges: &mut dyn Iterator<Item = EdgeId>| {
             edges.map(EdgeId::triangle).find(|&t| !mesh.is_ghost(t))
         };
         let ends = |e| [mesh.origin(e), mesh.destination(e)];
-        Ok(match self.locate_observed(q, observer)? {
+        match location {
             Location2::Triangle(t) => Found::on(&mesh.corners(t), Some(t)),
             Location2::Edge(e) => Found::on(&ends(e), finite(&mut [e, mesh.twin(e)].into_iter())),
             Location2::Vertex(v) => Found::on(&[v], finite(&mut mesh.star(v))),
             Location2::Outside(e) => Found::beyond(&ends(e)),
             Location2::LowerDimensional(_) => Found::beyond(&[]),
-        })
+        }
+    }
+}
+
+impl Ask for Delaunay2 {
+    fn find_observed<O: Tally>(&self, q: [f64; 2], observer: &mut O) -> Result<Found<TriangleId>, Error> {
+        Ok(self.found(self.locate_observed(q, observer)?))
     }
 
     fn nearest_observed<O: Tally>(&self, q: [f64; 2], observer: &mut O) -> Result<Option<VertexId>, Error> {

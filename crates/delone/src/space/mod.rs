@@ -1,6 +1,7 @@
 //! Delaunay triangulations of space: the rooms of the plane, with the same names.
 
 mod alpha;
+mod around;
 mod change;
 pub mod check;
 mod construct;

@@ -83,11 +83,12 @@ impl Triangulation for Delaunay3 {
     }
 }
 
-impl Ask for Delaunay3 {
-    fn find_observed<O: Tally>(&self, q: [f64; 3], observer: &mut O) -> Result<Found<TetrahedronId>, Error> {
+impl Delaunay3 {
+    /// What was found, in vertices.
+    pub(super) fn found(&self, location: Location3) -> Found<TetrahedronId> {
         let mesh = self.mesh();
         let is_spanned = self.dimension() == Dimension::Space;
-        Ok(match self.locate_observed(q, observer)? {
+        match location {
             Location3::Tetrahedron(t) => Found::on(&mesh.corners(t), Some(t)),
             Location3::Facet(f) => {
                 let is_finite = |t: &TetrahedronId| is_spanned && !mesh.is_ghost(*t);
@@ -101,7 +102,13 @@ impl Ask for Delaunay3 {
             Location3::Vertex(v) => Found::on(&[v], self.simplices_at(v).first().copied()),
             Location3::Outside(f) => Found::beyond(&mesh.facet_corners(mesh.twin(f))),
             Location3::LowerDimensional(_) => Found::beyond(&[]),
-        })
+        }
+    }
+}
+
+impl Ask for Delaunay3 {
+    fn find_observed<O: Tally>(&self, q: [f64; 3], observer: &mut O) -> Result<Found<TetrahedronId>, Error> {
+        Ok(self.found(self.locate_observed(q, observer)?))
     }
 
     fn nearest_observed<O: Tally>(&self, q: [f64; 3], observer: &mut O) -> Result<Option<VertexId>, Error> {

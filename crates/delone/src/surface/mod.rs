@@ -1,9 +1,33 @@
-//! Surfaces: values at the points of a triangulation, and what is between them.
+//! Surfaces: values at the vertices of a triangulation, and what is between them.
+//!
+//! | wanted | how | cost |
+//! | --- | --- | --- |
+//! | a value, or weights, at one point after the other | [`Interpolator`]: nearest, linear, natural neighbours by Laplace and by Sibson | O(1) expected each from nearby |
+//! | the same, smooth at the vertices too | [`Interpolator::smooth`], [`Interpolator::farin`] with [`gradients`] | the same |
+//! | at many points, on all threads | [`Interpolator::many`], [`Interpolator::matrix`] for the [`Weights`] alone | |
+//! | a linear raster | [`rasterize`], or [`Raster::paint`] for triangles from anywhere | O(1) a triangle, row and cell |
+//! | another raster | that first, which says which cells have values; then [`Interpolator::fill`] | |
+//! | lines of equal height, and the areas between | [`Contours`] at [`Levels`] | O(k log k) for k points |
+//! | few of the points, near all of them | [`Thinning`] | O(log n) for each that is chosen, and what is in its star |
+//!
+//! Which triangle a point is in and who its neighbours are is exact; values are rounded.
 
+mod bulk;
 mod contours;
+mod gradients;
 mod grid;
+mod interpolator;
+mod linear;
+mod natural;
+mod raster;
+mod real;
+mod smooth;
 mod thin;
 
+pub use bulk::Weights;
 pub use contours::{ContourBand, ContourLine, Contours, Levels};
+pub use gradients::gradients;
 pub use grid::Grid;
+pub use interpolator::{Interpolator, Outside};
+pub use raster::{Raster, rasterize};
 pub use thin::{Thinned, Thinning};

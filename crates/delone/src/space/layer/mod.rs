@@ -187,13 +187,13 @@ impl<W: Lift> Layer<W> {
 
     /// The filter for the vertices and one more point.
     #[inline]
-    fn filter_with(&self, q: [f64; 3]) -> Filter3 {
+    pub(in crate::space) fn filter_with(&self, q: [f64; 3]) -> Filter3 {
         if self.limits.contains(q) && self.grid.is_none_or(|grid| q.iter().all(|&x| grid.holds(x))) {
             return self.filter;
         }
         let mut limits = self.limits;
         limits.include(q);
-        // A walk asks for orientations alone.
+        // Without weights: walks ask for orientations alone.
         Filter3::for_box(limits.extent(), None)
     }
 

@@ -1,0 +1,73 @@
+//! What surrounds a point of space: the tetrahedra whose spheres hold it.
+
+use super::Delaunay3;
+use super::layer::arena::View;
+use crate::around::{Around, Surround};
+use crate::error::Error;
+use crate::ids::TetrahedronId;
+use crate::mesh::Dimension;
+use crate::mesh::tetrahedra::FACETS;
+use crate::points::finite;
+use crate::triangulation::{Ask, Found};
+
+impl Surround for Delaunay3 {
+    fn find_near(&self, near: Option<TetrahedronId>, q: [f64; 3]) -> Result<Found<TetrahedronId>, Error> {
+        let q = finite(q)?;
+        let near = near.filter(|&t| self.mesh().is_cell(t) && self.dimension() == Dimension::Space);
+        match near {
+            Some(t) => Ok(self.found(self.locate_from(t, q)?)),
+            None => self.find(q),
+        }
+    }
+
+    fn surround(
+        &self,
+        near: Option<TetrahedronId>,
+        q: [f64; 3],
+        around: &mut Around<Self>,
+    ) -> Result<Found<TetrahedronId>, Error> {
+        let found = self.find_near(near, q)?;
+        around.clear();
+        if let (Some(seed), 2.., Dimension::Space) = (found.simplex, found.face().len(), self.dimension()) {
+            self.dig(seed, q, around);
+        }
+        Ok(found)
+    }
+}
+
+impl Delaunay3 {
+    fn dig(&self, seed: TetrahedronId, q: [f64; 3], around: &mut Around<Self>) {
+        let mesh = self.mesh();
+        let filter = self.base.filter_with(q);
+        let view = View { filter: &filter, ..self.base.view() };
+        around.seen.clear();
+        around.seen.add(seed.index());
+        around.cavity.push(seed);
+        around.pending.extend((0..4).map(|k| (seed, k)));
+        let mut border = Vec::new();
+        while let Some((inner, k)) = around.pending.pop() {
+            let facet = mesh.twin(inner.facet(k));
+            let t = facet.tetrahedron();
+            if around.seen.contains(t.index()) {
+                continue;
+            }
+            if !view.conflicts(t, (&q, ())) {
+                border.push(facet);
+                continue;
+            }
+            if mesh.is_ghost(t) {
+                return around.stop_at_hull();
+            }
+            around.seen.add(t.index());
+            around.cavity.push(t);
+            around.pending.extend((0..4).filter(|&k| k != facet.corner()).map(|k| (t, k)));
+        }
+        for facet in border {
+            let t = facet.tetrahedron();
+            let beyond = if mesh.is_ghost(t) { mesh.twin(facet).tetrahedron() } else { t };
+            // Seen from the other side, which is where the point is.
+            let [a, b, c] = FACETS[facet.corner()].map(|k| mesh.name(mesh.cells[t.index()].corners[k]));
+            around.border.push(([a, c, b], beyond));
+        }
+    }
+}

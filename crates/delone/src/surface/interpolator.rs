@@ -1,0 +1,228 @@
+//! Values between the vertices of a triangulation, one point after the other.
+//!
+//! Cost: location, O(1) expected where a point is near the one before; then O(1) for [`Interpolator::linear`], O(k log k) for k
+//! natural neighbours, which are six on average in the plane and fifteen in space.
+
+use super::linear;
+use super::natural::{Cell, Measure};
+use crate::around::{Around, Surround};
+use crate::error::Error;
+use crate::ids::VertexId;
+use crate::triangulation::{Ask, Found};
+
+/// What there is outside of the hull.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outside {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// The value of the nearest vertex.
+    Nearest,
+}
+
+/// How values come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Method {
+    Nearest,
+    Linear,
+    Natural(Measure),
+}
+
+/// Interpolates values at the vertices of a triangulation: the nearest one, linear in triangles and tetrahedra, or natural neighbours
+/// in the sense of Laplace or of Sibson, which are smooth but at the vertices.
+///
+/// At a vertex there is its value. On the hull everything is linear, and outside there is nothing, unless [`Self::outside`] asks for
+/// it. Which vertices take part is exact; weights are rounded, are never negative and have the sum one; all methods but the nearest
+/// vertex reproduce linear functions. Where points span less than the plane or space, everything is linear on their line, or in their plane.
+///
+/// It remembers where it was, so points should follow each other in space. It borrows the triangulation, so each thread can have one.
+///
+/// ```
+/// use delone::{Delaunay2, surface::Interpolator};
+///
+/// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]])?;
+/// let heights = [0.0, 4.0, 4.0, 0.0, 2.0]; // x
+/// for mut f in [Interpolator::linear(&d), Interpolator::laplace(&d), Interpolator::sibson(&d)] {
+///     assert!((f.value([2.5, 2.5], &heights)?.unwrap() - 2.5).abs() < 1e-12);
+///     assert_eq!(f.value([2.0, 1.0], &heights)?, Some(2.0));
+///     assert_eq!(f.value([5.0, 1.0], &heights)?, None);
+/// }
+/// # Ok::<(), delone::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Interpolator<'t, T: Ask> {
+    d: &'t T,
+    method: Method,
+    outside: Outside,
+    /// How a point is found, and what surrounds it.
+    find: Find<T>,
+    near: Option<T::Simplex>,
+    around: Around<T>,
+    cell: Cell,
+    corners: Vec<(VertexId, T::Point)>,
+    weights: Vec<(VertexId, f64)>,
+}
+
+/// Finds a point near a simplex, and what surrounds it if that is wanted.
+type Find<T> = fn(
+    &T,
+    Option<<T as crate::Triangulation>::Simplex>,
+    <T as crate::Triangulation>::Point,
+    Option<&mut Around<T>>,
+) -> Result<Found<<T as crate::Triangulation>::Simplex>, Error>;
+
+fn by_location<T: Ask>(
+    d: &T,
+    _: Option<T::Simplex>,
+    q: T::Point,
+    _: Option<&mut Around<T>>,
+) -> Result<Found<T::Simplex>, Error> {
+    d.find(q)
+}
+
+fn by_walk<T: Surround>(
+    d: &T,
+    near: Option<T::Simplex>,
+    q: T::Point,
+    around: Option<&mut Around<T>>,
+) -> Result<Found<T::Simplex>, Error> {
+    match around {
+        Some(around) => d.surround(near, q, around),
+        None => d.find_near(near, q),
+    }
+}
+
+impl<'t, T: Surround> Interpolator<'t, T> {
+    /// Linear in each triangle or tetrahedron.
+    pub fn linear(d: &'t T) -> Self {
+        Self::new(d, Method::Linear, by_walk)
+    }
+
+    /// Natural neighbours, each with the size of the facet between its cell and that of the point, over their distance.
+    pub fn laplace(d: &'t T) -> Self {
+        Self::new(d, Method::Natural(Measure::Laplace), by_walk)
+    }
+
+    /// Natural neighbours, each with what the cell of the point takes from its cell: the area, or the volume. Continuously
+    /// differentiable but at vertices.
+    pub fn sibson(d: &'t T) -> Self {
+        Self::new(d, Method::Natural(Measure::Sibson), by_walk)
+    }
+}
+
+impl<'t, T: Ask> Interpolator<'t, T> {
+    /// The value of the nearest vertex.
+    pub fn nearest(d: &'t T) -> Self {
+        Self::new(d, Method::Nearest, by_location)
+    }
+
+    /// Linear in each triangle, of a triangulation of any kind: with constraints, say. Each point is located anew.
+    pub fn linear_in(d: &'t T) -> Self {
+        Self::new(d, Method::Linear, by_location)
+    }
+
+    fn new(d: &'t T, method: Method, find: Find<T>) -> Self {
+        Self {
+            d,
+            method,
+            outside: Outside::default(),
+            find,
+            near: None,
+            around: Around::default(),
+            cell: Cell::default(),
+            corners: Vec::new(),
+            weights: Vec::new(),
+        }
+    }
+
+    /// Says what there is outside of the hull.
+    #[must_use]
+    pub fn outside(self, outside: Outside) -> Self {
+        Self { outside, ..self }
+    }
+
+    /// The triangulation.
+    pub fn triangulation(&self) -> &'t T {
+        self.d
+    }
+
+    /// The weights of vertices at a point: positive or zero, with the sum one; none outside.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, surface::Interpolator};
+    ///
+    /// let d = Delaunay2::from_points(&[[0, 0], [4, 0], [4, 4], [0, 4]])?;
+    /// let mut f = Interpolator::sibson(&d);
+    /// let weights: Vec<f64> = f.weights([2.0, 2.0])?.iter().map(|weight| weight.1).collect();
+    /// assert_eq!(weights, [0.25; 4]); // all four, whichever diagonal there is
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn weights(&mut self, q: T::Point) -> Result<&[(VertexId, f64)], Error> {
+        self.weights.clear();
+        let around = matches!(self.method, Method::Natural(_)).then_some(&mut self.around);
+        let found = (self.find)(self.d, self.near, q, around)?;
+        self.near = found.simplex.or(self.near);
+        if found.is_outside || (self.method == Method::Nearest && !found.face().is_empty()) {
+            if self.outside == Outside::Nearest || !found.is_outside {
+                let nearest = self.d.nearest_observed(q, &mut ())?;
+                self.weights.extend(nearest.map(|v| (v, 1.0)));
+            }
+            return Ok(&self.weights);
+        }
+        if let Method::Natural(measure) = self.method
+            && !self.around.cavity().is_empty()
+        {
+            self.cell.take(self.d, &self.around);
+            if self.cell.weigh(q, measure, &mut self.weights) {
+                return Ok(&self.weights);
+            }
+        }
+        self.corners.clear();
+        let point = |&v: &VertexId| (v, self.d.position(v).unwrap_or_default());
+        self.corners.extend(found.face().iter().map(point));
+        linear::weigh(q, &self.corners, &mut self.weights);
+        Ok(&self.weights)
+    }
+
+    /// The value at a point, of values by the index of their vertex; `None` outside.
+    ///
+    /// # Errors
+    /// [`Error::Coordinate`] for NaN and infinities; [`Error::Values`] if there are not as many values as ids of vertices.
+    pub fn value(&mut self, q: T::Point, values: &[f64]) -> Result<Option<f64>, Error> {
+        check_values(self.d, values.len(), 1)?;
+        let weights = self.weights(q)?;
+        Ok((!weights.is_empty()).then(|| blend(weights, |v| values[v])))
+    }
+
+    /// The same of many values at each vertex, a row for each, into a row; whether there are any.
+    ///
+    /// # Errors
+    /// As [`Self::value`].
+    pub fn values(&mut self, q: T::Point, table: &[f64], row: &mut [f64]) -> Result<bool, Error> {
+        let columns = row.len();
+        check_values(self.d, table.len(), columns)?;
+        let weights = self.weights(q)?;
+        for (column, value) in row.iter_mut().enumerate() {
+            *value = blend(weights, |v| table[v * columns + column]);
+        }
+        Ok(!weights.is_empty())
+    }
+}
+
+/// Whether there is a row of values for each id.
+pub(super) fn check_values<T: Ask>(d: &T, count: usize, columns: usize) -> Result<(), Error> {
+    let expected = d.ids_given() * columns;
+    if count == expected { Ok(()) } else { Err(Error::Values { expected, found: count }) }
+}
+
+/// A weighted mean of values by vertex: one value is itself.
+#[inline]
+pub(super) fn blend(weights: &[(VertexId, f64)], value: impl Fn(usize) -> f64) -> f64 {
+    match weights {
+        [(v, _)] => value(v.index()),
+        _ => weights.iter().filter(|weight| weight.1 != 0.0).map(|(v, w)| w * value(v.index())).sum(),
+    }
+}
