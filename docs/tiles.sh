@@ -8,7 +8,7 @@
 # Both read the same file. The table goes to standard output; files go to a temporary folder of the size of eight times the points.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-size=${1:-1e7} memory=${2:-256M} kinds=${3:-uniform clusters lognormal grid utm duplicates}
+size=${1:-1e7} memory=${2:-256M} kinds=${3:-uniform clusters lognormal grid utm duplicates lidar dense-patch}
 cargo build --release --quiet
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -11,6 +11,7 @@ mod memory;
 mod mesh;
 mod space;
 mod tiles;
+mod tiles3;
 mod voronoi;
 mod weights;
 
@@ -57,6 +58,9 @@ struct Args {
     /// Time triangulation in tiles instead of building.
     #[arg(long)]
     tiles: bool,
+    /// Time triangulation in 64 tiles of space of these sets (cube, clusters3, ...) instead, and measure its memory.
+    #[arg(long, value_delimiter = ',')]
+    tiles3: Vec<String>,
     /// Time convex hulls in space instead of building.
     #[arg(long)]
     hull: bool,
@@ -135,6 +139,11 @@ fn compare(args: &Args) {
     }
     if args.tiles {
         std::process::exit(i32::from(!each_set(args, tiles::run)));
+    }
+    if !args.tiles3.is_empty() {
+        let each = |name: &String| args.size.iter().all(|&size| tiles3::run(name, size, args.runs));
+        let wrong = args.tiles3.iter().filter(|name| !each(name)).count();
+        std::process::exit(i32::from(wrong > 0));
     }
     if args.graphs {
         std::process::exit(i32::from(!each_set(args, graphs::run)));

@@ -11,6 +11,21 @@ use crate::engines::ENGINES;
 /// The variable that makes the program a measuring child.
 pub const CHILD: &str = "DELONE_COMPARE_CHILD";
 
+/// Bytes that are resident now.
+pub fn resident() -> Option<f64> {
+    status("VmRSS")
+}
+
+/// The most bytes that were since the last [`forget`].
+pub fn most() -> Option<f64> {
+    status("VmHWM")
+}
+
+/// Forgets the most.
+pub fn forget() -> Option<()> {
+    fs::write("/proc/self/clear_refs", "5").ok()
+}
+
 fn status(field: &str) -> Option<f64> {
     let text = fs::read_to_string("/proc/self/status").ok()?;
     let line = text.lines().find(|line| line.starts_with(field))?;
@@ -45,10 +60,10 @@ fn measured(n: usize, work: impl FnOnce() -> Option<()>) -> Option<()> {
 
 /// What the work gives, and the bytes of the peak above what was resident before.
 pub fn above<T>(work: impl FnOnce() -> T) -> Option<(T, f64)> {
-    fs::write("/proc/self/clear_refs", "5").ok()?;
-    let before = status("VmRSS")?;
+    forget()?;
+    let before = resident()?;
     let result = work();
-    Some((result, status("VmHWM")? - before))
+    Some((result, most()? - before))
 }
 
 /// Bytes per point above the engine's own copy of the input, or nothing where that cannot be measured.

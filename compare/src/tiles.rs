@@ -94,7 +94,7 @@ fn settle(
 }
 
 /// Seconds that all threads of this process have had (Linux).
-fn processor() -> Option<f64> {
+pub fn processor() -> Option<f64> {
     let text = fs::read_to_string("/proc/self/stat").ok()?;
     let fields: Vec<&str> = text.rsplit(')').next()?.split_whitespace().collect();
     let ticks = |k: usize| fields.get(k)?.parse::<f64>().ok();

@@ -30,6 +30,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         }
         None => Vec::new(),
     };
+    files::keep_apart(&[], args.stats.as_deref())?;
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
         // What runs for hours should not find out in the end that it cannot be kept.

@@ -29,7 +29,7 @@ fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Refuses a command that would write over a file it reads, or write a file twice.
+/// Refuses a command that would write over a file it reads, write a file twice, or where it cannot write.
 pub(crate) fn keep_apart<'a>(
     inputs: &[&'a Path],
     outputs: impl IntoIterator<Item = &'a Path>,
@@ -57,8 +57,23 @@ pub(crate) fn keep_apart<'a>(
             ));
         }
         places.extend(here);
+        check_output(path)?;
     }
     Ok(())
+}
+
+/// Whether an output can be written, asked before there is work to lose. Nothing is left behind.
+fn check_output(path: &Path) -> Result<(), Failure> {
+    // A pipe may be opened once.
+    if is_standard(path) || is_special(path) && !path.is_dir() {
+        return Ok(());
+    }
+    Output::create(path).map(drop).map_err(|error| unwritten(path, &error))
+}
+
+fn unwritten(path: &Path, error: &std::io::Error) -> Failure {
+    let help = "check the name, the permissions and the room on the disk";
+    Failure::new(format!("cannot write {}: {error}", path.display()), help)
 }
 
 /// What `-` stands for.
@@ -355,10 +370,7 @@ pub(crate) fn write<T: Default>(
         outcome => outcome,
     };
     outcome.map_err(|error: delone_io::Error| match error {
-        delone_io::Error::Io(error) => Failure::new(
-            format!("cannot write {}: {error}", path.display()),
-            "check the name, the permissions and the room on the disk",
-        ),
+        delone_io::Error::Io(error) => unwritten(path, &error),
         other => Failure::file(path, &other),
     })
 }

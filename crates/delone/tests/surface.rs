@@ -341,6 +341,47 @@ fn windows_orders_and_threads_do_not_show() {
     assert_eq!(bits(&rasterize(&constrained, &heights, &grid, |_| true).expect("heights")), bits(&whole));
 }
 
+/// Values are a function of the set of points, bit for bit, as triangles are.
+#[test]
+fn orders_of_points_do_not_show() {
+    let mut random = Random::new(3);
+    for kind in [Kind::Uniform, Kind::Grid, Kind::Circle, Kind::Clusters, Kind::Duplicates] {
+        let points = kind.points(300, 1);
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        random.shuffle(&mut order);
+        let other: Vec<[f64; 2]> = order.iter().map(|&i| points[i]).collect();
+        let height = |p: &[f64; 2]| (3.0 * p[0]).sin() + p[1];
+        let heights = [&points, &other].map(|points| points.iter().map(height).collect::<Vec<_>>());
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let mut e = Delaunay2::new();
+        e.extend(&other, 5).expect("finite");
+        for q in queries(&points, &mut random) {
+            for ((_, mut f), (name, mut g)) in all_methods(&d).into_iter().zip(all_methods(&e)) {
+                let one = f.value(q, &heights[0]).expect("finite").map(f64::to_bits);
+                let two = g.value(q, &heights[1]).expect("finite").map(f64::to_bits);
+                assert_eq!(one, two, "{} {name} {q:?}", kind.name());
+            }
+        }
+        let slopes = [gradients(&d, &heights[0]), gradients(&e, &heights[1])].map(|s| s.expect("values"));
+        for (k, &i) in order.iter().enumerate() {
+            let is_vertex = |d: &Delaunay2, v: usize| d.mesh().contains(VertexId::new(v));
+            if is_vertex(&d, i) && is_vertex(&e, k) {
+                assert_eq!(slopes[0][i].map(f64::to_bits), slopes[1][k].map(f64::to_bits));
+            }
+        }
+    }
+    let points = Kind3::Cube.points(200, 1);
+    let other: Vec<[f64; 3]> = points.iter().rev().copied().collect();
+    let [d, e] = [&points, &other].map(|points| Delaunay3::from_points(points).expect("finite"));
+    let [a, b] = [&points, &other].map(|points| points.iter().map(|p| p[0] * p[1]).collect::<Vec<_>>());
+    for q in queries(&points, &mut random) {
+        for ((_, mut f), (name, mut g)) in all_methods(&d).into_iter().zip(all_methods(&e)) {
+            let [one, two] = [f.value(q, &a), g.value(q, &b)].map(|v| v.expect("finite").map(f64::to_bits));
+            assert_eq!(one, two, "{name} {q:?}");
+        }
+    }
+}
+
 #[test]
 fn many_points_at_once() {
     let points = Kind::Uniform.points(2000, 1);

@@ -57,7 +57,7 @@ pub(crate) enum Mode {
     Graphs,
     /// Refinement of graphs: bounds of angles and sizes, what is kept, orders of the input.
     Mesh,
-    /// Points in tiles: cuts, borders, joins, bytes.
+    /// Points in tiles of plane and space: cuts, borders, joins, bytes.
     Tiles,
     /// Points with weights: building, hidden sites, changes.
     Weights,

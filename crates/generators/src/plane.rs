@@ -70,10 +70,43 @@ kinds! {
     Utm = "utm", |n, r| repeat(n, || {
         [500_000.0 + (r.unit() * 1e6).floor() / 1e3, 5_400_000.0 + (r.unit() * 1e6).floor() / 1e3]
     });
+    /// Scan lines in overlapping swaths, half a metre apart, in whole millimetres at a UTM-like offset.
+    Lidar = "lidar", lidar;
+    /// Nine points of ten in a square a thousandth as wide as the land of the others.
+    DensePatch = "dense-patch", |n, r| repeat(n, || {
+        let p = [r.unit(), r.unit()];
+        if r.unit() < 0.9 { p.map(|x| 0.7 + 0.001 * x) } else { p }
+    });
 }
 
 /// Half the range of the 24-bit integers of the paper of the Delaunay hierarchy: [-2^24, 2^24].
 const HALF_RANGE: f64 = 16_777_216.0;
+
+/// A survey from the air: swaths along y, each a quarter wider than they are apart, every other one flown back. A mirror swings across while
+/// the flight goes on, so that lines are a zigzag. Lines are as far apart as points on them, some 0.5 m, whatever their number.
+fn lidar(n: usize, random: &mut Random) -> Vec<Point2> {
+    const SPACING: f64 = 500.0;
+    const SWATH: f64 = 400_000.0;
+    const NOISE: f64 = 20.0;
+    let side = SPACING * (n as f64).sqrt();
+    let swaths = (side / SWATH).ceil().max(2.0) as usize;
+    let apart = side / swaths as f64;
+    let width = 1.25 * apart;
+    let of_swath = n.div_ceil(swaths).max(1);
+    let step = (width * side / of_swath as f64).sqrt();
+    let of_line = (width / step).round().max(1.0);
+    let point = |i: usize| {
+        let (swath, k) = (i / of_swath, (i % of_swath) as f64);
+        let (line, place) = ((k / of_line).floor(), k % of_line);
+        let across = if line % 2.0 == 0.0 { place } else { of_line - 1.0 - place };
+        let flown = side * k / of_swath as f64;
+        let x = swath as f64 * apart + width * (across + 0.5) / of_line;
+        let y = if swath.is_multiple_of(2) { flown } else { side - flown };
+        [691_000_000.0 + x + NOISE * random.normal(), 5_334_000_000.0 + y + NOISE * random.normal()]
+            .map(f64::round)
+    };
+    (0..n).map(point).collect()
+}
 
 fn map(points: Vec<Point2>, f: impl Fn(f64) -> f64) -> Vec<Point2> {
     points.into_iter().map(|p| p.map(&f)).collect()

@@ -82,7 +82,7 @@ impl InfoArgs {
   delone check tiles
 
 The last file has the triangles (npy ele ply obj off msh) or tetrahedra (npy ele msh). Of a folder that delone tiles made all
-tiles and seams are judged.
+tiles and seams are judged, and all files held to the hashes of what was written.
 Of points with segments all triangles of the hull are judged: whether they are the constrained Delaunay triangulation; of points
 with weights, whether they are a regular triangulation, and hidden points are hidden.
 

@@ -146,15 +146,44 @@ fn unwritten(path: &Path, error: &io::Error) -> Failure {
     Failure::new(format!("cannot write {}: {error}", path.display()), help)
 }
 
+/// Whether a bucket is there and as long as so many points are.
+pub(super) fn check(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<(), Failure> {
+    open(folder, node, count, has_heights).map(|_| ())
+}
+
+/// A bucket that should have so many points.
+fn open(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<File, Failure> {
+    let path = bucket(folder, node);
+    let file = File::open(&path)
+        .map_err(|error| lost(&path, format_args!("the bucket of a tile cannot be read: {error}")))?;
+    let length = file.metadata().map_err(|error| lost(&path, error))?.len();
+    let expected = count.saturating_mul(width(has_heights) as u64);
+    if length != expected {
+        let what =
+            format!("the bucket has {length} bytes, and the {count} points of tiles.json are {expected}");
+        return Err(lost(&path, what));
+    }
+    Ok(file)
+}
+
+fn lost(path: &Path, what: impl std::fmt::Display) -> Failure {
+    let help = "its points are lost: start again in another folder, or with this one empty";
+    Failure::new(format!("{}: {what}", path.display()), help)
+}
+
 /// Reads a bucket that should have so many points.
 pub(super) fn read(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<Content, Failure> {
     let mut content = Content::default();
     each(folder, node, count, has_heights, &mut |mut part| {
         if content.points.is_empty() {
-            // It has as many, as its length says.
-            content.points.reserve_exact(count as usize);
-            content.ids.reserve_exact(count as usize);
-            content.heights.reserve_exact(if has_heights { count as usize } else { 0 });
+            // It is as long, but a file may have a length that nobody wrote.
+            let heights = if has_heights { count as usize } else { 0 };
+            let room = content.points.try_reserve_exact(count as usize);
+            room.and_then(|()| content.ids.try_reserve_exact(count as usize))
+                .and_then(|()| content.heights.try_reserve_exact(heights))
+                .map_err(|_| {
+                    lost(&bucket(folder, node), format_args!("{count} points are more than memory holds"))
+                })?;
         }
         content.points.append(&mut part.points);
         content.ids.append(&mut part.ids);
@@ -172,26 +201,14 @@ fn each(
     has_heights: bool,
     take: &mut dyn FnMut(Content) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let path = bucket(folder, node);
-    let lost = |what: &str| {
-        let help = "its points are lost: start again in another folder, or with this one empty";
-        Failure::new(format!("{}: {what}", path.display()), help)
-    };
-    let file =
-        File::open(&path).map_err(|error| lost(&format!("the bucket of a tile cannot be read: {error}")))?;
-    let length = file.metadata().map_err(|error| lost(&error.to_string()))?.len();
     let width = width(has_heights);
-    let expected = count.saturating_mul(width as u64);
-    if length != expected {
-        return Err(lost(&format!("the bucket has {length} bytes, and {count} points are {expected}")));
-    }
-    let mut source = BufReader::with_capacity(1 << 16, file);
+    let mut source = BufReader::with_capacity(1 << 16, open(folder, node, count, has_heights)?);
     let mut bytes = vec![0; width << 14];
     let mut rest = count as usize;
     while rest > 0 {
         let now = rest.min(1 << 14);
         let bytes = &mut bytes[..now * width];
-        source.read_exact(bytes).map_err(|error| lost(&error.to_string()))?;
+        source.read_exact(bytes).map_err(|error| lost(&bucket(folder, node), error))?;
         let mut part = Content::default();
         for record in bytes.chunks_exact(width) {
             let (words, _) = record.as_chunks::<8>();

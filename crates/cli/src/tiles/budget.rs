@@ -2,6 +2,8 @@
 //!
 //! Bytes a point are what was measured, rounded up; a test of the program holds the sum to what was asked.
 
+use std::path::Path;
+
 use crate::message::Failure;
 
 /// What one point takes at the most while its tile is triangulated, read and written.
@@ -63,13 +65,14 @@ impl Budget {
         (self.free() / 4 / buckets.max(1) as u64).clamp(1 << 12, 1 << 20) as usize
     }
 
-    /// Workers that can have a tile of so many points each; an error if not even one can.
-    pub(super) fn workers(&self, largest: u64) -> Result<usize, Failure> {
+    /// Workers that can have a tile of so many points each, as the largest bucket has; an error if not even one can.
+    pub(super) fn workers(&self, largest: u64, bucket: &Path) -> Result<usize, Failure> {
         let workers = (self.free() / largest.saturating_mul(OF_TILE).max(1)).min(self.workers);
         if workers == 0 {
             let needed = largest.saturating_mul(OF_TILE).saturating_add(ITSELF);
             let what = format!(
-                "a tile has {largest} points, which take {}, and --memory allows {}",
+                "{} has {largest} points, which take {}, and --memory allows {}",
+                bucket.display(),
                 in_words(needed),
                 in_words(self.memory)
             );
@@ -110,6 +113,8 @@ pub(super) fn in_words(bytes: u64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::{Budget, in_words};
 
     #[test]
@@ -118,9 +123,8 @@ mod tests {
         assert!(budget.most() * 2 * 150 <= 1 << 30);
         assert_eq!(budget.tiles(1000), 1);
         assert!(budget.tiles(1_000_000_000) as u64 * budget.most() > 1_000_000_000);
-        assert_eq!(budget.workers(1000).expect("room"), 2);
-        assert_eq!(budget.workers(5_000_000).expect("room"), 1);
-        assert!(budget.workers(50_000_000).is_err());
+        let workers = |largest: u64| budget.workers(largest, Path::new("bucket")).ok();
+        assert_eq!([1000, 5_000_000, 50_000_000].map(workers), [Some(2), Some(1), None]);
         assert!(Budget::new(1 << 20, 1, None).is_err());
         let small = Budget::new(64 << 20, 1, Some(10)).expect("enough");
         assert_eq!((small.most(), small.tiles(10), small.tiles(100)), (10, 1, 13));

@@ -10,7 +10,7 @@ use delone_io::write_array;
 use super::buckets::{self, Content};
 use super::manifest::place;
 use super::node::Done;
-use crate::files;
+use super::sums::Sums;
 use crate::message::Failure;
 use crate::progress::Phase;
 
@@ -66,7 +66,8 @@ fn one(folder: &Path, cuts: &Cuts, node: Node, count: u64, has_heights: bool) ->
     let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Failure::points(&bucket, &error))?;
     drop(points);
     let (vertices, order) = (tile.points(), tile.order());
-    files::write(&place(folder, "points", node, "npy"), |out| {
+    let mut sums = Sums::default();
+    sums.write(&place(folder, "points", node, "npy"), |out| {
         if has_heights {
             let rows = vertices.iter().zip(order).flat_map(|(p, &i)| [p[0], p[1], heights[i as usize]]);
             return Ok(write_array(out, &[vertices.len(), 3], rows)?);
@@ -74,12 +75,12 @@ fn one(folder: &Path, cuts: &Cuts, node: Node, count: u64, has_heights: bool) ->
         Ok(write_array(out, &[vertices.len(), 2], vertices.as_flattened().iter().copied())?)
     })?;
     drop(heights);
-    files::write(&place(folder, "ids", node, "npy"), |out| {
+    sums.write(&place(folder, "ids", node, "npy"), |out| {
         Ok(write_array(out, &[vertices.len()], order.iter().map(|&i| ids[i as usize]))?)
     })?;
     drop(ids);
     let fingerprint = tile.fingerprint();
-    files::write(&place(folder, "triangles", node, "npy"), |out| {
+    sums.write(&place(folder, "triangles", node, "npy"), |out| {
         Ok(write_array(out, &[fingerprint.count() as usize, 3], tile.finals().flatten())?)
     })?;
     let border = tile.border(|v| node.id(v));
@@ -89,6 +90,7 @@ fn one(folder: &Path, cuts: &Cuts, node: Node, count: u64, has_heights: bool) ->
         duplicates: tile.duplicates().len() as u64,
         fingerprint,
         border: border.points.len() as u64,
+        sums,
     };
     done.write(folder, &border)?;
     _ = std::fs::remove_file(bucket);

@@ -12,6 +12,7 @@ use delone::tiles::{Cut, Cuts, Fingerprint, Node};
 use serde_json::{Value, json};
 
 use super::node::Done;
+use super::sums::Written;
 use crate::files;
 use crate::message::Failure;
 
@@ -20,7 +21,7 @@ pub(crate) const NAME: &str = "tiles.json";
 
 /// What it says that it is, and in which version.
 const FORMAT: &str = "delone tiles";
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 
 /// The plan of a run.
 #[derive(Debug)]
@@ -53,6 +54,15 @@ pub(crate) struct Outcome {
 impl Outcome {
     pub(super) fn triangles(&self) -> u64 {
         self.fingerprint.count()
+    }
+
+    /// Takes in the hashes of what was written when all was done.
+    pub(super) fn extend(&mut self, mut written: Written) {
+        for value in &mut self.nodes {
+            let Some(mut done) = Done::parse(value) else { continue };
+            done.sums.extend(written.remove(&done.node).unwrap_or_default());
+            *value = done.describe();
+        }
     }
 
     /// Whether it is what its nodes have together, and these are all tiles and perhaps seams; none if a node cannot be read.
@@ -201,6 +211,10 @@ impl Manifest {
             _ => return None,
         };
         let (count, left_out) = (all["count"].as_u64()?, all["left_out"].as_u64()?);
+        if let Some(buckets) = &buckets {
+            let sum = buckets.values().try_fold(left_out, |sum, &points| sum.checked_add(points));
+            (sum == Some(count)).then_some(())?;
+        }
         if let Some(outcome) = &outcome {
             let is_sum =
                 all["triangles"] == outcome.triangles() && outcome.adds_up(&cuts, count, left_out)?;

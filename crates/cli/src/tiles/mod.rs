@@ -14,6 +14,7 @@ mod neighbors;
 mod node;
 mod seams;
 mod shards;
+mod sums;
 #[cfg(feature = "parquet")]
 mod tables;
 mod verdict;
@@ -35,6 +36,7 @@ use input::Input;
 use manifest::{Manifest, Outcome};
 use node::Done;
 use seams::Joins;
+use sums::Written;
 
 use crate::args::TilesArgs;
 use crate::files;
@@ -73,17 +75,31 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
         note(quiet, format_args!("{} was done before", folder.display()));
     }
     clean(folder, &plan);
-    if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.neighbors) {
-        neighbors::write(folder, &plan, outcome, quiet)?;
+    if args.neighbors {
+        add(folder, &mut plan, quiet, neighbors::write)?;
         stats.phase("neighbors");
     }
     #[cfg(feature = "parquet")]
-    if let Some(outcome) = plan.outcome.as_ref().filter(|_| args.parquet) {
-        tables::write(folder, &plan, outcome, quiet)?;
+    if args.parquet {
+        add(folder, &mut plan, quiet, tables::write)?;
         stats.phase("tables");
     }
     tell(&plan, &mut stats, quiet);
     stats.write(args.input.stats.as_deref())
+}
+
+/// Writes more files of all nodes, and then what is known of them.
+fn add(
+    folder: &Path,
+    plan: &mut Manifest,
+    quiet: bool,
+    write: impl Fn(&Path, &Manifest, &Outcome, bool) -> Result<Written, Failure>,
+) -> Result<(), Failure> {
+    let Some(mut outcome) = plan.outcome.take() else { return Ok(()) };
+    let written = write(folder, plan, &outcome, quiet)?;
+    outcome.extend(written);
+    plan.outcome = Some(outcome);
+    plan.write(folder)
 }
 
 /// Keeps other runs out of a folder, where its file system can: two would write the same buckets. It ends with the process.
@@ -210,7 +226,16 @@ fn distribute(
         buckets.take(first, points, heights)
     })?;
     let mut counts = buckets.finish()?;
-    if count != plan.count || input.describe()? != plan.input {
+    let is_same = input.describe()? == plan.input;
+    if count != plan.count && is_same {
+        let path = folder.join(manifest::NAME);
+        let what = format!("{}: it has {} points, and the input {count}", path.display(), plan.count);
+        return Err(Failure::new(
+            what,
+            "it was changed: start again in another folder, or with this one empty",
+        ));
+    }
+    if !is_same {
         let what = format!("the input changed while it was read: {count} points, {} before", plan.count);
         return Err(Failure::new(what, "start again in another folder when nobody writes to it"));
     }
@@ -224,12 +249,15 @@ fn distribute(
 fn triangulate(folder: &Path, plan: &Manifest, budget: &Budget, quiet: bool) -> Result<(), Failure> {
     let mut open = Vec::new();
     for (&node, &count) in plan.buckets.iter().flatten() {
-        if Done::find(folder, node)?.is_none() {
+        if let Some(done) = Done::find(folder, node)? {
+            done.check_points(folder, count)?;
+        } else {
+            buckets::check(folder, node, count, plan.has_heights)?;
             open.push((node, count));
         }
     }
-    let largest = open.iter().map(|&(_, count)| count).max().unwrap_or(0);
-    let workers = budget.workers(largest)?;
+    let Some(&(largest, count)) = open.iter().max_by_key(|&&(_, count)| count) else { return Ok(()) };
+    let workers = budget.workers(count, &buckets::bucket(folder, largest))?;
     leaf::all(folder, &plan.cuts, &open, plan.has_heights, workers, quiet)
 }
 
@@ -245,6 +273,8 @@ fn finish(folder: &Path, plan: &mut Manifest, budget: &Budget, quiet: bool) -> R
     while let Some(node) = waiting.pop() {
         waiting.extend(cuts.halves(node).into_iter().flatten().rev());
         let Some(done) = Done::find(folder, node)? else { continue };
+        let of_bucket = plan.buckets.as_ref().and_then(|buckets| buckets.get(&node));
+        done.check_points(folder, of_bucket.copied().unwrap_or(0))?;
         fingerprint += done.fingerprint;
         vertices += done.vertices;
         duplicates += done.duplicates;

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::manifest::{Manifest, Outcome, place};
 use super::node::Done;
 use super::shards::{self, wrong};
-use crate::files;
+use super::sums::Written;
 use crate::message::Failure;
 use crate::progress::Phase;
 
@@ -32,13 +32,18 @@ struct Side {
 }
 
 /// Writes the neighbours of all nodes.
-pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bool) -> Result<(), Failure> {
+pub(super) fn write(
+    folder: &Path,
+    plan: &Manifest,
+    outcome: &Outcome,
+    quiet: bool,
+) -> Result<Written, Failure> {
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
     let phase = Phase::count(quiet, "finding neighbours", nodes.len() as u64);
-    let mut waiting = Vec::new();
+    let (mut waiting, mut written) = (Vec::new(), Written::new());
     for done in &nodes {
         if plan.cuts.is_tile(done.node) {
-            in_tile(folder, done, &mut waiting)?;
+            in_tile(folder, done, &mut waiting, &mut written)?;
         } else {
             in_seam(folder, done, &mut waiting)?;
         }
@@ -55,11 +60,12 @@ pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bo
     let mut sorted = nodes;
     sorted.sort_unstable_by_key(|done| done.node);
     for done in &sorted {
+        let sums = written.entry(done.node).or_default();
         let found = of_node(done.node);
         let row = |triangle: u64| triangle & u64::from(u32::MAX);
         if plan.cuts.is_tile(done.node) {
             let rows = found.iter().flat_map(|&[triangle, corner, other]| [row(triangle), corner, other]);
-            files::write(&place(folder, "across", done.node, "npy"), |out| {
+            sums.write(&place(folder, "across", done.node, "npy"), |out| {
                 Ok(write_array(out, &[found.len(), 3], rows.clone())?)
             })?;
         } else {
@@ -67,16 +73,21 @@ pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bo
             for &[triangle, corner, other] in found {
                 neighbors[(3 * row(triangle) + corner) as usize] = other;
             }
-            files::write(&place(folder, "neighbors", done.node, "npy"), |out| {
+            sums.write(&place(folder, "neighbors", done.node, "npy"), |out| {
                 Ok(write_array(out, &[neighbors.len() / 3, 3], neighbors.iter().copied())?)
             })?;
         }
     }
-    Ok(())
+    Ok(written)
 }
 
 /// The neighbours inside of a tile; what has none there waits.
-fn in_tile(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Failure> {
+fn in_tile(
+    folder: &Path,
+    done: &Done,
+    waiting: &mut Vec<Side>,
+    written: &mut Written,
+) -> Result<(), Failure> {
     let node = done.node;
     let path = place(folder, "triangles", node, "npy");
     let triangles = triangles(&path, done)?;
@@ -108,7 +119,8 @@ fn in_tile(folder: &Path, done: &Done, waiting: &mut Vec<Side>) -> Result<(), Fa
             _ => return Err(wrong(&path, "triangles overlap")),
         }
     }
-    files::write(&place(folder, "neighbors", node, "npy"), |out| {
+    let sums = written.entry(node).or_default();
+    sums.write(&place(folder, "neighbors", node, "npy"), |out| {
         Ok(write_array(out, &[count, 3], neighbors.iter().copied())?)
     })
 }

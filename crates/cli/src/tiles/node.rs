@@ -10,6 +10,7 @@ use delone::tiles::{Border, Fingerprint, Node};
 use serde_json::{Value, json};
 
 use super::manifest::place;
+use super::sums::Sums;
 use crate::files;
 use crate::message::Failure;
 
@@ -24,6 +25,8 @@ pub(super) struct Done {
     pub(super) fingerprint: Fingerprint,
     /// The points of its border.
     pub(super) border: u64,
+    /// The hashes of its files.
+    pub(super) sums: Sums,
 }
 
 fn path(folder: &Path, node: Node) -> PathBuf {
@@ -37,6 +40,9 @@ fn damaged(path: &Path, what: impl std::fmt::Display) -> Failure {
 }
 
 impl Done {
+    /// Bytes of a point of a border, with its id.
+    const LEAST: u64 = 24;
+
     /// As the manifest has it.
     pub(super) fn describe(&self) -> Value {
         json!({
@@ -46,6 +52,7 @@ impl Done {
             "triangles": self.fingerprint.count(),
             "fingerprint": self.fingerprint.to_string(),
             "border": self.border,
+            "files": self.sums.describe(),
         })
     }
 
@@ -61,7 +68,20 @@ impl Done {
             duplicates: count("duplicates")?,
             fingerprint,
             border: count("border")?,
+            sums: Sums::parse(&value["files"])?,
         })
+    }
+
+    /// Whether a tile has so many points, as its bucket had.
+    pub(super) fn check_points(&self, folder: &Path, count: u64) -> Result<(), Failure> {
+        if self.vertices.checked_add(self.duplicates) == Some(count) {
+            return Ok(());
+        }
+        let what = format!(
+            "{} vertices and {} duplicates are not the {count} points of tiles.json",
+            self.vertices, self.duplicates
+        );
+        Err(damaged(&path(folder, self.node), what))
     }
 
     /// Writes it with its border: the node is done then.
@@ -80,7 +100,17 @@ impl Done {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::file(&path, &error.into())),
         };
-        Self::head(&path, &mut BufReader::new(file)).map(Some)
+        let failed = |error: std::io::Error| Failure::file(&path, &error.into());
+        let length = file.metadata().map_err(failed)?.len();
+        let done = Self::head(&path, &mut BufReader::new(file))?;
+        if done.node != node {
+            return Err(damaged(&path, format_args!("it is of node {}", done.node.number())));
+        }
+        // More would be taken for memory that joins need.
+        if done.border > length / Self::LEAST {
+            return Err(damaged(&path, format_args!("{length} bytes are no {} points", done.border)));
+        }
+        Ok(Some(done))
     }
 
     fn head(path: &Path, source: &mut impl BufRead) -> Result<Self, Failure> {

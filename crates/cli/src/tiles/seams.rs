@@ -8,7 +8,7 @@ use delone_io::write_array;
 use super::budget::Budget;
 use super::manifest::place;
 use super::node::{self, Done};
-use crate::files;
+use super::sums::Sums;
 use crate::message::Failure;
 use crate::progress::Phase;
 
@@ -80,12 +80,13 @@ impl Joins<'_> {
             Failure::new(what, "the files of the folder are not of one run: start again in another folder")
         })?;
         drop(borders);
-        files::write(&place(self.folder, "seam", node, "npy"), |out| {
+        let mut sums = Sums::default();
+        sums.write(&place(self.folder, "seam", node, "npy"), |out| {
             let triangles = &seam.triangles;
             Ok(write_array(out, &[triangles.len(), 3], triangles.as_flattened().iter().copied())?)
         })?;
         let border = seam.border.points.len() as u64;
-        let done = Done { node, vertices: 0, duplicates: 0, fingerprint: seam.fingerprint, border };
+        let done = Done { node, vertices: 0, duplicates: 0, fingerprint: seam.fingerprint, border, sums };
         done.write(self.folder, &seam.border)?;
         self.phase.advance();
         Ok(done)

@@ -12,27 +12,34 @@ use delone_io::{Column, write_columns};
 use super::manifest::{Manifest, Outcome, place};
 use super::node::Done;
 use super::shards::{self, wrong};
-use crate::files;
+use super::sums::{Sums, Written};
 use crate::message::Failure;
 use crate::progress::Phase;
 
 /// Writes the tables of all nodes.
-pub(super) fn write(folder: &Path, plan: &Manifest, outcome: &Outcome, quiet: bool) -> Result<(), Failure> {
+pub(super) fn write(
+    folder: &Path,
+    plan: &Manifest,
+    outcome: &Outcome,
+    quiet: bool,
+) -> Result<Written, Failure> {
+    let mut written = Written::new();
     let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
     let phase = Phase::count(quiet, "writing tables", nodes.len() as u64);
     for node in nodes {
+        let sums = written.entry(node).or_default();
         if plan.cuts.is_tile(node) {
-            points(folder, node)?;
-            triangles(folder, "triangles", node, |v| node.id(v as u32))?;
+            points(folder, node, sums)?;
+            triangles(folder, "triangles", node, sums, |v| node.id(v as u32))?;
         } else {
-            triangles(folder, "seam", node, |v| v)?;
+            triangles(folder, "seam", node, sums, |v| v)?;
         }
         phase.advance();
     }
-    Ok(())
+    Ok(written)
 }
 
-fn points(folder: &Path, node: Node) -> Result<(), Failure> {
+fn points(folder: &Path, node: Node, sums: &mut Sums) -> Result<(), Failure> {
     let cloud = shards::points(folder, node)?;
     let rows: Vec<i64> = shards::ids(folder, node)?.into_iter().map(|row| row as i64).collect();
     if rows.len() != cloud.xy.len() {
@@ -48,13 +55,19 @@ fn points(folder: &Path, node: Node) -> Result<(), Failure> {
         ("y", Column::Numbers(&y)),
     ];
     columns.extend(cloud.z.as_ref().map(|z| ("z", Column::Numbers(z))));
-    files::write(&place(folder, "points", node, "parquet"), |out| write_columns(out, &columns))
+    sums.write(&place(folder, "points", node, "parquet"), |out| write_columns(out, &columns))
 }
 
-fn triangles(folder: &Path, kind: &str, node: Node, name: impl Fn(u64) -> u64) -> Result<(), Failure> {
+fn triangles(
+    folder: &Path,
+    kind: &str,
+    node: Node,
+    sums: &mut Sums,
+    name: impl Fn(u64) -> u64,
+) -> Result<(), Failure> {
     let triangles = shards::triangles(&place(folder, kind, node, "npy"))?;
     let corner = |k: usize| triangles.iter().map(|t| name(t[k]) as i64).collect::<Vec<i64>>();
     let [a, b, c] = [0, 1, 2].map(corner);
     let columns = [("a", Column::Integers(&a)), ("b", Column::Integers(&b)), ("c", Column::Integers(&c))];
-    files::write(&place(folder, "triangles", node, "parquet"), |out| write_columns(out, &columns))
+    sums.write(&place(folder, "triangles", node, "parquet"), |out| write_columns(out, &columns))
 }

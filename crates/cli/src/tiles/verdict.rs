@@ -3,7 +3,8 @@
 //! Every triangle is counter-clockwise; across every edge is another triangle, in the other direction, whose far corner is outside of
 //! the circle under the canonical rule; edges without are the border, which is convex and goes around once; and there are as
 //! many triangles as so many vertices have. So triangles cover the inside of the border once, and are locally, hence all, Delaunay.
-//! Each vertex has an index of its own among the points. One tile at a time; what has no twin in its tile waits for the seams.
+//! Each vertex has an index of its own among the points. One tile at a time; what has no twin in its tile waits for the seams. What no
+//! proof can know (which index is whose, heights, neighbours, tables) is held to the hashes of what was written.
 //!
 //! Cost: O(n log n); memory for the largest tile, some 250 bytes a point, for all edges between tiles, and a bit
 //! for each point.
@@ -18,6 +19,8 @@ use rayon::prelude::*;
 use super::manifest::{self, Manifest, place};
 use super::node::Done;
 use super::shards::{self, wrong};
+use super::sums::{self, Sums};
+use crate::files;
 use crate::message::{Failure, answer};
 use crate::progress::Phase;
 use crate::stats::Stats;
@@ -44,6 +47,7 @@ impl Edge {
 pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     super::keep_out(folder, stats_path)?;
+    files::keep_apart(&[], stats_path)?;
     let (plan, outcome) = manifest::finished(folder)?;
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
     let wrong = |what: String| wrong(folder, what);
@@ -66,13 +70,17 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
     };
     for tile in &tiles {
         judge.tile(tile)?;
+        judge.content(tile, &["points", "ids", "triangles"])?;
         phase.advance();
     }
     for seam in &seams {
         judge.seam(seam)?;
+        judge.content(seam, &["seam"])?;
         phase.advance();
     }
     drop(phase);
+    let known: Vec<&Sums> = tiles.iter().chain(&seams).map(|done| &done.sums).collect();
+    sums::check_known(folder, &known)?;
     if judge.fingerprint != outcome.fingerprint {
         return Err(wrong(format!(
             "its fingerprint is {}, and tiles.json has {}",
@@ -179,6 +187,15 @@ impl Judge<'_> {
             apex: name(apex),
         }));
         Ok(())
+    }
+
+    /// Whether the files of a node are as they were written, these among them.
+    fn content(&self, done: &Done, kinds: &[&str]) -> Result<(), Failure> {
+        let files = kinds.iter().map(|kind| place(self.folder, kind, done.node, "npy"));
+        if let Some(path) = files.into_iter().find(|path| !done.sums.has(path)) {
+            return Err(wrong(&path, "tiles.json has no hash of it"));
+        }
+        done.sums.check(self.folder)
     }
 
     /// Judges the triangles of a seam, whose edges wait for those of others.

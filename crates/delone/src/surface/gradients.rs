@@ -6,7 +6,7 @@
 //! On the hull all neighbours weigh the same. Cost: O(1) on average for each vertex.
 
 use super::interpolator::check_values;
-use super::natural::{duals, three};
+use super::natural::{compare, duals, three};
 use crate::around::Surround;
 use crate::error::Error;
 use crate::ids::VertexId;
@@ -61,7 +61,7 @@ fn at<T: Surround>(d: &T, v: VertexId, values: &[f64], star: &mut Star) -> T::Po
     gradient
 }
 
-/// The neighbours of a vertex, by id, with the weights of Laplace; with equal ones on the hull.
+/// The neighbours of a vertex, in the order of their points, with the weights of Laplace; with equal ones on the hull.
 fn weigh<T: Surround>(d: &T, v: VertexId, star: &mut Star) {
     star.clear();
     let mut is_on_hull = false;
@@ -79,7 +79,9 @@ fn weigh<T: Surround>(d: &T, v: VertexId, star: &mut Star) {
             }
         }
     }
-    star.sort_unstable_by_key(|neighbor| neighbor.0);
+    // Sums have the same bits whatever the triangulation was made of.
+    let place = |v: VertexId| three(d.position(v).unwrap_or_default());
+    star.sort_unstable_by(|a, b| compare(place(a.0), place(b.0)).then(a.1.total_cmp(&b.1)));
     star.dedup_by(|next, kept| {
         let is_same = next.0 == kept.0;
         kept.1 += if is_same { next.1 } else { 0.0 };

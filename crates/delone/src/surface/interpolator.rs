@@ -4,7 +4,7 @@
 //! natural neighbours, which are six on average in the plane and fifteen in space.
 
 use super::linear;
-use super::natural::{Cell, Measure};
+use super::natural::{Cell, Measure, compare, three};
 use crate::around::{Around, Surround};
 use crate::error::Error;
 use crate::ids::VertexId;
@@ -146,7 +146,8 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         self.d
     }
 
-    /// The weights of vertices at a point: positive or zero, with the sum one; none outside.
+    /// The weights of vertices at a point: positive or zero, with the sum one; none outside. They come in the lexicographic order of the
+    /// points, and with the same bits from every triangulation of the same points.
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
@@ -183,6 +184,7 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         self.corners.clear();
         let point = |&v: &VertexId| (v, self.d.position(v).unwrap_or_default());
         self.corners.extend(found.face().iter().map(point));
+        self.corners.sort_unstable_by(|a, b| compare(three(a.1), three(b.1)));
         linear::weigh(q, &self.corners, &mut self.weights);
         Ok(&self.weights)
     }

@@ -48,6 +48,8 @@ fn shares<R: Real>(
     for (local, p) in at.iter_mut().zip(points) {
         *local = [0, 1, 2].map(|k| R::difference(p[k] * before, q[k] * before, after));
     }
+    // Corners come in any orientation.
+    let sign = |whole: f64| R::difference(if whole < 0.0 { -1.0 } else { 1.0 }, 0.0, 1.0);
     let squares: f64 = at[..points.len()].iter().map(|&a| dot(a, a).value()).sum();
     let [a, b, c, d] = at;
     match points.len() {
@@ -56,8 +58,9 @@ fn shares<R: Real>(
             ([dot(b, along), zero - dot(a, along), zero, zero], 8.0 * squares)
         }
         3 if dimension == 2 => {
-            let share = |u: [R; 3], v: [R; 3]| u[0] * v[1] - u[1] * v[0];
-            ([share(b, c), share(c, a), share(a, b), zero], 8.0 * squares)
+            let area = |u: [R; 3], v: [R; 3]| u[0] * v[1] - u[1] * v[0];
+            let sign = sign(area(minus(b, a), minus(c, a)).value());
+            ([area(b, c) * sign, area(c, a) * sign, area(a, b) * sign, zero], 8.0 * squares)
         }
         3 => {
             let normal = cross(minus(b, a), minus(c, a));
@@ -67,9 +70,7 @@ fn shares<R: Real>(
         }
         4 => {
             let volume = |u, v, w| dot(u, cross(v, w));
-            let whole = volume(minus(a, d), minus(b, d), minus(c, d)).value();
-            let sign = if whole < 0.0 { -1.0 } else { 1.0 };
-            let sign = R::difference(sign, 0.0, 1.0);
+            let sign = sign(volume(minus(a, d), minus(b, d), minus(c, d)).value());
             let shares = [zero - volume(b, c, d), volume(a, c, d), zero - volume(a, b, d), volume(a, b, c)];
             (shares.map(|share| share * sign), 16.0 * squares * squares.sqrt())
         }

@@ -18,6 +18,8 @@
 mod plane;
 mod space;
 
+use std::cmp::Ordering;
+
 use super::real::{Double, Real};
 use crate::around::Around;
 use crate::ids::VertexId;
@@ -35,12 +37,14 @@ pub(super) enum Measure {
 /// Errors up to this part of the sum are taken for none: 2^-36.
 const GOOD: f64 = 1.455_191_522_836_685_2e-11;
 
-/// The neighbours of a point by a small number each, and simplices between them.
+/// The neighbours of a point by a small number each, in lexicographic order, and simplices between them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cell {
     pub(super) ids: Vec<VertexId>,
     /// Their coordinates, zero beyond the dimension.
     points: Vec<[f64; 3]>,
+    /// Both, to sort and to look for.
+    by_id: Vec<([f64; 3], VertexId)>,
     cavity: Vec<[u32; 4]>,
     border: Vec<[u32; 3]>,
     plain: Local<f64>,
@@ -78,6 +82,17 @@ impl<R: Real> Local<R> {
     }
 }
 
+/// The lexicographic order of points.
+pub(super) fn compare(a: [f64; 3], b: [f64; 3]) -> Ordering {
+    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+}
+
+/// Turns the least number to the front.
+fn turn(numbers: &mut [u32]) {
+    let least = (0..numbers.len()).min_by_key(|&k| numbers[k]).unwrap_or_default();
+    numbers.rotate_left(least);
+}
+
 /// Coordinates as three of them.
 pub(super) fn three<P: Coordinates>(p: P) -> [f64; 3] {
     let mut padded = [0.0; 3];
@@ -86,28 +101,53 @@ pub(super) fn three<P: Coordinates>(p: P) -> [f64; 3] {
 }
 
 impl Cell {
-    /// Takes what surrounds a point of a triangulation.
+    /// Takes what surrounds a point of a triangulation. Everything is put in an order that depends on the points alone, so that sums have
+    /// the same bits whatever the triangulation was made of.
     pub(super) fn take<T: Triangulation>(&mut self, d: &T, around: &Around<T>) {
         around.neighbors(&mut self.ids);
-        self.points.clear();
-        self.points.extend(self.ids.iter().map(|&v| three(d.position(v).unwrap_or_default())));
-        let ids = &self.ids;
-        // Of a few the search by halves is slower.
-        let number = |v: VertexId| match ids.len() {
-            ..=16 => ids.iter().position(|&id| id == v).unwrap_or_default() as u32,
-            _ => ids.binary_search(&v).unwrap_or_default() as u32,
+        let Self { ids, points, by_id, cavity, border, .. } = self;
+        by_id.clear();
+        by_id.extend(ids.iter().map(|&v| (three(d.position(v).unwrap_or_default()), v)));
+        by_id.sort_unstable_by(|a, b| compare(a.0, b.0));
+        points.clear();
+        points.extend(by_id.iter().map(|known| known.0));
+        ids.clear();
+        ids.extend(by_id.iter().map(|known| known.1));
+        let is_small = ids.len() <= 16;
+        if !is_small {
+            by_id.iter_mut().enumerate().for_each(|(k, known)| known.0[0] = k as f64);
+            by_id.sort_unstable_by_key(|known| known.1);
+        }
+        let number = |v: VertexId| {
+            if is_small {
+                return ids.iter().position(|&id| id == v).unwrap_or_default() as u32;
+            }
+            by_id.binary_search_by_key(&v, |known| known.1).map_or(0, |k| by_id[k].0[0] as u32)
         };
-        self.cavity.clear();
-        self.cavity.extend(around.cavity().iter().map(|&s| {
+        let is_plane = T::Point::COUNT == 2;
+        cavity.clear();
+        cavity.extend(around.cavity().iter().map(|&s| {
             let corners = d.corners(s);
             let corners = corners.as_ref();
-            [0, 1, 2, 3].map(|k| corners.get(k).map_or(0, |&v| number(v)))
+            let mut numbers = [0, 1, 2, 3].map(|k| corners.get(k).map_or(0, |&v| number(v)));
+            if is_plane {
+                turn(&mut numbers[..3]);
+            } else {
+                numbers.sort_unstable();
+            }
+            numbers
         }));
-        self.border.clear();
-        self.border.extend(around.border().iter().map(|(facet, _)| {
+        cavity.sort_unstable();
+        border.clear();
+        border.extend(around.border().iter().map(|(facet, _)| {
             let corners = facet.as_ref();
-            [0, 1, 2].map(|k| corners.get(k).map_or(0, |&v| number(v)))
+            let mut numbers = [0, 1, 2].map(|k| corners.get(k).map_or(0, |&v| number(v)));
+            if !is_plane {
+                turn(&mut numbers);
+            }
+            numbers
         }));
+        border.sort_unstable();
     }
 
     /// The weights of the neighbours, by their number; whether there are any, which simplices that are flat to twice the precision and
@@ -121,7 +161,7 @@ impl Cell {
         let q = three(q);
         let size = self.points.iter().flat_map(|p| (0..3).map(|k| (p[k] / 4.0 - q[k] / 4.0).abs()));
         let scale = scale(size.fold(0.0, f64::max));
-        let Self { ids, points, cavity, border, plain, double } = self;
+        let Self { ids, points, cavity, border, plain, double, .. } = self;
         sum::<_, P>(plain, q, points, scale, (cavity, border), measure);
         let total: f64 = plain.shares.iter().sum();
         weights.clear();
