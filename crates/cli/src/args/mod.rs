@@ -10,6 +10,7 @@ mod polygons;
 mod proximity;
 mod shapes;
 mod strategy;
+mod surface;
 mod tiles;
 mod triangle;
 mod triangulate;
@@ -30,6 +31,7 @@ pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
+pub(crate) use surface::{ContoursArgs, SimplifyArgs};
 pub(crate) use tiles::{TilesArgs, WindowArgs};
 pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
@@ -77,6 +79,10 @@ pub(crate) enum Command {
     Alpha(AlphaArgs),
     /// Voronoi cells, clipped, as polygons or as a picture.
     Voronoi(VoronoiArgs),
+    /// Lines of equal height of points with heights or rasters, and the areas between them.
+    Contours(ContoursArgs),
+    /// Thin points with heights or rasters: a mesh of few of them that is near all others.
+    Simplify(SimplifyArgs),
     /// Insert, remove, move and ask, as a text file says, one operation a line.
     Replay(ReplayArgs),
     /// Judge triangles from any program: Delaunay? canonical?
