@@ -10,6 +10,7 @@ mod hull;
 mod memory;
 mod mesh;
 mod space;
+mod surface;
 mod tiles;
 mod tiles3;
 mod voronoi;
@@ -55,6 +56,9 @@ struct Args {
     /// Time proximity graphs instead of building.
     #[arg(long)]
     graphs: bool,
+    /// Time surfaces instead of building: a cell of a raster beyond the triangulation, by each method, and thinning.
+    #[arg(long)]
+    surface: bool,
     /// Time triangulation in tiles instead of building.
     #[arg(long)]
     tiles: bool,
@@ -136,6 +140,9 @@ fn compare(args: &Args) {
         let chosen = changes::chosen(&args.engines);
         let run = |kind, size, runs| changes::run(&chosen, kind, size, runs);
         std::process::exit(i32::from(!each_set(args, run)));
+    }
+    if args.surface {
+        std::process::exit(i32::from(!each_set(args, surface::run)));
     }
     if args.tiles {
         std::process::exit(i32::from(!each_set(args, tiles::run)));

@@ -87,3 +87,11 @@ $delone window "$work/tiles" --tiles -o $here/tiles.png --size 700
 $delone draw data/great_lakes.geojson -o $here/lakes.png --size 1200
 $delone generate koch -n 768 -o "$work/koch.poly"
 $delone draw "$work/koch.poly" -o $here/koch.png --size 640
+
+# The shipped scan as a hillshade, and 60 points of a wave by triangles and by natural neighbours.
+$delone -q dtm data/autzen_trim.laz --cell 2 -o $here/shade.png
+$delone generate uniform -n 60 --seed 2 -o "$work/wave.csv"
+awk -F, 'NR == 1 && $1 + 0 != $1 { next } { printf "%.9f,%.9f,%.9f\n", $1, $2, 0.16 * cos(9 * $1) * cos(7 * $2) }' \
+    "$work/wave.csv" > "$work/heights.csv"
+$delone -q dtm "$work/heights.csv" --cell 0.0025 -o $here/linear.png
+$delone -q dtm "$work/heights.csv" --cell 0.0025 --method natural -o $here/sibson.png

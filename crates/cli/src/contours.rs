@@ -6,6 +6,7 @@ use delone_io::{ContourMap, Format, write_contours};
 
 use crate::args::ContoursArgs;
 use crate::files;
+use crate::heights::settle_equal;
 use crate::message::Failure;
 use crate::progress::Phase;
 use crate::room::{self, Room};
@@ -18,8 +19,9 @@ pub(crate) fn run(args: &ContoursArgs, quiet: bool) -> Result<(), Failure> {
         ContourMap::check(*format).map_err(|error| Failure::file(path, &error))?;
     }
     let mut stats = Stats::start();
-    let (points, heights, about) = files::surface(&args.input, quiet)?;
+    let (points, mut heights, about) = files::surface(&args.input, quiet)?;
     stats.phase("read");
+    settle_equal(&points, &mut heights, args.duplicates);
     let label = args.input.label();
     let refused = |error| Failure::points(&label, &error);
     let d: Delaunay2 = room::build(&points, Delaunay2::FASTEST, &label, quiet)?;

@@ -403,8 +403,16 @@ pub(crate) fn write<T: Default>(
         }
         outcome => outcome,
     };
-    outcome.map_err(|error: delone_io::Error| match error {
-        delone_io::Error::Io(error) => unwritten(path, &error),
+    outcome.map_err(|error| cannot_write(path, error))
+}
+
+/// What is wrong with an output.
+pub(crate) fn cannot_write(path: &Path, error: delone_io::Error) -> Failure {
+    match error {
+        delone_io::Error::Io(error) => Failure::new(
+            format!("cannot write {}: {error}", path.display()),
+            "check the name, the permissions and the room on the disk",
+        ),
         other => Failure::file(path, &other),
-    })
+    }
 }

@@ -9,14 +9,17 @@ mod clip;
 mod constrained;
 mod contours;
 mod draw;
+mod dtm;
 mod experiment;
 mod files;
 mod furthest;
 mod generate;
 mod graph;
+mod heights;
 mod hull;
 mod info;
 mod instances;
+mod interpolate;
 mod locate;
 mod memory;
 mod mesh;
@@ -69,6 +72,8 @@ fn main() -> ExitCode {
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
         Command::Tiles(args) => tiles::run(&args, quiet),
+        Command::Dtm(args) => dtm::run(&args, quiet),
+        Command::Interpolate(args) => interpolate::run(&args, quiet),
         Command::Window(args) => tiles::window(&args, quiet),
         Command::Mesh(args) => mesh::run(&args, quiet),
         Command::Polygons(args) => polygons::run(&args, quiet),

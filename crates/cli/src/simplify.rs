@@ -9,6 +9,7 @@ use delone_io::{Cloud, Graph, Raster, picture, write_mesh};
 use crate::args::{CrossingsName, GraphArgs, SimplifyArgs};
 use crate::constrained::{self, Constrained};
 use crate::files;
+use crate::heights::settle_equal;
 use crate::message::{Failure, say};
 use crate::progress::Phase;
 use crate::room::{self, Room};
@@ -96,14 +97,18 @@ impl Given {
     fn read(args: &SimplifyArgs, quiet: bool) -> Result<Self, Failure> {
         let segments = GraphArgs { segments: args.segments.clone(), ..GraphArgs::default() };
         if constrained::is_meant(&args.input, &segments) {
-            let graph = files::graph(&args.input, args.segments.as_deref(), quiet)?;
+            let mut graph = files::graph(&args.input, args.segments.as_deref(), quiet)?;
             files::need_heights(graph.cloud.z.as_deref(), &args.input.label())?;
+            if let Some(heights) = &mut graph.cloud.z {
+                settle_equal(&graph.cloud.xy, heights, args.duplicates);
+            }
             return Ok(Self::Points(graph));
         }
         if let Some(raster) = files::raster(&args.input, quiet)? {
             return Ok(Self::Raster(raster));
         }
-        let (xy, z, about) = files::surface(&args.input, quiet)?;
+        let (xy, mut z, about) = files::surface(&args.input, quiet)?;
+        settle_equal(&xy, &mut z, args.duplicates);
         Ok(Self::Points(Graph::of_points(Cloud { xy, z: Some(z), ..about })))
     }
 

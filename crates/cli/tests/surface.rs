@@ -103,6 +103,18 @@ fn rasters_and_their_points_are_thinned_alike() {
 }
 
 #[test]
+fn of_several_heights_a_rule_takes_one() {
+    let place = Place::new();
+    place.file("p.csv", "x,y,z\n0,0,0\n4,0,4\n0,4,0\n4,0,8\n");
+    for (rule, lines) in [("", 0), ("--duplicates highest", 1), ("--duplicates mean", 1)] {
+        let found = place.succeed(&format!("-q contours p.csv --levels 5 {rule} -o - --to geojson"));
+        assert_eq!(features(&found).len(), lines, "{rule}");
+    }
+    place.succeed("simplify p.csv --max-error 0 --duplicates mean -o m.obj");
+    assert!(std::fs::read_to_string(place.path("m.obj")).expect("a mesh").contains("v 4 0 6"));
+}
+
+#[test]
 fn segments_stay_edges() {
     let place = Place::new();
     let mut table = String::from("x,y,z\n");

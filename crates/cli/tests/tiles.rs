@@ -272,7 +272,7 @@ fn refusals_say_what_to_do() {
         ("tiles p.ply -o u", 2, "not read piece by piece"),
         ("tiles bad.csv -o u", 1, "bad.csv: point 2 has the y coordinate NaN"),
         ("tiles flat.csv bad.csv -o u", 1, "bad.csv: point 5 has the y coordinate NaN"),
-        ("tiles flat.csv -o u --heights", 2, "has no heights"),
+        ("tiles flat.csv -o u --heights", 1, "has no heights"),
     ] {
         let output = place.run(line);
         let found = text(&output.stderr);

@@ -45,6 +45,7 @@
 //! | cells of points with weights, and how their areas change | [`Power2`], [`Jacobian2`] | | O(n) |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
+//! | values between points: linear, natural neighbours, smooth; rasters, contours, thinning | [`surface`], [`surface::Interpolator`] | the same | O(1) expected each from nearby |
 //! | more points than memory, on one machine or many | [`tiles`] | | as the points, and little for the seams |
 //! | triangles from elsewhere, to be judged | [`plane::verify::verify`] | [`space::verify::verify`] | O(n log n) |
 //! | data of your own on vertices | [`VertexMap`] | [`VertexMap`] | O(1) |

@@ -8,6 +8,7 @@ mod mesh;
 mod points;
 mod polygons;
 mod proximity;
+mod relief;
 mod shapes;
 mod strategy;
 mod surface;
@@ -29,9 +30,10 @@ pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
+pub(crate) use relief::{ContoursArgs, SimplifyArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
-pub(crate) use surface::{ContoursArgs, SimplifyArgs};
+pub(crate) use surface::{DtmArgs, DuplicatesName, InterpolateArgs, MethodName, OutsideName};
 pub(crate) use tiles::{TilesArgs, WindowArgs};
 pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
@@ -59,6 +61,10 @@ pub(crate) enum Command {
     Triangulate(TriangulateArgs),
     /// Triangulate more points than memory, in tiles.
     Tiles(TilesArgs),
+    /// Make a raster of terrain of points with heights: a DEM, with hillshade and contours.
+    Dtm(Box<DtmArgs>),
+    /// Interpolate values between points: linear, natural neighbours, smooth.
+    Interpolate(InterpolateArgs),
     /// Cut a part, or an overview, out of a folder of tiles.
     Window(WindowArgs),
     /// Make meshes with good angles and sizes: new vertices until all triangles are as wanted.

@@ -1,91 +1,162 @@
-//! What commands take that are about heights: `contours`, `simplify`.
+//! What `dtm` and `interpolate` take.
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use delone_io::Format;
 
-use super::{InputArgs, count, length};
+use super::{DimArgs, InputArgs, length, tiles::size};
 
-/// Contours.
-#[derive(Debug, Args)]
-#[command(after_help = "Examples:
-  delone contours tile.laz --class ground --interval 5 -o contours.geojson
-  delone contours dem.tif --interval 10 --bands -o bands.geojson -o bands.png
-  delone contours soundings.csv --levels -20,-10,-5 --max-edge 200 -o depths.geojson
-  delone contours dem.tif --interval 2.5 --base 1 -o - --to geojson
-
-Points with heights, or the cells of a raster (tif asc, and npy of shape (rows, columns)), are triangulated, and lines are drawn where
-the triangles have a height: simple lines, closed or from border to border, with the higher ground on the left. A point exactly at a
-height counts as above it. With --bands the areas between two heights are written, polygons that tile the triangles; pictures have bands
-and lines then. GeoJSON has the property `elevation`, of bands `lower` and `upper`. Of points at one place the first counts.
-Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
-pub(crate) struct ContoursArgs {
-    #[command(flatten)]
-    pub(crate) input: InputArgs,
-    /// Output file (geojson svg png), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
-    pub(crate) output: Vec<PathBuf>,
-    /// Format of outputs whose extension does not tell.
-    #[arg(long, value_name = "FORMAT")]
-    pub(crate) to: Option<Format>,
-    /// Heights that are multiples of this.
-    #[arg(long, value_name = "DZ", conflicts_with = "levels", required_unless_present = "levels", allow_negative_numbers = true)]
-    pub(crate) interval: Option<f64>,
-    /// A height that multiples of the interval are counted from [default: 0].
-    #[arg(long, value_name = "Z", requires = "interval", allow_hyphen_values = true)]
-    pub(crate) base: Option<f64>,
-    /// These heights, separated by commas.
-    #[arg(long, value_name = "Z", value_delimiter = ',', allow_hyphen_values = true)]
-    pub(crate) levels: Vec<f64>,
-    /// Write the areas between heights.
-    #[arg(long)]
-    pub(crate) bands: bool,
-    /// Leave out triangles with an edge longer than this, from the hull inwards.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub(crate) max_edge: Option<f64>,
-    /// The longer side of pictures in pixels.
-    #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
-    pub(crate) size: u32,
+/// How values between points come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MethodName {
+    /// Linear in each triangle.
+    Linear,
+    /// Natural neighbours: what the cell of a place takes from the cells of its neighbours (Sibson).
+    #[value(alias = "sibson")]
+    Natural,
+    /// Natural neighbours: the size of facets over distances (Laplace).
+    Laplace,
+    /// The value of the nearest point.
+    Nearest,
+    /// Natural neighbours with gradients: smooth at the points too (Sibson).
+    Smooth,
+    /// The same by a cubic (Farin).
+    Farin,
 }
 
-/// Thinning.
+impl MethodName {
+    /// Whether it needs gradients.
+    pub(crate) fn is_bent(self) -> bool {
+        matches!(self, Self::Smooth | Self::Farin)
+    }
+}
+
+/// Which height a place has at which there are several points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DuplicatesName {
+    /// The lowest.
+    #[default]
+    Lowest,
+    /// That of the first point.
+    First,
+    /// The highest.
+    Highest,
+    /// The mean of all.
+    Mean,
+}
+
+/// Points with heights to a raster of terrain.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  delone simplify dem.tif --max-error 0.2 -o terrain.ply
-  delone simplify tile.laz --class ground --max-error 0.5 --max-edge 50 -o terrain.obj -o terrain.png
-  delone simplify tile.laz --points 1e4 -o terrain.ply --stats stats.json
-  delone simplify survey.csv --segments breaklines.csv --max-error 0.1 -o terrain.ply --kept kept.npy
+  delone dtm tile.laz --cell 1 -o dem.tif -o shade.png -o contours.geojson --interval 2
+  delone dtm survey/ --cell 0.5 --memory 2G -o dem.tif
+  delone dtm ground.csv --cell 1 --method natural --breaklines ridges.geojson -o dem.asc
+  delone dtm tile.laz --all-classes --cell 1 --max-edge 50 --clip area.geojson -o surface.npy
 
-Few of the points with heights (or of the cells of a raster: tif asc, and npy of shape (rows, columns)) are left, so that the triangles
-of these are nowhere further from any other point than --max-error, in height: the corners of the hull first, then always the point that
-is furthest away (Garland & Heckbert 1995). All points are measured again in the end. Segments of the input and of --segments stay
-edges. What is written has the points that are left alone, in the order of the input; --kept says which. Of points at one place the
-first counts.
+Outputs by extension: tif (GeoTIFF, compressed), asc (ESRI), npy (float64, rows from north to south, NaN for no data) are the heights; png
+is a hillshade; geojson has contours, lines with their elevation. Cells begin at multiples of their size, values are those of centres.
+Of LAS and LAZ files ground (class 2) is taken unless --class or --all-classes says otherwise; a folder stands for all such files in it.
+With --memory work is done in tiles on disk, beside the first output: the same values, bit for bit.
+
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
-pub(crate) struct SimplifyArgs {
+pub(crate) struct DtmArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy node ele neigh edge poly ply obj off stl vtu msh inp geojson wkt wkb svg png), or - for standard output; may be
-    /// repeated.
+    /// Output file (tif asc npy png geojson), or - for standard output; may be repeated.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// How far from the triangles any point may be, in height.
-    #[arg(long, value_name = "DZ", required_unless_present = "points", allow_negative_numbers = true)]
-    pub(crate) max_error: Option<f64>,
-    /// The number of points to stop at.
-    #[arg(long, value_name = "N", value_parser = count)]
-    pub(crate) points: Option<usize>,
-    /// File of segments between the points that stay: two indices a line from 0 (csv npy edge poly).
-    #[arg(long, value_name = "FILE")]
-    pub(crate) segments: Option<PathBuf>,
-    /// Write the indices of the points that are left, of rasters among the cells with data, row by row (npy csv).
-    #[arg(long, value_name = "FILE")]
-    pub(crate) kept: Option<PathBuf>,
-    /// Leave out triangles with an edge longer than this, from the hull inwards.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    /// The side of a cell, in coordinate units [default: about one point a cell].
+    #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
+    pub(crate) cell: Option<f64>,
+    /// How heights between points come about.
+    #[arg(long, value_name = "METHOD", default_value = "linear")]
+    pub(crate) method: MethodName,
+    /// Take the points of all classes of LAS and LAZ files, not ground alone.
+    #[arg(long, conflicts_with = "class")]
+    pub(crate) all_classes: bool,
+    /// Which height counts where points have the same x and y.
+    #[arg(long, value_name = "RULE", default_value = "lowest")]
+    pub(crate) duplicates: DuplicatesName,
+    /// No heights in triangles with a longer edge.
+    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Borders")]
     pub(crate) max_edge: Option<f64>,
+    /// The same, but only from the border inwards: gaps in the middle are filled.
+    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Borders", conflicts_with = "memory")]
+    pub(crate) carve: Option<f64>,
+    /// Polygons outside of which there are no heights (geojson wkt wkb).
+    #[arg(long, value_name = "FILE", help_heading = "Borders")]
+    pub(crate) clip: Option<PathBuf>,
+    /// Lines that must be edges, with their own heights or, without, those of the surface below (geojson wkt wkb poly); may be repeated.
+    #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory")]
+    pub(crate) breaklines: Vec<PathBuf>,
+    /// Polygons that are level, water say: at the one height that they have, or at the lowest of the surface along their border.
+    #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory")]
+    pub(crate) flat: Vec<PathBuf>,
+    /// The number for no data [default: -9999 in asc, NaN else].
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
+    pub(crate) nodata: Option<f64>,
+    /// The system of coordinates by its EPSG number, where files do not tell or are wrong.
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) epsg: Option<u32>,
+    /// The distance of contours in height [default: about ten of them].
+    #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true)]
+    pub(crate) interval: Option<f64>,
+    /// Memory that may be taken, as in 500M or 4G, from 64M on; by default as much as there is.
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    pub(crate) memory: Option<u64>,
+    /// Points of a tile at most, and bands of few rows: for tests of what only large sets would show.
+    #[arg(long, value_name = "N", hide = true, requires = "memory")]
+    pub(crate) tile: Option<usize>,
+}
+
+/// Values between points.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  delone interpolate stations.csv --value temperature --queries places.csv -o at-places.csv
+  delone interpolate stations.csv --value temperature --value rain --queries places.npy --method natural -o values.npy
+  delone interpolate stations.csv --value temperature --grid 100 -o temperature.tif
+  delone interpolate sites.csv --dim 3 --value grade --queries blocks.csv -o grades.csv
+
+Of several values the answers are columns. Outside of the hull of the points there is NaN, unless --outside nearest.
+Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
+pub(crate) struct InterpolateArgs {
+    #[command(flatten)]
+    pub(crate) input: InputArgs,
+    #[command(flatten)]
+    pub(crate) dim: DimArgs,
+    /// A value at each point: a column of text by name or number from 1, or a file with one for each point (npy csv); may be repeated
+    /// [default: the height, in the plane].
+    #[arg(long, value_name = "COLUMN|FILE")]
+    pub(crate) value: Vec<String>,
+    /// File of places to interpolate at.
+    #[arg(long, value_name = "FILE", required_unless_present = "grid", conflicts_with = "grid")]
+    pub(crate) queries: Option<PathBuf>,
+    /// Interpolate at the centres of the cells of a raster, whose side this is.
+    #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
+    pub(crate) grid: Option<f64>,
+    /// How values between points come about.
+    #[arg(long, value_name = "METHOD", default_value = "natural")]
+    pub(crate) method: MethodName,
+    /// What there is outside of the hull.
+    #[arg(long, value_name = "WHAT", default_value = "nothing")]
+    pub(crate) outside: OutsideName,
+    /// Output file, or - for standard output: csv npy, of a raster also tif asc.
+    #[arg(long, short, value_name = "OUT")]
+    pub(crate) output: PathBuf,
+    /// Format of the output, if its extension does not tell.
+    #[arg(long, value_name = "FORMAT")]
+    pub(crate) to: Option<Format>,
+}
+
+/// What there is outside of the hull.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum OutsideName {
+    /// Nothing: NaN.
+    Nothing,
+    /// The value of the nearest point.
+    Nearest,
 }

@@ -63,6 +63,9 @@ pub(crate) struct TilesArgs {
     /// Points of a tile at most, instead of as many as memory allows.
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) tile: Option<usize>,
+    /// Which height counts where points are equal.
+    #[arg(skip = super::DuplicatesName::First)]
+    pub(crate) duplicates: super::DuplicatesName,
 }
 
 /// Cut a part, or an overview, out of a folder of tiles.
@@ -109,7 +112,7 @@ pub(crate) struct WindowArgs {
 }
 
 /// A number of bytes: 64M, 1.5G, 2GiB, 1e9.
-fn size(text: &str) -> Result<u64, String> {
+pub(super) fn size(text: &str) -> Result<u64, String> {
     let wrong = || "a size is a number of bytes, as in 500M or 4G".to_owned();
     let text = text.trim();
     let bare = text.trim_end_matches(['b', 'B']);

@@ -53,8 +53,8 @@ impl<'a> Input<'a> {
         }))
     }
 
-    /// Reads all points in their order.
-    pub(super) fn read(&self, what: &'static str, quiet: bool, take: Take) -> Result<(), Failure> {
+    /// Reads all points in their order, and says what else the files tell.
+    pub(super) fn read(&self, what: &'static str, quiet: bool, take: Take) -> Result<Cloud, Failure> {
         let mut all = Cloud::default();
         let mut first = 0;
         for (path, &format) in self.args.input.input.iter().zip(&self.formats) {
@@ -66,7 +66,7 @@ impl<'a> Input<'a> {
                     let outcome = match heights {
                         None if self.args.heights => {
                             let what = format!("{}: it has no heights", path.display());
-                            Err(Failure::usage(what, "leave --heights out, or that file"))
+                            Err(Failure::new(what, "give files with heights: x, y and z"))
                         }
                         _ => take(path, first, points, heights.filter(|_| self.args.heights)),
                     };
@@ -84,18 +84,23 @@ impl<'a> Input<'a> {
             about.remarks.iter().for_each(|remark| note(quiet, format_args!("{}: {remark}", path.display())));
             all.join(about).map_err(failed)?;
         }
-        Ok(())
+        Ok(all)
     }
 
     /// Counts the points, and draws a sample of some, about, at hashed indices: those of scan lines or of a grid are not met
     /// in their own rhythm.
     ///
     /// # Errors
-    /// The first point that is not finite.
-    pub(super) fn survey(&self, some: usize, quiet: bool) -> Result<(u64, Vec<[f64; 2]>), Failure> {
+    /// The first point that is not finite, or whose height is not.
+    pub(super) fn survey(&self, some: usize, quiet: bool) -> Result<(u64, Vec<[f64; 2]>, Cloud), Failure> {
         let mut sample: Vec<(u64, [f64; 2])> = Vec::new();
         let (mut most, mut count) = (u64::MAX, 0);
-        self.read("counting", quiet, &mut |path, first, points, _| {
+        let about = self.read("counting", quiet, &mut |path, first, points, heights| {
+            if let Some(k) = heights.and_then(|heights| heights.iter().position(|z| !z.is_finite())) {
+                let index = first + k as u64;
+                let what = format!("{}: point {index} has a height that is not finite", path.display());
+                return Err(Failure::new(what, "remove that point or repair its height"));
+            }
             for (k, &p) in points.iter().enumerate() {
                 let index = first + k as u64;
                 if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
@@ -119,7 +124,7 @@ impl<'a> Input<'a> {
             count = first + points.len() as u64;
             Ok(())
         })?;
-        Ok((count, sample.into_iter().map(|(_, p)| p).collect()))
+        Ok((count, sample.into_iter().map(|(_, p)| p).collect(), about))
     }
 }
 

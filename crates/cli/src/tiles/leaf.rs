@@ -11,6 +11,8 @@ use super::buckets::{self, Content};
 use super::manifest::place;
 use super::node::Done;
 use super::sums::Sums;
+use crate::args::DuplicatesName;
+use crate::heights::settle;
 use crate::message::Failure;
 use crate::progress::Phase;
 
@@ -19,7 +21,7 @@ pub(super) fn all(
     folder: &Path,
     cuts: &Cuts,
     open: &[(Node, u64)],
-    has_heights: bool,
+    (has_heights, rule): (bool, DuplicatesName),
     workers: usize,
     quiet: bool,
 ) -> Result<(), Failure> {
@@ -30,7 +32,7 @@ pub(super) fn all(
             if stop.load(Ordering::Relaxed) {
                 return;
             }
-            match one(folder, cuts, node, count, has_heights) {
+            match one(folder, cuts, (node, count), (has_heights, rule)) {
                 Ok(()) => phase.advance(),
                 Err(error) => {
                     stop.store(true, Ordering::Relaxed);
@@ -60,11 +62,20 @@ pub(super) fn all(
 }
 
 /// Triangulates one tile, and removes its bucket in the end.
-fn one(folder: &Path, cuts: &Cuts, node: Node, count: u64, has_heights: bool) -> Result<(), Failure> {
-    let Content { points, heights, ids } = buckets::read(folder, node, count, has_heights)?;
+fn one(
+    folder: &Path,
+    cuts: &Cuts,
+    (node, count): (Node, u64),
+    (has_heights, rule): (bool, DuplicatesName),
+) -> Result<(), Failure> {
+    let Content { points, mut heights, ids } = buckets::read(folder, node, count, has_heights)?;
     let bucket = buckets::bucket(folder, node);
     let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Failure::points(&bucket, &error))?;
     drop(points);
+    if has_heights {
+        let pairs = tile.duplicates().iter().map(|pair| (pair.point, pair.vertex.index()));
+        settle(&mut heights, pairs, rule);
+    }
     let (vertices, order) = (tile.points(), tile.order());
     let mut sums = Sums::default();
     sums.write(&place(folder, "points", node, "npy"), |out| {

@@ -7,6 +7,7 @@
 mod buckets;
 mod budget;
 mod describe;
+mod held;
 mod input;
 mod leaf;
 mod manifest;
@@ -24,9 +25,10 @@ use std::fs;
 use std::path::Path;
 
 use delone::tiles::{Cuts, Fingerprint, Node};
-use delone_io::followed;
+use delone_io::{Cloud, followed};
 
 pub(crate) use describe::describe;
+pub(crate) use held::{Corner, Held};
 pub(crate) use verdict::check;
 pub(crate) use window::run as window;
 
@@ -38,7 +40,7 @@ use node::Done;
 use seams::Joins;
 use sums::Written;
 
-use crate::args::TilesArgs;
+use crate::args::{DuplicatesName, TilesArgs};
 use crate::files;
 use crate::message::{Failure, note, say};
 use crate::progress::Phase;
@@ -59,7 +61,7 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
             check_input(&plan, &input, folder)?;
             plan
         }
-        None => survey(folder, &input, &budget, quiet)?,
+        None => survey(folder, &input, &budget, quiet)?.0,
     };
     stats.phase("read");
     if plan.outcome.is_none() {
@@ -67,7 +69,7 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
             distribute(folder, &mut plan, &input, &budget, quiet)?;
         }
         stats.phase("distribute");
-        triangulate(folder, &plan, &budget, quiet)?;
+        triangulate(folder, &plan, &budget, args.duplicates, quiet)?;
         stats.phase("build");
         finish(folder, &mut plan, &budget, quiet)?;
         stats.phase("join");
@@ -194,17 +196,17 @@ fn names(files: &serde_json::Value) -> Vec<&serde_json::Value> {
     files.as_array().into_iter().flatten().map(|file| &file["file"]).collect()
 }
 
-/// Counts the points and cuts the plane.
-fn survey(folder: &Path, input: &Input, budget: &Budget, quiet: bool) -> Result<Manifest, Failure> {
+/// Counts the points and cuts the plane; says what the files tell besides.
+fn survey(folder: &Path, input: &Input, budget: &Budget, quiet: bool) -> Result<(Manifest, Cloud), Failure> {
     let described = input.describe()?;
-    let (count, sample) = input.survey(budget.sample(), quiet)?;
+    let (count, sample, about) = input.survey(budget.sample(), quiet)?;
     let cuts =
         Cuts::from_sample(&sample, budget.tiles(count)).map_err(|error| Failure::points(folder, &error))?;
     let has_heights = described["heights"] == true;
     let plan =
         Manifest { input: described, count, has_heights, cuts, buckets: None, left_out: 0, outcome: None };
     plan.write(folder)?;
-    Ok(plan)
+    Ok((plan, about))
 }
 
 /// Puts every point into the bucket of its tile.
@@ -246,7 +248,13 @@ fn distribute(
 }
 
 /// Triangulates all tiles that are not done.
-fn triangulate(folder: &Path, plan: &Manifest, budget: &Budget, quiet: bool) -> Result<(), Failure> {
+fn triangulate(
+    folder: &Path,
+    plan: &Manifest,
+    budget: &Budget,
+    rule: DuplicatesName,
+    quiet: bool,
+) -> Result<(), Failure> {
     let mut open = Vec::new();
     for (&node, &count) in plan.buckets.iter().flatten() {
         if let Some(done) = Done::find(folder, node)? {
@@ -258,7 +266,7 @@ fn triangulate(folder: &Path, plan: &Manifest, budget: &Budget, quiet: bool) -> 
     }
     let Some(&(largest, count)) = open.iter().max_by_key(|&&(_, count)| count) else { return Ok(()) };
     let workers = budget.workers(count, &buckets::bucket(folder, largest))?;
-    leaf::all(folder, &plan.cuts, &open, plan.has_heights, workers, quiet)
+    leaf::all(folder, &plan.cuts, &open, (plan.has_heights, rule), workers, quiet)
 }
 
 /// Joins all borders, and adds up what there is.

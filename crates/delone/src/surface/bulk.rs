@@ -21,10 +21,7 @@ pub struct Weights {
     pub values: Vec<f64>,
 }
 
-impl<T: Surround> Interpolator<'_, T>
-where
-    Self: Clone + Send + Sync,
-{
+impl<T: Surround> Interpolator<'_, T> {
     /// Values at many points, a row of `columns` for each; NaN outside. `table` has a row for each id of a vertex.
     ///
     /// # Errors
@@ -118,10 +115,7 @@ impl<T: Ask<Point = [f64; 2]> + Surround> Interpolator<'_, T> {
     ///
     /// # Errors
     /// [`Error::Values`] if there are not as many values as ids of vertices.
-    pub fn fill(&self, grid: &Grid, values: &[f64], mask: &mut [f64]) -> Result<(), Error>
-    where
-        Self: Clone + Send + Sync,
-    {
+    pub fn fill(&self, grid: &Grid, values: &[f64], mask: &mut [f64]) -> Result<(), Error> {
         check_values(self.triangulation(), values.len(), 1)?;
         self.fill_with(grid, mask, |own, q| own.value(q, values))
     }
@@ -138,10 +132,7 @@ impl<T: Ask<Point = [f64; 2]> + Surround> Interpolator<'_, T> {
         grid: &Grid,
         mask: &mut [f64],
         surface: impl Fn(&mut Self, [f64; 2]) -> Result<Option<f64>, Error> + Sync,
-    ) -> Result<(), Error>
-    where
-        Self: Clone + Send + Sync,
-    {
+    ) -> Result<(), Error> {
         let columns = grid.columns();
         assert_eq!(mask.len(), columns * grid.rows(), "a value for each cell");
         if columns == 0 {

@@ -49,7 +49,7 @@ enum Method {
 /// }
 /// # Ok::<(), delone::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Interpolator<'t, T: Ask> {
     d: &'t T,
     method: Method,
@@ -61,6 +61,13 @@ pub struct Interpolator<'t, T: Ask> {
     cell: Cell,
     corners: Vec<(VertexId, T::Point)>,
     weights: Vec<(VertexId, f64)>,
+}
+
+impl<T: Ask> Clone for Interpolator<'_, T> {
+    /// Another one for the same triangulation, which has been nowhere yet.
+    fn clone(&self) -> Self {
+        Self { outside: self.outside, ..Self::new(self.d, self.method, self.find) }
+    }
 }
 
 /// Finds a point near a simplex, and what surrounds it if that is wanted.

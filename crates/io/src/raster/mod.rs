@@ -6,6 +6,7 @@
 mod asc;
 mod beside;
 mod npy;
+mod shade;
 mod tiff;
 
 use std::io::{Seek, Write};
@@ -15,6 +16,7 @@ use delone::surface::Grid;
 use crate::{Cloud, Crs, Error, Format, ReadOptions, Source, read_points};
 
 pub use beside::beside_raster;
+pub use shade::{Light, ShadeWriter};
 
 /// The numbers that a GeoTIFF is written with. Text is written with as many digits as these need, and arrays of NumPy with 64 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

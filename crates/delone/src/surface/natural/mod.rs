@@ -61,15 +61,16 @@ struct Local<R> {
 }
 
 impl<R: Real> Local<R> {
+    /// Adds a sum of parts times a factor; its error is so many units of the last place of the parts.
     #[inline]
-    fn add(&mut self, k: u32, piece: R, doubt: f64) {
-        self.shares[k as usize] += piece;
-        self.doubt += piece.value().abs() * doubt;
-    }
-
-    #[inline]
-    fn take(&mut self, k: u32, piece: R, doubt: f64) {
-        self.add(k, R::default() - piece, doubt);
+    fn add<const N: usize>(&mut self, k: u32, parts: [R; N], factor: R, doubt: f64) {
+        let (mut sum, mut size) = (R::default(), 0.0);
+        for part in parts {
+            sum += part;
+            size += part.value().abs();
+        }
+        self.shares[k as usize] += sum * factor;
+        self.doubt += size * factor.value().abs() * doubt;
     }
 
     fn begin(&mut self, q: [f64; 3], points: &[[f64; 3]], [before, after]: [f64; 2]) {
@@ -84,7 +85,11 @@ impl<R: Real> Local<R> {
 
 /// The lexicographic order of points.
 pub(super) fn compare(a: [f64; 3], b: [f64; 3]) -> Ordering {
-    a.partial_cmp(&b).unwrap_or(Ordering::Equal)
+    match (0..3).find(|&k| a[k] != b[k]) {
+        Some(k) if a[k] < b[k] => Ordering::Less,
+        Some(_) => Ordering::Greater,
+        None => Ordering::Equal,
+    }
 }
 
 /// Turns the least number to the front.
@@ -104,8 +109,15 @@ impl Cell {
     /// Takes what surrounds a point of a triangulation. Everything is put in an order that depends on the points alone, so that sums have
     /// the same bits whatever the triangulation was made of.
     pub(super) fn take<T: Triangulation>(&mut self, d: &T, around: &Around<T>) {
-        around.neighbors(&mut self.ids);
+        let is_plane = T::Point::COUNT == 2;
         let Self { ids, points, by_id, cavity, border, .. } = self;
+        if is_plane {
+            // The border goes around once.
+            ids.clear();
+            ids.extend(around.border().iter().filter_map(|(facet, _)| facet.as_ref().first()));
+        } else {
+            around.neighbors(ids);
+        }
         by_id.clear();
         by_id.extend(ids.iter().map(|&v| (three(d.position(v).unwrap_or_default()), v)));
         by_id.sort_unstable_by(|a, b| compare(a.0, b.0));
@@ -124,7 +136,6 @@ impl Cell {
             }
             by_id.binary_search_by_key(&v, |known| known.1).map_or(0, |k| by_id[k].0[0] as u32)
         };
-        let is_plane = T::Point::COUNT == 2;
         cavity.clear();
         cavity.extend(around.cavity().iter().map(|&s| {
             let corners = d.corners(s);

@@ -46,17 +46,18 @@ pub(super) fn duals<R: Real>(p: [[R; 3]; 4]) -> ([R; 6], f64) {
 }
 
 pub(super) fn sum<R: Real>(local: &mut Local<R>, cavity: &[[u32; 4]], border: &[[u32; 3]], measure: Measure) {
+    let one = R::difference(1.0, 0.0, 1.0);
     for &[i, j, k] in border {
         let corners = [i, j, k].map(|v| local.at[v as usize]);
         let [a, b, c] = corners;
         let (sums, doubt) = duals([a, b, c, [R::default(); 3]]);
         if measure == Measure::Laplace {
-            [(i, 2), (j, 4), (k, 5)].into_iter().for_each(|(v, edge)| local.add(v, sums[edge], doubt));
+            [(i, 2), (j, 4), (k, 5)].into_iter().for_each(|(v, edge)| local.add(v, [sums[edge]], one, doubt));
             continue;
         }
         let pieces = pieces([a, b, c, [R::default(); 3]], sums);
         for (v, at) in [i, j, k].into_iter().zip([[0, 1, 2], [0, 3, 4], [1, 3, 5]]) {
-            at.into_iter().for_each(|edge| local.take(v, pieces[edge], doubt));
+            at.into_iter().for_each(|edge| local.add(v, [R::default() - pieces[edge]], one, doubt));
         }
     }
     if measure == Measure::Laplace {
@@ -67,7 +68,7 @@ pub(super) fn sum<R: Real>(local: &mut Local<R>, cavity: &[[u32; 4]], border: &[
         let (sums, doubt) = duals(corners);
         let pieces = pieces(corners, sums);
         for (edge, ends) in EDGES.into_iter().enumerate() {
-            ends.into_iter().for_each(|end| local.add(numbers[end], pieces[edge], doubt));
+            ends.into_iter().for_each(|end| local.add(numbers[end], [pieces[edge]], one, doubt));
         }
     }
 }

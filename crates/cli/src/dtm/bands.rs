@@ -1,0 +1,81 @@
+//! A raster in bands of rows, each made when it is its turn, to all outputs at once.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use delone::surface::Grid;
+use delone_io::{Crs, Format, Light, Output, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster};
+
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+
+/// Where rows go.
+enum Sheet {
+    Raster(RasterWriter<Output>),
+    Shade(ShadeWriter<Output>),
+}
+
+/// What a raster says of itself.
+pub(super) struct About {
+    pub(super) grid: Grid,
+    pub(super) crs: Option<Crs>,
+    pub(super) nodata: Option<f64>,
+}
+
+/// Writes all rasters and hillshades, whole or not at all; says how many cells have a value.
+pub(super) fn write(
+    outputs: &[(PathBuf, Format)],
+    about: &About,
+    bands: &[Range<usize>],
+    quiet: bool,
+    mut values: impl FnMut(&Grid) -> Result<Vec<f64>, Failure>,
+) -> Result<u64, Failure> {
+    let info = RasterInfo {
+        grid: about.grid,
+        crs: about.crs.clone(),
+        nodata: about.nodata,
+        sample: Sample::default(),
+    };
+    let mut sheets = Vec::new();
+    for (path, format) in outputs {
+        let failed = |error| files::cannot_write(path, error);
+        let output = Output::create(path).map_err(|error| failed(error.into()))?;
+        sheets.push(match format {
+            Format::Png => {
+                Sheet::Shade(ShadeWriter::create(output, &about.grid, Light::default()).map_err(failed)?)
+            }
+            _ => Sheet::Raster(RasterWriter::create(output, *format, &info).map_err(failed)?),
+        });
+    }
+    let mut known = 0;
+    let phase = Phase::count(quiet, "rows", about.grid.rows() as u64);
+    for rows in bands {
+        let window = about.grid.window(0..about.grid.columns(), rows.clone());
+        let band = values(&window)?;
+        known += band.iter().filter(|value| !value.is_nan()).count() as u64;
+        for (sheet, (path, _)) in sheets.iter_mut().zip(outputs) {
+            let written = match sheet {
+                Sheet::Raster(writer) => writer.write_rows(&band),
+                Sheet::Shade(writer) => writer.write_rows(&band),
+            };
+            written.map_err(|error| files::cannot_write(path, error))?;
+        }
+        rows.clone().for_each(|_| phase.advance());
+    }
+    let mut done = Vec::new();
+    for (sheet, (path, _)) in sheets.into_iter().zip(outputs) {
+        let output = match sheet {
+            Sheet::Raster(writer) => writer.finish(),
+            Sheet::Shade(writer) => writer.finish(),
+        };
+        done.push(output.map_err(|error| files::cannot_write(path, error))?);
+    }
+    for (output, (path, format)) in done.into_iter().zip(outputs) {
+        output.commit().map_err(|error| files::cannot_write(path, error.into()))?;
+        if let Some((beside, text)) = beside_raster(path, *format, about.crs.as_ref()) {
+            files::write(&beside, |out| Ok(std::io::Write::write_all(out, text.as_bytes())?))?;
+        }
+    }
+    Ok(known)
+}

@@ -1,0 +1,147 @@
+//! Rows of a raster from tiles on disk.
+//!
+//! Linear: all triangles that meet the rows are painted. Natural neighbours need what is around a place: the triangles that meet the
+//! rows and some more are taken, and their corners triangulated, which gives all of these again, since what is empty of all points is
+//! empty of some. Where the triangles whose circles hold a place, and those at their border, are triangles of the whole, its natural
+//! neighbours are those of the whole. Where they are not, more is taken, and these cells are asked again. The corners of the hull are
+//! always there, so that its border is the border of the whole.
+//!
+//! Memory: some 600 bytes for each point of a band.
+
+use delone::surface::{Grid, Interpolator, Raster};
+use delone::{Around, Delaunay2, Surround, TriangleId};
+
+use super::surface::exceeds;
+use crate::args::MethodName;
+use crate::message::Failure;
+use crate::tiles::{Corner, Held};
+
+/// The values of some rows.
+pub(super) fn values(
+    held: &Held,
+    method: MethodName,
+    max_edge: Option<f64>,
+    grid: &Grid,
+) -> Result<Vec<f64>, Failure> {
+    let raster = Raster::new(*grid);
+    let range = [grid.y(grid.rows() - 1), grid.y(0)];
+    held.each(range, |t| {
+        let corners = t.map(|corner| corner.0);
+        if !max_edge.is_some_and(|longest| exceeds(corners, longest)) {
+            raster.paint(corners, t.map(|corner| corner.1));
+        }
+    })?;
+    let mut values = raster.into_values();
+    if method == MethodName::Linear {
+        return Ok(values);
+    }
+    // What is linear is asked again until all that it needs is known.
+    let mut open: Vec<usize> = (0..values.len()).filter(|&k| !values[k].is_nan()).collect();
+    let mut margin = 4.0 * grid.step()[1].abs();
+    while !open.is_empty() {
+        let box_ = [range[0] - margin, range[1] + margin];
+        let part = Part::read(held, box_)?;
+        open = part.settle(method, grid, &open, &mut values).map_err(|error| failed(&error))?;
+        if box_[0] <= held.bounds.low[1] && box_[1] >= held.bounds.high[1] {
+            break;
+        }
+        margin = (2.0 * margin).max((range[1] - range[0]) / 8.0);
+    }
+    Ok(values)
+}
+
+fn failed(error: &delone::Error) -> Failure {
+    Failure::new(
+        error,
+        "start again; if nobody changed the files of the tiles, please report it: it is a bug",
+    )
+}
+
+/// The triangles of a part, as a triangulation of their corners.
+struct Part {
+    d: Delaunay2,
+    heights: Vec<f64>,
+    /// For each triangle, by index, whether it is one of the whole.
+    is_real: Vec<bool>,
+    range: [f64; 2],
+}
+
+impl Part {
+    fn read(held: &Held, range: [f64; 2]) -> Result<Self, Failure> {
+        let mut triangles: Vec<[Corner; 3]> = Vec::new();
+        held.each(range, |t| triangles.push(t))?;
+        let key = |corner: &Corner| corner.0.map(ordered);
+        let mut corners: Vec<Corner> = triangles.iter().flatten().chain(&held.hull).copied().collect();
+        corners.sort_unstable_by_key(key);
+        corners.dedup_by_key(|corner| corner.0);
+        let points: Vec<[f64; 2]> = corners.iter().map(|corner| corner.0).collect();
+        let number =
+            |corner: &Corner| corners.binary_search_by_key(&key(corner), key).map_or(u32::MAX, |k| k as u32);
+        let sorted = |mut t: [u32; 3]| {
+            t.sort_unstable();
+            t
+        };
+        let mut real: Vec<[u32; 3]> =
+            triangles.iter().map(|t| sorted([&t[0], &t[1], &t[2]].map(number))).collect();
+        drop(triangles);
+        real.sort_unstable();
+        let d = Delaunay2::from_points(&points).map_err(|error| failed(&error))?;
+        let mut is_real = vec![false; d.mesh().slot_count()];
+        for t in d.triangle_ids() {
+            let corners = sorted(d.mesh().corners(t).map(|v| v.index() as u32));
+            is_real[t.index()] = real.binary_search(&corners).is_ok();
+        }
+        let heights = corners.iter().map(|corner| corner.1).collect();
+        Ok(Self { d, heights, is_real, range })
+    }
+
+    /// Settles the cells that can be, and gives back the others.
+    fn settle(
+        &self,
+        method: MethodName,
+        grid: &Grid,
+        open: &[usize],
+        values: &mut [f64],
+    ) -> Result<Vec<usize>, delone::Error> {
+        let mut surface = match method {
+            MethodName::Laplace => Interpolator::laplace(&self.d),
+            MethodName::Nearest => Interpolator::nearest(&self.d),
+            _ => Interpolator::sibson(&self.d),
+        };
+        let mut around = Around::default();
+        let mut near = None;
+        let mut rest = Vec::new();
+        for &cell in open {
+            let q = grid.centre(cell % grid.columns(), cell / grid.columns());
+            let found = self.d.surround(near, q, &mut around)?;
+            near = found.simplex.or(near);
+            let is_real = |t: TriangleId| self.is_real[t.index()];
+            let mut is_known = match found.simplex {
+                None => false,
+                Some(t) if around.cavity().is_empty() => found.face().len() == 1 || is_real(t),
+                Some(_) => {
+                    around.cavity().iter().all(|&t| is_real(t))
+                        && around.border().iter().all(|&(_, t)| is_real(t))
+                }
+            };
+            if method == MethodName::Nearest && around.is_at_hull() {
+                // All points of the part's range are there, so what is nearer is too.
+                let nearest = self.d.nearest(q)?.map(|v| self.d.point(v));
+                let far = nearest.map_or(f64::INFINITY, |p| (p[0] - q[0]).hypot(p[1] - q[1]) * (1.0 + 1e-9));
+                is_known = q[1] - far >= self.range[0] && q[1] + far <= self.range[1];
+            }
+            if is_known {
+                values[cell] = surface.value(q, &self.heights)?.unwrap_or(values[cell]);
+            } else {
+                rest.push(cell);
+            }
+        }
+        Ok(rest)
+    }
+}
+
+/// Bits that are ordered as numbers are.
+fn ordered(x: f64) -> u64 {
+    let bits = (x + 0.0).to_bits();
+    if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
+}

@@ -1,0 +1,107 @@
+//! Which files are read, which points of them, and where work is done.
+
+use std::path::{Path, PathBuf};
+
+use delone_io::{Cloud, Format, LAS_CLASSES};
+use tempfile::TempDir;
+
+use super::folder_of;
+use crate::args::{DtmArgs, DuplicatesName, InputArgs, TilesArgs};
+use crate::message::Failure;
+
+/// Ground, of LAS classes.
+const GROUND: u8 = 2;
+
+/// The files of a command: those of folders, by name; and ground alone where nothing else is said.
+pub(super) fn resolve(args: &DtmArgs) -> Result<InputArgs, Failure> {
+    let mut input = args.input.clone();
+    input.input.clear();
+    for path in &args.input.input {
+        if !path.is_dir() {
+            input.input.push(path.clone());
+            continue;
+        }
+        let failed = |error: std::io::Error| Failure::file(path, &error.into());
+        let entries: Vec<PathBuf> = std::fs::read_dir(path)
+            .map_err(failed)?
+            .map(|entry| entry.map(|entry| entry.path()))
+            .collect::<Result<_, _>>()
+            .map_err(failed)?;
+        let mut clouds: Vec<PathBuf> =
+            entries.into_iter().filter(|file| Format::of(file).ok() == Some(Format::Las)).collect();
+        if clouds.is_empty() {
+            let what = format!("{}: there is no las or laz file in this folder", path.display());
+            return Err(Failure::new(what, "name files, or a folder that has some"));
+        }
+        clouds.sort();
+        input.input.append(&mut clouds);
+    }
+    let is_las = |path: &PathBuf| args.input.from.or_else(|| Format::of(path).ok()) == Some(Format::Las);
+    if input.class.is_empty() && !args.all_classes && input.input.iter().any(is_las) {
+        input.class.push(GROUND);
+    }
+    Ok(input)
+}
+
+/// Refuses points that have no surface.
+pub(super) fn check(cloud: &Cloud, label: &Path, args: &DtmArgs) -> Result<(), Failure> {
+    check_count(cloud.xy.len() as u64, label, args)?;
+    let Some(heights) = &cloud.z else {
+        let what = format!("{}: the points have no heights", label.display());
+        return Err(Failure::new(what, "give x, y and z, or name the columns with --columns x,y,z"));
+    };
+    if let Some(index) = heights.iter().position(|z| !z.is_finite()) {
+        let what = format!(
+            "{}: point {index} has the height {}, which is not finite",
+            label.display(),
+            heights[index]
+        );
+        return Err(Failure::new(what, "remove that point or repair its height"));
+    }
+    Ok(())
+}
+
+/// Refuses no points.
+pub(super) fn check_count(count: u64, label: &Path, args: &DtmArgs) -> Result<(), Failure> {
+    if count > 0 {
+        return Ok(());
+    }
+    let names: Vec<String> = args.input.class.iter().map(|&class| name(class)).collect();
+    let of = match &names[..] {
+        [] if args.all_classes => String::new(),
+        [] => " of ground".to_owned(),
+        names => format!(" of class {}", names.join(", ")),
+    };
+    let what = format!("{}: there are no points{of}", label.display());
+    Err(Failure::new(what, "see delone info for the classes there are; take all with --all-classes"))
+}
+
+fn name(class: u8) -> String {
+    LAS_CLASSES.iter().find(|known| known.1 == class).map_or(class.to_string(), |known| known.0.to_owned())
+}
+
+/// A folder for tiles beside the first output that is a file; it goes with the work.
+pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TempDir, Failure> {
+    let folder = outputs.iter().map(|output| folder_of(&output.0)).next().unwrap_or(Path::new("."));
+    tempfile::Builder::new().prefix(".delone-tiles-").tempdir_in(folder).map_err(|error| {
+        let what = format!("cannot make a folder for tiles in {}: {error}", folder.display());
+        Failure::new(what, "check the permissions and the room on the disk")
+    })
+}
+
+/// What tiles are made of, but for the folder and the memory.
+pub(super) fn tiles(input: InputArgs) -> TilesArgs {
+    TilesArgs {
+        input,
+        output: PathBuf::new(),
+        memory: 0,
+        resume: false,
+        workers: None,
+        heights: true,
+        neighbors: false,
+        #[cfg(feature = "parquet")]
+        parquet: false,
+        tile: None,
+        duplicates: DuplicatesName::First,
+    }
+}

@@ -1,0 +1,298 @@
+//! `delone dtm`: points with heights to a raster of terrain, in memory or in tiles on disk.
+//!
+//! The raster is made in bands of rows, so it may be larger than memory. Which triangle a cell is in is exact, and what it has depends
+//! on the points alone: the same file comes out with and without `--memory`.
+
+mod bands;
+mod clip;
+mod held;
+mod inputs;
+mod lines;
+mod surface;
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use delone::surface::Grid;
+use delone::{Bounds, Delaunay2};
+use delone_io::{Cloud, Crs, Format};
+
+use crate::args::{DtmArgs, MethodName, TilesArgs};
+use crate::files;
+use crate::message::{Failure, say, warn};
+use crate::progress::Phase;
+use crate::stats::{Stats, grouped};
+use crate::tiles::Held;
+use bands::About;
+use lines::Lines;
+use surface::{Kind, Surface};
+
+/// Rasters of more cells are refused.
+const MOST: f64 = 17_179_869_184.0;
+/// Cells that are made at a time, where nobody limits memory.
+const AT_ONCE: usize = 1 << 24;
+
+pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
+    let mut inputs = args.input.paths();
+    inputs.extend(args.breaklines.iter().chain(&args.flat).chain(&args.clip).map(PathBuf::as_path));
+    let stats_path = args.input.stats.as_deref();
+    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    check(args, &outputs)?;
+    let input = inputs::resolve(args)?;
+    let rings = args.clip.as_deref().map(|path| files::rings(path, quiet)).transpose()?;
+    let mut stats = Stats::start();
+    let mut job = Job { args, outputs: &outputs, rings, label: input.label(), quiet };
+    let in_chunks = input.input.iter().all(|path| {
+        let format = input.from.or_else(|| Format::of(path).ok());
+        path.is_file() && matches!(format, Some(Format::Text | Format::Npy | Format::Raw | Format::Las))
+    });
+    match args.memory {
+        Some(memory) if in_chunks => {
+            let folder = inputs::workspace(&outputs)?;
+            let tiles = TilesArgs {
+                output: folder.path().to_owned(),
+                memory,
+                heights: true,
+                duplicates: args.duplicates,
+                tile: args.tile,
+                ..inputs::tiles(input)
+            };
+            let (held, about) = Held::make(&tiles, &mut stats, quiet)?;
+            job.held(&held, &about, memory, &mut stats)?;
+        }
+        memory => {
+            if memory.is_some() {
+                warn(quiet, "--memory is not kept: files of this kind are read whole");
+            }
+            let cloud = files::points(&input, 3, quiet)?;
+            stats.phase("read");
+            job.in_memory(&cloud, &mut stats)?;
+        }
+    }
+    stats.write(stats_path)
+}
+
+fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
+    let is_known =
+        |format| matches!(format, Format::Tiff | Format::Asc | Format::Npy | Format::Png | Format::GeoJson);
+    if let Some((path, format)) = outputs.iter().find(|output| !is_known(output.1)) {
+        let what = format!("{}: {format} is no format of terrain", path.display());
+        return Err(Failure::usage(what, "choose tif, asc, npy, png (hillshade) or geojson (contours)"));
+    }
+    if args.memory.is_some() && args.method.is_bent() {
+        return Err(Failure::usage(
+            "--memory is for the methods linear, natural, laplace and nearest",
+            "choose one of them, or leave --memory out",
+        ));
+    }
+    if args.memory.is_some() && outputs.iter().any(|output| output.1 == Format::GeoJson) {
+        return Err(Failure::usage(
+            "contours need all triangles in memory",
+            "leave --memory or the contours out, or make them of the raster with delone contours",
+        ));
+    }
+    let bad = |x: Option<f64>| x.filter(|x| !(*x > 0.0 && x.is_finite()));
+    if let Some(cell) = bad(args.cell) {
+        return Err(Failure::usage(
+            format!("--cell {cell}: a cell has a positive size"),
+            "give it as in --cell 0.5",
+        ));
+    }
+    if let Some(interval) = bad(args.interval) {
+        return Err(Failure::usage(
+            format!("--interval {interval}: it must be positive"),
+            "give it as in --interval 5",
+        ));
+    }
+    Ok(())
+}
+
+/// What is to be done, whatever the surface comes from.
+struct Job<'a> {
+    args: &'a DtmArgs,
+    outputs: &'a [(PathBuf, Format)],
+    rings: Option<Vec<Vec<[f64; 2]>>>,
+    label: PathBuf,
+    quiet: bool,
+}
+
+impl Job<'_> {
+    fn in_memory(&mut self, cloud: &Cloud, stats: &mut Stats) -> Result<(), Failure> {
+        let Self { args, quiet, .. } = *self;
+        inputs::check(cloud, &self.label, args)?;
+        let crs = self.crs(cloud);
+        let grid = self.grid(&Bounds::of(cloud.xy.iter().copied()), cloud.xy.len() as f64)?;
+        let mut lines = Lines::read(args, crs.as_ref(), quiet)?;
+        if args.method != MethodName::Linear {
+            lines.cut(grid.step()[0] / 4.0);
+        }
+        let phase = Phase::start(quiet, "triangulating");
+        let mut kind = if lines.is_empty() {
+            let (d, heights) = surface::of_points(cloud, args.duplicates, &self.label)?;
+            Kind::Points(Surface::new(d, heights, args, Vec::new(), &self.label)?)
+        } else {
+            surface::with_lines(cloud, &lines, args, &self.label, stats, quiet)?
+        };
+        kind.prepare(args.method).map_err(|error| Failure::points(&self.label, &error))?;
+        drop(phase);
+        let (vertices, triangles, hull) = match &kind {
+            Kind::Points(s) => (s.d.vertex_count(), s.d.triangle_count(), s.d.hull_vertices().count()),
+            Kind::Lines(s) => (s.d.vertex_count(), s.d.triangle_count(), s.d.hull_vertices().count()),
+        };
+        stats.set("points", cloud.xy.len());
+        stats.set("duplicates", (cloud.xy.len() + lines.points.len()).saturating_sub(vertices));
+        stats.set("vertices", vertices);
+        stats.set("simplices", triangles);
+        stats.set("hull", hull);
+        stats.phase("build");
+        let bands = even(&grid, (AT_ONCE / grid.columns()).max(1));
+        let label = self.label.clone();
+        self.rasters(grid, crs, &bands, stats, |window| {
+            kind.values(args.method, window).map_err(|error| Failure::points(&label, &error))
+        })
+    }
+
+    fn held(&mut self, held: &Held, about: &Cloud, memory: u64, stats: &mut Stats) -> Result<(), Failure> {
+        let Self { args, .. } = *self;
+        let count = stats.get("points").as_u64().unwrap_or(0);
+        inputs::check_count(count, &self.label, args)?;
+        if stats.get("simplices").as_u64() == Some(0) {
+            // Says what is wrong with them.
+            Surface::new(Delaunay2::new(), Vec::new(), args, Vec::new(), &self.label)?;
+        }
+        let crs = self.crs(about);
+        let grid = self.grid(&held.bounds, count as f64)?;
+        let free = (memory - (40 << 20)) as f64;
+        // A band has its values twice, and where neighbours are asked its points.
+        let rows = (free / 8.0 / 16.0 / grid.columns() as f64).max(1.0) as usize;
+        let rows = if args.tile.is_some() { 7 } else { rows };
+        let mut bands = even(&grid, rows.min((AT_ONCE / grid.columns()).max(1)));
+        if args.method != MethodName::Linear {
+            let most = free / 2.0 / 700.0;
+            bands = bands.into_iter().flat_map(|rows| split(held, &grid, rows, most)).collect();
+        }
+        self.rasters(grid, crs, &bands, stats, |window| {
+            held::values(held, args.method, args.max_edge, window)
+        })
+    }
+
+    fn rasters(
+        &mut self,
+        grid: Grid,
+        crs: Option<Crs>,
+        bands: &[Range<usize>],
+        stats: &mut Stats,
+        values: impl Fn(&Grid) -> Result<Vec<f64>, Failure>,
+    ) -> Result<(), Failure> {
+        let about = About { grid, crs, nodata: self.args.nodata };
+        let rasters: Vec<_> =
+            self.outputs.iter().filter(|output| output.1 != Format::GeoJson).cloned().collect();
+        let rings = self.rings.take();
+        let known = bands::write(&rasters, &about, bands, self.quiet, |window| {
+            let mut band = values(window)?;
+            if let Some(rings) = &rings {
+                clip::clip(rings, window, &mut band);
+            }
+            Ok(band)
+        })?;
+        stats.set("cells", grid.cells());
+        stats.set("columns", grid.columns());
+        stats.set("rows", grid.rows());
+        stats.set("no_data", grid.cells() - known as f64);
+        stats.phase("write");
+        if known == 0 {
+            warn(self.quiet, "no cell has a height: no centre of a cell is in a triangle that is shown");
+        }
+        let duplicates = stats.get("duplicates").as_u64().unwrap_or(0);
+        if duplicates > 0 {
+            let rule = clap::ValueEnum::to_possible_value(&self.args.duplicates);
+            let rule = rule.map(|value| value.get_name().to_owned()).unwrap_or_default();
+            crate::message::note(
+                self.quiet,
+                format_args!(
+                    "{} points are at the place of another one: the rule is {rule}",
+                    grouped(duplicates)
+                ),
+            );
+        }
+        let points = grouped(stats.get("points").as_u64().unwrap_or(0));
+        say(
+            self.quiet,
+            format_args!(
+                "{points} points, {} x {} cells, {} with heights ({:.2} s)",
+                grouped(grid.columns() as u64),
+                grouped(grid.rows() as u64),
+                grouped(known),
+                stats.total()
+            ),
+        );
+        Ok(())
+    }
+
+    /// The cells of the raster.
+    fn grid(&self, bounds: &Bounds<2>, count: f64) -> Result<Grid, Failure> {
+        let size = [0, 1].map(|k| bounds.high[k] - bounds.low[k]);
+        let cell = self.args.cell.unwrap_or_else(|| round((size[0] * size[1] / count.max(1.0)).sqrt()));
+        let refuse =
+            |what: String| Failure::new(format!("{}: {what}", self.label.display()), "choose another --cell");
+        let grid = Grid::aligned(bounds, cell).map_err(|error| refuse(error.to_string()))?;
+        if grid.cells() > MOST {
+            return Err(refuse(format!(
+                "cells of {cell} would be {:e}: {} columns and {} rows; at most {MOST:e} are made",
+                grid.cells(),
+                grid.columns(),
+                grid.rows()
+            )));
+        }
+        if cell > size[0].max(size[1]) {
+            warn(
+                self.quiet,
+                format_args!(
+                    "a cell of {cell} is larger than the area of the points, {} x {}",
+                    size[0], size[1]
+                ),
+            );
+        }
+        Ok(grid)
+    }
+
+    fn crs(&self, about: &Cloud) -> Option<Crs> {
+        if let Some(number) = self.args.epsg {
+            return Some(Crs::of_epsg(number));
+        }
+        if about.crs.is_none() && self.outputs.iter().any(|output| output.1 == Format::Tiff) {
+            warn(self.quiet, "the files do not tell their system of coordinates: name it with --epsg");
+        }
+        about.crs.clone()
+    }
+}
+
+/// Rows in bands of so many.
+fn even(grid: &Grid, rows: usize) -> Vec<Range<usize>> {
+    (0..grid.rows()).step_by(rows).map(|first| first..(first + rows).min(grid.rows())).collect()
+}
+
+/// Halves a band until it does not have more points than are allowed, about.
+fn split(held: &Held, grid: &Grid, rows: Range<usize>, most: f64) -> Vec<Range<usize>> {
+    let count = held.count_between([grid.y(rows.end - 1), grid.y(rows.start)]);
+    if count <= most || rows.len() < 2 {
+        return vec![rows];
+    }
+    let middle = usize::midpoint(rows.start, rows.end);
+    let halves = [rows.start..middle, middle..rows.end];
+    halves.into_iter().flat_map(|half| split(held, grid, half, most)).collect()
+}
+
+/// The least of 1, 2 and 5 times a power of ten that is not smaller.
+fn round(size: f64) -> f64 {
+    if !(size > 0.0 && size.is_finite()) {
+        return 1.0;
+    }
+    let power = 10f64.powf(size.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].into_iter().map(|k| k * power).find(|&x| x >= size).unwrap_or(size)
+}
+
+/// The folder that a path is in.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}

@@ -1,0 +1,245 @@
+//! The surface of points in memory, with breaklines and level polygons if there are some.
+
+use std::path::Path;
+
+use delone::surface::{Grid, Interpolator, Outside, Raster, gradients, rasterize};
+use delone::{
+    Constrained2, Crossings, Delaunay2, Fill, Refinement, SegmentId, Surround, TriangleId, Triangulation,
+    VertexId,
+};
+use delone_io::{Cloud, Trim};
+
+use super::lines::Lines;
+use crate::args::{DtmArgs, DuplicatesName, MethodName};
+use crate::constrained::extended;
+use crate::heights::settle;
+use crate::message::{Failure, note, warn};
+use crate::stats::Stats;
+
+/// A triangulation with heights, and what of it is shown.
+pub(super) struct Surface<T: Triangulation> {
+    pub(super) d: T,
+    /// By the index of the vertex.
+    pub(super) heights: Vec<f64>,
+    max_edge: Option<f64>,
+    carved: Option<Trim>,
+    /// Level triangles, which stay so whatever the method.
+    level: Vec<[VertexId; 3]>,
+    slopes: Vec<[f64; 2]>,
+}
+
+/// What surfaces there are.
+pub(super) enum Kind {
+    Points(Surface<Delaunay2>),
+    Lines(Box<Surface<Constrained2>>),
+}
+
+/// Triangulates points alone. Vertices are numbered along a curve, so that what is near in the plane is near in memory.
+pub(super) fn of_points(
+    cloud: &Cloud,
+    rule: DuplicatesName,
+    label: &Path,
+) -> Result<(Delaunay2, Vec<f64>), Failure> {
+    let failed = |error| Failure::points(label, &error);
+    let (d, order) = Delaunay2::along_curve(&cloud.xy).map_err(failed)?;
+    let mut given = cloud.z.clone().unwrap_or_default();
+    if order.len() < cloud.xy.len() {
+        let mut is_vertex = vec![false; cloud.xy.len()];
+        order.iter().for_each(|&i| is_vertex[i as usize] = true);
+        let mut pairs = Vec::new();
+        let mut near = None;
+        for point in (0..cloud.xy.len()).filter(|&i| !is_vertex[i]) {
+            let found = d.find_near(near, cloud.xy[point]).map_err(failed)?;
+            near = found.simplex.or(near);
+            pairs.extend(found.face().first().map(|v| (point, order[v.index()] as usize)));
+        }
+        settle(&mut given, pairs, rule);
+    }
+    let heights = order.iter().map(|&i| given[i as usize]).collect();
+    Ok((d, heights))
+}
+
+/// Triangulates points with lines.
+pub(super) fn with_lines(
+    cloud: &Cloud,
+    lines: &Lines,
+    args: &DtmArgs,
+    label: &Path,
+    stats: &mut Stats,
+    quiet: bool,
+) -> Result<Kind, Failure> {
+    let failed = |error| Failure::graph(label, &error);
+    let mut given = cloud.z.clone().unwrap_or_default();
+    let (line_heights, levels) = lines.heights(cloud, args.duplicates, label)?;
+    let first = given.len();
+    given.extend(&line_heights);
+    let points: Vec<[f64; 2]> = cloud.xy.iter().chain(&lines.points).copied().collect();
+    let segments: Vec<[usize; 2]> = lines.segments.iter().map(|ends| ends.map(|i| i + first)).collect();
+    let mut c = Constrained2::with_crossings(&points, &segments, Crossings::Split).map_err(failed)?;
+    // Lines say what the height is where points are too.
+    let pairs: Vec<(usize, usize)> = c.duplicates().map(|pair| (pair.point, pair.vertex.index())).collect();
+    settle(&mut given, pairs.iter().copied().filter(|pair| pair.0 < first), args.duplicates);
+    pairs.iter().filter(|pair| pair.0 >= first).for_each(|&(line, place)| given[place] = given[line]);
+    let (mut heights, widest) = extended(&c, 1, &given, |_| None);
+    let crossings = c.report().crossings;
+    stats.set("crossings", crossings);
+    if widest > 0.0 {
+        warn(
+            quiet,
+            format_args!("lines cross at heights that differ by up to {widest}: their means are taken"),
+        );
+    } else if crossings > 0 {
+        note(quiet, format_args!("lines cross at {crossings} places, where vertices were added"));
+    }
+    if args.method != MethodName::Linear {
+        let before = c.points().len();
+        let refined = Refinement::new().min_angle(0.0).conforming(true).run(&mut c).map_err(failed)?;
+        heights = extended(&c, 1, &heights, |_| None).0;
+        let added = c.points().len() - before;
+        if added > 0 {
+            note(
+                quiet,
+                format_args!("{added} vertices were added on lines, so that natural neighbours respect them"),
+            );
+        }
+        drop(refined);
+    }
+    let mut level = Vec::new();
+    if !levels.is_empty() {
+        level = flatten(&c, &mut heights, first, &levels, lines).map_err(failed)?;
+    }
+    if args.method == MethodName::Linear {
+        return Ok(Kind::Lines(Box::new(Surface::new(c, heights, args, level, label)?)));
+    }
+    // Lines are edges of the triangulation of all vertices now.
+    let d = Delaunay2::from_points(c.points()).map_err(failed)?;
+    Ok(Kind::Points(Surface::new(d, heights, args, level, label)?))
+}
+
+/// Brings what is inside of level polygons to their height; says which triangles that are.
+fn flatten(
+    c: &Constrained2,
+    heights: &mut [f64],
+    first: usize,
+    levels: &[Option<f64>],
+    lines: &Lines,
+) -> Result<Vec<[VertexId; 3]>, delone::Error> {
+    let inside = c.domains_within(&Fill::EvenOdd, |s: SegmentId| lines.is_level[s.index()])?;
+    let mut of_part = vec![f64::INFINITY; inside.parts().len()];
+    let triangles: Vec<TriangleId> = c.triangle_ids().filter(|&t| inside.is_inside(t)).collect();
+    // Border vertices, whose first point may be one of the cloud.
+    let mut known = vec![None; c.points().len()];
+    for (k, level) in levels.iter().enumerate() {
+        known[first + k] = *level;
+    }
+    for pair in c.duplicates().filter(|pair| pair.point >= first) {
+        known[pair.vertex.index()] = levels.get(pair.point - first).copied().flatten();
+    }
+    for &t in &triangles {
+        let Some(part) = inside.part(t) else { continue };
+        for level in c.mesh().corners(t).into_iter().filter_map(|v| known[v.index()]) {
+            of_part[part] = of_part[part].min(level);
+        }
+    }
+    let mut level = Vec::new();
+    for t in triangles {
+        let corners = c.mesh().corners(t);
+        if let Some(height) = inside.part(t).map(|part| of_part[part]).filter(|height| height.is_finite()) {
+            corners.iter().for_each(|v| heights[v.index()] = height);
+            level.push(corners);
+        }
+    }
+    Ok(level)
+}
+
+impl<T: Triangulation<Point = [f64; 2]>> Surface<T> {
+    pub(super) fn new(
+        d: T,
+        heights: Vec<f64>,
+        args: &DtmArgs,
+        level: Vec<[VertexId; 3]>,
+        label: &Path,
+    ) -> Result<Self, Failure> {
+        if d.simplices().next().is_none() {
+            let what = format!("{}: the points are on one line, which has no surface", label.display());
+            return Err(Failure::new(what, "give points that span an area"));
+        }
+        let carved = args.carve.map(|longest| Trim::long_edges(&d, longest));
+        Ok(Self { d, heights, max_edge: args.max_edge, carved, level, slopes: Vec::new() })
+    }
+
+    /// Whether a triangle is shown.
+    pub(super) fn keeps(&self, s: T::Simplex) -> bool {
+        let is_carved = self.carved.as_ref().is_some_and(|trim| !trim.keeps(self.d.index(s)));
+        let is_long = |longest: f64| {
+            let corners = self.d.corners(s);
+            let [a, b, c] = *corners.as_ref() else { return true };
+            exceeds([a, b, c].map(|v| self.d.position(v).unwrap_or_default()), longest)
+        };
+        !is_carved && !self.max_edge.is_some_and(is_long)
+    }
+}
+
+/// Whether a triangle has an edge that is longer.
+pub(super) fn exceeds(corners: [[f64; 2]; 3], longest: f64) -> bool {
+    (0..3).any(|k| {
+        let (p, q) = (corners[k], corners[(k + 1) % 3]);
+        (p[0] - q[0]).hypot(p[1] - q[1]) > longest
+    })
+}
+
+impl Kind {
+    /// What has to be known before rows are asked for.
+    pub(super) fn prepare(&mut self, method: MethodName) -> Result<(), delone::Error> {
+        if let Self::Points(surface) = self
+            && method.is_bent()
+        {
+            surface.slopes = gradients(&surface.d, &surface.heights)?;
+        }
+        Ok(())
+    }
+
+    /// The values of some rows.
+    pub(super) fn values(&self, method: MethodName, grid: &Grid) -> Result<Vec<f64>, delone::Error> {
+        let surface = match self {
+            Self::Points(surface) => surface,
+            Self::Lines(surface) => {
+                return rasterize(&surface.d, &surface.heights, grid, |s| surface.keeps(s));
+            }
+        };
+        let mut values = rasterize(&surface.d, &surface.heights, grid, |s| surface.keeps(s))?;
+        fill(&surface.d, method, (&surface.heights, &surface.slopes), grid, &mut values)?;
+        if method != MethodName::Linear && !surface.level.is_empty() {
+            let raster = Raster::new(*grid);
+            for t in &surface.level {
+                raster.paint(t.map(|v| surface.d.point(v)), t.map(|v| surface.heights[v.index()]));
+            }
+            let levels = raster.into_values();
+            values
+                .iter_mut()
+                .zip(levels)
+                .filter(|pair| !pair.1.is_nan() && !pair.0.is_nan())
+                .for_each(|(value, level)| *value = level);
+        }
+        Ok(values)
+    }
+}
+
+/// Replaces linear values by those of another method.
+pub(super) fn fill(
+    d: &Delaunay2,
+    method: MethodName,
+    (heights, slopes): (&[f64], &[[f64; 2]]),
+    grid: &Grid,
+    values: &mut [f64],
+) -> Result<(), delone::Error> {
+    let sibson = || Interpolator::sibson(d);
+    match method {
+        MethodName::Linear => Ok(()),
+        MethodName::Natural => sibson().fill(grid, heights, values),
+        MethodName::Laplace => Interpolator::laplace(d).fill(grid, heights, values),
+        MethodName::Nearest => Interpolator::nearest(d).outside(Outside::Nothing).fill(grid, heights, values),
+        MethodName::Smooth => sibson().fill_with(grid, values, |own, q| own.smooth(q, heights, slopes)),
+        MethodName::Farin => sibson().fill_with(grid, values, |own, q| own.farin(q, heights, slopes)),
+    }
+}

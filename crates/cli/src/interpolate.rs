@@ -1,0 +1,198 @@
+//! `delone interpolate`: values between points, at other points or on a raster.
+
+use std::path::{Path, PathBuf};
+
+use delone::surface::{Grid, Interpolator, Outside, gradients};
+use delone::{Bounds, Delaunay2, Delaunay3, Error, Surround};
+use delone_io::{Cloud, Format, Output, RasterInfo, RasterWriter, Sample, write_array};
+
+use crate::args::{InterpolateArgs, MethodName, OutsideName};
+use crate::files;
+use crate::message::Failure;
+use crate::progress::Phase;
+use crate::room::{self, Room};
+use crate::stats::Stats;
+
+pub(crate) fn run(args: &InterpolateArgs, quiet: bool) -> Result<(), Failure> {
+    if args.dim.is_space() { run_in::<Delaunay3>(args, quiet) } else { run_in::<Delaunay2>(args, quiet) }
+}
+
+fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(), Failure> {
+    let stats_path = args.input.stats.as_deref();
+    let mut inputs = args.input.paths();
+    inputs.extend(args.queries.as_deref());
+    let files_of_values: Vec<&Path> =
+        args.value.iter().map(Path::new).filter(|path| path.is_file()).collect();
+    inputs.extend(&files_of_values);
+    files::keep_apart(&inputs, std::iter::once(args.output.as_path()).chain(stats_path))?;
+    let format = files::format(&args.output, args.to, "--to")?;
+    check(args, format, R::is_space())?;
+    let mut stats = Stats::start();
+    let (points, about) = room::read::<R>(&args.input, quiet)?;
+    let label = args.input.label();
+    let table = table(args, &about, points.len(), quiet)?;
+    let columns = table.len();
+    let (queries, grid) = match (&args.queries, args.grid) {
+        (Some(path), _) => (room::queries::<R>(path, quiet)?, None),
+        (None, size) => {
+            let bounds = Bounds::of(points.iter().map(|p| [p.as_ref()[0], p.as_ref()[1]]));
+            let grid =
+                Grid::aligned(&bounds, size.unwrap_or(1.0)).map_err(|e| Failure::points(&label, &e))?;
+            (centres::<R>(&grid, &label)?, Some(grid))
+        }
+    };
+    stats.phase("read");
+    let d: R = room::build(&points, R::FASTEST, &label, quiet)?;
+    stats.phase("build");
+    room::remark(&d, quiet);
+    let phase = Phase::start(quiet, "interpolating");
+    let failed = |error: Error| match (&args.queries, &error) {
+        (Some(path), Error::NotFinite { .. }) => Failure::points(path, &error),
+        _ => Failure::points(&label, &error),
+    };
+    let values = values(&d, args, &queries, &table).map_err(failed)?;
+    drop(phase);
+    stats.phase("query");
+    stats.triangulation(&d, d.counters());
+    stats.set("queries", queries.len());
+    stats.set("outside", values.chunks(columns).filter(|row| row[0].is_nan()).count());
+    match (format, &grid) {
+        (Format::Text, None) => files::write(&args.output, |out| {
+            for row in values.chunks(columns) {
+                let row: Vec<String> = row.iter().map(f64::to_string).collect();
+                std::io::Write::write_all(out, format!("{}\n", row.join(",")).as_bytes())?;
+            }
+            Ok(())
+        })?,
+        (Format::Npy, None) if columns == 1 => {
+            files::write(&args.output, |out| Ok(write_array(out, &[values.len()], values.iter().copied())?))?;
+        }
+        (Format::Npy, None) => {
+            let shape = [values.len() / columns, columns];
+            files::write(&args.output, |out| Ok(write_array(out, &shape, values.iter().copied())?))?;
+        }
+        (_, grid) => {
+            let Some(grid) = grid else {
+                return Err(Failure::file(&args.output, &delone_io::Error::NotARaster(format)));
+            };
+            write_raster(&args.output, format, grid, &about, &values)?;
+        }
+    }
+    stats.phase("write");
+    stats.tell(quiet, R::WORDS.simplex);
+    stats.write(stats_path)
+}
+
+fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), Failure> {
+    if args.grid.is_some() && is_space {
+        return Err(Failure::usage(
+            "--grid is for the plane",
+            "give places with --queries, or leave --dim 3 out",
+        ));
+    }
+    if args.grid.is_some() && args.value.len() > 1 {
+        return Err(Failure::usage("a raster has one value", "give --value once, or places with --queries"));
+    }
+    let is_raster = matches!(format, Format::Tiff | Format::Asc | Format::Npy);
+    let is_list = matches!(format, Format::Text | Format::Npy);
+    if args.grid.is_some() && !is_raster {
+        return Err(Failure::usage("a raster is written as tif, asc or npy", "choose one of them with --to"));
+    }
+    if args.grid.is_none() && !is_list {
+        return Err(Failure::usage("values are written as csv or npy", "choose one of them with --to"));
+    }
+    Ok(())
+}
+
+/// The values that there are, a list for each.
+fn table(args: &InterpolateArgs, about: &Cloud, count: usize, quiet: bool) -> Result<Vec<Vec<f64>>, Failure> {
+    if args.value.is_empty() {
+        let heights = about.z.clone().filter(|_| !args.dim.is_space());
+        let missing =
+            || Failure::usage("there is nothing to interpolate", "name a column or a file with --value");
+        return Ok(vec![heights.ok_or_else(missing)?]);
+    }
+    let mut table = Vec::new();
+    for name in &args.value {
+        let path = PathBuf::from(name);
+        let values = if path.is_file() {
+            files::numbers(&path, quiet)?
+        } else {
+            files::check_column(&args.input, name)?;
+            files::column(&args.input, name, quiet)?
+        };
+        if values.len() != count {
+            let what = format!("{name}: {} values for {count} points", values.len());
+            return Err(Failure::new(what, "give one for each point"));
+        }
+        table.push(values);
+    }
+    Ok(table)
+}
+
+/// The centres of all cells.
+fn centres<R: Room>(grid: &Grid, label: &Path) -> Result<Vec<R::Point>, Failure> {
+    /// Each takes some fifty bytes.
+    const MOST: f64 = 2e9;
+    if grid.cells() > MOST {
+        let what = format!("{}: the raster would have {:e} cells", label.display(), grid.cells());
+        return Err(Failure::new(what, "choose a larger --grid, or use delone dtm"));
+    }
+    let centre = |row: usize, column: usize| {
+        let mut point = R::Point::default();
+        point.as_mut()[..2].copy_from_slice(&grid.centre(column, row));
+        point
+    };
+    Ok((0..grid.rows()).flat_map(|row| (0..grid.columns()).map(move |column| centre(row, column))).collect())
+}
+
+/// Values at all places, a row for each.
+fn values<R: Surround>(
+    d: &R,
+    args: &InterpolateArgs,
+    queries: &[R::Point],
+    table: &[Vec<f64>],
+) -> Result<Vec<f64>, Error> {
+    let columns = table.len();
+    let by_method = match args.method {
+        MethodName::Linear => Interpolator::linear(d),
+        MethodName::Nearest => Interpolator::nearest(d),
+        MethodName::Laplace => Interpolator::laplace(d),
+        _ => Interpolator::sibson(d),
+    };
+    let by_method = by_method.outside(match args.outside {
+        OutsideName::Nothing => Outside::Nothing,
+        OutsideName::Nearest => Outside::Nearest,
+    });
+    if !args.method.is_bent() {
+        let rows: Vec<f64> =
+            (0..d.ids_given()).flat_map(|v| table.iter().map(move |column| column[v])).collect();
+        return by_method.many(queries, &rows, columns);
+    }
+    let mut values = vec![0.0; queries.len() * columns];
+    for (k, column) in table.iter().enumerate() {
+        let slopes = gradients(d, column)?;
+        let is_farin = args.method == MethodName::Farin;
+        let bent = by_method.many_bent(queries, |own, q| {
+            if is_farin { own.farin(q, column, &slopes) } else { own.smooth(q, column, &slopes) }
+        })?;
+        bent.into_iter().enumerate().for_each(|(row, value)| values[row * columns + k] = value);
+    }
+    Ok(values)
+}
+
+fn write_raster(
+    path: &Path,
+    format: Format,
+    grid: &Grid,
+    about: &Cloud,
+    values: &[f64],
+) -> Result<(), Failure> {
+    let info = RasterInfo { grid: *grid, crs: about.crs.clone(), nodata: None, sample: Sample::default() };
+    let write = || -> Result<(), delone_io::Error> {
+        let mut writer = RasterWriter::create(Output::create(path)?, format, &info)?;
+        writer.write_rows(values)?;
+        Ok(writer.finish()?.commit()?)
+    };
+    write().map_err(|error| files::cannot_write(path, error))
+}
