@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{BufReader, Cursor, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, Graph, Output, ReadOptions, Remark, Source, decompressed, followed};
+use delone_io::{Cloud, Format, Graph, Output, Raster, ReadOptions, Remark, Source, decompressed, followed};
 
 use crate::args::InputArgs;
 use crate::message::{Failure, note};
@@ -178,13 +178,22 @@ pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
 
 /// Reads the points of a command.
 pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
-    let formats = formats(args)?;
     let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension };
+    read_all(args, quiet, |source, format| delone_io::read_points(source, format, &options))
+}
+
+/// Reads all files of a command as one set.
+fn read_all(
+    args: &InputArgs,
+    quiet: bool,
+    read: impl Fn(Box<dyn Source>, Format) -> Result<Cloud, delone_io::Error>,
+) -> Result<Cloud, Failure> {
+    let formats = formats(args)?;
     let mut all = Cloud::default();
     for (path, format) in args.input.iter().zip(formats) {
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
-        let cloud = delone_io::read_points(source, format, &options).map_err(failed)?;
+        let cloud = read(source, format).map_err(failed)?;
         for remark in &cloud.remarks {
             note(quiet, format_args!("{}: {remark}", path.display()));
         }
@@ -193,6 +202,31 @@ pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<
         all.remarks[told..].iter().for_each(|remark| note(quiet, remark));
     }
     Ok(all)
+}
+
+/// Reads the points of a command with their heights: points of any format, or cells of rasters. The cloud has the rest of what is told.
+pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<(Vec<[f64; 2]>, Vec<f64>, Cloud), Failure> {
+    let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension: 3 };
+    let mut all = read_all(args, quiet, |source, format| delone_io::read_surface(source, format, &options))?;
+    need_heights(all.z.as_deref(), &args.label())?;
+    Ok((std::mem::take(&mut all.xy), all.z.take().unwrap_or_default(), all))
+}
+
+/// Refuses points without heights.
+pub(crate) fn need_heights(heights: Option<&[f64]>, label: &Path) -> Result<(), Failure> {
+    if heights.is_some() {
+        return Ok(());
+    }
+    let help = "give points with a third coordinate, or a raster; of text choose them with --columns x,y,z";
+    Err(Failure::new(format!("{}: the points have no heights", label.display()), help))
+}
+
+/// Reads the raster of a command, if that is what its only input surely is.
+pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Failure> {
+    let (formats, [path]) = (formats(args)?, &args.input[..]) else { return Ok(None) };
+    let Some(&format @ (Format::Tiff | Format::Asc)) = formats.first() else { return Ok(None) };
+    let (source, _phase) = open(path, format, READING, quiet)?;
+    delone_io::read_raster(source, format).map(Some).map_err(|error| Failure::file(path, &error))
 }
 
 /// Reads the points and segments of a command.

@@ -7,6 +7,7 @@ mod args;
 mod check;
 mod clip;
 mod constrained;
+mod contours;
 mod draw;
 mod dtm;
 mod experiment;
@@ -34,6 +35,7 @@ mod reduce;
 mod replay;
 mod room;
 mod signals;
+mod simplify;
 mod stats;
 mod tiles;
 mod triangulate;
@@ -94,6 +96,8 @@ fn main() -> ExitCode {
         Command::Hull(args) => hull::run(&args, quiet),
         Command::Furthest(args) => furthest::run(&args, quiet),
         Command::Voronoi(args) => voronoi::run(&args, quiet),
+        Command::Contours(args) => contours::run(&args, quiet),
+        Command::Simplify(args) => simplify::run(&args, quiet),
         Command::Replay(args) => in_room!(replay, args, quiet),
         Command::Experiment(args) => experiment::run(&args, quiet),
         Command::Version => about::version(),

@@ -48,6 +48,7 @@ impl Failure {
                 | Error::NotTetrahedra(_)
                 | Error::NotABody(_)
                 | Error::NotSecondOrder(_)
+                | Error::NotContours(_)
                 | Error::NotARaster(_)
                 | Error::NeedsAFile(_)
         );

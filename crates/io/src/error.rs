@@ -95,6 +95,9 @@ pub enum Error {
     /// The format holds no closed surfaces.
     #[error("surfaces in space are not written to {0} files")]
     NotASolid(Format),
+    /// The format holds no contours.
+    #[error("contours are not written to {0} files")]
+    NotContours(Format),
     /// The format holds no rasters.
     #[error("rasters are not read from or written to {0} files")]
     NotARaster(Format),
@@ -181,6 +184,7 @@ impl Error {
                 "tetrahedra: npy ele neigh node edge vtu msh inp; their hull: ply obj stl; pictures: svg png"
             }
             Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
+            Self::NotContours(_) => "contours: geojson svg png",
             Self::NotARaster(_) => "rasters: tif asc npy",
             Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",

@@ -8,6 +8,7 @@ mod chunks;
 mod cloud;
 #[cfg(feature = "parquet")]
 mod columns;
+mod contours;
 mod crs;
 mod diagram;
 mod elements;
@@ -32,6 +33,7 @@ pub use chunks::Take;
 pub use cloud::Cloud;
 #[cfg(feature = "parquet")]
 pub use columns::{Column, write_columns};
+pub use contours::{ContourMap, write_contours};
 pub use crs::Crs;
 pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
@@ -48,7 +50,9 @@ pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, followed, remove_unfinished};
 pub use patches::{Patches, write_patches};
-pub use raster::{Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster};
+pub use raster::{
+    Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster, read_surface,
+};
 pub use solid::{Solid, write_solid};
 pub use trim::{Cut, Trim};
 

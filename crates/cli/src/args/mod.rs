@@ -8,6 +8,7 @@ mod mesh;
 mod points;
 mod polygons;
 mod proximity;
+mod relief;
 mod shapes;
 mod strategy;
 mod surface;
@@ -29,6 +30,7 @@ pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
 pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
+pub(crate) use relief::{ContoursArgs, SimplifyArgs};
 pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use surface::{DtmArgs, DuplicatesName, InterpolateArgs, MethodName, OutsideName};
@@ -83,6 +85,10 @@ pub(crate) enum Command {
     Alpha(AlphaArgs),
     /// Voronoi cells, clipped, as polygons or as a picture.
     Voronoi(VoronoiArgs),
+    /// Lines of equal height of points with heights or rasters, and the areas between them.
+    Contours(ContoursArgs),
+    /// Thin points with heights or rasters: a mesh of few of them that is near all others.
+    Simplify(SimplifyArgs),
     /// Insert, remove, move and ask, as a text file says, one operation a line.
     Replay(ReplayArgs),
     /// Judge triangles from any program: Delaunay? canonical?

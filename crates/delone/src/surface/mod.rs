@@ -8,6 +8,8 @@
 //! | a linear raster | [`rasterize`], or [`Raster::paint`] for triangles from anywhere | O(1) a triangle, row and cell |
 //! | lines of equal height, and what is between them | [`Contours`] at [`Levels`] | linear in triangles and points of lines |
 //! | another raster | that first, which says which cells have values; then [`Interpolator::fill`] | |
+//! | lines of equal height, and the areas between | [`Contours`] at [`Levels`] | O(k log k) for k points |
+//! | few of the points, near all of them | [`Thinning`] | O(log n) for each that is chosen, and what is in its star |
 //!
 //! Which triangle a point is in and who its neighbours are is exact; values are rounded.
 

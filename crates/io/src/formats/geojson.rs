@@ -9,7 +9,10 @@ use super::shapes::Shapes;
 use crate::diagram::Tiles;
 use crate::{Cloud, Crs, Error, Graph, Mesh, Shape, Source};
 
+mod contours;
 mod coordinates;
+
+pub(crate) use contours::write_contours;
 
 /// Reads the positions of all geometries, in their order; the last of a ring, which is the first again, is left out.
 /// Several documents may follow each other, as in text sequences and lines of GeoJSON.

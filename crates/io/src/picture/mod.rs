@@ -11,6 +11,7 @@
 mod animation;
 mod cells;
 mod colour;
+mod contours;
 mod png;
 mod raster;
 mod relief;
@@ -21,6 +22,7 @@ mod view;
 
 pub use animation::Animation;
 pub(crate) use cells::write as write_cells;
+pub(crate) use contours::write_contours;
 pub use sketch::{Mark, Sketch, Tone, write_sketch};
 pub use solid::Camera;
 pub(crate) use solid::write as write_solid;

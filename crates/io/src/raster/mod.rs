@@ -13,7 +13,7 @@ use std::io::{Seek, Write};
 
 use delone::surface::Grid;
 
-use crate::{Cloud, Crs, Error, Format, Source};
+use crate::{Cloud, Crs, Error, Format, ReadOptions, Source, read_points};
 
 pub use beside::beside_raster;
 pub use shade::{Light, ShadeWriter};
@@ -229,4 +229,25 @@ pub fn read_raster(source: Box<dyn Source>, format: Format) -> Result<Raster, Er
         Format::Npy => npy::read(source),
         _ => Err(Error::NotARaster(format)),
     }
+}
+
+/// Reads points with heights, of whatever formats have them: as [`read_points`](crate::read_points), and an array of a shape that is not
+/// that of points as a raster.
+///
+/// # Errors
+/// As [`read_points`](crate::read_points).
+pub fn read_surface(
+    mut source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+) -> Result<Cloud, Error> {
+    if format != Format::Npy {
+        return read_points(source, format, options);
+    }
+    let error = match crate::formats::npy::read_points(&mut source) {
+        Ok(cloud) => return Ok(cloud),
+        Err(error) => error,
+    };
+    source.rewind()?;
+    npy::read(source).map(Raster::into_points).map_err(|_| error)
 }
