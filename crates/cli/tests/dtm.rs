@@ -117,6 +117,14 @@ fn the_shipped_scan() {
     assert_eq!(stats["points"], 26107);
     assert_eq!(stats["cells"], (rows * columns) as f64);
     assert!(fs::read(place.path("shade.png")).expect("a picture").starts_with(b"\x89PNG"));
+    place.succeed(&format!("-q dtm {scan} --cell 10 -o c.geojson --interval 5"));
+    let lines: serde_json::Value =
+        serde_json::from_slice(&fs::read(place.path("c.geojson")).expect("contours")).expect("JSON");
+    let lines = lines["features"].as_array().expect("features");
+    assert!(lines.len() > 5);
+    assert!(
+        lines.iter().all(|line| line["properties"]["elevation"].as_f64().is_some_and(|z| z % 5.0 == 0.0))
+    );
     place.succeed(&format!("-q dtm {scan} --cell 10 -o b.npy --memory 64M --tile 3000"));
     assert!(fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b"));
     // A folder of scans, all classes.

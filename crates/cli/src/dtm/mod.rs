@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
 use delone::{Bounds, Delaunay2};
-use delone_io::{Cloud, Crs, Format};
+use delone_io::{Cloud, ContourMap, Crs, Format, write_contours};
 
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
@@ -145,6 +145,18 @@ impl Job<'_> {
         stats.set("simplices", triangles);
         stats.set("hull", hull);
         stats.phase("build");
+        let maps: Vec<_> = self.outputs.iter().filter(|output| output.1 == Format::GeoJson).collect();
+        let mut contours = Vec::new();
+        if !maps.is_empty() {
+            let wrong = |error| Failure::usage(error, "give another --interval");
+            contours = kind.contours(args.interval).map_err(wrong)?;
+            stats.set("lines", contours.len());
+        }
+        let of_map = crs.clone();
+        let map = ContourMap { lines: &contours, bands: &[], crs: of_map.as_ref() };
+        for (path, format) in maps {
+            files::write(path, |out| write_contours(out, *format, &map, 0))?;
+        }
         let bands = even(&grid, (AT_ONCE / grid.columns()).max(1));
         let label = self.label.clone();
         self.rasters(grid, crs, &bands, stats, |window| {
@@ -187,6 +199,10 @@ impl Job<'_> {
         let about = About { grid, crs, nodata: self.args.nodata };
         let rasters: Vec<_> =
             self.outputs.iter().filter(|output| output.1 != Format::GeoJson).cloned().collect();
+        if rasters.is_empty() {
+            stats.tell(self.quiet, ["triangle", "triangles"]);
+            return Ok(());
+        }
         let rings = self.rings.take();
         let known = bands::write(&rasters, &about, bands, self.quiet, |window| {
             let mut band = values(window)?;

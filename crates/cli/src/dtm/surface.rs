@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use delone::surface::{Grid, Interpolator, Outside, Raster, gradients, rasterize};
+use delone::surface::{
+    ContourLine, Contours, Grid, Interpolator, Levels, Outside, Raster, gradients, rasterize,
+};
 use delone::{
     Constrained2, Crossings, Delaunay2, Fill, Refinement, SegmentId, Surround, TriangleId, Triangulation,
     VertexId,
@@ -10,6 +12,7 @@ use delone::{
 use delone_io::{Cloud, Trim};
 
 use super::lines::Lines;
+use super::round;
 use crate::args::{DtmArgs, DuplicatesName, MethodName};
 use crate::constrained::extended;
 use crate::heights::settle;
@@ -197,6 +200,17 @@ impl Kind {
             surface.slopes = gradients(&surface.d, &surface.heights)?;
         }
         Ok(())
+    }
+
+    /// The lines of equal height of its triangles, at multiples of an interval.
+    pub(super) fn contours(&self, interval: Option<f64>) -> Result<Vec<ContourLine>, delone::Error> {
+        let surface = match self {
+            Self::Points(s) => Contours::of_triangles(&s.d, &s.heights, |t| s.keeps(t)),
+            Self::Lines(s) => Contours::of_triangles(&s.d, &s.heights, |t| s.keeps(t)),
+        }?;
+        let range = surface.range().unwrap_or_default();
+        let interval = interval.unwrap_or_else(|| round((range[1] - range[0]) / 10.0));
+        surface.lines(&Levels::every(interval, 0.0, range)?)
     }
 
     /// The values of some rows.
