@@ -204,8 +204,11 @@ fn read_all(
     Ok(all)
 }
 
+/// Points, their heights, and what else the files tell.
+type Surface = (Vec<[f64; 2]>, Vec<f64>, Cloud);
+
 /// Reads the points of a command with their heights: points of any format, or cells of rasters. The cloud has the rest of what is told.
-pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<(Vec<[f64; 2]>, Vec<f64>, Cloud), Failure> {
+pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<Surface, Failure> {
     let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension: 3 };
     let mut all = read_all(args, quiet, |source, format| delone_io::read_surface(source, format, &options))?;
     need_heights(all.z.as_deref(), &args.label())?;

@@ -90,7 +90,7 @@ fn how(args: &SimplifyArgs) -> Result<Thinning, Failure> {
 /// What is thinned.
 enum Given {
     Raster(Raster),
-    Points(Graph),
+    Points(Box<Graph>),
 }
 
 impl Given {
@@ -102,14 +102,14 @@ impl Given {
             if let Some(heights) = &mut graph.cloud.z {
                 settle_equal(&graph.cloud.xy, heights, args.duplicates);
             }
-            return Ok(Self::Points(graph));
+            return Ok(Self::Points(Box::new(graph)));
         }
         if let Some(raster) = files::raster(&args.input, quiet)? {
             return Ok(Self::Raster(raster));
         }
         let (xy, mut z, about) = files::surface(&args.input, quiet)?;
         settle_equal(&xy, &mut z, args.duplicates);
-        Ok(Self::Points(Graph::of_points(Cloud { xy, z: Some(z), ..about })))
+        Ok(Self::Points(Box::new(Graph::of_points(Cloud { xy, z: Some(z), ..about }))))
     }
 
     /// The points with what was chosen of them.
@@ -119,7 +119,7 @@ impl Given {
                 let heights = graph.cloud.z.as_deref().unwrap_or_default();
                 let thinned = how.points(&graph.cloud.xy, heights, &graph.segments);
                 let thinned = thinned.map_err(|error| Failure::graph(label, &error))?;
-                Ok((graph, thinned))
+                Ok((*graph, thinned))
             }
             Self::Raster(raster) => {
                 let thinned = how.raster(&raster.grid, &raster.values);
