@@ -46,6 +46,8 @@ TEXT
     compare --weights --size $((points / 10)) --runs 3
     printf '\n## Proximity graphs, beside the construction that they are made from\n\n'
     compare --graphs --size "$points" --runs 3
+    printf '\n## Surfaces: a cell of a raster beyond the triangulation\n\n'
+    compare --surface --size "$points" --runs 3 --kinds uniform,clusters,lidar
     printf '\n## Convex hulls in space\n\n'
     compare --hull --size $((points / 10)) --runs 2
 } >"$page"
