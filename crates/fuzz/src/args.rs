@@ -77,7 +77,7 @@ pub(crate) enum Mode {
     ReadText,
     /// Readers: GeoJSON, well-known text and binary.
     ReadGeojson,
-    /// Readers: NumPy arrays and archives.
+    /// Readers: NumPy arrays and archives, rasters.
     ReadArrays,
     /// Readers: LAS and LAZ tiles.
     ReadLas,
