@@ -70,7 +70,9 @@ def test_gradients_that_are_given():
     with pytest.raises(ValueError, match=r"shape \(200, 2\)"):
         delone.NaturalNeighborInterpolator(points, values, "smooth", gradients=slopes.T)
     with pytest.raises(ValueError, match="point 7 is not finite"):
-        delone.NaturalNeighborInterpolator(points, values, "smooth", gradients=np.where(np.arange(200)[:, None] == 7, np.nan, slopes))
+        delone.NaturalNeighborInterpolator(
+            points, values, "smooth", gradients=np.where(np.arange(200)[:, None] == 7, np.nan, slopes)
+        )
     with pytest.raises(TypeError, match="as the values are"):
         delone.NaturalNeighborInterpolator(points, values, "smooth", gradients=slopes * 1j)
 

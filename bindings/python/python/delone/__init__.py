@@ -53,9 +53,9 @@ __version__ = "0.1.0"
 __all__ = [
     "AlphaComplex",
     "ConstrainedDelaunay",
-    "ConvexHull",
     "ContourBand",
     "ContourLine",
+    "ConvexHull",
     "CrossingError",
     "Delaunay",
     "Hints",

@@ -23,9 +23,7 @@ class _Interpolator:
 
     _method = "linear"
 
-    def __init__(
-        self, points: ArrayLike | Delaunay, values: ArrayLike, fill_value: complex, rescale: bool, outside: str
-    ) -> None:
+    def __init__(self, points: ArrayLike | Delaunay, values: ArrayLike, fill_value: complex, rescale: bool, outside: str) -> None:
         self.outside = as_choice(outside, ("fill", "nearest"), "outside")
         self._offset: NDArray[np.float64] | float = 0.0
         self._scale: NDArray[np.float64] | float = 1.0
@@ -61,7 +59,7 @@ class _Interpolator:
         table = self._table()
         asked = rows if every else rows[known]
         found = _delone.interpolate(self.tri._core, self._method, self.outside == "nearest", asked, table, self._slopes())
-        lost = ~known
+        lost = np.array(~known)
         if not np.isnan(self.fill_value):
             # Values may be NaN too: outside are only those for which ones are.
             doubtful = np.flatnonzero(np.isnan(found).all(axis=1))
@@ -82,8 +80,8 @@ class _Interpolator:
         """The weights of points at queries, whose last axis has the coordinates.
 
         A `scipy.sparse.csr_array` of shape (m, npoints): `f.weights(queries) @ values` interpolates any other values at the same
-        places. Rows have the sum one; those of queries outside are empty. Smooth surfaces are no sums of values alone: with "smooth" and
-        "farin" these are the weights of Sibson, which both begin with. All queries must be finite.
+        places. Rows have the sum one; those of queries outside are empty, which gives 0. Smooth surfaces are no sums of values
+        alone: with "smooth" and "farin" these are the weights of Sibson, which both begin with. All queries must be finite.
         """
         at, _ = as_queries(queries, self.tri.ndim, "queries")
         at = np.ascontiguousarray((at - self._offset) / self._scale)
@@ -168,8 +166,9 @@ LinearInterpolator = LinearNDInterpolator
 class NaturalNeighborInterpolator(_Interpolator):
     """Interpolation by natural neighbours of values at points of the plane or of space.
 
-    Called as SciPy's interpolators are. Which points take part is exact, and the result is the same for any number of threads and any
-    order of the points. Linear functions come out as they are. On the border of the hull values are linear.
+    Called as SciPy's interpolators are. Which points take part is exact, and the result is the same for any number of threads
+    and any order of the points. Linear functions come out as they are. On the border of the hull values are linear. Cost: of k
+    neighbours O(k log k) for each query, and more for queries that are far from the ones before.
 
     Parameters
     ----------
@@ -178,10 +177,10 @@ class NaturalNeighborInterpolator(_Interpolator):
     values : array_like of shape (n, ...)
         The values, real or complex. Of equal points the first one's count.
     method : "sibson", "laplace", "smooth" or "farin"
-        "sibson": each neighbour weighs what the cell of the query would take from its cell; smooth but at the points. "laplace": the
-        length, in space the area, of the border between both cells over their distance; cheaper, with kinks at circles. "smooth" is
-        Sibson's surface with gradients, and "farin" the cubic one of Farin, which has all quadratic functions whose gradients are
-        given: both are smooth everywhere.
+        "sibson": each neighbour weighs what the cell of the query would take from its cell; smooth but at the points.
+        "laplace": the length, in space the area, of the border between both cells over their distance; with kinks at circles.
+        "smooth" is Sibson's surface with gradients, and "farin" the cubic one of Farin, which has all quadratic functions whose
+        gradients are given: both are smooth everywhere inside, and take a column of values at a time.
     fill_value : number
         What there is outside of the hull; NaN.
     rescale : bool

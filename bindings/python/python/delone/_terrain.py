@@ -32,7 +32,7 @@ def rasterize(
     """A raster of heights: a value for the centre of each cell that is in a triangle or on its border, which is exact.
 
     With the conventions of rasterio: row 0 comes first in files and is the northern one where the step of rows is negative, and
-    `transform` maps columns and rows to the corner of a cell. Tiles made apart have the values of the whole. All threads are used.
+    `transform` maps columns and rows to the corner of a cell. All threads are used.
 
     Parameters
     ----------
@@ -326,7 +326,8 @@ def _transform(transform: Sequence[float]) -> tuple[float, float, float, float]:
         raise ValueError(f"transform must be an affine.Affine or six numbers (a, b, c, d, e, f), not {transform!r}")
     a, b, c, d, e, f = numbers[:6]
     if b or d:
-        raise ValueError(f"transform must not rotate: b and d must be 0, not {b} and {d}; GDAL's order (c, a, b, f, d, e) differs")
+        order = "GDAL's order (c, a, b, f, d, e) differs"
+        raise ValueError(f"transform must not rotate: b and d must be 0, not {b} and {d}; {order}")
     return a, c, e, f
 
 
