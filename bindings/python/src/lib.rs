@@ -13,6 +13,7 @@ mod hull;
 mod interrupt;
 mod memory;
 mod mesh;
+mod near;
 mod orders;
 mod polygons;
 mod pool;

@@ -1,6 +1,6 @@
 //! Values between points: interpolation and its weights.
 
-use delone::surface::{Interpolator, Outside, gradients};
+use delone::surface::{Interpolator, Outside, Weights, gradients};
 use delone::{Coordinates, Error, Surround};
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
@@ -9,6 +9,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::memory::room;
+use crate::near::Near;
 use crate::triangulation::{Core, State, Triangulation, coordinates};
 
 /// Where rows begin and the last one ends, columns, and weights.
@@ -54,7 +55,12 @@ where
     let surface = match method {
         "smooth" => Interpolator::<T>::smooth,
         "farin" => Interpolator::<T>::farin,
-        _ => return state.asked(py, queries.len(), || f.many(&queries, table, columns)),
+        _ => {
+            return state.asked(py, queries.len(), || {
+                let near = Near::new(queries);
+                Ok(near.back(f.many(&near.queries, table, columns)?, columns))
+            });
+        }
     };
     let slopes = slopes.ok_or_else(|| PyValueError::new_err("a smooth surface needs gradients"))?;
     let rows = slopes.as_slice()?.chunks_exact(T::Point::COUNT);
@@ -73,16 +79,17 @@ where
         )));
     }
     state.asked(py, queries.len(), || {
-        let mut result = vec![f64::NAN; queries.len() * columns];
+        let near = Near::new(queries);
+        let mut result = vec![f64::NAN; near.queries.len() * columns];
         for column in 0..columns {
             let own: Vec<f64> = table.iter().skip(column).step_by(columns).copied().collect();
             let slopes = &slopes[column * points..][..points];
-            let found = f.many_bent(&queries, |f, q| surface(f, q, &own, slopes))?;
+            let found = f.many_bent(&near.queries, |f, q| surface(f, q, &own, slopes))?;
             for (row, value) in result.chunks_exact_mut(columns).zip(found) {
                 row[column] = value;
             }
         }
-        Ok(result)
+        Ok(near.back(result, columns))
     })
 }
 
@@ -97,20 +104,40 @@ pub fn interpolation_weights<'py>(
 ) -> PyResult<Rows<'py>> {
     room(queries.shape()[0].saturating_mul(256), "weights at so many points")?;
     let weights = match &triangulation.core {
-        Core::Plane(state) => {
-            let (f, queries) = (interpolator(&state.triangulation, method, nearest)?, coordinates(&queries)?);
-            state.asked(py, queries.len(), || f.matrix(&queries))
-        }
-        Core::Space(state) => {
-            let (f, queries) = (interpolator(&state.triangulation, method, nearest)?, coordinates(&queries)?);
-            state.asked(py, queries.len(), || f.matrix(&queries))
-        }
+        Core::Plane(state) => weights_at(py, state, method, nearest, &queries),
+        Core::Space(state) => weights_at(py, state, method, nearest, &queries),
     }?;
     Ok((
         PyArray1::from_iter(py, weights.starts.into_iter().map(|start| start as i64)),
         PyArray1::from_iter(py, weights.columns.into_iter().map(|column| column as i32)),
         PyArray1::from_vec(py, weights.values),
     ))
+}
+
+fn weights_at<T: Surround + Sync>(
+    py: Python<'_>,
+    state: &State<T>,
+    method: &str,
+    nearest: bool,
+    queries: &PyReadonlyArray2<'_, f64>,
+) -> PyResult<Weights>
+where
+    for<'a> Interpolator<'a, T>: Clone + Send + Sync,
+{
+    let f = interpolator(&state.triangulation, method, nearest)?;
+    let queries: Vec<T::Point> = coordinates(queries)?;
+    state.asked(py, queries.len(), || {
+        let near = Near::new(queries);
+        let found = f.matrix(&near.queries)?;
+        let mut weights = Weights { starts: vec![0], ..Weights::default() };
+        for row in near.order() {
+            let row = found.starts[row]..found.starts[row + 1];
+            weights.columns.extend_from_slice(&found.columns[row.clone()]);
+            weights.values.extend_from_slice(&found.values[row]);
+            weights.starts.push(weights.values.len());
+        }
+        Ok(weights)
+    })
 }
 
 /// The gradients at the points for each column of values: (columns, points, dimensions).

@@ -71,10 +71,10 @@ pub fn paint<'py>(
     mask: Option<PyReadonlyArray1<'py, bool>>,
     max_edge: Option<f64>,
 ) -> PyResult<Painted<'py>> {
-    let [a, b, c, d] = place;
+    let [x0, y0, x1, y1] = place;
     let grid = match cell {
-        Some(cell) => Grid::aligned(&Bounds { low: [a, b], high: [c, d] }, cell),
-        None => Grid::new([a, b], [c, d], size[0], size[1]),
+        Some(cell) => Grid::aligned(&Bounds { low: [x0, y0], high: [x1, y1] }, cell),
+        None => Grid::new([x0, y0], [x1, y1], size[0], size[1]),
     };
     let grid = grid.map_err(python_error)?;
     let (columns, rows) = (grid.columns(), grid.rows());
@@ -186,7 +186,7 @@ pub fn contour_lines<'py>(
     wanted: Wanted,
     mask: Option<PyReadonlyArray1<'py, bool>>,
 ) -> PyResult<Lines<'py>> {
-    let lines = traced(py, &sheet, &heights, mask, &wanted, |surface, levels| surface.lines(levels))?;
+    let lines = traced(py, &sheet, &heights, mask, &wanted, Contours::lines)?;
     let (mut points, mut starts) = (Vec::new(), vec![0]);
     for line in &lines {
         points.extend_from_slice(&line.points);
@@ -209,7 +209,7 @@ pub fn contour_bands<'py>(
     wanted: Wanted,
     mask: Option<PyReadonlyArray1<'py, bool>>,
 ) -> PyResult<Bands<'py>> {
-    let found = traced(py, &sheet, &heights, mask, &wanted, |surface, levels| surface.bands(levels))?;
+    let found = traced(py, &sheet, &heights, mask, &wanted, Contours::bands)?;
     let (mut points, mut rings, mut polygons, mut bands) = (Vec::new(), vec![0], vec![0], vec![0]);
     for band in &found {
         for polygon in &band.polygons {

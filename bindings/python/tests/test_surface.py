@@ -69,10 +69,9 @@ def test_gradients_that_are_given():
         delone.NaturalNeighborInterpolator(points, values, gradients=slopes)
     with pytest.raises(ValueError, match=r"shape \(200, 2\)"):
         delone.NaturalNeighborInterpolator(points, values, "smooth", gradients=slopes.T)
+    slopes[7] = np.nan
     with pytest.raises(ValueError, match="point 7 is not finite"):
-        delone.NaturalNeighborInterpolator(
-            points, values, "smooth", gradients=np.where(np.arange(200)[:, None] == 7, np.nan, slopes)
-        )
+        delone.NaturalNeighborInterpolator(points, values, "smooth", gradients=slopes)
     with pytest.raises(TypeError, match="as the values are"):
         delone.NaturalNeighborInterpolator(points, values, "smooth", gradients=slopes * 1j)
 
@@ -323,3 +322,15 @@ def test_simplify_refuses_and_takes_little():
     line = delone.simplify([[0, 0], [1, 1], [2, 2]], np.zeros(3), max_error=1)
     assert line.indices.tolist() == [0, 1, 2] and line.triangles.shape == (0, 3)
     assert len(delone.simplify(np.empty((0, 2)), [], max_error=1).indices) == 0
+
+
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_the_order_of_queries_does_not_show(ndim):
+    points, queries = random_points(2000, ndim), random_points(3000, ndim, 1) * 1.2 - 0.1
+    order = np.random.default_rng(2).permutation(3000)
+    for method in METHODS:
+        f = delone.NaturalNeighborInterpolator(points, np.sin(9 * points), method)
+        alone = np.concatenate([f(queries[k : k + 50]) for k in range(0, 3000, 50)])
+        assert np.array_equal(f(queries), alone, equal_nan=True)
+        assert np.array_equal(f(queries[order]), alone[order], equal_nan=True)
+        assert (f.weights(queries[order]) != f.weights(queries)[order]).nnz == 0
