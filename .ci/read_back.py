@@ -1,4 +1,5 @@
-"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas, shapely, Pillow.
+"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas, shapely, Pillow,
+rasterio.
 
 Usage: python read_back.py DELONE FOLDER: the program, and a folder to work in. Every format is written from the same points,
 and every reader must see the same triangles.
@@ -15,6 +16,7 @@ import meshio
 import numpy as np
 import pandas
 import pyvista
+import rasterio
 import shapely
 import trimesh
 from PIL import Image
@@ -118,6 +120,28 @@ feature["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::
 (folder / "known.geojson").write_text(json.dumps(feature))
 run("triangulate", "known.geojson", "-o", "passed.geojson")
 assert geopandas.read_file(folder / "passed.geojson").crs.to_epsg() == 25832
+
+# Rasters: values, places and systems, and those that others write.
+np.savetxt(folder / "points.csv", points, delimiter=",", header="x,y,z", comments="")
+run("dtm", "points.csv", "--cell", 5, "--epsg", 25832, "-o", "dem.tif", "-o", "dem.asc", "-o", "dem.npy")
+heights = np.load(folder / "dem.npy")
+for kind in ["tif", "asc"]:
+    with rasterio.open(folder / f"dem.{kind}") as raster:
+        read = raster.read(1, masked=True).filled(np.nan)
+        assert np.array_equal(np.isnan(read), np.isnan(heights)), f"rasterio: cells of {kind}"
+        assert np.nanmax(np.abs(read - heights)) < 1e-3, f"rasterio: values of {kind}"
+        assert raster.transform.a == 5 and raster.transform.e == -5 and raster.transform.c % 5 == 0
+        assert kind == "asc" or raster.crs.to_epsg() == 25832
+    print(f"rasterio reads dem.{kind}")
+run("contours", "dem.tif", "--interval", 20, "--bands", "-o", "bands.geojson")
+frame = geopandas.read_file(folder / "bands.geojson")
+assert frame.geometry.is_valid.all() and frame.crs.to_epsg() == 25832
+assert (frame.upper - frame.lower == 20).all() and not frame.geometry.union_all().is_empty
+assert abs(frame.area.sum() - frame.geometry.union_all().area) < 1e-6 * frame.area.sum()
+run("contours", "points.npy", "--interval", 20, "-o", "lines.geojson")
+frame = geopandas.read_file(folder / "lines.geojson")
+assert frame.geometry.is_simple.all() and (frame.elevation % 20 == 0).all()
+print("geopandas reads contours")
 print("all formats are read by others")
 
 # And what others write is read here.
@@ -158,3 +182,25 @@ for name in names.split():
     precision = {"other.ply": 0.1, "other.las": 0.01, "other.laz": 0.01}.get(name, 1e-6)
     assert read.shape == points.shape and np.abs(read - points).max() <= precision, name
     print(f"delone reads {name}")
+
+# Rasters of all kinds of numbers, in tiles and strips, with what GeoTIFF can say of them.
+cells = np.round(400 + 50 * np.sin(np.arange(90)[:, None] / 9) * np.cos(np.arange(130) / 7))
+place = rasterio.transform.from_origin(637_000, 849_700, 2, 2)
+kinds = [("int16", "lzw", 1, True), ("uint16", "deflate", 2, True), ("float32", "deflate", 3, False), ("float64", "none", 1, False)]
+kinds += [("int32", "packbits", 1, True), ("uint8", "deflate", 2, False), ("float32", "lzw", 3, True)]
+for number, (kind, compress, predictor, tiled) in enumerate(kinds):
+    values = (cells - 300 if kind == "uint8" else cells).astype(kind)
+    missing = 0 if kind.startswith("u") else -9999
+    values[3, 5] = missing
+    profile = dict(driver="GTiff", dtype=kind, width=130, height=90, count=1, crs="EPSG:25832", transform=place)
+    profile |= dict(nodata=missing, tiled=tiled, compress=compress)
+    profile |= dict(blockxsize=64, blockysize=32) if tiled else {}
+    profile |= dict(predictor=predictor) if predictor > 1 else {}
+    with rasterio.open(folder / "other.tif", "w", **profile) as raster:
+        raster.write(values, 1)
+    run("triangulate", "other.tif", "-o", "again.geojson", "-o", "again.obj")
+    read = np.array([line.split()[1:] for line in (folder / "again.obj").read_text().splitlines() if line[0] == "v"], float)
+    assert len(read) == 130 * 90 - 1 and (read[0] == [637_001, 849_699, values[0, 0]]).all(), kind
+    assert np.array_equal(read[:, 2], values.ravel()[np.arange(130 * 90) != 3 * 130 + 5].astype(float)), kind
+    assert geopandas.read_file(folder / "again.geojson").crs.to_epsg() == 25832
+    print(f"delone reads GeoTIFF of {kind}, {compress}")

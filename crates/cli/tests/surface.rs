@@ -111,7 +111,7 @@ fn of_several_heights_a_rule_takes_one() {
         assert_eq!(features(&found).len(), lines, "{rule}");
     }
     place.succeed("simplify p.csv --max-error 0 --duplicates mean -o m.obj");
-    assert!(std::fs::read_to_string(place.path("m.obj")).expect("a mesh").contains("v 4 0 6"));
+    assert!(std::fs::read_to_string(place.path("m.obj")).expect("a mesh").contains("v 4.0 0.0 6.0"));
 }
 
 #[test]
