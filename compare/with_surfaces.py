@@ -3,7 +3,8 @@
 
     python compare/with_surfaces.py target/release/delone data/autzen_trim.laz 1 5
 
-Needs: pip install numpy scipy 'laspy[lazrs]', and does without startinpy if that is missing. Says medians in seconds and ratios, and how far the values are apart where both have one.
+Needs: pip install numpy scipy 'laspy[lazrs]'; startinpy if it is there. Says medians in seconds and ratios,
+and how far the values are apart where both have one.
 """
 
 from __future__ import annotations
