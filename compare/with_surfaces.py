@@ -3,8 +3,8 @@
 
     python compare/with_surfaces.py target/release/delone data/autzen_trim.laz 1 5
 
-needs numpy, scipy, laspy[lazrs] and startin (pip install them), and does without those that are missing. Says medians in seconds and
-ratios, and how far the values are apart where both have one.
+Needs: pip install numpy scipy 'laspy[lazrs]'; startinpy if it is there. Says medians in seconds and ratios,
+and how far the values are apart where both have one.
 """
 
 from __future__ import annotations
@@ -23,12 +23,14 @@ program, scan, cell, runs = sys.argv[1], sys.argv[2], float(sys.argv[3]), int(sy
 
 
 def read() -> np.ndarray:
+    """Ground points of the scan."""
     las = laspy.read(scan)
     ground = np.asarray(las.classification) == 2
     return np.column_stack([np.asarray(axis)[ground] for axis in (las.x, las.y, las.z)])
 
 
 def centres(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Centres of the cells that delone makes."""
     low, high = np.floor(points[:, :2].min(0) / cell), np.ceil(points[:, :2].max(0) / cell)
     xs = (np.arange(low[0], high[0]) + 0.5) * cell
     ys = (np.arange(high[1] - 1, low[1] - 1, -1) + 0.5) * cell
@@ -36,6 +38,7 @@ def centres(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def of_delone(method: str) -> np.ndarray:
+    """The whole way by delone."""
     with tempfile.TemporaryDirectory() as folder:
         command = [program, "-q", "dtm", scan, "--cell", str(cell), "--method", method, "--duplicates", "first"]
         subprocess.run([*command, "-o", f"{folder}/dem.npy"], check=True)
@@ -43,12 +46,14 @@ def of_delone(method: str) -> np.ndarray:
 
 
 def of_scipy() -> np.ndarray:
+    """The whole way by SciPy."""
     points = read()
     xs, ys = centres(points)
     return LinearNDInterpolator(points[:, :2], points[:, 2])(*np.meshgrid(xs, ys))
 
 
 def of_startin(method: str) -> np.ndarray:
+    """The whole way by startin."""
     import startinpy
 
     points = read()

@@ -23,7 +23,7 @@ const SIGHTS: usize = 256;
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone")]
 pub struct Constrained {
-    state: State<Constrained2>,
+    pub state: State<Constrained2>,
     /// Segment ids given so far.
     segment_ids: usize,
 }

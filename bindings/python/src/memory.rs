@@ -34,3 +34,12 @@ impl Need {
         Ok(())
     }
 }
+
+/// Refuses results of so many bytes if there is no memory for them.
+pub fn room(bytes: usize, what: &str) -> PyResult<()> {
+    let mut room = Vec::<u8>::new();
+    if black_box(&mut room).try_reserve_exact(bytes).is_err() {
+        return Err(PyMemoryError::new_err(format!("{what} need about {} megabytes", bytes >> 20)));
+    }
+    Ok(())
+}

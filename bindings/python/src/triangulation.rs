@@ -251,6 +251,33 @@ impl<T: Ask> State<T> {
         queries: &[T::Point],
         answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
     ) -> PyResult<Vec<A>> {
+        let is_many = queries.len() >= 2 * QUERIES;
+        self.asking(py, is_many, queries.is_empty(), || {
+            if is_many {
+                queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
+            } else {
+                queries.iter().map(|&q| answer(q)).collect()
+            }
+        })
+    }
+
+    /// The answer of the library to so many questions at once.
+    pub fn asked<A: Send>(
+        &self,
+        py: Python<'_>,
+        count: usize,
+        answer: impl FnOnce() -> Result<A, Error> + Send,
+    ) -> PyResult<A> {
+        self.asking(py, count >= FEW, count == 0, answer)
+    }
+
+    fn asking<A: Send>(
+        &self,
+        py: Python<'_>,
+        is_many: bool,
+        is_nothing: bool,
+        answer: impl FnOnce() -> Result<A, Error> + Send,
+    ) -> PyResult<A> {
         let is_first = !self.is_asked.load(Ordering::Acquire);
         if is_first {
             let here = generation() + 1;
@@ -262,17 +289,10 @@ impl<T: Ask> State<T> {
                 return Err(PyRuntimeError::new_err(message));
             }
         }
-        let is_many = queries.len() >= 2 * QUERIES;
         // The first question makes what finds answers, which is worth threads, and others may have to make it better.
         let few = if is_first { FEW } else { MANY };
-        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, || {
-            if is_many {
-                queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
-            } else {
-                queries.iter().map(|&q| answer(q)).collect::<Result<Vec<A>, Error>>()
-            }
-        })?;
-        self.is_asked.fetch_or(!queries.is_empty(), Ordering::Release);
+        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, answer)?;
+        self.is_asked.fetch_or(!is_nothing, Ordering::Release);
         found.map_err(python_error)
     }
 

@@ -186,7 +186,7 @@ fn lines_and_polygons() {
     // Lines that cross at other heights are told.
     place.file(
         "cross.geojson",
-        r#"{"type":"MultiLineString","coordinates":[[[1,1,0],[9,9,0]],[[1,9,4],[9,1,4]]]}"#,
+        r#"{"type":"MultiLineString","coordinates":[[[1.3,1.1,0],[8.9,9.2,0]],[[1.2,9.1,4],[9.3,1.4,4]]]}"#,
     );
     let told = text(&place.run("dtm p.csv --cell 1 --breaklines cross.geojson -o a.npy").stderr);
     assert!(told.contains("differ by up to 4"), "{told}");

@@ -14,6 +14,8 @@ delone.triangulate_polygons(geometries)
 delone.mesh(points, segments, min_angle=30, max_area=0.1).triangles
 delone.triangle.triangulate(dictionary, "pq30a.1")      # as the package triangle
 delone.euclidean_minimum_spanning_tree(points)
+delone.NaturalNeighborInterpolator(points, values)(x, y)
+delone.rasterize(points, z, cell=1.0), delone.contours(points, z, interval=10), delone.simplify(points, z, max_error=0.5)
 delone.tiles.triangulate(points, region), delone.dask.triangulate(array)       # more points than memory
 delone.RegularTriangulation(points, weights), delone.PowerDiagram(positions, weights).integrals()
 """
@@ -34,12 +36,13 @@ from ._graphs import (
 )
 from ._hints import Hints
 from ._hull import ConvexHull
-from ._interpolate import LinearInterpolator
+from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
 from ._mesh import Mesh, MeshReport, mesh
 from ._orders import OrderVoronoi
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
 from ._regular import PowerDiagram, RegularTriangulation
+from ._terrain import ContourBand, ContourLine, Simplified, contours, rasterize, simplify
 from ._voronoi import Voronoi
 
 # Threads do not survive a fork.
@@ -50,26 +53,34 @@ __version__ = "0.1.0"
 __all__ = [
     "AlphaComplex",
     "ConstrainedDelaunay",
+    "ContourBand",
+    "ContourLine",
     "ConvexHull",
     "CrossingError",
     "Delaunay",
     "Hints",
     "LinearInterpolator",
+    "LinearNDInterpolator",
     "Mesh",
     "MeshReport",
+    "NaturalNeighborInterpolator",
     "OrderVoronoi",
     "PolygonTriangles",
     "PowerDiagram",
     "RaggedTriangles",
     "RegularTriangulation",
+    "Simplified",
     "Voronoi",
     "beta_skeleton",
+    "contours",
     "euclidean_minimum_spanning_tree",
     "gabriel_graph",
     "knn_graph",
     "mesh",
     "plot",
+    "rasterize",
     "relative_neighborhood_graph",
+    "simplify",
     "tiles",
     "triangle",
     "triangulate_polygon",

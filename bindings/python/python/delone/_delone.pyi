@@ -21,14 +21,21 @@ __all__ = [
     "Triangulation",
     "after_fork",
     "clipped_cells",
+    "contour_bands",
+    "contour_lines",
     "convex_hull",
     "furthest",
+    "interpolate",
+    "interpolation_weights",
     "join_borders",
+    "paint",
     "proximity_graph",
     "ridges",
     "sides",
+    "thin",
     "triangulate_polygons",
     "triangulate_tile",
+    "vertex_gradients",
 ]
 
 @final
@@ -173,6 +180,47 @@ def furthest(triangulation: Triangulation) -> tuple[NDArray[np.int32], NDArray[n
 def ridges(
     simplices: NDArray[np.int32], neighbors: NDArray[np.int32], vertices: NDArray[np.int64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
+def interpolate(
+    triangulation: Triangulation,
+    method: str,
+    nearest: bool,
+    queries: NDArray[np.float64],
+    values: NDArray[np.float64],
+    gradients: NDArray[np.float64] | None = None,
+) -> NDArray[np.float64]: ...
+def interpolation_weights(
+    triangulation: Triangulation, method: str, nearest: bool, queries: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float64]]: ...
+def vertex_gradients(triangulation: Triangulation, values: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def paint(
+    sheet: Triangulation | Constrained,
+    method: str,
+    heights: NDArray[np.float64],
+    place: tuple[float, float, float, float],
+    size: tuple[int, int],
+    cell: float | None = None,
+    mask: NDArray[np.bool_] | None = None,
+    max_edge: float | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], list[float], list[float]]: ...
+def contour_lines(
+    sheet: Triangulation | Constrained,
+    heights: NDArray[np.float64],
+    wanted: tuple[list[float] | None, float, float, float],
+    mask: NDArray[np.bool_] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]: ...
+def contour_bands(
+    sheet: Triangulation | Constrained,
+    heights: NDArray[np.float64],
+    wanted: tuple[list[float] | None, float, float, float],
+    mask: NDArray[np.bool_] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
+def thin(
+    points: NDArray[np.float64],
+    heights: NDArray[np.float64],
+    segments: NDArray[np.int64],
+    max_error: float,
+    max_points: int | None,
+) -> tuple[NDArray[np.int64], NDArray[np.int32], float]: ...
 def proximity_graph(points: NDArray[np.float64], kind: str, parameter: float) -> NDArray[np.int64]: ...
 
 @final

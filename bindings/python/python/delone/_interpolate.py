@@ -1,54 +1,30 @@
-"""Interpolation on a triangulation."""
+"""Interpolation on a triangulation, with the names and the calls of scipy.interpolate."""
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
+from . import _delone
 from ._delaunay import Delaunay
-from ._points import as_flag, as_numbers, as_points
+from ._points import as_choice, as_flag, as_numbers, as_points, as_queries
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
+_SMOOTH = ("smooth", "farin")
 
 
-class LinearInterpolator:
-    """Piecewise linear interpolation of values at points of the plane or of space.
+class _Interpolator:
+    """What interpolators have in common: points, values with a row for each, and how they are called."""
 
-    Takes the place of scipy.interpolate.LinearNDInterpolator.
+    _method = "linear"
 
-    Parameters
-    ----------
-    points : array_like of shape (n, ndim), or Delaunay
-        The points, or their triangulation.
-    values : array_like of shape (n, ...)
-        The values, real or complex.
-    fill_value : number
-        What there is outside of the hull; NaN.
-    rescale : bool
-        Whether to bring all axes to the same size first.
-    outside : "fill" or "nearest"
-        Whether to take the value of the nearest point outside instead.
-
-    Examples
-    --------
-    >>> import delone
-    >>> f = delone.LinearInterpolator([[0, 0], [2, 0], [0, 2]], [0.0, 2.0, 4.0])
-    >>> f(0.5, 0.5).item(), f([[1.0, 0.0]]).tolist()
-    (1.5, [1.0])
-    """
-
-    def __init__(
-        self,
-        points: ArrayLike | Delaunay,
-        values: ArrayLike,
-        fill_value: float = np.nan,
-        rescale: bool = False,
-        outside: Literal["fill", "nearest"] = "fill",
-    ) -> None:
-        """Triangulates the points, unless they are."""
-        if outside not in ("fill", "nearest"):
-            raise ValueError(f'outside must be "fill" or "nearest", not {outside!r}')
+    def __init__(self, points: ArrayLike | Delaunay, values: ArrayLike, fill_value: complex, rescale: bool, outside: str) -> None:
+        self.outside = as_choice(outside, ("fill", "nearest"), "outside")
         self._offset: NDArray[np.float64] | float = 0.0
         self._scale: NDArray[np.float64] | float = 1.0
         rescale = as_flag(rescale, "rescale")
@@ -66,21 +42,70 @@ class LinearInterpolator:
                 self._scale = np.where(size > 0, size, 1.0)
                 given = (given - self._offset) / self._scale
             self.tri = Delaunay(given)
-        if ma.isMaskedArray(values):
-            raise ValueError("values are a masked array: leave out the points that have none")
-        array: NDArray[Any] = np.asarray(values)
-        if array.dtype.kind not in "fiubc":
-            raise TypeError(f"values must be numbers, not {array.dtype}")
-        if array.ndim == 0 or len(array) != self.tri.npoints:
-            raise ValueError(f"{self.tri.npoints} points need as many values; they have the shape {array.shape}")
-        self.values = array.astype(np.result_type(array.dtype, np.float64))
+        self.values = _as_values(values, self.tri.npoints)
         fill = np.asarray(fill_value)
         if fill.ndim or fill.dtype.kind not in "fiubc" or not np.can_cast(fill.dtype, self.values.dtype):
             raise TypeError(f"fill_value must be a number of {self.values.dtype}, not {fill_value!r}")
-        self.fill_value, self.outside = fill_value, outside
+        self.fill_value = fill_value
 
     def __call__(self, *xi: ArrayLike) -> NDArray[Any]:
-        """Values at points: an array whose last axis has the coordinates, or an array for each coordinate."""
+        """Values at points: an array whose last axis has the coordinates, or an array for each coordinate.
+
+        Of shape (..., *values.shape[1:]). Points with a coordinate that is not finite are outside. All threads are used.
+        """
+        rows, shape = self._queries(xi)
+        known = np.isfinite(rows).all(axis=1)
+        every = bool(known.all())
+        table = self._table()
+        asked = rows if every else rows[known]
+        found = _delone.interpolate(self.tri._core, self._method, self.outside == "nearest", asked, table, self._slopes())
+        lost = np.array(~known)
+        if not np.isnan(self.fill_value):
+            # Values may be NaN too: outside are only those for which ones are.
+            doubtful = np.flatnonzero(np.isnan(found).all(axis=1))
+            ones = np.ones((self.tri.npoints, 1))
+            sure = _delone.interpolate(self.tri._core, "linear", self.outside == "nearest", asked[doubtful], ones)
+            lost[np.flatnonzero(known)[doubtful[np.isnan(sure[:, 0])]]] = True
+        if every:
+            whole = found
+        else:
+            whole = np.full((len(rows), table.shape[1]), np.nan)
+            whole[known] = found
+        result = whole.view(self.values.dtype).reshape(len(rows), *self.values.shape[1:])
+        if lost.any():
+            result[lost] = self.fill_value
+        return result.reshape((*shape, *self.values.shape[1:]))
+
+    def weights(self, queries: ArrayLike) -> csr_array:
+        """The weights of points at queries, whose last axis has the coordinates.
+
+        A `scipy.sparse.csr_array` of shape (m, npoints): `f.weights(queries) @ values` interpolates any other values at the same
+        places. Rows have the sum one; those of queries outside are empty, which gives 0. Smooth surfaces are no sums of values
+        alone: with "smooth" and "farin" these are the weights of Sibson, which both begin with. All queries must be finite.
+        """
+        at, _ = as_queries(queries, self.tri.ndim, "queries")
+        at = np.ascontiguousarray((at - self._offset) / self._scale)
+        starts, columns, values = _delone.interpolation_weights(self.tri._core, self._method, self.outside == "nearest", at)
+        try:
+            from scipy.sparse import csr_array
+        except ImportError as error:
+            raise ImportError("sparse arrays are SciPy's: pip install scipy") from error
+        return csr_array((values, columns, starts), shape=(len(at), self.tri.npoints))
+
+    def _slopes(self) -> NDArray[np.float64] | None:
+        return None
+
+    def _table(self) -> NDArray[np.float64]:
+        """The values as rows of float64, complex ones as two."""
+        count = self.tri.npoints
+        if len(self.values) != count:
+            raise ValueError(
+                f"there are {len(self.values)} values and {count} points, because points were added to the triangulation: "
+                "make an interpolator anew"
+            )
+        return self.values.reshape(count, -1 if count else int(np.prod(self.values.shape[1:]))).view(np.float64)
+
+    def _queries(self, xi: tuple[ArrayLike, ...]) -> tuple[NDArray[np.float64], tuple[int, ...]]:
         ndim = self.tri.ndim
         if len(xi) == 1:
             at = _rounded(xi[0])
@@ -90,48 +115,162 @@ class LinearInterpolator:
             raise ValueError(f"one array of points or {ndim} of coordinates, not {len(xi)}")
         if at.ndim == 0 or at.shape[-1] != ndim:
             raise ValueError(f"points must have {ndim} coordinates in their last axis; their shape is {at.shape}")
-        shape = at.shape[:-1]
         rows = (at.reshape(-1, ndim) - self._offset) / self._scale
-        known = np.isfinite(rows).all(axis=1)
-        simplex = np.full(len(rows), -1, dtype=np.int32)
-        simplex[known] = self.tri.find_simplex(rows[known])
-        result = np.full((len(rows), *self.values.shape[1:]), self.fill_value, dtype=self.values.dtype)
-        inside = np.flatnonzero(simplex >= 0)
-        if len(inside):
-            result[inside] = self._linear(rows[inside], simplex[inside])
-        if self.outside == "nearest":
-            beyond = np.flatnonzero(known & (simplex < 0))
-            if len(beyond) and self.tri.vertex_count:
-                result[beyond] = self.values[self.tri.nearest(rows[beyond])]
-        return result.reshape((*shape, *self.values.shape[1:]))
+        return np.ascontiguousarray(rows), at.shape[:-1]
 
-    def _linear(self, rows: NDArray[np.float64], simplex: NDArray[np.int32]) -> NDArray[Any]:
-        corners = self.tri.simplices[simplex]
-        points = self.tri.points[corners]
-        last = points[:, -1]
-        sides = np.swapaxes(points[:, :-1] - last[:, None, :], 1, 2)
-        away = rows - last
-        # Cramer's rule, a determinant for each corner.
-        whole = _det(sides)
-        shares = np.empty((len(rows), self.tri.ndim + 1))
-        for k in range(self.tri.ndim):
-            part = sides.copy()
-            part[:, :, k] = away
-            with np.errstate(all="ignore"):
-                shares[:, k] = _det(part) / whole
-        shares[:, -1] = 1.0 - shares[:, :-1].sum(axis=1)
-        values = self.values[corners]
-        return np.asarray(np.einsum("nk,nk...->n...", shares, values))
+
+class LinearNDInterpolator(_Interpolator):
+    """Piecewise linear interpolation of values at points of the plane or of space.
+
+    Takes the place of scipy.interpolate.LinearNDInterpolator. `LinearInterpolator` is the same class. Points on one line, or in
+    space in one plane, are no error: values are linear along it, and everything else is outside.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, ndim), or Delaunay
+        The points, or their triangulation, which can be that of many interpolators.
+    values : array_like of shape (n, ...)
+        The values, real or complex. Of equal points the first one's count.
+    fill_value : number
+        What there is outside of the hull; NaN.
+    rescale : bool
+        Whether to bring all axes to the same size first.
+    outside : "fill" or "nearest"
+        Whether to take the value of the nearest point outside instead.
+
+    Examples
+    --------
+    >>> import delone
+    >>> f = delone.LinearNDInterpolator([[0, 0], [2, 0], [0, 2]], [0.0, 2.0, 4.0])
+    >>> f(0.5, 0.5).item(), f([[1.0, 0.0]]).tolist()
+    (1.5, [1.0])
+    >>> f.weights([[1.0, 0.0]]).toarray().tolist()
+    [[0.5, 0.5, 0.0]]
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike | Delaunay,
+        values: ArrayLike,
+        fill_value: complex = np.nan,
+        rescale: bool = False,
+        outside: Literal["fill", "nearest"] = "fill",
+    ) -> None:
+        """Triangulates the points, unless they are."""
+        super().__init__(points, values, fill_value, rescale, outside)
+
+
+LinearInterpolator = LinearNDInterpolator
+
+
+class NaturalNeighborInterpolator(_Interpolator):
+    """Interpolation by natural neighbours of values at points of the plane or of space.
+
+    Called as SciPy's interpolators are. Which points take part is exact, and the result is the same for any number of threads
+    and any order of the points. Linear functions come out as they are. On the border of the hull values are linear. Cost: of k
+    neighbours O(k log k) for each query, and more for queries that are far from the ones before.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, ndim), or Delaunay
+        The points, or their triangulation, which can be that of many interpolators.
+    values : array_like of shape (n, ...)
+        The values, real or complex. Of equal points the first one's count.
+    method : "sibson", "laplace", "smooth" or "farin"
+        "sibson": each neighbour weighs what the cell of the query would take from its cell; smooth but at the points.
+        "laplace": the length, in space the area, of the border between both cells over their distance; with kinks at circles.
+        "smooth" is Sibson's surface with gradients, and "farin" the cubic one of Farin, which has all quadratic functions whose
+        gradients are given: both are smooth everywhere inside, and take a column of values at a time.
+    fill_value : number
+        What there is outside of the hull; NaN.
+    rescale : bool
+        Whether to bring all axes to the same size first.
+    outside : "fill" or "nearest"
+        Whether to take the value of the nearest point outside instead.
+    gradients : array_like of shape (n, ..., ndim), optional
+        The derivatives of values along the axes, for "smooth" and "farin"; else they are estimated, as `gradients()` tells.
+
+    Examples
+    --------
+    >>> import delone
+    >>> corners = [[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]]
+    >>> f = delone.NaturalNeighborInterpolator(corners, [0.0, 4.0, 4.0, 0.0, 2.0])
+    >>> round(f(2.5, 2.5).item(), 12), f([[9.0, 9.0]]).tolist()
+    (2.5, [nan])
+    >>> f.weights([[2.0, 2.0]]).shape
+    (1, 5)
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike | Delaunay,
+        values: ArrayLike,
+        method: Literal["sibson", "laplace", "smooth", "farin"] = "sibson",
+        fill_value: complex = np.nan,
+        rescale: bool = False,
+        outside: Literal["fill", "nearest"] = "fill",
+        *,
+        gradients: ArrayLike | None = None,
+    ) -> None:
+        """Triangulates the points, unless they are."""
+        self._method = self.method = as_choice(method, ("sibson", "laplace", "smooth", "farin"), "method")
+        super().__init__(points, values, fill_value, rescale, outside)
+        self._given: NDArray[np.float64] | None = None
+        if gradients is not None:
+            if method not in _SMOOTH:
+                raise ValueError(f'gradients are for method="smooth" and "farin", not {method!r}')
+            self._given = self._as_slopes(gradients)
+
+    def gradients(self) -> NDArray[Any]:
+        """The gradients at the points: (n, ..., ndim), in units of values for a unit of length along each axis.
+
+        Those given, else estimates from the neighbours of each point, which are right for linear functions, and but at the border
+        for a + b x + c |x|^2.
+        """
+        slopes = self._given if self._given is not None else _delone.vertex_gradients(self.tri._core, self._table())
+        rows = np.moveaxis(slopes, 0, 1) / self._scale
+        shape = (*self.values.shape, self.tri.ndim)
+        if self.values.dtype.kind == "c":
+            return np.asarray(rows[:, 0::2] + 1j * rows[:, 1::2]).reshape(shape)
+        return rows.reshape(shape)
+
+    def _slopes(self) -> NDArray[np.float64] | None:
+        if self._method in _SMOOTH and self._given is None:
+            self._given = _delone.vertex_gradients(self.tri._core, self._table())
+        return self._given
+
+    def _as_slopes(self, gradients: ArrayLike) -> NDArray[np.float64]:
+        """As an array (columns, n, ndim)."""
+        if ma.isMaskedArray(gradients):
+            raise ValueError("gradients are a masked array: leave out the points that have none")
+        array: NDArray[Any] = np.asarray(gradients)
+        shape = (*self.values.shape, self.tri.ndim)
+        if array.dtype.kind not in "fiubc" or not np.can_cast(array.dtype, self.values.dtype, "same_kind"):
+            raise TypeError(f"gradients must be numbers as the values are, {self.values.dtype}, not {array.dtype}")
+        if array.shape != shape:
+            raise ValueError(f"gradients must have the shape {shape}, a derivative along each axis, not {array.shape}")
+        columns = int(np.prod(self.values.shape[1:]))
+        rows = array.astype(self.values.dtype).reshape(len(array), columns, self.tri.ndim)
+        if not np.isfinite(rows).all():
+            point = int(np.argwhere(~np.isfinite(rows))[0][0])
+            raise ValueError(f"gradients: that of point {point} is not finite; leave gradients out to have them estimated")
+        if self.values.dtype.kind == "c":
+            rows = np.stack([rows.real, rows.imag], axis=2).reshape(len(array), 2 * columns, self.tri.ndim)
+        return np.ascontiguousarray(np.moveaxis(rows * self._scale, 1, 0), dtype=np.float64)
+
+
+def _as_values(values: ArrayLike, count: int) -> NDArray[Any]:
+    """A row for each of so many points, float64 or complex128."""
+    if ma.isMaskedArray(values):
+        raise ValueError("values are a masked array: leave out the points that have none")
+    array: NDArray[Any] = np.asarray(values)
+    if array.dtype.kind not in "fiubc":
+        raise TypeError(f"values must be numbers, not {array.dtype}")
+    if array.ndim == 0 or len(array) != count:
+        raise ValueError(f"{count} points need as many values; they have the shape {array.shape}")
+    return np.array(array, dtype=np.complex128 if array.dtype.kind == "c" else np.float64, order="C")
 
 
 def _rounded(xi: ArrayLike) -> NDArray[np.float64]:
     with np.errstate(all="ignore"):
         return as_numbers(xi, "xi").astype(np.float64)
-
-
-def _det(m: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Determinants of small matrices."""
-    if m.shape[-1] == 2:
-        return np.asarray(m[:, 0, 0] * m[:, 1, 1] - m[:, 0, 1] * m[:, 1, 0])
-    a, b, c = m[:, :, 0], m[:, :, 1], m[:, :, 2]
-    return np.asarray((a * np.cross(b, c)).sum(axis=1))

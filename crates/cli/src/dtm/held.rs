@@ -10,6 +10,7 @@
 
 use delone::surface::{Grid, Interpolator, Raster};
 use delone::{Around, Delaunay2, Surround, TriangleId};
+use rayon::prelude::*;
 
 use super::surface::exceeds;
 use crate::args::MethodName;
@@ -57,6 +58,9 @@ fn failed(error: &delone::Error) -> Failure {
     )
 }
 
+/// Cells with their values, and those that are not known yet.
+type Settled = (Vec<(usize, f64)>, Vec<usize>);
+
 /// The triangles of a part, as a triangulation of their corners.
 struct Part {
     d: Delaunay2,
@@ -95,7 +99,7 @@ impl Part {
         Ok(Self { d, heights, is_real, range })
     }
 
-    /// Settles the cells that can be, and gives back the others.
+    /// Settles the cells that can be, on all threads, and gives back the others.
     fn settle(
         &self,
         method: MethodName,
@@ -103,6 +107,21 @@ impl Part {
         open: &[usize],
         values: &mut [f64],
     ) -> Result<Vec<usize>, delone::Error> {
+        /// Cells that follow each other, for walks from one to the next.
+        const PART: usize = 1 << 12;
+        let parts: Vec<Settled> =
+            open.par_chunks(PART).map(|part| self.ask(method, grid, part)).collect::<Result<_, _>>()?;
+        let mut rest = Vec::new();
+        for (settled, mut open) in parts {
+            settled.into_iter().for_each(|(cell, value)| values[cell] = value);
+            rest.append(&mut open);
+        }
+        Ok(rest)
+    }
+
+    /// What is known of some cells, and the others.
+    fn ask(&self, method: MethodName, grid: &Grid, open: &[usize]) -> Result<Settled, delone::Error> {
+        let mut settled = Vec::new();
         let mut surface = match method {
             MethodName::Laplace => Interpolator::laplace(&self.d),
             MethodName::Nearest => Interpolator::nearest(&self.d),
@@ -131,12 +150,12 @@ impl Part {
                 is_known = q[1] - far >= self.range[0] && q[1] + far <= self.range[1];
             }
             if is_known {
-                values[cell] = surface.value(q, &self.heights)?.unwrap_or(values[cell]);
+                settled.extend(surface.value(q, &self.heights)?.map(|value| (cell, value)));
             } else {
                 rest.push(cell);
             }
         }
-        Ok(rest)
+        Ok((settled, rest))
     }
 }
 

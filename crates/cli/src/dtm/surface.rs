@@ -127,7 +127,8 @@ fn flatten(
     levels: &[Option<f64>],
     lines: &Lines,
 ) -> Result<Vec<[VertexId; 3]>, delone::Error> {
-    let inside = c.domains_within(&Fill::EvenOdd, |s: SegmentId| lines.is_level[s.index()])?;
+    let inside =
+        c.domains_within(&Fill::EvenOdd, |s: SegmentId| lines.is_level.get(s.index()) == Some(&true))?;
     let mut of_part = vec![f64::INFINITY; inside.parts().len()];
     let triangles: Vec<TriangleId> = c.triangle_ids().filter(|&t| inside.is_inside(t)).collect();
     // Border vertices, whose first point may be one of the cloud.

@@ -10,12 +10,17 @@ use crate::mesh::tetrahedra::FACETS;
 use crate::points::finite;
 use crate::triangulation::{Ask, Found};
 
+/// Walks from a hint that are longer cost more than the search for a better one.
+const NEAR: usize = 24;
+
 impl Surround for Delaunay3 {
     fn find_near(&self, near: Option<TetrahedronId>, q: [f64; 3]) -> Result<Found<TetrahedronId>, Error> {
         let q = finite(q)?;
         let near = near.filter(|&t| self.mesh().is_cell(t) && self.dimension() == Dimension::Space);
-        match near {
-            Some(t) => Ok(self.found(self.locate_from(t, q)?)),
+        let filter = self.base.filter_with(q);
+        let view = View { filter: &filter, ..self.base.view() };
+        match near.and_then(|t| view.walk_within(t, q, NEAR)) {
+            Some(t) => Ok(self.found(self.base.classify(t, q))),
             None => self.find(q),
         }
     }

@@ -155,6 +155,30 @@ impl<W: Lift> View<'_, W> {
         }
     }
 
+    /// The same from a tetrahedron that may be far: none if it takes more steps than `most`.
+    pub(in crate::space) fn walk_within(
+        &self,
+        from: TetrahedronId,
+        q: [f64; 3],
+        most: usize,
+    ) -> Option<TetrahedronId> {
+        let mut t = from;
+        if self.corners(t)[3].is_ghost() {
+            t = self.cells[t.index()].across[3].tetrahedron();
+        }
+        for _ in 0..most {
+            let cell = &self.cells[t.index()];
+            if cell.corners[3].is_ghost() {
+                return Some(t);
+            }
+            match self.filter.facet_towards(self.all(&cell.corners), &q) {
+                Some(k) => t = cell.across[k].tetrahedron(),
+                None => return Some(t),
+            }
+        }
+        None
+    }
+
     /// The corner of a tetrahedron that a point equals.
     #[inline]
     pub(in crate::space) fn vertex_at(&self, t: TetrahedronId, q: [f64; 3]) -> Option<Place> {

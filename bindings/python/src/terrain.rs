@@ -1,0 +1,279 @@
+//! Heights at points of the plane: rasters, contours, and fewer points.
+
+use std::collections::HashMap;
+
+use delone::surface::{Contours, Grid, Levels, Thinned, Thinning, rasterize};
+use delone::{Ask, Bounds, Constrained2, Crossings, Error, Triangulation as Triangular, VertexId};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::constrained::{Constrained, SEGMENT, index, pairs};
+use crate::errors::python_error;
+use crate::interrupt::interruptible;
+use crate::memory::{TRIANGULATION, room};
+use crate::surface::interpolator;
+use crate::triangulation::{Core, State, Triangulation, coordinates};
+
+/// Triangles of the plane of either kind.
+#[derive(FromPyObject)]
+pub enum Sheet<'py> {
+    Delaunay(PyRef<'py, Triangulation>),
+    Constrained(PyRef<'py, Constrained>),
+}
+
+type Column<'py, T> = Bound<'py, PyArray1<T>>;
+type Points<'py> = Bound<'py, PyArray2<f64>>;
+/// Values row by row; the centres of columns and of rows; the corner of the first cell and the steps.
+type Painted<'py> = (Points<'py>, Column<'py, f64>, Column<'py, f64>, [f64; 2], [f64; 2]);
+/// Levels, points of all lines, where each line begins and the last one ends, and whether they are closed.
+type Lines<'py> = (Column<'py, f64>, Points<'py>, Column<'py, i64>, Column<'py, bool>);
+/// Lower and upper levels; points of all rings; where rings begin among points, polygons among rings, bands among polygons.
+type Bands<'py> = (Points<'py>, Points<'py>, Column<'py, i64>, Column<'py, i64>, Column<'py, i64>);
+
+/// Which triangles count: those that a mask by row has, if none of their edges is longer than so much.
+struct Keep<'a> {
+    rows: &'a [i32],
+    mask: Option<&'a [bool]>,
+    most: f64,
+}
+
+impl Keep<'_> {
+    fn has<T: Triangular<Point = [f64; 2]>>(&self, d: &T, s: T::Simplex) -> bool {
+        let row = || usize::try_from(self.rows[d.index(s)]).ok();
+        if self.mask.is_some_and(|mask| !row().and_then(|row| mask.get(row).copied()).unwrap_or(false)) {
+            return false;
+        }
+        let corners = d.corners(s);
+        let corners = corners.as_ref();
+        let at = |k: usize| d.position(corners[k % corners.len()]).unwrap_or_default();
+        let length = |k: usize| {
+            let [a, b] = [at(k), at(k + 1)];
+            (a[0] - b[0]).hypot(a[1] - b[1])
+        };
+        self.most == f64::INFINITY || (0..corners.len()).all(|k| length(k) <= self.most)
+    }
+}
+
+/// A raster of heights. `place` is the corner of the first cell and the steps, or with `cell`, for cells aligned to multiples of it, the
+/// least and the largest coordinates; `size` is the number of columns and of rows then.
+#[pyfunction]
+#[pyo3(signature = (sheet, method, heights, place, size, cell=None, mask=None, max_edge=None))]
+#[expect(clippy::too_many_arguments)]
+pub fn paint<'py>(
+    py: Python<'py>,
+    sheet: Sheet<'py>,
+    method: &str,
+    heights: PyReadonlyArray1<'py, f64>,
+    place: [f64; 4],
+    size: [usize; 2],
+    cell: Option<f64>,
+    mask: Option<PyReadonlyArray1<'py, bool>>,
+    max_edge: Option<f64>,
+) -> PyResult<Painted<'py>> {
+    let [x0, y0, x1, y1] = place;
+    let grid = match cell {
+        Some(cell) => Grid::aligned(&Bounds { low: [x0, y0], high: [x1, y1] }, cell),
+        None => Grid::new([x0, y0], [x1, y1], size[0], size[1]),
+    };
+    let grid = grid.map_err(python_error)?;
+    let (columns, rows) = (grid.columns(), grid.rows());
+    room(columns.saturating_mul(rows).saturating_mul(16), "a raster of so many cells")?;
+    let heights = heights.as_slice()?;
+    let mask = mask.as_ref().map(|mask| mask.as_slice()).transpose()?;
+    let most = max_edge.unwrap_or(f64::INFINITY);
+    let values = match &sheet {
+        Sheet::Delaunay(triangulation) => {
+            let state = plane(triangulation)?;
+            let d = &state.triangulation;
+            let f = interpolator(d, method, false)?;
+            state.asked(py, columns * rows + heights.len(), || {
+                let keep = Keep { rows: state.rows(), mask, most };
+                let mut values = rasterize(d, heights, &grid, |s| keep.has(d, s))?;
+                if method != "linear" {
+                    f.fill(&grid, heights, &mut values)?;
+                }
+                Ok(values)
+            })?
+        }
+        Sheet::Constrained(triangulation) => linear(py, &triangulation.state, heights, &grid, mask, most)?,
+    };
+    let xs = PyArray1::from_iter(py, (0..columns).map(|k| grid.x(k)));
+    let ys = PyArray1::from_iter(py, (0..rows).map(|k| grid.y(k)));
+    let values = PyArray1::from_vec(py, values).reshape([rows, columns])?;
+    Ok((values, xs, ys, grid.corner(), grid.step()))
+}
+
+fn linear<T: Ask<Point = [f64; 2]> + Sync>(
+    py: Python<'_>,
+    state: &State<T>,
+    heights: &[f64],
+    grid: &Grid,
+    mask: Option<&[bool]>,
+    most: f64,
+) -> PyResult<Vec<f64>> {
+    let d = &state.triangulation;
+    state.asked(py, grid.columns() * grid.rows() + heights.len(), || {
+        let keep = Keep { rows: state.rows(), mask, most };
+        rasterize(d, heights, grid, |s| keep.has(d, s))
+    })
+}
+
+fn plane(triangulation: &Triangulation) -> PyResult<&State<delone::Delaunay2>> {
+    match &triangulation.core {
+        Core::Plane(state) => Ok(state),
+        Core::Space(_) => Err(PyValueError::new_err("heights are at points of the plane, not of space")),
+    }
+}
+
+/// What contours are made of, and at which levels.
+#[derive(FromPyObject)]
+pub struct Wanted {
+    #[pyo3(item(0))]
+    levels: Option<Vec<f64>>,
+    #[pyo3(item(1))]
+    interval: f64,
+    #[pyo3(item(2))]
+    base: f64,
+    #[pyo3(item(3))]
+    max_edge: f64,
+}
+
+/// Makes something of contours, without the lock of Python.
+fn traced<R: Send>(
+    py: Python<'_>,
+    sheet: &Sheet<'_>,
+    heights: &PyReadonlyArray1<'_, f64>,
+    mask: Option<PyReadonlyArray1<'_, bool>>,
+    wanted: &Wanted,
+    make: impl FnOnce(&Contours, &Levels) -> Result<R, Error> + Send,
+) -> PyResult<R> {
+    let heights = heights.as_slice()?;
+    let mask = mask.as_ref().map(|mask| mask.as_slice()).transpose()?;
+    let trace = |surface: Contours| {
+        let levels = match &wanted.levels {
+            Some(levels) => Levels::given(levels)?,
+            None => Levels::every(wanted.interval, wanted.base, surface.range().unwrap_or([wanted.base; 2]))?,
+        };
+        make(&surface, &levels)
+    };
+    match sheet {
+        Sheet::Delaunay(triangulation) => {
+            let state = plane(triangulation)?;
+            let d = &state.triangulation;
+            state.asked(py, heights.len(), || {
+                let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
+                trace(Contours::of_triangles(d, heights, |s| keep.has(d, s))?)
+            })
+        }
+        Sheet::Constrained(triangulation) => {
+            let state = &triangulation.state;
+            let c = &state.triangulation;
+            state.asked(py, heights.len(), || {
+                let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
+                trace(Contours::of_triangles(c, heights, |s| keep.has(c, s))?)
+            })
+        }
+    }
+}
+
+#[pyfunction]
+#[pyo3(signature = (sheet, heights, wanted, mask=None))]
+pub fn contour_lines<'py>(
+    py: Python<'py>,
+    sheet: Sheet<'py>,
+    heights: PyReadonlyArray1<'py, f64>,
+    wanted: Wanted,
+    mask: Option<PyReadonlyArray1<'py, bool>>,
+) -> PyResult<Lines<'py>> {
+    let lines = traced(py, &sheet, &heights, mask, &wanted, Contours::lines)?;
+    let (mut points, mut starts) = (Vec::new(), vec![0]);
+    for line in &lines {
+        points.extend_from_slice(&line.points);
+        starts.push(points.len() as i64);
+    }
+    Ok((
+        PyArray1::from_iter(py, lines.iter().map(|line| line.level)),
+        pairs_of(py, points)?,
+        PyArray1::from_vec(py, starts),
+        PyArray1::from_iter(py, lines.iter().map(|line| line.is_closed)),
+    ))
+}
+
+#[pyfunction]
+#[pyo3(signature = (sheet, heights, wanted, mask=None))]
+pub fn contour_bands<'py>(
+    py: Python<'py>,
+    sheet: Sheet<'py>,
+    heights: PyReadonlyArray1<'py, f64>,
+    wanted: Wanted,
+    mask: Option<PyReadonlyArray1<'py, bool>>,
+) -> PyResult<Bands<'py>> {
+    let found = traced(py, &sheet, &heights, mask, &wanted, Contours::bands)?;
+    let (mut points, mut rings, mut polygons, mut bands) = (Vec::new(), vec![0], vec![0], vec![0]);
+    for band in &found {
+        for polygon in &band.polygons {
+            for ring in polygon {
+                points.extend_from_slice(ring);
+                rings.push(points.len() as i64);
+            }
+            polygons.push(rings.len() as i64 - 1);
+        }
+        bands.push(polygons.len() as i64 - 1);
+    }
+    let between = found.iter().map(|band| [band.lower, band.upper]).collect();
+    let [rings, polygons, bands] = [rings, polygons, bands].map(|starts| PyArray1::from_vec(py, starts));
+    Ok((pairs_of(py, between)?, pairs_of(py, points)?, rings, polygons, bands))
+}
+
+fn pairs_of(py: Python<'_>, rows: Vec<[f64; 2]>) -> PyResult<Points<'_>> {
+    let count = rows.len();
+    PyArray1::from_vec(py, rows.into_flattened()).reshape([count, 2])
+}
+
+/// The points that are left, their triangles by their rows, and the largest error.
+type Thin<'py> = (Column<'py, i64>, Bound<'py, PyArray2<i32>>, f64);
+
+#[pyfunction]
+pub fn thin<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    heights: PyReadonlyArray1<'py, f64>,
+    segments: PyReadonlyArray2<'py, i64>,
+    max_error: f64,
+    max_points: Option<usize>,
+) -> PyResult<Thin<'py>> {
+    let (points, heights): (Vec<[f64; 2]>, _) = (coordinates(&points)?, heights.to_vec()?);
+    let segments: Vec<[usize; 2]> = pairs(&segments)?.iter().map(|ends| ends.map(index)).collect();
+    TRIANGULATION.check_with(2, points.len(), segments.len().saturating_mul(SEGMENT))?;
+    let thinning = Thinning::new().max_error(max_error).max_points(max_points.unwrap_or(usize::MAX));
+    let done = interruptible(py, points.len(), move || {
+        let thinned = thinning.points(&points, &heights, &segments)?;
+        let triangles = triangles(&points, &segments, &thinned)?;
+        Ok::<_, Error>((thinned, triangles))
+    })?;
+    let (thinned, triangles) = done.map_err(python_error)?;
+    let count = triangles.len();
+    let vertices = PyArray1::from_iter(py, thinned.vertices.iter().map(|&i| i as i64));
+    Ok((vertices, PyArray1::from_vec(py, triangles.into_flattened()).reshape([count, 3])?, thinned.error))
+}
+
+/// The canonical triangles of what is left, as the others were measured against.
+fn triangles(
+    points: &[[f64; 2]],
+    segments: &[[usize; 2]],
+    thinned: &Thinned,
+) -> Result<Vec<[i32; 3]>, Error> {
+    let left: Vec<[f64; 2]> = thinned.vertices.iter().map(|&i| points[i]).collect();
+    // An end may equal the point that is left in its place. Zeros have no sign there.
+    let name = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
+    let mut rows = HashMap::new();
+    for (row, &p) in left.iter().enumerate() {
+        rows.entry(name(p)).or_insert(row);
+    }
+    let row = |i: usize| rows.get(&name(points[i])).copied().unwrap_or(usize::MAX);
+    let segments: Vec<[usize; 2]> = segments.iter().map(|ends| ends.map(row)).collect();
+    let c = Constrained2::with_crossings(&left, &segments, Crossings::Refuse)?;
+    let number = |v: VertexId| v.index() as i32;
+    Ok(c.triangle_ids().map(|t| c.mesh().corners(t).map(number)).collect())
+}
