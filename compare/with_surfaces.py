@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Terrain from file to raster: `delone dtm` beside SciPy's and startin's ways, alternating.
+"""Terrain from file to raster: `delone dtm` beside SciPy's, startin's and PDAL's ways, alternating.
 
     python compare/with_surfaces.py target/release/delone data/autzen_trim.laz 1 5
 
-Needs: pip install numpy scipy 'laspy[lazrs]'; startinpy if it is there. Says medians in seconds and ratios,
-and how far the values are apart where both have one.
+Needs: pip install numpy scipy 'laspy[lazrs]'; startinpy, rasterio and the program pdal if they are there. Says medians in
+seconds and ratios, and how far the values are apart where both have one. TMPDIR says where PDAL writes.
 """
 
 from __future__ import annotations
 
+import json
+import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -65,7 +68,37 @@ def of_startin(method: str) -> np.ndarray:
     return np.asarray(values).reshape(len(ys), len(xs))
 
 
+def of_pdal() -> np.ndarray:
+    """The whole way by PDAL, to its raster; read here for the comparison of values alone."""
+    with tempfile.TemporaryDirectory() as folder:
+        west, south = np.floor(extent[:2] / cell) * cell
+        east, north = np.ceil(extent[2:] / cell) * cell
+        raster = {"origin_x": west, "origin_y": south, "width": round((east - west) / cell), "height": round((north - south) / cell)}
+        steps = [
+            os.path.abspath(scan),
+            {"type": "filters.range", "limits": "Classification[2:2]"},
+            {"type": "filters.delaunay"},
+            {"type": "filters.faceraster", "resolution": cell, **raster},
+            {"type": "writers.raster", "filename": f"{folder}/dem.tif"},
+        ]
+        with open(f"{folder}/steps.json", "w") as file:
+            json.dump(steps, file)
+        start = time.perf_counter()
+        subprocess.run(["pdal", "pipeline", f"{folder}/steps.json"], check=True)
+        of_pdal.seconds = time.perf_counter() - start
+        import rasterio
+
+        with rasterio.open(f"{folder}/dem.tif") as dem:
+            return dem.read(1, masked=True).filled(np.nan)
+
+
 ways = [("linear", "SciPy", of_scipy)]
+if shutil.which("pdal"):
+    ground = read()
+    extent = np.concatenate([ground[:, :2].min(0), ground[:, :2].max(0)])
+    ways.append(("linear", "PDAL", of_pdal))
+else:
+    print("PDAL is not there")
 try:
     import startinpy  # noqa: F401
 
@@ -81,7 +114,7 @@ for method, name, way in ways:
         ours.append(time.perf_counter() - start)
         start = time.perf_counter()
         other = way()
-        theirs.append(time.perf_counter() - start)
+        theirs.append(getattr(way, "seconds", time.perf_counter() - start))
     both = np.isfinite(mine) & np.isfinite(other)
     apart = np.abs(mine[both] - other[both])
     a, b = statistics.median(ours), statistics.median(theirs)

@@ -90,6 +90,7 @@ $delone draw "$work/koch.poly" -o $here/koch.png --size 640
 
 # The shipped scan as a hillshade, and 60 points of a wave by triangles and by natural neighbours.
 $delone -q dtm data/autzen_trim.laz --cell 2 -o $here/shade.png
+$delone -q contours data/autzen_trim.laz --class ground --interval 5 --bands -o $here/contours.png --size 960
 $delone generate uniform -n 60 --seed 2 -o "$work/wave.csv"
 awk -F, 'NR == 1 && $1 + 0 != $1 { next } { printf "%.9f,%.9f,%.9f\n", $1, $2, 0.16 * cos(9 * $1) * cos(7 * $2) }' \
     "$work/wave.csv" > "$work/heights.csv"

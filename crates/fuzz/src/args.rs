@@ -57,6 +57,8 @@ pub(crate) enum Mode {
     Graphs,
     /// Refinement of graphs: bounds of angles and sizes, what is kept, orders of the input.
     Mesh,
+    /// Surfaces over points: interpolation, rasters, contours, thinning.
+    Surfaces,
     /// Points in tiles of plane and space: cuts, borders, joins, bytes.
     Tiles,
     /// Points with weights: building, hidden sites, changes.
@@ -111,7 +113,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 22] = [
+    pub(crate) const REAL: [Self; 23] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
@@ -119,6 +121,7 @@ impl Mode {
         Self::Cells,
         Self::Graphs,
         Self::Mesh,
+        Self::Surfaces,
         Self::Tiles,
         Self::Weights,
         Self::Alphas,

@@ -8,7 +8,7 @@ use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
     alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders, plane,
-    predicates, proximity, space, tiles, weights,
+    predicates, proximity, space, surfaces, tiles, weights,
 };
 
 /// An input of some attack.
@@ -77,6 +77,8 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::Orders, _) => made::<orders::Orders>(seed),
         (Mode::Hulls, 0) => made::<hulls::Planar>(seed),
         (Mode::Hulls, _) => made::<hulls::Spatial>(seed),
+        (Mode::Surfaces, 0) => made::<surfaces::Planar>(seed),
+        (Mode::Surfaces, _) => made::<surfaces::Spatial>(seed),
         (Mode::Tiles, 0) => made::<tiles::Planar>(seed),
         (Mode::Tiles, _) => made::<tiles::Spatial>(seed),
         (Mode::Weights, 0) => made::<weights::Planar>(seed),

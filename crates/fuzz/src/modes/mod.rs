@@ -19,5 +19,6 @@ pub(crate) mod proximity;
 pub(crate) mod queries;
 pub(crate) mod space;
 pub(crate) mod spheres;
+pub(crate) mod surfaces;
 pub(crate) mod tiles;
 pub(crate) mod weights;

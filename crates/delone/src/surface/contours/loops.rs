@@ -27,6 +27,9 @@ pub(super) fn simple(mut points: Vec<[f64; 2]>, is_closed: bool) -> Vec<Line> {
     }
     let mut parts = Vec::new();
     if has_equal(&points) {
+        if is_closed {
+            least_rotation(&mut points);
+        }
         let mut path: Vec<[f64; 2]> = Vec::new();
         let mut places = BTreeMap::new();
         for p in points {
@@ -55,6 +58,21 @@ pub(super) fn simple(mut points: Vec<[f64; 2]>, is_closed: bool) -> Vec<Line> {
     parts
 }
 
+/// Turns a ring so that it is lexicographically least: where it is taken apart must not depend on where it was begun.
+fn least_rotation(points: &mut [[f64; 2]]) {
+    let n = points.len();
+    let (mut best, mut other, mut equal) = (0, 1, 0);
+    while best < n && other < n && equal < n {
+        match order(points[(best + equal) % n], points[(other + equal) % n]) {
+            Ordering::Equal => equal += 1,
+            Ordering::Greater => (best, equal) = (best + equal + 1, 0),
+            Ordering::Less => (other, equal) = (other + equal + 1, 0),
+        }
+        other += usize::from(best == other);
+    }
+    points.rotate_left(best.min(other));
+}
+
 fn order(p: [f64; 2], q: [f64; 2]) -> Ordering {
     p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
 }
@@ -69,12 +87,39 @@ fn has_equal(points: &[[f64; 2]]) -> bool {
     keys.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// How a simple ring turns: counter-clockwise at its least corner or not; `None` where that corner is flat, so that nothing is inside
-/// but what rounding made.
+/// How a ring turns: counter-clockwise or not; `None` where nothing is inside but what rounding made. Rounding may lay sides over each
+/// other or across, so no single corner can tell: the area does, and where that is not larger than its error, what is left when flat
+/// corners are cut off, the lexicographically least first, which changes no area.
 pub(super) fn turns_left(ring: &[[f64; 2]]) -> Option<bool> {
-    let [first, second, .., last] = ring else { return None };
-    let sign = orient2d(*last, *first, *second);
-    (!sign.is_zero()).then(|| sign.is_positive())
+    let (area, error) = doubled_area(ring);
+    if area.abs() > error {
+        return Some(area > 0.0);
+    }
+    let mut rest = ring.to_vec();
+    while let [first, second, .., last] = rest[..] {
+        let sign = orient2d(last, first, second);
+        if !sign.is_zero() {
+            return Some(sign.is_positive());
+        }
+        rest.remove(0);
+        let least = (0..rest.len()).min_by(|&i, &j| order(rest[i], rest[j])).unwrap_or(0);
+        rest.rotate_left(least);
+    }
+    None
+}
+
+/// Twice the area of a ring, negative if it is clockwise, and a bound of its error; an infinite one where numbers end.
+fn doubled_area(ring: &[[f64; 2]]) -> (f64, f64) {
+    let Some(&[x, y]) = ring.first() else { return (0.0, 0.0) };
+    let (mut area, mut size) = (0.0, 0.0);
+    for pair in ring.windows(2) {
+        let [a, b] = [pair[0], pair[1]].map(|p| [p[0] - x, p[1] - y]);
+        area += a[0] * b[1] - a[1] * b[0];
+        size += (a[0] * b[1]).abs() + (a[1] * b[0]).abs();
+    }
+    // Five roundings of each product and as many as there are terms of the sum; below the smallest product nothing is sure.
+    let error = (ring.len() + 8) as f64 * (f64::EPSILON * size + f64::MIN_POSITIVE);
+    if error.is_finite() { (area, error) } else { (0.0, f64::INFINITY) }
 }
 
 /// Whether a point is inside of a ring, exactly; points on it are inside or not.
@@ -112,7 +157,7 @@ mod tests {
         assert_eq!(simple(vec![A, B, A], false), []);
         // Two rings at a point, and a line with a ring.
         let two = simple(vec![B, C, D, A, B, E, F], true);
-        assert_eq!(two, [(vec![A, B, C, D], true), (vec![B, E, F], true)]);
+        assert_eq!(two, [(vec![B, E, F], true), (vec![A, B, C, D], true)]);
         assert_eq!(simple(vec![A, B, E, F, B, C], false), [(vec![B, E, F], true), (vec![A, B, C], false)]);
         assert_eq!(simple(vec![[0.0, -0.0], B, [0.0, 0.0]], false), []);
     }

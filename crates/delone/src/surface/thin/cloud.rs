@@ -10,9 +10,14 @@ use delone_predicates::{Filter, lexicographic};
 
 use super::plane::{Plane, Worst};
 use super::{Samples, Triple};
+use crate::ids::VertexId;
+use crate::surface::linear;
 
 /// Points of a box that has no boxes.
 const LEAF: usize = 16;
+
+/// Thinner triangles have no plane that roundings leave where it is.
+const THIN: f64 = 1.0 / 1024.0;
 
 /// See the module. Points are along a curve, no two of them equal.
 #[derive(Debug)]
@@ -56,7 +61,7 @@ impl Cloud {
     /// Tells the points in a triangle with their errors, but for those in boxes whose errors are surely below the floor, which may rise.
     fn enter(&self, corners: Triple, floor: &Cell<f64>, mut each: impl FnMut(u32, f64)) {
         let c = corners.map(|s| self.points[s as usize]);
-        let Some((plane, range)) = self.plane(corners) else { return };
+        let plane = self.plane(corners);
         let around = [0, 1].map(|k| [c[0][k].min(c[1][k]).min(c[2][k]), c[0][k].max(c[1][k]).max(c[2][k])]);
         let leaves = self.boxes.len() / 2;
         let mut stack = vec![1];
@@ -68,7 +73,7 @@ impl Cloud {
             }
             let middle = both.map(|side| side[0] / 2.0 + side[1] / 2.0);
             let half = both.map(|side| side[1] / 2.0 - side[0] / 2.0);
-            if plane.most(middle, half, bound[2]) < floor.get() {
+            if plane.as_ref().is_ok_and(|(plane, _)| plane.most(middle, half, bound[2]) < floor.get()) {
                 continue;
             }
             if i < leaves {
@@ -80,22 +85,41 @@ impl Cloud {
                 let q = self.points[s];
                 let is_beyond = |k: usize| self.filter.orient2d(c[k], c[(k + 1) % 3], q).is_negative();
                 if !corners.contains(&(s as u32)) && !(0..3).any(is_beyond) {
-                    each(s as u32, self.distance(&plane, range, s));
+                    each(s as u32, self.distance(&plane, s));
                 }
             }
         }
     }
 
-    /// The plane over a triangle, and the least and the largest height of its corners.
-    fn plane(&self, corners: Triple) -> Option<(Plane, [f64; 2])> {
+    /// The plane over a triangle, and the least and the largest height of its corners; the corners themselves, lexicographically, if it
+    /// is too thin for a plane.
+    fn plane(&self, mut corners: Triple) -> Result<(Plane, [f64; 2]), Triple> {
         let z = corners.map(|s| self.heights[s as usize]);
-        let plane = Plane::new(corners.map(|s| self.points[s as usize]), z)?;
-        Some((plane, [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])]))
+        let range = [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])];
+        let plane = Plane::new(corners.map(|s| self.points[s as usize]), z, THIN);
+        plane.map(|plane| (plane, range)).ok_or_else(|| {
+            corners.sort_unstable_by(|&a, &b| lexicographic(self.point(a), self.point(b)));
+            corners
+        })
     }
 
     /// The error of a point: what is between heights stays so, however thin the triangle.
-    fn distance(&self, plane: &Plane, [low, high]: [f64; 2], sample: usize) -> f64 {
-        (self.heights[sample] - plane.at(self.points[sample]).clamp(low, high)).abs()
+    fn distance(&self, plane: &Result<(Plane, [f64; 2]), Triple>, sample: usize) -> f64 {
+        let q = self.points[sample];
+        let height = match plane {
+            Ok((plane, [low, high])) => plane.at(q).clamp(*low, *high),
+            Err(corners) => self.by_weights(corners, q),
+        };
+        (self.heights[sample] - height).abs()
+    }
+
+    /// The height over a point as a mean of the corners'.
+    #[cold]
+    fn by_weights(&self, corners: &Triple, q: [f64; 2]) -> f64 {
+        let corners = corners.map(|s| (VertexId::new(s as usize), self.point(s)));
+        let mut weights = Vec::with_capacity(3);
+        linear::weigh(q, &corners, &mut weights);
+        weights.iter().map(|&(v, share)| share * self.heights[v.index()]).sum()
     }
 }
 
@@ -135,6 +159,6 @@ impl Samples for Cloud {
     }
 
     fn error(&self, corners: Triple, sample: u32) -> f64 {
-        self.plane(corners).map_or(0.0, |(plane, range)| self.distance(&plane, range, sample as usize))
+        self.distance(&self.plane(corners), sample as usize)
     }
 }

@@ -13,6 +13,9 @@ use crate::surface::Grid;
 /// Blocks have so many columns and rows.
 const SIDE: usize = 8;
 
+/// Differences of larger heights may be beyond all numbers.
+pub(super) const HIGHEST: f64 = 1e300;
+
 /// From so many columns and rows on a triangle is looked at in blocks.
 const LARGE: i32 = 16;
 
@@ -67,7 +70,7 @@ impl<'a> Lattice<'a> {
     /// The plane over a triangle and its sides; `None` where it has no area here.
     fn triangle(&self, corners: Triple) -> Option<(Plane, Sides)> {
         let mut cells = corners.map(|s| self.cell(s));
-        let plane = Plane::new(cells.map(|c| c.map(f64::from)), corners.map(|s| self.height(s)))?;
+        let plane = Plane::new(cells.map(|c| c.map(f64::from)), corners.map(|s| self.height(s)), 0.0)?;
         cells.sort_unstable_by_key(|cell| cell[1]);
         Some((plane, Sides::of(cells)))
     }

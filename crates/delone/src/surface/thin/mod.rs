@@ -94,7 +94,7 @@ impl Thinning {
     }
 
     /// How far the height of a point may be from the triangles, in the units of heights. Errors are computed in floating point: what is
-    /// above by less than 2^-48 of the largest height is rounding, and is left.
+    /// above by less than 2^-40 of the largest height is rounding, and is left.
     #[must_use]
     pub fn max_error(self, max_error: f64) -> Self {
         Self { max_error, ..self }
@@ -187,6 +187,9 @@ impl Thinning {
         if let Some(index) = values.iter().position(|z| z.is_infinite()) {
             return Err(Error::Height { index, value: values[index] });
         }
+        if values.iter().any(|z| z.abs() > lattice::HIGHEST) {
+            return self.cells(grid, values);
+        }
         let start: Vec<u32> = corners(grid, values)?.into_iter().map(|i| i as u32).collect();
         let sides: Vec<f64> = (0..columns).map(|k| grid.x(k)).chain((0..rows).map(|k| grid.y(k))).collect();
         let [width, height] = [columns, rows].map(|n| n as f64);
@@ -196,6 +199,15 @@ impl Thinning {
         let thinned = self.thin(&samples, &start, &[], filter)?;
         let all = || (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
         Ok(thinned.unwrap_or_else(|| Thinned { vertices: all(), error: 0.0 }))
+    }
+
+    /// Thins the cells with data as points.
+    fn cells(&self, grid: &Grid, values: &[f64]) -> Result<Thinned, Error> {
+        let cells: Vec<u32> = (0..values.len() as u32).filter(|&i| !values[i as usize].is_nan()).collect();
+        let centre = |&i: &u32| grid.centre(i as usize % grid.columns(), i as usize / grid.columns());
+        let points: Vec<[f64; 2]> = cells.iter().map(centre).collect();
+        let heights: Vec<f64> = cells.iter().map(|&i| values[i as usize]).collect();
+        Ok(self.points(&points, &heights, &[])?.named(&cells))
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -2,6 +2,9 @@
 
 use std::cmp::Ordering;
 
+/// Below this, areas may have lost more than roundings.
+const TINY: f64 = 1e-280;
+
 /// The plane over a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plane {
@@ -11,9 +14,10 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// From the corners in lexicographic order, so that it does not depend on theirs; `None` without an area.
+    /// From the corners in lexicographic order, so that it does not depend on theirs; `None` if its area is not above this part of the product
+    /// of two sides, or beyond what numbers can tell: slopes would amplify roundings.
     #[inline]
-    pub(super) fn new(corners: [[f64; 2]; 3], heights: [f64; 3]) -> Option<Self> {
+    pub(super) fn new(corners: [[f64; 2]; 3], heights: [f64; 3], thinnest: f64) -> Option<Self> {
         let mut c = [(corners[0], heights[0]), (corners[1], heights[1]), (corners[2], heights[2])];
         for (i, j) in [(0, 1), (1, 2), (0, 1)] {
             if c[j].0 < c[i].0 {
@@ -24,6 +28,10 @@ impl Plane {
         let [a, b] = [[q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]];
         let (u, v) = (zq - z, zr - z);
         let area = a[0] * b[1] - a[1] * b[0];
+        let size = (a[0].abs() + a[1].abs()) * (b[0].abs() + b[1].abs());
+        if !(area.abs() > thinnest * size && area.abs() > TINY) {
+            return None;
+        }
         let slope = [(u * b[1] - v * a[1]) / area, (v * a[0] - u * b[0]) / area];
         slope.iter().all(|x| x.is_finite()).then_some(Self { origin: p, height: z, slope })
     }

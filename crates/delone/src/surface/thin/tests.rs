@@ -194,3 +194,35 @@ fn what_is_wrong_is_named() {
     assert!(matches!(thin(1.0, &z, &[[0, 4]]), Error::NoSuchPoint { segment: 0, index: 4, count: 4 }));
     assert!(matches!(thin(1.0, &z, &[[0, 3], [1, 2]]), Error::SegmentsCross { .. }));
 }
+
+/// Where slopes are beyond what numbers can tell, points are measured all the same.
+#[test]
+fn thin_triangles_hide_no_points() {
+    let sets: [&[([f64; 2], f64)]; 4] = [
+        &[
+            ([999999999.9, 1e9], -2.0),
+            ([1000000000.1, 1e9], 2.0),
+            ([1e9, 1000000000.1], -2.0),
+            ([-6.1, 5.2], 2.0),
+        ],
+        &[([-1.0, 0.0], 1.0), ([-1.0, -1e-310], 2.0), ([-2.3e-308, -1.0], -1.0), ([-1.0, -5e-324], -1.0)],
+        &[
+            ([3e-323, 2e-323], -1.0),
+            ([0.0, -4e-323], 2.0),
+            ([0.0, -1.5e-323], 0.0),
+            ([-2e-323, -2e-323], 2.0),
+        ],
+        &[([0.0, 0.0], -1e308), ([2.0, 0.0], 1e308), ([0.0, 2.0], 1e308), ([1.0, 0.5], -1e308)],
+    ];
+    for set in sets {
+        let (points, heights): (Vec<_>, Vec<_>) = set.iter().copied().unzip();
+        let thinned = Thinning::new().points(&points, &heights, &[]).expect("finite");
+        assert_eq!((thinned.vertices.len(), thinned.error), (4, 0.0), "{set:?}: {thinned:?}");
+    }
+    // The same on a raster.
+    let grid = Grid::new([0.0, 3.0], [1.0, -1.0], 3, 3).expect("a grid");
+    let mut values = [-1e308; 9];
+    values[4] = 1e308;
+    let thinned = Thinning::new().raster(&grid, &values).expect("finite");
+    assert_eq!((thinned.vertices, thinned.error), (vec![0, 2, 6, 8, 4], 0.0));
+}
