@@ -82,27 +82,41 @@ fn it_always_ends() {
 }
 
 #[test]
-#[ignore = "long: every angle, larger inputs, gaps as narrow as a rounding error"]
-fn it_always_ends_on_large_inputs() {
+#[ignore = "long: gaps as narrow as a rounding error"]
+fn it_always_ends_in_slits() {
     for gap in [1e-6, 1e-9, f64::EPSILON] {
         let (points, segments) = slit(gap);
         let mut c = Constrained2::from_parts(&points, &segments).expect("planar");
         let refined = Refinement::new().min_angle(33.0).run(&mut c).expect("an end");
         assert!(refined.report.left_for(Reason::Budget) > 0, "{gap}: {:?}", refined.report.inside);
     }
-    for (name, points, segments) in nasty() {
-        for half in 0..=68 {
-            let degrees = f64::from(half) / 2.0;
-            refine(
-                &points,
-                &segments,
-                Refinement::new(),
-                Fill::All,
-                degrees,
-                &format!("{name} at {degrees}"),
-            );
+}
+
+#[test]
+#[ignore = "long: every angle"]
+fn it_always_ends_at_whole_degrees() {
+    at_angles((0..=34).map(f64::from));
+}
+
+#[test]
+#[ignore = "long: every angle"]
+fn it_always_ends_at_half_degrees() {
+    at_angles((0..34).map(|degrees| f64::from(degrees) + 0.5));
+}
+
+fn at_angles(angles: impl Iterator<Item = f64>) {
+    let inputs = nasty();
+    for degrees in angles {
+        for (name, points, segments) in &inputs {
+            let name = format!("{name} at {degrees}");
+            refine(points, segments, Refinement::new(), Fill::All, degrees, &name);
         }
     }
+}
+
+#[test]
+#[ignore = "long: larger inputs"]
+fn it_always_ends_on_large_inputs() {
     for graph in Graph::ALL {
         let (points, segments) = graph.parts(2_000, 3);
         for degrees in [10.0, 20.0, 25.0, 30.0, 33.0, 34.0] {
