@@ -88,6 +88,10 @@ $delone draw data/great_lakes.geojson -o $here/lakes.png --size 1200
 $delone generate koch -n 768 -o "$work/koch.poly"
 $delone draw "$work/koch.poly" -o $here/koch.png --size 640
 
+# A lattice, whose every square is a tie.
+awk 'BEGIN { for (i = 0; i < 64; i++) print i % 8 "," int(i / 8) }' > "$work/lattice.csv"
+$delone draw "$work/lattice.csv" -o $here/lattice.png --size 360
+
 # The shipped scan as a hillshade, and 60 points of a wave by triangles and by natural neighbours.
 $delone -q dtm data/autzen_trim.laz --cell 2 -o $here/shade.png
 $delone -q contours data/autzen_trim.laz --class ground --interval 5 --bands -o $here/contours.png --size 960

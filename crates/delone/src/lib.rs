@@ -68,11 +68,29 @@
 //! | `mint` | | points of `mint` as input |
 //! | `geo-types` | | points and coordinates of `geo-types` as input |
 //!
-//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `section`, `labels`.
+//! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `section`, `labels`, `exactness`, `ghosts`.
 
+// The code of the README and of the book is compiled and run with that of this documentation.
 #[cfg(doctest)]
-#[doc = include_str!("../../../README.md")]
-struct Readme;
+mod book {
+    macro_rules! pages {
+        ($($page:ident: $path:literal,)*) => {
+            $(#[doc = include_str!(concat!("../../../", $path))] struct $page;)*
+        };
+    }
+
+    pages! {
+        Readme: "README.md",
+        Exactness: "docs/learn/exactness.md",
+        Canonicity: "docs/learn/canonicity.md",
+        Perturbation: "docs/learn/perturbation.md",
+        Ghosts: "docs/learn/ghosts.md",
+        Walks: "docs/learn/walks.md",
+        Meshing: "docs/howto/meshing.md",
+        Moving: "docs/howto/moving.md",
+        Constraints: "docs/howto/constraints.md",
+    }
+}
 
 mod alpha;
 mod around;
