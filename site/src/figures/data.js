@@ -1,0 +1,124 @@
+// Files of one's own: read, triangulated and drawn here; saved as GeoJSON or as a picture.
+
+import {giveUp, run} from "../background.js";
+import {lines} from "../lines.js";
+import {read} from "../readers.js";
+import {random} from "../random.js";
+import {Stage, WIDTH, colours, dots, edges, strokePath} from "../stage.js";
+
+export function data(section, tell) {
+  const canvas = section.querySelector("canvas");
+  const of = (name) => section.querySelector(`#data-${name}`);
+  const drawLines = lines(canvas);
+  let made;
+  let given;
+  let shown; // coordinates on the stage
+  const stage = new Stage(canvas, (context, colour) => {
+    if (!made) return;
+    const {scale} = stage;
+    const isMany = made.triangles.length > 30_000 && drawLines;
+    const {width, height} = canvas;
+    const size = {width, height, worldWidth: WIDTH, worldHeight: stage.height, colour: colour.delaunay};
+    drawLines?.(isMany ? made : undefined, shown, size);
+    if (!isMany) strokePath(context, edges(made, shown), colour.delaunay, {scale});
+    if (shown.length < 6000) dots(context, shown, colour.ink, 2 / scale);
+  });
+
+  /** Fits points into the stage, y up. */
+  function fit(coords) {
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (let i = 0; i < coords.length; i += 2) {
+      [x0, x1] = [Math.min(x0, coords[i]), Math.max(x1, coords[i])];
+      [y0, y1] = [Math.min(y0, coords[i + 1]), Math.max(y1, coords[i + 1])];
+    }
+    const margin = 15;
+    const size = Math.min((WIDTH - 2 * margin) / (x1 - x0 || 1), (stage.height - 2 * margin) / (y1 - y0 || 1));
+    const [dx, dy] = [(WIDTH - (x1 - x0) * size) / 2, (stage.height - (y1 - y0) * size) / 2];
+    return coords.map((x, i) => (i % 2 ? stage.height - dy - (x - y0) * size : dx + (x - x0) * size));
+  }
+
+  async function take(name, points) {
+    giveUp();
+    given = points.coords.slice();
+    const count = given.length / 2;
+    tell(`${name}: ${count.toLocaleString("en")} points, triangulating …`);
+    made = await run({task: "triangulate", coords: points.coords}, [points.coords.buffer]);
+    shown = fit(given);
+    const triangles = made.triangles.length / 3;
+    tell(
+      `${name}: ${count.toLocaleString("en")} points, ${triangles.toLocaleString("en")} triangles in ${made.ms.toFixed(0)} ms` +
+        (triangles ? "." : ": they are on a line, or too few."),
+    );
+    for (const button of ["geojson", "picture"]) of(button).disabled = !triangles;
+    stage.invalidate();
+  }
+
+  async function open(file) {
+    try {
+      tell(`Reading ${file.name} …`);
+      await take(file.name, await read(file));
+    } catch (error) {
+      if (error.message !== "cancelled") tell(`${file.name} cannot be read: ${error.message}.`, true);
+    }
+  }
+
+  of("file").addEventListener("change", () => of("file").files[0] && open(of("file").files[0]));
+  for (const kind of ["dragenter", "dragover"]) {
+    section.addEventListener(kind, (event) => {
+      event.preventDefault();
+      section.classList.add("dropping");
+    });
+  }
+  for (const kind of ["dragleave", "drop"]) section.addEventListener(kind, () => section.classList.remove("dropping"));
+  section.addEventListener("drop", (event) => {
+    event.preventDefault();
+    const [file] = event.dataTransfer.files;
+    if (file) open(file);
+    else tell("That was no file.", true);
+  });
+  // A file that misses the figure must not replace the page.
+  for (const kind of ["dragover", "drop"]) addEventListener(kind, (event) => event.preventDefault());
+
+  of("sample").addEventListener("click", () => {
+    // Towns along rivers: three random walks.
+    const next = random(77);
+    const coords = [];
+    for (let river = 0; river < 3; river++) {
+      let [x, y, turn] = [next() * 10, next() * 6, next() * 6];
+      for (let i = 0; i < 800; i++) {
+        turn += (next() - 0.5) * 0.8;
+        [x, y] = [x + Math.cos(turn) * 0.03, y + Math.sin(turn) * 0.03];
+        coords.push(x + (next() - 0.5) * 0.2, y + (next() - 0.5) * 0.2);
+      }
+    }
+    take("The sample", {coords: Float64Array.from(coords)}).catch((error) => tell(error.message, true));
+  });
+
+  function save(name, blob) {
+    const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: name});
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+  }
+  of("picture").addEventListener("click", () => {
+    const sheet = document.createElement("canvas");
+    [sheet.width, sheet.height] = [2 * WIDTH, Math.round(2 * stage.height)];
+    const context = sheet.getContext("2d");
+    const {paper, delaunay} = colours();
+    context.fillStyle = paper;
+    context.fillRect(0, 0, sheet.width, sheet.height);
+    context.scale(2, 2);
+    strokePath(context, edges(made, shown), delaunay, {scale: 2});
+    sheet.toBlob((blob) => save("triangles.png", blob));
+  });
+  of("geojson").addEventListener("click", () => {
+    const at = (i) => [given[2 * i], given[2 * i + 1]];
+    const polygons = [];
+    for (let t = 0; t < made.triangles.length; t += 3) {
+      const [a, b, c] = made.triangles.subarray(t, t + 3);
+      // The arrays have y down; GeoJSON goes counter-clockwise with y up.
+      polygons.push([[at(a), at(c), at(b), at(a)]]);
+    }
+    const object = {type: "Feature", properties: {}, geometry: {type: "MultiPolygon", coordinates: polygons}};
+    save("triangles.geojson", new Blob([JSON.stringify(object)], {type: "application/geo+json"}));
+  });
+}

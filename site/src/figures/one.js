@@ -1,0 +1,122 @@
+// A lattice by us and by delaunator, in any order, turned by any angle. What is wrong is found with integers of any length.
+
+import {Delaunator} from "delone/full";
+import {random, shuffle} from "../random.js";
+import {Stage, WIDTH, dots, strokePath} from "../stage.js";
+
+const SIDE = 10;
+
+/** A float as an integer, times a power of two that is the same for all: exact for coordinates of a page. */
+function whole(x) {
+  const view = new DataView(new ArrayBuffer(8));
+  view.setFloat64(0, x);
+  const bits = view.getBigUint64(0);
+  const exponent = (bits >> 52n) & 2047n;
+  // Below 2^-123 there are no pixels.
+  if (exponent < 900n) return 0n;
+  const mantissa = ((bits & ((1n << 52n) - 1n)) | (1n << 52n)) << (exponent - 900n);
+  return x < 0 ? -mantissa : mantissa;
+}
+
+/** The sign of the in-circle determinant of exact points, positive for d inside of the circle of a counter-clockwise triangle. */
+function inCircle(a, b, c, d) {
+  const rows = [a, b, c].map(([x, y]) => [x - d[0], y - d[1]]).map(([x, y]) => [x, y, x * x + y * y]);
+  const [p, q, r] = rows;
+  const value =
+    p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+  const area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  return value === 0n ? 0 : value > 0n === area > 0n ? 1 : -1;
+}
+
+/** Edges whose other point is inside of the circle: half-edge numbers. */
+function wrong({triangles, halfedges}, coords) {
+  const exact = Array.from({length: coords.length / 2}, (_, i) => [whole(coords[2 * i]), whole(coords[2 * i + 1])]);
+  const found = [];
+  for (let e = 0; e < triangles.length; e++) {
+    const twin = halfedges[e];
+    if (twin < e) continue;
+    const t = e - (e % 3);
+    const corners = [t, t + 1, t + 2].map((k) => exact[triangles[k]]);
+    const apex = triangles[twin - (twin % 3) + ((twin % 3) + 2) % 3];
+    if (inCircle(...corners, exact[apex]) > 0) found.push(e);
+  }
+  return found;
+}
+
+export function one(section, tell) {
+  const [mine, other] = section.querySelectorAll("canvas");
+  const turn = section.querySelector("#one-turn");
+  let order = Array.from({length: SIDE * SIDE}, (_, i) => i);
+  let serial = 1;
+  let results = [];
+  const stages = [mine, other].map(
+    (canvas, k) =>
+      new Stage(canvas, (context, colour) => {
+        const result = results[k];
+        if (!result) return;
+        const {scale} = stages[k];
+        const good = new Path2D();
+        const bad = new Path2D();
+        const {triangles, halfedges} = result.made;
+        const isBad = new Set(result.wrong);
+        for (let e = 0; e < triangles.length; e++) {
+          if (halfedges[e] > e && !isBad.has(e)) {
+            if (!isBad.has(halfedges[e])) line(good, e);
+          } else if (isBad.has(e)) line(bad, e);
+          else if (halfedges[e] < 0) line(good, e);
+        }
+        function line(path, e) {
+          const [a, b] = [triangles[e] * 2, triangles[e % 3 === 2 ? e - 2 : e + 1] * 2];
+          path.moveTo(result.coords[a], result.coords[a + 1]);
+          path.lineTo(result.coords[b], result.coords[b + 1]);
+        }
+        strokePath(context, good, colour.delaunay, {width: 1.5, scale});
+        strokePath(context, bad, colour.voronoi, {width: 3, dash: [6, 4], scale});
+        dots(context, result.coords, colour.ink, 2.5 / scale);
+      }),
+  );
+
+  function lattice() {
+    const angle = (Number(turn.value) * Math.PI) / 180;
+    const {height} = stages[0];
+    const step = height / (SIDE * 1.5);
+    const [cos, sin] = [Math.cos(angle) * step, Math.sin(angle) * step];
+    const half = (SIDE - 1) / 2;
+    return Float64Array.from(
+      order.flatMap((i) => {
+        const [x, y] = [(i % SIDE) - half, Math.floor(i / SIDE) - half];
+        return [WIDTH / 2 + x * cos - y * sin, height / 2 + x * sin + y * cos];
+      }),
+    );
+  }
+
+  function make() {
+    const coords = lattice();
+    const Rival = globalThis.Rival?.Delaunator;
+    results = [Delaunator, Rival].map((Way) => {
+      if (!Way) return undefined;
+      const made = new Way(coords);
+      return {made, coords, wrong: wrong(made, coords)};
+    });
+    section.querySelector("#one-angle").textContent = `${turn.value}°`;
+    const count = (result) => (result ? `${result.wrong.length} wrong edges` : "not loaded");
+    tell(`Delone: ${count(results[0])}. delaunator: ${count(results[1])}.`);
+    stages.forEach((stage) => stage.invalidate());
+  }
+  section.querySelector("#one-shuffle").addEventListener("click", () => {
+    order = shuffle(order, ++serial * 31 + Math.floor(random(serial)() * 1000));
+    make();
+  });
+  turn.addEventListener("input", make);
+  make();
+  // The other library when somebody comes near.
+  new IntersectionObserver(([entry], observer) => {
+    if (!entry.isIntersecting) return;
+    observer.disconnect();
+    const script = document.createElement("script");
+    script.src = "rival.js";
+    script.addEventListener("load", make);
+    script.addEventListener("error", () => tell("The other library could not be loaded; Delone's lattice is here.", true));
+    document.head.append(script);
+  }).observe(section);
+}

@@ -1,0 +1,71 @@
+// Triangles and cells, one fading into the other; relaxation; cells cut by a polygon.
+
+import {Delaunay} from "delone/full";
+import {scatter} from "../random.js";
+import {Stage, WIDTH, dots, edges, ring, strokePath} from "../stage.js";
+
+export function voronoi(section, tell) {
+  const canvas = section.querySelector("canvas");
+  const of = (name) => section.querySelector(`#voronoi-${name}`);
+  let d;
+  let coords;
+  let polygon; // as it is drawn
+  let isDrawing = false;
+
+  const stage = new Stage(canvas, (context, colour) => {
+    const {scale} = stage;
+    const share = Number(of("fade").value) / 100;
+    context.globalAlpha = 1 - share;
+    strokePath(context, edges(d, coords), colour.delaunay, {scale});
+    context.globalAlpha = share;
+    const cells = d.voronoi([0, 0, WIDTH, stage.height]);
+    if (polygon?.length > 2 && !isDrawing) {
+      try {
+        for (const rings of cells.clip([polygon])) for (const part of rings) ring(context, part, colour.voronoi, 1.5, scale);
+      } catch (error) {
+        tell(`That polygon cannot be used: ${error.message}`, true);
+      }
+    } else {
+      strokePath(context, new Path2D(cells.render() ?? ""), colour.voronoi, {dash: [6, 4], width: 1.5, scale});
+    }
+    context.globalAlpha = 1;
+    if (polygon) ring(context, polygon, colour.chosen, 2.5, scale);
+    dots(context, coords, colour.ink, 3 / scale);
+  });
+
+  function take(points) {
+    d?.dispose();
+    coords = points;
+    d = new Delaunay(coords);
+    const areas = d.voronoi([0, 0, WIDTH, stage.height]).areas();
+    const mean = areas.reduce((a, b) => a + b, 0) / areas.length;
+    const spread = Math.sqrt(areas.reduce((sum, x) => sum + (x - mean) ** 2, 0) / areas.length) / mean;
+    tell(`${areas.length} cells; their areas differ by ${(100 * spread).toFixed(0)} % (standard deviation).`);
+    stage.invalidate();
+  }
+  const begin = () => {
+    polygon = undefined;
+    take(scatter(120, stage.height, 11, 10));
+  };
+  of("fade").addEventListener("input", () => stage.invalidate());
+  of("relax").addEventListener("click", () => take(d.voronoi([0, 0, WIDTH, stage.height]).relax()));
+  of("reset").addEventListener("click", begin);
+  of("clip").addEventListener("click", () => {
+    isDrawing = !isDrawing;
+    of("clip").setAttribute("aria-pressed", String(isDrawing));
+    if (isDrawing) {
+      polygon = [];
+      tell("Tap the corners of a polygon, then press the button again.");
+    } else if (polygon.length < 3) {
+      polygon = undefined;
+      tell("A polygon needs three corners.", true);
+    }
+    stage.invalidate();
+  });
+  canvas.addEventListener("pointerdown", (event) => {
+    if (!isDrawing) return;
+    polygon.push(stage.at(event));
+    stage.invalidate();
+  });
+  begin();
+}

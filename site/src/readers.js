@@ -1,0 +1,91 @@
+// Points of files: columns of text, GeoJSON, LAS. Each gives {coords, heights?}, or throws what is wrong and where.
+
+/** Reads a file by its name and its first bytes. */
+export async function read(file) {
+  const buffer = await file.arrayBuffer();
+  const bytes = new Uint8Array(buffer);
+  if (!bytes.length) throw new Error(`${file.name} is empty`);
+  const begins = (text) => [...text].every((c, i) => bytes[i] === c.charCodeAt(0));
+  if (begins("LASF")) return las(buffer);
+  if (begins("\x89PNG") || begins("PK") || begins("\xff\xd8") || bytes.subarray(0, 2000).includes(0)) {
+    throw new Error(`${file.name} is neither text nor LAS`);
+  }
+  const text = new TextDecoder().decode(bytes);
+  return /^\s*[{[]/.test(text) ? geojson(text) : columns(text);
+}
+
+/** Columns of numbers: x, y and perhaps a height, with or without a heading. */
+export function columns(text) {
+  const coords = [];
+  const heights = [];
+  let width = 0;
+  const lines = text.split(/\r?\n/);
+  for (const [number, line] of lines.entries()) {
+    if (!line.trim() || line.startsWith("#")) continue;
+    const cells = line.trim().split(/\s*[,;\t]\s*|\s+/).map((cell) => (cell === "" ? NaN : Number(cell)));
+    if (coords.length === 0 && heights.length === 0 && cells.some(Number.isNaN)) {
+      if (width) throw new Error(`line ${number + 1}: numbers are expected, not "${line.slice(0, 40)}"`);
+      width = -1; // one heading
+      continue;
+    }
+    if (width <= 0) width = cells.length;
+    if (width < 2) throw new Error(`line ${number + 1}: two columns are needed, x and y`);
+    if (cells.length < 2 || !Number.isFinite(cells[0]) || !Number.isFinite(cells[1])) {
+      throw new Error(`line ${number + 1}: x and y are expected, not "${line.slice(0, 40)}"`);
+    }
+    coords.push(cells[0], cells[1]);
+    if (width > 2) heights.push(Number.isFinite(cells[2]) ? cells[2] : 0);
+  }
+  if (!coords.length) throw new Error("there are no points in this file");
+  return {coords: Float64Array.from(coords), heights: heights.length ? Float64Array.from(heights) : undefined};
+}
+
+/** All positions of a GeoJSON object. */
+export function geojson(text) {
+  let object;
+  try {
+    object = JSON.parse(text);
+  } catch (error) {
+    throw new Error(`this is no JSON: ${error.message}`);
+  }
+  const coords = [];
+  const visit = (item) => {
+    if (Array.isArray(item)) {
+      if (typeof item[0] === "number") {
+        if (!Number.isFinite(item[0]) || !Number.isFinite(item[1])) throw new Error(`position ${coords.length / 2} is not two numbers`);
+        coords.push(item[0], item[1]);
+      } else item.forEach(visit);
+    } else if (item && typeof item === "object") {
+      for (const key of ["features", "geometry", "geometries", "coordinates"]) if (item[key]) visit(item[key]);
+    }
+  };
+  visit(object);
+  if (!coords.length) throw new Error("there are no positions in this GeoJSON");
+  return {coords: Float64Array.from(coords)};
+}
+
+/** A LAS file that is not compressed (ASPRS LAS 1.4 R15): ground points, if there are any. */
+export function las(buffer) {
+  const view = new DataView(buffer);
+  if (buffer.byteLength < 227) throw new Error(`the LAS file ends after ${buffer.byteLength} bytes, inside of its header`);
+  const format = view.getUint8(104);
+  if (format & 128) throw new Error("this is LAZ, which is compressed: delone, the program, reads it");
+  const start = view.getUint32(96, true);
+  const length = view.getUint16(105, true);
+  let count = view.getUint32(107, true);
+  if (!count && buffer.byteLength >= 375) count = Number(view.getBigUint64(247, true));
+  if (length < 20 || start + length * count > buffer.byteLength) {
+    throw new Error(`the LAS file ends before its ${count} points do`);
+  }
+  const [scale, offset] = [131, 155].map((at) => [0, 8, 16].map((k) => view.getFloat64(at + k, true)));
+  const isNew = format >= 6;
+  const rows = Array.from({length: count}, (_, i) => start + i * length);
+  const class_of = (at) => (isNew ? view.getUint8(at + 16) : view.getUint8(at + 15) & 31);
+  const ground = rows.filter((at) => class_of(at) === 2);
+  const kept = ground.length ? ground : rows;
+  const number = (at, k) => view.getInt32(at + 4 * k, true) * scale[k] + offset[k];
+  return {
+    coords: Float64Array.from(kept.flatMap((at) => [number(at, 0), number(at, 1)])),
+    heights: Float64Array.from(kept, (at) => number(at, 2)),
+  };
+}

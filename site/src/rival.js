@@ -1,0 +1,2 @@
+// The other library of the race and of the lattice, as a global: loaded on demand.
+export {default as Delaunator} from "delaunator";
