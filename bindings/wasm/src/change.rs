@@ -1,7 +1,8 @@
-//! Points that come, go and move.
+//! Points that come, go and move, and the proof that all is right.
 
 use delone_library::{Inserted, Locate, VertexId};
 
+use crate::fault::Fault;
 use crate::planes;
 
 export! {
@@ -32,5 +33,10 @@ export! {
             triangulation.move_to(VertexId::new(vertex), [x, y])?;
             Ok(0)
         })
+    }
+
+    /// Proves that a triangulation is the canonical one.
+    fn check(plane: usize) -> i32 {
+        planes::with(plane, |plane| plane.triangulation.check().map(|()| 0).map_err(|_| Fault::FLAW))
     }
 }

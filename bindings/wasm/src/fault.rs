@@ -15,6 +15,7 @@ impl Fault {
     /// A triangulation that is gone.
     pub const DISPOSED: Self = Self { code: 1, facts: [0.0; 5] };
     /// A check that failed.
+    #[cfg(feature = "changes")]
     pub const FLAW: Self = Self { code: 2, facts: [0.0; 5] };
 
     /// Memory that there is not.

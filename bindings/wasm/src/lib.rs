@@ -14,6 +14,7 @@
 mod export;
 
 mod arrays;
+#[cfg(feature = "changes")]
 mod change;
 #[cfg(feature = "constraints")]
 mod constrained;

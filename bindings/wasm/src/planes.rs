@@ -17,6 +17,7 @@ pub struct Plane {
 
 impl Plane {
     /// Something will change.
+    #[cfg(feature = "changes")]
     pub fn changes(&mut self) -> &mut Delaunay2 {
         self.numbers = None;
         &mut self.triangulation
@@ -76,10 +77,5 @@ export! {
     fn forget(plane: usize) -> i32 {
         let old = PLANES.with_borrow_mut(|planes| planes.get_mut(plane).and_then(Option::take));
         i32::from(old.is_some())
-    }
-
-    /// Proves that a triangulation is the canonical one.
-    fn check(plane: usize) -> i32 {
-        with(plane, |plane| plane.triangulation.check().map(|()| 0).map_err(|_| Fault::FLAW))
     }
 }
