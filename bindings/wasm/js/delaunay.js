@@ -6,7 +6,7 @@
 import {absentees, checkNumber, flatCoordinates, flattened, pointX, pointY, takeOptions} from "./input.js";
 import {alongLine} from "./line.js";
 import {closed, drawn, drawPolygon} from "./path.js";
-import {Plane} from "./plane.js";
+import {Plane, planeOf} from "./plane.js";
 import {Voronoi} from "./voronoi.js";
 
 const next = (e) => (e % 3 === 2 ? e - 2 : e + 1);
@@ -150,11 +150,13 @@ export class Delaunay {
 
   /** The Voronoi diagram in a rectangle. */
   voronoi(bounds) {
-    return new Voronoi(this, this.#tell, bounds);
+    return new Voronoi(this, bounds);
   }
 
-  /** For the diagram: the triangulation behind, which only it should know. */
-  #tell = () => ({plane: this.#plane, dimension: this.#now.dimension});
+  /** For what is made of a triangulation: the one behind. */
+  get [planeOf]() {
+    return this.#plane;
+  }
 
   // Drawing.
 

@@ -42,6 +42,9 @@ function polygons(ends, coordinates) {
   });
 }
 
+/** Under this name a triangulation shows what it stands on, to the files here. */
+export const planeOf = Symbol("plane");
+
 export class Plane {
   #held;
   #given;
@@ -179,6 +182,29 @@ export class Plane {
     const found = {kind, triangle: triangle === 0xffffffff ? -1 : triangle, vertices: vertices.map((i) => this.name(i))};
     if (isTold) found.path = polygons(engine.ints(1), engine.floats(0));
     return found;
+  }
+
+  /** Values by the user's index as the module has its points. */
+  #placed(values) {
+    if (values?.length !== this.#count) {
+      throw new DeloneError("values", `${values?.length} values where there should be ${this.#count}`);
+    }
+    return this.#given ? this.#given.map((i) => values[i]) : values;
+  }
+
+  interpolate(values, queries, method, isNearest) {
+    this.engine.giveNumbers(this.#placed(values));
+    this.engine.givePoints(queries);
+    this.call("interpolate", method, isNearest);
+    return this.engine.floats(0);
+  }
+
+  contours(values, levels) {
+    this.engine.giveNumbers([...this.#placed(values), ...levels]);
+    this.call("contours", levels.length);
+    const {engine} = this;
+    const [closes, heights] = [engine.ints(1), engine.floats(1)];
+    return polygons(engine.ints(0), engine.floats(0)).map((points, k) => ({level: heights[k], isClosed: closes[k] === 1, points}));
   }
 
   /** The centres of the circles of all triangles. */

@@ -2,19 +2,18 @@
 // exactly, and only then rounded, to the same numbers from both sides of each edge. It is always that of the triangulation as it is.
 
 import {DeloneError} from "./errors.js";
+import {planeOf} from "./plane.js";
 import {closed, drawn, drawPolygon} from "./path.js";
 
 export class Voronoi {
-  #tell;
   #made = {version: -1};
 
-  /** By `delaunay.voronoi(bounds)`. */
-  constructor(delaunay, tell, [xmin, ymin, xmax, ymax] = [0, 0, 960, 500]) {
+  /** Or by `delaunay.voronoi(bounds)`. */
+  constructor(delaunay, [xmin, ymin, xmax, ymax] = [0, 0, 960, 500]) {
     const bounds = [+xmin, +ymin, +xmax, +ymax];
     if (!bounds.every(Number.isFinite) || bounds[2] < bounds[0] || bounds[3] < bounds[1]) throw new DeloneError("bounds", "invalid bounds");
     this.delaunay = delaunay;
     [this.xmin, this.ymin, this.xmax, this.ymax] = bounds;
-    this.#tell = tell;
   }
 
   /** Triangulates again, after points were changed in place. */
@@ -35,7 +34,7 @@ export class Voronoi {
   }
 
   get #plane() {
-    return this.#tell().plane;
+    return this.delaunay[planeOf];
   }
 
   /** The cells; none in bounds without area. */

@@ -93,7 +93,7 @@ export! {
 
     /// Where an array of integers is read.
     fn ints_at(k: usize) -> *const u32 {
-        with(|tray| tray.ints.get(k).map_or(std::ptr::null(), |array| array.as_ptr()))
+        with(|tray| tray.ints.get(k).map_or(std::ptr::null(), Vec::as_ptr))
     }
 
     /// How many there are.
@@ -103,7 +103,7 @@ export! {
 
     /// Where an array of numbers is read.
     fn floats_at(k: usize) -> *const f64 {
-        with(|tray| tray.floats.get(k).map_or(std::ptr::null(), |array| array.as_ptr()))
+        with(|tray| tray.floats.get(k).map_or(std::ptr::null(), Vec::as_ptr))
     }
 
     /// How many there are.
