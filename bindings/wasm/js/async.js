@@ -2,6 +2,7 @@
 
 import {DeloneError} from "./errors.js";
 import {useModule} from "./module.js";
+import {builtin, isNode} from "./node.js";
 
 export * from "./api.js";
 export {Delaunay as default} from "./delaunay.js";
@@ -29,8 +30,8 @@ async function compile(source) {
   if (ArrayBuffer.isView(source) || source instanceof ArrayBuffer) return WebAssembly.compile(source);
   if (typeof Response !== "undefined" && source instanceof Response) return WebAssembly.compile(await checked(source).arrayBuffer());
   const url = new URL(source, import.meta.url);
-  if (url.protocol === "file:" && typeof process !== "undefined") {
-    const {readFile} = await import("node:fs/promises");
+  if (url.protocol === "file:" && isNode) {
+    const {readFile} = await builtin("fs/promises");
     return WebAssembly.compile(await readFile(url));
   }
   const response = checked(await fetch(url));

@@ -33,6 +33,8 @@ const fixed = [
   codes(Array(30).fill(5)),
 ];
 
+const damaged = () => new Error("the module inside of the package is damaged");
+
 /** The bytes of a raw deflate stream that become so many. */
 export function inflate(bytes, size) {
   const out = new Uint8Array(size);
@@ -60,7 +62,7 @@ export function inflate(bytes, size) {
       first = (first + counts[size]) << 1;
       code <<= 1;
     }
-    throw new Error("the module inside of the package is damaged");
+    throw damaged();
   };
 
   const written = () => {
@@ -79,6 +81,7 @@ export function inflate(bytes, size) {
   };
 
   for (let isLast = 0; !isLast; ) {
+    if (byte > bytes.length) throw damaged();
     isLast = bits(1);
     const kind = bits(2);
     if (kind === 0) {
@@ -92,6 +95,7 @@ export function inflate(bytes, size) {
     }
     const [literal, far] = kind === 1 ? fixed : written();
     for (let s; (s = symbol(literal)) !== 256; ) {
+      if (byte > bytes.length || at > size) throw damaged();
       if (s < 256) {
         out[at++] = s;
         continue;
@@ -103,6 +107,6 @@ export function inflate(bytes, size) {
       for (let k = 0; k < count; ++k) out[at++] = out[from++];
     }
   }
-  if (at !== size) throw new Error("the module inside of the package is damaged");
+  if (at !== size) throw damaged();
   return out;
 }

@@ -1,8 +1,9 @@
 // What runs in the thread of worker.js.
 
 import {Delaunator, DeloneError} from "./index.js";
+import {builtin} from "./node.js";
 
-const port = typeof self !== "undefined" && self.postMessage ? self : (await import("node:worker_threads")).parentPort;
+const port = typeof self !== "undefined" && self.postMessage ? self : (await builtin("worker_threads")).parentPort;
 
 function work({id, coords, skipInvalid}) {
   try {

@@ -1,8 +1,7 @@
 // Triangulates off the main thread. Arrays are transferred, not copied, but for the points, which are yours.
 
 import {DeloneError} from "./errors.js";
-
-const isNode = typeof process !== "undefined" && !!process.versions?.node;
+import {builtin, isNode} from "./node.js";
 
 /** A thread that triangulates. Tasks wait for each other. */
 export class DelaunayWorker {
@@ -13,7 +12,7 @@ export class DelaunayWorker {
 
   constructor() {
     this.#thread = isNode
-      ? import("node:worker_threads").then(({Worker}) => new Worker(new URL("./worker-thread.js", import.meta.url)))
+      ? builtin("worker_threads").then(({Worker}) => new Worker(new URL("./worker-thread.js", import.meta.url)))
       : Promise.resolve(new Worker(new URL("./worker-thread.js", import.meta.url), {type: "module"}));
     this.#thread.then((thread) => {
       const hear = (event, handle) => (isNode ? thread.on(event, handle) : thread.addEventListener(event, handle));

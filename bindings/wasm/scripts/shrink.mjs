@@ -1,11 +1,15 @@
 // Makes a module smaller by binaryen, if it is installed.
 //
-// A third of what the compiler links for a panic is text: of numbers, of places in the source. Nothing shows it in a module without imports,
-// which ends in a trap either way. So the functions that format are emptied, found by their names before these are stripped, and what
-// only they used goes with them.
+// What the compiler links for a panic is text: of numbers, of places in the source. Nothing shows it in a module without imports, which
+// ends in a trap either way. So the functions that panic and those that format are emptied, found by their names before these are stripped,
+// and what only they used goes with them. (The module itself formats nothing: its faults are numbers.)
 
-/** Functions that only a panic calls: the formatting of text, and the panic itself. */
-const forPanics = /core.{0,40}3fmt|9panicking|rust_panic|begin_panic|flt2dec|unwrap_failed|expect_failed|panic_fmt|panic_bounds_check/;
+/** Functions that do not come back. */
+const panics = /9panicking|rust_panic|begin_panic|unwrap_failed|expect_failed|panic_fmt|panic_bounds_check/;
+/** Functions that format. */
+const formats = /core.{0,40}3fmt|flt2dec/;
+/** The compiler gives equal functions one body, and shorter ones may equal something that does not format. In characters of text. */
+const SHORT = 400;
 
 export async function shrink(bytes) {
   let binaryen;
@@ -23,7 +27,10 @@ export async function shrink(bytes) {
   );
   for (let k = 0; k < module.getNumFunctions(); ++k) {
     const f = module.getFunctionByIndex(k);
-    if (forPanics.test(binaryen.getFunctionInfo(f).name)) binaryen.Function(f).body = module.unreachable();
+    const {name, body} = binaryen.getFunctionInfo(f);
+    if (panics.test(name) || (formats.test(name) && binaryen.emitText(body).length > SHORT)) {
+      binaryen.Function(f).body = module.unreachable();
+    }
   }
   binaryen.setOptimizeLevel(3);
   binaryen.setShrinkLevel(0);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunay} from "delone";
-import {sets, uniform} from "./sets.mjs";
+import {sets, uniform} from "./support/sets.mjs";
 
 /** What is left of a polygon where `f` is not negative; `f` is linear. */
 function half(polygon, f) {

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunay} from "delone";
 import {Path} from "../js/path.js";
-import {ring, ringOf} from "./oracle.mjs";
+import {ring, ringOf} from "./support/oracle.mjs";
 
 const sorted = (indices) => [...indices].sort((a, b) => a - b);
 const neighbors = (v, count) => Array.from({length: count}, (_, i) => sorted(v.neighbors(i)));

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunay} from "delone";
 import {Path} from "../js/path.js";
-import {prove, ringOf, triangleSet} from "./oracle.mjs";
+import {prove, ringOf, triangleSet} from "./support/oracle.mjs";
 
 const square = [[0, 0], [1, 0], [0, 1], [1, 1]];
 const sorted = (indices) => [...indices].sort((a, b) => a - b);

@@ -5,8 +5,8 @@ import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import test from "node:test";
 import {Delaunator} from "delone";
-import {prove, triangleSet} from "./oracle.mjs";
-import {uniform} from "./sets.mjs";
+import {prove, triangleSet} from "./support/oracle.mjs";
+import {uniform} from "./support/sets.mjs";
 
 /** Integers on a map, many on lines and circles. */
 const places = Array.from(uniform(1700, 3, [600, 400]), Math.round);

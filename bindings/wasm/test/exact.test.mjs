@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunator, Delaunay} from "delone";
-import {exact, prove, squared} from "./oracle.mjs";
-import {random, sets} from "./sets.mjs";
+import {exact, prove, squared} from "./support/oracle.mjs";
+import {random, sets} from "./support/sets.mjs";
 
 /** Triangles as sorted texts of coordinates, which do not depend on indices. */
 const byPlace = (d, flat) => {

@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import {Constrained, Delaunay, DeloneError, contours, interpolate} from "delone/full";
-import {exact, prove, triangleSet, turn} from "./oracle.mjs";
-import {random, sets, uniform} from "./sets.mjs";
+import {exact, prove, triangleSet, turn} from "./support/oracle.mjs";
+import {random, sets, uniform} from "./support/sets.mjs";
 
 const fails = (code, index, work) =>
   assert.throws(work, (error) => error instanceof DeloneError && error.code === code && error.index === index || assert.fail(`${error.code} ${error.index} ${error}`));

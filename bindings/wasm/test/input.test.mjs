@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunator, Delaunay, DeloneError} from "delone";
-import {prove} from "./oracle.mjs";
-import {sets, uniform} from "./sets.mjs";
+import {prove} from "./support/oracle.mjs";
+import {sets, uniform} from "./support/sets.mjs";
 
 const fails = (code, index, work) =>
   assert.throws(work, (error) => {

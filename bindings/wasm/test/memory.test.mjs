@@ -5,8 +5,8 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunator, Delaunay, DeloneError} from "delone";
 import {currentEngine} from "../js/module.js";
-import {prove} from "./oracle.mjs";
-import {sets, uniform} from "./sets.mjs";
+import {prove} from "./support/oracle.mjs";
+import {sets, uniform} from "./support/sets.mjs";
 
 const size = () => currentEngine().exports.memory.buffer.byteLength;
 
