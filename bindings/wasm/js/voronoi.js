@@ -149,7 +149,8 @@ export class Voronoi {
 
   /** The areas of all cells; zero where there is none. */
   areas() {
-    return this.#measures.areas.slice();
+    // Zero, not minus zero.
+    return this.#measures.areas.map((area) => area + 0);
   }
 
   /** A step of Lloyd's relaxation: where all points would move, each to the centroid of its cell. Those without a cell stay. */

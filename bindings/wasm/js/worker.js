@@ -12,7 +12,7 @@ export class DelaunayWorker {
 
   constructor() {
     this.#thread = isNode
-      ? builtin("worker_threads").then(({Worker}) => new Worker(new URL("./worker-thread.js", import.meta.url)))
+      ? builtin("worker_threads").then(({Worker}) => new Worker(new URL("./worker-thread.js", import.meta.url), {execArgv: []}))
       : Promise.resolve(new Worker(new URL("./worker-thread.js", import.meta.url), {type: "module"}));
     this.#thread.then((thread) => {
       const hear = (event, handle) => (isNode ? thread.on(event, handle) : thread.addEventListener(event, handle));

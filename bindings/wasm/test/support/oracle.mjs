@@ -39,7 +39,10 @@ export function inCircle(a, b, c, d) {
 export const squared = ([ax, ay], [bx, by]) => (ax - bx) ** 2n + (ay - by) ** 2n;
 
 /** Proves arrays in the conventions of delaunator to be a Delaunay triangulation of points, of which some may be left out. */
-export function prove({triangles, halfedges, hull}, flat, isThere = () => true) {
+export function prove(arrays, flat, isThere = () => true) {
+  const {hull} = arrays;
+  // Of one or two points d3 has three numbers that are no triangle.
+  const [triangles, halfedges] = hull.length > 2 ? [arrays.triangles, arrays.halfedges] : [[], []];
   const points = exact(Array.from(flat, (x) => (Number.isFinite(x) ? x : 0)));
   const distinct = new Map();
   points.forEach((p, i) => isThere(i) && !distinct.has(String(p)) && distinct.set(String(p), i));
