@@ -65,6 +65,7 @@
 //! | feature | default | what |
 //! | --- | --- | --- |
 //! | `rayon` | yes | large sets are built on all threads of the current pool, to the same bits |
+//! | `histories` | yes | location by history; without it, in the plane, such strategies are the tree |
 //! | `mint` | | points of `mint` as input |
 //! | `geo-types` | | points and coordinates of `geo-types` as input |
 //!

@@ -9,6 +9,7 @@
 //! amortized; linear in n for an unlucky query. Nothing is ever forgotten, so nothing can be removed. Choose it to
 //! study the randomized incremental construction.
 
+#[cfg(feature = "histories")]
 use super::conflict_lists::Branch;
 use crate::ids::TriangleId;
 use crate::tally::Tally;
@@ -36,11 +37,13 @@ pub(crate) trait Observer<S> {
 
 /// For each triangle that ever was those that took its place.
 #[derive(Clone, Debug, Default)]
+#[cfg(feature = "histories")]
 pub(crate) struct History {
     /// Twice the first of them, and one more where they are three. Zero as long as it is present.
     forks: Vec<u32>,
 }
 
+#[cfg(feature = "histories")]
 impl History {
     /// What it takes.
     pub(crate) fn bytes(&self) -> usize {
@@ -75,6 +78,7 @@ impl History {
     }
 }
 
+#[cfg(feature = "histories")]
 impl<S> Observer<S> for History {
     const KEEPS: bool = true;
 

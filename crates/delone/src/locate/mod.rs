@@ -53,7 +53,8 @@ pub enum Locate {
     JumpAndWalk(JumpAndWalk),
     /// A descent through triangulations of ever larger random samples.
     Hierarchy(Hierarchy),
-    /// A descent through all triangles that ever were. Removal is an error.
+    /// A descent through all triangles that ever were. Removal is an error. This and the next two are the tree in the plane
+    /// without the feature `histories`.
     History,
     /// The same without the triangles that came and went in one insertion: those that an insertion left are searched by
     /// binary search around the new vertex. Removal is an error.

@@ -52,7 +52,12 @@ impl Delaunay2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn insert<P: Position2>(&mut self, point: P) -> Result<Inserted, Error> {
-        self.insert_finite(finite(point.xy())?, &mut ())
+        self.insert_unobserved(point.xy())
+    }
+
+    /// Compiled once, whatever is taken for a point.
+    fn insert_unobserved(&mut self, point: [f64; 2]) -> Result<Inserted, Error> {
+        self.insert_finite(finite(point)?, &mut ())
     }
 
     /// Inserts a point that is finite, and tells each step.
@@ -100,7 +105,12 @@ impl Delaunay2 {
     /// [`Error::Occupied`] if another vertex is there; otherwise those of [`Self::insert`] and [`Self::remove`].
     /// Nothing has changed then.
     pub fn move_to<P: Position2>(&mut self, v: VertexId, point: P) -> Result<(), Error> {
-        let q = finite(point.xy())?;
+        self.move_unobserved(v, point.xy())
+    }
+
+    /// Compiled once, whatever is taken for a point.
+    fn move_unobserved(&mut self, v: VertexId, point: [f64; 2]) -> Result<(), Error> {
+        let q = finite(point)?;
         let old = self.removable(v)?;
         let Found { spot, steps, start } = self.spot_to_insert(q, &mut ());
         match spot {

@@ -82,7 +82,8 @@ impl Delaunay2 {
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned
     /// beyond [`MAX_POINTS`].
     pub fn from_points<P: Position2>(points: &[P]) -> Result<Self, Error> {
-        Self::with_algorithm(points, Algorithm2::default())
+        check_count(points.len(), MAX_POINTS)?;
+        Self::divided(parallel::collect(points.len(), |i| points[i].xy()))
     }
 
     /// Triangulates points with an algorithm of choice. Errors as [`Self::from_points`], and
@@ -98,7 +99,12 @@ impl Delaunay2 {
     /// As [`Self::from_points`].
     pub fn from_vec(points: Vec<[f64; 2]>) -> Result<Self, Error> {
         check_count(points.len(), MAX_POINTS)?;
-        Self::build(points, Algorithm2::default())
+        Self::divided(points)
+    }
+
+    /// By the default algorithm alone, so that programs that know no other do not contain them.
+    fn divided(points: Vec<[f64; 2]>) -> Result<Self, Error> {
+        Ok(Self::assemble(construct::divide_and_conquer(points)?))
     }
 
     /// Triangulates points, and numbers those that differ along a curve: what is near in the plane is near in memory, so whoever
@@ -130,7 +136,7 @@ impl Delaunay2 {
             check_finite(points.iter().copied())?;
         }
         Ok(Self::assemble(match algorithm {
-            Algorithm2::DivideAndConquer => construct::divide_and_conquer(points)?,
+            Algorithm2::DivideAndConquer => return Self::divided(points),
             Algorithm2::Incremental { seed } => construct::incremental(points, seed),
             Algorithm2::ConflictLists { seed } => construct::conflict_lists(points, seed),
             Algorithm2::Located { locate, seed } => return Self::located(points, locate, seed),
@@ -139,6 +145,7 @@ impl Delaunay2 {
 
     /// Inserts points one by one in random order.
     fn located(points: Vec<[f64; 2]>, locate: Locate, seed: u64) -> Result<Self, Error> {
+        #[cfg(feature = "histories")]
         if locate == Locate::History {
             let (built, versions) = construct::history(points, seed);
             let locator = OnceLock::from(Locator::Versions(Box::new(versions)));

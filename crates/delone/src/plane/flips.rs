@@ -59,11 +59,13 @@ impl Flips {
     }
 
     /// The number of triangles, past ones and those at the dummies included.
+    #[cfg(feature = "histories")]
     pub(super) fn count(&self) -> usize {
         self.mesh.slot_count() - 1
     }
 
     /// What it takes.
+    #[cfg(feature = "histories")]
     pub(super) fn bytes(&self) -> usize {
         self.mesh.bytes() + size_of_val(&*self.points)
     }
@@ -87,6 +89,7 @@ impl Flips {
     }
 
     /// The same where also the point may be a dummy, for a that is none.
+    #[cfg(feature = "histories")]
     pub(super) fn turn(&self, a: Place, b: Place, c: Place) -> Sign {
         match (is_dummy(b), is_dummy(c)) {
             (_, false) => self.side(a, b, self.point(c)),

@@ -5,9 +5,12 @@ use std::sync::OnceLock;
 use super::Delaunay2;
 use super::layer::Layer;
 use super::layer::insert::Spot;
+#[cfg(feature = "histories")]
 use super::stars::Stars;
+#[cfg(feature = "histories")]
 use super::versions::Versions;
 use crate::ids::{EdgeId, Place};
+#[cfg(feature = "histories")]
 use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
 use crate::locate::levels::Levels;
@@ -22,8 +25,11 @@ pub(super) enum Locator {
     FromLast(FromLast),
     JumpAndWalk(JumpAndWalk),
     Hierarchy(Box<Levels<Layer>>),
+    #[cfg(feature = "histories")]
     DelaunayTree(Box<DelaunayTree<[f64; 2], 3>>),
+    #[cfg(feature = "histories")]
     Versions(Box<Versions>),
+    #[cfg(feature = "histories")]
     Stars(Box<Stars>),
 }
 
@@ -35,9 +41,15 @@ impl Locator {
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
+            #[cfg(feature = "histories")]
             Locate::DelaunayTree => Self::DelaunayTree(Box::new(DelaunayTree::build(layer))),
+            #[cfg(feature = "histories")]
             Locate::History => Self::Versions(Box::new(Versions::build(layer))),
+            #[cfg(feature = "histories")]
             Locate::Stars => Self::Stars(Box::new(Stars::build(layer))),
+            // The answers are the same.
+            #[cfg(not(feature = "histories"))]
+            Locate::History | Locate::Stars | Locate::DelaunayTree => Self::build(Locate::Tree, layer),
         }
     }
 }
@@ -49,8 +61,11 @@ macro_rules! each {
             Locator::FromLast($strategy) => $do,
             Locator::JumpAndWalk($strategy) => $do,
             Locator::Hierarchy($strategy) => $do,
+            #[cfg(feature = "histories")]
             Locator::DelaunayTree($strategy) => $do,
+            #[cfg(feature = "histories")]
             Locator::Versions($strategy) => $do,
+            #[cfg(feature = "histories")]
             Locator::Stars($strategy) => $do,
         }
     };
@@ -159,14 +174,17 @@ impl Delaunay2 {
                 footprint.levels = levels.sizes();
                 footprint.strategy = levels.bytes(Layer::bytes);
             }
+            #[cfg(feature = "histories")]
             Locator::DelaunayTree(tree) => {
                 footprint.versions = tree.count();
                 footprint.strategy = tree.bytes();
             }
+            #[cfg(feature = "histories")]
             Locator::Versions(versions) => {
                 footprint.versions = versions.count();
                 footprint.strategy = versions.bytes();
             }
+            #[cfg(feature = "histories")]
             Locator::Stars(stars) => {
                 footprint.versions = stars.count();
                 footprint.strategy = stars.bytes();

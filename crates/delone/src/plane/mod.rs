@@ -23,9 +23,11 @@ mod rectangle;
 mod refine;
 mod region;
 mod regular;
+#[cfg(feature = "histories")]
 mod stars;
 mod triangulation;
 pub mod verify;
+#[cfg(feature = "histories")]
 mod versions;
 mod voronoi;
 

@@ -56,7 +56,12 @@ impl Delaunay2 {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn nearest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
-        Ok(self.nearest_place(finite(q.xy())?, &mut ()).map(|v| self.base.mesh.name(v)))
+        self.nearest_unobserved(q.xy())
+    }
+
+    /// Compiled once, whatever is taken for a point.
+    fn nearest_unobserved(&self, q: [f64; 2]) -> Result<Option<VertexId>, Error> {
+        Ok(self.nearest_place(finite(q)?, &mut ()).map(|v| self.base.mesh.name(v)))
     }
 
     /// The vertex nearest to another one; of several at the same distance the lexicographically smallest. `None` if

@@ -113,6 +113,11 @@ impl Ask for Delaunay2 {
         Ok(place.map(|place| self.base.mesh.name(place)))
     }
 
+    // Said here again, so that it is compiled with this crate and not in each that calls it.
+    fn find(&self, q: [f64; 2]) -> Result<Found<TriangleId>, Error> {
+        self.find_observed(q, &mut ())
+    }
+
     fn k_nearest(&self, q: [f64; 2], k: usize) -> Result<Vec<VertexId>, Error> {
         self.k_nearest(q, k)
     }

@@ -14,6 +14,7 @@ use crate::locate::history::Observer;
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
 use crate::plane::flips::{DUMMIES, Flips};
+#[cfg(feature = "histories")]
 use crate::plane::versions::Versions;
 use crate::tally::Work;
 
@@ -35,6 +36,7 @@ pub(super) fn by_lists(points: &[[f64; 2]], seed: u64) -> (Mesh2, Vec<Duplicate>
 }
 
 /// Triangulates points by their history, which can be gone on with.
+#[cfg(feature = "histories")]
 pub(super) fn by_history(points: &[[f64; 2]], seed: u64) -> (Mesh2, Vec<Duplicate>, Work, Versions) {
     let mut versions = Versions::new();
     versions.flips.points.extend(points);

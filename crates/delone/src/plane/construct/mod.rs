@@ -16,6 +16,7 @@ use crate::error::Error;
 use crate::ids::Duplicate;
 use crate::locate::Locate;
 use crate::mesh::Mesh2;
+#[cfg(feature = "histories")]
 use crate::plane::versions::Versions;
 use crate::points::{check_finite, survey};
 use crate::tally::{Counters, Work};
@@ -80,6 +81,7 @@ pub(super) fn conflict_lists(points: Vec<[f64; 2]>, seed: u64) -> Built {
 }
 
 /// By history, which stays.
+#[cfg(feature = "histories")]
 pub(super) fn history(points: Vec<[f64; 2]>, seed: u64) -> (Built, Versions) {
     let (mesh, duplicates, work, versions) = by_flips::by_history(&points, seed);
     (Built { points, mesh, duplicates, counters: Counters::Incremental(work) }, versions)

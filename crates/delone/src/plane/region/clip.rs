@@ -162,10 +162,8 @@ fn join(mut chains: Vec<Ring>, half: Line, kept: &mut Vec<Ring>) {
     }
     let first = |i: usize| chains[i].first().map_or(Spot::Point([0.0; 2]), |corner| corner.spot);
     let last = |i: usize| chains[i].last().map_or(Spot::Point([0.0; 2]), |corner| corner.spot);
-    let mut ins: Vec<usize> = (0..chains.len()).collect();
-    let mut outs = ins.clone();
-    ins.sort_by(|&i, &j| half.compare(&first(i), &first(j)));
-    outs.sort_by(|&i, &j| half.compare(&last(i), &last(j)));
+    let ins = along(half, (0..chains.len()).map(first).collect());
+    let outs = along(half, (0..chains.len()).map(last).collect());
     let mut next = vec![0; chains.len()];
     for (&out, &to) in outs.iter().zip(&ins) {
         next[out] = to;
@@ -183,6 +181,13 @@ fn join(mut chains: Vec<Ring>, half: Line, kept: &mut Vec<Ring>) {
             kept.push(ring);
         }
     }
+}
+
+/// The indices of spots on a line, in their order along it.
+fn along(half: Line, spots: Vec<Spot>) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..spots.len()).collect();
+    order.sort_by(|&i, &j| half.compare(&spots[i], &spots[j]));
+    order
 }
 
 #[cfg(test)]

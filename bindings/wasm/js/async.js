@@ -1,0 +1,47 @@
+// The entry for those who count bytes: the module is a file of its own, and `init` fetches it.
+
+import {DeloneError} from "./errors.js";
+import {useModule} from "./module.js";
+import {builtin, isNode} from "./node.js";
+
+export * from "./api.js";
+export {Delaunay as default} from "./delaunay.js";
+
+let waiting;
+
+/**
+ * Makes the module ready: from an address, a response, bytes or a compiled module; by default from the file beside this one. Until then
+ * nothing can be triangulated. A second call waits for the first.
+ */
+export function init(source = new URL("../dist/delone.wasm", import.meta.url)) {
+  waiting ??= compile(source).then(
+    (module) => useModule(module),
+    (error) => {
+      waiting = undefined;
+      throw Object.assign(new DeloneError("not-ready", `the module could not be had: ${error.message}`), {cause: error});
+    },
+  );
+  return waiting;
+}
+
+async function compile(source) {
+  source = await source;
+  if (source instanceof WebAssembly.Module) return source;
+  if (ArrayBuffer.isView(source) || source instanceof ArrayBuffer) return WebAssembly.compile(source);
+  if (typeof Response !== "undefined" && source instanceof Response) return WebAssembly.compile(await checked(source).arrayBuffer());
+  const url = new URL(source, import.meta.url);
+  if (url.protocol === "file:" && isNode) {
+    const {readFile} = await builtin("fs/promises");
+    return WebAssembly.compile(await readFile(url));
+  }
+  const response = checked(await fetch(url));
+  // Servers that do not know the type cannot be streamed from.
+  return response.headers.get("Content-Type") === "application/wasm"
+    ? WebAssembly.compileStreaming(response)
+    : WebAssembly.compile(await response.arrayBuffer());
+}
+
+function checked(response) {
+  if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+  return response;
+}

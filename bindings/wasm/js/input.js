@@ -1,0 +1,98 @@
+// What users give, made into flat arrays of numbers or refused with the index of what is wrong.
+
+import {DeloneError} from "./errors.js";
+
+/** More points than this no triangulation holds. */
+const MOST = 2 ** 29;
+
+function checkLength(length, what) {
+  if (!Number.isInteger(length) || length < 0) throw new DeloneError("length", `Invalid typed array length: ${length}`);
+  if (length > MOST * what) {
+    throw new DeloneError("too-many-points", `${length / what} points are more than the ${MOST} that one triangulation holds`);
+  }
+  return length;
+}
+
+/** As a number. What is missing is not zero, which `Number` says of `null` and of empty text. */
+function number(value) {
+  if (typeof value === "number") return value;
+  if (value == null || typeof value === "symbol" || (typeof value === "string" && value.trim() === "")) return NaN;
+  return Number(value);
+}
+
+/** A flat array of coordinates, checked. What is a typed array already stays itself. */
+export function flatCoordinates(coords) {
+  if (coords == null || typeof coords !== "object") throw new DeloneError("input", "Expected coords to contain numbers: there is no array.");
+  const length = checkLength(coords.length, 2);
+  if (coords instanceof Float64Array) return coords;
+  const flat = new Float64Array(length);
+  for (let i = 0; i < length; ++i) {
+    const value = coords[i];
+    if (typeof value === "number") flat[i] = value;
+    else if (value == null) flat[i] = NaN;
+    else throw new DeloneError("not-a-number", `Expected coords to contain numbers: there is a ${typeof value} at ${i}.`, i >> 1);
+  }
+  return flat;
+}
+
+/** Points of any kind as a flat array, by functions that give their coordinates. `x` and `y` are called as d3 does. */
+export function flattened(points, x, y, that) {
+  if (points == null) throw new DeloneError("input", "there are no points");
+  if ("length" in Object(points)) {
+    const length = checkLength(points.length, 1);
+    const flat = new Float64Array(2 * length);
+    for (let i = 0; i < length; ++i) {
+      const p = points[i];
+      flat[2 * i] = number(x.call(that, p, i, points));
+      flat[2 * i + 1] = number(y.call(that, p, i, points));
+    }
+    return flat;
+  }
+  if (typeof points[Symbol.iterator] !== "function") throw new DeloneError("input", "points are an array or an iterable");
+  const flat = [];
+  let i = 0;
+  for (const p of points) {
+    flat.push(number(x.call(that, p, i, points)), number(y.call(that, p, i, points)));
+    ++i;
+  }
+  return Float64Array.from(flat);
+}
+
+/** The coordinates of `[x, y]`; what is no point has none. */
+export const pointX = (p) => (p == null ? NaN : p[0]);
+export const pointY = (p) => (p == null ? NaN : p[1]);
+
+/** Options come last, after functions that may be left out. */
+export function takeOptions(args) {
+  const last = args[args.length - 1];
+  return args.length && last !== null && typeof last === "object" && "skipInvalid" in last ? args.pop() : {};
+}
+
+/** Which points are left out: those not finite, if that is wanted, and those removed. Nothing if none is. */
+export function absentees(flat, {skipInvalid = false} = {}, removed = undefined) {
+  const count = flat.length >> 1;
+  let absent;
+  const leave = (i) => ((absent ??= new Uint8Array(count))[i] = 1);
+  if (skipInvalid) {
+    for (let i = 0; i < count; ++i) {
+      if (!Number.isFinite(flat[2 * i]) || !Number.isFinite(flat[2 * i + 1])) leave(i);
+    }
+  }
+  if (removed) for (const i of removed) leave(i);
+  return absent;
+}
+
+/** An index of a point, or an error. */
+export function checkIndex(i, count) {
+  if (!Number.isInteger(i) || i < 0 || i >= count) {
+    throw new DeloneError("no-such-point", `${String(i)} is not the index of a point: there are ${count}`);
+  }
+  return i;
+}
+
+/** A finite number, or an error. */
+export function checkNumber(value, what) {
+  const x = number(value);
+  if (!Number.isFinite(x)) throw new DeloneError("not-finite", `${what} is ${String(value)}, which is not finite`);
+  return x;
+}

@@ -1,0 +1,186 @@
+// The Voronoi diagram with the names of d3-delaunay. Cells are the engine's own: dual to the exact triangulation, cut out of the bounds
+// exactly, and only then rounded, to the same numbers from both sides of each edge. It is always that of the triangulation as it is.
+
+import {DeloneError} from "./errors.js";
+import {planeOf} from "./plane.js";
+import {closed, drawn, drawPolygon} from "./path.js";
+
+export class Voronoi {
+  #made = {version: -1};
+
+  /** Or by `delaunay.voronoi(bounds)`. */
+  constructor(delaunay, [xmin, ymin, xmax, ymax] = [0, 0, 960, 500]) {
+    const bounds = [+xmin, +ymin, +xmax, +ymax];
+    if (!bounds.every(Number.isFinite) || bounds[2] < bounds[0] || bounds[3] < bounds[1]) throw new DeloneError("bounds", "invalid bounds");
+    this.delaunay = delaunay;
+    [this.xmin, this.ymin, this.xmax, this.ymax] = bounds;
+  }
+
+  /** Triangulates again, after points were changed in place. */
+  update() {
+    this.delaunay.update();
+    return this;
+  }
+
+  get #bounds() {
+    return [this.xmin, this.ymin, this.xmax, this.ymax];
+  }
+
+  /** What was made of the triangulation as it is. */
+  get #now() {
+    const {version} = this.delaunay;
+    if (this.#made.version !== version) this.#made = {version};
+    return this.#made;
+  }
+
+  get #plane() {
+    return this.delaunay[planeOf];
+  }
+
+  /** The cells; none in bounds without area. */
+  get #cells() {
+    const now = this.#now;
+    if (now.cells) return now.cells;
+    const isFlat = this.xmin === this.xmax || this.ymin === this.ymax;
+    return (now.cells = isFlat ? {rings: [], ends: [], corners: [], vertices: []} : this.#plane.cells(this.#bounds));
+  }
+
+  /** The centres of the triangles' circles, two numbers each; infinite beyond the range of numbers. */
+  get circumcenters() {
+    return (this.#now.circumcenters ??= this.#plane.circumcentres());
+  }
+
+  /** For each point four numbers: the directions in which the first and the last edge of its cell leave, if it is on the hull. */
+  get vectors() {
+    const now = this.#now;
+    if (now.vectors) return now.vectors;
+    const {hull, points} = this.delaunay;
+    const vectors = (now.vectors = new Float64Array(2 * (points.length & -2)));
+    for (let k = 0; k < hull.length && hull.length > 1; ++k) {
+      const [p, q] = [hull[(k || hull.length) - 1], hull[k]];
+      const ray = [points[2 * p + 1] - points[2 * q + 1], points[2 * q] - points[2 * p]];
+      vectors.set(ray, 4 * p + 2);
+      vectors.set(ray, 4 * q);
+    }
+    return vectors;
+  }
+
+  /** Whether a point is in the cell of another one, its border included. Exact. */
+  contains(i, x, y) {
+    x = +x;
+    y = +y;
+    return Number.isFinite(x) && Number.isFinite(y) && this.#plane.isNearest(i, x, y);
+  }
+
+  /** The corners of a cell, without the first one repeated. */
+  #ring(i) {
+    const {rings, ends, corners, vertices} = this.#cells;
+    const place = this.#plane.place(i);
+    const ring = rings[place] - 1;
+    const first = place > 0 ? rings[place - 1] : 0;
+    if (!(ring >= first)) return [];
+    const points = [];
+    for (let k = ring ? ends[ring - 1] : 0; k < ends[ring]; ++k) {
+      const at = 2 * corners[k];
+      points.push([vertices[at], vertices[at + 1]]);
+    }
+    return points;
+  }
+
+  /** The points whose cells have an edge with that of a point inside the bounds. */
+  *neighbors(i) {
+    const sides = new Set(sidesOf(this.#ring(i), (a, b) => `${b},${a}`));
+    if (!sides.size) return;
+    for (const j of this.delaunay.neighbors(i)) {
+      if (sidesOf(this.#ring(j), (a, b) => `${a},${b}`).some((side) => sides.has(side))) yield j;
+    }
+  }
+
+  /** A cell as a closed ring; null if it is empty or there is none. */
+  cellPolygon(i) {
+    return closed(this.#ring(i));
+  }
+
+  /** The cells that are not empty, each with its `index`. */
+  *cellPolygons() {
+    const count = this.delaunay.points.length >> 1;
+    for (let i = 0; i < count; ++i) {
+      const polygon = this.cellPolygon(i);
+      if (!polygon) continue;
+      polygon.index = i;
+      yield polygon;
+    }
+  }
+
+  renderCell(i, context) {
+    const ring = this.#ring(i);
+    return ring.length ? drawn(context, (context) => drawPolygon(context, ring)) : undefined;
+  }
+
+  /** Draws the edges between cells, each once. */
+  render(context) {
+    if (this.delaunay.hull.length <= 1) return null;
+    return drawn(context, (context) => {
+      const count = this.delaunay.points.length >> 1;
+      const isOnBounds = ([x, y], [u, v]) =>
+        (x === u && (x === this.xmin || x === this.xmax)) || (y === v && (y === this.ymin || y === this.ymax));
+      for (let i = 0; i < count; ++i) {
+        const ring = this.#ring(i);
+        ring.forEach((p, k) => {
+          const q = ring[(k + 1) % ring.length];
+          // The cell beyond has the same side the other way round: one of the two directions is drawn.
+          if ((p[0] - q[0] || p[1] - q[1]) > 0 || isOnBounds(p, q)) return;
+          context.moveTo(p[0], p[1]);
+          context.lineTo(q[0], q[1]);
+        });
+      }
+    });
+  }
+
+  renderBounds(context) {
+    return drawn(context, (context) => context.rect(this.xmin, this.ymin, this.xmax - this.xmin, this.ymax - this.ymin));
+  }
+
+  // What d3 has not.
+
+  get #measures() {
+    return (this.#now.measures ??= this.#plane.measures(this.#bounds, this.delaunay.points));
+  }
+
+  /** The areas of all cells; zero where there is none. */
+  areas() {
+    // Zero, not minus zero.
+    return this.#measures.areas.map((area) => area + 0);
+  }
+
+  /** A step of Lloyd's relaxation: where all points would move, each to the centroid of its cell. Those without a cell stay. */
+  relax() {
+    const moved = this.#measures.centroids.slice();
+    const {duplicates} = this.delaunay;
+    for (let k = 0; k < duplicates.length; k += 2) {
+      moved.copyWithin(2 * duplicates[k], 2 * duplicates[k + 1], 2 * duplicates[k + 1] + 2);
+    }
+    return moved;
+  }
+
+  /** Cells clipped to a polygon of rings: for each point an array of closed rings, holes clockwise with y up. In the full module. */
+  clip(polygon) {
+    const {rings, ends, corners, vertices} = this.#plane.cellsInPolygon(polygon);
+    const plane = this.#plane;
+    return Array.from({length: this.delaunay.points.length >> 1}, (_, i) => {
+      const place = plane.place(i);
+      const found = [];
+      for (let ring = place > 0 ? rings[place - 1] : 0; ring < (rings[place] ?? 0); ++ring) {
+        const points = [];
+        for (let k = ring ? ends[ring - 1] : 0; k < ends[ring]; ++k) points.push([vertices[2 * corners[k]], vertices[2 * corners[k] + 1]]);
+        found.push(closed(points));
+      }
+      return found;
+    });
+  }
+}
+
+/** The sides of a ring, as names of their ends. */
+function sidesOf(ring, name) {
+  return ring.map((p, k) => name(p, ring[(k + 1) % ring.length]));
+}

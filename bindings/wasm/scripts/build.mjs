@@ -1,0 +1,68 @@
+// Builds the package: cargo makes the modules, binaryen makes them smaller where it is installed, and they go into dist/: as files, packed
+// into a script, and with everything else in one classic script.
+//
+//     node scripts/build.mjs            both modules
+//     node scripts/build.mjs --debug    with all assertions, not made smaller: for tests
+//     node scripts/build.mjs --check    says whether dist/ is there, and builds nothing
+
+import {spawnSync} from "node:child_process";
+import {copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync} from "node:fs";
+import {fileURLToPath} from "node:url";
+import {deflateRawSync} from "node:zlib";
+import {shrink} from "./shrink.mjs";
+
+const root = fileURLToPath(new URL("..", import.meta.url));
+const dist = `${root}dist/`;
+const isDebug = process.argv.includes("--debug");
+const products = ["delone.wasm", "inline.js", "delone-full.wasm", "inline-full.js", "delone.js"];
+
+if (process.argv.includes("--check")) {
+  const missing = products.filter((name) => !existsSync(dist + name));
+  if (missing.length) {
+    console.error(`dist/ has no ${missing.join(", ")}: npm run build`);
+    process.exit(1);
+  }
+  process.exit(0);
+}
+
+/** Builds a module with cargo, and gives its bytes. */
+function cargo(features) {
+  const args = ["build", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
+  args.push("--profile", isDebug ? "checked" : "release");
+  if (features) args.push("--features", features);
+  const built = spawnSync("cargo", args, {cwd: root, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
+  if (built.error) throw built.error;
+  if (built.status) process.exit(built.status);
+  const artifacts = built.stdout.trim().split("\n").map((line) => JSON.parse(line));
+  const [path] = artifacts.flatMap((artifact) => artifact.filenames ?? []).filter((name) => name.endsWith(".wasm"));
+  return readFileSync(path);
+}
+
+/** A module as a script: deflated, in base64. */
+function inline(bytes) {
+  const base64 = deflateRawSync(bytes, {level: 9, memLevel: 9}).toString("base64");
+  return `// Made by scripts/build.mjs.\nexport default {size: ${bytes.length}, base64: "${base64}"};\n`;
+}
+
+mkdirSync(dist, {recursive: true});
+// A package has no links.
+for (const name of ["LICENSE-MIT", "LICENSE-APACHE"]) copyFileSync(`${root}../../${name}`, root + name);
+for (const [name, features] of [["", undefined], ["-full", "full"]]) {
+  const raw = cargo(features);
+  const bytes = isDebug ? raw : await shrink(raw);
+  writeFileSync(`${dist}delone${name}.wasm`, bytes);
+  writeFileSync(`${dist}inline${name}.js`, inline(bytes));
+  console.log(`delone${name}.wasm: ${bytes.length} bytes`);
+}
+
+const {build} = await import("esbuild");
+await build({
+  entryPoints: [`${root}js/index.js`],
+  outfile: `${dist}delone.js`,
+  bundle: true,
+  minify: true,
+  format: "iife",
+  globalName: "delone",
+  target: "es2022",
+  banner: {js: "// delone: exact Delaunay triangulations. MIT OR Apache-2.0"},
+});

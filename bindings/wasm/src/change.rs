@@ -1,0 +1,42 @@
+//! Points that come, go and move, and the proof that all is right.
+
+use delone_library::{Inserted, Locate, VertexId};
+
+use crate::fault::Fault;
+use crate::planes;
+
+export! {
+    /// Inserts a point, and gives its vertex: a new one, or the one that is there.
+    fn insert(plane: usize, x: f64, y: f64) -> i32 {
+        planes::with(plane, |plane| {
+            let inserted: Inserted = plane.changes().insert([x, y])?;
+            Ok(inserted.vertex().index() as i32)
+        })
+    }
+
+    /// Removes a vertex.
+    fn remove(plane: usize, vertex: usize) -> i32 {
+        planes::with(plane, |plane| {
+            let triangulation = plane.changes();
+            // Some strategies only know how points come.
+            triangulation.set_strategy(Locate::default())?;
+            triangulation.remove(VertexId::new(vertex))?;
+            Ok(0)
+        })
+    }
+
+    /// Moves a vertex.
+    fn move_to(plane: usize, vertex: usize, x: f64, y: f64) -> i32 {
+        planes::with(plane, |plane| {
+            let triangulation = plane.changes();
+            triangulation.set_strategy(Locate::default())?;
+            triangulation.move_to(VertexId::new(vertex), [x, y])?;
+            Ok(0)
+        })
+    }
+
+    /// Proves that a triangulation is the canonical one.
+    fn check(plane: usize) -> i32 {
+        planes::with(plane, |plane| plane.triangulation.check().map(|()| 0).map_err(|_| Fault::FLAW))
+    }
+}
