@@ -7,8 +7,18 @@ const FRAGMENT = `#version 300 es
 precision mediump float; uniform vec4 colour; out vec4 shown;
 void main() { shown = colour; }`;
 
-/** A drawer of edges on a canvas of its own behind another one; `undefined` where there is no WebGL 2. */
+/** A drawer of edges on a canvas of its own behind another one; it says whether it can: without WebGL 2 it cannot. */
 export function lines(front) {
+  let draw;
+  // Begun when it is needed: a page has room for few of them.
+  return (made, coords, size) => {
+    if (draw === undefined && made) draw = begin(front) ?? null;
+    draw?.(made, coords, size);
+    return Boolean(draw);
+  };
+}
+
+function begin(front) {
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2", {antialias: true, premultipliedAlpha: true});
   if (!gl) return undefined;

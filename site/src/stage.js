@@ -52,6 +52,7 @@ export class Stage {
     if (this.#frame || !this.#visible) return;
     this.#frame = requestAnimationFrame((time) => {
       this.#frame = 0;
+      const start = performance.now();
       this.#tick?.(time);
       const {context, pixels = 1} = this;
       context.setTransform(pixels, 0, 0, pixels, 0, 0);
@@ -60,6 +61,8 @@ export class Stage {
       context.lineWidth = 1 / this.scale;
       context.lineJoin = "round";
       this.draw(context, colours());
+      /** Milliseconds of the last frame that the page itself took, without what the browser does with it. */
+      this.cost = performance.now() - start;
       if (this.#tick) this.invalidate();
     });
   }

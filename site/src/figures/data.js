@@ -16,11 +16,11 @@ export function data(section, tell) {
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
     const {scale} = stage;
-    const isMany = made.triangles.length > 30_000 && drawLines;
     const {width, height} = canvas;
     const size = {width, height, worldWidth: WIDTH, worldHeight: stage.height, colour: colour.delaunay};
-    drawLines?.(isMany ? made : undefined, shown, size);
-    if (!isMany) strokePath(context, edges(made, shown), colour.delaunay, {scale});
+    const isMany = made.triangles.length > 30_000;
+    const isDone = drawLines(isMany ? made : undefined, shown, size);
+    if (!(isMany && isDone)) strokePath(context, edges(made, shown), colour.delaunay, {scale});
     if (shown.length < 6000) dots(context, shown, colour.ink, 2 / scale);
   });
 

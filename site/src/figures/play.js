@@ -30,13 +30,13 @@ export function play(section, tell) {
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
     const scale = stage.scale;
-    const isMany = made.triangles.length / 3 > 2 * MANY && drawLines;
     const {width, height} = canvas;
-    drawLines?.(isMany && of("delaunay").checked ? made : undefined, coords, {
+    const isMany = made.triangles.length / 3 > 2 * MANY;
+    const isDone = drawLines(isMany && of("delaunay").checked ? made : undefined, coords, {
       width, height, worldWidth: WIDTH, worldHeight: stage.height, colour: colour.delaunay,
       alpha: made.triangles.length > 600_000 ? 0.35 : 0.8,
     });
-    if (of("delaunay").checked && !isMany) strokePath(context, edges(made, coords), colour.delaunay, {scale});
+    if (of("delaunay").checked && !(isMany && isDone)) strokePath(context, edges(made, coords), colour.delaunay, {scale});
     const isSmall = coords.length / 2 <= MANY;
     if (of("voronoi").checked && d) {
       const path = new Path2D(d.voronoi([0, 0, WIDTH, stage.height]).render() ?? "");
@@ -70,7 +70,7 @@ export function play(section, tell) {
     const count = coords.length / 2 - gone.size;
     const triangles = made.triangles.length / 3;
     const number = (x) => x.toLocaleString("en");
-    const rate = frames.length > 5 ? `, ${Math.round((frames.length - 1) * 1000 / (frames.at(-1) - frames[0]))} frames a second` : "";
+    const rate = frames.length > 5 ? `, ${Math.round((frames.length - 1) * 1000 / (frames.at(-1) - frames[0]))} frames a second, of which a frame takes ${stage.cost.toFixed(0)} ms here` : "";
     const what =
       count === 0 ? "No points. Tap to insert one."
       : count === 1 ? "1 point. One alone has no triangles."
