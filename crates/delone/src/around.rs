@@ -7,7 +7,7 @@
 use std::fmt::Debug;
 
 use crate::error::Error;
-use crate::ids::VertexId;
+use crate::ids::{EdgeId, VertexId};
 use crate::triangulation::{Ask, Found, Triangulation};
 
 /// A triangulation that tells what surrounds a point.
@@ -37,6 +37,29 @@ pub struct Around<T: Triangulation + ?Sized> {
     pub(crate) seen: Seen,
     /// Sides of simplices that are to be looked at.
     pub(crate) pending: Vec<(T::Simplex, usize)>,
+    /// The same in the plane, by numbers.
+    pub(crate) ring: Ring,
+}
+
+/// The neighbours of a point of the plane, numbered as they were met, and triangles between them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ring {
+    pub(crate) corners: Vec<(VertexId, [f64; 2])>,
+    /// All of them, counter-clockwise.
+    pub(crate) order: Vec<u32>,
+    /// The cavity, counter-clockwise each.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Edges that are to be looked across: as seen from beyond, and from which corner to which they go as seen from the point.
+    pub(crate) pending: Vec<(EdgeId, [u32; 2])>,
+}
+
+impl Ring {
+    fn clear(&mut self) {
+        self.corners.clear();
+        self.order.clear();
+        self.triangles.clear();
+        self.pending.clear();
+    }
 }
 
 impl<T: Triangulation + ?Sized> Default for Around<T> {
@@ -47,6 +70,7 @@ impl<T: Triangulation + ?Sized> Default for Around<T> {
             is_at_hull: false,
             seen: Seen::default(),
             pending: Vec::new(),
+            ring: Ring::default(),
         }
     }
 }
@@ -80,6 +104,7 @@ impl<T: Triangulation + ?Sized> Around<T> {
         self.cavity.clear();
         self.border.clear();
         self.pending.clear();
+        self.ring.clear();
         self.is_at_hull = false;
     }
 

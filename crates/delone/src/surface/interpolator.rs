@@ -153,8 +153,9 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         self.d
     }
 
-    /// The weights of vertices at a point: positive or zero, with the sum one; none outside. They come in the lexicographic order of the
-    /// points, and with the same bits from every triangulation of the same points.
+    /// The weights of vertices at a point: positive or zero, with the sum one; none outside. They come in an order that depends on the
+    /// points alone (natural neighbours of the plane counter-clockwise, from the lexicographically least one on; all others in
+    /// lexicographic order), and with the same bits from every triangulation of the same points.
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
@@ -182,11 +183,9 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         }
         if let Method::Natural(measure) = self.method
             && !self.around.cavity().is_empty()
+            && self.cell.weigh(self.d, &self.around, q, measure, &mut self.weights)
         {
-            self.cell.take(self.d, &self.around);
-            if self.cell.weigh(q, measure, &mut self.weights) {
-                return Ok(&self.weights);
-            }
+            return Ok(&self.weights);
         }
         self.corners.clear();
         let point = |&v: &VertexId| (v, self.d.position(v).unwrap_or_default());

@@ -21,6 +21,10 @@ pub(super) trait Real:
     fn difference(a: f64, b: f64, power: f64) -> Self;
     /// Rounded.
     fn value(self) -> f64;
+
+    fn one() -> Self {
+        Self::difference(1.0, 0.0, 1.0)
+    }
 }
 
 impl Real for f64 {

@@ -5,11 +5,12 @@
 //! large one a part of them.
 
 use std::cell::Cell;
+use std::cmp::Ordering;
 
 use delone_predicates::{Filter, lexicographic};
 
 use super::plane::{Plane, Worst};
-use super::{Samples, Triple};
+use super::{Samples, Triple, Verdict};
 use crate::ids::VertexId;
 use crate::surface::linear;
 
@@ -123,7 +124,46 @@ impl Cloud {
     }
 }
 
+/// See [`Samples::Entry`].
+#[derive(Clone, Copy)]
+pub(super) struct Entry {
+    error: f64,
+    point: [f64; 2],
+    triangle: u32,
+}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_point = || lexicographic(other.point, self.point);
+        self.error.total_cmp(&other.error).then_with(by_point).then(self.triangle.cmp(&other.triangle))
+    }
+}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Entry {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Entry {}
+
 impl Samples for Cloud {
+    type Entry = Entry;
+
+    fn entry(&self, error: f64, sample: u32, triangle: u32) -> Entry {
+        Entry { error, point: self.point(sample), triangle }
+    }
+
+    fn triangle_of(entry: &Entry) -> u32 {
+        entry.triangle
+    }
+
     fn count(&self) -> usize {
         self.points.len()
     }
@@ -153,9 +193,10 @@ impl Samples for Cloud {
         worst.sample.map(|sample| (worst.error, sample))
     }
 
-    fn all(&self, corners: Triple, each: &mut dyn FnMut(u32, f64)) {
-        self.enter(corners, &Cell::new(f64::NEG_INFINITY), &mut *each);
-        corners.into_iter().for_each(|corner| each(corner, 0.0));
+    fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict) {
+        let every = Cell::new(f64::NEG_INFINITY);
+        self.enter(corners, &every, |sample, error| verdict.take(triangle, sample, error));
+        corners.into_iter().for_each(|corner| verdict.take(triangle, corner, 0.0));
     }
 
     fn error(&self, corners: Triple, sample: u32) -> f64 {

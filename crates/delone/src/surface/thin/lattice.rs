@@ -1,13 +1,14 @@
 //! The cells of a raster, measured against planes over triangles: row by row, and over large triangles block by block, of which most
-//! are surely not worse than the worst so far.
+//! are surely not worse than the worst so far. Blocks are tilted, so that this is a matter of how rough they are, not of how steep.
 //!
 //! Cells and corners are numbers of columns and rows here, so that where a side is in a row is the same for both of its triangles, and
 //! no cell falls between them. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use super::plane::{Plane, Worst};
-use super::{Samples, Triple};
+use super::{Samples, Triple, Verdict};
 use crate::surface::Grid;
 
 /// Blocks have so many columns and rows.
@@ -15,6 +16,9 @@ const SIDE: usize = 8;
 
 /// Differences of larger heights may be beyond all numbers.
 pub(super) const HIGHEST: f64 = 1e300;
+
+/// Roundings of a bound, and of what it bounds, in parts of its terms: 2^-48.
+const ROUNDING: f64 = f64::from_bits((1023 - 48) << 52);
 
 /// From so many columns and rows on a triangle is looked at in blocks.
 const LARGE: i32 = 16;
@@ -27,33 +31,84 @@ pub(super) struct Lattice<'a> {
     /// Row by row, NaN for no data, with room between rows: those of a power of two would share places in caches.
     values: Vec<f64>,
     stride: usize,
-    /// The least and the largest value of each block.
-    ranges: Vec<[f64; 2]>,
+    blocks: Vec<Block>,
+    /// One over the number of columns.
+    over: f64,
+}
+
+/// The values of a block: so far from a plane that is tilted as they are, which is much less than they differ.
+#[derive(Clone, Copy, Debug)]
+struct Block {
+    slope: [f64; 2],
+    /// The least and the largest height in the middle of parallel planes through the cells.
+    range: [f64; 2],
+}
+
+/// From the middle of a block to its outermost cells.
+const HALF: f64 = (SIDE as f64 - 1.0) / 2.0;
+
+impl Block {
+    /// From its rows, each of so many values, and the columns from its first one on.
+    fn new(rows: &[f64], stride: usize, columns: Range<usize>) -> Self {
+        let [right, low] = [columns.len().min(SIDE) - 1, rows.len() / stride - 1];
+        let at = |column: usize, row: usize| rows[row * stride + columns.start + column];
+        let [a, b, c, d] = [at(0, 0), at(right, 0), at(0, low), at(right, low)];
+        // Any slope is right, but some have smaller ranges.
+        let slope = [((b - a) + (d - c)) / (2 * right) as f64, ((c - a) + (d - b)) / (2 * low) as f64];
+        let slope = slope.map(|s| if s.is_finite() { s } else { 0.0 });
+        let across: [f64; SIDE] = std::array::from_fn(|k| slope[0] * (k as f64 - HALF));
+        let (mut least, mut most) = ([f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]);
+        for (k, row) in rows.chunks_exact(stride).enumerate() {
+            let down = slope[1] * (k as f64 - HALF);
+            let row = row[columns.start..].iter().zip(&across);
+            for ((least, most), (&z, across)) in least.iter_mut().zip(&mut most).zip(row) {
+                let z = z - (across + down);
+                *least = if z < *least { z } else { *least };
+                *most = if z > *most { z } else { *most };
+            }
+        }
+        let range = [least.into_iter().fold(least[0], f64::min), most.into_iter().fold(most[0], f64::max)];
+        Self { slope, range }
+    }
+
+    /// A bound of its errors from a plane, with what is rounded in it.
+    #[inline]
+    fn most(&self, plane: &Plane, middle: [f64; 2]) -> f64 {
+        let (z, [low, high]) = (plane.at(middle), self.range);
+        let [[a, b], [c, d]] = [self.slope, plane.slope];
+        let span = HALF * ((a - c).abs() + (b - d).abs());
+        let size =
+            plane.size(middle) + low.abs() + high.abs() + HALF * (a.abs() + b.abs() + c.abs() + d.abs());
+        (high - z).max(z - low) + span + size * ROUNDING
+    }
 }
 
 impl<'a> Lattice<'a> {
     pub(super) fn new(grid: &'a Grid, values: &[f64]) -> Self {
         let (columns, rows) = (grid.columns(), grid.rows());
-        let across = columns.div_ceil(SIDE);
         let stride = columns.next_multiple_of(8) + 8;
-        let mut ranges = vec![[f64::INFINITY, f64::NEG_INFINITY]; across * rows.div_ceil(SIDE)];
         let mut padded = vec![f64::NAN; stride * rows];
-        let all = values.chunks_exact(columns).zip(padded.chunks_exact_mut(stride));
-        for (r, (row, to)) in all.enumerate() {
+        for (row, to) in values.chunks_exact(columns).zip(padded.chunks_exact_mut(stride)) {
             to[..columns].copy_from_slice(row);
-            for (range, part) in ranges[r / SIDE * across..].iter_mut().zip(row.chunks(SIDE)) {
-                for &z in part {
-                    range[0] = if z < range[0] { z } else { range[0] };
-                    range[1] = if z > range[1] { z } else { range[1] };
-                }
-            }
         }
-        Self { grid, columns, values: padded, stride, ranges }
+        let blocks = padded
+            .chunks(stride * SIDE)
+            .flat_map(|rows| (0..columns).step_by(SIDE).map(move |k| Block::new(rows, stride, k..columns)))
+            .collect();
+        Self { grid, columns, values: padded, stride, blocks, over: 1.0 / columns as f64 }
     }
 
+    /// The column and the row of a sample.
+    #[inline]
     fn cell(&self, sample: u32) -> [i32; 2] {
-        let columns = self.columns as u32;
-        [(sample % columns) as i32, (sample / columns) as i32]
+        // Half a cell away from where the next row begins, which is more than what is rounded.
+        let row = ((f64::from(sample) + 0.5) * self.over) as i32;
+        [(sample as i32).wrapping_sub(row.wrapping_mul(self.columns as i32)), row]
+    }
+
+    #[inline]
+    fn at(&self, [column, row]: [i32; 2]) -> f64 {
+        self.values[row as usize * self.stride + column as usize]
     }
 
     fn sample([column, row]: [i32; 2], columns: usize) -> u32 {
@@ -70,7 +125,7 @@ impl<'a> Lattice<'a> {
     /// The plane over a triangle and its sides; `None` where it has no area here.
     fn triangle(&self, corners: Triple) -> Option<(Plane, Sides)> {
         let mut cells = corners.map(|s| self.cell(s));
-        let plane = Plane::new(cells.map(|c| c.map(f64::from)), corners.map(|s| self.height(s)), 0.0)?;
+        let plane = Plane::new(cells.map(|c| c.map(f64::from)), cells.map(|c| self.at(c)), 0.0)?;
         cells.sort_unstable_by_key(|cell| cell[1]);
         Some((plane, Sides::of(cells)))
     }
@@ -88,12 +143,7 @@ impl<'a> Lattice<'a> {
         let values = self.part(row, [a, b]);
         let base = plane.row(f64::from(row));
         let error = |z: f64, x: f64| (z - (base + plane.along(x))).abs();
-        let (mut x, mut most) = (f64::from(a), -1.0);
-        for &z in values {
-            let error = error(z, x);
-            x += 1.0;
-            most = if error > most { error } else { most };
-        }
+        let most = largest(values, a, error);
         if most < worst.error {
             return;
         }
@@ -108,7 +158,6 @@ impl<'a> Lattice<'a> {
     fn by_blocks(&self, plane: &Plane, sides: &Sides, worst: &mut Worst<[i32; 2]>) {
         let side = SIDE as i32;
         let across = self.columns.div_ceil(SIDE);
-        let half = [(SIDE as f64 - 1.0) / 2.0; 2];
         let [top, bottom] = sides.rows;
         let mut spans = [[0, -1]; SIDE];
         for block_row in top / side..=bottom / side {
@@ -125,9 +174,9 @@ impl<'a> Lattice<'a> {
                 continue;
             }
             for block in low / side..=high / side {
-                let range = self.ranges[block_row as usize * across + block as usize];
-                let middle = [f64::from(block * side) + half[0], f64::from(block_row * side) + half[1]];
-                if plane.most(middle, half, range) < worst.error {
+                let cells = &self.blocks[block_row as usize * across + block as usize];
+                let middle = [f64::from(block * side) + HALF, f64::from(block_row * side) + HALF];
+                if cells.most(plane, middle) < worst.error {
                     continue;
                 }
                 for row in rows.clone() {
@@ -141,6 +190,8 @@ impl<'a> Lattice<'a> {
 }
 
 impl Samples for Lattice<'_> {
+    type Entry = u128;
+
     fn count(&self) -> usize {
         self.columns * self.grid.rows()
     }
@@ -155,8 +206,21 @@ impl Samples for Lattice<'_> {
     }
 
     fn height(&self, sample: u32) -> f64 {
+        self.at(self.cell(sample))
+    }
+
+    fn entry(&self, error: f64, sample: u32, triangle: u32) -> u128 {
         let [column, row] = self.cell(sample);
-        self.values[row as usize * self.stride + column as usize]
+        let [columns, rows] = [self.columns as u32, self.grid.rows() as u32];
+        let [forwards, upwards] = self.grid.step().map(|step| step > 0.0);
+        let column = if forwards { column as u32 } else { columns - 1 - column as u32 };
+        let row = if upwards { row as u32 } else { rows - 1 - row as u32 };
+        // Errors are positive, so their bits have their order.
+        u128::from(error.to_bits()) << 64 | u128::from(!(column * rows + row)) << 32 | u128::from(triangle)
+    }
+
+    fn triangle_of(entry: &u128) -> u32 {
+        *entry as u32
     }
 
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {
@@ -173,15 +237,25 @@ impl Samples for Lattice<'_> {
         worst.sample.map(|cell| (worst.error, Self::sample(cell, self.columns)))
     }
 
-    fn all(&self, corners: Triple, each: &mut dyn FnMut(u32, f64)) {
+    fn judge(&self, corners: Triple, t: u32, verdict: &mut Verdict) {
         let Some((plane, sides)) = self.triangle(corners) else { return };
         for row in sides.rows[0]..=sides.rows[1] {
             let span = sides.span(row);
+            let values = self.part(row, span);
+            let first = Self::sample([span[0], row], self.columns) as usize;
+            if values.is_empty() {
+                continue;
+            }
             let base = plane.row(f64::from(row));
-            for (column, z) in (span[0]..).zip(self.part(row, span)) {
-                if !z.is_nan() {
-                    let error = (z - (base + plane.along(f64::from(column)))).abs();
-                    each(Self::sample([column, row], self.columns), error);
+            let error = |z: f64, x: f64| (z - (base + plane.along(x))).abs();
+            verdict.seen[first..first + values.len()].fill(true);
+            let most = largest(values, span[0], error);
+            verdict.largest = verdict.largest.max(most);
+            if most > verdict.allowed {
+                for ((column, sample), &z) in (span[0]..).zip(first as u32..).zip(values) {
+                    if error(z, f64::from(column)) > verdict.allowed {
+                        verdict.missed.push((t, sample));
+                    }
                 }
             }
         }
@@ -191,6 +265,24 @@ impl Samples for Lattice<'_> {
         let place = self.cell(sample).map(f64::from);
         self.triangle(corners).map_or(0.0, |(plane, _)| (self.height(sample) - plane.at(place)).abs())
     }
+}
+
+/// The largest error of the values of a row, from a column on; several at once. -1 if there are none.
+#[inline]
+fn largest(values: &[f64], first: i32, error: impl Fn(f64, f64) -> f64) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let mut x = [0.0, 1.0, 2.0, 3.0].map(|k| f64::from(first) + k);
+    let mut most = [-1.0; 4];
+    let chunks = values.chunks_exact(4);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for k in 0..4 {
+            most[k] = larger(error(chunk[k], x[k]), most[k]);
+            x[k] += 4.0;
+        }
+    }
+    let most = larger(larger(most[0], most[1]), larger(most[2], most[3]));
+    rest.iter().zip(x).fold(most, |most, (&z, x)| larger(error(z, x), most))
 }
 
 /// The sides of a triangle by rows.

@@ -36,6 +36,12 @@ type Triple = [u32; 3];
 
 /// Points with heights that are chosen from, by number.
 trait Samples {
+    /// The worst sample of a triangle, as what is sorted: by its error, of equal ones the lexicographically least sample last.
+    type Entry: Copy + Ord;
+    /// The entry of a sample with a positive error in a triangle.
+    fn entry(&self, error: f64, sample: u32, triangle: u32) -> Self::Entry;
+    /// Its triangle.
+    fn triangle_of(entry: &Self::Entry) -> u32;
     /// The numbers are below this one.
     fn count(&self) -> usize;
     /// Whether there is a sample of a number.
@@ -46,10 +52,31 @@ trait Samples {
     fn height(&self, sample: u32) -> f64;
     /// The sample in a triangle that is furthest from its plane, if it is as far as a floor; of several the lexicographically least.
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)>;
-    /// Tells every sample in a triangle, with its error.
-    fn all(&self, corners: Triple, each: &mut dyn FnMut(u32, f64));
+    /// Measures every sample in a triangle.
+    fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict);
     /// The error of a sample in a triangle.
     fn error(&self, corners: Triple, sample: u32) -> f64;
+}
+
+/// What was found when all samples were measured once more.
+struct Verdict {
+    allowed: f64,
+    /// The largest error so far.
+    largest: f64,
+    /// Which samples were in a triangle.
+    seen: Vec<bool>,
+    /// Samples that are further away than allowed, after a triangle that each is in.
+    missed: Vec<(u32, u32)>,
+}
+
+impl Verdict {
+    fn take(&mut self, triangle: u32, sample: u32, error: f64) {
+        self.seen[sample as usize] = true;
+        self.largest = if error > self.largest { error } else { self.largest };
+        if error > self.allowed {
+            self.missed.push((triangle, sample));
+        }
+    }
 }
 
 /// How far thinning goes.

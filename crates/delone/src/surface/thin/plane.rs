@@ -10,7 +10,7 @@ const TINY: f64 = 1e-280;
 pub(super) struct Plane {
     origin: [f64; 2],
     height: f64,
-    slope: [f64; 2],
+    pub(super) slope: [f64; 2],
 }
 
 impl Plane {
@@ -52,6 +52,12 @@ impl Plane {
     #[inline]
     pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
         self.row(y) + self.along(x)
+    }
+
+    /// The sum of the sizes of what a height is made of.
+    #[inline]
+    pub(super) fn size(&self, [x, y]: [f64; 2]) -> f64 {
+        self.height.abs() + self.along(x).abs() + (self.slope[1] * (y - self.origin[1])).abs()
     }
 
     /// A bound of the error of heights in a range, in a box: its middle, and half of its sides.

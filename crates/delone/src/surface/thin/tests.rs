@@ -3,7 +3,8 @@
 use delone_generators::{Kind, Random};
 use delone_predicates::lexicographic;
 
-use super::{Thinned, Thinning};
+use super::lattice::Lattice;
+use super::{Samples, Thinned, Thinning, Verdict};
 use crate::surface::Grid;
 use crate::{Constrained2, Delaunay2, Error, VertexId};
 
@@ -161,6 +162,54 @@ fn rasters_are_thinned_as_points() {
                 let (a, b) = (points.vertices.len() as f64, left.len() as f64);
                 assert!((a - b).abs() <= 0.05 * a + 4.0, "{a} points, {b} cells");
             }
+        }
+    }
+}
+
+/// Blocks that are left out hold no worse cell, and no equally bad one that comes first.
+#[test]
+fn blocks_hide_nothing() {
+    let mut random = Random::new(4);
+    let (columns, rows) = (61, 45);
+    for round in 0..6 {
+        let step = [[0.5, -0.5], [-0.5, 0.25]][round % 2];
+        let grid = Grid::new([3.0, 7.0], step, columns, rows).expect("a raster");
+        // Steep and smooth, in steps so that many errors are equal, rough, and with holes.
+        let height = |i: usize, random: &mut Random| {
+            let (x, y) = ((i % columns) as f64, (i / columns) as f64);
+            match round {
+                0 | 1 => 40.0 * x - 30.0 * y + 0.01 * x * y,
+                2 | 3 => (x / 5.0).floor() + (y / 7.0).floor(),
+                _ if random.below(9) == 0 => f64::NAN,
+                _ => random.between(-3.0, 3.0) + 5.0 * x,
+            }
+        };
+        let z: Vec<f64> = (0..columns * rows).map(|i| height(i, &mut random)).collect();
+        let samples = Lattice::new(&grid, &z);
+        for _ in 0..400 {
+            let corners = [0; 3].map(|_| random.below(z.len()) as u32);
+            if corners.iter().any(|&s| !samples.is_there(s)) {
+                continue;
+            }
+            let mut verdict = Verdict {
+                allowed: f64::INFINITY,
+                largest: 0.0,
+                seen: vec![false; z.len()],
+                missed: Vec::new(),
+            };
+            samples.judge(corners, 0, &mut verdict);
+            let floor = [0.0, verdict.largest / 2.0, verdict.largest][random.below(3)];
+            let inside = (0..z.len() as u32).filter(|&s| verdict.seen[s as usize] && samples.is_there(s));
+            let worst = inside
+                .map(|s| (samples.error(corners, s), s))
+                .filter(|worst| worst.0 > floor)
+                .max_by(|a, b| {
+                    let by_point = lexicographic(samples.point(b.1), samples.point(a.1));
+                    a.0.total_cmp(&b.0).then(by_point)
+                });
+            let found = samples.worst(corners, floor);
+            assert_eq!(found, worst, "{round} {corners:?}");
+            assert_eq!(worst.map_or(floor, |worst| worst.0), floor.max(verdict.largest));
         }
     }
 }
