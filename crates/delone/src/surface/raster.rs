@@ -9,7 +9,6 @@
 //! Cost: O(1) for each triangle, each row that meets it and each cell in it: a few nanoseconds. Where a row meets an edge is computed with a
 //! bound of its error; predicates are asked where a centre is nearer than that.
 
-use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use delone_predicates::orient2d;
@@ -41,9 +40,6 @@ pub struct Raster {
     cells: Vec<AtomicU64>,
 }
 
-/// So many centres in the box around a triangle are asked for first, whether any is in it: most triangles of fine triangulations have none.
-const FEW: usize = 4;
-
 /// No data.
 const NOTHING: u64 = f64::NAN.to_bits();
 
@@ -69,27 +65,15 @@ impl Raster {
     pub fn paint(&self, corners: [[f64; 2]; 3], values: [f64; 3]) {
         let [a, b, c] = corners;
         let (low, high) = (a[1].min(b[1]).min(c[1]), a[1].max(b[1]).max(c[1]));
-        let rows = self.ys.few_between(low, high);
-        if rows.is_empty() {
+        let first = self.ys.first_from(low);
+        if self.ys.is_beyond(first, high) {
             return;
         }
         let (west, east) = (a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]));
-        let columns = self.xs.few_between(west, east);
-        if rows.len() * columns.len() <= FEW && self.misses(columns, rows.clone(), corners) {
+        if self.xs.is_beyond(self.xs.first_from(west), east) {
             return;
         }
-        self.scan(rows.start, corners, values);
-    }
-
-    /// Whether none of some centres is in a triangle.
-    #[inline]
-    fn misses(&self, columns: Range<usize>, rows: Range<usize>, [a, b, c]: [[f64; 2]; 3]) -> bool {
-        let is_outside =
-            |q| [[a, b], [b, c], [c, a]].iter().any(|side| orient2d(side[0], side[1], q).is_negative());
-        rows.into_iter().all(|row| {
-            let y = self.ys.places[row];
-            columns.clone().all(|column| is_outside([self.xs.places[column], y]))
-        })
+        self.scan(first, corners, values);
     }
 
     /// The values, row by row, as the grid has them; NaN where there are none.
@@ -189,15 +173,6 @@ impl Axis {
             k += 1;
         }
         k
-    }
-
-    /// The places from a number to another one, but for those beyond the first [`FEW`] and one more.
-    #[inline]
-    fn few_between(&self, least: f64, most: f64) -> Range<usize> {
-        let first = self.first_from(least);
-        let from_first = &self.places[first..];
-        let count = from_first.iter().take(FEW + 1).position(|&x| x > most);
-        first..first + count.unwrap_or(from_first.len().min(FEW + 1))
     }
 
     /// Whether there is no such place up to a number.
