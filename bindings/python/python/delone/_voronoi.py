@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -79,11 +80,29 @@ class Voronoi:
         self.furthest_site = tri.furthest_site
         centres = tri._centres() if tri.ndim == 2 else _circumcentres(tri.points[np.sort(tri.simplices, axis=1)])
         self.vertices, which = _distinct(centres)
-        self.ridge_points, self.ridge_vertices = _ridges(tri, which)
-        self.regions, self.point_region = _regions(tri, self.ridge_points, self.ridge_vertices)
-        if self._has_empty:
-            self.regions.insert(0, [])
-            self.point_region[self.point_region >= 0] += 1
+        self.ridge_points, self._ridge_ends, self._ridge_starts = _ridges(tri, which)
+        # Lists are made when they are asked for: they cost more than all the rest.
+        for lists in ("ridge_vertices", "regions"):
+            self.__dict__.pop(lists, None)
+        self.point_region = np.arange(tri.npoints, dtype=np.int64) + self._has_empty
+        twins = tri.duplicates
+        self.point_region[twins[:, 0]] = twins[:, 1] + self._has_empty
+        if tri.furthest_site:
+            self.point_region[[not self.regions[r] for r in self.point_region]] = -1
+
+    @cached_property
+    def ridge_vertices(self) -> list[list[int]]:
+        """The vertices of each ridge."""
+        flat: list[Any] = self._ridge_ends.tolist()
+        if self._ridge_starts is None:
+            return flat
+        return [flat[a:b] for a, b in pairwise(self._ridge_starts.tolist())]
+
+    @cached_property
+    def regions(self) -> list[list[int]]:
+        """The vertices of each region."""
+        regions = _regions(self._tri, self.ridge_points, self._ridge_ends, self._ridge_starts)
+        return [[], *regions] if self._has_empty else regions
 
     @property
     def triangulation(self) -> Delaunay:
@@ -93,7 +112,7 @@ class Voronoi:
     @property
     def ridge_dict(self) -> dict[tuple[int, int], list[int]]:
         """Vertices of ridges by pairs of points."""
-        return {(int(p), int(q)): v for (p, q), v in zip(self.ridge_points, self.ridge_vertices, strict=True)}
+        return {(p, q): v for (p, q), v in zip(self.ridge_points.tolist(), self.ridge_vertices, strict=True)}
 
     def cells(self, region: ArrayLike | Sequence[ArrayLike] | None = None) -> list[list[NDArray[np.float64]]]:
         """The cells of all points of the plane, clipped: for each point the rings of its cell, counter-clockwise, holes
@@ -172,11 +191,11 @@ def _circumcentres(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(corners[:, 0] + offsets)
 
 
-def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], list[list[int]]]:
-    """Pairs of points, and the vertices between them."""
+def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64] | None]:
+    """Pairs of points, and the vertices between them: in the plane two in a row, in space all in one, with where each begins."""
     simplices, neighbors, ndim = tri.simplices, tri.neighbors, tri.ndim
     if not len(simplices):
-        return np.empty((0, 2), dtype=np.int32), []
+        return np.empty((0, 2), dtype=np.int32), np.empty((0, 2), dtype=np.int64), None
     vertex_of = np.concatenate([which, [-1]])
     if ndim == 2:
         # An edge is across from a corner; from the smaller of its two triangles.
@@ -186,47 +205,38 @@ def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], 
         vertices = np.stack([vertex_of[np.where(beyond < 0, -1, beyond)], vertex_of[rows]], axis=1)
         # Cocircular points: both sides are one vertex, and there is no ridge.
         real = vertices[:, 0] != vertices[:, 1]
-        return np.ascontiguousarray(pairs[real]), vertices[real].tolist()
+        return np.ascontiguousarray(pairs[real]), vertices[real], None
     pairs, starts, around = _delone.ridges(simplices, neighbors, which.astype(np.int64))
-    flat = around.tolist()
-    return pairs, [flat[a:b] for a, b in pairwise(starts.tolist())]
+    return pairs, around, starts
 
 
 def _regions(
-    tri: Delaunay, ridge_points: NDArray[np.int32], ridge_vertices: list[list[int]]
-) -> tuple[list[list[int]], NDArray[np.int64]]:
-    """Vertices of regions, and the region of each point."""
+    tri: Delaunay, ridge_points: NDArray[np.int32], ridge_ends: NDArray[np.int64], ridge_starts: NDArray[np.int64] | None
+) -> list[list[int]]:
+    """The vertices of the region of each point; none for duplicates."""
     regions: list[list[int]] = [[] for _ in range(tri.npoints)]
-    if tri.ndim == 3 and ridge_vertices:
-        lengths = [len(vertices) for vertices in ridge_vertices]
-        flat = np.array([v for vertices in ridge_vertices for v in vertices])
-        sites = np.repeat(ridge_points, lengths, axis=0).T.ravel()
+    if ridge_starts is not None and len(ridge_points):
+        sites = np.repeat(ridge_points, np.diff(ridge_starts), axis=0).T.ravel()
         # Pairs as one number, which sorts faster; infinity is -1.
-        most = int(flat.max()) + 2
-        both = np.sort(sites.astype(np.int64) * most + np.tile(flat + 1, 2))
+        most = int(ridge_ends.max()) + 2
+        both = np.sort(sites.astype(np.int64) * most + np.tile(ridge_ends + 1, 2))
         both = both[np.r_[True, both[1:] != both[:-1]]]
         ends = np.searchsorted(both // most, np.arange(tri.npoints + 1)).tolist()
         found = (both % most - 1).tolist()
-        regions = [found[a:b] for a, b in pairwise(ends)]
-    elif tri.ndim == 2:
-        # Each ridge from the one side and from the other; then end to end.
-        follow: list[dict[int, int]] = [{} for _ in range(tri.npoints)]
-        for (p, q), (a, b) in zip(ridge_points.tolist(), ridge_vertices, strict=True):
-            follow[p][a] = b
-            follow[q][b] = a
-        for p, after in enumerate(follow):
-            if after:
-                first = -1 if -1 in after else next(iter(after))
-                ring, v = [first], after[first]
-                while v != first and v in after:
-                    ring.append(v)
-                    v = after[v]
-                if v != first:
-                    ring.append(v)
-                regions[p] = ring
-    point_region = np.arange(tri.npoints, dtype=np.int64)
-    twins = tri.duplicates
-    point_region[twins[:, 0]] = twins[:, 1]
-    if tri.furthest_site:
-        point_region[[not regions[r] for r in point_region]] = -1
-    return regions, point_region
+        return [found[a:b] for a, b in pairwise(ends)]
+    # Each ridge from the one side and from the other; then end to end.
+    follow: list[dict[int, int]] = [{} for _ in range(tri.npoints)]
+    for (p, q), (a, b) in zip(ridge_points.tolist(), ridge_ends.tolist(), strict=True):
+        follow[p][a] = b
+        follow[q][b] = a
+    for p, after in enumerate(follow):
+        if after:
+            first = -1 if -1 in after else next(iter(after))
+            ring, v = [first], after[first]
+            while v != first and v in after:
+                ring.append(v)
+                v = after[v]
+            if v != first:
+                ring.append(v)
+            regions[p] = ring
+    return regions
