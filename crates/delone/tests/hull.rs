@@ -80,7 +80,7 @@ fn hulls_are_convex_closed_and_hold_everything() {
         // Euler's relation, of triangles and of faces.
         let corners = hull.corners().len();
         assert_eq!(corners + facets.len(), edges.len() / 2 + 2, "{name}");
-        let sides: usize = hull.faces().iter().map(Vec::len).sum();
+        let sides: usize = hull.faces().map(<[usize]>::len).sum();
         assert_eq!(corners + hull.faces().len(), sides / 2 + 2, "{name}");
         // Corners are extreme: each is strictly outside of the hull of the others.
         for &v in hull.corners().iter().take(12) {
@@ -101,8 +101,8 @@ fn one_set_has_one_hull() {
     for (name, points) in sets() {
         let shape = |points: &[[f64; 3]]| {
             let hull = Hull3::from_points(points).expect("finite");
-            let of = |face: &Vec<usize>| face.iter().map(|&i| points[i].map(|x| x + 0.0)).collect::<Vec<_>>();
-            let mut faces: Vec<_> = hull.faces().iter().map(of).collect();
+            let of = |face: &[usize]| face.iter().map(|&i| points[i].map(|x| x + 0.0)).collect::<Vec<_>>();
+            let mut faces: Vec<_> = hull.faces().map(of).collect();
             faces.sort_by(|a, b| a.partial_cmp(b).expect("finite"));
             (hull.dimension(), hull.corners().len(), faces)
         };
@@ -148,7 +148,7 @@ fn large_hulls_are_the_same_by_all_algorithms() {
         let created = counters.work().expect("counted").created;
         assert!(round == 5 || created >= 3 * hull.corners().len() as u64 - 8, "round {round}: {created}");
         assert_eq!(hull.dimension(), Dimension::Space);
-        let edges = hull.faces().iter().map(Vec::len).sum::<usize>() / 2;
+        let edges = hull.faces().map(<[usize]>::len).sum::<usize>() / 2;
         assert_eq!(hull.corners().len() + hull.faces().len(), edges + 2, "round {round}");
     }
 }
@@ -181,7 +181,7 @@ fn the_lower_hull_of_the_lifted_points_is_the_delaunay_triangulation() {
         assert_eq!(hull.lower(&lifted).count(), d.triangles().count(), "{kind:?}");
         // Sites on one circle are one face; every triangle is in one.
         let mut of_corner = vec![Vec::new(); points.len()];
-        for (f, face) in hull.faces().iter().enumerate() {
+        for (f, face) in hull.faces().enumerate() {
             face.iter().for_each(|&v| of_corner[v].push(f));
         }
         for triangle in d.triangles() {

@@ -22,7 +22,7 @@ impl Solid {
     /// A convex hull of points, with its corners alone, by increasing index in the input.
     pub fn of_hull(hull: &Hull3, points: &[[f64; 3]]) -> Self {
         let place = |i: &usize| hull.corners().partition_point(|corner| corner < i);
-        let faces = hull.faces().iter().filter(|_| hull.dimension() == Dimension::Space);
+        let faces = hull.faces().filter(|_| hull.dimension() == Dimension::Space);
         Self {
             points: hull.corners().iter().map(|&i| points[i]).collect(),
             faces: faces.map(|face| face.iter().map(place).collect()).collect(),

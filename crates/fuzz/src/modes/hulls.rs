@@ -180,7 +180,7 @@ fn contains_any(points: &[[f64; 3]], q: [f64; 3]) -> bool {
 fn judge_hull(points: &[[f64; 3]], hull: &Hull3) -> Judgement {
     if points.is_empty() {
         let empty =
-            hull.dimension() == Dimension::Empty && hull.corners().is_empty() && hull.faces().is_empty();
+            hull.dimension() == Dimension::Empty && hull.corners().is_empty() && hull.faces().len() == 0;
         return if empty { Ok(()) } else { Err(format!("{hull:?}")) };
     }
     let (span, expected) = faces(points);
@@ -194,7 +194,8 @@ fn judge_hull(points: &[[f64; 3]], hull: &Hull3) -> Judgement {
     if found_span != span {
         return Err(format!("spans {found_span} instead of {span}"));
     }
-    let mut found = if span < 2 { vec![hull.corners().to_vec()] } else { hull.faces().to_vec() };
+    let mut found =
+        if span < 2 { vec![hull.corners().to_vec()] } else { hull.faces().map(<[usize]>::to_vec).collect() };
     // A line may be read from either end, a flat face seen from either side.
     if let (0..3, [face]) = (span, &mut found[..])
         && [face.clone()] != expected[..]

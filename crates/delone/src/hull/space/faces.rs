@@ -1,72 +1,143 @@
 //! Flat faces from the triangles of a shell: coplanar neighbours joined, corners in the middle of sides left out.
+//!
+//! Cost: O(f) exact orientations for f triangles; O(f log f) for their order. Faces are rows of one array: most are triangles, and a list
+//! for each would cost more than finding them.
 
 use delone_predicates::{are_collinear3, lexicographic3, orient3d};
 
 use super::shell::{Facet, NONE, Shell};
 
-/// Flat faces from triangles.
-pub(super) struct Faces<'a> {
+/// Faces as rows of corners.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Faces {
+    pub(super) corners: Vec<usize>,
+    /// Where each begins, and where the last one ends.
+    starts: Vec<usize>,
+}
+
+impl Faces {
+    /// No faces.
+    pub(super) fn none() -> Self {
+        Self { corners: Vec::new(), starts: vec![0] }
+    }
+
+    /// One face.
+    pub(super) fn one(corners: Vec<usize>) -> Self {
+        Self { starts: vec![0, corners.len()], corners }
+    }
+
+    /// Those of a shell, sorted, with other names of points.
+    pub(super) fn of(shell: &Shell, name: impl Fn(usize) -> usize) -> Self {
+        let Shell { points, facets, .. } = shell;
+        let mut joiner = Joiner {
+            points,
+            facets,
+            face: vec![NONE; facets.len()],
+            members: Vec::new(),
+            border: Vec::new(),
+        };
+        let mut faces = Self::none();
+        for (f, facet) in facets.iter().enumerate() {
+            if facet.alive && joiner.face[f] == NONE {
+                joiner.add(f as u32, &mut faces.corners);
+                faces.starts.push(faces.corners.len());
+            }
+        }
+        faces.corners.iter_mut().for_each(|i| *i = name(*i));
+        faces.sorted()
+    }
+
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &[usize]> {
+        self.starts.windows(2).map(|ends| &self.corners[ends[0]..ends[1]])
+    }
+
+    fn sorted(self) -> Self {
+        let mut order: Vec<(u64, u32)> =
+            self.iter().map(|face| (face[0] as u64) << 32 | face[1] as u64).zip(0..).collect();
+        // No other face leaves a corner along the same edge.
+        order.sort_unstable();
+        let mut sorted = Self { corners: Vec::with_capacity(self.corners.len()), starts: vec![0] };
+        sorted.starts.reserve(order.len());
+        for (_, face) in order {
+            let ends = &self.starts[face as usize..][..2];
+            sorted.corners.extend_from_slice(&self.corners[ends[0]..ends[1]]);
+            sorted.starts.push(sorted.corners.len());
+        }
+        sorted
+    }
+}
+
+/// Joins triangles, in buffers that are kept.
+struct Joiner<'a> {
     points: &'a [[f64; 3]],
     facets: &'a [Facet],
     /// For each triangle its face.
     face: Vec<u32>,
+    members: Vec<u32>,
+    /// The sides around a face, as pairs of corners.
+    border: Vec<(u32, u32)>,
 }
 
-impl<'a> Faces<'a> {
-    pub(super) fn of(Shell { points, facets, .. }: &'a Shell) -> Vec<Vec<usize>> {
-        let mut faces = Self { points, facets, face: vec![NONE; facets.len()] };
-        let mut all = Vec::new();
-        for (f, facet) in facets.iter().enumerate() {
-            if facet.alive && faces.face[f] == NONE {
-                all.push(faces.merge(f as u32));
-            }
-        }
-        all.sort_unstable();
-        all
+impl Joiner<'_> {
+    fn point(&self, corner: u32) -> [f64; 3] {
+        self.points[corner as usize]
     }
 
-    /// The corners of the face that a triangle belongs to.
-    fn merge(&mut self, first: u32) -> Vec<usize> {
-        let mut members = vec![first];
+    /// Adds the corners of the face that a triangle belongs to.
+    fn add(&mut self, first: u32, corners: &mut Vec<usize>) {
+        self.members.clear();
+        self.members.push(first);
         self.face[first as usize] = first;
-        let [a, b, c] = self.facets[first as usize].corners.map(|i| self.points[i as usize]);
-        let is_flat = |j: u32| orient3d(a, b, c, self.points[j as usize]).is_zero();
+        let three = self.facets[first as usize].corners;
+        let [a, b, c] = three.map(|i| self.point(i));
         let mut k = 0;
-        while let Some(&f) = members.get(k) {
+        while let Some(&f) = self.members.get(k) {
             k += 1;
-            for g in self.facets[f as usize].across {
-                if self.face[g as usize] == NONE && self.facets[g as usize].corners.into_iter().all(is_flat) {
+            let Facet { corners: own, across, .. } = self.facets[f as usize];
+            for g in across {
+                if self.face[g as usize] != NONE {
+                    continue;
+                }
+                // The corners that both have are in the plane.
+                let apex = self.facets[g as usize].corners.into_iter().find(|corner| !own.contains(corner));
+                if apex.is_none_or(|apex| orient3d(a, b, c, self.point(apex)).is_zero()) {
                     self.face[g as usize] = first;
-                    members.push(g);
+                    self.members.push(g);
                 }
             }
         }
-        let mut border = Vec::new();
-        for &f in &members {
-            let Facet { corners, across, .. } = self.facets[f as usize];
-            let outer = (0..3).filter(|&i| self.face[across[i] as usize] != first);
-            border.extend(outer.map(|i| (corners[i] as usize, corners[(i + 1) % 3] as usize)));
+        let start = corners.len();
+        if self.members.len() == 1 {
+            corners.extend(three.map(|i| i as usize));
+        } else {
+            self.polygon(first, corners);
         }
-        self.polygon(border)
+        let face = &mut corners[start..];
+        let least =
+            (0..face.len()).min_by(|&i, &j| lexicographic3(self.points[face[i]], self.points[face[j]]));
+        face.rotate_left(least.unwrap_or(0));
     }
 
-    /// The strict corners of a border, from the smallest one.
-    fn polygon(&self, mut border: Vec<(usize, usize)>) -> Vec<usize> {
+    /// Adds the strict corners of the face of some triangles.
+    fn polygon(&mut self, first: u32, corners: &mut Vec<usize>) {
+        self.border.clear();
+        for &f in &self.members {
+            let Facet { corners, across, .. } = self.facets[f as usize];
+            let outer = (0..3).filter(|&i| self.face[across[i] as usize] != first);
+            self.border.extend(outer.map(|i| (corners[i], corners[(i + 1) % 3])));
+        }
+        let border = &mut self.border;
         border.sort_unstable();
-        let follow = |u: usize| border.binary_search_by_key(&u, |&(from, _)| from).ok().map(|i| border[i].1);
+        let follow = |u: u32| border.binary_search_by_key(&u, |&(from, _)| from).ok().map(|i| border[i].1);
         let mut around = vec![border[0].0];
         while let Some(v) = follow(around[around.len() - 1]).filter(|&v| v != around[0]) {
             around.push(v);
         }
         let n = around.len();
         let strict = |&i: &usize| {
-            let [a, b, c] = [i + n - 1, i, i + 1].map(|k| self.points[around[k % n]]);
+            let [a, b, c] = [i + n - 1, i, i + 1].map(|k| self.point(around[k % n]));
             !are_collinear3(a, b, c)
         };
-        let mut corners: Vec<usize> = (0..n).filter(strict).map(|i| around[i]).collect();
-        let order = |i: &usize| self.points[corners[*i]];
-        let least = (0..corners.len()).min_by(|i, j| lexicographic3(order(i), order(j))).unwrap_or(0);
-        corners.rotate_left(least);
-        corners
+        corners.extend((0..n).filter(strict).map(|i| around[i] as usize));
     }
 }

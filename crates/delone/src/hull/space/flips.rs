@@ -60,7 +60,7 @@ impl Hull3 {
                 flips.insert(i as u32, f, &mut work);
             }
         }
-        Ok((Self::solid(Faces::of(&flips.shell)), Counters::Incremental(work)))
+        Ok((Self::solid(Faces::of(&flips.shell, |i| i)), Counters::Incremental(work)))
     }
 }
 

@@ -163,7 +163,7 @@ impl HullHistory3 {
     pub fn hull(&self) -> &Hull3 {
         self.hull.get_or_init(|| match &self.facets {
             Facets::None(points, _) => Hull3::of(points),
-            Facets::Some(history) => Hull3::solid(Faces::of(&history.shell)),
+            Facets::Some(history) => Hull3::solid(Faces::of(&history.shell, |i| i)),
         })
     }
 

@@ -18,6 +18,7 @@ pub use history::HullHistory3;
 use crate::error::Error;
 use crate::mesh::Dimension;
 use crate::points::{self, Position3};
+use faces::Faces;
 use start::{Start, turn};
 
 /// The convex hull of points in space.
@@ -36,7 +37,7 @@ use start::{Start, turn};
 pub struct Hull3 {
     span: Dimension,
     corners: Vec<usize>,
-    faces: Vec<Vec<usize>>,
+    faces: Faces,
 }
 
 impl Hull3 {
@@ -54,15 +55,17 @@ impl Hull3 {
     /// The hull of points that are finite.
     fn of(points: &[[f64; 3]]) -> Self {
         match Start::of(points) {
-            Start::Lower(span, corners) => Self { span, corners, faces: Vec::new() },
-            Start::Flat(corners) => Self { span: Dimension::Plane, faces: vec![corners.clone()], corners },
+            Start::Lower(span, corners) => Self { span, corners, faces: Faces::none() },
+            Start::Flat(corners) => {
+                Self { span: Dimension::Plane, faces: Faces::one(corners.clone()), corners }
+            }
             Start::Tetrahedron(_) => Self::solid(quickhull::faces(points)),
         }
     }
 
     /// The hull with given faces.
-    fn solid(faces: Vec<Vec<usize>>) -> Self {
-        let mut corners: Vec<usize> = faces.iter().flatten().copied().collect();
+    fn solid(faces: Faces) -> Self {
+        let mut corners = faces.corners.clone();
         corners.sort_unstable();
         corners.dedup();
         Self { span: Dimension::Space, corners, faces }
@@ -80,8 +83,8 @@ impl Hull3 {
 
     /// The flat faces as polygons, counter-clockwise seen from outside, each from its lexicographically smallest
     /// corner; sorted. The one face of a flat set may be seen from either side.
-    pub fn faces(&self) -> &[Vec<usize>] {
-        &self.faces
+    pub fn faces(&self) -> impl ExactSizeIterator<Item = &[usize]> + '_ {
+        self.faces.iter()
     }
 
     /// The faces cut into triangles, counter-clockwise seen from outside. None for less than space.

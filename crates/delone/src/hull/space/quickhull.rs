@@ -12,15 +12,12 @@ use super::start::Start;
 
 /// The faces of points that span space. They are sorted along a curve first: neighbours in space are neighbours in
 /// memory then, which halves the time for a million corners.
-pub(super) fn faces(points: &[[f64; 3]]) -> Vec<Vec<usize>> {
+pub(super) fn faces(points: &[[f64; 3]]) -> Faces {
     let mut order: Vec<(u32, u32)> = morton_keys(points).zip(0..).collect();
     order.sort_unstable();
     let sorted: Vec<[f64; 3]> = order.iter().map(|&(_, i)| points[i as usize]).collect();
-    let Start::Tetrahedron(corners) = Start::of(&sorted) else { return Vec::new() };
-    let mut faces = Faces::of(&Quickhull::new(sorted, corners).finish());
-    faces.iter_mut().flatten().for_each(|i| *i = order[*i].1 as usize);
-    faces.sort_unstable();
-    faces
+    let Start::Tetrahedron(corners) = Start::of(&sorted) else { return Faces::none() };
+    Faces::of(&Quickhull::new(sorted, corners).finish(), |i| order[i].1 as usize)
 }
 
 /// The interleaved bits of the cells that points are in, 1024 along each axis.
