@@ -18,7 +18,7 @@ use crate::locate::Ground;
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::{Kernel, NearestSites, Power, Site};
 use crate::points::Bounds;
-use crate::prefetch::prefetch;
+use crate::prefetch::{self, prefetch};
 
 /// How many triangles ahead memory is asked.
 pub(super) const AHEAD: usize = 16;
@@ -147,19 +147,8 @@ fn clip_all<K: Cellular>(
     // In the order of triangles, which lie in memory as in the plane: each vertex with the first of its edges.
     let mut seen = vec![0_u64; layer.points.len().div_ceil(64)];
     for t in (0..mesh.slot_count()).map(TriangleId::new) {
-        // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
-        for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
-            prefetch(&mesh.edges, record.twin.index());
-        }
-        let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
-        for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
-            prefetch(&cells.vertices, record.twin.triangle().index());
-            for beyond in [record.twin.next(), record.twin.previous()] {
-                if let Some(record) = mesh.edges.get(beyond.index()) {
-                    prefetch(&mesh.edges, record.twin.index());
-                    prefetch(&cells.vertices, record.twin.triangle().index());
-                }
-            }
+        if prefetch::HELPS {
+            ask_ahead(layer, &cells.vertices, t);
         }
         for e in [0, 1, 2].map(|k| t.edge(k)) {
             let place = mesh.tail(e);
@@ -171,6 +160,26 @@ fn clip_all<K: Cellular>(
         }
     }
     cells
+}
+
+/// Asks memory for what the stars of the triangles to come are made of.
+#[inline]
+fn ask_ahead<K: Cellular>(layer: &Layer<K>, centres: &[[f64; 2]], t: TriangleId) {
+    let mesh = &layer.mesh;
+    // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
+    for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
+        prefetch(&mesh.edges, record.twin.index());
+    }
+    let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+    for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
+        prefetch(centres, record.twin.triangle().index());
+        for beyond in [record.twin.next(), record.twin.previous()] {
+            if let Some(record) = mesh.edges.get(beyond.index()) {
+                prefetch(&mesh.edges, record.twin.index());
+                prefetch(centres, record.twin.triangle().index());
+            }
+        }
+    }
 }
 
 impl Cells2 {

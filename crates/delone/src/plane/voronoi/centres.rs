@@ -11,7 +11,7 @@ use crate::mesh::triangles::HalfEdge;
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::Site;
 use crate::plane::region::margin;
-use crate::prefetch::prefetch;
+use crate::prefetch::{self, prefetch};
 
 /// By the index of the triangle.
 pub(in crate::plane) struct Centres {
@@ -31,7 +31,7 @@ impl Centres {
         let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
         for (corners, ahead) in triangles.zip(ahead) {
             // Corners lie wherever they lay in the input.
-            for corner in ahead.into_iter().flatten() {
+            for corner in ahead.filter(|_| prefetch::HELPS).into_iter().flatten() {
                 prefetch(&layer.points, corner.origin.index());
             }
             let sites = sites(layer, corners);
