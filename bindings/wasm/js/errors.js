@@ -28,6 +28,7 @@ const faults = [
   ["region", (ring, corner, problem) => `ring ${ring} of the region, at corner ${corner}: ${problems[problem]}`, (ring) => ring],
   ["not-finite", (i, value) => `point ${i} has the value ${value}, which is not finite`, (i) => i],
   ["values", (expected, found) => `${found} values where there should be ${expected}`],
+  ["not-finite", (i, value) => `point ${i} has the weight ${value}, which is not finite`, (i) => i],
 ];
 
 /** Everything that this package throws. */

@@ -8,5 +8,6 @@ useModule(unpack(packed), 1);
 
 export * from "./api.js";
 export {Constrained} from "./constrained.js";
+export {Power} from "./power.js";
 export {contours, interpolate} from "./surface.js";
 export {Delaunay as default} from "./delaunay.js";

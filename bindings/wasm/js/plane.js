@@ -6,6 +6,7 @@
 // Memory: what the module holds for a triangulation, some 100 bytes a point, goes when it is disposed of or when nobody refers to it any
 // more and the garbage collector has found that out, which it does between tasks, not in a loop.
 
+import {Cells} from "./cells.js";
 import {DeloneError} from "./errors.js";
 import {currentEngine} from "./module.js";
 
@@ -215,10 +216,13 @@ export class Plane {
     return centres;
   }
 
-  /** Cells clipped to a rectangle: for each point of the module the end of its rings, the ends of rings, corners, vertices. */
+  /** Cells clipped to a rectangle. */
   cells(bounds) {
     this.call("cells", ...bounds, 0);
-    return this.#takeCells();
+    const {engine} = this;
+    const cells = new Cells(engine.ints(0), engine.floats(0));
+    engine.clear();
+    return cells;
   }
 
   /** Areas and centroids of cells clipped to a rectangle, by the user's index; of points without a cell zero, and the point itself. */
@@ -227,11 +231,14 @@ export class Plane {
     return this.#takeMeasures(points);
   }
 
-  /** Cells clipped to a polygon: rings as arrays of points. */
+  /** Cells clipped to a polygon, given as rings of points. */
   cellsInPolygon(rings) {
     this.#giveRings(rings);
     this.call("cells_in_polygon", 0);
-    return this.#takeCells();
+    const {engine} = this;
+    const cells = new Cells(engine.ints(1), engine.floats(0), engine.ints(0));
+    engine.clear();
+    return cells;
   }
 
   #giveRings(rings) {
@@ -240,13 +247,6 @@ export class Plane {
     for (const ring of rings) ends.push((end += ring.length));
     this.engine.givePoints(Float64Array.from(rings.flat(2)), end);
     this.engine.giveIndices(ends);
-  }
-
-  #takeCells() {
-    const {engine} = this;
-    const cells = {rings: engine.ints(0), ends: engine.ints(1), corners: engine.ints(2), vertices: engine.floats(0)};
-    engine.clear();
-    return cells;
   }
 
   #takeMeasures(points) {

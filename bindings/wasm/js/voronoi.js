@@ -1,9 +1,10 @@
 // The Voronoi diagram with the names of d3-delaunay. Cells are the engine's own: dual to the exact triangulation, cut out of the bounds
 // exactly, and only then rounded, to the same numbers from both sides of each edge. It is always that of the triangulation as it is.
 
+import {Cells} from "./cells.js";
 import {DeloneError} from "./errors.js";
 import {planeOf} from "./plane.js";
-import {closed, drawn, drawPolygon} from "./path.js";
+import {drawn, drawPolygon} from "./path.js";
 
 export class Voronoi {
   #made = {version: -1};
@@ -42,7 +43,7 @@ export class Voronoi {
     const now = this.#now;
     if (now.cells) return now.cells;
     const isFlat = this.xmin === this.xmax || this.ymin === this.ymax;
-    return (now.cells = isFlat ? {rings: [], ends: [], corners: [], vertices: []} : this.#plane.cells(this.#bounds));
+    return (now.cells = isFlat ? new Cells([], []) : this.#plane.cells(this.#bounds));
   }
 
   /** The centres of the triangles' circles, two numbers each; infinite beyond the range of numbers. */
@@ -74,17 +75,7 @@ export class Voronoi {
 
   /** The corners of a cell, without the first one repeated. */
   #ring(i) {
-    const {rings, ends, corners, vertices} = this.#cells;
-    const place = this.#plane.place(i);
-    const ring = rings[place] - 1;
-    const first = place > 0 ? rings[place - 1] : 0;
-    if (!(ring >= first)) return [];
-    const points = [];
-    for (let k = ring ? ends[ring - 1] : 0; k < ends[ring]; ++k) {
-      const at = 2 * corners[k];
-      points.push([vertices[at], vertices[at + 1]]);
-    }
-    return points;
+    return this.cellPolygon(i)?.slice(0, -1) ?? [];
   }
 
   /** The points whose cells have an edge with that of a point inside the bounds. */
@@ -98,7 +89,7 @@ export class Voronoi {
 
   /** A cell as a closed ring; null if it is empty or there is none. */
   cellPolygon(i) {
-    return closed(this.#ring(i));
+    return this.#cells.ring(this.#plane.place(i));
   }
 
   /** The cells that are not empty, each with its `index`. */
@@ -165,18 +156,9 @@ export class Voronoi {
 
   /** Cells clipped to a polygon of rings: for each point an array of closed rings, holes clockwise with y up. In the full module. */
   clip(polygon) {
-    const {rings, ends, corners, vertices} = this.#plane.cellsInPolygon(polygon);
     const plane = this.#plane;
-    return Array.from({length: this.delaunay.points.length >> 1}, (_, i) => {
-      const place = plane.place(i);
-      const found = [];
-      for (let ring = place > 0 ? rings[place - 1] : 0; ring < (rings[place] ?? 0); ++ring) {
-        const points = [];
-        for (let k = ring ? ends[ring - 1] : 0; k < ends[ring]; ++k) points.push([vertices[2 * corners[k]], vertices[2 * corners[k] + 1]]);
-        found.push(closed(points));
-      }
-      return found;
-    });
+    const cells = plane.cellsInPolygon(polygon);
+    return Array.from({length: this.delaunay.points.length >> 1}, (_, i) => cells.rings(plane.place(i)));
   }
 }
 

@@ -1,7 +1,7 @@
 // Builds the package: cargo makes the modules, binaryen makes them smaller where it is installed, and they go into dist/: as files, packed
 // into a script, and with everything else in one classic script.
 //
-//     node scripts/build.mjs            both modules
+//     node scripts/build.mjs            all modules
 //     node scripts/build.mjs --debug    with all assertions, not made smaller: for tests
 //     node scripts/build.mjs --check    says whether dist/ is there, and builds nothing
 
@@ -14,7 +14,7 @@ import {shrink} from "./shrink.mjs";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const dist = `${root}dist/`;
 const isDebug = process.argv.includes("--debug");
-const products = ["delone.wasm", "inline.js", "delone-full.wasm", "inline-full.js", "delone.js"];
+const products = ["delone.wasm", "inline.js", "delone-full.wasm", "inline-full.js", "delone.js", "inline-laz.js", "delone-laz.js"];
 
 if (process.argv.includes("--check")) {
   const missing = products.filter((name) => !existsSync(dist + name));
@@ -25,12 +25,12 @@ if (process.argv.includes("--check")) {
   process.exit(0);
 }
 
-/** Builds a module with cargo, and gives its bytes. */
-function cargo(features) {
+/** Builds a module with cargo in a folder, and gives its bytes. */
+function cargo(folder, features) {
   const args = ["build", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
   args.push("--profile", isDebug ? "checked" : "release");
   if (features) args.push("--features", features);
-  const built = spawnSync("cargo", args, {cwd: root, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
+  const built = spawnSync("cargo", args, {cwd: folder, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
   if (built.error) throw built.error;
   if (built.status) process.exit(built.status);
   const artifacts = built.stdout.trim().split("\n").map((line) => JSON.parse(line));
@@ -47,22 +47,29 @@ function inline(bytes) {
 mkdirSync(dist, {recursive: true});
 // A package has no links.
 for (const name of ["LICENSE-MIT", "LICENSE-APACHE"]) copyFileSync(`${root}../../${name}`, root + name);
-for (const [name, features] of [["", undefined], ["-full", "full"]]) {
-  const raw = cargo(features);
+for (const [name, folder, features] of [["", root], ["-full", root, "full"], ["-laz", `${root}laz`]]) {
+  const raw = cargo(folder, features);
   const bytes = isDebug ? raw : await shrink(raw);
-  writeFileSync(`${dist}delone${name}.wasm`, bytes);
+  // That of files is loaded by its script alone.
+  if (folder === root) writeFileSync(`${dist}delone${name}.wasm`, bytes);
   writeFileSync(`${dist}inline${name}.js`, inline(bytes));
   console.log(`delone${name}.wasm: ${bytes.length} bytes`);
 }
 
 const {build} = await import("esbuild");
-await build({
-  entryPoints: [`${root}js/index.js`],
-  outfile: `${dist}delone.js`,
-  bundle: true,
-  minify: true,
-  format: "iife",
-  globalName: "delone",
-  target: "es2022",
-  banner: {js: "// delone: exact Delaunay triangulations. MIT OR Apache-2.0"},
-});
+const scripts = [
+  ["index", "delone", "delone", "exact Delaunay triangulations"],
+  ["laz", "delone-laz", "deloneLaz", "LAS and LAZ files"],
+];
+for (const [entry, file, globalName, what] of scripts) {
+  await build({
+    entryPoints: [`${root}js/${entry}.js`],
+    outfile: `${dist}${file}.js`,
+    bundle: true,
+    minify: true,
+    format: "iife",
+    globalName,
+    target: "es2022",
+    banner: {js: `// delone: ${what}. MIT OR Apache-2.0`},
+  });
+}

@@ -62,6 +62,7 @@ impl From<Error> for Fault {
                 Self::new(15, [n(ring), n(corner), problem])
             }
             Error::Height { index, value } => Self::new(16, [n(index), value]),
+            Error::Weight { index, value } => Self::new(18, [n(index), value]),
             Error::Values { expected, found } => Self::new(17, [n(expected), n(found)]),
             // Nothing that this module asks for gives others.
             _ => Self::new(0, []),

@@ -24,6 +24,8 @@ mod memory;
 #[cfg(feature = "paths")]
 mod paths;
 mod planes;
+#[cfg(feature = "weights")]
+mod power;
 #[cfg(feature = "surface")]
 mod surface;
 mod tray;

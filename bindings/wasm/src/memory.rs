@@ -8,6 +8,9 @@ use crate::fault::Fault;
 pub const TRIANGULATION: usize = 200;
 /// The same for its cell.
 pub const CELLS: usize = 200;
+/// For a point with a weight, and its cell.
+#[cfg(feature = "weights")]
+pub const WEIGHTED: usize = 600;
 /// For a point among constraints.
 #[cfg(feature = "constraints")]
 pub const CONSTRAINED: usize = 400;

@@ -29,7 +29,7 @@ pub fn points() -> Vec<[f64; 2]> {
 }
 
 /// Takes the numbers that were given.
-#[cfg(feature = "surface")]
+#[cfg(any(feature = "surface", feature = "weights"))]
 pub fn numbers() -> Vec<f64> {
     with(|tray| std::mem::take(&mut tray.numbers))
 }

@@ -1,14 +1,15 @@
 //! Cells, clipped; exact where the library is.
 
-use delone_library::{Region2, VertexId};
-
+#[cfg(feature = "regions")]
 use crate::fault::Fault;
+use delone_library::{Cell2, Delaunay2, Region2, Ring, VertexId};
+
 use crate::memory;
-use crate::planes::{self, Plane};
+use crate::planes;
 use crate::tray;
 
-#[cfg(feature = "regions")]
 /// The rings on the tray: their corners, and where each ends.
+#[cfg(feature = "regions")]
 fn polygon() -> Result<Region2, Fault> {
     let (points, ends) = (tray::points(), tray::indices());
     let mut start = 0;
@@ -20,32 +21,77 @@ fn polygon() -> Result<Region2, Fault> {
     Ok(Region2::polygon(&rings)?)
 }
 
-/// Cells clipped to a region. As integers: where the rings of each point end, where the corners of each ring end, corners. As
-/// numbers: what corners are. Or, if `measured`: areas, and centroids, which are the point itself where there is no area.
-fn leave(plane: &Plane, region: &Region2, measured: bool) -> Result<i32, Fault> {
-    let d = &plane.triangulation;
-    let count = d.points().len();
-    memory::check(count, memory::CELLS)?;
-    let cells = d.voronoi().clip(region);
-    if measured {
-        let ids = || (0..count).map(VertexId::new);
-        tray::leave_floats(0, ids().map(|v| cells.area(v)).collect());
-        let centroids = ids().flat_map(|v| cells.centroid(v).unwrap_or(d.points()[v.index()]));
-        tray::leave_floats(1, centroids.collect());
-        return Ok(0);
-    }
-    let (mut rings, mut ends) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    let mut corners = Vec::with_capacity(6 * count);
-    for v in (0..count).map(VertexId::new) {
-        for ring in cells.rings(v) {
-            corners.extend_from_slice(ring.indices());
-            ends.push(corners.len() as u32);
+/// So many points in a row have their rings near each other.
+const GROUP: usize = 4096;
+
+/// Rings by point, coordinates in a row.
+///
+/// Cells come in the order of the plane and are read in that of the points. Where points come in any order, each would be a miss
+/// of the cache, so rings are laid down by groups of points, and a group is small enough for the cache.
+struct Rings {
+    /// For each point where its ring starts and ends.
+    spans: Vec<[u32; 2]>,
+    corners: Vec<[f64; 2]>,
+    /// For each group where the next ring goes, and where its room ends.
+    rooms: Vec<[usize; 2]>,
+}
+
+impl Rings {
+    /// Room for the cells of all points: each has as many corners as triangles, if it is not cut.
+    fn room(d: &Delaunay2) -> Self {
+        let count = d.points().len();
+        let mut rooms = vec![[0; 2]; count.div_ceil(GROUP)];
+        for v in d.mesh().triangles().flat_map(|t| d.mesh().corners(t)) {
+            rooms[v.index() / GROUP][1] += 1;
         }
-        rings.push(ends.len() as u32);
+        let mut end = 0;
+        for room in &mut rooms {
+            end += room[1];
+            *room = [end - room[1], end];
+        }
+        Self { spans: vec![[0; 2]; count], corners: vec![[0.0; 2]; end], rooms }
     }
-    [rings, ends, corners].into_iter().enumerate().for_each(|(k, array)| tray::leave_ints(k, array));
-    tray::leave_floats(0, cells.vertices().as_flattened().to_vec());
-    Ok(0)
+
+    fn add(&mut self, v: VertexId, ring: Ring<'_>) {
+        let count = ring.points().len();
+        let [next, end] = &mut self.rooms[v.index() / GROUP];
+        let mut start = *next;
+        if start + count <= *end {
+            *next += count;
+            for (to, corner) in self.corners[start..start + count].iter_mut().zip(ring.points()) {
+                *to = corner;
+            }
+        } else {
+            // Cut cells may have more.
+            start = self.corners.len();
+            self.corners.extend(ring.points());
+        }
+        self.spans[v.index()] = [start, start + count].map(|at| at as u32);
+    }
+}
+
+/// Areas and centroids, which are the point itself where there is no area.
+struct Measures {
+    areas: Vec<f64>,
+    centroids: Vec<[f64; 2]>,
+}
+
+impl Measures {
+    fn room(d: &Delaunay2) -> Self {
+        Self { areas: vec![0.0; d.points().len()], centroids: d.points().to_vec() }
+    }
+
+    fn add(&mut self, v: VertexId, cell: Cell2<'_>) {
+        self.areas[v.index()] = cell.area();
+        if let Some(centroid) = cell.centroid() {
+            self.centroids[v.index()] = centroid;
+        }
+    }
+
+    fn leave(self) {
+        tray::leave_floats(0, self.areas);
+        tray::leave_floats(1, self.centroids.into_flattened());
+    }
 }
 
 export! {
@@ -58,18 +104,59 @@ export! {
         })
     }
 
-    /// Leaves the cells of all points clipped to a rectangle, or what they measure.
+    /// Leaves the cells of all points clipped to a rectangle: as integers where the ring of each starts and ends, as numbers corners. Or,
+    /// if `measured`, areas and centroids.
     fn cells(plane: usize, xmin: f64, ymin: f64, xmax: f64, ymax: f64, measured: i32) -> i32 {
         planes::with(plane, |plane| {
-            leave(plane, &Region2::rectangle([xmin, ymin], [xmax, ymax])?, measured != 0)
+            let region = Region2::rectangle([xmin, ymin], [xmax, ymax])?;
+            let d = &plane.triangulation;
+            memory::check(d.points().len(), memory::CELLS)?;
+            if measured != 0 {
+                let mut measures = Measures::room(d);
+                d.voronoi().clip_each(&region, |v, cell| measures.add(v, cell));
+                measures.leave();
+                return Ok(0);
+            }
+            let mut rings = Rings::room(d);
+            d.voronoi().clip_each(&region, |v, cell| cell.rings().for_each(|ring| rings.add(v, ring)));
+            tray::leave_ints(0, rings.spans.into_flattened());
+            tray::leave_floats(0, rings.corners.into_flattened());
+            Ok(0)
         })
     }
 }
 
 #[cfg(feature = "regions")]
 export! {
-    /// Leaves the cells of all points clipped to the polygon on the tray, or what they measure.
+    /// Leaves the cells of all points clipped to the polygon on the tray: as integers for each point its first ring and the end of its
+    /// rings, for each ring where it starts and ends, as numbers corners. Or, if `measured`, areas and centroids.
     fn cells_in_polygon(plane: usize, measured: i32) -> i32 {
-        planes::with(plane, |plane| leave(plane, &polygon()?, measured != 0))
+        planes::with(plane, |plane| {
+            let region = polygon()?;
+            let d = &plane.triangulation;
+            memory::check(d.points().len(), memory::CELLS)?;
+            let cells = d.voronoi().clip(&region);
+            let sites = (0..d.points().len()).map(VertexId::new);
+            if measured != 0 {
+                let mut measures = Measures::room(d);
+                sites.for_each(|v| measures.add(v, cells.cell(v)));
+                measures.leave();
+                return Ok(0);
+            }
+            let (mut ends, mut spans, mut corners) = (Vec::new(), Vec::new(), Vec::<[f64; 2]>::new());
+            for v in sites {
+                let first = spans.len() as u32;
+                for ring in cells.rings(v) {
+                    let start = corners.len() as u32;
+                    corners.extend(ring.points());
+                    spans.push([start, corners.len() as u32]);
+                }
+                ends.push([first, spans.len() as u32]);
+            }
+            tray::leave_ints(0, ends.into_flattened());
+            tray::leave_ints(1, spans.into_flattened());
+            tray::leave_floats(0, corners.into_flattened());
+            Ok(0)
+        })
     }
 }

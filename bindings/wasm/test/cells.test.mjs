@@ -3,19 +3,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import {Delaunay} from "delone";
+import {area, half} from "./support/polygons.mjs";
 import {sets, uniform} from "./support/sets.mjs";
-
-/** What is left of a polygon where `f` is not negative; `f` is linear. */
-function half(polygon, f) {
-  const kept = [];
-  polygon.forEach((p, k) => {
-    const q = polygon[(k + 1) % polygon.length];
-    const [a, b] = [f(p), f(q)];
-    if (a >= 0) kept.push(p);
-    if (a * b < 0) kept.push([0, 1].map((axis) => p[axis] + ((q[axis] - p[axis]) * a) / (a - b)));
-  });
-  return kept;
-}
 
 function definition(points, i, [xmin, ymin, xmax, ymax]) {
   let cell = [[xmin, ymin], [xmax, ymin], [xmax, ymax], [xmin, ymax]];
@@ -27,11 +16,6 @@ function definition(points, i, [xmin, ymin, xmax, ymax]) {
   }
   return cell;
 }
-
-const area = (ring) => ring.reduce((sum, [x, y], k) => {
-  const [u, v] = ring[(k + 1) % ring.length];
-  return sum + ((x - ring[0][0]) * (v - ring[0][1]) - (u - ring[0][0]) * (y - ring[0][1])) / 2;
-}, 0);
 
 const centroid = (ring) => {
   const [cx, cy] = ring[0];

@@ -23,6 +23,21 @@ export class Constrained {
   constraints: Uint32Array;
 }
 
+/** The power diagram of points with weights, and the regular triangulation dual to it. */
+export class Power {
+  /** A weight is a squared radius. Bounds are those of a diagram of Voronoi. */
+  constructor(points: Coordinates, weights: ArrayLike<number>, bounds?: Delaunay.Bounds);
+  points: Coordinates;
+  weights: ArrayLike<number>;
+  /** Corners of the triangles, three each, counter-clockwise with y down. */
+  triangles: Uint32Array;
+  /** The points that have no cell. */
+  hidden: Uint32Array;
+  areas: Float64Array;
+  cellPolygon(i: number): Delaunay.Polygon | null;
+  cellPolygons(): IterableIterator<Delaunay.Polygon & {index: number}>;
+}
+
 export interface InterpolationOptions {
   method?: "linear" | "sibson" | "laplace";
   /** Without it NaN outside of the hull. */

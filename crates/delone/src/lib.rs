@@ -132,7 +132,7 @@ pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use order::HintOrder;
 pub use plane::{
-    Algorithm2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,
+    Algorithm2, Cell2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,
     Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Hints2, Jacobian2, Keep, Location2, Moving2,
     NearestSites2, OrderCells2, OrderCircle2, OrderK2, OrderRegion2, Part2, PolygonTriangles2, Polygons2,
     Power2, Prescribed2, Reason, Refined2, Refinement, RefinementReport2, Region2, RegionSeed2, Regular2,

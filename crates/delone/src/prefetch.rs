@@ -6,6 +6,9 @@
 //!
 //! This and `memory.rs` are the only `unsafe` of the library.
 
+/// Whether asking does anything: where it does not, neither need be found out what to ask for.
+pub(crate) const HELPS: bool = cfg!(target_arch = "x86_64");
+
 /// Asks for the cache line of an item. The index may be anything.
 #[inline]
 pub(crate) fn prefetch<T>(items: &[T], index: usize) {

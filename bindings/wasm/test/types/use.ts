@@ -1,5 +1,6 @@
 // What must compile, and what must not: programs written for d3-delaunay's types, and ours.
 
+import {readLas} from "delone/laz";
 import Default, {Delaunator, Delaunay, DeloneError, Voronoi} from "delone";
 import {init} from "delone/async";
 import {Constrained, contours, interpolate} from "delone/full";
@@ -33,8 +34,9 @@ const ready: Promise<void> = init(fetch("delone.wasm"));
 const c: Constrained = Constrained.polygon([[[0, 0], [1, 0], [0, 1]]], {fill: "nonzero"});
 const values: Float64Array = interpolate(delaunay, [1, 2], c.points, {method: "sibson"});
 contours(points, values, [1, 2])[0].level.toFixed();
+const ground: Float64Array = readLas(new ArrayBuffer(0), {classes: [2]}).heights;
 new DelaunayWorker().triangulate([0, 0], {transfer: true}).then(({triangles}) => triangles.length);
-if (new DeloneError("memory", "").code === "memory") console.log(path, line, moved, kind, near, coords, given, ready);
+if (new DeloneError("memory", "").code === "memory") console.log(path, line, moved, kind, near, coords, given, ready, ground);
 
 // @ts-expect-error an array of points is no flat array
 new Delaunay([[0, 0]]);

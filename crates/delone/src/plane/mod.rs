@@ -48,4 +48,4 @@ pub use radial::NearestSites2;
 pub use refine::{Keep, Reason, Refined2, Refinement, RefinementReport2, Unrefined2};
 pub use region::Region2;
 pub use regular::{Jacobian2, Power2, Prescribed2, Regular2};
-pub use voronoi::{Cells2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};
+pub use voronoi::{Cell2, Cells2, Relaxation2, Ring, Voronoi2, VoronoiEdge2};

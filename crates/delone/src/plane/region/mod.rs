@@ -140,6 +140,11 @@ impl Region2 {
         [self.low, self.high]
     }
 
+    /// Its low and its high corner, if it is a rectangle.
+    pub(in crate::plane) fn as_box(&self) -> Option<[[f64; 2]; 2]> {
+        self.tree.full.then_some([self.low, self.high])
+    }
+
     /// How a box lies to the region.
     #[inline]
     pub(in crate::plane) fn relation(&self, low: [f64; 2], high: [f64; 2]) -> Relation {
@@ -207,10 +212,16 @@ impl Region2 {
 /// that.
 #[inline]
 pub(in crate::plane) fn enlarged(low: [f64; 2], high: [f64; 2], size: f64) -> Option<[[f64; 2]; 2]> {
-    const OF_SIZE: f64 = 1.0 / (1_u64 << 38) as f64;
     let largest = low.iter().chain(&high).fold(0.0_f64, |max, x| max.max(x.abs()));
-    let margin = OF_SIZE * size + 4.0 * f64::EPSILON * largest + f64::MIN_POSITIVE;
+    let margin = margin(size, largest);
     margin.is_finite().then(|| [low.map(|x| x - margin), high.map(|x| x + margin)])
+}
+
+/// How far the exact place can be from a rounded one, by its radius and its largest coordinate, or more than these; and some more.
+#[inline]
+pub(in crate::plane) fn margin(size: f64, largest: f64) -> f64 {
+    const OF_SIZE: f64 = 1.0 / (1_u64 << 38) as f64;
+    OF_SIZE * size + 4.0 * f64::EPSILON * largest + f64::MIN_POSITIVE
 }
 
 fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {

@@ -18,7 +18,8 @@ use crate::plane::layer::kernel::Power;
 use crate::plane::region::clip;
 use crate::plane::region::tree::Relation;
 use crate::plane::region::{Region2, enlarged};
-use crate::plane::voronoi::cells::{Cells2, Cellular, centres, cut_out};
+use crate::plane::voronoi::cells::{Cells2, Cellular, cut_out};
+use crate::plane::voronoi::centres::Centres;
 use crate::points::Bounds;
 
 /// The power diagram of the sites of a triangulation.
@@ -89,7 +90,7 @@ impl<'a> Power2<'a> {
         let layer = &r.base;
         let cells = self.clip(region);
         let areas = (0..r.ids_given()).map(|i| cells.area(VertexId::new(i))).collect();
-        let centres = centres(layer);
+        let centres = Centres::of(layer, None).points;
         let mut derivatives = Vec::new();
         for place in layer.mesh.inhabited().filter(|_| layer.mesh.lone.is_none()) {
             let v = layer.mesh.name(place);

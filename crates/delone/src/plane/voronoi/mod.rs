@@ -9,9 +9,10 @@
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.
 
 pub(in crate::plane) mod cells;
+pub(in crate::plane) mod centres;
 mod relax;
 
-pub use cells::{Cells2, Ring};
+pub use cells::{Cell2, Cells2, Ring};
 pub use relax::Relaxation2;
 
 use delone_predicates::in_circle_with_ties;

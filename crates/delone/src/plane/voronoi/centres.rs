@@ -1,0 +1,66 @@
+//! The centres of the circles of all triangles, each computed once, and which of them are surely inside of a box.
+//!
+//! A cell whose corners all are is whole, because a box has no dents: what is asked of each centre once need not be asked of each cell
+//! that has it. Elsewhere a cell is asked about by the box around it (`cells.rs`).
+//!
+//! Cost: O(n).
+
+use super::cells::{AHEAD, Cellular};
+use crate::ids::Place;
+use crate::mesh::triangles::HalfEdge;
+use crate::plane::layer::Layer;
+use crate::plane::layer::kernel::Site;
+use crate::plane::region::margin;
+use crate::prefetch::{self, prefetch};
+
+/// By the index of the triangle.
+pub(in crate::plane) struct Centres {
+    /// Infinite where there is none.
+    pub(in crate::plane) points: Vec<[f64; 2]>,
+    /// Whether the exact centre is surely inside of the box; nothing if there is no box.
+    pub(in crate::plane) inside: Vec<bool>,
+}
+
+impl Centres {
+    /// Of all triangles of a layer.
+    pub(in crate::plane) fn of<K: Cellular>(layer: &Layer<K>, within: Option<[[f64; 2]; 2]>) -> Self {
+        let slots = layer.mesh.edges.len() / 4;
+        let mut points = Vec::with_capacity(slots);
+        let mut inside = Vec::with_capacity(if within.is_some() { slots } else { 0 });
+        let triangles = layer.mesh.edges.chunks_exact(4);
+        let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
+        for (corners, ahead) in triangles.zip(ahead) {
+            // Corners lie wherever they lay in the input.
+            for corner in ahead.filter(|_| prefetch::HELPS).into_iter().flatten() {
+                prefetch(&layer.points, corner.origin.index());
+            }
+            let sites = sites(layer, corners);
+            let centre = sites.and_then(|[a, b, c]| K::centre(a, b, c));
+            points.push(centre.unwrap_or([f64::INFINITY; 2]));
+            if let Some(within) = within {
+                inside.push(
+                    sites.zip(centre).is_some_and(|(sites, centre)| is_inside::<K>(sites, centre, within)),
+                );
+            }
+        }
+        Self { points, inside }
+    }
+}
+
+/// The corners of a triangle, if it is none of the ghosts and no free slot.
+#[inline]
+fn sites<K: Cellular>(layer: &Layer<K>, corners: &[HalfEdge]) -> Option<[Site<K>; 3]> {
+    let site = |p: Place| (p.index() < layer.points.len()).then(|| layer.site(p));
+    let [a, b, c] = [0, 1, 2].map(|k| site(corners[k].origin));
+    a.zip(b).zip(c).map(|((a, b), c)| [a, b, c])
+}
+
+/// Whether the exact centre is surely inside of a box, from the rounded one.
+#[inline]
+fn is_inside<K: Cellular>(sites: [Site<K>; 3], [x, y]: [f64; 2], [low, high]: [[f64; 2]; 2]) -> bool {
+    let distance = |site: Site<K>| (x - site.0[0]).abs() + (y - site.0[1]).abs();
+    // All corners are as far from the centre, unless they have weights. Sums, because a maximum is a branch that nothing predicts.
+    let reach = if K::HIDES { sites.into_iter().map(distance).sum() } else { distance(sites[0]) };
+    let margin = margin(reach, x.abs() + y.abs());
+    low[0] <= x - margin && x + margin <= high[0] && low[1] <= y - margin && y + margin <= high[1]
+}
