@@ -29,8 +29,10 @@ await build({
     },
   ],
 });
-// Loaded when it is raced against, and not before.
-await build({...common, entryPoints: [`${root}src/rival.js`], outfile: `${dist}rival.js`, globalName: "Rival"});
+// Loaded when they are needed, and not before.
+for (const [name, globalName] of [["rival", "Rival"], ["laz", "Laz"]]) {
+  await build({...common, entryPoints: [`${root}src/${name}.js`], outfile: `${dist}${name}.js`, globalName});
+}
 
 for (const name of ["index.html", "style.css", "icon.svg"]) copyFileSync(root + name, dist + name);
 for (const name of ["lists", "flips", "hints", "levels"]) {

@@ -1,4 +1,6 @@
-// Points of files: columns of text, GeoJSON, LAS. Each gives {coords, heights?}, or throws what is wrong and where.
+// Points of files: columns of text, GeoJSON, LAS and LAZ. Each gives {coords, heights?}, or throws what is wrong and where.
+
+import {load} from "./load.js";
 
 /** Reads a file by its name and its first bytes. */
 export async function read(file) {
@@ -64,28 +66,10 @@ export function geojson(text) {
   return {coords: Float64Array.from(coords)};
 }
 
-/** A LAS file that is not compressed (ASPRS LAS 1.4 R15): ground points, if there are any. */
-export function las(buffer) {
-  const view = new DataView(buffer);
-  if (buffer.byteLength < 227) throw new Error(`the LAS file ends after ${buffer.byteLength} bytes, inside of its header`);
-  const format = view.getUint8(104);
-  if (format & 128) throw new Error("this is LAZ, which is compressed: delone, the program, reads it");
-  const start = view.getUint32(96, true);
-  const length = view.getUint16(105, true);
-  let count = view.getUint32(107, true);
-  if (!count && buffer.byteLength >= 375) count = Number(view.getBigUint64(247, true));
-  if (length < 20 || start + length * count > buffer.byteLength) {
-    throw new Error(`the LAS file ends before its ${count} points do`);
-  }
-  const [scale, offset] = [131, 155].map((at) => [0, 8, 16].map((k) => view.getFloat64(at + k, true)));
-  const isNew = format >= 6;
-  const rows = Array.from({length: count}, (_, i) => start + i * length);
-  const class_of = (at) => (isNew ? view.getUint8(at + 16) : view.getUint8(at + 15) & 31);
-  const ground = rows.filter((at) => class_of(at) === 2);
-  const kept = ground.length ? ground : rows;
-  const number = (at, k) => view.getInt32(at + 4 * k, true) * scale[k] + offset[k];
-  return {
-    coords: Float64Array.from(kept.flatMap((at) => [number(at, 0), number(at, 1)])),
-    heights: Float64Array.from(kept, (at) => number(at, 2)),
-  };
+/** A point cloud: ground points, if there are any. */
+async function las(buffer) {
+  await load("laz.js");
+  const {readLas} = globalThis.Laz;
+  const ground = readLas(buffer, {classes: [2]});
+  return ground.coords.length ? ground : readLas(buffer);
 }

@@ -146,6 +146,8 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
   for (const [x, y] of [[0.2, 0.2], [0.8, 0.3], [0.5, 0.9]]) await page.mouse.click(box.x + x * box.width, box.y + y * box.height);
   await page.click("#voronoi-clip");
   assert.equal(await page.locator("#voronoi .error").count(), 0);
+  await page.locator("#voronoi-weights").fill("80");
+  await page.waitForFunction(() => /^Power cells/.test(document.querySelector("#voronoi figcaption").textContent));
 
   const walls = page.locator("#walls canvas");
   await walls.focus();
@@ -200,13 +202,20 @@ test("files are read, or said to be wrong, and the page lives on", async (t) => 
   assert.match(await drop(page, "f.csv", ""), /f.csv is empty/);
   assert.match(await drop(page, "g.json", '{"type":'), /this is no JSON/);
   assert.match(await drop(page, "h.png", "\u0089PNG\r\n"), /cannot be read/);
-  assert.match(await drop(page, "i.las", "LASF"), /inside of its header/);
+  assert.match(await drop(page, "i.las", "LASF"), /i.las cannot be read/);
   assert.match(await drop(page, "j.csv", "0,0\n".repeat(300_000)), /300,000 points, 0 triangles/);
   assert.match(await drop(page, "k.csv", "0,0\n1,0\n0,1e400\n"), /line 3/);
   assert.match(await drop(page, "a.csv", "0,0\n1,0\n0,1\n"), /3 points, 1 triangles/);
   const saved = page.waitForEvent("download");
   await page.click("#data-geojson");
   assert.equal((await saved).suggestedFilename(), "triangles.geojson");
+});
+
+test("a point cloud is read", async (t) => {
+  const page = await open(t);
+  const cloud = fileURLToPath(new URL("../../data/autzen_trim.laz", import.meta.url));
+  await page.locator("#data-file").setInputFiles(cloud);
+  await page.waitForFunction(() => /26,107 points, 52,187 triangles/.test(document.querySelector("#data figcaption").textContent), undefined, {timeout: 30_000});
 });
 
 test("the race is run, and can be cancelled", async (t) => {

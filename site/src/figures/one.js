@@ -1,6 +1,7 @@
 // A lattice by us and by delaunator, in any order, turned by any angle. What is wrong is found with integers of any length.
 
 import {Delaunator} from "delone/full";
+import {load} from "../load.js";
 import {random, shuffle} from "../random.js";
 import {Stage, WIDTH, dots, strokePath} from "../stage.js";
 
@@ -113,10 +114,6 @@ export function one(section, tell) {
   new IntersectionObserver(([entry], observer) => {
     if (!entry.isIntersecting) return;
     observer.disconnect();
-    const script = document.createElement("script");
-    script.src = "rival.js";
-    script.addEventListener("load", make);
-    script.addEventListener("error", () => tell("The other library could not be loaded; Delone's lattice is here.", true));
-    document.head.append(script);
+    load("rival.js").then(make, () => tell("The other library could not be loaded; Delone's lattice is here.", true));
   }).observe(section);
 }

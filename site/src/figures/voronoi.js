@@ -1,7 +1,7 @@
-// Triangles and cells, one fading into the other; relaxation; cells cut by a polygon.
+// Triangles and cells, one fading into the other; relaxation; cells cut by a polygon; power cells of points with weights.
 
-import {Delaunay} from "delone/full";
-import {scatter} from "../random.js";
+import {Delaunay, Power} from "delone/full";
+import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, ring, strokePath} from "../stage.js";
 
 export function voronoi(section, tell) {
@@ -10,6 +10,7 @@ export function voronoi(section, tell) {
   let d;
   let coords;
   let polygon; // as it is drawn
+  let weights; // squared radii
   let isDrawing = false;
 
   const stage = new Stage(canvas, (context, colour) => {
@@ -19,7 +20,9 @@ export function voronoi(section, tell) {
     strokePath(context, edges(d, coords), colour.delaunay, {scale});
     context.globalAlpha = share;
     const cells = d.voronoi([0, 0, WIDTH, stage.height]);
-    if (polygon?.length > 2 && !isDrawing) {
+    if (weights) {
+      power(context, colour);
+    } else if (polygon?.length > 2 && !isDrawing) {
       try {
         for (const rings of cells.clip([polygon])) for (const part of rings) ring(context, part, colour.voronoi, 1.5, scale);
       } catch (error) {
@@ -33,6 +36,21 @@ export function voronoi(section, tell) {
     dots(context, coords, colour.ink, 3 / scale);
   });
 
+  /** Cells of disks: where their borders meet, cells do. */
+  function power(context, colour) {
+    const {scale} = stage;
+    const diagram = new Power(coords, weights, [0, 0, WIDTH, stage.height]);
+    const disks = new Path2D();
+    weights.forEach((weight, i) => {
+      const radius = Math.sqrt(weight);
+      disks.moveTo(coords[2 * i] + radius, coords[2 * i + 1]);
+      disks.arc(coords[2 * i], coords[2 * i + 1], radius, 0, 2 * Math.PI);
+    });
+    strokePath(context, disks, colour.hull, {scale});
+    for (const cell of diagram.cellPolygons()) ring(context, cell, colour.voronoi, 1.5, scale);
+    tell(`Power cells of disks; ${diagram.hidden.length || "no"} points have none.`);
+  }
+
   function take(points) {
     d?.dispose();
     coords = points;
@@ -44,10 +62,18 @@ export function voronoi(section, tell) {
     stage.invalidate();
   }
   const begin = () => {
-    polygon = undefined;
+    [polygon, weights] = [undefined, undefined];
+    of("weights").value = 0;
     take(scatter(120, stage.height, 11, 10));
   };
   of("fade").addEventListener("input", () => stage.invalidate());
+  of("weights").addEventListener("input", () => {
+    const most = Number(of("weights").value);
+    const next = random(5);
+    weights = most ? Float64Array.from({length: coords.length / 2}, () => (most * next() ** 2) ** 2) : undefined;
+    if (weights) stage.invalidate();
+    else take(coords);
+  });
   of("relax").addEventListener("click", () => take(d.voronoi([0, 0, WIDTH, stage.height]).relax()));
   of("reset").addEventListener("click", begin);
   of("clip").addEventListener("click", () => {
