@@ -18,7 +18,7 @@ pub(super) fn weigh<P: Coordinates>(q: P, corners: &[(VertexId, P)], weights: &m
     for (point, corner) in points.iter_mut().zip(corners) {
         *point = super::natural::three(corner.1);
     }
-    let sizes = points[..count].iter().flat_map(|p| (0..3).map(|k| (p[k] / 4.0 - q[k] / 4.0).abs()));
+    let sizes = points[..count].iter().flat_map(|p| (0..3).map(|k| super::natural::apart(p[k], q[k])));
     let scale = super::natural::scale(sizes.fold(0.0, f64::max));
     let (shares, doubt) = shares::<f64>(P::COUNT, q, &points[..count], scale);
     let total: f64 = shares[..count].iter().sum();

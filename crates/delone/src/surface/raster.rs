@@ -122,11 +122,12 @@ impl Raster {
             cells[column].store(value.to_bits(), Ordering::Relaxed);
         };
         let slope = (right.value - left.value) / (right.x - left.x);
-        let slope = if slope.is_finite() { slope } else { 0.0 };
         let (least, most) = (left.value.min(right.value), left.value.max(right.value));
         let inside = &self.xs.places[start.column..end.column];
         for (column, &x) in inside.iter().enumerate() {
-            put(start.column + column, (left.value + (x - left.x) * slope).max(least).min(most));
+            let value =
+                if slope.is_finite() { left.value + (x - left.x) * slope } else { left.mean(&right, x) };
+            put(start.column + column, value.max(least).min(most));
         }
         if start.is_on_edge {
             put(start.column, left.value);
@@ -272,6 +273,14 @@ struct Begin {
 }
 
 impl Meeting<'_> {
+    /// The value between this and another one, where differences, or what they are divided by, are beyond the range of numbers.
+    #[cold]
+    fn mean(&self, other: &Meeting<'_>, x: f64) -> f64 {
+        let scale = if (other.x - self.x).is_finite() { 1.0 } else { 0.25 };
+        let share = (x * scale - self.x * scale) / (other.x * scale - self.x * scale);
+        if share.is_nan() { self.value } else { self.value * (1.0 - share) + other.value * share }
+    }
+
     /// The first column that is not on the left of the side.
     #[inline]
     fn first_inside(&self, xs: &Axis, y: f64) -> Begin {

@@ -88,7 +88,12 @@ fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
             |polygon: &Vec<Ring>| hole.iter().all(|q| polygon[0].contains(q) || holds(&polygon[0], *q));
         let holder = match &polygons[..] {
             [_] => Some(0),
-            _ => polygons.iter().position(strictly).or_else(|| polygons.iter().position(touching)),
+            // Where rounding hides which, the one that begins first: the area stays what it is.
+            _ => polygons
+                .iter()
+                .position(strictly)
+                .or_else(|| polygons.iter().position(touching))
+                .or_else(|| polygons.len().checked_sub(1)),
         };
         if let Some(holder) = holder {
             polygons[holder].push(hole);

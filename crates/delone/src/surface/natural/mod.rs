@@ -78,7 +78,13 @@ pub(super) fn three<P: Coordinates>(p: P) -> [f64; 3] {
     padded
 }
 
-/// What a quarter of a distance is to be multiplied with, before and after differences are taken, so that no power of it leaves the
+/// About the distance of two coordinates, which must neither overflow nor vanish.
+#[inline]
+pub(super) fn apart(a: f64, b: f64) -> f64 {
+    if a.abs().max(b.abs()) > 1.0 { (a / 4.0 - b / 4.0).abs() } else { (a - b).abs() }
+}
+
+/// What a distance, or a quarter of it, is to be multiplied with, before and after differences are taken, so that no power of it leaves the
 /// range of numbers.
 pub(super) fn scale(size: f64) -> [f64; 2] {
     let before = if size > 2f64.powi(1000) { 2f64.powi(-100) } else { 1.0 };

@@ -4,7 +4,7 @@
 //! depends on the points alone.
 
 use super::super::real::{Double, Real};
-use super::{GOOD, Measure, normalize, scale};
+use super::{GOOD, Measure, apart, normalize, scale};
 use crate::around::Ring;
 use crate::ids::VertexId;
 
@@ -40,7 +40,7 @@ impl Cell {
     ) -> bool {
         self.number(ring, measure);
         let Self { corners, cavity, plain, double, .. } = self;
-        let size = |p: [f64; 2]| (p[0] / 4.0 - q[0] / 4.0).abs().max((p[1] / 4.0 - q[1] / 4.0).abs());
+        let size = |p: [f64; 2]| apart(p[0], q[0]).max(apart(p[1], q[1]));
         let size = corners.iter().fold(0.0, |most, corner| size(corner.1).max(most));
         let scale = scale(size);
         plain.sum(q, corners, scale, cavity, measure);

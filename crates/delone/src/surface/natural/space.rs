@@ -2,7 +2,7 @@
 //! facets at it, and the centre of the tetrahedron; with signs, where centres are outside.
 
 use super::super::real::{Double, Real, cross, dot, minus};
-use super::{GOOD, Measure, compare, normalize, scale, three};
+use super::{GOOD, Measure, apart, compare, normalize, scale, three};
 use crate::around::Around;
 use crate::ids::VertexId;
 use crate::triangulation::Triangulation;
@@ -70,7 +70,7 @@ impl Cell {
         weights: &mut Vec<(VertexId, f64)>,
     ) -> bool {
         self.take(d, around);
-        let size = self.points.iter().flat_map(|p| (0..3).map(|k| (p[k] / 4.0 - q[k] / 4.0).abs()));
+        let size = self.points.iter().flat_map(|p| (0..3).map(|k| apart(p[k], q[k])));
         let scale = scale(size.fold(0.0, f64::max));
         let Self { ids, points, cavity, border, plain, double, .. } = self;
         plain.begin(q, points, scale);

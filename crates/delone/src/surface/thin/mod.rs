@@ -121,7 +121,7 @@ impl Thinning {
     }
 
     /// How far the height of a point may be from the triangles, in the units of heights. Errors are computed in floating point: what is
-    /// above by less than 2^-40 of the largest height is rounding, and is left.
+    /// above by less than 2^-40 of the largest height is rounding, and is left; so are points over triangles with an area of less than 2^-56 of their box.
     #[must_use]
     pub fn max_error(self, max_error: f64) -> Self {
         Self { max_error, ..self }
