@@ -26,11 +26,11 @@ if (process.argv.includes("--check")) {
 }
 
 /** Builds a module with cargo in a folder, and gives its bytes. */
-function cargo(folder, features) {
+function cargo(folder, profile, features) {
   const args = ["build", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
-  args.push("--profile", isDebug ? "checked" : "release");
+  args.push("--profile", isDebug ? "checked" : profile);
   if (features) args.push("--features", features);
-  const built = spawnSync("cargo", args, {cwd: folder, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
+  const built = spawnSync("cargo", args, {cwd: folder, env: {CARGO_TARGET_DIR: `${root}target`, ...process.env}, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
   if (built.error) throw built.error;
   if (built.status) process.exit(built.status);
   const artifacts = built.stdout.trim().split("\n").map((line) => JSON.parse(line));
@@ -47,11 +47,12 @@ function inline(bytes) {
 mkdirSync(dist, {recursive: true});
 // A package has no links.
 for (const name of ["LICENSE-MIT", "LICENSE-APACHE"]) copyFileSync(`${root}../../${name}`, root + name);
-for (const [name, folder, features] of [["", root], ["-full", root, "full"], ["-laz", `${root}laz`]]) {
-  const raw = cargo(folder, features);
+const modules = [["", root, "small"], ["-full", root, "release", "full"], ["-laz", `${root}laz`, "release"]];
+for (const [name, ...how] of modules) {
+  const raw = cargo(...how);
   const bytes = isDebug ? raw : await shrink(raw);
   // That of files is loaded by its script alone.
-  if (folder === root) writeFileSync(`${dist}delone${name}.wasm`, bytes);
+  if (name !== "-laz") writeFileSync(`${dist}delone${name}.wasm`, bytes);
   writeFileSync(`${dist}inline${name}.js`, inline(bytes));
   console.log(`delone${name}.wasm: ${bytes.length} bytes`);
 }

@@ -1,6 +1,6 @@
 //! Points with weights: the regular triangulation, and the power cells dual to it.
 
-use delone_library::{Region2, Regular2, VertexId};
+use delone_library::{Region2, Regular2, Ring, VertexId};
 
 use crate::fault::{Fault, answer};
 use crate::memory;
@@ -20,7 +20,7 @@ fn leave(xmin: f64, ymin: f64, xmax: f64, ymax: f64) -> Result<i32, Fault> {
     let (mut spans, mut corners, mut areas) = (Vec::new(), Vec::new(), Vec::new());
     for cell in (0..points.len()).map(|i| cells.cell(VertexId::new(i))) {
         let start = corners.len() as u32;
-        corners.extend(cell.rings().flat_map(|ring| ring.points()));
+        corners.extend(cell.rings().flat_map(Ring::points));
         spans.extend([start, corners.len() as u32]);
         areas.push(cell.area());
     }
