@@ -103,6 +103,30 @@ fn duplicates_go_by_rule() {
     }
 }
 
+/// Also where a tile has more points at one place than it may have; and a mean does not depend on the order.
+#[test]
+fn many_duplicates_go_by_rule_in_tiles() {
+    let place = Place::new();
+    let mut random = Random::new(7);
+    let mut rows: Vec<String> = ["0,0", "4,0", "4,4", "0,4"].map(|corner| format!("{corner},1")).to_vec();
+    rows.extend((0..60).map(|_| format!("2.5,2.5,{:?}", random.between(-100.0, 100.0))));
+    place.file("p.csv", rows.join("\n"));
+    rows.reverse();
+    place.file("q.csv", rows.join("\n"));
+    for rule in ["lowest", "first", "highest", "mean"] {
+        let common = format!("--cell 1 --duplicates {rule}");
+        place.succeed(&format!("-q dtm p.csv {common} -o a.npy"));
+        place.succeed(&format!("-q dtm p.csv {common} --memory 64M --tile 5 -o b.npy"));
+        assert!(
+            fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b"),
+            "{rule}"
+        );
+        place.succeed(&format!("-q dtm q.csv {common} -o b.npy"));
+        let is_same = fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b");
+        assert_eq!(is_same, rule != "first", "{rule}");
+    }
+}
+
 #[test]
 fn the_shipped_scan() {
     let place = Place::new();
@@ -218,7 +242,7 @@ fn refusals() {
         (1, "line.csv --cell 1 -o a.npy", "on one line"),
         (1, "one.csv --cell 1 -o a.npy", "on one line"),
         (1, "nan.csv --cell 1 -o a.npy", "point 1"),
-        (1, "none.csv --cell 1 -o a.npy", ""),
+        (1, "none.csv --cell 1 -o a.npy", "there are no points"),
         (1, "missing.csv --cell 1 -o a.npy", "missing.csv"),
         (2, "p.csv --cell 1 --memory 1M -o a.npy", "least"),
         (2, "p.csv --cell 1 --memory 1G --breaklines line.geojson -o a.npy", "--memory"),
