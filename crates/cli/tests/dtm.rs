@@ -127,6 +127,23 @@ fn many_duplicates_go_by_rule_in_tiles() {
     }
 }
 
+/// Of a place on the hull the nearest point may be further away than all points are high.
+#[test]
+fn the_hull_of_few_points_has_nearest_values_in_tiles() {
+    let place = Place::new();
+    place.file("p.csv", "-2,2,1\n-5,0,2\n2,-2,3\n4,-3,4\n5,0,5\n");
+    for tile in [1, 200] {
+        place.succeed("-q dtm p.csv --cell 0.25 --method nearest -o a.npy");
+        place.succeed(&format!(
+            "-q dtm p.csv --cell 0.25 --method nearest --memory 64M --tile {tile} -o b.npy"
+        ));
+        assert!(
+            fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b"),
+            "{tile}"
+        );
+    }
+}
+
 #[test]
 fn the_shipped_scan() {
     let place = Place::new();
