@@ -239,6 +239,33 @@ fn lines_and_polygons() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_no_tiles() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let place = Place::new();
+    let mut random = Random::new(3);
+    place.file("p.csv", with_heights(&Kind::Uniform.points(100_000, 1), &mut random));
+    fs::create_dir(place.path("out")).expect("made");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_delone"))
+        .current_dir(place.path("out"))
+        .args(["-q", "dtm", "../p.csv", "--cell", "0.001", "--memory", "64M", "--tile", "500", "-o", "a.npy"])
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let started = Instant::now();
+    let names = || fs::read_dir(place.path("out")).expect("readable").count();
+    while names() == 0 && started.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(kill.expect("kill").success());
+    assert!(!child.wait().expect("it ends").success());
+    assert_eq!(names(), 0);
+}
+
 #[test]
 fn refusals() {
     let place = Place::new();
