@@ -239,6 +239,49 @@ fn lines_and_polygons() {
     }
 }
 
+/// Files whose coordinates or heights are of different systems are not one surface.
+#[test]
+fn systems_are_not_mixed() {
+    let place = Place::new();
+    let scan = |name: &str, keys: &[[u16; 2]]| {
+        let mut head = vec![0_u8; 227];
+        head[..4].copy_from_slice(b"LASF");
+        head[24..26].copy_from_slice(&[1, 2]);
+        let vlr = 54 + 8 * (1 + keys.len()) as u32;
+        head[94..96].copy_from_slice(&227_u16.to_le_bytes());
+        head[96..100].copy_from_slice(&(227 + vlr).to_le_bytes());
+        head[100..104].copy_from_slice(&1_u32.to_le_bytes());
+        head[105..107].copy_from_slice(&20_u16.to_le_bytes());
+        head[107..111].copy_from_slice(&3_u32.to_le_bytes());
+        (0..3).for_each(|k| head[131 + 8 * k..139 + 8 * k].copy_from_slice(&1.0_f64.to_le_bytes()));
+        let mut user = [0_u8; 54];
+        user[2..17].copy_from_slice(b"LASF_Projection");
+        user[18..20].copy_from_slice(&34735_u16.to_le_bytes());
+        user[20..22].copy_from_slice(&((vlr - 54) as u16).to_le_bytes());
+        head.extend(user);
+        let words = [1, 1, 0, keys.len() as u16].into_iter();
+        let words = words.chain(keys.iter().flat_map(|&[key, value]| [key, 0, 1, value]));
+        head.extend(words.flat_map(u16::to_le_bytes));
+        for p in [[0, 0, 1], [9, 0, 2], [0, 9, 3]] {
+            head.extend(p.into_iter().flat_map(i32::to_le_bytes));
+            head.extend([0, 0, 0, 2, 0, 0, 0, 0]);
+        }
+        place.file(name, head);
+    };
+    scan("a.las", &[[1024, 1], [3072, 25832], [4096, 5783]]);
+    scan("b.las", &[[1024, 1], [3072, 25833], [4096, 5783]]);
+    scan("c.las", &[[1024, 1], [3072, 25832], [4096, 7837]]);
+    place.succeed("-q dtm a.las --cell 1 -o a.npy");
+    for memory in ["", "--memory 64M"] {
+        place.fail(
+            &format!("-q dtm a.las b.las --cell 1 {memory} -o x.npy"),
+            1,
+            "its coordinates are EPSG:25833",
+        );
+        place.fail(&format!("-q dtm a.las c.las --cell 1 {memory} -o x.npy"), 1, "its heights are EPSG:7837");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_no_tiles() {
