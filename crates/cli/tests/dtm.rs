@@ -282,6 +282,88 @@ fn systems_are_not_mixed() {
     }
 }
 
+/// Polygons may overlap, touch and be given twice: each is level, and the lowest counts where there are several.
+#[test]
+fn polygons_share_places() {
+    let place = Place::new();
+    let slope: String = (0..121).map(|i| format!("{},{},{}\n", i % 11, i / 11, i % 11)).collect();
+    place.file("p.csv", &slope);
+    let square = |west: f64, south: f64, east: f64, z: f64| {
+        let north = south + 4.0;
+        format!(
+            "[[[{west},{south},{z}],[{east},{south},{z}],[{east},{north},{z}],[{west},{north},{z}],[{west},{south},{z}]]]"
+        )
+    };
+    let file = |polygons: &[String]| {
+        place.file(
+            "f.geojson",
+            format!(r#"{{"type":"MultiPolygon","coordinates":[{}]}}"#, polygons.join(",")),
+        );
+    };
+    let over = [square(1.0, 1.0, 5.0, 20.0), square(3.0, 3.0, 9.0, 30.0)];
+    let beside = [square(1.0, 3.0, 4.0, 50.0), square(4.0, 3.0, 9.0, 30.0)];
+    let turned = [beside[1].clone(), beside[0].clone()];
+    let twice = [over[0].clone(), over[0].clone()];
+    for method in ["linear", "natural"] {
+        let heights = |polygons: &[String], option: &str| {
+            file(polygons);
+            place.succeed(&format!("-q dtm p.csv --cell 1 --method {method} {option} f.geojson -o a.npy"));
+            let (_, columns, values) = raster(&place, "a.npy");
+            move |x: usize, y: usize| values[(9 - y) * columns + x]
+        };
+        let at = heights(&over, "--flat");
+        for (x, y) in (1..9).flat_map(|x| (1..7).map(move |y| (x, y))) {
+            let is_in = [x < 5 && y < 5, x >= 3 && y >= 3];
+            if is_in[0] || is_in[1] {
+                assert_eq!(at(x, y), if is_in[0] { 20.0 } else { 30.0 }, "{method} {x} {y}");
+            }
+        }
+        let at = heights(&twice, "--flat");
+        assert!((1..5).all(|k| at(k, k) == 20.0), "{method}");
+        for polygons in [&beside, &turned] {
+            let at = heights(polygons, "--flat");
+            assert!((1..9).all(|x| at(x, 4) == if x < 4 { 50.0 } else { 30.0 }), "{method}");
+        }
+        let at = heights(&over, "--clip");
+        let count = (0..100).filter(|k| !at(k % 10, k / 10).is_nan()).count();
+        assert_eq!(count, 16 + 24 - 4, "{method}");
+    }
+    let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25832"}}"#;
+    place.file("f.geojson", format!(r#"{{"type":"Polygon",{crs},"coordinates":{}}}"#, over[0]));
+    for memory in ["", "--memory 64M"] {
+        place.fail(
+            &format!("-q dtm p.csv --epsg 4326 --cell 1 --clip f.geojson {memory} -o c.npy"),
+            1,
+            "EPSG:25832",
+        );
+    }
+    place.file("line.geojson", r#"{"type":"LineString","coordinates":[[1,1],[3,3]]}"#);
+    place.fail("-q dtm p.csv --cell 1 --clip line.geojson -o c.npy", 1, "no polygon");
+}
+
+/// Lines that run along each other, in pieces of their own, or nearly do.
+#[test]
+fn lines_along_each_other_come_to_an_end() {
+    let place = Place::new();
+    let slope: String = (0..121).map(|i| format!("{},{},{}\n", i % 11, i / 11, i % 11)).collect();
+    place.file("p.csv", &slope);
+    for ring in
+        ["[3,4,1],[9,10,1],[7,8,1],[2,6,1],[3,4,1]", "[4,4,1],[6,2,1],[3,5,1],[4,2,1],[1,3,1],[4,4,1]"]
+    {
+        place.file("f.geojson", format!(r#"{{"type":"Polygon","coordinates":[[{ring}]]}}"#));
+        place.file(
+            "b.geojson",
+            r#"{"type":"MultiLineString","coordinates":[[[1,0],[8,9]],[[1.7,0.9],[8,9]],[[1,3],[9,4]],[[1,3],[5,3.5000000000000004]]]}"#,
+        );
+        for method in ["natural", "smooth"] {
+            let told = place.run(&format!(
+                "dtm p.csv --cell 1 --method {method} --flat f.geojson --breaklines b.geojson -o a.npy"
+            ));
+            assert!(told.status.success(), "{}", text(&told.stderr));
+        }
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_no_tiles() {
@@ -347,6 +429,9 @@ fn refusals() {
             place.fail(&format!("-q dtm {arguments}{memory}"), status, part);
         }
     }
+    // One row is more than the memory that is allowed.
+    place.file("long.csv", "0,0,1\n1e9,0,1\n1e9,1,1\n");
+    place.fail("-q dtm long.csv --cell 1 --memory 64M -o a.npy", 1, "a row of 1000000000 cells");
     let scan = data("autzen_trim.laz");
     let line = format!("-q dtm {} --cell 10 --class water -o a.npy", scan.display());
     place.fail(&line, 1, "no points of class water");
