@@ -364,6 +364,15 @@ fn lines_along_each_other_come_to_an_end() {
     }
 }
 
+#[test]
+fn a_height_that_stands_for_nothing_is_told() {
+    let place = Place::new();
+    place.file("p.csv", "0,0,7\n4,0,7\n4,4,7\n0,4,7\n");
+    let told = text(&place.run("dtm p.csv --cell 1 --nodata 7 -o a.tif").stderr);
+    assert!(told.contains("16 cells have the height 7"), "{told}");
+    assert!(!text(&place.run("dtm p.csv --cell 1 -o a.asc").stderr).contains("stands for"));
+}
+
 #[cfg(unix)]
 #[test]
 fn a_signal_leaves_no_tiles() {

@@ -51,7 +51,7 @@ pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, TemporaryFolder, followed, remove_unfinished};
 pub use patches::{Patches, write_patches};
 pub use raster::{
-    Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster,
+    ASC_NODATA, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster,
     read_surface,
 };
 pub use solid::{Solid, write_solid};
