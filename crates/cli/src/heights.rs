@@ -2,27 +2,110 @@
 
 use crate::args::DuplicatesName;
 
+/// What a rule makes of the heights of one place, whatever their order.
+#[derive(Clone, Debug)]
+pub(crate) struct Several {
+    rule: DuplicatesName,
+    height: f64,
+    /// Of means.
+    sum: Sum,
+    count: u64,
+}
+
+impl Several {
+    pub(crate) fn new(rule: DuplicatesName, first: f64) -> Self {
+        let mut sum = Sum::default();
+        sum.add(first);
+        Self { rule, height: first, sum, count: 1 }
+    }
+
+    pub(crate) fn add(&mut self, other: f64) {
+        match self.rule {
+            DuplicatesName::First => {}
+            DuplicatesName::Mean => {
+                self.sum.add(other);
+                self.count += 1;
+            }
+            // Zero has two signs, and which one is left must not depend on the order.
+            DuplicatesName::Lowest => self.height = lower(self.height, other),
+            DuplicatesName::Highest => self.height = higher(self.height, other),
+        }
+    }
+
+    pub(crate) fn height(self) -> f64 {
+        if self.rule == DuplicatesName::Mean { self.sum.rounded() / self.count as f64 } else { self.height }
+    }
+}
+
+fn lower(a: f64, b: f64) -> f64 {
+    if b.total_cmp(&a).is_lt() { b } else { a }
+}
+
+fn higher(a: f64, b: f64) -> f64 {
+    if b.total_cmp(&a).is_gt() { b } else { a }
+}
+
+/// A sum that is rounded once, in the end, so that the order does not show: parts of increasing size that do not overlap
+/// (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
+#[derive(Clone, Debug, Default)]
+struct Sum(Vec<f64>);
+
+impl Sum {
+    fn add(&mut self, mut x: f64) {
+        let mut kept = 0;
+        for k in 0..self.0.len() {
+            let (sum, rest) = two_sum(x, self.0[k]);
+            if rest != 0.0 {
+                self.0[kept] = rest;
+                kept += 1;
+            }
+            x = sum;
+        }
+        self.0.truncate(kept);
+        self.0.push(x);
+    }
+
+    fn rounded(mut self) -> f64 {
+        let mut high = self.0.pop().unwrap_or_default();
+        while let Some(part) = self.0.pop() {
+            let (sum, rest) = two_sum(high, part);
+            high = sum;
+            if rest != 0.0 {
+                // Half of the last place was rounded to even: what is left below it decides.
+                let below = self.0.last().copied().unwrap_or_default();
+                let (up, more) = two_sum(high, 2.0 * rest);
+                return if rest * below > 0.0 && more == 0.0 { up } else { high };
+            }
+        }
+        high
+    }
+}
+
+/// A rounded sum, and what it lacks.
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
+}
+
 /// Gives each place the height that a rule says. `pairs` are the points that equal an earlier one, with that one, by increasing index.
 pub(crate) fn settle(
     heights: &mut [f64],
     pairs: impl IntoIterator<Item = (usize, usize)>,
     rule: DuplicatesName,
 ) {
-    // Of means: the places that have several points, with their sums and counts.
-    let mut sums = std::collections::BTreeMap::new();
+    // Of means: the places that have several points.
+    let mut means = std::collections::BTreeMap::new();
     for (point, place) in pairs {
-        let other = heights[point];
+        let (here, other) = (heights[place], heights[point]);
         match rule {
             DuplicatesName::First => {}
-            DuplicatesName::Lowest => heights[place] = heights[place].min(other),
-            DuplicatesName::Highest => heights[place] = heights[place].max(other),
-            DuplicatesName::Mean => {
-                let entry = sums.entry(place).or_insert((heights[place], 1_u32));
-                *entry = (entry.0 + other, entry.1 + 1);
-            }
+            DuplicatesName::Lowest => heights[place] = lower(here, other),
+            DuplicatesName::Highest => heights[place] = higher(here, other),
+            DuplicatesName::Mean => means.entry(place).or_insert_with(|| Several::new(rule, here)).add(other),
         }
     }
-    sums.into_iter().for_each(|(place, (sum, count))| heights[place] = sum / f64::from(count));
+    means.into_iter().for_each(|(place, several)| heights[place] = several.height());
 }
 
 /// The same for points of which nobody knows yet which are equal. O(n log n).
@@ -58,6 +141,26 @@ mod tests {
             let mut heights = [3.0, 5.0, 1.0, 8.0, 4.0];
             settle(&mut heights, pairs, rule);
             assert_eq!(heights[..2], expected, "{rule:?}");
+        }
+    }
+
+    #[test]
+    fn no_order_shows() {
+        for (rule, expected) in [(DuplicatesName::Lowest, -0.0_f64), (DuplicatesName::Highest, 0.0)] {
+            for mut heights in [[0.0, -0.0], [-0.0, 0.0]] {
+                settle(&mut heights, [(1, 0)], rule);
+                assert_eq!(heights[0].to_bits(), expected.to_bits(), "{rule:?}");
+            }
+        }
+        for mut heights in [[0.1, 1e16, 0.3, -1e16], [1e16, 0.3, -1e16, 0.1], [-1e16, 0.1, 0.3, 1e16]] {
+            settle(&mut heights, [(1, 0), (2, 0), (3, 0)], DuplicatesName::Mean);
+            assert_eq!(heights[0], 0.1);
+        }
+        // A tie of the two largest parts, which a third one decides.
+        let two = 2f64.powi(53);
+        for mut heights in [[two, 1.0, 2f64.powi(-60)], [2f64.powi(-60), 1.0, two]] {
+            settle(&mut heights, [(1, 0), (2, 0)], DuplicatesName::Mean);
+            assert_eq!(heights[0], (two + 2.0) / 3.0);
         }
     }
 

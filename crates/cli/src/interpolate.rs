@@ -106,11 +106,22 @@ fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), F
 
 /// The values that there are, a list for each.
 fn table(args: &InterpolateArgs, about: &Cloud, count: usize, quiet: bool) -> Result<Vec<Vec<f64>>, Failure> {
+    // Nothing can be said around a value that is missing, and NaN is what there is outside.
+    let check = |name: &str, values: &[f64]| match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(point) => {
+            let what =
+                format!("{name}: the value of point {point} is {}, which is not finite", values[point]);
+            Err(Failure::new(what, "remove that point or repair its value"))
+        }
+    };
     if args.value.is_empty() {
         let heights = about.z.clone().filter(|_| !args.dim.is_space());
         let missing =
             || Failure::usage("there is nothing to interpolate", "name a column or a file with --value");
-        return Ok(vec![heights.ok_or_else(missing)?]);
+        let heights = heights.ok_or_else(missing)?;
+        check(&args.input.label().to_string_lossy(), &heights)?;
+        return Ok(vec![heights]);
     }
     let mut table = Vec::new();
     for name in &args.value {
@@ -125,6 +136,7 @@ fn table(args: &InterpolateArgs, about: &Cloud, count: usize, quiet: bool) -> Re
             let what = format!("{name}: {} values for {count} points", values.len());
             return Err(Failure::new(what, "give one for each point"));
         }
+        check(name, &values)?;
         table.push(values);
     }
     Ok(table)

@@ -61,6 +61,7 @@ impl Failure {
             delone::Error::NotFinite { .. } => {
                 "remove that point or repair its coordinates: every finite number is accepted"
             }
+            delone::Error::Height { .. } => "remove that point or repair its height",
             delone::Error::NoCell { .. } => "clip to what contains all points, and give each point once",
             delone::Error::Parameter { .. } => "give a number in that range",
             delone::Error::Area { .. } => "give a positive number for each point, or leave the point out",

@@ -103,6 +103,47 @@ fn duplicates_go_by_rule() {
     }
 }
 
+/// Also where a tile has more points at one place than it may have; and a mean does not depend on the order.
+#[test]
+fn many_duplicates_go_by_rule_in_tiles() {
+    let place = Place::new();
+    let mut random = Random::new(7);
+    let mut rows: Vec<String> = ["0,0", "4,0", "4,4", "0,4"].map(|corner| format!("{corner},1")).to_vec();
+    rows.extend((0..60).map(|_| format!("2.5,2.5,{:?}", random.between(-100.0, 100.0))));
+    place.file("p.csv", rows.join("\n"));
+    rows.reverse();
+    place.file("q.csv", rows.join("\n"));
+    for rule in ["lowest", "first", "highest", "mean"] {
+        let common = format!("--cell 1 --duplicates {rule}");
+        place.succeed(&format!("-q dtm p.csv {common} -o a.npy"));
+        place.succeed(&format!("-q dtm p.csv {common} --memory 64M --tile 5 -o b.npy"));
+        assert!(
+            fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b"),
+            "{rule}"
+        );
+        place.succeed(&format!("-q dtm q.csv {common} -o b.npy"));
+        let is_same = fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b");
+        assert_eq!(is_same, rule != "first", "{rule}");
+    }
+}
+
+/// Of a place on the hull the nearest point may be further away than all points are high.
+#[test]
+fn the_hull_of_few_points_has_nearest_values_in_tiles() {
+    let place = Place::new();
+    place.file("p.csv", "-2,2,1\n-5,0,2\n2,-2,3\n4,-3,4\n5,0,5\n");
+    for tile in [1, 200] {
+        place.succeed("-q dtm p.csv --cell 0.25 --method nearest -o a.npy");
+        place.succeed(&format!(
+            "-q dtm p.csv --cell 0.25 --method nearest --memory 64M --tile {tile} -o b.npy"
+        ));
+        assert!(
+            fs::read(place.path("a.npy")).expect("a") == fs::read(place.path("b.npy")).expect("b"),
+            "{tile}"
+        );
+    }
+}
+
 #[test]
 fn the_shipped_scan() {
     let place = Place::new();
@@ -198,6 +239,167 @@ fn lines_and_polygons() {
     }
 }
 
+/// Files whose coordinates or heights are of different systems are not one surface.
+#[test]
+fn systems_are_not_mixed() {
+    let place = Place::new();
+    let scan = |name: &str, keys: &[[u16; 2]]| {
+        let mut head = vec![0_u8; 227];
+        head[..4].copy_from_slice(b"LASF");
+        head[24..26].copy_from_slice(&[1, 2]);
+        let vlr = 54 + 8 * (1 + keys.len()) as u32;
+        head[94..96].copy_from_slice(&227_u16.to_le_bytes());
+        head[96..100].copy_from_slice(&(227 + vlr).to_le_bytes());
+        head[100..104].copy_from_slice(&1_u32.to_le_bytes());
+        head[105..107].copy_from_slice(&20_u16.to_le_bytes());
+        head[107..111].copy_from_slice(&3_u32.to_le_bytes());
+        (0..3).for_each(|k| head[131 + 8 * k..139 + 8 * k].copy_from_slice(&1.0_f64.to_le_bytes()));
+        let mut user = [0_u8; 54];
+        user[2..17].copy_from_slice(b"LASF_Projection");
+        user[18..20].copy_from_slice(&34735_u16.to_le_bytes());
+        user[20..22].copy_from_slice(&((vlr - 54) as u16).to_le_bytes());
+        head.extend(user);
+        let words = [1, 1, 0, keys.len() as u16].into_iter();
+        let words = words.chain(keys.iter().flat_map(|&[key, value]| [key, 0, 1, value]));
+        head.extend(words.flat_map(u16::to_le_bytes));
+        for p in [[0, 0, 1], [9, 0, 2], [0, 9, 3]] {
+            head.extend(p.into_iter().flat_map(i32::to_le_bytes));
+            head.extend([0, 0, 0, 2, 0, 0, 0, 0]);
+        }
+        place.file(name, head);
+    };
+    scan("a.las", &[[1024, 1], [3072, 25832], [4096, 5783]]);
+    scan("b.las", &[[1024, 1], [3072, 25833], [4096, 5783]]);
+    scan("c.las", &[[1024, 1], [3072, 25832], [4096, 7837]]);
+    place.succeed("-q dtm a.las --cell 1 -o a.npy");
+    for memory in ["", "--memory 64M"] {
+        place.fail(
+            &format!("-q dtm a.las b.las --cell 1 {memory} -o x.npy"),
+            1,
+            "its coordinates are EPSG:25833",
+        );
+        place.fail(&format!("-q dtm a.las c.las --cell 1 {memory} -o x.npy"), 1, "its heights are EPSG:7837");
+    }
+}
+
+/// Polygons may overlap, touch and be given twice: each is level, and the lowest counts where there are several.
+#[test]
+fn polygons_share_places() {
+    let place = Place::new();
+    let slope: String = (0..121).map(|i| format!("{},{},{}\n", i % 11, i / 11, i % 11)).collect();
+    place.file("p.csv", &slope);
+    let square = |west: f64, south: f64, east: f64, z: f64| {
+        let north = south + 4.0;
+        format!(
+            "[[[{west},{south},{z}],[{east},{south},{z}],[{east},{north},{z}],[{west},{north},{z}],[{west},{south},{z}]]]"
+        )
+    };
+    let file = |polygons: &[String]| {
+        place.file(
+            "f.geojson",
+            format!(r#"{{"type":"MultiPolygon","coordinates":[{}]}}"#, polygons.join(",")),
+        );
+    };
+    let over = [square(1.0, 1.0, 5.0, 20.0), square(3.0, 3.0, 9.0, 30.0)];
+    let beside = [square(1.0, 3.0, 4.0, 50.0), square(4.0, 3.0, 9.0, 30.0)];
+    let turned = [beside[1].clone(), beside[0].clone()];
+    let twice = [over[0].clone(), over[0].clone()];
+    for method in ["linear", "natural"] {
+        let heights = |polygons: &[String], option: &str| {
+            file(polygons);
+            place.succeed(&format!("-q dtm p.csv --cell 1 --method {method} {option} f.geojson -o a.npy"));
+            let (_, columns, values) = raster(&place, "a.npy");
+            move |x: usize, y: usize| values[(9 - y) * columns + x]
+        };
+        let at = heights(&over, "--flat");
+        for (x, y) in (1..9).flat_map(|x| (1..7).map(move |y| (x, y))) {
+            let is_in = [x < 5 && y < 5, x >= 3 && y >= 3];
+            if is_in[0] || is_in[1] {
+                assert_eq!(at(x, y), if is_in[0] { 20.0 } else { 30.0 }, "{method} {x} {y}");
+            }
+        }
+        let at = heights(&twice, "--flat");
+        assert!((1..5).all(|k| at(k, k) == 20.0), "{method}");
+        for polygons in [&beside, &turned] {
+            let at = heights(polygons, "--flat");
+            assert!((1..9).all(|x| at(x, 4) == if x < 4 { 50.0 } else { 30.0 }), "{method}");
+        }
+        let at = heights(&over, "--clip");
+        let count = (0..100).filter(|k| !at(k % 10, k / 10).is_nan()).count();
+        assert_eq!(count, 16 + 24 - 4, "{method}");
+    }
+    let crs = r#""crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::25832"}}"#;
+    place.file("f.geojson", format!(r#"{{"type":"Polygon",{crs},"coordinates":{}}}"#, over[0]));
+    for memory in ["", "--memory 64M"] {
+        place.fail(
+            &format!("-q dtm p.csv --epsg 4326 --cell 1 --clip f.geojson {memory} -o c.npy"),
+            1,
+            "EPSG:25832",
+        );
+    }
+    place.file("line.geojson", r#"{"type":"LineString","coordinates":[[1,1],[3,3]]}"#);
+    place.fail("-q dtm p.csv --cell 1 --clip line.geojson -o c.npy", 1, "no polygon");
+}
+
+/// Lines that run along each other, in pieces of their own, or nearly do.
+#[test]
+fn lines_along_each_other_come_to_an_end() {
+    let place = Place::new();
+    let slope: String = (0..121).map(|i| format!("{},{},{}\n", i % 11, i / 11, i % 11)).collect();
+    place.file("p.csv", &slope);
+    for ring in
+        ["[3,4,1],[9,10,1],[7,8,1],[2,6,1],[3,4,1]", "[4,4,1],[6,2,1],[3,5,1],[4,2,1],[1,3,1],[4,4,1]"]
+    {
+        place.file("f.geojson", format!(r#"{{"type":"Polygon","coordinates":[[{ring}]]}}"#));
+        place.file(
+            "b.geojson",
+            r#"{"type":"MultiLineString","coordinates":[[[1,0],[8,9]],[[1.7,0.9],[8,9]],[[1,3],[9,4]],[[1,3],[5,3.5000000000000004]]]}"#,
+        );
+        for method in ["natural", "smooth"] {
+            let told = place.run(&format!(
+                "dtm p.csv --cell 1 --method {method} --flat f.geojson --breaklines b.geojson -o a.npy"
+            ));
+            assert!(told.status.success(), "{}", text(&told.stderr));
+        }
+    }
+}
+
+#[test]
+fn a_height_that_stands_for_nothing_is_told() {
+    let place = Place::new();
+    place.file("p.csv", "0,0,7\n4,0,7\n4,4,7\n0,4,7\n");
+    let told = text(&place.run("dtm p.csv --cell 1 --nodata 7 -o a.tif").stderr);
+    assert!(told.contains("16 cells have the height 7"), "{told}");
+    assert!(!text(&place.run("dtm p.csv --cell 1 -o a.asc").stderr).contains("stands for"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_signal_leaves_no_tiles() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    let place = Place::new();
+    let mut random = Random::new(3);
+    place.file("p.csv", with_heights(&Kind::Uniform.points(100_000, 1), &mut random));
+    fs::create_dir(place.path("out")).expect("made");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_delone"))
+        .current_dir(place.path("out"))
+        .args(["-q", "dtm", "../p.csv", "--cell", "0.001", "--memory", "64M", "--tile", "500", "-o", "a.npy"])
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let started = Instant::now();
+    let names = || fs::read_dir(place.path("out")).expect("readable").count();
+    while names() == 0 && started.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let kill = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(kill.expect("kill").success());
+    assert!(!child.wait().expect("it ends").success());
+    assert_eq!(names(), 0);
+}
+
 #[test]
 fn refusals() {
     let place = Place::new();
@@ -218,7 +420,7 @@ fn refusals() {
         (1, "line.csv --cell 1 -o a.npy", "on one line"),
         (1, "one.csv --cell 1 -o a.npy", "on one line"),
         (1, "nan.csv --cell 1 -o a.npy", "point 1"),
-        (1, "none.csv --cell 1 -o a.npy", ""),
+        (1, "none.csv --cell 1 -o a.npy", "there are no points"),
         (1, "missing.csv --cell 1 -o a.npy", "missing.csv"),
         (2, "p.csv --cell 1 --memory 1M -o a.npy", "least"),
         (2, "p.csv --cell 1 --memory 1G --breaklines line.geojson -o a.npy", "--memory"),
@@ -236,6 +438,9 @@ fn refusals() {
             place.fail(&format!("-q dtm {arguments}{memory}"), status, part);
         }
     }
+    // One row is more than the memory that is allowed.
+    place.file("long.csv", "0,0,1\n1e9,0,1\n1e9,1,1\n");
+    place.fail("-q dtm long.csv --cell 1 --memory 64M -o a.npy", 1, "a row of 1000000000 cells");
     let scan = data("autzen_trim.laz");
     let line = format!("-q dtm {} --cell 10 --class water -o a.npy", scan.display());
     place.fail(&line, 1, "no points of class water");
@@ -272,7 +477,9 @@ fn values_are_interpolated() {
     assert!(raster(&place, "g.npy").2.iter().all(|z| z.is_finite()));
     place.succeed("-q interpolate p.csv --value a --queries q.csv -o v.csv");
     assert_eq!(fs::read_to_string(place.path("v.csv")).expect("text").lines().count(), 50);
+    place.file("nan.csv", "x,y,a\n0,0,1\n4,0,nan\n4,4,inf\n");
     for (status, arguments, part) in [
+        (1, "nan.csv --value a --queries q.csv -o v.npy", "the value of point 1 is NaN"),
         (2, "p.csv --queries q.csv -o v.npy", "nothing to interpolate"),
         (1, "p.csv --value c --queries q.csv -o v.npy", "c"),
         (2, "p.csv --value a --queries q.csv -o v.tif", "csv or npy"),

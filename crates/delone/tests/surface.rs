@@ -380,6 +380,34 @@ fn orders_of_points_do_not_show() {
             assert_eq!(one, two, "{name} {q:?}");
         }
     }
+    let slopes = [gradients(&d, &a), gradients(&e, &b)].map(|s| s.expect("values"));
+    for (one, two) in slopes[0].iter().zip(slopes[1].iter().rev()) {
+        assert_eq!(one.map(f64::to_bits), two.map(f64::to_bits));
+    }
+}
+
+/// Points on a plane in space have no gradients, and on a line in the plane; what is between them is linear.
+#[test]
+fn flat_sets_are_linear() {
+    let value = |p: &[f64]| 3.0 + p.iter().enumerate().map(|(k, x)| (k + 1) as f64 * x).sum::<f64>();
+    let points = [[0.0, 0.0, 1.0], [4.0, 0.0, 5.0], [0.0, 4.0, 1.0]];
+    let d = Delaunay3::from_points(&points).expect("finite");
+    let values = points.map(|p| value(&p));
+    let slopes = gradients(&d, &values).expect("values");
+    let q = [1.0, 1.0, 2.0];
+    let mut f = Interpolator::sibson(&d);
+    let found = [f.smooth(q, &values, &slopes), f.farin(q, &values, &slopes)];
+    assert!(found.iter().all(|found| found.as_ref().is_ok_and(|v| *v == Some(value(&q)))), "{found:?}");
+    let points = [[0.0, 0.0], [4.0, 4.0], [1.0, 1.0]];
+    let d = Delaunay2::from_points(&points).expect("finite");
+    let values = points.map(|p| value(&p));
+    let slopes = gradients(&d, &values).expect("values");
+    let mut f = Interpolator::sibson(&d);
+    let found = [f.smooth([2.5; 2], &values, &slopes), f.farin([2.5; 2], &values, &slopes)];
+    assert!(
+        found.iter().all(|found| found.as_ref().is_ok_and(|v| *v == Some(value(&[2.5; 2])))),
+        "{found:?}"
+    );
 }
 
 #[test]

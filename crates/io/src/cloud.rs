@@ -51,8 +51,8 @@ impl Cloud {
         }
     }
 
-    /// Makes one set of two files. Heights stay where both have them; systems of coordinates must agree where both
-    /// name one.
+    /// Makes one set of two files. Heights stay where both have them; systems of coordinates, and of heights that stay, must agree
+    /// where both name one.
     pub fn join(&mut self, other: Self) -> Result<(), Error> {
         if let (Some(ours), Some(theirs)) = (&self.crs, &other.crs) {
             let differ = match (ours.epsg, theirs.epsg) {
@@ -60,7 +60,14 @@ impl Cloud {
                 _ => ours != theirs,
             };
             if differ {
-                return Err(Error::content(format!("its coordinates are {theirs}, those before it {ours}")));
+                let [ours, theirs] = [ours, theirs].map(ToString::to_string);
+                return Err(Error::Systems { what: "coordinates", ours, theirs });
+            }
+            let heights =
+                ours.vertical.zip(theirs.vertical).filter(|_| self.z.is_some() && other.z.is_some());
+            if let Some((ours, theirs)) = heights.filter(|(ours, theirs)| ours != theirs) {
+                let [ours, theirs] = [ours, theirs].map(|number| format!("EPSG:{number}"));
+                return Err(Error::Systems { what: "heights", ours, theirs });
             }
         }
         self.crs = self.crs.take().or_else(|| other.crs.clone());

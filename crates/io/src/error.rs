@@ -23,6 +23,16 @@ pub enum Error {
     /// The content contradicts the format.
     #[error("{}", clipped(.0))]
     Content(String),
+    /// Files that are read together have different systems of coordinates, or of heights.
+    #[error("its {what} are {theirs}, those before it {ours}")]
+    Systems {
+        /// Coordinates or heights.
+        what: &'static str,
+        /// The system of the files before.
+        ours: String,
+        /// The system of this file.
+        theirs: String,
+    },
     /// A ring of a polygon does not end where it begins.
     #[error(
         "ring {ring} of polygon {polygon} is not closed: it begins at {:?} {:?} and ends at {:?} {:?}",
@@ -158,6 +168,7 @@ impl Error {
             Self::Content(_) => {
                 "check that the file is what its extension says, or name the format with --from"
             }
+            Self::Systems { .. } => "transform one of them first",
             Self::OpenRing { .. } => "repeat the first position of the ring at its end",
             Self::PointsElsewhere => {
                 "read the points from the .node file of the same name, or put them into this file"

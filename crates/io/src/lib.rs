@@ -48,10 +48,11 @@ pub use graph::{Attributes, Graph, GraphRing};
 pub use input::decompressed;
 pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
-pub use output::{Output, followed, remove_unfinished};
+pub use output::{Output, TemporaryFolder, followed, remove_unfinished};
 pub use patches::{Patches, write_patches};
 pub use raster::{
-    Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster, read_surface,
+    ASC_NODATA, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster,
+    read_surface,
 };
 pub use solid::{Solid, write_solid};
 pub use trim::{Cut, Trim};

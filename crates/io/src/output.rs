@@ -10,27 +10,56 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use tempfile::{NamedTempFile, TempPath};
+use tempfile::{NamedTempFile, TempDir, TempPath};
 
 use crate::format::is_gzip;
 
 /// Bytes that are gathered before they are written.
 const BUFFER: usize = 1 << 16;
 
-/// Temporary files that exist.
+/// Temporary files and folders that exist.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes all temporary files of this process, which is about to be ended by a signal.
+/// Removes all temporary files and folders of this process, which is about to be ended by a signal.
 pub fn remove_unfinished() {
+    /// Threads go on meanwhile, and may write into a folder that is being emptied.
+    const TRIES: usize = 10;
     // Whoever holds the lock may be the one that was stopped.
     if let Ok(mut paths) = UNFINISHED.try_lock() {
         for path in paths.drain(..) {
-            _ = fs::remove_file(path);
+            let is_gone = fs::remove_file(&path).is_ok();
+            _ = is_gone || (0..TRIES).any(|_| fs::remove_dir_all(&path).is_ok());
         }
+    }
+}
+
+/// A folder for work, which goes with all that is in it when this is dropped, or by [`remove_unfinished`].
+#[derive(Debug)]
+pub struct TemporaryFolder(TempDir);
+
+impl TemporaryFolder {
+    /// Makes it in another folder, with a name that begins so.
+    pub fn create(within: &Path, prefix: &str) -> io::Result<Self> {
+        // Known before a signal can come between.
+        let mut paths = unfinished();
+        let folder = tempfile::Builder::new().prefix(prefix).tempdir_in(within)?;
+        paths.push(folder.path().to_owned());
+        Ok(Self(folder))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+}
+
+impl Drop for TemporaryFolder {
+    fn drop(&mut self) {
+        unfinished().retain(|known| known != self.0.path());
     }
 }
 

@@ -4,10 +4,12 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use delone::surface::Grid;
-use delone_io::{Crs, Format, Light, Output, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster};
+use delone_io::{
+    ASC_NODATA, Crs, Format, Light, Output, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
+};
 
 use crate::files;
-use crate::message::Failure;
+use crate::message::{Failure, warn};
 use crate::progress::Phase;
 
 /// Where rows go.
@@ -48,12 +50,16 @@ pub(super) fn write(
             _ => Sheet::Raster(RasterWriter::create(output, *format, &info).map_err(failed)?),
         });
     }
-    let mut known = 0;
+    // Text has a number for no data whether one is named or not.
+    let is_text = outputs.iter().any(|output| output.1 == Format::Asc);
+    let nothing = about.nodata.or(is_text.then_some(ASC_NODATA));
+    let (mut known, mut hidden) = (0, 0);
     let phase = Phase::count(quiet, "rows", about.grid.rows() as u64);
     for rows in bands {
         let window = about.grid.window(0..about.grid.columns(), rows.clone());
         let band = values(&window)?;
         known += band.iter().filter(|value| !value.is_nan()).count() as u64;
+        hidden += band.iter().filter(|&&value| Some(value) == nothing).count() as u64;
         for (sheet, (path, _)) in sheets.iter_mut().zip(outputs) {
             let written = match sheet {
                 Sheet::Raster(writer) => writer.write_rows(&band),
@@ -76,6 +82,10 @@ pub(super) fn write(
         if let Some((beside, text)) = beside_raster(path, *format, about.crs.as_ref()) {
             files::write(&beside, |out| Ok(std::io::Write::write_all(out, text.as_bytes())?))?;
         }
+    }
+    if let Some(number) = nothing.filter(|_| hidden > 0) {
+        let what = format!("{hidden} cells have the height {number}, which stands for no data");
+        warn(quiet, format_args!("{what}: name another with --nodata"));
     }
     Ok(known)
 }

@@ -40,10 +40,16 @@ pub(super) fn values(
     let mut open: Vec<usize> = (0..values.len()).filter(|&k| !values[k].is_nan()).collect();
     let mut margin = 4.0 * grid.step()[1].abs();
     while !open.is_empty() {
-        let box_ = [range[0] - margin, range[1] + margin];
+        // Beyond the last points there is nothing, however far.
+        let (low, high) = (range[0] - margin, range[1] + margin);
+        let box_ = [
+            if low <= held.bounds.low[1] { f64::NEG_INFINITY } else { low },
+            if high >= held.bounds.high[1] { f64::INFINITY } else { high },
+        ];
         let part = Part::read(held, box_)?;
         open = part.settle(method, grid, &open, &mut values).map_err(|error| failed(&error))?;
-        if box_[0] <= held.bounds.low[1] && box_[1] >= held.bounds.high[1] {
+        if box_.iter().all(|end| end.is_infinite()) {
+            debug_assert!(open.is_empty(), "all triangles are those of the whole");
             break;
         }
         margin = (2.0 * margin).max((range[1] - range[0]) / 8.0);

@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, LAS_CLASSES};
-use tempfile::TempDir;
+use delone_io::{Cloud, Format, LAS_CLASSES, TemporaryFolder};
 
 use super::folder_of;
 use crate::args::{DtmArgs, DuplicatesName, InputArgs, TilesArgs};
@@ -36,11 +35,17 @@ pub(super) fn resolve(args: &DtmArgs) -> Result<InputArgs, Failure> {
         clouds.sort();
         input.input.append(&mut clouds);
     }
-    let is_las = |path: &PathBuf| args.input.from.or_else(|| Format::of(path).ok()) == Some(Format::Las);
-    if input.class.is_empty() && !args.all_classes && input.input.iter().any(is_las) {
+    if input.class.is_empty() && !args.all_classes && has_classes(&input) {
         input.class.push(GROUND);
     }
     Ok(input)
+}
+
+/// Whether some file, or what a folder stands for, has classes of points.
+fn has_classes(input: &InputArgs) -> bool {
+    let is_las =
+        |path: &PathBuf| path.is_dir() || input.from.or_else(|| Format::of(path).ok()) == Some(Format::Las);
+    input.input.iter().any(is_las)
 }
 
 /// Refuses points that have no surface.
@@ -68,7 +73,10 @@ pub(super) fn check_count(count: u64, label: &Path, args: &DtmArgs) -> Result<()
     }
     let names: Vec<String> = args.input.class.iter().map(|&class| name(class)).collect();
     let of = match &names[..] {
-        [] if args.all_classes => String::new(),
+        [] if args.all_classes || !has_classes(&args.input) => {
+            let what = format!("{}: there are no points", label.display());
+            return Err(Failure::new(what, "give points with heights"));
+        }
         [] => " of ground".to_owned(),
         names => format!(" of class {}", names.join(", ")),
     };
@@ -81,9 +89,9 @@ fn name(class: u8) -> String {
 }
 
 /// A folder for tiles beside the first output that is a file; it goes with the work.
-pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TempDir, Failure> {
+pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TemporaryFolder, Failure> {
     let folder = outputs.iter().map(|output| folder_of(&output.0)).next().unwrap_or(Path::new("."));
-    tempfile::Builder::new().prefix(".delone-tiles-").tempdir_in(folder).map_err(|error| {
+    TemporaryFolder::create(folder, ".delone-tiles-").map_err(|error| {
         let what = format!("cannot make a folder for tiles in {}: {error}", folder.display());
         Failure::new(what, "check the permissions and the room on the disk")
     })

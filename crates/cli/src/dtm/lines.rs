@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use delone::surface::{Interpolator, Outside};
+use delone::{Constrained2, Crossings, SegmentId};
 use delone_io::{Cloud, Crs, Graph};
 
 use super::surface::of_points;
@@ -17,9 +18,9 @@ pub(super) struct Lines {
     /// The height of each point, where its file has it.
     given: Vec<Option<f64>>,
     pub(super) segments: Vec<[usize; 2]>,
-    /// For each segment, whether what it bounds is level.
-    pub(super) is_level: Vec<bool>,
-    /// Points of each polygon that is level, or of what else is in one file.
+    /// For each segment the level polygon that it bounds.
+    pub(super) bounds: Vec<Option<u32>>,
+    /// Points of each polygon that is level.
     polygons: Vec<std::ops::Range<usize>>,
     /// Points that segments were cut at, each with an end of its segment.
     cuts: Vec<[usize; 2]>,
@@ -36,16 +37,9 @@ impl Lines {
                 let what = format!("{}: there is no line in it", path.display());
                 return Err(Failure::new(what, "give lines or polygons as geojson, wkt, wkb or poly"));
             }
-            if let (Some(ours), Some(theirs)) = (crs, &graph.cloud.crs)
-                && ours.epsg.zip(theirs.epsg).is_some_and(|(a, b)| a != b)
-            {
-                let what =
-                    format!("{}: its coordinates are {theirs}, those of the points {ours}", path.display());
-                return Err(Failure::new(what, "transform one of them first"));
-            }
+            check_crs(path, crs, graph.cloud.crs.as_ref())?;
             if is_level && graph.rings.is_empty() {
-                let what = format!("{}: there is no polygon in it", path.display());
-                return Err(Failure::new(what, "give polygons, or --breaklines for lines"));
+                return Err(no_polygon(path, "give polygons, or --breaklines for lines"));
             }
             lines.add(&graph, is_level, path, quiet);
         }
@@ -53,27 +47,37 @@ impl Lines {
     }
 
     /// Cuts segments into pieces that are not longer, so that what is on the other side of a line is behind its vertices.
-    pub(super) fn cut(&mut self, longest: f64) {
-        /// More would be lines of another scale than the raster.
-        const MOST: f64 = 100_000.0;
+    ///
+    /// Where lines run along each other both are cut at the same places, the ends of either among them: places between are rounded, and
+    /// pieces that nearly lie on each other would have no end of vertices that part them.
+    pub(super) fn cut(&mut self, longest: f64) -> Result<(), delone::Error> {
+        let c = Constrained2::with_crossings(&self.points, &self.segments, Crossings::Split)?;
+        let known = self.points.len();
         for s in 0..self.segments.len() {
             let [a, b] = self.segments[s];
             let (p, q) = (self.points[a], self.points[b]);
-            let pieces = ((p[0] - q[0]).hypot(p[1] - q[1]) / longest).ceil().min(MOST) as usize;
+            let axis = usize::from((q[1] - p[1]).abs() > (q[0] - p[0]).abs());
+            let chain = c.chain(SegmentId::new(s)).unwrap_or_default();
+            let on: Vec<[f64; 2]> = chain.iter().filter(|v| v.index() < known).map(|&v| c.point(v)).collect();
+            let mut places: Vec<[f64; 2]> = Vec::new();
+            for (k, ends) in on.windows(2).enumerate() {
+                places.extend(ends[..1].iter().filter(|_| k > 0));
+                places.extend(between(ends[0], ends[1], longest));
+            }
             let mut last = a;
-            for k in 1..pieces {
-                let share = k as f64 / pieces as f64;
-                let between = |a: f64, b: f64| a + share * (b - a);
-                self.points.push([between(p[0], q[0]), between(p[1], q[1])]);
-                self.given.push(self.given[a].zip(self.given[b]).map(|(a, b)| between(a, b)));
+            for place in places {
+                let share = (place[axis] - p[axis]) / (q[axis] - p[axis]);
+                self.points.push(place);
+                self.given.push(self.given[a].zip(self.given[b]).map(|(a, b)| a + share * (b - a)));
                 let new = self.points.len() - 1;
                 self.cuts.push([new, a]);
                 self.segments.push([last, new]);
-                self.is_level.push(self.is_level[s]);
+                self.bounds.push(self.bounds[s]);
                 last = new;
             }
             self.segments[s] = [last, b];
         }
+        Ok(())
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -88,7 +92,8 @@ impl Lines {
             None => self.given.resize(self.points.len(), None),
         }
         self.segments.extend(graph.segments.iter().map(|ends| ends.map(|i| i + first)));
-        self.is_level.resize(self.segments.len(), is_level);
+        let first_segment = self.bounds.len();
+        self.bounds.resize(self.segments.len(), None);
         if !is_level {
             return;
         }
@@ -110,17 +115,21 @@ impl Lines {
                 warn(quiet, format_args!("{what}: the lowest is taken"));
                 self.given[range.clone()].fill(Some(low));
             }
+            for ring in polygon {
+                let sides = first_segment + ring.segments.start..first_segment + ring.segments.end;
+                self.bounds[sides].fill(Some(self.polygons.len() as u32));
+            }
             self.polygons.push(range);
         }
     }
 
-    /// The height of each point; and of points of level polygons, by index, the height of the polygon.
+    /// The height of each point, and of each level polygon.
     pub(super) fn heights(
         &self,
         cloud: &Cloud,
         rule: DuplicatesName,
         label: &Path,
-    ) -> Result<(Vec<f64>, Vec<Option<f64>>), Failure> {
+    ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
         let failed = |error| Failure::points(label, &error);
         let mut heights: Vec<f64> = self.given.iter().map(|z| z.unwrap_or(f64::NAN)).collect();
         if heights.iter().any(|z| z.is_nan()) {
@@ -132,19 +141,46 @@ impl Lines {
                 }
             }
         }
+        let mut of_polygon = Vec::new();
         let mut levels = vec![None; heights.len()];
         for range in &self.polygons {
             let lowest = heights[range.clone()].iter().copied().fold(f64::INFINITY, f64::min);
             heights[range.clone()].fill(lowest);
             levels[range.clone()].fill(Some(lowest));
+            of_polygon.push(lowest);
         }
         for &[new, end] in &self.cuts {
-            levels[new] = levels[end];
             heights[new] = levels[end].unwrap_or(heights[new]);
         }
-        if self.polygons.is_empty() {
-            levels.clear();
-        }
-        Ok((heights, levels))
+        Ok((heights, of_polygon))
     }
+}
+
+/// The places that cut a segment into equal pieces which are not longer; the same ones in both directions.
+fn between(p: [f64; 2], q: [f64; 2], longest: f64) -> Vec<[f64; 2]> {
+    /// More would be lines of another scale than the raster.
+    const MOST: f64 = 100_000.0;
+    let pieces = ((p[0] - q[0]).hypot(p[1] - q[1]) / longest).ceil().min(MOST) as usize;
+    let (low, high) = if p <= q { (p, q) } else { (q, p) };
+    let place = |k: usize| [0, 1].map(|axis| low[axis] + k as f64 / pieces as f64 * (high[axis] - low[axis]));
+    let mut places: Vec<[f64; 2]> = (1..pieces).map(place).collect();
+    if q < p {
+        places.reverse();
+    }
+    places
+}
+
+/// Refuses a system of coordinates that is not that of the points.
+pub(super) fn check_crs(path: &Path, ours: Option<&Crs>, theirs: Option<&Crs>) -> Result<(), Failure> {
+    if let (Some(ours), Some(theirs)) = (ours, theirs)
+        && ours.epsg.zip(theirs.epsg).is_some_and(|(a, b)| a != b)
+    {
+        let what = format!("{}: its coordinates are {theirs}, those of the points {ours}", path.display());
+        return Err(Failure::new(what, "transform one of them first"));
+    }
+    Ok(())
+}
+
+pub(super) fn no_polygon(path: &Path, help: &str) -> Failure {
+    Failure::new(format!("{}: there is no polygon in it", path.display()), help)
 }

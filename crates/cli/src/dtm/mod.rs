@@ -7,6 +7,7 @@ mod bands;
 mod clip;
 mod held;
 mod inputs;
+mod level;
 mod lines;
 mod surface;
 
@@ -24,11 +25,14 @@ use crate::progress::Phase;
 use crate::stats::{Stats, grouped};
 use crate::tiles::Held;
 use bands::About;
+use clip::Clip;
 use lines::Lines;
 use surface::{Kind, Surface};
 
 /// Rasters of more cells are refused.
 const MOST: f64 = 17_179_869_184.0;
+/// Bytes of a cell of the row that is made, at the most.
+const ROW: f64 = 64.0;
 /// Cells that are made at a time, where nobody limits memory.
 const AT_ONCE: usize = 1 << 24;
 
@@ -39,9 +43,9 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     check(args, &outputs)?;
     let input = inputs::resolve(args)?;
-    let rings = args.clip.as_deref().map(|path| files::rings(path, quiet)).transpose()?;
+    let clip = args.clip.as_deref().map(|path| Clip::read(path, quiet)).transpose()?;
     let mut stats = Stats::start();
-    let mut job = Job { args, outputs: &outputs, rings, label: input.label(), quiet };
+    let mut job = Job { args, outputs: &outputs, clip, label: input.label(), quiet };
     let in_chunks = input.input.iter().all(|path| {
         let format = input.from.or_else(|| Format::of(path).ok());
         path.is_file() && matches!(format, Some(Format::Text | Format::Npy | Format::Raw | Format::Las))
@@ -111,7 +115,7 @@ fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
 struct Job<'a> {
     args: &'a DtmArgs,
     outputs: &'a [(PathBuf, Format)],
-    rings: Option<Vec<Vec<[f64; 2]>>>,
+    clip: Option<Clip>,
     label: PathBuf,
     quiet: bool,
 }
@@ -121,10 +125,11 @@ impl Job<'_> {
         let Self { args, quiet, .. } = *self;
         inputs::check(cloud, &self.label, args)?;
         let crs = self.crs(cloud);
+        self.check_clip(crs.as_ref())?;
         let grid = self.grid(&Bounds::of(cloud.xy.iter().copied()), cloud.xy.len() as f64)?;
         let mut lines = Lines::read(args, crs.as_ref(), quiet)?;
         if args.method != MethodName::Linear {
-            lines.cut(grid.step()[0] / 4.0);
+            lines.cut(grid.step()[0] / 4.0).map_err(|error| Failure::graph(&self.label, &error))?;
         }
         let phase = Phase::start(quiet, "triangulating");
         let mut kind = if lines.is_empty() {
@@ -173,10 +178,20 @@ impl Job<'_> {
             Surface::new(Delaunay2::new(), Vec::new(), args, Vec::new(), &self.label)?;
         }
         let crs = self.crs(about);
+        self.check_clip(crs.as_ref())?;
         let grid = self.grid(&held.bounds, count as f64)?;
         let free = (memory - (40 << 20)) as f64;
         // A band has its values twice, and where neighbours are asked its points.
-        let rows = (free / 8.0 / 16.0 / grid.columns() as f64).max(1.0) as usize;
+        let rows = (free / 8.0 / 16.0 / grid.columns() as f64) as usize;
+        if rows == 0 && free < ROW * grid.columns() as f64 {
+            let what = format!(
+                "{}: a row of {} cells does not fit into --memory",
+                self.label.display(),
+                grid.columns()
+            );
+            return Err(Failure::new(what, "allow more memory, or choose a larger --cell"));
+        }
+        let rows = rows.max(1);
         let rows = if args.tile.is_some() { 7 } else { rows };
         let mut bands = even(&grid, rows.min((AT_ONCE / grid.columns()).max(1)));
         if args.method != MethodName::Linear {
@@ -203,11 +218,11 @@ impl Job<'_> {
             stats.tell(self.quiet, ["triangle", "triangles"]);
             return Ok(());
         }
-        let rings = self.rings.take();
+        let clip = &self.clip;
         let known = bands::write(&rasters, &about, bands, self.quiet, |window| {
             let mut band = values(window)?;
-            if let Some(rings) = &rings {
-                clip::clip(rings, window, &mut band);
+            if let Some(clip) = clip {
+                clip.apply(window, &mut band);
             }
             Ok(band)
         })?;
@@ -270,6 +285,13 @@ impl Job<'_> {
             );
         }
         Ok(grid)
+    }
+
+    fn check_clip(&self, crs: Option<&Crs>) -> Result<(), Failure> {
+        match (&self.clip, &self.args.clip) {
+            (Some(clip), Some(path)) => clip.check(path, crs),
+            _ => Ok(()),
+        }
     }
 
     fn crs(&self, about: &Cloud) -> Option<Crs> {

@@ -5,12 +5,10 @@ use std::path::Path;
 use delone::surface::{
     ContourLine, Contours, Grid, Interpolator, Levels, Outside, Raster, gradients, rasterize,
 };
-use delone::{
-    Constrained2, Crossings, Delaunay2, Fill, Refinement, SegmentId, Surround, TriangleId, Triangulation,
-    VertexId,
-};
+use delone::{Constrained2, Crossings, Delaunay2, Refinement, Surround, Triangulation};
 use delone_io::{Cloud, Trim};
 
+use super::level::{Level, level_triangles};
 use super::lines::Lines;
 use super::round;
 use crate::args::{DtmArgs, DuplicatesName, MethodName};
@@ -18,6 +16,9 @@ use crate::constrained::extended;
 use crate::heights::settle;
 use crate::message::{Failure, note, warn};
 use crate::stats::Stats;
+
+/// Vertices that may be added on lines, and four more for each point.
+const MANY: usize = 1000;
 
 /// A triangulation with heights, and what of it is shown.
 pub(super) struct Surface<T: Triangulation> {
@@ -27,7 +28,7 @@ pub(super) struct Surface<T: Triangulation> {
     max_edge: Option<f64>,
     carved: Option<Trim>,
     /// Level triangles, which stay so whatever the method.
-    level: Vec<[VertexId; 3]>,
+    level: Vec<Level>,
     slopes: Vec<[f64; 2]>,
 }
 
@@ -96,20 +97,34 @@ pub(super) fn with_lines(
     }
     if args.method != MethodName::Linear {
         let before = c.points().len();
-        let refined = Refinement::new().min_angle(0.0).conforming(true).run(&mut c).map_err(failed)?;
+        // Lines that nearly lie on each other would want vertices without end.
+        let most = MANY + 4 * before;
+        let how = Refinement::new().min_angle(0.0).conforming(true).max_vertices(most);
+        how.run(&mut c).map_err(failed)?;
         heights = extended(&c, 1, &heights, |_| None).0;
         let added = c.points().len() - before;
+        if added >= most {
+            warn(quiet, "some lines are so near to each other that natural neighbours see across them");
+        }
         if added > 0 {
             note(
                 quiet,
                 format_args!("{added} vertices were added on lines, so that natural neighbours respect them"),
             );
         }
-        drop(refined);
     }
     let mut level = Vec::new();
     if !levels.is_empty() {
-        level = flatten(&c, &mut heights, first, &levels, lines).map_err(failed)?;
+        level = level_triangles(&c, &lines.bounds, &levels).map_err(failed)?;
+        // A corner of several is at the lowest.
+        for &(corners, _) in &level {
+            corners.iter().for_each(|v| heights[v.index()] = f64::INFINITY);
+        }
+        // On an edge between two the one that is painted last counts.
+        level.sort_unstable_by(|a, b| b.1.total_cmp(&a.1));
+        for &(corners, height) in &level {
+            corners.iter().for_each(|v| heights[v.index()] = heights[v.index()].min(height));
+        }
     }
     if args.method == MethodName::Linear {
         return Ok(Kind::Lines(Box::new(Surface::new(c, heights, args, level, label)?)));
@@ -119,49 +134,12 @@ pub(super) fn with_lines(
     Ok(Kind::Points(Box::new(Surface::new(d, heights, args, level, label)?)))
 }
 
-/// Brings what is inside of level polygons to their height; says which triangles that are.
-fn flatten(
-    c: &Constrained2,
-    heights: &mut [f64],
-    first: usize,
-    levels: &[Option<f64>],
-    lines: &Lines,
-) -> Result<Vec<[VertexId; 3]>, delone::Error> {
-    let inside =
-        c.domains_within(&Fill::EvenOdd, |s: SegmentId| lines.is_level.get(s.index()) == Some(&true))?;
-    let mut of_part = vec![f64::INFINITY; inside.parts().len()];
-    let triangles: Vec<TriangleId> = c.triangle_ids().filter(|&t| inside.is_inside(t)).collect();
-    // Border vertices, whose first point may be one of the cloud.
-    let mut known = vec![None; c.points().len()];
-    for (k, level) in levels.iter().enumerate() {
-        known[first + k] = *level;
-    }
-    for pair in c.duplicates().filter(|pair| pair.point >= first) {
-        known[pair.vertex.index()] = levels.get(pair.point - first).copied().flatten();
-    }
-    for &t in &triangles {
-        let Some(part) = inside.part(t) else { continue };
-        for level in c.mesh().corners(t).into_iter().filter_map(|v| known[v.index()]) {
-            of_part[part] = of_part[part].min(level);
-        }
-    }
-    let mut level = Vec::new();
-    for t in triangles {
-        let corners = c.mesh().corners(t);
-        if let Some(height) = inside.part(t).map(|part| of_part[part]).filter(|height| height.is_finite()) {
-            corners.iter().for_each(|v| heights[v.index()] = height);
-            level.push(corners);
-        }
-    }
-    Ok(level)
-}
-
 impl<T: Triangulation<Point = [f64; 2]>> Surface<T> {
     pub(super) fn new(
         d: T,
         heights: Vec<f64>,
         args: &DtmArgs,
-        level: Vec<[VertexId; 3]>,
+        level: Vec<Level>,
         label: &Path,
     ) -> Result<Self, Failure> {
         if d.simplices().next().is_none() {
@@ -181,6 +159,20 @@ impl<T: Triangulation<Point = [f64; 2]>> Surface<T> {
             exceeds([a, b, c].map(|v| self.d.position(v).unwrap_or_default()), longest)
         };
         !is_carved && !self.max_edge.is_some_and(is_long)
+    }
+
+    /// Gives cells with values that are in level triangles the heights of these.
+    fn level_out(&self, grid: &Grid, values: &mut [f64]) {
+        if self.level.is_empty() {
+            return;
+        }
+        let raster = Raster::new(*grid);
+        for &(corners, height) in &self.level {
+            raster.paint(corners.map(|v| self.d.position(v).unwrap_or_default()), [height; 3]);
+        }
+        let levels = raster.into_values();
+        let pairs = values.iter_mut().zip(levels).filter(|pair| !pair.1.is_nan() && !pair.0.is_nan());
+        pairs.for_each(|(value, level)| *value = level);
     }
 }
 
@@ -216,27 +208,19 @@ impl Kind {
 
     /// The values of some rows.
     pub(super) fn values(&self, method: MethodName, grid: &Grid) -> Result<Vec<f64>, delone::Error> {
-        let surface = match self {
-            Self::Points(surface) => surface,
+        match self {
+            Self::Points(surface) => {
+                let mut values = rasterize(&surface.d, &surface.heights, grid, |s| surface.keeps(s))?;
+                fill(&surface.d, method, (&surface.heights, &surface.slopes), grid, &mut values)?;
+                surface.level_out(grid, &mut values);
+                Ok(values)
+            }
             Self::Lines(surface) => {
-                return rasterize(&surface.d, &surface.heights, grid, |s| surface.keeps(s));
+                let mut values = rasterize(&surface.d, &surface.heights, grid, |s| surface.keeps(s))?;
+                surface.level_out(grid, &mut values);
+                Ok(values)
             }
-        };
-        let mut values = rasterize(&surface.d, &surface.heights, grid, |s| surface.keeps(s))?;
-        fill(&surface.d, method, (&surface.heights, &surface.slopes), grid, &mut values)?;
-        if method != MethodName::Linear && !surface.level.is_empty() {
-            let raster = Raster::new(*grid);
-            for t in &surface.level {
-                raster.paint(t.map(|v| surface.d.point(v)), t.map(|v| surface.heights[v.index()]));
-            }
-            let levels = raster.into_values();
-            values
-                .iter_mut()
-                .zip(levels)
-                .filter(|pair| !pair.1.is_nan() && !pair.0.is_nan())
-                .for_each(|(value, level)| *value = level);
         }
-        Ok(values)
     }
 }
 

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, Read, Write};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use delone::tiles::{Cuts, Node};
@@ -13,6 +13,8 @@ use rayon::prelude::*;
 
 use super::input::hashed;
 use super::manifest::place;
+use crate::args::DuplicatesName;
+use crate::heights::Several;
 use crate::message::Failure;
 
 /// Where the bucket of a tile is.
@@ -33,6 +35,9 @@ pub(super) struct Content {
 pub(super) fn width(has_heights: bool) -> usize {
     if has_heights { 32 } else { 24 }
 }
+
+/// Where in a record its height is.
+const HEIGHT: u64 = 16;
 
 /// Buckets that are being filled.
 pub(super) struct Buckets<'a> {
@@ -226,12 +231,12 @@ fn each(
 }
 
 /// Cuts buckets again that have more points than a tile may have: the sample did not see them. Of points that are all equal the first
-/// is kept; says how many were left out.
+/// is kept, with the height that a rule says; says how many were left out.
 pub(super) fn cut_again(
     folder: &Path,
     cuts: &mut Cuts,
     counts: &mut BTreeMap<Node, u64>,
-    has_heights: bool,
+    (has_heights, rule): (bool, DuplicatesName),
     most: u64,
     buffer: usize,
 ) -> Result<u64, Failure> {
@@ -251,13 +256,45 @@ pub(super) fn cut_again(
             counts.extend(parts.finish()?);
             fs::remove_file(&old).map_err(|error| unwritten(&old, &error))?;
         } else {
-            let shorten = || OpenOptions::new().write(true).open(&old)?.set_len(width(has_heights) as u64);
+            let height = if has_heights {
+                height_of_all(folder, node, count, rule)?.map(Several::height)
+            } else {
+                None
+            };
+            let shorten = || {
+                let mut file = OpenOptions::new().write(true).open(&old)?;
+                if let Some(height) = height {
+                    file.seek(SeekFrom::Start(HEIGHT))?;
+                    file.write_all(&height.to_le_bytes())?;
+                }
+                file.set_len(width(has_heights) as u64)
+            };
             shorten().map_err(|error| unwritten(&old, &error))?;
             counts.insert(node, 1);
             left_out += count - 1;
         }
     }
     Ok(left_out)
+}
+
+/// What a rule makes of the heights of a bucket whose points are all equal.
+fn height_of_all(
+    folder: &Path,
+    node: Node,
+    count: u64,
+    rule: DuplicatesName,
+) -> Result<Option<Several>, Failure> {
+    let mut all: Option<Several> = None;
+    each(folder, node, count, true, &mut |part| {
+        for height in part.heights {
+            match &mut all {
+                Some(several) => several.add(height),
+                None => all = Some(Several::new(rule, height)),
+            }
+        }
+        Ok(())
+    })?;
+    Ok(all)
 }
 
 /// Some points of a bucket; two that differ among them, if there are any.

@@ -41,7 +41,7 @@ impl Held {
         let input = Input::new(args)?;
         let (mut plan, about) = super::survey(folder, &input, &budget, quiet)?;
         stats.phase("read");
-        super::distribute(folder, &mut plan, &input, &budget, quiet)?;
+        super::distribute(folder, &mut plan, &input, (&budget, args.duplicates), quiet)?;
         super::triangulate(folder, &plan, &budget, args.duplicates, quiet)?;
         super::finish(folder, &mut plan, &budget, quiet)?;
         super::clean(folder, &plan);

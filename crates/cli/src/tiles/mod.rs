@@ -66,7 +66,7 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("read");
     if plan.outcome.is_none() {
         if plan.buckets.is_none() {
-            distribute(folder, &mut plan, &input, &budget, quiet)?;
+            distribute(folder, &mut plan, &input, (&budget, args.duplicates), quiet)?;
         }
         stats.phase("distribute");
         triangulate(folder, &plan, &budget, args.duplicates, quiet)?;
@@ -214,7 +214,7 @@ fn distribute(
     folder: &Path,
     plan: &mut Manifest,
     input: &Input,
-    budget: &Budget,
+    (budget, rule): (&Budget, DuplicatesName),
     quiet: bool,
 ) -> Result<(), Failure> {
     // Those of a run that was stopped while it filled them.
@@ -241,8 +241,8 @@ fn distribute(
         let what = format!("the input changed while it was read: {count} points, {} before", plan.count);
         return Err(Failure::new(what, "start again in another folder when nobody writes to it"));
     }
-    plan.left_out =
-        buckets::cut_again(folder, &mut plan.cuts, &mut counts, has_heights, budget.most(), buffer)?;
+    let heights = (has_heights, rule);
+    plan.left_out = buckets::cut_again(folder, &mut plan.cuts, &mut counts, heights, budget.most(), buffer)?;
     plan.buckets = Some(counts);
     plan.write(folder)
 }

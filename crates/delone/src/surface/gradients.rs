@@ -70,11 +70,17 @@ fn weigh<T: Surround>(d: &T, v: VertexId, star: &mut Star) {
         let corners = corners.as_ref();
         let points = [0, 1, 2, 3]
             .map(|k| corners.get(k).map_or([0.0; 3], |&w| three(d.position(w).unwrap_or_default())));
-        let sums = duals(&points[..corners.len()]);
+        // In space roundings depend on the order of corners, which in the plane only turns.
+        let mut order = [0, 1, 2, 3];
+        if corners.len() == 4 {
+            order.sort_unstable_by(|&i, &j| compare(points[i], points[j]));
+        }
+        let sums = duals(&order.map(|k| points[k])[..corners.len()]);
+        let rank = |corner: usize| order.iter().position(|&k| k == corner).unwrap_or_default();
         let own = corners.iter().position(|&w| w == v).unwrap_or_default();
         for (k, &w) in corners.iter().enumerate() {
             if k != own {
-                star.push((w, sums[own][k]));
+                star.push((w, sums[rank(own)][rank(k)]));
                 is_on_hull |= d.across(s, k).is_none();
             }
         }

@@ -64,8 +64,10 @@ impl<T: Surround> Interpolator<'_, T> {
         let d = self.triangulation();
         check_values(d, values.len(), 1)?;
         check_values(d, gradients.len(), 1)?;
+        // Points on one line or plane have no gradients.
+        let is_flat = d.simplices().next().is_none();
         let weights = self.weights(q)?;
-        if weights.len() < 2 {
+        if weights.len() < 2 || is_flat {
             return Ok((!weights.is_empty()).then(|| blend(weights, |v| values[v])));
         }
         let neighbor = |&(v, weight): &(VertexId, f64)| {

@@ -9,7 +9,7 @@ use crate::error::excerpt;
 use crate::{Error, Format, Source};
 
 /// What stands for no data where nothing else is said.
-const NO_DATA: f64 = -9999.0;
+pub const ASC_NODATA: f64 = -9999.0;
 
 /// Writes rows as they come.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ impl<W: Write + Seek> Writer<W> {
             return Err(Error::Extent { format: Format::Asc, columns, rows });
         }
         let ([west, _], [_, south]) = (grid.corner(), grid.far_corner());
-        let nodata = info.nodata.unwrap_or(NO_DATA);
+        let nodata = info.nodata.unwrap_or(ASC_NODATA);
         let nodata = if nodata.fract() == 0.0 && nodata.abs() < 1e15 {
             format!("{nodata:.0}")
         } else {

@@ -15,6 +15,7 @@ use delone::surface::Grid;
 
 use crate::{Cloud, Crs, Error, Format, ReadOptions, Source, read_points};
 
+pub use asc::ASC_NODATA;
 pub use beside::beside_raster;
 pub use shade::{Light, ShadeWriter};
 
