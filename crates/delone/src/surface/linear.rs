@@ -18,8 +18,13 @@ pub(super) fn weigh<P: Coordinates>(q: P, corners: &[(VertexId, P)], weights: &m
     for (point, corner) in points.iter_mut().zip(corners) {
         *point = super::natural::three(corner.1);
     }
-    let sizes = points[..count].iter().flat_map(|p| (0..3).map(|k| super::natural::apart(p[k], q[k])));
-    let scale = super::natural::scale(sizes.fold(0.0, f64::max));
+    let size =
+        |k: usize| points[..count].iter().fold(0.0, |most, p| super::natural::apart(p[k], q[k]).max(most));
+    let sizes = [size(0), size(1), size(2)];
+    // Of a whole triangle or tetrahedron each axis may have a scale of its own; on what is less, lengths along axes are compared.
+    let is_whole = count == P::COUNT + 1;
+    let common = sizes.into_iter().fold(0.0, f64::max);
+    let scale = sizes.map(|size| super::natural::scale(if is_whole { size } else { common }));
     let (shares, doubt) = shares::<f64>(P::COUNT, q, &points[..count], scale);
     let total: f64 = shares[..count].iter().sum();
     let is_good = total > 0.0 && doubt * f64::EPSILON <= GOOD * total;
@@ -32,7 +37,7 @@ pub(super) fn weigh<P: Coordinates>(q: P, corners: &[(VertexId, P)], weights: &m
 }
 
 #[cold]
-fn shares_in_double(dimension: usize, q: [f64; 3], points: &[[f64; 3]], scale: [f64; 2]) -> [f64; 4] {
+fn shares_in_double(dimension: usize, q: [f64; 3], points: &[[f64; 3]], scale: [[f64; 2]; 3]) -> [f64; 4] {
     shares::<Double>(dimension, q, points, scale).0.map(Real::value)
 }
 
@@ -41,12 +46,15 @@ fn shares<R: Real>(
     dimension: usize,
     q: [f64; 3],
     points: &[[f64; 3]],
-    [before, after]: [f64; 2],
+    scale: [[f64; 2]; 3],
 ) -> ([R; 4], f64) {
     let zero = R::default();
     let mut at = [[zero; 3]; 4];
     for (local, p) in at.iter_mut().zip(points) {
-        *local = [0, 1, 2].map(|k| R::difference(p[k] * before, q[k] * before, after));
+        *local = [0, 1, 2].map(|k| {
+            let [before, after] = scale[k];
+            R::difference(p[k] * before, q[k] * before, after)
+        });
     }
     // Corners come in any orientation.
     let sign = |whole: f64| R::difference(if whole < 0.0 { -1.0 } else { 1.0 }, 0.0, 1.0);

@@ -254,7 +254,8 @@ impl Side {
         let share = (y / 4.0 - self.low[1] / 4.0) / (self.high[1] / 4.0 - self.low[1] / 4.0);
         let share = if share.is_nan() { 0.5 } else { share };
         let mean = |a: f64, b: f64| a * (1.0 - share) + b * share;
-        Meeting { side: self, x: mean(self.low[0], self.high[0]), value: mean(first, second) }
+        let value = mean(first, second).max(first.min(second)).min(first.max(second));
+        Meeting { side: self, x: mean(self.low[0], self.high[0]), value }
     }
 }
 

@@ -30,6 +30,7 @@ use cloud::Cloud;
 use greedy::Greedy;
 use lattice::Lattice;
 use mesh::{Mesh, NONE};
+use plane::LOW;
 
 /// Three samples: the corners of a triangle.
 type Triple = [u32; 3];
@@ -214,7 +215,10 @@ impl Thinning {
         if let Some(index) = values.iter().position(|z| z.is_infinite()) {
             return Err(Error::Height { index, value: values[index] });
         }
-        if values.iter().any(|z| z.abs() > lattice::HIGHEST) {
+        // Planes over cells end before numbers do.
+        let is_extreme =
+            |z: f64| z != 0.0 && !z.is_nan() && !(LOW * 1e20..lattice::HIGHEST).contains(&z.abs());
+        if values.iter().any(|&z| is_extreme(z)) {
             return self.cells(grid, values);
         }
         let start: Vec<u32> = corners(grid, values)?.into_iter().map(|i| i as u32).collect();

@@ -2,8 +2,9 @@
 
 use std::cmp::Ordering;
 
-/// Below this, areas may have lost more than roundings.
+/// Below these, areas and slopes, and differences of heights, may have lost more than roundings.
 const TINY: f64 = 1e-280;
+pub(super) const LOW: f64 = 1e-200;
 
 /// The plane over a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +33,13 @@ impl Plane {
         if !(area.abs() > thinnest * size && area.abs() > TINY) {
             return None;
         }
-        let slope = [(u * b[1] - v * a[1]) / area, (v * a[0] - u * b[0]) / area];
+        let parts = [u * b[1] - v * a[1], v * a[0] - u * b[0]];
+        let slope = parts.map(|part| part / area);
+        let is_lost = |k: usize| slope[k].abs() < TINY && parts[k] != 0.0;
+        let rise = u.abs().max(v.abs());
+        if is_lost(0) || is_lost(1) || (rise < LOW && rise > 0.0) {
+            return None;
+        }
         slope.iter().all(|x| x.is_finite()).then_some(Self { origin: p, height: z, slope })
     }
 
