@@ -73,7 +73,8 @@ def of_pdal() -> np.ndarray:
     with tempfile.TemporaryDirectory() as folder:
         west, south = np.floor(extent[:2] / cell) * cell
         east, north = np.ceil(extent[2:] / cell) * cell
-        raster = {"origin_x": west, "origin_y": south, "width": round((east - west) / cell), "height": round((north - south) / cell)}
+        width, height = round((east - west) / cell), round((north - south) / cell)
+        raster = {"origin_x": west, "origin_y": south, "width": width, "height": height}
         steps = [
             os.path.abspath(scan),
             {"type": "filters.range", "limits": "Classification[2:2]"},
