@@ -59,6 +59,8 @@ impl TemporaryFolder {
 
 impl Drop for TemporaryFolder {
     fn drop(&mut self) {
+        // Forgotten when it is gone: a signal in between still finds it.
+        _ = fs::remove_dir_all(self.0.path());
         unfinished().retain(|known| known != self.0.path());
     }
 }
