@@ -8,7 +8,8 @@ export class DelaunayWorker {
   #thread;
   #tasks = new Map();
   #next = 0;
-  #isOver = false;
+  /** Why nothing more can be asked, once that is so. */
+  #end;
 
   constructor() {
     this.#thread = isNode
@@ -17,7 +18,7 @@ export class DelaunayWorker {
     this.#thread.then((thread) => {
       const hear = (event, handle) => (isNode ? thread.on(event, handle) : thread.addEventListener(event, handle));
       hear("message", (message) => this.#finish(isNode ? message : message.data));
-      hear("error", (error) => this.#fail(new DeloneError("internal", `the worker failed: ${error.message}`)));
+      hear("error", (error) => this.#finishAll(new DeloneError("internal", `the worker failed: ${error.message}`)));
       this.#hold(thread);
     });
   }
@@ -32,33 +33,36 @@ export class DelaunayWorker {
    * Resolves to what a `Delaunator` has: coords, triangles, halfedges, hull.
    */
   async triangulate(coords, {transfer = false, skipInvalid = false} = {}) {
-    if (this.#isOver) throw new DeloneError("disposed", "the worker was terminated");
+    if (this.#end) throw this.#end;
     const given = transfer && coords instanceof Float64Array ? coords : Float64Array.from(coords);
-    const id = this.#next++;
-    const result = new Promise((resolve, reject) => this.#tasks.set(id, {resolve, reject}));
     const thread = await this.#thread;
-    this.#hold(thread);
-    thread.postMessage({id, coords: given, skipInvalid}, [given.buffer]);
-    return result;
+    if (this.#end) throw this.#end;
+    const id = this.#next++;
+    return new Promise((resolve, reject) => {
+      this.#tasks.set(id, {resolve, reject});
+      this.#hold(thread);
+      thread.postMessage({id, coords: given, skipInvalid}, [given.buffer]);
+    });
   }
 
   #finish({id, error, ...result}) {
-    const {resolve, reject} = this.#tasks.get(id);
+    const task = this.#tasks.get(id);
+    if (!task) return; // An answer that was under way when the thread was ended.
     this.#tasks.delete(id);
     this.#thread.then((thread) => this.#hold(thread));
-    if (error) reject(new DeloneError(error.code, error.message, error.index));
-    else resolve(result);
+    if (error) task.reject(new DeloneError(error.code, error.message, error.index));
+    else task.resolve(result);
   }
 
-  #fail(error) {
+  #finishAll(error) {
+    this.#end ??= error;
     for (const {reject} of this.#tasks.values()) reject(error);
     this.#tasks.clear();
   }
 
   /** Ends the thread; tasks that wait are rejected. */
   async terminate() {
-    this.#isOver = true;
-    this.#fail(new DeloneError("disposed", "the worker was terminated"));
+    this.#finishAll(new DeloneError("disposed", "the worker was terminated"));
     await (await this.#thread).terminate();
   }
 }

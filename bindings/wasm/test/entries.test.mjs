@@ -73,6 +73,23 @@ test("a worker", async () => {
   await assert.rejects(worker.triangulate([]), {code: "disposed"});
 });
 
+test("a worker that is ended while its answer is under way", async () => {
+  for (let delay = 0; delay < 20; delay++) {
+    const worker = new DelaunayWorker();
+    await worker.triangulate([0, 0, 1, 0, 0, 1]);
+    const answer = worker.triangulate([0, 0, 1, 0, 0, 1]).then(() => "answered", (error) => error.code);
+    await new Promise((resolve) => setTimeout(resolve, delay / 10));
+    // The thread answers while this one does not listen.
+    for (const until = performance.now() + delay; performance.now() < until; );
+    await worker.terminate();
+    assert.match(await answer, /answered|disposed/);
+  }
+  const worker = new DelaunayWorker();
+  const asked = assert.rejects(worker.triangulate([0, 0, 1, 0, 0, 1]), {code: "disposed"});
+  await worker.terminate();
+  await asked;
+});
+
 test("a program with an idle worker ends", () => {
   assert.equal(node('import {DelaunayWorker} from "delone/worker"; console.log((await new DelaunayWorker().triangulate([0, 0, 1, 0, 0, 1])).hull.length)'), "3");
 });
