@@ -49,24 +49,38 @@ class ConvexHull:
         self.ndim = self.points.shape[1]
         if self._options.seen_from is not None and self._options.seen_from >= len(self.points):
             raise ValueError(f"qhull_options: 'QG{self._options.seen_from}' among {len(self.points)} points")
-        self._make(np.arange(len(self.points)))
+        self._make(None)
 
-    def _make(self, candidates: NDArray[np.intp]) -> None:
-        """The hull of some points, which must be that of all."""
+    def _make(self, candidates: NDArray[np.intp] | None) -> None:
+        """The hull of some points, which must be that of all; None are all."""
         eye = self._options.seen_from
-        candidates = self._without_eye(candidates)
         self.npoints = len(self.points)
-        self.simplices: NDArray[np.int32] = candidates[_delone.convex_hull(self.points[candidates])].astype(np.int32)
+        if candidates is None and eye is None:
+            self.simplices: NDArray[np.int32] = _delone.convex_hull(self.points)
+        else:
+            candidates = self._without_eye(np.arange(self.npoints) if candidates is None else candidates)
+            self.simplices = candidates[_delone.convex_hull(self.points[candidates])].astype(np.int32)
         self.nsimplex = len(self.simplices)
-        around = self.simplices[:, 0]
-        self.vertices: NDArray[np.int32] = around if self.ndim == 2 else np.unique(self.simplices)
-        self.neighbors: NDArray[np.int32] = neighbors_of(self.simplices)
         self.good: NDArray[np.bool_] | None = None
         if eye is not None:
             is_seen = self._sides(self.points[eye : eye + 1])[0] > 0
             self.good = is_seen if self._options.seen else ~is_seen
-        for name in ("equations", "area", "volume", "coplanar"):
+        for name in ("vertices", "neighbors", "equations", "area", "volume", "coplanar"):
             self.__dict__.pop(name, None)
+
+    @cached_property
+    def vertices(self) -> NDArray[np.int32]:
+        """The corners."""
+        if self.ndim == 2:
+            return self.simplices[:, 0]
+        is_corner = np.zeros(self.npoints, dtype=bool)
+        is_corner[self.simplices] = True
+        return np.flatnonzero(is_corner).astype(np.int32)
+
+    @cached_property
+    def neighbors(self) -> NDArray[np.int32]:
+        """The facets across from each corner."""
+        return neighbors_of(self.simplices)
 
     def _without_eye(self, candidates: NDArray[np.intp]) -> NDArray[np.intp]:
         eye = self._options.seen_from
@@ -85,9 +99,9 @@ class ConvexHull:
         before = len(self.points)
         # Fewer than a hull takes have no corners.
         is_anew = as_flag(restart, "restart") or not self.nsimplex
-        corners = np.arange(before) if is_anew else np.sort(self.vertices)
+        corners = None if is_anew else np.sort(self.vertices)
         self.points = np.concatenate([self.points, more])
-        self._make(np.concatenate([corners, np.arange(before, len(self.points))]))
+        self._make(None if corners is None else np.concatenate([corners, np.arange(before, len(self.points))]))
 
     def close(self) -> None:
         """Ends changes: no points can be added any more."""

@@ -9,6 +9,7 @@
 mod faces;
 mod flips;
 mod history;
+mod prune;
 mod quickhull;
 mod shell;
 mod start;
@@ -49,17 +50,30 @@ impl Hull3 {
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         let points = &*P::all(points);
         check(points)?;
-        Ok(Self::of(points))
+        Ok(match prune::candidates(points) {
+            None => Self::of(points),
+            Some(kept) => {
+                let left: Vec<[f64; 3]> = kept.iter().map(|&i| points[i as usize]).collect();
+                Self::named(&left, |i| kept[i] as usize)
+            }
+        })
     }
 
     /// The hull of points that are finite.
     fn of(points: &[[f64; 3]]) -> Self {
+        Self::named(points, |i| i)
+    }
+
+    /// The same with names of the points, in their order.
+    fn named(points: &[[f64; 3]], name: impl Fn(usize) -> usize) -> Self {
+        let named = |corners: Vec<usize>| corners.into_iter().map(&name).collect::<Vec<_>>();
         match Start::of(points) {
-            Start::Lower(span, corners) => Self { span, corners, faces: Faces::none() },
+            Start::Lower(span, corners) => Self { span, corners: named(corners), faces: Faces::none() },
             Start::Flat(corners) => {
+                let corners = named(corners);
                 Self { span: Dimension::Plane, faces: Faces::one(corners.clone()), corners }
             }
-            Start::Tetrahedron(_) => Self::solid(quickhull::faces(points)),
+            Start::Tetrahedron(_) => Self::solid(quickhull::faces(points, name)),
         }
     }
 

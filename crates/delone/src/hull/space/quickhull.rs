@@ -4,20 +4,21 @@
 //! outside waits at one facet that it sees; the furthest of a facet's points is joined to the horizon of what it
 //! sees. Which point comes next is a matter of rounded distances and of speed alone.
 //!
-//! Cost: O(n log n) in practice; inner points are dropped as soon as no facet is left that they see.
+//! Cost: O(n log n) in practice; inner points are dropped as soon as no facet is left that they see, and most of them before
+//! (`prune.rs`).
 
 use super::faces::Faces;
 use super::shell::{Facet, NONE, Shell};
 use super::start::Start;
 
-/// The faces of points that span space. They are sorted along a curve first: neighbours in space are neighbours in
+/// The faces of points that span space, with names for these. They are sorted along a curve first: neighbours in space are neighbours in
 /// memory then, which halves the time for a million corners.
-pub(super) fn faces(points: &[[f64; 3]]) -> Faces {
+pub(super) fn faces(points: &[[f64; 3]], name: impl Fn(usize) -> usize) -> Faces {
     let mut order: Vec<(u32, u32)> = morton_keys(points).zip(0..).collect();
     order.sort_unstable();
     let sorted: Vec<[f64; 3]> = order.iter().map(|&(_, i)| points[i as usize]).collect();
     let Start::Tetrahedron(corners) = Start::of(&sorted) else { return Faces::none() };
-    Faces::of(&Quickhull::new(sorted, corners).finish(), |i| order[i].1 as usize)
+    Faces::of(&Quickhull::new(sorted, corners).finish(), |i| name(order[i].1 as usize))
 }
 
 /// The interleaved bits of the cells that points are in, 1024 along each axis.
@@ -42,7 +43,7 @@ fn morton_keys(points: &[[f64; 3]]) -> impl Iterator<Item = u32> + '_ {
     })
 }
 
-struct Quickhull {
+pub(super) struct Quickhull {
     /// Points wait in lists that begin at their facets.
     shell: Shell,
     /// For each point the one that waits after it.
@@ -52,7 +53,7 @@ struct Quickhull {
 }
 
 impl Quickhull {
-    fn new(points: Vec<[f64; 3]>, corners: [usize; 4]) -> Self {
+    pub(super) fn new(points: Vec<[f64; 3]>, corners: [usize; 4]) -> Self {
         let next = vec![NONE; points.len()];
         let mut hull = Self { shell: Shell::new(points, corners), next, pending: vec![0, 1, 2, 3] };
         for p in 0..hull.next.len() as u32 {
@@ -84,7 +85,7 @@ impl Quickhull {
         best
     }
 
-    fn finish(mut self) -> Shell {
+    pub(super) fn finish(mut self) -> Shell {
         while let Some(f) = self.pending.pop() {
             let facet = &self.shell.facets[f as usize];
             if !facet.alive || facet.head == NONE {
