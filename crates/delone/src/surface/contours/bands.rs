@@ -81,6 +81,12 @@ fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
     holes.sort_by(|a, b| compare(a, b));
     // The smallest that hold a hole come first: what is inside of another begins further on.
     polygons.sort_by(|a: &Vec<Ring>, b| compare(&b[0], &a[0]));
+    // A line along the border has nothing between the two: what is around it and its hole are the same ring.
+    holes.retain(|hole| {
+        let around: Ring = hole[..1].iter().chain(hole[1..].iter().rev()).copied().collect();
+        let same = polygons.binary_search_by(|polygon| compare(&around, &polygon[0]));
+        same.map(|at| polygons.remove(at)).is_err()
+    });
     for hole in holes {
         let strictly =
             |polygon: &Vec<Ring>| hole.iter().any(|q| !polygon[0].contains(q) && holds(&polygon[0], *q));

@@ -114,6 +114,21 @@ fn bands_tile_the_triangles() {
     }
 }
 
+/// A pit whose rim is at a level and has nothing around it: above the level is the rim alone.
+#[test]
+fn a_rim_is_no_band() {
+    let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [1.0, 1.0]]).expect("finite");
+    let bands = Contours::new(&d, &[1.0, 1.0, 1.0, 0.0])
+        .and_then(|c| c.bands(&Levels::given(&[1.0])?))
+        .expect("a pit");
+    assert_eq!(bands.len(), 1, "{bands:?}");
+    assert_eq!(
+        (bands[0].upper, bands[0].polygons.len(), bands[0].polygons[0].len()),
+        (1.0, 1, 1),
+        "{bands:?}"
+    );
+}
+
 fn check_bands(bands: &[ContourBand], name: &str) {
     for polygon in bands.iter().flat_map(|band| &band.polygons) {
         let whole = twice_area(&polygon[0]);
