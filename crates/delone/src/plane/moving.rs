@@ -11,7 +11,9 @@
 //! Where too many would have to be removed, or the hull has folded over itself, the triangulation is built anew. Every
 //! way leads to the canonical triangulation of the positions.
 //!
-//! Cost: O(n) tests and the flips, if few points move past others; that of a construction otherwise.
+//! Cost: O(n) tests, on all threads, and the flips, if few points move past others; that of a construction otherwise.
+
+use std::ops::Range;
 
 use delone_predicates::{Filter, orient2d};
 
@@ -22,8 +24,8 @@ use crate::error::Error;
 use crate::ids::{EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
-use crate::points::Position2;
-use crate::points::{check_count, check_finite};
+use crate::parallel;
+use crate::points::{Position2, check_count, check_finite, survey};
 use crate::prefetch::prefetch;
 use crate::tally::Tally;
 
@@ -137,7 +139,7 @@ impl Moving2 {
         let mut given = std::mem::take(&mut self.spare);
         given.clear();
         given.extend(positions.iter().map(Position2::xy));
-        if let Err(error) = check_finite(given.iter().copied()) {
+        if let Err(error) = all_finite(&given) {
             self.spare = given;
             return Err(error);
         }
@@ -185,18 +187,20 @@ impl Moving2 {
     fn set_goals(&mut self, positions: &[[f64; 2]]) -> Filter {
         let layer = &self.current.base;
         let name = |place: usize| layer.mesh.name(Place::new(place));
-        self.goals.clear();
-        self.goals.extend((0..layer.points.len()).map(|place| {
-            if place + AHEAD < layer.points.len() {
-                prefetch(positions, name(place + AHEAD).index());
+        self.goals.resize(layer.points.len(), [0.0; 2]);
+        let ends = parallel::even_ends(self.goals.len(), parallel::parts(self.goals.len()));
+        let starts = std::iter::once(0).chain(ends.iter().copied());
+        let tasks = starts.zip(parallel::split_at(&mut self.goals, &ends)).collect();
+        parallel::map(tasks, |(start, goals): (usize, &mut [[f64; 2]])| {
+            for (place, goal) in (start..).zip(goals) {
+                if place + AHEAD < layer.points.len() {
+                    prefetch(positions, name(place + AHEAD).index());
+                }
+                // A free place goes nowhere.
+                *goal = positions.get(name(place).index()).copied().unwrap_or(positions[0]);
             }
-            // A free place goes nowhere.
-            positions.get(name(place).index()).copied().unwrap_or(positions[0])
-        }));
-        let extent = [0, 1].map(|k| {
-            let of = self.goals.iter().map(|p| p[k]);
-            of.clone().fold(f64::MIN, f64::max) - of.fold(f64::MAX, f64::min)
         });
+        let extent = survey(&self.goals).0.extent();
         Filter::for_box(extent[0], extent[1], None)
     }
 
@@ -215,8 +219,11 @@ impl Moving2 {
         }
         planned.resize(layer.mesh.slot_count(), 0);
         doubtful.clear();
-        let all = (0..layer.mesh.slot_count()).map(TriangleId::new);
-        doubtful.extend(all.filter(|&t| turns_over(&layer.mesh, t)));
+        let mesh = &layer.mesh;
+        let parts = parallel::map(parallel::ranges(mesh.slot_count()), |slots| {
+            slots.map(TriangleId::new).filter(|&t| turns_over(mesh, t)).collect::<Vec<_>>()
+        });
+        doubtful.extend(parts.into_iter().flatten());
         if doubtful.len() > 2 * most {
             return None;
         }
@@ -272,6 +279,11 @@ impl Moving2 {
     }
 }
 
+/// On all threads, unless there is something to name.
+fn all_finite(positions: &[[f64; 2]]) -> Result<(), Error> {
+    if survey(positions).1 { Ok(()) } else { check_finite(positions.iter().copied()) }
+}
+
 /// The neighbour of a vertex that is nearest to it, as far as rounding tells.
 fn nearest_neighbor(layer: &Layer, v: Place) -> Option<Place> {
     let from = layer.points[v.index()];
@@ -314,18 +326,49 @@ fn corners_around(mesh: &Mesh2, e: EdgeId) -> [Place; 4] {
 
 /// Flips edges until all are Delaunay, and counts. None if there is no end to it.
 ///
-/// Triangles are looked at block by block: which of their edges is to be tested is decided without branches, which would
-/// go the wrong way half of the time, and flips are made while all is in the cache.
+/// All edges are tested first, on all threads; which ones are to be flipped then does not depend on how many these are.
 fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Option<usize> {
     let Layer { mesh, points, .. } = layer;
     let most = FLIPS * mesh.vertex_count;
+    let found = parallel::map(parallel::ranges(mesh.slot_count()), |slots| {
+        let mut found = Vec::new();
+        edges_to_flip(mesh, points, filter, slots, &mut found);
+        found
+    });
     let mut flips = 0;
     pending.clear();
+    for e in found.into_iter().flatten() {
+        pending.push(e);
+        while let Some(e) = pending.pop() {
+            if is_to_flip(mesh, points, filter, e) {
+                let f = mesh.twin(e);
+                mesh.flip(e);
+                flips += 1;
+                if flips > most {
+                    return None;
+                }
+                pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
+            }
+        }
+    }
+    Some(flips)
+}
+
+/// Notes the edges of some triangles that are to be flipped.
+///
+/// Triangles are looked at block by block: which of their edges is to be tested is decided without branches, which would
+/// go the wrong way half of the time.
+fn edges_to_flip(
+    mesh: &Mesh2,
+    points: &[[f64; 2]],
+    filter: &Filter,
+    slots: Range<usize>,
+    found: &mut Vec<EdgeId>,
+) {
     let mut edges = [EdgeId::NONE; 3 * BLOCK];
-    let slots = mesh.slot_count();
-    for first in (0..slots).step_by(BLOCK) {
+    for first in slots.clone().step_by(BLOCK) {
         let mut count = 0;
-        for t in first..slots.min(first + BLOCK) {
+        for t in first..slots.end.min(first + BLOCK) {
             ask_ahead(mesh, points, t);
             let t = TriangleId::new(t);
             for e in [t.edge(0), t.edge(1), t.edge(2)] {
@@ -334,28 +377,8 @@ fn flip_all(layer: &mut Layer, filter: &Filter, pending: &mut Vec<EdgeId>) -> Op
                 count += usize::from(e < twin && twin != EdgeId::NONE);
             }
         }
-        let mut found = 0;
-        for k in 0..count {
-            let e = edges[k];
-            edges[found] = e;
-            found += usize::from(is_to_flip(mesh, points, filter, e));
-        }
-        for &e in &edges[..found] {
-            pending.push(e);
-            while let Some(e) = pending.pop() {
-                if is_to_flip(mesh, points, filter, e) {
-                    let f = mesh.twin(e);
-                    mesh.flip(e);
-                    flips += 1;
-                    if flips > most {
-                        return None;
-                    }
-                    pending.extend([e.next(), e.previous(), f.next(), f.previous()]);
-                }
-            }
-        }
+        found.extend(edges[..count].iter().filter(|&&e| is_to_flip(mesh, points, filter, e)));
     }
-    Some(flips)
 }
 
 /// Asks for what lies elsewhere, across a cut of the order, and will be looked at some triangles later.
