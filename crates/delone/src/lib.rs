@@ -103,6 +103,7 @@ mod ids;
 mod locate;
 mod memory;
 pub mod mesh;
+mod neighbors;
 mod order;
 mod parallel;
 pub mod plane;
@@ -130,6 +131,7 @@ pub use ids::{
 };
 pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 pub use mesh::{Dimension, Mesh2, Mesh3};
+pub use neighbors::{Neighbors, Neighbors2, Neighbors3};
 pub use order::HintOrder;
 pub use plane::{
     Algorithm2, Cell2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,

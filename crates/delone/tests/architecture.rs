@@ -13,7 +13,7 @@ const FLOORS: &[&[&str]] = &[
     &["points"],
     &["order"],
     &["mesh"],
-    &["locate", "hull"],
+    &["locate", "hull", "neighbors"],
     &["triangulation", "graphs"],
     &["alpha", "around"],
     &["plane", "space"],
@@ -21,7 +21,7 @@ const FLOORS: &[&[&str]] = &[
 ];
 
 /// Rooms that decide by the predicates.
-const DECIDE: [&str; 7] = ["graphs", "hull", "alpha", "plane", "space", "tiles", "surface"];
+const DECIDE: [&str; 8] = ["neighbors", "graphs", "hull", "alpha", "plane", "space", "tiles", "surface"];
 
 /// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

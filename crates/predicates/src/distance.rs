@@ -115,6 +115,14 @@ pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> Ordering {
     compared(squared3(q, a), radius * radius).unwrap_or_else(|| exact::compare_with_radius3(q, a, radius))
 }
 
+/// Whether a sum of the squares of up to three rounded differences surely is the larger of two, rounded each, and with them what
+/// they stand for: floating point with a proven bound, after which `false` is no answer. For searches that pass by what they
+/// need not look at.
+#[inline]
+pub fn is_surely_further(squared: f64, limit: f64) -> bool {
+    squared * (1.0 - 2.0 * ERROR) > limit && squared > 2.0 * SMALLEST && squared < f64::INFINITY
+}
+
 /// The sign of the scalar product (a - o) . (b - o): positive if the angle at `o` is acute, zero if it is right.
 ///
 /// Exact for every finite input. O(1).
