@@ -205,6 +205,18 @@ impl Filter {
         (2.0 * width * height * (width * width + height * height) / EXACT_BELOW).sqrt().sqrt()
     }
 
+    /// Whether the sign of a computed orientation is sure, and not zero.
+    #[inline]
+    pub(crate) fn tells_orient(&self, value: f64) -> bool {
+        value.abs() > self.orient
+    }
+
+    /// Whether the sign of a computed in-circle determinant is sure, and not zero.
+    #[inline]
+    pub(crate) fn tells_circle(&self, value: f64) -> bool {
+        value.abs() > self.circle
+    }
+
     /// The sign of a computed orientation, or `None` where the exact stage must be asked.
     #[inline]
     pub(crate) fn orient(&self, value: f64) -> Option<Sign> {

@@ -59,7 +59,7 @@ pub use clear::{keeps_clear, keeps_clear_of_sites};
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{
     Reach, angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
-    segment_keeps_away,
+    is_surely_further, segment_keeps_away,
 };
 pub use filter::{Filter, Filter3, Grid};
 pub use in_box::SiteRef;
@@ -74,7 +74,7 @@ pub use orient3d::{are_collinear3, orient3d, orient3d_moved};
 pub use orthosphere::{
     RadiusScale, edge_is_attached, squared_radius, triangle_is_attached, vertex_is_attached,
 };
-pub use pencil::{Member, Pencil};
+pub use pencil::{Four, Member, Pencil};
 pub use plane::Plane;
 pub use power::{
     compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,

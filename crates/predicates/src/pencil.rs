@@ -66,6 +66,37 @@ impl Pencil {
     }
 }
 
+/// How four points lie, where floating point can tell all of it: the first question of who triangulates many fours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Four {
+    /// Which of the triples (a, b, c), (a, b, d), (a, c, d) and (b, c, d) are counter-clockwise: bits 0 to 3.
+    pub turns: u8,
+    /// Whether `in_circle(a, b, c, d)` is positive.
+    pub circle: bool,
+}
+
+impl Four {
+    /// Of four points in a filter's box; nothing if a sign is in doubt, or zero.
+    #[inline]
+    pub fn of(a: Point2, b: Point2, c: Point2, d: Point2, filter: &Filter) -> Option<Self> {
+        let (over_ab, over_cd) = (Pencil::new(a, b), Pencil::new(c, d));
+        let (on_c, on_d) = (over_ab.member(c), over_ab.member(d));
+        // (c, d, a) and (c, d, b) are rotations of (a, c, d) and (b, c, d).
+        let turns = [on_c.cross, on_d.cross, over_cd.member(a).cross, over_cd.member(b).cross];
+        let circle = on_c.dot * on_d.cross - on_d.dot * on_c.cross;
+        let is_sure =
+            turns.iter().fold(filter.tells_circle(circle), |all, &turn| all & filter.tells_orient(turn));
+        is_sure.then(|| {
+            for _ in 0..4 {
+                count(Predicate::Orient2d, Stage::Filter);
+            }
+            count(Predicate::InCircle, Stage::Filter);
+            let bits = turns.iter().enumerate().map(|(i, &turn)| u8::from(turn > 0.0) << i);
+            Self { turns: bits.sum(), circle: circle > 0.0 }
+        })
+    }
+}
+
 impl Filter {
     /// Like [`crate::orient2d`], for points in the box.
     #[inline]

@@ -20,9 +20,10 @@
 //! (v, u, ghost): edge 0 is the hull edge reversed, edge 1 leads to the ghost of the previous hull edge, edge
 //! 2 to that of the next.
 
+use std::hint::select_unpredictable as pick;
 use std::ops::Range;
 
-use delone_predicates::{Filter, Grid, lexicographic};
+use delone_predicates::{Filter, Grid};
 
 use super::Built;
 use super::builder::Builder;
@@ -291,9 +292,8 @@ impl Tree<'_> {
                 next_box = self.first_nested(next_box, part.end);
                 part
             } else {
-                let count = self.leaf_size(at, limit, &run);
-                let shallowest = self.cuts[at + 1..at + count].iter().min();
-                let depth = shallowest.map_or(0, |&cut| cells.key_box.split(cut).0);
+                let (count, shallowest) = self.leaf_at(at, limit, &run);
+                let depth = shallowest.map_or(0, |cut| cells.key_box.split(cut).0);
                 let filter = &cells.filters[depth];
                 let leaf = if count > 1 { builder.leaf(at, count, filter) } else { Leaf::Collinear };
                 match leaf {
@@ -311,16 +311,28 @@ impl Tree<'_> {
         }
     }
 
-    /// The size of the largest subtree of at most four points of a run that starts at a position.
-    fn leaf_size(&self, at: usize, limit: usize, run: &Range<usize>) -> usize {
+    /// The size of the largest subtree of at most four points of a run that starts at a position, and its shallowest cut.
+    fn leaf_at(&self, at: usize, limit: usize, run: &Range<usize>) -> (usize, Option<Cut>) {
         let outside = |i: usize| i == run.start || i == run.end;
         let cut = |i: usize| if outside(i) { Cut::OUTSIDE } else { self.cuts[i] };
+        if at + 4 < limit {
+            // All four at once: which one it is cannot be foretold.
+            let before = cut(at);
+            let [a, b, c, d] = [1, 2, 3, 4].map(|k| self.cuts[at + k]);
+            let (ab, abc) = (a.min(b), a.min(b).min(c));
+            let two = 1 + usize::from(a > before.max(b));
+            let three = 3 * usize::from(ab > before.max(c));
+            let four = 4 * usize::from(abc > before.max(d));
+            let count = two.max(three).max(four);
+            return (count, [None, Some(a), Some(ab), Some(abc)][count - 1]);
+        }
         let whole = |&count: &usize| {
             let border = cut(at).max(cut(at + count));
             self.cuts[at + 1..at + count].iter().all(|&inner| inner > border)
         };
         let longest = (limit - at).min(4);
-        (2..=longest).rev().find(whole).unwrap_or(1)
+        let count = (2..=longest).rev().find(whole).unwrap_or(1);
+        (count, self.cuts[at + 1..at + count].iter().min().copied())
     }
 }
 
@@ -355,10 +367,10 @@ impl Part {
         for at in start + 1..end {
             let v = Place::new(at);
             let p = |v: Place| points[v.index()];
-            part.west = if precedes(p(v), p(part.west)) { v } else { part.west };
-            part.east = if precedes(p(part.east), p(v)) { v } else { part.east };
-            part.south = if precedes(turned(p(v)), turned(p(part.south))) { v } else { part.south };
-            part.north = if precedes(turned(p(part.north)), turned(p(v))) { v } else { part.north };
+            part.west = pick(precedes(p(v), p(part.west)), v, part.west);
+            part.east = pick(precedes(p(part.east), p(v)), v, part.east);
+            part.south = pick(precedes(turned(p(v)), turned(p(part.south))), v, part.south);
+            part.north = pick(precedes(turned(p(part.north)), turned(p(v))), v, part.north);
         }
         part
     }
@@ -369,21 +381,22 @@ impl Part {
         let mut part = Self { end: b.end, ..*a };
         if by_x {
             part.east = b.east;
-            part.south = if precedes(turned(p(b.south)), turned(p(a.south))) { b.south } else { a.south };
-            part.north = if precedes(turned(p(a.north)), turned(p(b.north))) { b.north } else { a.north };
+            part.south = pick(precedes(turned(p(b.south)), turned(p(a.south))), b.south, a.south);
+            part.north = pick(precedes(turned(p(a.north)), turned(p(b.north))), b.north, a.north);
         } else {
             part.north = b.north;
-            part.west = if precedes(p(b.west), p(a.west)) { b.west } else { a.west };
-            part.east = if precedes(p(a.east), p(b.east)) { b.east } else { a.east };
+            part.west = pick(precedes(p(b.west), p(a.west)), b.west, a.west);
+            part.east = pick(precedes(p(a.east), p(b.east)), b.east, a.east);
         }
         part
     }
 }
 
-/// Lexicographic order of points, for choosing corners.
+/// Lexicographic order of points, for choosing corners. Without branches: either answer is as likely.
 #[inline]
 fn precedes(p: [f64; 2], q: [f64; 2]) -> bool {
-    lexicographic(p, q).is_lt()
+    let [is_less, is_equal, is_below] = [p[0] < q[0], p[0] == q[0], p[1] < q[1]];
+    pick(is_equal, is_below, is_less)
 }
 
 /// A quarter turn: the order by (y, -x) is the lexicographic order of turned points.

@@ -4,7 +4,7 @@
 //! saves those merges and the mispredicted branches in them. Sets with three collinear points are left to the
 //! merge.
 
-use delone_predicates::{Filter, Member, Pencil, Sign};
+use delone_predicates::{Filter, Four, Member, Pencil, Sign};
 
 use super::builder::Builder;
 use super::merge::{Merging, Part};
@@ -148,6 +148,16 @@ impl<K: Merging> Builder<'_, K> {
 
     fn four(&mut self, start: usize, filter: &Filter) -> bool {
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.points[start + i]);
+        if !K::HIDES
+            && let Some(Four { turns, circle }) = Four::of(a, b, c, d, filter)
+        {
+            // Either template by one way: which one it is cannot be foretold.
+            let Layout { corners: p, convex, even } = LAYOUTS[usize::from(turns)];
+            let first = usize::from(convex) & usize::from(circle == even);
+            let corners = [p[first], p[first + 1], p[first + 2], p[(first + 3) % 4]];
+            self.write_four(start, corners, if convex { &QUADRILATERAL } else { &FAN });
+            return true;
+        }
         let (over_ab, over_cd) = (Pencil::new(a, b), Pencil::new(c, d));
         let (mc, md) = (over_ab.member(c), over_ab.member(d));
         let (ma, mb) = (over_cd.member(a), over_cd.member(b));
@@ -181,6 +191,28 @@ impl<K: Merging> Builder<'_, K> {
     fn is_hidden(&self, start: usize, corners: [u8; 4]) -> bool {
         let [a, b, c, d] = corners.map(|i| self.site(Place::new(start + usize::from(i))));
         !K::contains(a, b, c, d)
+    }
+
+    /// Writes either template of four points.
+    #[inline]
+    fn write_four(&mut self, start: usize, corners: [u8; 4], template: &Template<6>) {
+        let first = 2 * start;
+        let mut vertices = [Place::GHOST; 8];
+        for (vertex, corner) in vertices.iter_mut().zip(corners) {
+            *vertex = Place::new(start + usize::from(corner));
+        }
+        let vertex = |corner: u8| vertices[usize::from(corner % 8)];
+        let records = self.records(TriangleId::new(first), 6);
+        for (triangle, records) in template.iter().zip(records.chunks_exact_mut(4)) {
+            for (&(corner, twin), record) in triangle.iter().zip(records) {
+                let twin = TriangleId::new(first + usize::from(twin / 10)).edge(usize::from(twin % 10));
+                *record = HalfEdge { origin: vertex(corner), twin };
+            }
+        }
+        // The third triangle of a fan is no ghost; the ghost of the same corner comes after it.
+        for (slot, triangle) in template.iter().enumerate().skip(2) {
+            self.set_leaving(vertex(triangle[1].0), TriangleId::new(first + slot));
+        }
     }
 
     /// Writes a template for the points `start + corners[i]`, into the triangles that they own.

@@ -7,11 +7,11 @@
 //! circles through the base.
 //!
 //! ```text
-//!        l1              r1          top    ghost above the base, of the hull edge r -> l
-//!          \   (bubble)  /           left   ghost of l -> l1, the next hull edge after top's
-//!     left  \           /  right     right  ghost of r1 -> r, the hull edge before top's
-//!            l ------- r
-//!               base                 bottom ghost below the first base, of l -> r
+//!        l1              r1          left   ghost of l -> l1, the next hull edge after the base's, r -> l
+//!          \   (bubble)  /           right  ghost of r1 -> r, the hull edge before the base's
+//!     left  \           /  right     under  the edge l -> r of the triangle below the base
+//!            l ------- r             bottom ghost below the first base, of l -> r
+//!               base                 top    ghost above the last base
 //! ```
 //!
 //! With weights sites are hidden on the way, and three things are different. The first base, where hull vertices are on its
@@ -88,7 +88,35 @@ impl Part {
     }
 }
 
-/// A base of the bubble and the ghosts beside it.
+/// The bubble as it rises. The ghost above its base is written when it has risen, so the ghosts beside it do not know yet what
+/// they are next to.
+struct Bubble {
+    l: Place,
+    r: Place,
+    /// The edge l -> r, which is below the base.
+    under: EdgeId,
+    /// The ghost of the hull edge that leaves l; `bottom` for a single point.
+    left: TriangleId,
+    /// The ghost of the hull edge that enters r; `bottom` for a single point.
+    right: TriangleId,
+    /// The ghost below the first base.
+    bottom: TriangleId,
+}
+
+impl Bubble {
+    /// The ghost beside the base, on the left or on the right.
+    #[inline]
+    fn beside<const LEFT: bool>(&self) -> TriangleId {
+        if LEFT { self.left } else { self.right }
+    }
+
+    #[inline]
+    fn beside_mut<const LEFT: bool>(&mut self) -> &mut TriangleId {
+        if LEFT { &mut self.left } else { &mut self.right }
+    }
+}
+
+/// The first base, and the ghosts beside it.
 struct Base {
     l: Place,
     r: Place,
@@ -107,8 +135,8 @@ impl<K: Merging> Builder<'_, K> {
         let base = self.lower_tangent(l, r, a.is_single(), b.is_single(), filter);
         let bottom = TriangleId::new(2 * b.start - 2);
         let top = TriangleId::new(2 * b.start - 1);
-        self.connect_first(&base, bottom, top, a.is_single(), b.is_single());
-        self.rise(base.l, base.r, bottom, top, filter);
+        let bubble = self.open(&base, bottom, top, a.is_single(), b.is_single());
+        self.rise(bubble, top, filter);
         Part::union(self.points, a, b, by_x)
     }
 
@@ -178,41 +206,34 @@ impl<K: Merging> Builder<'_, K> {
         false
     }
 
-    /// Joins the hulls by the edge l - r, with a ghost on either side.
-    fn connect_first(
+    /// Joins the hulls below by the first base.
+    fn open(
         &mut self,
         base: &Base,
         bottom: TriangleId,
         top: TriangleId,
         l_single: bool,
         r_single: bool,
-    ) {
+    ) -> Bubble {
         let &Base { l, r, entering_l, leaving_r } = base;
         // Read before linking: what follows on the upper side.
-        let leaving_l = if l_single { bottom } else { self.next_ghost(entering_l) };
-        let entering_r = if r_single { bottom } else { self.previous_ghost(leaving_r) };
+        let left = if l_single { bottom } else { self.next_ghost(entering_l) };
+        let right = if r_single { bottom } else { self.previous_ghost(leaving_r) };
         self.set_ghost_corners(bottom, l, r);
-        self.set_ghost_corners(top, r, l);
-        self.link(bottom.edge(0), top.edge(0));
         self.link(bottom.edge(1), if l_single { top.edge(2) } else { entering_l.edge(2) });
         self.link(bottom.edge(2), if r_single { top.edge(1) } else { leaving_r.edge(1) });
-        if !r_single {
-            self.link(top.edge(1), entering_r.edge(2));
-        }
-        if !l_single {
-            self.link(top.edge(2), leaving_l.edge(1));
-        }
         self.set_leaving(l, bottom);
+        Bubble { l, r, under: bottom.edge(0), left, right, bottom }
     }
 
-    /// Lets the bubble rise until no vertex is above the base.
-    fn rise(&mut self, l: Place, r: Place, bottom: TriangleId, mut top: TriangleId, filter: &Filter) {
-        let mut base = [self.site(l), self.site(r)];
+    /// Lets the bubble rise until no vertex is above the base, and closes it by the ghost above that.
+    fn rise(&mut self, mut bubble: Bubble, top: TriangleId, filter: &Filter) {
+        let mut base = [self.site(bubble.l), self.site(bubble.r)];
         let mut swept = [None; 2];
         loop {
             let pencil = Pencil::new(base[0].0, base[1].0);
-            let left = self.candidate::<true>(&pencil, base, top, bottom, swept[0], filter);
-            let right = self.candidate::<false>(&pencil, base, top, bottom, swept[1], filter);
+            let left = self.candidate::<true>(&pencil, base, &mut bubble, swept[0], filter);
+            let right = self.candidate::<false>(&pencil, base, &mut bubble, swept[1], filter);
             let connect_right = match (&left, &right) {
                 (None, None) => break,
                 (Some(_), None) => false,
@@ -224,18 +245,22 @@ impl<K: Merging> Builder<'_, K> {
             self.counters.connected += 1;
             let [l, r] = base.map(|site| site.0);
             if connect_right {
-                top = self.connect_right(top);
-                base[1] = self.site(self.tail(top.edge(1)));
+                self.connect_right(&mut bubble);
+                base[1] = self.site(bubble.r);
                 swept = [Some([l, r]), Some([r, base[1].0])];
             } else {
-                top = self.connect_left(top);
-                base[0] = self.site(self.tail(top.edge(0)));
+                self.connect_left(&mut bubble);
+                base[0] = self.site(bubble.l);
                 swept = [Some([base[0].0, l]), Some([l, r])];
             }
         }
+        let Bubble { l, r, under, left, right, .. } = bubble;
+        self.set_ghost_corners(top, r, l);
+        self.link(top.edge(0), under);
+        self.link(top.edge(1), right.edge(2));
+        self.link(top.edge(2), left.edge(1));
         // Vertices passed on the way may be on the outer hull too; only the last two surely left by here.
-        let (l, r) = (self.tail(top.edge(0)), self.tail(top.edge(1)));
-        self.set_leaving(l, self.next_ghost(top));
+        self.set_leaving(l, left);
         self.set_leaving(r, top);
     }
 
@@ -249,14 +274,13 @@ impl<K: Merging> Builder<'_, K> {
         &mut self,
         pencil: &Pencil,
         base: [Site<K>; 2],
-        top: TriangleId,
-        bottom: TriangleId,
+        bubble: &mut Bubble,
         swept: Option<[[f64; 2]; 2]>,
         filter: &Filter,
     ) -> Option<(Member, Site<K>)> {
-        let mut ghost = self.first_ghost::<LEFT>(top);
         let (mut candidate, mut site) = loop {
-            if ghost == bottom {
+            let ghost = bubble.beside::<LEFT>();
+            if ghost == bubble.bottom {
                 return None; // a single point
             }
             let far = self.tail(ghost.edge(usize::from(!LEFT)));
@@ -276,10 +300,10 @@ impl<K: Merging> Builder<'_, K> {
             if !is_hidden {
                 return None;
             }
-            self.cut::<LEFT>(ghost);
-            ghost = self.first_ghost::<LEFT>(top);
+            self.cut::<LEFT>(bubble);
         };
         loop {
+            let ghost = bubble.beside::<LEFT>();
             let mut apex = self.tail(self.twin(ghost.edge(0)).previous());
             if apex.is_ghost() {
                 // Nothing is behind this edge; beyond it there may be something.
@@ -287,7 +311,7 @@ impl<K: Merging> Builder<'_, K> {
                     return Some((candidate, site));
                 }
                 let beyond = self.beyond::<LEFT>(ghost);
-                if beyond == bottom {
+                if beyond == bubble.bottom {
                     return Some((candidate, site));
                 }
                 apex = self.tail(beyond.edge(usize::from(!LEFT)));
@@ -300,57 +324,53 @@ impl<K: Merging> Builder<'_, K> {
             {
                 return Some((candidate, site));
             }
-            self.cut::<LEFT>(ghost);
-            if K::HIDES {
-                ghost = self.first_ghost::<LEFT>(top);
-            }
+            self.cut::<LEFT>(bubble);
             (candidate, site) = (member, behind);
         }
     }
 
-    /// The ghost of the hull edge that leaves the left end of the base above it, or enters the right one.
+    /// Removes the first edge at an end of the base.
     #[inline]
-    fn first_ghost<const LEFT: bool>(&self, top: TriangleId) -> TriangleId {
-        if LEFT { self.next_ghost(top) } else { self.previous_ghost(top) }
-    }
-
-    /// Removes the first edge at an end of the base, whose ghost this is.
-    #[inline]
-    fn cut<const LEFT: bool>(&mut self, ghost: TriangleId) {
+    fn cut<const LEFT: bool>(&mut self, bubble: &mut Bubble) {
+        let ghost = bubble.beside::<LEFT>();
         let apex = self.tail(self.twin(ghost.edge(0)).previous());
         if K::HIDES && apex.is_ghost() {
-            self.remove_bridge::<LEFT>(ghost);
+            self.remove_bridge::<LEFT>(bubble);
         } else if LEFT {
-            self.remove_left(ghost, apex);
+            self.remove_left(bubble, apex);
         } else {
-            self.remove_right(ghost, apex);
+            self.remove_right(bubble, apex);
         }
     }
 
     /// The ghost of the next edge at an end of the base after one that has ghosts on both sides, of which this is the first.
     fn beyond<const LEFT: bool>(&self, ghost: TriangleId) -> TriangleId {
-        self.first_ghost::<LEFT>(self.twin(ghost.edge(0)).triangle())
+        let other = self.twin(ghost.edge(0)).triangle();
+        if LEFT { self.next_ghost(other) } else { self.previous_ghost(other) }
     }
 
     /// Removes an edge that has ghosts on both sides, and what hangs on it: hidden sites.
     #[cold]
-    fn remove_bridge<const LEFT: bool>(&mut self, ghost: TriangleId) {
+    fn remove_bridge<const LEFT: bool>(&mut self, bubble: &mut Bubble) {
         self.counters.removed += 1;
+        let ghost = bubble.beside::<LEFT>();
         let other = self.twin(ghost.edge(0)).triangle();
-        let (before, after) = (self.previous_ghost(ghost), self.next_ghost(ghost));
-        let (before_other, after_other) = (self.previous_ghost(other), self.next_ghost(other));
-        let loose = if LEFT { after } else { after_other };
-        // Around both ends what came before one side is followed by what came after the other.
-        if before != other {
-            self.link(before.edge(2), after_other.edge(1));
-        }
-        if before_other != ghost {
-            self.link(before_other.edge(2), after.edge(1));
+        // At its end at the base what comes beyond the edge is beside the base now. Around its other end what came before one
+        // side is followed by what came after the other.
+        let beyond = self.beyond::<LEFT>(ghost);
+        let (before, after) = if LEFT {
+            (self.previous_ghost(other), self.next_ghost(ghost))
+        } else {
+            (self.previous_ghost(ghost), self.next_ghost(other))
+        };
+        *bubble.beside_mut::<LEFT>() = beyond;
+        if before != ghost && before != other {
+            self.link(before.edge(2), after.edge(1));
         }
         for t in [ghost, other] {
             self.records(t, 1).fill(HalfEdge::UNUSED);
         }
-        let mut pending = vec![loose];
+        let mut pending = vec![after];
         while let Some(t) = pending.pop() {
             if self.twin(t.edge(0)) == EdgeId::NONE {
                 continue;
@@ -360,67 +380,57 @@ impl<K: Merging> Builder<'_, K> {
         }
     }
 
-    /// Removes the hull edge l -> l1: its ghost becomes that of l -> x, the triangle (l, l1, x) behind it the
-    /// ghost of x -> l1.
-    fn remove_left(&mut self, ghost: TriangleId, x: Place) {
+    /// Removes the hull edge l -> l1: the triangle (l, l1, x) behind it becomes the ghost of l -> x, its ghost that of
+    /// x -> l1.
+    #[inline]
+    fn remove_left(&mut self, bubble: &mut Bubble, x: Place) {
         self.counters.removed += 1;
+        let ghost = bubble.left;
         let e = self.twin(ghost.edge(0)); // l -> l1
         let (l1_x, x_l) = (self.twin(e.next()), self.twin(e.previous()));
-        let after = self.twin(ghost.edge(2));
-        let l1 = self.tail(ghost.edge(0));
         let freed = e.triangle();
-        self.set_ghost_corners(freed, x, l1);
-        self.set_tail(ghost.edge(0), x);
-        self.link(ghost.edge(0), x_l);
-        self.link(freed.edge(0), l1_x);
-        self.link(freed.edge(1), ghost.edge(2));
-        self.link(freed.edge(2), after);
+        self.set_ghost_corners(freed, bubble.l, x);
+        self.link(freed.edge(0), x_l);
+        self.link(freed.edge(2), ghost.edge(1));
+        self.set_tail(ghost.edge(1), x);
+        self.link(ghost.edge(0), l1_x);
+        bubble.left = freed;
     }
 
-    /// Removes the hull edge r1 -> r: its ghost becomes that of y -> r, the triangle (r1, r, y) behind it the
-    /// ghost of r1 -> y.
-    fn remove_right(&mut self, ghost: TriangleId, y: Place) {
+    /// Removes the hull edge r1 -> r: the triangle (r1, r, y) behind it becomes the ghost of y -> r, its ghost that of
+    /// r1 -> y.
+    #[inline]
+    fn remove_right(&mut self, bubble: &mut Bubble, y: Place) {
         self.counters.removed += 1;
+        let ghost = bubble.right;
         let e = self.twin(ghost.edge(0)); // r1 -> r
         let (r_y, y_r1) = (self.twin(e.next()), self.twin(e.previous()));
-        let before = self.twin(ghost.edge(1));
-        let r1 = self.tail(ghost.edge(1));
         let freed = e.triangle();
-        self.set_ghost_corners(freed, r1, y);
-        self.set_tail(ghost.edge(1), y);
-        self.link(ghost.edge(0), r_y);
-        self.link(freed.edge(0), y_r1);
-        self.link(freed.edge(1), before);
-        self.link(freed.edge(2), ghost.edge(1));
-        if self.leaving(r1) == ghost {
-            self.set_leaving(r1, freed);
-        }
+        self.set_ghost_corners(freed, y, bubble.r);
+        self.link(freed.edge(0), r_y);
+        self.link(freed.edge(1), ghost.edge(2));
+        self.set_tail(ghost.edge(0), y);
+        self.link(ghost.edge(0), y_r1);
+        bubble.right = freed;
     }
 
-    /// Connects l1 to r: `top` becomes the triangle (l, r, l1), and the ghost of l -> l1 that of the new base,
-    /// which is returned.
-    fn connect_left(&mut self, top: TriangleId) -> TriangleId {
-        let left = self.next_ghost(top);
-        let (before, inside) = (self.twin(top.edge(1)), self.twin(left.edge(0)));
-        let (r, l1) = (self.tail(top.edge(1)), self.tail(left.edge(0)));
-        self.set_tail(top.edge(2), l1);
-        self.link(top.edge(1), left.edge(0));
-        self.link(top.edge(2), inside);
-        self.set_tail(left.edge(1), r);
-        self.link(left.edge(1), before);
-        left
+    /// Connects l1 to r: the ghost of l -> l1 becomes the triangle (l1, l, r).
+    #[inline]
+    fn connect_left(&mut self, bubble: &mut Bubble) {
+        let t = bubble.left;
+        let (next, l1) = (self.next_ghost(t), self.tail(t.edge(0)));
+        self.set_tail(t.edge(2), bubble.r);
+        self.link(t.edge(1), bubble.under);
+        (bubble.l, bubble.left, bubble.under) = (l1, next, t.edge(2));
     }
 
-    /// Connects l to r1: `top` becomes the triangle (l, r, r1), and the ghost of r1 -> r that of the new base.
-    fn connect_right(&mut self, top: TriangleId) -> TriangleId {
-        let right = self.previous_ghost(top);
-        let (after, inside) = (self.twin(top.edge(2)), self.twin(right.edge(0)));
-        let (l, r1) = (self.tail(top.edge(0)), self.tail(right.edge(1)));
-        self.set_tail(top.edge(2), r1);
-        self.link(top.edge(1), inside);
-        self.link(top.edge(2), right.edge(0));
-        self.set_tail(right.edge(0), l);
-        self.link(right.edge(2), after);
-        right
+    /// Connects l to r1: the ghost of r1 -> r becomes the triangle (r, r1, l).
+    #[inline]
+    fn connect_right(&mut self, bubble: &mut Bubble) {
+        let t = bubble.right;
+        let (previous, r1) = (self.previous_ghost(t), self.tail(t.edge(1)));
+        self.set_tail(t.edge(2), bubble.l);
+        self.link(t.edge(2), bubble.under);
+        (bubble.r, bubble.right, bubble.under) = (r1, previous, t.edge(1));
     }
 }

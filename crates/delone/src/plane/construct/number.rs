@@ -2,7 +2,6 @@
 //!
 //! Cost: O(n); it reads and writes every triangle once, which memory bounds: two threads gain a third.
 
-use std::ops::Range;
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -18,47 +17,48 @@ impl Mesh2 {
     /// Where sites are hidden some triangles are unused, and stay so.
     ///
     /// A task has the triangles of some positions, and writes for these alone; what it finds of others is written
-    /// afterwards.
+    /// afterwards. Edges are noted by position, near each other in memory, and each put to its place once.
     pub(super) fn number_vertices<const HIDES: bool>(
         &mut self,
         places: usize,
         place: impl Fn(Place) -> Place + Sync,
     ) {
         let n = self.vertex_count;
-        let parts = parallel::parts(n);
-        if parts == 1 {
-            self.incident = parallel::filled(EdgeId::NONE, places);
-            let incident = &mut self.incident;
-            self.ghost_edge = number::<HIDES>(&mut self.edges, 0, &place, |_, v, e| incident[v.index()] = e);
-            return;
-        }
-        let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
-        let ends = parallel::even_ends(n, parts);
+        let mut last = parallel::filled(EdgeId::NONE, n);
+        let ends = parallel::even_ends(n, parallel::parts(n));
         let records: Vec<usize> = ends.iter().map(|end| (8 * end).min(self.edges.len())).collect();
         let starts = std::iter::once(0).chain(ends.iter().copied());
-        let runs = starts.zip(ends.iter().copied()).map(|(start, end)| start..end);
-        let tasks = parallel::split_at(&mut self.edges, &records).into_iter().zip(runs).collect();
-        let found = parallel::map(tasks, |(edges, positions): (&mut [HalfEdge], Range<usize>)| {
-            let mut elsewhere = Vec::new();
-            let ghost_edge = number::<HIDES>(edges, 2 * positions.start, &place, |position, v, e| {
-                if positions.contains(&position.index()) {
-                    incident[v.index()].store(e.bits(), Relaxed);
-                } else {
-                    elsewhere.push((v, e));
-                }
+        let runs = parallel::split_at(&mut self.edges, &records).into_iter().zip(starts);
+        let tasks = runs.zip(parallel::split_at(&mut last, &ends)).collect();
+        let found =
+            parallel::map(tasks, |((edges, start), last): ((&mut [HalfEdge], usize), &mut [EdgeId])| {
+                let mut elsewhere = Vec::new();
+                let ghost_edge = number::<HIDES>(edges, 2 * start, &place, |position, e| {
+                    match last.get_mut(position.index().wrapping_sub(start)) {
+                        Some(last) => *last = e,
+                        None => elsewhere.push((position, e)),
+                    }
+                });
+                (ghost_edge, elsewhere)
             });
-            (ghost_edge, elsewhere)
-        });
-        self.incident = incident.into_iter().map(|bits| EdgeId::from_bits(bits.into_inner())).collect();
         for (ghost_edge, elsewhere) in found {
             if ghost_edge != EdgeId::NONE {
                 self.ghost_edge = ghost_edge;
             }
-            for (v, e) in elsewhere {
-                let last = &mut self.incident[v.index()];
+            for (position, e) in elsewhere {
+                let last = &mut last[position.index()];
                 *last = if *last == EdgeId::NONE { e } else { e.max(*last) };
             }
         }
+        let incident: Vec<AtomicU32> = parallel::collect(places, |_| AtomicU32::new(EdgeId::NONE.bits()));
+        let tasks: Vec<_> = parallel::ranges(n);
+        parallel::map(tasks, |positions| {
+            for position in positions {
+                let v = place(Place::new(position));
+                incident[v.index()].store(last[position].bits(), Relaxed);
+            }
+        });
+        self.incident = incident.into_iter().map(|bits| EdgeId::from_bits(bits.into_inner())).collect();
     }
 }
 
@@ -97,13 +97,13 @@ impl Mesh2 {
     }
 }
 
-/// Puts the vertices of triangles, the first of which has a number, from their positions to their places, and notes position,
-/// place and edge of each corner. Returns the last edge that starts at the ghost.
+/// Puts the vertices of triangles, the first of which has a number, from their positions to their places, and notes position
+/// and edge of each corner. Returns the last edge that starts at the ghost.
 fn number<const HIDES: bool>(
     edges: &mut [HalfEdge],
     first: usize,
     place: impl Fn(Place) -> Place,
-    mut note: impl FnMut(Place, Place, EdgeId),
+    mut note: impl FnMut(Place, EdgeId),
 ) -> EdgeId {
     let mut ghost_edge = EdgeId::NONE;
     for (t, records) in edges.chunks_exact_mut(4).enumerate() {
@@ -118,7 +118,7 @@ fn number<const HIDES: bool>(
                 ghost_edge = e;
             } else {
                 record.origin = place(position);
-                note(position, record.origin, e);
+                note(position, e);
             }
         }
     }
