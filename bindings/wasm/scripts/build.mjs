@@ -27,9 +27,11 @@ if (process.argv.includes("--check")) {
 
 /** Builds a module with cargo in a folder, and gives its bytes. */
 function cargo(folder, profile, features) {
-  const args = ["build", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
+  const args = ["rustc", "--lib", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
   args.push("--profile", isDebug ? "checked" : profile);
   if (features) args.push("--features", features);
+  // What makes it smaller needs to know where addresses are.
+  if (!isDebug) args.push("--", "-C", "link-arg=--emit-relocs");
   const built = spawnSync("cargo", args, {cwd: folder, env: {CARGO_TARGET_DIR: `${root}target`, ...process.env}, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
   if (built.error) throw built.error;
   if (built.status) process.exit(built.status);

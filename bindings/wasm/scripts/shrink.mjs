@@ -2,7 +2,9 @@
 //
 // What the compiler links for a panic is text: of numbers, of places in the source. Nothing shows it in a module without imports, which
 // ends in a trap either way. So the functions that panic and those that format are emptied, found by their names before these are stripped,
-// and what only they used goes with them. (The module itself formats nothing: its faults are numbers.)
+// and what only they used goes with them: functions, and then data. (The module itself formats nothing: its faults are numbers.)
+
+import {clearUnread, withoutRelocations} from "./unread.mjs";
 
 /** Functions that do not come back. */
 const panics = /9panicking|rust_panic|begin_panic|unwrap_failed|expect_failed|panic_fmt|panic_bounds_check/;
@@ -11,7 +13,9 @@ const formats = /core.{0,40}3fmt|flt2dec/;
 /** The compiler gives equal functions one body, and shorter ones may equal something that does not format. In characters of text. */
 const SHORT = 400;
 
-export async function shrink(bytes) {
+/** Makes a module smaller that was linked with relocations. */
+export async function shrink(linked) {
+  const bytes = withoutRelocations(linked);
   let binaryen;
   try {
     ({default: binaryen} = await import("binaryen"));
@@ -20,11 +24,11 @@ export async function shrink(bytes) {
     return bytes;
   }
   const {Features} = binaryen;
-  const module = binaryen.readBinary(bytes);
-  module.setFeatures(
+  const features =
     Features.BulkMemory | Features.BulkMemoryOpt | Features.SignExt | Features.NontrappingFPToInt |
-      Features.MutableGlobals | Features.Multivalue | Features.ReferenceTypes,
-  );
+    Features.MutableGlobals | Features.Multivalue | Features.ReferenceTypes;
+  const module = binaryen.readBinary(bytes);
+  module.setFeatures(features);
   for (let k = 0; k < module.getNumFunctions(); ++k) {
     const f = module.getFunctionByIndex(k);
     const {name, body} = binaryen.getFunctionInfo(f);
@@ -37,5 +41,10 @@ export async function shrink(bytes) {
   // What the first pass makes unreachable the second one takes away.
   for (let pass = 0; pass < 2; ++pass) module.optimize();
   module.runPasses(["strip-debug", "strip-producers", "strip-target-features"]);
-  return module.emitBinary();
+  const optimised = module.emitBinary();
+  clearUnread(linked, optimised, module.emitText());
+  const cleared = binaryen.readBinary(optimised);
+  cleared.setFeatures(features);
+  cleared.runPasses(["memory-packing"]);
+  return cleared.emitBinary();
 }

@@ -44,6 +44,7 @@
 //! | points with weights (squared radii), hidden or not | [`Regular2`] | [`Regular3`] | O(n log n), in space where the result is linear |
 //! | cells of points with weights, and how their areas change | [`Power2`], [`Jacobian2`] | | O(n) |
 //! | the furthest site, the enclosing circle | [`Furthest2`] | | O(n log n), O(log n) a query |
+//! | only the nearest points are wanted | [`Neighbors2`] | [`Neighbors3`] | O(log n) expected a query, on evenly spread points |
 //! | nearest sites at the same cost for any sites | [`NearestSites2`] | | O(log^2 n) expected a query |
 //! | values between points: linear, natural neighbours, smooth; rasters, contours, thinning | [`surface`], [`surface::Interpolator`] | the same | O(1) expected each from nearby |
 //! | more points than memory, on one machine or many | [`tiles`] | | as the points, and little for the seams |

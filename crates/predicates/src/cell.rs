@@ -4,9 +4,8 @@
 //! too: else edges that nearly coincide cross again and again (Hobby, "Practical segment intersection with finite precision
 //! output", CGTA 1999, for the cells of a uniform grid).
 
-use num_bigint::BigInt;
-
 use crate::exact::big;
+use crate::exact::big_int::BigInt;
 use crate::{Point2, Sign, orient2d};
 
 /// Whether some point of the segment between two different points is rounded to a third one, each coordinate to the nearest
@@ -39,8 +38,9 @@ pub fn segment_rounds_to(a: Point2, b: Point2, v: Point2) -> bool {
 type Bound = (BigInt, BigInt, bool);
 
 /// The later of two beginnings, or of two ends turned around.
-fn inner(p: Bound, q: Bound, sign: i32) -> Bound {
-    match (&p.0 * &q.1 * sign).cmp(&(&q.0 * &p.1 * sign)) {
+fn inner(p: Bound, q: Bound, turned: bool) -> Bound {
+    let order = (&p.0 * &q.1).cmp(&(&q.0 * &p.1));
+    match if turned { order.reverse() } else { order } {
         std::cmp::Ordering::Greater => p,
         std::cmp::Ordering::Less => q,
         std::cmp::Ordering::Equal => {
@@ -60,11 +60,11 @@ fn passes(a: Point2, b: Point2, v: Point2) -> bool {
             big::integers(&[a[k], b[k], v[k], finite(v[k].next_down()), finite(v[k].next_up())]);
         let [p, q, middle, below, above] = &numbers[..] else { return false };
         let step = |neighbour: &BigInt, other: &BigInt| {
-            if neighbour == middle { middle * 2 - other } else { neighbour.clone() }
+            if neighbour == middle { (middle + middle) - other } else { neighbour.clone() }
         };
         // Everything doubled: the borders of the cell are between numbers.
         let (low, high) = (middle + step(below, above), middle + step(above, below));
-        let (start, way): (BigInt, BigInt) = (p * 2, (q - p) * 2);
+        let (start, way) = (p + p, (q - p) << 1);
         let is_closed = v[k].to_bits() & 1 == 0;
         let [first, last] = if way < BigInt::ZERO { [&high, &low] } else { [&low, &high] };
         if way == BigInt::ZERO {
@@ -79,8 +79,8 @@ fn passes(a: Point2, b: Point2, v: Point2) -> bool {
             let (n, d) = (border - &start, way.clone());
             if d < BigInt::ZERO { (-n, -d, is_closed) } else { (n, d, is_closed) }
         };
-        from = inner(from, part(first), 1);
-        to = inner(to, part(last), -1);
+        from = inner(from, part(first), false);
+        to = inner(to, part(last), true);
     }
     match (&from.0 * &to.1).cmp(&(&to.0 * &from.1)) {
         std::cmp::Ordering::Less => true,

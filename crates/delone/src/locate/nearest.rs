@@ -77,7 +77,9 @@ pub(crate) fn k_nearest<G: Metric>(ground: &G, nearest: Option<Place>, q: G::Poi
     let candidate = |place: Place| Candidate { ground, q, place };
     let mut found = Vec::new();
     let mut waiting: BinaryHeap<_> = nearest.into_iter().map(candidate).collect();
-    let mut seen: BTreeSet<Place> = nearest.into_iter().collect();
+    // Not collected, which would sort: code that pages load.
+    let mut seen = BTreeSet::new();
+    seen.extend(nearest);
     while found.len() < k {
         let Some(Candidate { place, .. }) = waiting.pop() else { break };
         found.push(place);
@@ -98,7 +100,8 @@ pub(crate) fn within<G: Metric>(
     radius: f64,
 ) -> BTreeSet<Place> {
     let mut pending: Vec<Place> = nearest.into_iter().filter(|&v| ground.is_within(q, v, radius)).collect();
-    let mut seen: BTreeSet<Place> = pending.iter().copied().collect();
+    let mut seen = BTreeSet::new();
+    seen.extend(pending.iter().copied());
     while let Some(v) = pending.pop() {
         ground.beside(v, |w| {
             if ground.is_within(q, w, radius) && seen.insert(w) {

@@ -2,10 +2,9 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
-
 use super::{DiskPair, End, Number, Question, Shape, Terms};
 use crate::exact::big;
+use crate::exact::big_int::BigInt;
 use crate::{Point2, Sign};
 
 impl Number for BigInt {
@@ -22,7 +21,7 @@ impl Number for BigInt {
     }
 
     fn sign(&self) -> Option<Sign> {
-        Some(big::sign(self))
+        Some(self.sign())
     }
 }
 
@@ -35,7 +34,7 @@ pub(super) fn shape(pair: &DiskPair, k: Point2, question: Question) -> Shape {
 /// (n + s sqrt(q d)) / m.
 struct Surd {
     n: BigInt,
-    s: i32,
+    s: i64,
     d: BigInt,
     m: BigInt,
 }
@@ -45,7 +44,7 @@ fn surd(terms: Terms<BigInt>, is_low: bool) -> Surd {
     let ab = &a * &b;
     if m == BigInt::ZERO {
         // The quadratic is linear.
-        return Surd { n: &a * &a - q, s: 0, d, m: ab * 2 };
+        return Surd { n: &a * &a - q, s: 0, d, m: ab << 1 };
     }
     Surd { n: ab, s: if is_low { 1 } else { -1 }, d, m }
 }
@@ -66,26 +65,31 @@ pub(super) fn compare(pair: &DiskPair, first: &End, second: &End) -> Ordering {
     let q = one.q.clone();
     let (one, two) = (surd(one, first.is_low), surd(two, second.is_low));
     let rational = &one.n * &two.m - &two.n * &one.m;
-    let sum = sign_of_sum(&rational, (&two.m * one.s, &one.d), (-(&one.m * two.s), &two.d), &q);
-    (sum * big::sign(&one.m) * big::sign(&two.m)).cmp(&Sign::Zero)
+    let sum = sign_of_sum(
+        &rational,
+        (&two.m * BigInt::from(one.s), &one.d),
+        (&one.m * BigInt::from(-two.s), &two.d),
+        &q,
+    );
+    (sum * one.m.sign() * two.m.sign()).cmp(&Sign::Zero)
 }
 
 /// The sign of a + b sqrt(q d) + c sqrt(q e), for q, d and e that are not negative.
 fn sign_of_sum(a: &BigInt, (b, d): (BigInt, &BigInt), (c, e): (BigInt, &BigInt), q: &BigInt) -> Sign {
     let (x, y) = (&b * &b * d * q, &c * &c * e * q);
     let surds = opposed(part(&b, &x), part(&c, &y), || Sign::of(&x, &y));
-    opposed(big::sign(a), surds, || {
+    opposed(a.sign(), surds, || {
         // a^2 against the square of the rest, x + y + 2 b c q sqrt(d e).
         let rational = a * a - &x - &y;
-        let factor: BigInt = b * c * q * -2;
-        let square: BigInt = &factor * &factor * d * e;
-        opposed(big::sign(&rational), part(&factor, &square), || Sign::of(&(&rational * &rational), &square))
+        let factor = -((b * c * q) << 1);
+        let square = &factor * &factor * d * e;
+        opposed(rational.sign(), part(&factor, &square), || Sign::of(&(&rational * &rational), &square))
     })
 }
 
 /// The sign of a product with a root, given its square.
 fn part(factor: &BigInt, square: &BigInt) -> Sign {
-    big::sign(factor) * big::sign(square)
+    factor.sign() * square.sign()
 }
 
 /// The sign of a sum of two numbers of known signs. If they are opposed, `magnitudes` compares them.

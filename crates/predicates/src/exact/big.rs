@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::{BigInt, Sign as BigSign};
-
+use super::big_int::BigInt;
 use super::decode;
 use crate::Sign;
 
@@ -26,7 +25,7 @@ pub(crate) fn integers(numbers: &[f64]) -> (Vec<BigInt>, i32) {
     let scale = parts.iter().map(|part| part.1).min().unwrap_or(0);
     let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
         0 => BigInt::ZERO,
-        _ => BigInt::from(mantissa) << (exponent - scale).unsigned_abs(),
+        _ => BigInt::shifted(mantissa, (exponent - scale).unsigned_abs()),
     };
     (parts.into_iter().map(integer).collect(), scale)
 }
@@ -43,24 +42,16 @@ fn cross(u: &Vector, v: &Vector) -> BigInt {
     &u[0] * &v[1] - &u[1] * &v[0]
 }
 
-pub(crate) fn sign(value: &BigInt) -> Sign {
-    match value.sign() {
-        BigSign::Minus => Sign::Negative,
-        BigSign::NoSign => Sign::Zero,
-        BigSign::Plus => Sign::Positive,
-    }
-}
-
 pub(super) fn orient2d(coordinates: &[f64; 6]) -> Sign {
     let p = align(coordinates);
-    sign(&cross(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])))
+    cross(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])).sign()
 }
 
 pub(super) fn in_circle(coordinates: &[f64; 8]) -> Sign {
     let p = align(coordinates);
     let (ca, cb) = (difference(&p[2], &p[0]), difference(&p[2], &p[1]));
     let (da, db) = (difference(&p[3], &p[0]), difference(&p[3], &p[1]));
-    sign(&(dot(&ca, &cb) * cross(&da, &db) - dot(&da, &db) * cross(&ca, &cb)))
+    (dot(&ca, &cb) * cross(&da, &db) - dot(&da, &db) * cross(&ca, &cb)).sign()
 }
 
 fn squared(q: &Vector, p: &Vector) -> BigInt {
@@ -80,20 +71,20 @@ pub(super) fn compare_with_radius(coordinates: &[f64; 6]) -> Ordering {
 
 pub(super) fn angle(coordinates: &[f64; 6]) -> Sign {
     let p = align(coordinates);
-    sign(&dot(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])))
+    dot(&difference(&p[2], &p[0]), &difference(&p[2], &p[1])).sign()
 }
 
 pub(super) fn centre_side(coordinates: &[f64; 8]) -> Sign {
     let p = align(coordinates);
     let [u, v, w] = [1, 2, 3].map(|i| difference(&p[i], &p[0]));
-    sign(&(dot(&u, &u) * dot(&v, &w) - dot(&v, &v) * dot(&u, &w)))
+    (dot(&u, &u) * dot(&v, &w) - dot(&v, &v) * dot(&u, &w)).sign()
 }
 
 pub(super) fn centre_direction(coordinates: &[f64; 6]) -> [Sign; 2] {
     let p = align(coordinates);
     let (u, v) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
-    [sign(&(&uu * &v[1] - &vv * &u[1])), sign(&(&vv * &u[0] - &uu * &v[0]))]
+    [(&uu * &v[1] - &vv * &u[1]).sign(), (&vv * &u[0] - &uu * &v[0]).sign()]
 }
 
 fn squared3(p: &[BigInt], i: usize, j: usize) -> BigInt {
@@ -115,7 +106,7 @@ pub(super) fn orient3d(coordinates: &[f64; 12]) -> Sign {
     let from_first = |i: usize| [0, 1, 2].map(|k| &p[3 * i + k] - &p[k]);
     let [u, v, w] = [1, 2, 3].map(from_first);
     let minor = |i: usize, j: usize| &v[i] * &w[j] - &v[j] * &w[i];
-    sign(&(&u[0] * minor(1, 2) - &u[1] * minor(0, 2) + &u[2] * minor(0, 1)))
+    (&u[0] * minor(1, 2) - &u[1] * minor(0, 2) + &u[2] * minor(0, 1)).sign()
 }
 
 pub(super) fn in_sphere(coordinates: &[f64; 15]) -> Sign {
@@ -129,7 +120,7 @@ pub(super) fn in_sphere(coordinates: &[f64; 15]) -> Sign {
     let lift = |u: &[BigInt; 3]| u.iter().map(|x| x * x).sum::<BigInt>();
     // Positive where e is inside, and d above a, b, c.
     let positive = lift(&c) * three(&a, &b, &d) + lift(&a) * three(&b, &c, &d);
-    sign(&(positive - lift(&d) * three(&a, &b, &c) - lift(&b) * three(&a, &c, &d)))
+    (positive - lift(&d) * three(&a, &b, &c) - lift(&b) * three(&a, &c, &d)).sign()
 }
 
 /// The point at the same distance from three points, correctly rounded; a coordinate that no `f64` can hold is
@@ -138,7 +129,7 @@ pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {
     let (p, scale) = aligned(coordinates);
     let (b, c) = (difference(&p[1], &p[0]), difference(&p[2], &p[0]));
     let (bb, cc) = (dot(&b, &b), dot(&c, &c));
-    let denominator: BigInt = cross(&b, &c) * 2;
+    let denominator = cross(&b, &c) << 1;
     if denominator == BigInt::ZERO {
         return None;
     }
@@ -155,12 +146,13 @@ pub(crate) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> 
     const LEAST: i64 = -1074;
     /// From so many bits below it on a quotient is subnormal.
     const SUBNORMAL: i64 = BITS + 1 - 53;
-    let (n, d) = (numerator.magnitude(), denominator.magnitude());
-    let shift = BITS - (n.bits() as i64 - d.bits() as i64);
-    let (n, d) = if shift >= 0 { (n << shift, d.clone()) } else { (n.clone(), d << -shift) };
-    let whole = &n / &d;
-    let sticky = u128::from(&whole * &d != n);
-    let whole = u128::try_from(whole).expect("81 bits at most") | sticky;
+    let is_negative = numerator.sign() * denominator.sign() == Sign::Negative;
+    let (n, d) = (numerator.clone().magnitude(), denominator.clone().magnitude());
+    let shift = BITS - (n.bits() - d.bits());
+    let power = shift.unsigned_abs() as u32;
+    let (n, d) = if shift >= 0 { (n << power, d) } else { (n, d << power) };
+    let (whole, is_more) = n.divided(&d);
+    let whole = whole | u128::from(is_more);
     let mut exponent = i64::from(scale) - shift;
     let mut value = if let cut @ (SUBNORMAL..) = LEAST - exponent {
         // Where steps are wider than those of 53 bits, rounding to these first would be once too often.
@@ -169,7 +161,7 @@ pub(crate) fn quotient(numerator: &BigInt, denominator: &BigInt, scale: i32) -> 
     } else {
         whole as f64
     };
-    if (numerator.sign() == BigSign::Minus) != (denominator.sign() == BigSign::Minus) {
+    if is_negative {
         value = -value;
     }
     // In steps, because the power of two itself may be out of range.
@@ -193,20 +185,18 @@ fn shortened(whole: u128, bits: i64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use num_bigint::BigInt;
-
-    use super::quotient;
+    use super::{BigInt, quotient};
 
     /// Two thirds of the least normal number, and what is next to half of a step.
     #[test]
     fn subnormal_quotients_are_rounded_once() {
-        let third = |n: u64| quotient(&BigInt::from(n), &BigInt::from(3), -1074);
+        let third = |n: i64| quotient(&BigInt::from(n), &BigInt::from(3), -1074);
         assert_eq!(third(1 << 53), f64::from_bits(((1 << 53) + 1) / 3));
         assert_eq!([1, 2, 3, 4, 5].map(third), [0, 1, 1, 1, 2].map(f64::from_bits));
-        let halves = |n: u64| quotient(&BigInt::from(n), &BigInt::from(2), -1074);
+        let halves = |n: i64| quotient(&BigInt::from(n), &BigInt::from(2), -1074);
         assert_eq!([1, 3, 5].map(halves), [0, 2, 2].map(f64::from_bits));
         // 2^60 + 1 of 2^61 steps are more than half of one.
-        let half = BigInt::from((1_u64 << 60) + 1);
+        let half = BigInt::from((1 << 60) + 1);
         assert_eq!(quotient(&-half, &(BigInt::from(1) << 61), -1074), -f64::from_bits(1));
         assert_eq!(quotient(&BigInt::from(1), &BigInt::from(1), -4000), 0.0);
     }

@@ -3,9 +3,8 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
-
 use super::big;
+use super::big_int::BigInt;
 use super::decode;
 use super::integers::{align_into, compare_products};
 use crate::Sign;
@@ -56,7 +55,7 @@ pub(crate) fn angle<const D: usize>(o: [f64; D], a: [f64; D], b: [f64; D]) -> Si
         return Sign::of(&dot::<D>(&x, [0, 1], [0, 2]), &0);
     }
     let (x, _) = big::integers(&flat);
-    big::sign(&big_dot::<D>(&x, [0, 1], [0, 2]))
+    big_dot::<D>(&x, [0, 1], [0, 2]).sign()
 }
 
 /// The sign of beta (p - a).(b - a) - |p - a|^2, for a finite beta above zero.
@@ -79,7 +78,7 @@ pub(crate) fn ball<const D: usize>(a: [f64; D], b: [f64; D], p: [f64; D], beta: 
     let (along, square) = (big_dot::<D>(&x, [0, 2], [0, 1]), big_dot::<D>(&x, [0, 2], [0, 2]));
     let power = exponent.unsigned_abs();
     let (along, square) = if exponent < 0 { (along, square << power) } else { (along << power, square) };
-    big::sign(&(along * mantissa - square))
+    (along * BigInt::from(mantissa) - square).sign()
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@
 //! `(c - a) x (c - b)`, and the in-circle determinant of a, b, c, d is `dot_c cross_d - dot_d cross_c`.
 
 pub(crate) mod big;
+pub(crate) mod big_int;
 pub(crate) mod integers;
 pub(crate) mod lengths;
 pub(crate) mod power;

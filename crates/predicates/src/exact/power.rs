@@ -5,9 +5,8 @@
 
 use std::cmp::Ordering;
 
-use num_bigint::BigInt;
-
 use super::big;
+use super::big_int::BigInt;
 use super::decode;
 use super::wide::Wide;
 use crate::{Sign, Site};
@@ -162,7 +161,7 @@ pub(crate) fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2
     let scaled = on_one_scale(&coordinates, &[b.1, c.1, a.1]);
     let Rows { differences: rows, lifts, .. } = rows_of::<2>(&scaled);
     let ([b, c], [bb, cc]) = ([&rows[0], &rows[1]], [&lifts[0], &lifts[1]]);
-    let denominator = (&b[0] * &c[1] - &b[1] * &c[0]) * 2;
+    let denominator = (&b[0] * &c[1] - &b[1] * &c[0]) << 1;
     if denominator == BigInt::ZERO {
         return None;
     }
@@ -176,14 +175,14 @@ pub(crate) fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<[f64; 2
 fn big_determinant<const D: usize>(sites: &[Site<D>]) -> Sign {
     let Rows { differences: mut rows, lifts, .. } = big_rows(sites);
     rows.iter_mut().zip(lifts).for_each(|(row, lift)| row.push(lift));
-    big::sign(&determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()))
+    determinant(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>()).sign()
 }
 
 #[cold]
 fn big_interval(axis: usize, sites: &[Site<2>]) -> Sign {
     let Rows { differences: rows, lifts, .. } = big_rows(sites);
     let [u, v] = [&rows[0][axis], &rows[1][axis]];
-    big::sign(&(&lifts[0] * v - &lifts[1] * u)) * Sign::of(v, u)
+    (&lifts[0] * v - &lifts[1] * u).sign() * Sign::of(v, u)
 }
 
 /// By its first column.

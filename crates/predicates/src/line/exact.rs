@@ -3,9 +3,8 @@
 //!
 //! On the common scale a and b of a line take 63 bits, c 126; minors 191; the determinant 256 and a sign.
 
-use num_bigint::BigInt;
-
 use super::Line;
+use crate::exact::big_int::BigInt;
 use crate::exact::wide::Wide;
 use crate::exact::{big, integers, power};
 use crate::{Point2, Sign};
@@ -82,7 +81,7 @@ pub(super) fn turn(first: &Line, second: &Line) -> Sign {
         return minor(&e, &f, 0, 1).sign();
     }
     let ([e, f], _) = large([first, second]);
-    big::sign(&big_minor(&e, &f, 0, 1))
+    big_minor(&e, &f, 0, 1).sign()
 }
 
 #[cold]
@@ -98,7 +97,7 @@ pub(super) fn side_of_meeting(first: &Line, second: &Line, third: &Line) -> Sign
     let ([e, f, g], _) = large([first, second, third]);
     let turn = big_minor(&e, &f, 0, 1);
     let value = &g[0] * big_minor(&e, &f, 1, 2) + &g[1] * big_minor(&e, &f, 2, 0) + &g[2] * &turn;
-    big::sign(&value) * big::sign(&turn)
+    value.sign() * turn.sign()
 }
 
 /// Where two lines meet, correctly rounded; a coordinate that no `f64` can hold is infinite. None for parallel lines.

@@ -3,11 +3,10 @@
 //!
 //! Differences take 61 bits and a sign, lifts 125, minors 123; |n|^2 248, (h v - k u) 188 and n x q 186: degree six takes 375 bits.
 
-use num_bigint::BigInt;
-
 use super::Side;
 use super::fraction::{Number, length, normal, smallest};
 use crate::exact::big;
+use crate::exact::big_int::BigInt;
 use crate::exact::power::{Rows, big_rows, rows};
 use crate::exact::wide::Wide;
 use crate::{Sign, Site};
@@ -46,7 +45,7 @@ pub(super) fn angle<const D: usize>(a: [f64; D], b: [f64; D], q: [f64; D]) -> Si
         return Sign::of(&inner(&a, &b), &0);
     }
     let Rows { differences: rows, .. } = big_rows(&sites);
-    big::sign(&big_inner(&rows[0], &rows[1]))
+    big_inner(&rows[0], &rows[1]).sign()
 }
 
 /// h_q |u|^2 - h (q . u) of a, q, b, seen from b.
@@ -58,7 +57,7 @@ pub(super) fn edge<const D: usize>(sites: [Site<D>; 3]) -> Side {
     }
     let Rows { differences: rows, lifts, .. } = big_rows(&sites);
     let [u, q] = [&rows[0], &rows[1]];
-    big::sign(&(&lifts[1] * length(u) - &lifts[0] * big_inner(q, u)))
+    (&lifts[1] * length(u) - &lifts[0] * big_inner(q, u)).sign()
 }
 
 /// h_q |n|^2 - (h v - k u) . (n x q) of a, b, q, c, seen from c.
@@ -82,7 +81,7 @@ pub(super) fn triangle(sites: [Site<3>; 4]) -> Side {
     let [u, v, q] = [&rows[0], &rows[1], &rows[2]];
     let n = normal(u, v);
     let t: Vec<BigInt> = (0..3).map(|axis| &lifts[0] * &v[axis] - &lifts[1] * &u[axis]).collect();
-    big::sign(&(&lifts[2] * length(&n) - big_inner(&t, &normal(&n, q))))
+    (&lifts[2] * length(&n) - big_inner(&t, &normal(&n, q))).sign()
 }
 
 /// The squared radius, rounded once; infinite for points that are no simplex.
@@ -91,7 +90,7 @@ pub(super) fn triangle(sites: [Site<3>; 4]) -> Side {
 pub(super) fn radius<const D: usize, const N: usize>(sites: &[Site<D>; N]) -> f64 {
     let Rows { differences: rows, lifts, weight, scale } = big_rows(sites);
     let fraction = smallest::<_, D, N>(|i, axis| rows[i][axis].clone(), |i, _| lifts[i].clone());
-    let denominator = fraction.denominator << 2_u32;
+    let denominator = fraction.denominator << 2;
     if denominator == BigInt::ZERO {
         return f64::INFINITY;
     }

@@ -7,6 +7,7 @@ use super::filter::{CEILING, EDGE_BOUND, FLOOR, TRIANGLE_BOUND};
 use super::fraction::Number;
 use super::{RadiusScale, filter};
 use crate::exact::big;
+use crate::exact::big_int::BigInt;
 use crate::{Sign, Site};
 
 const U: f64 = f64::EPSILON / 2.0;
@@ -74,13 +75,13 @@ fn balls_hold_what_they_stand_for() {
     }
 }
 
-fn holds(ball: &Ball<f64>, exact: &num_bigint::BigInt, scale: i32) {
+fn holds(ball: &Ball<f64>, exact: &BigInt, scale: i32) {
     let (parts, of_parts) = big::integers(&[ball.high, ball.low, ball.radius, 1.0]);
     let (of_exact, finest) = (scale - scale.min(of_parts), scale.min(of_parts));
-    let exact = exact << of_exact.unsigned_abs();
-    let parts: Vec<_> = parts.iter().map(|x| x << (of_parts - finest).unsigned_abs()).collect();
+    let exact = exact.clone() << of_exact.unsigned_abs();
+    let parts: Vec<_> = parts.into_iter().map(|x| x << (of_parts - finest).unsigned_abs()).collect();
     let off = &parts[0] + &parts[1] - exact;
-    assert!(off.magnitude() <= parts[2].magnitude(), "{ball:?}");
+    assert!(off.magnitude() <= parts[2], "{ball:?}");
     assert!(ball.low.abs() <= U * ball.high.abs(), "{ball:?}");
 }
 

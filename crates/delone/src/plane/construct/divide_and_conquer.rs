@@ -104,13 +104,15 @@ pub(crate) fn in_order(points: &[[f64; 2]]) -> InOrder {
 }
 
 fn sorted(duplicates: Vec<(u32, u32)>) -> Vec<Duplicate> {
-    let named = |(point, vertex): (u32, u32)| Duplicate {
-        point: point as usize,
-        vertex: VertexId::new(vertex as usize),
+    // By point, which no two have in common; as words, which Morton order sorts too.
+    let mut words: Vec<u64> =
+        duplicates.into_iter().map(|(point, vertex)| u64::from(point) << 32 | u64::from(vertex)).collect();
+    words.sort_unstable();
+    let named = |word: u64| Duplicate {
+        point: (word >> 32) as usize,
+        vertex: VertexId::new((word & u64::from(u32::MAX)) as usize),
     };
-    let mut duplicates: Vec<Duplicate> = duplicates.into_iter().map(named).collect();
-    duplicates.sort_unstable_by_key(|duplicate| duplicate.point);
-    duplicates
+    words.into_iter().map(named).collect()
 }
 
 pub(super) fn build<K: Merging>(
