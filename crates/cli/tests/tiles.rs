@@ -157,12 +157,13 @@ fn kills_lose_nothing() {
     let line = "-q tiles p.npy -o whole --tile 400 --workers 2";
     let started = Instant::now();
     place.succeed(line);
-    let took = started.elapsed();
+    let mut took = started.elapsed();
     let expected = content(&place.path("whole"));
     let mut random = delone_generators::Random::new(5);
-    let mut killed = 0;
-    for round in 0..8 {
-        let folder = format!("t{round}");
+    let (mut rounds, mut killed) = (0, 0);
+    while rounds < 8 || killed < 8 {
+        rounds += 1;
+        let folder = format!("t{rounds}");
         let mut resume = "";
         loop {
             let args = format!("-q tiles p.npy -o {folder} --tile 400 --workers 2 {resume}");
@@ -170,13 +171,15 @@ fn kills_lose_nothing() {
             command.current_dir(place.path("")).args(args.split_whitespace()).stderr(Stdio::piped());
             let mut program = command.spawn().expect("the program starts");
             let patience = took.mul_f64(random.between(0.0, 0.8));
-            let until = Instant::now() + patience;
-            while Instant::now() < until && program.try_wait().expect("asked").is_none() {
+            let begun = Instant::now();
+            while begun.elapsed() < patience && program.try_wait().expect("asked").is_none() {
                 std::thread::sleep(Duration::from_millis(1));
             }
             _ = program.kill();
             let output = program.wait_with_output().expect("ended");
             if output.status.success() {
+                // The machine is faster than it was: patience is for less.
+                took = took.min(begun.elapsed());
                 break;
             }
             assert!(output.status.code().is_none(), "{folder}: {}", text(&output.stderr));
@@ -190,7 +193,6 @@ fn kills_lose_nothing() {
         assert!(others.is_empty(), "{folder}: {others:?} are other files");
         fs::remove_dir_all(place.path(&folder)).expect("removed");
     }
-    assert!(killed >= 8, "{killed} kills");
 }
 
 /// Memory that is too small for the borders of a circle: a clear stop, and more memory goes on.
