@@ -272,10 +272,10 @@ impl<const D: usize> Neighbors<D> {
     }
 }
 
-/// Where so many of equal parts of a number end, about.
+/// Where so many of equal parts of a number end, about; `of` is a power of two.
 #[inline]
 fn share(count: usize, parts: usize, of: usize) -> usize {
-    (count as u64 * parts as u64 / of as u64) as usize
+    ((count as u64 * parts as u64) >> of.trailing_zeros()) as usize
 }
 
 /// A node, and its points.
