@@ -6,7 +6,10 @@
 use crate::memory::room_for;
 
 /// Work on fewer items is not worth a thread.
-const MANY: usize = 1 << 15;
+const MANY: usize = 1 << 14;
+
+/// The fewest items of a part.
+const PART: usize = 1 << 11;
 
 /// The threads there are.
 pub(crate) fn threads() -> usize {
@@ -21,7 +24,7 @@ pub(crate) fn threads() -> usize {
 pub(crate) fn parts(items: usize) -> usize {
     // To ask for threads takes longer than to triangulate three points.
     let threads = if items < MANY { 1 } else { threads() };
-    if threads == 1 { 1 } else { (8 * threads).min(items / (MANY / 16)) }
+    if threads == 1 { 1 } else { (8 * threads).min(items / PART) }
 }
 
 /// Does all tasks, and gives the results in their order.
@@ -71,7 +74,7 @@ fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -
     #[cfg(feature = "rayon")]
     if parts(count) > 1 {
         use rayon::prelude::*;
-        (0..count).into_par_iter().with_min_len(MANY / 16).map(item).collect_into_vec(&mut items);
+        (0..count).into_par_iter().with_min_len(PART).map(item).collect_into_vec(&mut items);
         return items;
     }
     items.extend((0..count).map(item));

@@ -75,7 +75,9 @@ impl<'a, S: Samples> Greedy<'a, S> {
     fn measure(&mut self, triangle: u32, allowed: f64) {
         let worst = self.samples.worst(self.corners(triangle), allowed).filter(|worst| worst.0 > allowed);
         self.worst[triangle as usize] = worst;
-        self.heap.extend(worst.map(|(error, sample)| self.samples.entry(error, sample, triangle)));
+        if let Some((error, sample)) = worst {
+            self.heap.push(self.samples.entry(error, sample, triangle));
+        }
     }
 
     /// The largest error of all samples, and those that are further away than allowed, with a triangle each.

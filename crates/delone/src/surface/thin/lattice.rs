@@ -1,13 +1,13 @@
 //! The cells of a raster, measured against planes over triangles: row by row, and over large triangles block by block, of which most
 //! are surely not worse than the worst so far. Blocks are tilted, so that this is a matter of how rough they are, not of how steep.
 //!
-//! Cells and corners are numbers of columns and rows here, so that where a side is in a row is the same for both of its triangles, and
-//! no cell falls between them. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
+//! Cells and corners are numbers of columns and rows here, so that which cells are in a triangle is exact. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
 
 use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::plane::{Plane, Worst};
+use super::sides::{Part, Sides};
 use super::{Samples, Triple, Verdict};
 use crate::surface::Grid;
 
@@ -19,6 +19,9 @@ pub(super) const HIGHEST: f64 = 1e300;
 
 /// Roundings of a bound, and of what it bounds, in parts of its terms: 2^-48.
 const ROUNDING: f64 = f64::from_bits((1023 - 48) << 52);
+
+/// Cells that are measured at once.
+const LANES: usize = 4;
 
 /// From so many columns and rows on a triangle is looked at in blocks.
 const LARGE: i32 = 16;
@@ -123,69 +126,93 @@ impl<'a> Lattice<'a> {
     }
 
     /// The plane over a triangle and its sides; `None` where it has no area here.
-    fn triangle(&self, corners: Triple) -> Option<(Plane, Sides)> {
-        let mut cells = corners.map(|s| self.cell(s));
-        let plane = Plane::new(cells.map(|c| c.map(f64::from)), cells.map(|c| self.at(c)), 0.0)?;
-        cells.sort_unstable_by_key(|cell| cell[1]);
+    fn triangle(&self, [a, b, c]: Triple) -> Option<(Plane, Sides)> {
+        // Cells are numbered row by row.
+        let [a, b] = [a.min(b), a.max(b)];
+        let cells = [a.min(c), b.min(c).max(a), b.max(c)].map(|s| self.cell(s));
+        let plane = Plane::of_sorted(cells.map(|c| c.map(f64::from)), cells.map(|c| self.at(c)), 0.0)?;
         Some((plane, Sides::of(cells)))
     }
 
-    /// The values of some columns of a row.
+    /// The largest error of the cells of a part, zero if it has none: several at once, the last ones with those behind the part, which do
+    /// not count.
     #[inline]
-    fn part(&self, row: i32, [a, b]: [i32; 2]) -> &[f64] {
-        let start = row as usize * self.stride;
-        if a > b { &[] } else { self.values.get(start + a as usize..=start + b as usize).unwrap_or_default() }
-    }
-
-    /// Measures a part of a row: first how bad it is, without a branch, then where.
-    #[inline]
-    fn measure(&self, plane: &Plane, row: i32, [a, b]: [i32; 2], worst: &mut Worst<[i32; 2]>) {
-        let values = self.part(row, [a, b]);
-        let base = plane.row(f64::from(row));
-        let error = |z: f64, x: f64| (z - (base + plane.along(x))).abs();
-        let most = largest(values, a, error);
-        if most < worst.error {
-            return;
+    fn largest(&self, plane: &Plane, Part { row, columns: [a, b] }: Part) -> f64 {
+        if a > b {
+            return 0.0;
         }
-        for (column, &z) in (a..).zip(values) {
-            let error = error(z, f64::from(column));
-            if error == most {
-                worst.offer(error, [column, row], |a, b| self.order(a, b));
+        // There is room behind each row.
+        let start = row as usize * self.stride + a as usize;
+        let count = (b - a) as usize / LANES + 1;
+        let values = self.values.get(start..start + count * LANES).unwrap_or_default();
+        let (base, last) = (plane.row(f64::from(row)), f64::from(b));
+        let mut x: [f64; LANES] = std::array::from_fn(|k| f64::from(a) + k as f64);
+        let mut most = [0.0; LANES];
+        for chunk in values.as_chunks::<LANES>().0 {
+            for k in 0..LANES {
+                let error = (chunk[k] - (base + plane.along(x[k]))).abs();
+                let error = if x[k] <= last { error } else { 0.0 };
+                most[k] = if error > most[k] { error } else { most[k] };
+                x[k] += LANES as f64;
             }
         }
+        most.into_iter().fold(0.0, f64::max)
     }
 
-    fn by_blocks(&self, plane: &Plane, sides: &Sides, worst: &mut Worst<[i32; 2]>) {
+    /// The error of a cell.
+    #[inline]
+    fn off(&self, plane: &Plane, cell @ [column, row]: [i32; 2]) -> f64 {
+        (self.at(cell) - (plane.row(f64::from(row)) + plane.along(f64::from(column)))).abs()
+    }
+
+    /// The first cell of a part with an error that some of its cells have.
+    fn place(&self, plane: &Plane, Part { row, columns: [a, b] }: Part, error: f64) -> [i32; 2] {
+        let mut cells = (a..=b).map(|column| [column, row]);
+        let is_it = |cell: &[i32; 2]| self.off(plane, *cell) == error;
+        let found = if self.grid.step()[0] > 0.0 { cells.find(is_it) } else { cells.rfind(is_it) };
+        found.unwrap_or([a, row])
+    }
+
+    /// Measures a part of a row: how bad it is, not yet where.
+    #[inline]
+    fn measure(&self, plane: &Plane, part: Part, worst: &mut Worst<Part>) {
+        let most = self.largest(plane, part);
+        if most >= worst.error {
+            let place = |part| self.place(plane, part, most);
+            worst.offer(most, part, |a, b| self.order(place(a), place(b)));
+        }
+    }
+
+    fn by_blocks(&self, plane: &Plane, sides: &Sides, worst: &mut Worst<Part>) {
         let side = SIDE as i32;
         let across = self.columns.div_ceil(SIDE);
-        let [top, bottom] = sides.rows;
-        let mut spans = [[0, -1]; SIDE];
-        for block_row in top / side..=bottom / side {
-            let rows = (block_row * side).max(top)..=(block_row * side + side - 1).min(bottom);
-            let (mut low, mut high) = (i32::MAX, i32::MIN);
-            for row in rows.clone() {
-                let span @ [a, b] = sides.span(row);
-                spans[(row % side) as usize] = span;
-                if a <= b {
-                    (low, high) = (low.min(a), high.max(b));
-                }
+        let mut parts = [Part { row: 0, columns: [0, -1] }; SIDE];
+        let (mut count, mut low, mut high) = (0, i32::MAX, i32::MIN);
+        sides.each(|part| {
+            if let Part { columns: [a, b], .. } = part
+                && a <= b
+            {
+                (low, high) = (low.min(a), high.max(b));
+                parts[count] = part;
+                count += 1;
             }
-            if low > high {
-                continue;
+            if part.row % side < side - 1 && part.row < sides.bottom() {
+                return;
             }
-            for block in low / side..=high / side {
+            let block_row = part.row / side;
+            for block in low / side..=high.div_euclid(side) {
                 let cells = &self.blocks[block_row as usize * across + block as usize];
                 let middle = [f64::from(block * side) + HALF, f64::from(block_row * side) + HALF];
                 if cells.most(plane, middle) < worst.error {
                     continue;
                 }
-                for row in rows.clone() {
-                    let [a, b] = spans[(row % side) as usize];
-                    let part = [a.max(block * side), b.min(block * side + side - 1)];
-                    self.measure(plane, row, part, worst);
+                for &Part { row, columns: [a, b] } in &parts[..count] {
+                    let columns = [a.max(block * side), b.min(block * side + side - 1)];
+                    self.measure(plane, Part { row, columns }, worst);
                 }
             }
-        }
+            (count, low, high) = (0, i32::MAX, i32::MIN);
+        });
     }
 }
 
@@ -226,114 +253,36 @@ impl Samples for Lattice<'_> {
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {
         let (plane, sides) = self.triangle(corners)?;
         let mut worst = Worst::above(floor);
-        let [top, bottom] = sides.rows;
-        let columns = corners.map(|s| self.cell(s)[0]);
-        let width = columns.iter().max().zip(columns.iter().min()).map_or(0, |(b, a)| b - a);
-        if bottom - top >= LARGE && width >= LARGE {
+        if sides.size().iter().all(|&size| size >= LARGE) {
             self.by_blocks(&plane, &sides, &mut worst);
         } else {
-            (top..=bottom).for_each(|row| self.measure(&plane, row, sides.span(row), &mut worst));
+            sides.each(|part| self.measure(&plane, part, &mut worst));
         }
-        worst.sample.map(|cell| (worst.error, Self::sample(cell, self.columns)))
+        let cell = worst.sample.map(|part| self.place(&plane, part, worst.error));
+        cell.map(|cell| (worst.error, Self::sample(cell, self.columns)))
     }
 
     fn judge(&self, corners: Triple, t: u32, verdict: &mut Verdict) {
         let Some((plane, sides)) = self.triangle(corners) else { return };
-        for row in sides.rows[0]..=sides.rows[1] {
-            let span = sides.span(row);
-            let values = self.part(row, span);
-            let first = Self::sample([span[0], row], self.columns) as usize;
-            if values.is_empty() {
-                continue;
+        sides.each(|part| {
+            let Part { row, columns: [a, b] } = part;
+            if a > b {
+                return;
             }
-            let base = plane.row(f64::from(row));
-            let error = |z: f64, x: f64| (z - (base + plane.along(x))).abs();
-            verdict.seen[first..first + values.len()].fill(true);
-            let most = largest(values, span[0], error);
+            let samples = Self::sample([a, row], self.columns)..=Self::sample([b, row], self.columns);
+            verdict.seen[*samples.start() as usize..=*samples.end() as usize].fill(true);
+            let most = self.largest(&plane, part);
             verdict.largest = verdict.largest.max(most);
             if most > verdict.allowed {
-                for ((column, sample), &z) in (span[0]..).zip(first as u32..).zip(values) {
-                    if error(z, f64::from(column)) > verdict.allowed {
-                        verdict.missed.push((t, sample));
-                    }
-                }
+                let errors = (a..=b).map(|column| self.off(&plane, [column, row]));
+                let missed = samples.zip(errors).filter(|&(_, error)| error > verdict.allowed);
+                verdict.missed.extend(missed.map(|(sample, _)| (t, sample)));
             }
-        }
+        });
     }
 
     fn error(&self, corners: Triple, sample: u32) -> f64 {
         let place = self.cell(sample).map(f64::from);
         self.triangle(corners).map_or(0.0, |(plane, _)| (self.height(sample) - plane.at(place)).abs())
-    }
-}
-
-/// The largest error of the values of a row, from a column on; several at once. -1 if there are none.
-#[inline]
-fn largest(values: &[f64], first: i32, error: impl Fn(f64, f64) -> f64) -> f64 {
-    let larger = |a: f64, b: f64| if a > b { a } else { b };
-    let mut x = [0.0, 1.0, 2.0, 3.0].map(|k| f64::from(first) + k);
-    let mut most = [-1.0; 4];
-    let chunks = values.chunks_exact(4);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for k in 0..4 {
-            most[k] = larger(error(chunk[k], x[k]), most[k]);
-            x[k] += 4.0;
-        }
-    }
-    let most = larger(larger(most[0], most[1]), larger(most[2], most[3]));
-    rest.iter().zip(x).fold(most, |most, (&z, x)| larger(error(z, x), most))
-}
-
-/// The sides of a triangle by rows.
-struct Sides {
-    rows: [i32; 2],
-    /// The long side, and the short ones above and below the row of the corner between.
-    long: Side,
-    short: [Side; 2],
-    middle: i32,
-    is_long_left: bool,
-}
-
-/// A side: a row, the column there, and columns a row.
-#[derive(Clone, Copy)]
-struct Side([f64; 3]);
-
-impl Side {
-    /// From the upper corner to the lower one.
-    fn new(a: [i32; 2], b: [i32; 2]) -> Self {
-        let rows = b[1] - a[1];
-        let step = if rows == 0 { 0.0 } else { f64::from(b[0] - a[0]) / f64::from(rows) };
-        Self([f64::from(a[1]), f64::from(a[0]), step])
-    }
-
-    #[inline]
-    fn at(&self, row: f64) -> f64 {
-        let Self([first, column, step]) = self;
-        column + (row - first) * step
-    }
-}
-
-impl Sides {
-    /// Of corners by row.
-    fn of([top, middle, bottom]: [[i32; 2]; 3]) -> Self {
-        let long = Side::new(top, bottom);
-        let is_flat = top[1] == middle[1];
-        let is_long_left =
-            if is_flat { top[0] < middle[0] } else { long.at(f64::from(middle[1])) < f64::from(middle[0]) };
-        let short = [Side::new(top, middle), Side::new(middle, bottom)];
-        // A side along a row is no border of any: the one below begins there.
-        let middle = if is_flat { middle[1] - 1 } else { middle[1] };
-        Self { rows: [top[1], bottom[1]], long, short, middle, is_long_left }
-    }
-
-    /// The first and the last column of a row.
-    #[inline]
-    fn span(&self, row: i32) -> [i32; 2] {
-        let y = f64::from(row);
-        let (long, short) = (self.long.at(y), self.short[usize::from(row > self.middle)].at(y));
-        let (low, high) = if self.is_long_left { (long, short) } else { (short, long) };
-        let floor = low as i32;
-        [floor + i32::from(f64::from(floor) < low), high as i32]
     }
 }

@@ -13,6 +13,7 @@ mod greedy;
 mod lattice;
 mod mesh;
 mod plane;
+mod sides;
 #[cfg(test)]
 mod tests;
 

@@ -25,7 +25,12 @@ impl Plane {
                 c.swap(i, j);
             }
         }
-        let [(p, z), (q, zq), (r, zr)] = c;
+        Self::of_sorted(c.map(|corner| corner.0), c.map(|corner| corner.1), thinnest)
+    }
+
+    /// The same from corners that come in an order of their own.
+    #[inline]
+    pub(super) fn of_sorted([p, q, r]: [[f64; 2]; 3], [z, zq, zr]: [f64; 3], thinnest: f64) -> Option<Self> {
         let [a, b] = [[q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]];
         let (u, v) = (zq - z, zr - z);
         let area = a[0] * b[1] - a[1] * b[0];

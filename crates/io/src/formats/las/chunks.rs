@@ -18,6 +18,9 @@ use crate::{Cloud, Error, guard};
 /// Bytes before the first chunk: where the table is.
 const OFFSET: u64 = ChunkTable::OFFSET_SIZE as u64;
 
+/// Points decoded at a time: so few that they are still in the cache when their coordinates are taken.
+const BLOCK: u64 = 1 << 10;
+
 /// Bytes that are read ahead of the decoders.
 const AHEAD: u64 = 1 << 24;
 
@@ -250,7 +253,7 @@ fn decode<'a>(
     decoder.set_selection(DecompressionSelection::base().decompress_z().decompress_classification());
     let mut rest = points;
     while rest > 0 {
-        let count = CHUNK.min(rest);
+        let count = BLOCK.min(rest);
         for point in data.resize_for(count as usize).chunks_exact_mut(record) {
             decoder.decompress_next(point).map_err(early)?;
         }
@@ -274,7 +277,7 @@ fn decode_on(
     let mut decoder = SequentialPointRecordDecompressor::new(&mut tile.source);
     let mut seen = 0;
     while seen < tile.total {
-        let count = CHUNK.min(tile.total - seen);
+        let count = BLOCK.min(tile.total - seen);
         for point in data.resize_for(count as usize).chunks_exact_mut(tile.record) {
             if seen % size == 0 {
                 decoder.reset();
