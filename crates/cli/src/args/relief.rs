@@ -68,8 +68,8 @@ pub(crate) struct ContoursArgs {
 
 Few of the points with heights (or of the cells of a raster: tif asc, and npy of shape (rows, columns)) are left, so that the triangles
 of these are nowhere further from any other point than --max-error, in height: the corners of the hull first, then always the point that
-is furthest away (Garland & Heckbert 1995). All points are measured again in the end. Segments of the input and of --segments stay
-edges. What is written has the points that are left alone, in the order of the input; --kept says which.
+is furthest away (Garland & Heckbert 1995); then points that later ones made superfluous are left out. All points are measured again in
+the end. Segments of the input and of --segments stay edges. What is written has the points that are left alone, in the order of the input; --kept says which.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct SimplifyArgs {
     #[command(flatten)]

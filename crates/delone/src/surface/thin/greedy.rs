@@ -10,13 +10,13 @@ const ROUNDING: f64 = f64::from_bits((1023 - 48) << 52);
 
 /// See the module.
 pub(super) struct Greedy<'a, S: Samples> {
-    samples: &'a S,
-    mesh: Mesh,
+    pub(super) samples: &'a S,
+    pub(super) mesh: Mesh,
     /// The samples that are vertices, by vertex.
-    vertices: Vec<u32>,
+    pub(super) vertices: Vec<u32>,
     heap: BinaryHeap<S::Entry>,
     /// The worst sample of each triangle and its error, if that is more than allowed: other entries are those of triangles that are gone.
-    worst: Vec<Option<(f64, u32)>>,
+    pub(super) worst: Vec<Option<(f64, u32)>>,
 }
 
 impl<'a, S: Samples> Greedy<'a, S> {
@@ -34,6 +34,7 @@ impl<'a, S: Samples> Greedy<'a, S> {
         let largest = self.vertices.iter().map(|&s| self.samples.height(s).abs()).fold(0.0, f64::max);
         let allowed = max_error + ROUNDING * largest;
         (0..self.worst.len() as u32).for_each(|t| self.measure(t, allowed));
+        let (first, mut is_pruned) = (self.vertices.len(), false);
         loop {
             while self.vertices.len() < max_points {
                 let Some(entry) = self.heap.pop() else { break };
@@ -43,6 +44,9 @@ impl<'a, S: Samples> Greedy<'a, S> {
                 {
                     self.choose(sample, t, allowed);
                 }
+            }
+            if self.heap.is_empty() && !std::mem::replace(&mut is_pruned, true) {
+                self.prune(first, allowed);
             }
             // All samples once more, without a bound: what was left out wrongly would be seen here.
             let (error, missed) = self.prove(allowed);

@@ -16,9 +16,9 @@ pub(super) const NONE: u32 = u32::MAX;
 pub(super) struct Triangle {
     pub(super) corners: [u32; 3],
     /// The edges on the other sides: three times the triangle and the edge's number there.
-    across: [u32; 3],
+    pub(super) across: [u32; 3],
     /// Which edges are fixed, a bit each.
-    fixed: u8,
+    pub(super) fixed: u8,
 }
 
 /// See the module.
@@ -27,15 +27,15 @@ pub(super) struct Mesh {
     pub(super) triangles: Vec<Triangle>,
     /// The coordinates of the vertices.
     pub(super) points: Vec<[f64; 2]>,
-    filter: Filter,
+    pub(super) filter: Filter,
     /// When a triangle was last put into a cavity, by the number of the insertion.
-    stamps: Vec<u32>,
+    pub(super) stamps: Vec<u32>,
     now: u32,
     cavity: Vec<u32>,
     /// Edges around the cavity: from, to, what is across, whether it is fixed.
     border: Vec<(u32, u32, u32, bool)>,
     /// For each vertex the new triangle whose border edge begins there, and when.
-    begins: Vec<(u32, u32)>,
+    pub(super) begins: Vec<(u32, u32)>,
     /// The triangles of the last insertion.
     pub(super) star: Vec<u32>,
 }
@@ -51,7 +51,7 @@ enum Spot {
     Outside,
 }
 
-fn next(k: usize) -> usize {
+pub(super) fn next(k: usize) -> usize {
     (k + 1) % 3
 }
 
@@ -90,7 +90,7 @@ impl Mesh {
         }
     }
 
-    fn point(&self, v: u32) -> [f64; 2] {
+    pub(super) fn point(&self, v: u32) -> [f64; 2] {
         self.points[v as usize]
     }
 

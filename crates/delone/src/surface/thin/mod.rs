@@ -2,17 +2,19 @@
 //!
 //! Greedy insertion (Garland & Heckbert, "Fast polygonal approximation of terrains and height fields", CMU-CS-95-181, 1995, algorithm
 //! III): the corners of the hull first, then always the point that is furthest from the triangles so far. The worst point of each
-//! triangle is in a heap, and only triangles that an insertion made are measured. Ties go to the lexicographically least point and the
-//! triangulation is the canonical one, so the result is that of the set of points: neither their order nor threads show.
+//! triangle is in a heap, and only triangles that an insertion made are measured. When nothing is too far away, points that those after
+//! them made superfluous are taken out again, an eighth or more of all. Ties go to the lexicographically least point and the triangulation is
+//! the canonical one, so the result is that of the set of points: neither their order nor threads show.
 //!
 //! Cost: O(log n) for each point that is chosen, its cavity, and the points in the triangles of its star, of which boxes leave most out
-//! where triangles are large.
+//! where triangles are large; in the end its star once more.
 
 mod cloud;
 mod greedy;
 mod lattice;
 mod mesh;
 mod plane;
+mod prune;
 mod sides;
 #[cfg(test)]
 mod tests;
@@ -103,8 +105,8 @@ pub struct Thinning {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thinned {
     /// The points that are left, by their indices in the input, cells of a raster row by row: those that there were to begin with (the
-    /// corners of the hull and the ends of segments, by index), then in the order in which they were chosen. Their canonical
-    /// triangulation, with the segments, is what the others were measured against.
+    /// corners of the hull and the ends of segments, by index), then in the order in which they were chosen, but for those that later ones made
+    /// superfluous. Their canonical triangulation, with the segments, is what the others were measured against.
     pub vertices: Vec<usize>,
     /// The largest distance in height of any input point from the triangles, computed for all of them in the end.
     pub error: f64,
@@ -129,7 +131,8 @@ impl Thinning {
         Self { max_error, ..self }
     }
 
-    /// The number of points to stop at. The corners of the hull and the ends of segments stay, be they more.
+    /// The number of points to stop at, all of which are left if they are not enough for the largest error. The corners of the hull and the
+    /// ends of segments stay, be they more.
     #[must_use]
     pub fn max_points(self, max_points: usize) -> Self {
         Self { max_points, ..self }

@@ -56,11 +56,12 @@ fn all_points_are_near() {
     }
 }
 
-/// Greedy insertion by its definition, with a new triangulation each time.
+/// Greedy insertion by its definition, with a new triangulation each time; then what is not needed goes, from the last one on.
 fn by_definition(points: &[[f64; 2]], z: &[f64], bound: f64) -> Vec<usize> {
     let hull = crate::Hull2::from_points(points).expect("finite");
     let mut left = hull.corners().to_vec();
     left.sort_unstable();
+    let first = left.len();
     loop {
         let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
         let d = Delaunay2::from_points(&chosen).expect("finite");
@@ -76,9 +77,16 @@ fn by_definition(points: &[[f64; 2]], z: &[f64], bound: f64) -> Vec<usize> {
             .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| lexicographic(points[b.1], points[a.1])));
         match worst {
             Some((error, i)) if error > bound => left.push(i),
-            _ => return left,
+            _ => break,
         }
     }
+    for k in (first..left.len()).rev() {
+        let without: Vec<usize> = left.iter().copied().filter(|&i| i != left[k]).collect();
+        if error(points, z, &without, &[]) <= bound {
+            left = without;
+        }
+    }
+    left
 }
 
 #[test]
@@ -90,6 +98,10 @@ fn the_worst_is_chosen_each_time() {
         let z: Vec<f64> = points.iter().map(|_| random.below(1_000_003) as f64 / 1e5).collect();
         let thinned = Thinning::new().max_error(2.0).points(&points, &z, &[]).expect("valid");
         assert_eq!(thinned.vertices, by_definition(&points, &z, 2.0));
+        assert_eq!(
+            Thinning::new().max_error(4.0).points(&points, &z, &[]).expect("valid").vertices,
+            by_definition(&points, &z, 4.0)
+        );
         // The first points of a longer list are those of a shorter one.
         let few = Thinning::new().max_points(60).points(&points, &z, &[]).expect("valid");
         let more = Thinning::new().max_points(90).points(&points, &z, &[]).expect("valid");
