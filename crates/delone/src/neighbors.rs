@@ -7,8 +7,9 @@
 //! and so are their neighbours. Floating point passes by cells that are surely too far away, by a proven bound; whichever of two
 //! points is nearer is decided exactly, so that answers are those of the triangulations.
 //!
-//! Cost: O(n log n) to build, 20 bytes a point in the plane and 28 in space; O(log n) expected for the nearest, O(k log n) for k, on evenly
-//! spread points.
+//! Cost: O(n log n) to build, 21 bytes a point in the plane and 29 in space; O(log n) expected for the nearest, O(k log n) for k, on evenly
+//! spread points. O(n) where all are as near, or much further from the query than from each other: there the triangulations answer
+//! faster.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -115,9 +115,9 @@ pub fn compare_with_radius3(q: Point3, a: Point3, radius: f64) -> Ordering {
     compared(squared3(q, a), radius * radius).unwrap_or_else(|| exact::compare_with_radius3(q, a, radius))
 }
 
-/// Whether a sum of the squares of up to three rounded differences surely is the larger of two, rounded each, and with them what
-/// they stand for: floating point with a proven bound, after which `false` is no answer. For searches that pass by what they
-/// need not look at.
+/// Whether one squared distance is surely larger than another, both sums of the squares of up to three differences, rounded at each
+/// step: floating point with a proven bound, after which `false` is no answer. For searches that pass by what they need not
+/// look at.
 #[inline]
 pub fn is_surely_further(squared: f64, limit: f64) -> bool {
     squared * (1.0 - 2.0 * ERROR) > limit && squared > 2.0 * SMALLEST && squared < f64::INFINITY

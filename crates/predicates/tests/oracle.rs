@@ -3,9 +3,10 @@
 use delone_generators::Random;
 use delone_oracle::exact;
 use delone_predicates::{
-    Filter, Filter3, Grid, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction, centre_side,
+    Filter, Filter3, Four, Grid, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction, centre_side,
     compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
-    in_circle_with_ties, in_sphere, in_sphere_with_ties, lexicographic, lexicographic3, orient2d, orient3d,
+    in_circle_with_ties, in_sphere, in_sphere_with_ties, is_surely_further, lexicographic, lexicographic3,
+    orient2d, orient3d,
 };
 
 /// A family of hostile tuples of four points.
@@ -162,6 +163,7 @@ fn in_circle_ties_are_decided_for_distinct_points() {
 /// The static filters may never say more than is true, whatever box or grid they are given.
 #[test]
 fn pencils_with_static_filters_are_exact() {
+    let mut told = 0;
     tuples(4, 60_000, |name, [l, r, p, q]| {
         let points = [l, r, p, q];
         let extent = |k: usize| {
@@ -180,7 +182,17 @@ fn pencils_with_static_filters_are_exact() {
             sign(exact::in_circle(l, r, p, q)),
             "{name}: {points:?}"
         );
+        if let Some(Four { turns, circle }) = Four::of(l, r, p, q, &filter) {
+            told += 1;
+            for (bit, [a, b, c]) in [[l, r, p], [l, r, q], [l, p, q], [r, p, q]].into_iter().enumerate() {
+                let expected = if turns >> bit & 1 == 1 { Sign::Positive } else { Sign::Negative };
+                assert_eq!(expected, sign(exact::orient2d(a, b, c)), "{name}: {points:?}");
+            }
+            let expected = if circle { Sign::Positive } else { Sign::Negative };
+            assert_eq!(expected, sign(exact::in_circle(l, r, p, q)), "{name}: {points:?}");
+        }
     });
+    assert!(told > part(60_000), "only {told} fours were told");
 }
 
 #[test]
@@ -229,6 +241,11 @@ fn distances_and_angles_are_exact() {
         let expected = sign(exact::compare_distances(q, a, b)) as i8;
         assert_eq!(compare_distances(q, a, b) as i8, expected, "{name}: {q:?} {a:?} {b:?}");
         equal += usize::from(expected == 0);
+        let squared = |p: Point2| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
+        assert!(
+            !is_surely_further(squared(a), squared(b)) || expected > 0,
+            "{name}: {q:?} {a:?} {b:?} are told wrongly"
+        );
         // A radius that is nearly the distance: the rounded distance itself.
         for radius in [d[0], (a[0] - q[0]).hypot(a[1] - q[1])] {
             let expected = if radius < 0.0 || !radius.is_finite() {
