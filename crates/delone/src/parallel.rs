@@ -5,8 +5,9 @@
 
 use crate::memory::room_for;
 
-/// Work on fewer items is not worth a thread.
-const MANY: usize = 1 << 14;
+/// Work on fewer items is not worth a thread. The Python package relies on it: it gives less than this no pool of its own, and a
+/// forked process waits for ever for the threads of another.
+const MANY: usize = 1 << 15;
 
 /// The fewest items of a part.
 const PART: usize = 1 << 11;

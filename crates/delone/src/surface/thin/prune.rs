@@ -4,11 +4,14 @@
 //! from any Delaunay triangulation; if no sample is too far from the triangles that come of it, the vertex goes. The last ones that were
 //! chosen are asked first, and each once, so what is left is again a matter of the set of points alone.
 //!
-//! Cost: for a vertex O(k^2) for k neighbours, and the samples in its star.
+//! Cost: for a vertex the samples in its star, and O(k^2) for k neighbours; one with many is left, which bounds that.
 
 use super::Samples;
 use super::greedy::Greedy;
 use super::mesh::{Mesh, NONE, Triangle, next};
+
+/// A vertex with more neighbours stays.
+const NEIGHBOURS: usize = 64;
 
 /// The place of a vertex that may go: its triangles, and what shall be there.
 #[derive(Debug, Default)]
@@ -36,7 +39,8 @@ impl Hole {
 }
 
 impl Mesh {
-    /// Looks at the triangles around a vertex, from one of them on. Says whether there is one on all sides, and no fixed edge ends there.
+    /// Looks at the triangles around a vertex, from one of them on. Says whether there is one on all sides, no fixed edge ends there, and
+    /// they are not too many.
     fn open(&self, v: u32, first: u32, hole: &mut Hole) -> bool {
         hole.star.clear();
         hole.link.clear();
@@ -47,7 +51,7 @@ impl Mesh {
             hole.star.push(t);
             hole.link.push((corners[next(k)], across[k], fixed >> k & 1 == 1));
             let side = next(k);
-            if across[side] == NONE || fixed >> side & 1 == 1 {
+            if across[side] == NONE || fixed >> side & 1 == 1 || hole.star.len() > NEIGHBOURS {
                 return false;
             }
             t = across[side] / 3;
