@@ -1,12 +1,20 @@
-//! The choice: always the worst, from a heap of the worst of each triangle.
+//! The choice: in rounds, from a heap of the worst sample of each triangle.
+//!
+//! A round takes all that are too far away, the worst first, but for those whose triangle has gone in the same round; then the new
+//! triangles are measured, on all threads. With always the worst of all alone as many are left in the end, and a sixth more triangles are
+//! measured that are gone before their turn comes. Where the number of points is bounded it matters who comes first, so there a round takes one.
 
 use std::collections::BinaryHeap;
 
 use super::mesh::Mesh;
 use super::{Samples, Thinned, Triple, Verdict};
+use crate::parallel;
 
 /// Rounding of errors, in parts of the largest height.
 const ROUNDING: f64 = f64::from_bits((1023 - 48) << 52);
+
+/// Triangles that are measured by one task.
+const TASK: usize = 128;
 
 /// See the module.
 pub(super) struct Greedy<'a, S: Samples> {
@@ -16,13 +24,16 @@ pub(super) struct Greedy<'a, S: Samples> {
     pub(super) vertices: Vec<u32>,
     heap: BinaryHeap<S::Entry>,
     /// The worst sample of each triangle and its error, if that is more than allowed: other entries are those of triangles that are gone.
-    pub(super) worst: Vec<Option<(f64, u32)>>,
+    worst: Vec<Option<(f64, u32)>>,
+    /// Triangles of this round, which are not measured yet; some more than once.
+    fresh: Vec<u32>,
 }
 
 impl<'a, S: Samples> Greedy<'a, S> {
     pub(super) fn new(samples: &'a S, mesh: Mesh, vertices: &[u32]) -> Self {
-        let worst = vec![None; mesh.triangles.len()];
-        Self { samples, mesh, vertices: vertices.to_vec(), heap: BinaryHeap::new(), worst }
+        let count = mesh.triangles.len();
+        let (worst, fresh) = (vec![None; count], (0..count as u32).collect());
+        Self { samples, mesh, vertices: vertices.to_vec(), heap: BinaryHeap::new(), worst, fresh }
     }
 
     fn corners(&self, t: u32) -> Triple {
@@ -33,29 +44,21 @@ impl<'a, S: Samples> Greedy<'a, S> {
     pub(super) fn run(mut self, max_error: f64, max_points: usize) -> Thinned {
         let largest = self.vertices.iter().map(|&s| self.samples.height(s).abs()).fold(0.0, f64::max);
         let allowed = max_error + ROUNDING * largest;
-        (0..self.worst.len() as u32).for_each(|t| self.measure(t, allowed));
         let (first, mut is_pruned) = (self.vertices.len(), false);
         loop {
-            while self.vertices.len() < max_points {
-                let Some(entry) = self.heap.pop() else { break };
-                let t = S::triangle_of(&entry);
-                if let Some((error, sample)) = self.worst[t as usize]
-                    && self.samples.entry(error, sample, t) == entry
-                {
-                    self.choose(sample, t, allowed);
-                }
+            self.measure(allowed);
+            while self.vertices.len() < max_points && !self.heap.is_empty() {
+                self.round(max_points);
+                self.measure(allowed);
             }
             if self.heap.is_empty() && !std::mem::replace(&mut is_pruned, true) {
                 self.prune(first, allowed);
             }
             // All samples once more, without a bound: what was left out wrongly would be seen here.
             let (error, missed) = self.prove(allowed);
-            if missed.is_empty() || self.vertices.len() >= max_points {
-                return Thinned { vertices: self.vertices.into_iter().map(|s| s as usize).collect(), error };
-            }
             let before = self.vertices.len();
-            for (t, sample) in missed {
-                self.choose(sample, t, allowed);
+            if before < max_points {
+                missed.into_iter().for_each(|(t, sample)| self.choose(sample, t));
             }
             if self.vertices.len() == before {
                 return Thinned { vertices: self.vertices.into_iter().map(|s| s as usize).collect(), error };
@@ -63,25 +66,64 @@ impl<'a, S: Samples> Greedy<'a, S> {
         }
     }
 
+    /// Chooses what is in the heap, or the worst alone.
+    fn round(&mut self, max_points: usize) {
+        let is_bounded = max_points < self.samples.count();
+        let entries = if is_bounded {
+            self.heap.pop().into_iter().collect()
+        } else {
+            std::mem::take(&mut self.heap).into_sorted_vec()
+        };
+        for entry in entries.into_iter().rev() {
+            let t = S::triangle_of(&entry);
+            if let Some((error, sample)) = self.worst[t as usize]
+                && self.samples.entry(error, sample, t) == entry
+            {
+                self.choose(sample, t);
+            }
+        }
+    }
+
     /// Makes a sample a vertex, from a triangle that it is in or was in.
-    fn choose(&mut self, sample: u32, t: u32, allowed: f64) {
+    fn choose(&mut self, sample: u32, t: u32) {
         if !self.mesh.insert(self.samples.point(sample), t) {
             return;
         }
         self.vertices.push(sample);
         self.worst.resize(self.mesh.triangles.len(), None);
-        for i in 0..self.mesh.star.len() {
-            let t = self.mesh.star[i];
-            self.measure(t, allowed);
+        for &t in &self.mesh.star {
+            self.worst[t as usize] = None;
+            self.fresh.push(t);
         }
     }
 
-    fn measure(&mut self, triangle: u32, allowed: f64) {
-        let worst = self.samples.worst(self.corners(triangle), allowed).filter(|worst| worst.0 > allowed);
-        self.worst[triangle as usize] = worst;
-        if let Some((error, sample)) = worst {
-            self.heap.push(self.samples.entry(error, sample, triangle));
+    /// Measures the triangles of the last round.
+    fn measure(&mut self, allowed: f64) {
+        let mut fresh = std::mem::take(&mut self.fresh);
+        fresh.sort_unstable();
+        fresh.dedup();
+        let this = &*self;
+        let worst = |&t: &u32| this.samples.worst(this.corners(t), allowed);
+        let found: Vec<Option<(f64, u32)>> =
+            if fresh.len() > TASK && parallel::parts(self.samples.count()) > 1 {
+                let tasks = fresh.chunks(TASK).collect();
+                parallel::map(tasks, |task: &[u32]| task.iter().map(worst).collect::<Vec<_>>()).concat()
+            } else {
+                fresh.iter().map(worst).collect()
+            };
+        for (&t, worst) in fresh.iter().zip(found) {
+            if let Some((error, sample)) = worst
+                && error > allowed
+            {
+                self.worst[t as usize] = worst;
+                self.heap.push(self.samples.entry(error, sample, t));
+            }
         }
+    }
+
+    /// Forgets the triangles there were: others have their numbers, and nothing is too far from them.
+    pub(super) fn renumber(&mut self) {
+        self.worst = vec![None; self.mesh.triangles.len()];
     }
 
     /// The largest error of all samples, and those that are further away than allowed, with a triangle each.

@@ -156,7 +156,9 @@ impl<'a> Lattice<'a> {
                 x[k] += LANES as f64;
             }
         }
-        most.into_iter().fold(0.0, f64::max)
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
+        let [a, b, c, d] = most;
+        larger(larger(a, c), larger(b, d))
     }
 
     /// The error of a cell.

@@ -1,9 +1,9 @@
 //! Thinning: few of many points with heights, such that the triangles of these few are nowhere far from any of the others.
 //!
 //! Greedy insertion (Garland & Heckbert, "Fast polygonal approximation of terrains and height fields", CMU-CS-95-181, 1995, algorithm
-//! III): the corners of the hull first, then always the point that is furthest from the triangles so far. The worst point of each
-//! triangle is in a heap, and only triangles that an insertion made are measured. When nothing is too far away, points that those after
-//! them made superfluous are taken out again, an eighth or more of all. Ties go to the lexicographically least point and the triangulation is
+//! III): the corners of the hull first, then round after round the point of each triangle that is furthest from it, if it is too far. Only
+//! triangles that a round made are measured. When nothing is too far away, points that those after them made superfluous are taken out
+//! again, an eighth or more of all. Ties go to the lexicographically least point and the triangulation is
 //! the canonical one, so the result is that of the set of points: neither their order nor threads show.
 //!
 //! Cost: O(log n) for each point that is chosen, its cavity, and the points in the triangles of its star, of which boxes leave most out
@@ -39,9 +39,9 @@ use plane::LOW;
 type Triple = [u32; 3];
 
 /// Points with heights that are chosen from, by number.
-trait Samples {
+trait Samples: Sync {
     /// The worst sample of a triangle, as what is sorted: by its error, of equal ones the lexicographically least sample last.
-    type Entry: Copy + Ord;
+    type Entry: Copy + Ord + Send + Sync;
     /// The entry of a sample with a positive error in a triangle.
     fn entry(&self, error: f64, sample: u32, triangle: u32) -> Self::Entry;
     /// Its triangle.

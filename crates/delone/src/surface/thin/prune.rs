@@ -203,7 +203,7 @@ impl<S: Samples> Greedy<'_, S> {
                 begins[v as usize] = NONE;
             }
         }
-        self.worst = vec![None; self.mesh.triangles.len()];
+        self.renumber();
         let is_left: Vec<bool> = (0..).zip(&begins).map(|(v, &t)| v < first || t != NONE).collect();
         self.mesh.rename(&is_left);
         let mut is_left = is_left.into_iter();

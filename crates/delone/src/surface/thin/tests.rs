@@ -1,4 +1,4 @@
-//! What is left is near all points, as an independent triangulation sees it, and is what greedy insertion by definition chooses.
+//! What is left is near all points, as an independent triangulation sees it, and is what rounds by definition choose.
 
 use delone_generators::{Kind, Random};
 use delone_predicates::lexicographic;
@@ -56,28 +56,54 @@ fn all_points_are_near() {
     }
 }
 
-/// Greedy insertion by its definition, with a new triangulation each time; then what is not needed goes, from the last one on.
+/// The worst of the points that are left out of each triangle, the worst of all first, and the corners of the triangles.
+fn worst_by_definition(points: &[[f64; 2]], z: &[f64], left: &[usize]) -> Vec<(f64, usize, [usize; 3])> {
+    let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
+    let d = Delaunay2::from_points(&chosen).expect("finite");
+    let mut worst: Vec<(f64, usize, [usize; 3])> = Vec::new();
+    for i in (0..points.len()).filter(|i| !left.contains(i)) {
+        let t = crate::Ask::find(&d, points[i]).expect("finite").simplex.expect("inside");
+        let mut corners = d.mesh().corners(t).map(|v| left[v.index()]);
+        let at = |f: &dyn Fn(usize) -> f64| corners.map(f);
+        let error = (z[i] - plane(corners.map(|i| points[i]), at(&|i| z[i]), points[i])).abs();
+        corners.sort_unstable();
+        match worst.iter_mut().find(|other| other.2 == corners) {
+            Some(other) if other.0 < error => *other = (error, i, corners),
+            Some(_) => {}
+            None => worst.push((error, i, corners)),
+        }
+    }
+    worst.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+    worst
+}
+
+/// The corners of the hull.
+fn start(points: &[[f64; 2]]) -> Vec<usize> {
+    let mut start = crate::Hull2::from_points(points).expect("finite").corners().to_vec();
+    start.sort_unstable();
+    start
+}
+
+/// Rounds by their definition, with a new triangulation for each point; then what is not needed goes, from the last one on.
 fn by_definition(points: &[[f64; 2]], z: &[f64], bound: f64) -> Vec<usize> {
-    let hull = crate::Hull2::from_points(points).expect("finite");
-    let mut left = hull.corners().to_vec();
-    left.sort_unstable();
+    let mut left = start(points);
     let first = left.len();
     loop {
-        let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
-        let d = Delaunay2::from_points(&chosen).expect("finite");
-        let error = |i: usize| {
-            let t = crate::Ask::find(&d, points[i]).expect("finite").simplex.expect("inside");
-            let corners = d.mesh().corners(t);
-            let height = |v: VertexId| z[left[v.index()]];
-            (z[i] - plane(corners.map(|v| d.point(v)), corners.map(height), points[i])).abs()
-        };
-        let worst = (0..points.len())
-            .filter(|i| !left.contains(i))
-            .map(|i| (error(i), i))
-            .max_by(|a, b| a.0.total_cmp(&b.0).then_with(|| lexicographic(points[b.1], points[a.1])));
-        match worst {
-            Some((error, i)) if error > bound => left.push(i),
-            _ => break,
+        let before = left.len();
+        for (error, i, corners) in worst_by_definition(points, z, &left) {
+            let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
+            let d = Delaunay2::from_points(&chosen).expect("finite");
+            let is_there = d.triangles().any(|t| {
+                let mut there = t.map(|v| left[v.index()]);
+                there.sort_unstable();
+                there == corners
+            });
+            if error > bound && is_there {
+                left.push(i);
+            }
+        }
+        if left.len() == before {
+            break;
         }
     }
     for k in (first..left.len()).rev() {
@@ -90,24 +116,45 @@ fn by_definition(points: &[[f64; 2]], z: &[f64], bound: f64) -> Vec<usize> {
 }
 
 #[test]
-fn the_worst_is_chosen_each_time() {
+fn rounds_are_those_of_the_definition() {
     for seed in 0..6 {
         let points = Kind::Uniform.points(150, seed);
         // Rough heights, so that rounding decides nothing.
         let mut random = Random::new(seed);
         let z: Vec<f64> = points.iter().map(|_| random.below(1_000_003) as f64 / 1e5).collect();
-        let thinned = Thinning::new().max_error(2.0).points(&points, &z, &[]).expect("valid");
-        assert_eq!(thinned.vertices, by_definition(&points, &z, 2.0));
-        assert_eq!(
-            Thinning::new().max_error(4.0).points(&points, &z, &[]).expect("valid").vertices,
-            by_definition(&points, &z, 4.0)
-        );
-        // The first points of a longer list are those of a shorter one.
-        let few = Thinning::new().max_points(60).points(&points, &z, &[]).expect("valid");
-        let more = Thinning::new().max_points(90).points(&points, &z, &[]).expect("valid");
-        assert_eq!((few.vertices.len(), &few.vertices[..]), (60, &more.vertices[..60]));
-        assert!(few.error >= more.error || more.error < 10.0);
+        for bound in [2.0, 4.0] {
+            let thinned = Thinning::new().max_error(bound).points(&points, &z, &[]).expect("valid");
+            assert_eq!(thinned.vertices, by_definition(&points, &z, bound));
+        }
+        // Where their number is bounded it is always the worst of all.
+        let mut greedy = start(&points);
+        while greedy.len() < 90 {
+            greedy.push(worst_by_definition(&points, &z, &greedy)[0].1);
+        }
+        for count in [60, 90] {
+            let few = Thinning::new().max_points(count).points(&points, &z, &[]).expect("valid");
+            assert_eq!(few.vertices, greedy[..count]);
+        }
     }
+}
+
+/// Rounds are measured on several threads where they are large.
+#[test]
+#[cfg(feature = "rayon")]
+fn threads_do_not_show() {
+    let grid = Grid::new([0.0, 0.0], [1.0, -1.0], 230, 190).expect("a raster");
+    let z: Vec<f64> = (0..230 * 190)
+        .map(|i| f64::from(i % 230) / 17.0)
+        .zip((0..230 * 190).map(|i| f64::from(i / 230) / 11.0))
+        .map(|(x, y)| 20.0 * (x.sin() + (y + 0.3 * x).cos()) + ((x * 97.0).sin() * 43.0).fract())
+        .collect();
+    let thin = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| Thinning::new().max_error(0.3).raster(&grid, &z).expect("valid"))
+    };
+    let one = thin(1);
+    assert!(one.vertices.len() > 2000, "rounds are large: {}", one.vertices.len());
+    assert_eq!(thin(4), one);
 }
 
 #[test]
