@@ -193,7 +193,7 @@ impl Samples for Cloud {
         worst.sample.map(|sample| (worst.error, sample))
     }
 
-    fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict) {
+    fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict<'_>) {
         let every = Cell::new(f64::NEG_INFINITY);
         self.enter(corners, &every, |sample, error| verdict.take(triangle, sample, error));
         corners.into_iter().for_each(|corner| verdict.take(triangle, corner, 0.0));

@@ -5,6 +5,8 @@
 //! measured that are gone before their turn comes. Where the number of points is bounded it matters who comes first, so there a round takes one.
 
 use std::collections::BinaryHeap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::mesh::Mesh;
 use super::{Samples, Thinned, Triple, Verdict};
@@ -14,7 +16,7 @@ use crate::parallel;
 const ROUNDING: f64 = f64::from_bits((1023 - 48) << 52);
 
 /// Triangles that are measured by one task.
-const TASK: usize = 128;
+const TASK: usize = 24;
 
 /// See the module.
 pub(super) struct Greedy<'a, S: Samples> {
@@ -128,15 +130,26 @@ impl<'a, S: Samples> Greedy<'a, S> {
 
     /// The largest error of all samples, and those that are further away than allowed, with a triangle each.
     fn prove(&self, allowed: f64) -> (f64, Vec<(u32, u32)>) {
-        let seen = vec![false; self.samples.count()];
-        let mut verdict = Verdict { allowed, largest: 0.0, seen, missed: Vec::new() };
-        for t in 0..self.mesh.triangles.len() as u32 {
-            self.samples.judge(self.corners(t), t, &mut verdict);
+        let count = self.samples.count();
+        let seen: Vec<AtomicBool> = std::iter::repeat_with(AtomicBool::default).take(count).collect();
+        let triangles = self.mesh.triangles.len();
+        let tasks = parallel::even_ends(triangles, parallel::parts(count))
+            .into_iter()
+            .scan(0, |from, to| Some(std::mem::replace(from, to)..to));
+        let judge = |triangles: Range<usize>| {
+            let mut verdict = Verdict::new(allowed, &seen);
+            triangles.map(|t| t as u32).for_each(|t| self.samples.judge(self.corners(t), t, &mut verdict));
+            verdict
+        };
+        let mut verdict = Verdict::new(allowed, &seen);
+        for part in parallel::map(tasks.collect(), judge) {
+            verdict.largest = verdict.largest.max(part.largest);
+            verdict.missed.extend(part.missed);
         }
         self.vertices.iter().for_each(|&s| verdict.take(0, s, 0.0));
         let mut near = 0;
-        for sample in 0..self.samples.count() as u32 {
-            if verdict.seen[sample as usize] || !self.samples.is_there(sample) {
+        for sample in 0..count as u32 {
+            if seen[sample as usize].load(Relaxed) || !self.samples.is_there(sample) {
                 continue;
             }
             if let Some(t) = self.mesh.find(near, self.samples.point(sample)) {

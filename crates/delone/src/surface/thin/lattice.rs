@@ -5,10 +5,12 @@
 
 use std::cmp::Ordering;
 use std::ops::Range;
+use std::sync::atomic::Ordering::Relaxed;
 
 use super::plane::{Plane, Worst};
 use super::sides::{Part, Sides};
 use super::{Samples, Triple, Verdict};
+use crate::parallel;
 use crate::surface::Grid;
 
 /// Blocks have so many columns and rows.
@@ -94,10 +96,15 @@ impl<'a> Lattice<'a> {
         for (row, to) in values.chunks_exact(columns).zip(padded.chunks_exact_mut(stride)) {
             to[..columns].copy_from_slice(row);
         }
-        let blocks = padded
-            .chunks(stride * SIDE)
-            .flat_map(|rows| (0..columns).step_by(SIDE).map(move |k| Block::new(rows, stride, k..columns)))
-            .collect();
+        let blocks = |rows: &[f64]| -> Vec<Block> {
+            (0..columns).step_by(SIDE).map(|k| Block::new(rows, stride, k..columns)).collect()
+        };
+        let bands = padded.chunks(stride * SIDE);
+        let blocks = if parallel::parts(values.len()) > 1 {
+            parallel::map(bands.collect(), blocks).concat()
+        } else {
+            bands.flat_map(blocks).collect()
+        };
         Self { grid, columns, values: padded, stride, blocks, over: 1.0 / columns as f64 }
     }
 
@@ -264,7 +271,7 @@ impl Samples for Lattice<'_> {
         cell.map(|cell| (worst.error, Self::sample(cell, self.columns)))
     }
 
-    fn judge(&self, corners: Triple, t: u32, verdict: &mut Verdict) {
+    fn judge(&self, corners: Triple, t: u32, verdict: &mut Verdict<'_>) {
         let Some((plane, sides)) = self.triangle(corners) else { return };
         sides.each(|part| {
             let Part { row, columns: [a, b] } = part;
@@ -272,7 +279,8 @@ impl Samples for Lattice<'_> {
                 return;
             }
             let samples = Self::sample([a, row], self.columns)..=Self::sample([b, row], self.columns);
-            verdict.seen[*samples.start() as usize..=*samples.end() as usize].fill(true);
+            let seen = &verdict.seen[*samples.start() as usize..=*samples.end() as usize];
+            seen.iter().for_each(|seen| seen.store(true, Relaxed));
             let most = self.largest(&plane, part);
             verdict.largest = verdict.largest.max(most);
             if most > verdict.allowed {

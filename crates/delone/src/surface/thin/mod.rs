@@ -19,6 +19,8 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
 use delone_predicates::{Filter, Grid as Steps};
 
 use super::Grid;
@@ -57,25 +59,29 @@ trait Samples: Sync {
     /// The sample in a triangle that is furthest from its plane, if it is as far as a floor; of several the lexicographically least.
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)>;
     /// Measures every sample in a triangle.
-    fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict);
+    fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict<'_>);
     /// The error of a sample in a triangle.
     fn error(&self, corners: Triple, sample: u32) -> f64;
 }
 
-/// What was found when all samples were measured once more.
-struct Verdict {
+/// What was found when all samples of some triangles were measured once more.
+struct Verdict<'a> {
     allowed: f64,
     /// The largest error so far.
     largest: f64,
-    /// Which samples were in a triangle.
-    seen: Vec<bool>,
+    /// Which samples were in a triangle, of these or of others.
+    seen: &'a [AtomicBool],
     /// Samples that are further away than allowed, after a triangle that each is in.
     missed: Vec<(u32, u32)>,
 }
 
-impl Verdict {
+impl<'a> Verdict<'a> {
+    fn new(allowed: f64, seen: &'a [AtomicBool]) -> Self {
+        Self { allowed, largest: 0.0, seen, missed: Vec::new() }
+    }
+
     fn take(&mut self, triangle: u32, sample: u32, error: f64) {
-        self.seen[sample as usize] = true;
+        self.seen[sample as usize].store(true, Relaxed);
         self.largest = if error > self.largest { error } else { self.largest };
         if error > self.allowed {
             self.missed.push((triangle, sample));

@@ -1,5 +1,7 @@
 //! What is left is near all points, as an independent triangulation sees it, and is what rounds by definition choose.
 
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
 use delone_generators::{Kind, Random};
 use delone_predicates::lexicographic;
 
@@ -250,15 +252,12 @@ fn blocks_hide_nothing() {
             if corners.iter().any(|&s| !samples.is_there(s)) {
                 continue;
             }
-            let mut verdict = Verdict {
-                allowed: f64::INFINITY,
-                largest: 0.0,
-                seen: vec![false; z.len()],
-                missed: Vec::new(),
-            };
+            let seen: Vec<AtomicBool> = z.iter().map(|_| AtomicBool::default()).collect();
+            let mut verdict = Verdict::new(f64::INFINITY, &seen);
             samples.judge(corners, 0, &mut verdict);
             let floor = [0.0, verdict.largest / 2.0, verdict.largest][random.below(3)];
-            let inside = (0..z.len() as u32).filter(|&s| verdict.seen[s as usize] && samples.is_there(s));
+            let inside =
+                (0..z.len() as u32).filter(|&s| seen[s as usize].load(Relaxed) && samples.is_there(s));
             let worst = inside
                 .map(|s| (samples.error(corners, s), s))
                 .filter(|worst| worst.0 > floor)
