@@ -38,6 +38,18 @@ pub(crate) fn map<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Send 
     tasks.into_iter().map(work).collect()
 }
 
+/// Does work on so many items on one of the threads, if several are worth it: where it hands out tasks again and again, none of them has to
+/// wake another thread and wait for it.
+pub(crate) fn inside<R: Send>(items: usize, work: impl FnOnce() -> R + Send) -> R {
+    #[cfg(feature = "rayon")]
+    if parts(items) > 1 {
+        return rayon::scope(|_| work());
+    }
+    #[cfg(not(feature = "rayon"))]
+    let _ = items;
+    work()
+}
+
 /// Does two tasks, at once if there is a thread for each.
 pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     #[cfg(feature = "rayon")]

@@ -28,6 +28,7 @@ use crate::error::Error;
 use crate::hull::Hull2;
 use crate::ids::MAX_POINTS;
 use crate::order::morton;
+use crate::parallel;
 use crate::plane::{Constrained2, Crossings};
 use crate::points::{check_count, check_finite, survey};
 use crate::triangulation::Triangulation;
@@ -294,7 +295,8 @@ impl Thinning {
             })
             .collect();
         let mesh = Mesh::new(points, &triangles, filter);
-        Ok(Some(Greedy::new(samples, mesh, start).run(self.max_error, self.max_points)))
+        let greedy = Greedy::new(samples, mesh, start);
+        Ok(Some(parallel::inside(samples.count(), || greedy.run(self.max_error, self.max_points))))
     }
 }
 
