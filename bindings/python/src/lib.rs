@@ -14,6 +14,7 @@ mod interrupt;
 mod memory;
 mod mesh;
 mod near;
+mod neighbors;
 mod orders;
 mod polygons;
 mod pool;
@@ -37,6 +38,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<mesh::Mesh>()?;
     m.add_class::<regular::Regular>()?;
     m.add_class::<orders::Orders>()?;
+    m.add_class::<neighbors::Neighbors>()?;
     m.add_class::<tiles::PyCuts>()?;
     m.add_class::<tiles::PyBorder>()?;
     m.add_class::<tiles::PyFingerprint>()?;

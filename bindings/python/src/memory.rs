@@ -16,6 +16,7 @@ pub const ALPHA: Need = Need([900, 3300]);
 pub const ORDER: usize = 1000;
 pub const ORDER_SITES: usize = 50;
 pub const HULL: Need = Need([50, 100]);
+pub const NEIGHBORS: Need = Need([80, 100]);
 
 impl Need {
     /// Refuses work on so many points if there is no memory for it.

@@ -186,20 +186,25 @@ impl<const D: usize> Neighbors<D> {
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn k_nearest(&self, q: [f64; D], k: usize) -> Result<Vec<usize>, Error> {
         let q = finite(q)?;
-        let mut found = BinaryHeap::new();
+        let mut found = BinaryHeap::with_capacity(k.min(self.len()));
         // If there are fewer than k, all are found.
         let furthest = if k == 0 { -1.0 } else { f64::INFINITY };
         self.search(q, furthest, |leaf, mut limit| {
             for at in leaf {
-                if is_surely_further(self.squared(q, at), limit) {
+                let squared = self.squared(q, at);
+                if is_surely_further(squared, limit) {
                     continue;
                 }
-                found.push(Candidate { tree: self, q, at });
-                if found.len() > k {
-                    found.pop();
+                let candidate = Candidate { tree: self, q, at, squared };
+                if found.len() < k {
+                    found.push(candidate);
+                } else if let Some(mut last) = found.peek_mut()
+                    && candidate < *last
+                {
+                    *last = candidate;
                 }
                 if let Some(last) = found.peek().filter(|_| found.len() == k) {
-                    limit = self.squared(q, last.at);
+                    limit = last.squared;
                 }
             }
             limit
@@ -319,6 +324,8 @@ struct Candidate<'a, const D: usize> {
     tree: &'a Neighbors<D>,
     q: [f64; D],
     at: usize,
+    /// The square of its distance, scaled and rounded.
+    squared: f64,
 }
 
 impl<const D: usize> PartialEq for Candidate<'_, D> {
@@ -330,8 +337,15 @@ impl<const D: usize> PartialEq for Candidate<'_, D> {
 impl<const D: usize> Eq for Candidate<'_, D> {}
 
 impl<const D: usize> Ord for Candidate<'_, D> {
+    #[inline]
     fn cmp(&self, other: &Self) -> Ordering {
-        self.tree.nearer(self.q, self.at, other.at)
+        if is_surely_further(self.squared, other.squared) {
+            Ordering::Greater
+        } else if is_surely_further(other.squared, self.squared) {
+            Ordering::Less
+        } else {
+            self.tree.nearer(self.q, self.at, other.at)
+        }
     }
 }
 

@@ -9,6 +9,7 @@ tri.remove([17, 4])
 
 delone.AlphaComplex(points).outline(alpha)
 delone.OrderVoronoi(points, 3).locate(queries)
+delone.Neighbors(points).query(queries, k=8)            # as scipy.spatial.KDTree
 delone.ConstrainedDelaunay(points, segments).triangles
 delone.triangulate_polygons(geometries)
 delone.mesh(points, segments, min_angle=30, max_area=0.1).triangles
@@ -38,6 +39,7 @@ from ._hints import Hints
 from ._hull import ConvexHull
 from ._interpolate import LinearInterpolator, LinearNDInterpolator, NaturalNeighborInterpolator
 from ._mesh import Mesh, MeshReport, mesh
+from ._neighbors import Neighbors
 from ._orders import OrderVoronoi
 from ._plot import plot
 from ._polygons import PolygonTriangles, RaggedTriangles, triangulate_polygon, triangulate_polygons
@@ -64,6 +66,7 @@ __all__ = [
     "Mesh",
     "MeshReport",
     "NaturalNeighborInterpolator",
+    "Neighbors",
     "OrderVoronoi",
     "PolygonTriangles",
     "PowerDiagram",

@@ -1,0 +1,122 @@
+//! A tree of points that is asked for those near others.
+
+use delone::{Error, Neighbors2, Neighbors3};
+use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::errors::python_error;
+use crate::interrupt::interruptible;
+use crate::memory::NEIGHBORS;
+use crate::pool::detached;
+use crate::triangulation::coordinates;
+
+/// Queries that one task answers.
+const QUERIES: usize = 512;
+
+enum Tree {
+    Plane(Neighbors2),
+    Space(Neighbors3),
+}
+
+/// See `_delone.pyi`.
+#[pyclass(module = "delone._delone", frozen)]
+pub struct Neighbors(Tree);
+
+/// The same for either dimension.
+macro_rules! answers {
+    ($self:ident, $py:ident, $queries:ident, $tree:ident, $q:ident => $answer:expr) => {
+        match &$self.0 {
+            Tree::Plane($tree) => answers($py, &coordinates::<[f64; 2]>(&$queries)?, |$q| $answer),
+            Tree::Space($tree) => answers($py, &coordinates::<[f64; 3]>(&$queries)?, |$q| $answer),
+        }
+    };
+}
+
+#[pymethods]
+impl Neighbors {
+    #[new]
+    fn new(py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let [count, columns] = [points.shape()[0], points.shape()[1]];
+        NEIGHBORS.check(columns, count)?;
+        let tree = if columns == 2 {
+            let points: Vec<[f64; 2]> = coordinates(&points)?;
+            interruptible(py, count, move || Neighbors2::from_points(&points).map(Tree::Plane))?
+        } else {
+            let points: Vec<[f64; 3]> = coordinates(&points)?;
+            interruptible(py, count, move || Neighbors3::from_points(&points).map(Tree::Space))?
+        };
+        tree.map(Self).map_err(python_error)
+    }
+
+    /// The nearest points; -1 if there are none.
+    fn nearest<'py>(
+        &self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let found = answers!(self, py, queries, tree, q => tree.nearest(q))?;
+        Ok(PyArray1::from_iter(py, found.into_iter().map(|i| i.map_or(-1, |i| i as i64))))
+    }
+
+    /// The k nearest points, nearest first; -1 where there are not so many.
+    fn k_nearest<'py>(
+        &self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+        k: usize,
+    ) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let count = queries.shape()[0];
+        // The answer may be larger than memory.
+        let mut padded: Vec<i64> = Vec::new();
+        let size = count.checked_mul(k);
+        if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
+            return Err(PyMemoryError::new_err(format!("{count} times {k} neighbours")));
+        }
+        for found in answers!(self, py, queries, tree, q => tree.k_nearest(q, k))? {
+            let missing = k - found.len();
+            padded.extend(found.into_iter().map(|i| i as i64));
+            padded.extend(std::iter::repeat_n(-1, missing));
+        }
+        Ok(PyArray1::from_vec(py, padded))
+    }
+
+    /// The points within a radius, increasing, one query after the other, and where those of each end.
+    #[expect(clippy::type_complexity, reason = "two arrays")]
+    fn within<'py>(
+        &self,
+        py: Python<'py>,
+        queries: PyReadonlyArray2<'py, f64>,
+        radius: f64,
+    ) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>)> {
+        let found = answers!(self, py, queries, tree, q => tree.within(q, radius))?;
+        let mut end = 0;
+        let ends: Vec<i64> = found
+            .iter()
+            .map(|found| {
+                end += found.len() as i64;
+                end
+            })
+            .collect();
+        let found = PyArray1::from_iter(py, found.into_iter().flatten().map(|i| i as i64));
+        Ok((found, PyArray1::from_vec(py, ends)))
+    }
+}
+
+/// The answers to queries, in their order, on all threads if they are many. The first error that any query has.
+fn answers<Q: Copy + Send + Sync, A: Send>(
+    py: Python<'_>,
+    queries: &[Q],
+    answer: impl Fn(Q) -> Result<A, Error> + Sync + Send,
+) -> PyResult<Vec<A>> {
+    let is_many = queries.len() >= 2 * QUERIES;
+    let found: Result<Vec<A>, Error> = detached(py, is_many, || {
+        if is_many {
+            queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
+        } else {
+            queries.iter().map(|&q| answer(q)).collect()
+        }
+    })?;
+    found.map_err(python_error)
+}
