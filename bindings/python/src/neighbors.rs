@@ -67,19 +67,44 @@ impl Neighbors {
         queries: PyReadonlyArray2<'py, f64>,
         k: usize,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let count = queries.shape()[0];
-        // The answer may be larger than memory.
-        let mut padded: Vec<i64> = Vec::new();
-        let size = count.checked_mul(k);
-        if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
-            return Err(PyMemoryError::new_err(format!("{count} times {k} neighbours")));
-        }
+        let mut padded = room::<i64>(queries.shape()[0], k)?;
         for found in answers!(self, py, queries, tree, q => tree.k_nearest(q, k))? {
             let missing = k - found.len();
             padded.extend(found.into_iter().map(|i| i as i64));
             padded.extend(std::iter::repeat_n(-1, missing));
         }
         Ok(PyArray1::from_vec(py, padded))
+    }
+
+    /// Their distances and indices; infinite and the number of points where there are not so many. `points` are those of the tree.
+    #[expect(clippy::type_complexity, reason = "two arrays")]
+    fn query<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        queries: PyReadonlyArray2<'py, f64>,
+        k: usize,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i64>>)> {
+        let [count, columns] = [points.shape()[0], points.shape()[1]];
+        let (mut distances, mut indices) =
+            (room::<f64>(queries.shape()[0], k)?, room::<i64>(queries.shape()[0], k)?);
+        let points = points.as_slice()?;
+        let distance = |i: usize, q: &[f64]| {
+            let p = &points[i * columns..][..columns];
+            p.iter().zip(q).map(|(p, q)| p - q).fold(0.0, f64::hypot)
+        };
+        let found = answers!(self, py, queries, tree, q => {
+            let found = tree.k_nearest(q, k)?;
+            Ok(found.into_iter().map(|i| (distance(i, &q), i as i64)).collect::<Vec<_>>())
+        })?;
+        for found in found {
+            let missing = k - found.len();
+            distances.extend(found.iter().map(|found| found.0));
+            distances.extend(std::iter::repeat_n(f64::INFINITY, missing));
+            indices.extend(found.iter().map(|found| found.1));
+            indices.extend(std::iter::repeat_n(count as i64, missing));
+        }
+        Ok((PyArray1::from_vec(py, distances), PyArray1::from_vec(py, indices)))
     }
 
     /// The points within a radius, increasing, one query after the other, and where those of each end.
@@ -102,6 +127,16 @@ impl Neighbors {
         let found = PyArray1::from_iter(py, found.into_iter().flatten().map(|i| i as i64));
         Ok((found, PyArray1::from_vec(py, ends)))
     }
+}
+
+/// Room for k numbers a query; the answer may be larger than memory.
+fn room<T>(queries: usize, k: usize) -> PyResult<Vec<T>> {
+    let mut room = Vec::new();
+    let size = queries.checked_mul(k);
+    if size.is_none_or(|size| room.try_reserve_exact(size).is_err()) {
+        return Err(PyMemoryError::new_err(format!("{queries} times {k} neighbours")));
+    }
+    Ok(room)
 }
 
 /// The answers to queries, in their order, on all threads if they are many. The first error that any query has.

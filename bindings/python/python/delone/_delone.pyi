@@ -16,6 +16,7 @@ __all__ = [
     "Fingerprint",
     "Hints",
     "Mesh",
+    "Neighbors",
     "Orders",
     "Regular",
     "Triangulation",
@@ -73,6 +74,9 @@ class Neighbors:
     def __new__(cls, points: NDArray[np.float64]) -> Neighbors: ...
     def nearest(self, queries: NDArray[np.float64]) -> NDArray[np.int64]: ...
     def k_nearest(self, queries: NDArray[np.float64], k: int) -> NDArray[np.int64]: ...
+    def query(
+        self, points: NDArray[np.float64], queries: NDArray[np.float64], k: int
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64]]: ...
     def within(self, queries: NDArray[np.float64], radius: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
 
 @final

@@ -23,13 +23,6 @@ class Neighbors:
     points : array_like of floats, shape (n, 2) or (n, 3)
         The points. All must be finite. There may be none, and equal ones.
 
-    Attributes
-    ----------
-    points : (n, ndim) array
-        The points.
-    ndim : int
-        2 or 3.
-
     Notes
     -----
     Building takes O(n log n). A query takes O(log n) on average where points are not much further away from it than from each
@@ -48,14 +41,23 @@ class Neighbors:
 
     def __init__(self, points: ArrayLike) -> None:
         """Builds the tree."""
-        self.points: NDArray[np.float64] = np.array(as_points(points), order="C")
-        self.points.flags.writeable = False
-        self.ndim = self.points.shape[1]
-        self._core = _delone.Neighbors(self.points)
+        self._points: NDArray[np.float64] = np.array(as_points(points), order="C")
+        self._points.flags.writeable = False
+        self._core = _delone.Neighbors(self._points)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points, which cannot be written."""
+        return self._points
+
+    @property
+    def ndim(self) -> int:
+        """The number of coordinates of a point: 2 or 3."""
+        return int(self._points.shape[1])
 
     def __len__(self) -> int:
         """The number of points."""
-        return len(self.points)
+        return len(self._points)
 
     def __repr__(self) -> str:
         """In short."""
@@ -63,7 +65,7 @@ class Neighbors:
 
     def __reduce__(self) -> tuple[type[Neighbors], tuple[NDArray[np.float64]]]:
         """Pickles the points; the tree is built again."""
-        return Neighbors, (self.points,)
+        return Neighbors, (self._points,)
 
     def nearest(self, xi: ArrayLike) -> NDArray[np.int64]:
         """The nearest points, by their indices. -1 if there are none."""
@@ -72,12 +74,8 @@ class Neighbors:
 
     def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
         """The k nearest points, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
-        k = as_index(k, "k")
-        if k < 1:
-            raise ValueError(f"k must be at least 1, not {k}")
         queries, shape = as_queries(xi, self.ndim)
-        if k >= 2**62:
-            raise MemoryError(f"{len(queries)} times {k} neighbours")
+        k = _as_count(k, len(queries))
         return self._core.k_nearest(queries, k).reshape((*shape, k))
 
     def within(self, xi: ArrayLike, radius: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -100,15 +98,18 @@ class Neighbors:
         The last axis has the k neighbours, nearest first, and is left out for k = 1. Where there are not so many points, the
         distance is infinite and the index is the number of points.
         """
-        found = self.k_nearest(x, k)
-        queries, _ = as_queries(x, self.ndim)
-        is_missing = found < 0
-        indices = np.where(is_missing, len(self.points), found)
-        distances = np.full(found.shape, np.inf)
-        at = np.broadcast_to(queries.reshape((*found.shape[:-1], 1, self.ndim)), (*found.shape, self.ndim))
-        with np.errstate(over="ignore"):
-            apart = self.points[found[~is_missing]] - at[~is_missing]
-            distances[~is_missing] = np.hypot.reduce(apart, axis=-1)
-        if k == 1:
-            return distances[..., 0][()], indices[..., 0][()]
-        return distances, indices
+        queries, shape = as_queries(x, self.ndim)
+        k = _as_count(k, len(queries))
+        distances, indices = self._core.query(self._points, queries, k)
+        rows = shape if k == 1 else (*shape, k)
+        return distances.reshape(rows)[()], indices.reshape(rows)[()]
+
+
+def _as_count(k: int, queries: int) -> int:
+    """How many neighbours each of so many queries is to have."""
+    k = as_index(k, "k")
+    if k < 1:
+        raise ValueError(f"k must be at least 1, not {k}")
+    if k >= 2**62:
+        raise MemoryError(f"{queries} times {k} neighbours")
+    return k
