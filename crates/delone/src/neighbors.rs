@@ -185,6 +185,9 @@ impl<const D: usize> Neighbors<D> {
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn k_nearest(&self, q: [f64; D], k: usize) -> Result<Vec<usize>, Error> {
+        if k == 1 {
+            return Ok(self.nearest(q)?.into_iter().collect());
+        }
         let q = finite(q)?;
         let mut found = BinaryHeap::with_capacity(k.min(self.len()));
         // If there are fewer than k, all are found.
