@@ -6,6 +6,8 @@
 
 use std::fmt::Debug;
 
+use delone_predicates::Spoke;
+
 use crate::error::Error;
 use crate::ids::{EdgeId, VertexId};
 use crate::triangulation::{Ask, Found, Triangulation};
@@ -44,18 +46,30 @@ pub struct Around<T: Triangulation + ?Sized> {
 /// The neighbours of a point of the plane, numbered as they were met, and triangles between them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ring {
-    pub(crate) corners: Vec<(VertexId, [f64; 2])>,
+    pub(crate) vertices: Vec<VertexId>,
+    pub(crate) spokes: Vec<Spoke>,
     /// All of them, counter-clockwise.
     pub(crate) order: Vec<u32>,
-    /// The cavity, counter-clockwise each.
+    /// The cavity.
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// Edges that are to be looked across: as seen from beyond, and from which corner to which they go as seen from the point.
-    pub(crate) pending: Vec<(EdgeId, [u32; 2])>,
+    pub(crate) pending: Vec<Side>,
+}
+
+/// An edge of the cavity that is to be looked across.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Side {
+    /// The edge as seen from beyond.
+    pub(crate) edge: EdgeId,
+    /// From which corner to which it goes as seen from the point.
+    pub(crate) ends: [u32; 2],
+    /// The cross product of both.
+    pub(crate) cross: f64,
 }
 
 impl Ring {
     fn clear(&mut self) {
-        self.corners.clear();
+        self.vertices.clear();
+        self.spokes.clear();
         self.order.clear();
         self.triangles.clear();
         self.pending.clear();

@@ -20,8 +20,9 @@ const FLOORS: &[&[&str]] = &[
     &["tiles", "surface"],
 ];
 
-/// Rooms that decide by the predicates.
-const DECIDE: [&str; 8] = ["neighbors", "graphs", "hull", "alpha", "plane", "space", "tiles", "surface"];
+/// Rooms that decide by the predicates; `around` keeps what they saw, for who decides.
+const DECIDE: [&str; 9] =
+    ["neighbors", "graphs", "hull", "alpha", "around", "plane", "space", "tiles", "surface"];
 
 /// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];

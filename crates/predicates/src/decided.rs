@@ -7,8 +7,8 @@ use delone_generators::Random;
 use delone_oracle::exact as oracle;
 
 use crate::filter::{
-    Grid, in_circle_filter, in_circle_scaled, in_sphere_filter, in_sphere_scaled, orient2d_filter,
-    orient2d_scaled, orient3d_filter, orient3d_scaled,
+    Grid, in_circle_filter, in_circle_of_lengths, in_circle_scaled, in_sphere_filter, in_sphere_scaled,
+    orient2d_filter, orient2d_of_lengths, orient2d_scaled, orient3d_filter, orient3d_scaled,
 };
 use crate::{Filter, Filter3, Plane, Point2, Point3, Sign, centre, distance};
 
@@ -35,6 +35,13 @@ fn filters_tell_what_is_plain() {
         assert_eq!(orient2d_filter(a, b, c), Some(Sign::Positive), "{size}");
         assert_eq!(in_circle_filter(a, b, c, d), Some(Sign::Positive), "{size}");
         assert_eq!(in_circle_filter(a, c, b, d), Some(Sign::Negative), "{size}");
+        let rows = [a, b, c].map(|p| [p[0] - d[0], p[1] - d[1]]);
+        let squares = rows.map(|[x, y]| x * x + y * y);
+        let cross = |i: usize, j: usize| rows[i][0] * rows[j][1] - rows[j][0] * rows[i][1];
+        let crosses = [cross(1, 2), cross(2, 0), cross(0, 1)];
+        assert_eq!(in_circle_of_lengths(squares, crosses), Some(Sign::Positive), "{size}");
+        assert_eq!(in_circle_of_lengths(squares, crosses.map(|x| -x)), Some(Sign::Negative), "{size}");
+        assert_eq!(orient2d_of_lengths(crosses[2], squares[0] + squares[1]), Some(Sign::Positive), "{size}");
         let [a, b, c, d, e] = space(size);
         assert_eq!(orient3d_filter(a, b, c, d), Some(Sign::Positive), "{size}");
         assert_eq!(in_sphere_filter(a, b, c, d, e), Some(Sign::Positive), "{size}");

@@ -26,6 +26,10 @@ const ORIENT_BOUND: f64 = (3.0 + 16.0 * U) * U;
 /// Three-term lifted in-circle determinant: 10u times its permanent.
 const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * U) * U;
 
+/// The same from squared lengths: half of 3u, and of 10u all, with room for the rounding of the squares and their products too.
+const ORIENT_BOUND_OF_LENGTHS: f64 = (1.5 + 32.0 * U) * U;
+const IN_CIRCLE_BOUND_OF_LENGTHS: f64 = (10.0 + 192.0 * U) * U;
+
 /// All errors by underflow in an orientation: two products, each off by at most 2^-1075.
 const ORIENT_FLOOR: f64 = f64::MIN_POSITIVE;
 /// The largest sum of squared differences for which [`CIRCLE_FLOOR`] is valid: 2^500.
@@ -49,6 +53,26 @@ pub(crate) fn in_circle_filter(a: Point2, b: Point2, c: Point2, d: Point2) -> Op
     let (det, permanent) = circle_terms(rows, lifts);
     if la + lb + lc < CIRCLE_CEILING {
         outside_of(det, IN_CIRCLE_BOUND * permanent + CIRCLE_FLOOR)
+    } else {
+        None
+    }
+}
+
+/// Orientation of two points and one that differences were taken to, by the determinant of the differences and the sum of their squares,
+/// which is twice the permanent at least.
+#[inline]
+pub(crate) fn orient2d_of_lengths(det: f64, squares: f64) -> Option<Sign> {
+    outside_of(det, ORIENT_BOUND_OF_LENGTHS * squares + ORIENT_FLOOR)
+}
+
+/// In-circle test of three points and one that differences were taken to, by the squared lengths of the differences and the determinants of
+/// the other two of them. The permanent is at most the sum of the products of two squares.
+#[inline]
+pub(crate) fn in_circle_of_lengths([a, b, c]: [f64; 3], [bc, ca, ab]: [f64; 3]) -> Option<Sign> {
+    let det = a * bc + b * ca + c * ab;
+    let most = a * b + c * (a + b);
+    if a + b + c < CIRCLE_CEILING {
+        outside_of(det, IN_CIRCLE_BOUND_OF_LENGTHS * most + CIRCLE_FLOOR)
     } else {
         None
     }

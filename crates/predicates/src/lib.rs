@@ -33,6 +33,7 @@ mod disks;
 mod distance;
 mod exact;
 mod filter;
+mod hub;
 mod in_box;
 mod in_circle;
 mod in_sphere;
@@ -62,6 +63,7 @@ pub use distance::{
     is_surely_further, segment_keeps_away,
 };
 pub use filter::{Filter, Filter3, Grid};
+pub use hub::{Hub, Spoke};
 pub use in_box::SiteRef;
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};

@@ -3,8 +3,8 @@
 use delone_generators::Random;
 use delone_oracle::exact;
 use delone_predicates::{
-    Filter, Filter3, Four, Grid, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction, centre_side,
-    compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
+    Filter, Filter3, Four, Grid, Hub, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction,
+    centre_side, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
     in_circle_with_ties, in_sphere, in_sphere_with_ties, is_surely_further, lexicographic, lexicographic3,
     orient2d, orient3d,
 };
@@ -193,6 +193,30 @@ fn pencils_with_static_filters_are_exact() {
         }
     });
     assert!(told > part(60_000), "only {told} fours were told");
+}
+
+#[test]
+fn what_is_asked_about_a_hub_is_exact() {
+    tuples(10, 60_000, |name, [a, b, c, centre]| {
+        let hub = Hub::new(centre);
+        let [at_a, at_b, at_c] = [a, b, c].map(|p| hub.spoke(p));
+        let crosses @ [bc, ca, ab] = [at_b.cross(&at_c), at_c.cross(&at_a), at_a.cross(&at_b)];
+        for (p, q, side) in [
+            (a, b, hub.side(&at_a, &at_b, ab)),
+            (c, a, hub.side(&at_c, &at_a, ca)),
+            (c, b, hub.side(&at_c, &at_b, -bc)),
+        ] {
+            assert_eq!(side, sign(exact::orient2d(p, q, centre)), "{name}: {p:?} {q:?} {centre:?}");
+        }
+        let expected = sign(exact::in_circle(a, b, c, centre));
+        assert_eq!(
+            hub.in_circle([&at_a, &at_b, &at_c], crosses),
+            expected,
+            "{name}: {a:?} {b:?} {c:?} {centre:?}"
+        );
+        let turned = hub.in_circle([&at_b, &at_a, &at_c], [-ca, -bc, -ab]);
+        assert_eq!(turned, -expected, "{name}: {a:?} {b:?} {c:?} {centre:?}");
+    });
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! What surrounds a point of the plane: the triangles whose circles hold it.
 
-use delone_predicates::{Sign, in_circle, orient2d};
+use delone_predicates::{Hub, Sign, Spoke};
 
 use super::Delaunay2;
 use super::layer::kernel::{Kernel, NearestSites};
-use crate::around::{Around, Surround};
+use crate::around::{Around, Side, Surround};
 use crate::error::Error;
-use crate::ids::TriangleId;
+use crate::ids::{EdgeId, TriangleId};
 use crate::locate::Start;
 use crate::points::finite;
 use crate::triangulation::Found;
@@ -17,13 +17,10 @@ const NEAR: usize = 12;
 impl Surround for Delaunay2 {
     fn find_near(&self, near: Option<TriangleId>, q: [f64; 2]) -> Result<Found<TriangleId>, Error> {
         let q = finite(q)?;
-        let near = near.filter(|&t| self.mesh().is_triangle(t));
-        if let Some(t) = near.and_then(|t| self.inside_near(t, q)) {
-            return Ok(Found::on(&self.mesh().corners(t), Some(t)));
+        match self.inside_near(near, &Hub::new(q)) {
+            Some(seed) => Ok(self.inside(seed)),
+            None => Ok(self.find_from(near, q)),
         }
-        let spot = near.and_then(|t| self.base.spot_within(Start::Hint(t.edge(0), 0), q, NEAR, &mut ()));
-        let spot = spot.map_or_else(|| self.spot(q, &mut ()).spot, |found| found.0);
-        Ok(self.found(self.base.classify(spot, q)))
     }
 
     fn surround(
@@ -32,87 +29,128 @@ impl Surround for Delaunay2 {
         q: [f64; 2],
         around: &mut Around<Self>,
     ) -> Result<Found<TriangleId>, Error> {
-        let found = self.find_near(near, q)?;
+        let q = finite(q)?;
         around.clear();
-        if let (Some(seed), 2..) = (found.simplex, found.face().len()) {
-            self.dig(seed, q, around);
+        let hub = Hub::new(q);
+        if let Some(seed) = self.inside_near(near, &hub) {
+            self.dig(seed, &hub, around);
+            return Ok(self.inside(seed));
+        }
+        let found = self.find_from(near, q);
+        if let (Some(t), 2..) = (found.simplex, found.face().len()) {
+            self.dig(t.edge(0), &hub, around);
         }
         Ok(found)
     }
 }
 
 impl Delaunay2 {
-    /// Walks to a triangle that a point is strictly inside of: what there mostly is, and needs no more decisions.
+    /// Strictly inside of a triangle.
+    fn inside(&self, edge: EdgeId) -> Found<TriangleId> {
+        let t = edge.triangle();
+        Found::on(&self.mesh().corners(t), Some(t))
+    }
+
+    /// The corners of a triangle from the origin of an edge on, as seen from a point, and the cross product of each with the next.
     #[inline]
-    fn inside_near(&self, near: TriangleId, q: [f64; 2]) -> Option<TriangleId> {
+    fn seen(&self, edge: EdgeId, hub: &Hub) -> ([Spoke; 3], [f64; 3]) {
         let (mesh, points) = (&self.base.mesh, &self.base.points);
-        if !self.base.spanned || mesh.is_tagged || mesh.is_ghost(near) {
+        let [a, b, c] =
+            [mesh.tail(edge), mesh.head(edge), mesh.tip(edge)].map(|p| hub.spoke(points[p.index()]));
+        ([a, b, c], [a.cross(&b), b.cross(&c), c.cross(&a)])
+    }
+
+    /// Where a point is in general.
+    fn find_from(&self, near: Option<TriangleId>, q: [f64; 2]) -> Found<TriangleId> {
+        let near = near.filter(|&t| self.mesh().is_triangle(t));
+        let spot = near.and_then(|t| self.base.spot_within(Start::Hint(t.edge(0), 0), q, NEAR, &mut ()));
+        let spot = spot.map_or_else(|| self.spot(q, &mut ()).spot, |found| found.0);
+        self.found(self.base.classify(spot, q))
+    }
+
+    /// Walks to a triangle that a point is strictly inside of: what there mostly is, and needs no more decisions.
+    /// An edge of it.
+    #[inline]
+    fn inside_near(&self, near: Option<TriangleId>, hub: &Hub) -> Option<EdgeId> {
+        let (mesh, points) = (&self.base.mesh, &self.base.points);
+        let near = near.filter(|&t| mesh.is_triangle(t) && self.base.spanned)?;
+        if mesh.is_tagged || mesh.is_ghost(near) {
             return None;
         }
-        let mut e = near.edge(0);
-        let [a, b, mut c] = mesh.places(near).map(|p| points[p.index()]);
-        let mut ends = [a, b];
-        let mut side = orient2d(a, b, q);
+        let mut edge = near.edge(0);
+        let ([mut a, mut b, mut c], [mut ab, mut bc, mut ca]) = self.seen(edge, hub);
+        let mut behind = hub.side(&a, &b, ab);
         for _ in 0..NEAR {
-            let sides = [side, orient2d(ends[1], c, q), orient2d(c, ends[0], q)];
-            let crossed = match sides.iter().position(|side| side.is_negative()) {
-                Some(0) => e,
-                Some(1) => {
-                    ends = [ends[1], c];
-                    e.next()
-                }
-                Some(_) => {
-                    ends = [c, ends[0]];
-                    e.previous()
-                }
-                None if sides.contains(&Sign::Zero) => return None,
-                None => return Some(e.triangle()),
-            };
-            e = mesh.twin(crossed);
-            ends = [ends[1], ends[0]];
-            side = Sign::Positive;
-            let tip = mesh.tip(e);
+            let sides = [behind, hub.side(&b, &c, bc), hub.side(&c, &a, ca)];
+            let crossed;
+            if sides[0].is_negative() {
+                crossed = edge;
+                (a, b, ab) = (b, a, -ab);
+            } else if sides[1].is_negative() {
+                crossed = edge.next();
+                (a, ab) = (c, -bc);
+            } else if sides[2].is_negative() {
+                crossed = edge.previous();
+                (b, ab) = (c, -ca);
+            } else {
+                return (!sides.contains(&Sign::Zero)).then_some(edge);
+            }
+            edge = mesh.twin(crossed);
+            let tip = mesh.tip(edge);
             if tip.is_ghost() {
                 return None;
             }
-            c = points[tip.index()];
+            c = hub.spoke(points[tip.index()]);
+            (bc, ca) = (b.cross(&c), c.cross(&a));
+            behind = Sign::Positive;
         }
         None
     }
 
     /// Depth first in counter-clockwise order, so that the border comes in its cyclic order. No vertex is inside of the cavity: no
     /// triangle is met twice.
-    fn dig(&self, seed: TriangleId, q: [f64; 2], around: &mut Around<Self>) {
+    fn dig(&self, seed: EdgeId, hub: &Hub, around: &mut Around<Self>) {
         let (mesh, points) = (&self.base.mesh, &self.base.points);
         let Around { ring, cavity, border, .. } = &mut *around;
-        cavity.push(seed);
+        cavity.push(seed.triangle());
         ring.triangles.push([0, 1, 2]);
-        ring.corners.extend(mesh.places(seed).map(|p| (mesh.name(p), points[p.index()])));
-        let sides = [(2, [2, 0]), (1, [1, 2]), (0, [0, 1])];
-        ring.pending.extend(sides.map(|(k, ends)| (mesh.twin(seed.edge(k)), ends)));
-        while let Some((outside, [from, to])) = ring.pending.pop() {
-            let tip = mesh.tip(outside);
-            let [(first, a), (second, b)] = [from, to].map(|k| ring.corners[k as usize]);
-            if tip.is_ghost() {
-                if NearestSites::contains_beyond((b, ()), (a, ()), (q, ())) {
-                    return around.stop_at_hull();
+        ring.vertices.extend([mesh.origin(seed), mesh.destination(seed), mesh.apex(seed)]);
+        let (corners, [ab, bc, ca]) = self.seen(seed, hub);
+        ring.spokes.extend(corners);
+        let mut put = |edge, ends, cross| ring.pending.push(Side { edge: mesh.twin(edge), ends, cross });
+        put(seed.previous(), [2, 0], ca);
+        put(seed.next(), [1, 2], bc);
+        put(seed, [0, 1], ab);
+        while let Some(mut side) = ring.pending.pop() {
+            loop {
+                let Side { edge, ends: [from, to], cross } = side;
+                let [a, b] = [from, to].map(|k| &ring.spokes[k as usize]);
+                let ends = || [from, to].map(|k| ring.vertices[k as usize]);
+                let tip = mesh.tip(edge);
+                if tip.is_ghost() {
+                    if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (hub.centre(), ())) {
+                        return around.stop_at_hull();
+                    }
+                    border.push((ends(), mesh.twin(edge).triangle()));
+                    break;
                 }
-                border.push(([first, second], mesh.twin(outside).triangle()));
-                ring.order.push(from);
-                continue;
-            }
-            let c = points[tip.index()];
-            if in_circle(b, a, c, q).is_positive() {
-                let number = ring.corners.len() as u32;
-                cavity.push(outside.triangle());
+                let c = hub.spoke(points[tip.index()]);
+                let (ac, cb) = (a.cross(&c), c.cross(b));
+                // The corners are counter-clockwise as b, a and c.
+                if !hub.in_circle([b, a, &c], [ac, cb, -cross]).is_positive() {
+                    border.push((ends(), edge.triangle()));
+                    break;
+                }
+                let number = ring.spokes.len() as u32;
+                cavity.push(edge.triangle());
                 ring.triangles.push([from, number, to]);
-                ring.corners.push((mesh.name(tip), c));
-                ring.pending.push((mesh.twin(outside.previous()), [number, to]));
-                ring.pending.push((mesh.twin(outside.next()), [from, number]));
-                continue;
+                ring.vertices.push(mesh.name(tip));
+                ring.spokes.push(c);
+                let [right, left] = [edge.next(), edge.previous()].map(|e| mesh.twin(e));
+                ring.pending.push(Side { edge: left, ends: [number, to], cross: cb });
+                side = Side { edge: right, ends: [from, number], cross: ac };
             }
-            border.push(([first, second], outside.triangle()));
-            ring.order.push(from);
+            ring.order.push(side.ends[0]);
         }
     }
 }

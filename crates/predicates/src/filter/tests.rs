@@ -4,7 +4,9 @@ use super::power::{POWER_CIRCLE_BOUND, POWER_SPHERE_BOUND};
 use super::space::{
     Filter3, IN_SPHERE_BOUND, ORIENT3D_BOUND, ORIENT3D_CEILING, ORIENT3D_FLOOR, SPHERE_CEILING, SPHERE_FLOOR,
 };
-use super::{Filter, Grid, IN_CIRCLE_BOUND, ORIENT_BOUND, U};
+use super::{
+    Filter, Grid, IN_CIRCLE_BOUND, IN_CIRCLE_BOUND_OF_LENGTHS, ORIENT_BOUND, ORIENT_BOUND_OF_LENGTHS, U,
+};
 
 /// A computed quantity: a bound on its magnitude and a bound on its error.
 #[derive(Clone, Copy)]
@@ -69,6 +71,10 @@ fn operand_bounds_cover_their_formulas() {
     let term = lift + cross + lift * cross + U;
     let sum = term + U * (1.0 + term);
     assert!(sum <= IN_CIRCLE_BOUND * (1.0 + 8.0 * U), "{} u", sum / U);
+    // What bounds the permanents of lengths may be computed too small: squares by 2u (each of their products by u, the sum by u), of two
+    // squares half the sum by u more, of three the sum of their products by 4u for the squares, u for the products, 2u for the sums.
+    assert!(orient / 2.0 <= ORIENT_BOUND_OF_LENGTHS * (1.0 - 3.0 * U) - 8.0 * U * U);
+    assert!(sum <= IN_CIRCLE_BOUND_OF_LENGTHS * (1.0 - 7.0 * U) - 64.0 * U * U);
     // With weights: a difference of weights has less error than the squares, and is subtracted: u once more.
     let lift = lift + U * (1.0 + lift);
     let term = lift + cross + lift * cross + U;
@@ -249,6 +255,8 @@ fn constants_are_what_they_are_said_to_be() {
     let u = 2f64.powi(-53);
     assert_eq!(U, u);
     assert_eq!((ORIENT_BOUND, IN_CIRCLE_BOUND), (3.0 * u + 16.0 * u * u, 10.0 * u + 96.0 * u * u));
+    assert_eq!(ORIENT_BOUND_OF_LENGTHS, 1.5 * u + 32.0 * u * u);
+    assert_eq!(IN_CIRCLE_BOUND_OF_LENGTHS, 10.0 * u + 192.0 * u * u);
     assert_eq!((ORIENT3D_BOUND, IN_SPHERE_BOUND), (7.0 * u + 56.0 * u * u, 16.0 * u + 224.0 * u * u));
     assert_eq!(
         (POWER_CIRCLE_BOUND, POWER_SPHERE_BOUND),
@@ -307,6 +315,8 @@ fn beyond_their_ceilings_filters_decide_nothing() {
         let points = [[1.0, 0.25], [-0.5, 1.0], [-0.25, -1.0]];
         let at = |i: usize| points[i].map(|x| x * large(251, -100, k, i));
         assert_eq!(super::in_circle_filter(at(0), at(1), at(2), [0.0, 0.0]), None, "{k}");
+        let squares = [0, 1, 2].map(|i| at(i).iter().map(|x| x * x).sum());
+        assert_eq!(super::in_circle_of_lengths(squares, [1.0; 3]), None, "{k}");
         let at = |i: usize| [points[i][0], points[i][1], large(501, -300, k, i)];
         assert_eq!(super::orient3d_filter(at(0), at(1), at(2), [0.0; 3]), None, "{k}");
         let below = |i: usize| [points[i][0], points[i][1], large(499, -300, k, i)];

@@ -1,0 +1,88 @@
+//! All that one point is asked about: the language of who looks for the circles that hold it.
+//!
+//! With everything relative to the point, and the cross product of each edge known from the triangle before it, a triangle more takes two
+//! cross products and three products for its circle. Distances bound the permanents of the determinants: half of the sum of the squared
+//! lengths of two rows is at least what their products are together.
+
+use crate::counters::{Predicate, Stage, count};
+use crate::filter::{in_circle_of_lengths, orient2d_of_lengths};
+use crate::in_circle::in_circle_exact;
+use crate::orient::orient2d_exact;
+use crate::{Point2, Sign};
+
+/// A point that decisions are about.
+#[derive(Clone, Copy, Debug)]
+pub struct Hub {
+    centre: Point2,
+}
+
+/// Another point, as seen from it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spoke {
+    end: Point2,
+    from_centre: Point2,
+    square: f64,
+}
+
+impl Spoke {
+    /// The point.
+    #[inline]
+    pub fn end(&self) -> Point2 {
+        self.end
+    }
+
+    /// The differences of its coordinates to those of the centre, rounded.
+    #[inline]
+    pub fn from_centre(&self) -> Point2 {
+        self.from_centre
+    }
+
+    /// The cross product with another one, rounded: about twice the area of both and the centre. Exchanged they give the same with the
+    /// other sign.
+    #[inline]
+    pub fn cross(&self, other: &Self) -> f64 {
+        let ([ax, ay], [bx, by]) = (self.from_centre, other.from_centre);
+        ax * by - bx * ay
+    }
+}
+
+impl Hub {
+    /// Around this point.
+    #[inline]
+    pub fn new(centre: Point2) -> Self {
+        Self { centre }
+    }
+
+    /// The point.
+    #[inline]
+    pub fn centre(&self) -> Point2 {
+        self.centre
+    }
+
+    /// What is seen of another point.
+    #[inline]
+    pub fn spoke(&self, end: Point2) -> Spoke {
+        let [x, y] = [end[0] - self.centre[0], end[1] - self.centre[1]];
+        Spoke { end, from_centre: [x, y], square: x * x + y * y }
+    }
+
+    /// `orient2d(a, b, centre)`, given `a.cross(b)`.
+    #[inline]
+    pub fn side(&self, a: &Spoke, b: &Spoke, cross: f64) -> Sign {
+        if let Some(sign) = orient2d_of_lengths(cross, a.square + b.square) {
+            count(Predicate::Orient2d, Stage::Filter);
+            return sign;
+        }
+        orient2d_exact(a.end, b.end, self.centre)
+    }
+
+    /// `in_circle(a, b, c, centre)`, given the cross products of b and c, of c and a, and of a and b.
+    #[inline]
+    pub fn in_circle(&self, [a, b, c]: [&Spoke; 3], crosses: [f64; 3]) -> Sign {
+        if let Some(sign) = in_circle_of_lengths([a.square, b.square, c.square], crosses) {
+            count(Predicate::InCircle, Stage::Filter);
+            return sign;
+        }
+        in_circle_exact(a.end, b.end, c.end, self.centre)
+    }
+}
