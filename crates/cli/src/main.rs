@@ -110,8 +110,12 @@ fn main() -> ExitCode {
     }
 }
 
+/// From how many points on threads share the work: this program has no other use for them.
+const SHARED_FROM: usize = 1 << 13;
+
 /// Starts the threads that work. Many more than there are cores would only wait for each other.
 fn start_threads(asked: Option<u16>, quiet: bool) {
+    delone::share_work_from(SHARED_FROM);
     let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
     let most = (4 * cores).max(16);
     let mut threads = asked.map_or(0, usize::from);

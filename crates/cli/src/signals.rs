@@ -12,8 +12,9 @@ pub(crate) fn clean_up() {
     // Then a file that may not grow any more is an error of its writer.
     _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
     // A signal that is ignored stays so: under nohup the program goes on after a hangup.
-    let wanted =
-        [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU].into_iter().filter(|&signal| !is_ignored(signal));
+    let ignored = ignored();
+    let is_wanted = |signal: &i32| ignored >> (signal - 1) & 1 == 0;
+    let wanted = [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU].into_iter().filter(is_wanted);
     let Ok(mut signals) = Signals::new(wanted) else { return };
     let watch = move || {
         for signal in signals.forever() {
@@ -25,15 +26,13 @@ pub(crate) fn clean_up() {
     _ = std::thread::Builder::new().name("signals".to_owned()).spawn(watch);
 }
 
-/// Whether whoever started the program had this signal ignored, as Linux tells; elsewhere hangups are left alone.
+/// The signals that whoever started the program had ignored, a bit each, as Linux tells; elsewhere hangups are left alone.
 #[cfg(unix)]
-fn is_ignored(signal: i32) -> bool {
+fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-    match mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()) {
-        Some(mask) => mask >> (signal - 1) & 1 == 1,
-        None => signal == signal_hook::consts::SIGHUP,
-    }
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.unwrap_or(1 << (signal_hook::consts::SIGHUP - 1))
 }
 
 #[cfg(not(unix))]

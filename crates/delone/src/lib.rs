@@ -134,6 +134,7 @@ pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use neighbors::{Neighbors, Neighbors2, Neighbors3};
 pub use order::HintOrder;
+pub use parallel::share_work_from;
 pub use plane::{
     Algorithm2, Cell2, Cells2, Constrained2, ConstraintReport2, Covering2, Crossings, Delaunay2, DiskEdges2,
     Domains2, EnclosingCircle, Exchange, Fill, Furthest2, Hints2, Jacobian2, Keep, Location2, Moving2,

@@ -3,14 +3,23 @@
 //! Tasks own disjoint parts of arrays, so what they write does not depend on who does it: results are the same bits for any
 //! number of threads.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use crate::memory::room_for;
 
 /// Work on fewer items is not worth a thread. The Python package relies on it: it gives less than this no pool of its own, and a
 /// forked process waits for ever for the threads of another.
-const MANY: usize = 1 << 15;
+static MANY: AtomicUsize = AtomicUsize::new(1 << 15);
 
 /// The fewest items of a part.
 const PART: usize = 1 << 11;
+
+/// Says from how many items on (points, say) threads share the work on them, 2,048 at least; before it is said, that is 32,768. It holds
+/// for the whole process, and results do not depend on it. Fewer are for a program whose threads wait for nothing but this: what is small
+/// is done a millisecond sooner, and each call wakes threads.
+pub fn share_work_from(items: usize) {
+    MANY.store(items.max(PART), Ordering::Relaxed);
+}
 
 /// The threads there are.
 pub(crate) fn threads() -> usize {
@@ -24,7 +33,7 @@ pub(crate) fn threads() -> usize {
 /// worth it.
 pub(crate) fn parts(items: usize) -> usize {
     // To ask for threads takes longer than to triangulate three points.
-    let threads = if items < MANY { 1 } else { threads() };
+    let threads = if items < MANY.load(Ordering::Relaxed) { 1 } else { threads() };
     if threads == 1 { 1 } else { (8 * threads).min(items / PART) }
 }
 

@@ -33,6 +33,21 @@ fn threads_never_show() {
     }
 }
 
+/// Nor from how many points on they share the work.
+#[test]
+fn small_shares_never_show() {
+    let on = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let of = |&kind: &Kind| bits(&Delaunay2::from_points(&kind.points(9000, 1)).expect("finite"));
+        pool.install(|| Kind::ALL.iter().map(of).collect::<Vec<_>>())
+    };
+    let one = on(1);
+    delone::share_work_from(0);
+    assert!(on(3) == one);
+    delone::share_work_from(1 << 15);
+    assert!(on(3) == one);
+}
+
 /// Nor where sites are hidden.
 #[test]
 fn threads_never_show_with_weights() {

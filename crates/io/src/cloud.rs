@@ -37,6 +37,12 @@ impl Cloud {
         }
     }
 
+    /// Makes room for so many points more.
+    pub(crate) fn reserve(&mut self, n: usize) {
+        self.xy.reserve(n);
+        self.z.iter_mut().for_each(|z| z.reserve(n));
+    }
+
     /// Forgets the points and their heights.
     pub(crate) fn clear(&mut self) {
         self.xy.clear();

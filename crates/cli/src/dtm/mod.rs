@@ -11,6 +11,7 @@ mod level;
 mod lines;
 mod surface;
 
+use std::mem::ManuallyDrop;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +69,8 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
             if memory.is_some() {
                 warn(quiet, "--memory is not kept: files of this kind are read whole");
             }
-            let cloud = files::points(&input, 3, quiet)?;
+            // What is large is given back by the end of the program, all at once.
+            let cloud = ManuallyDrop::new(files::points(&input, 3, quiet)?);
             stats.phase("read");
             job.in_memory(&cloud, &mut stats)?;
         }
@@ -140,7 +142,8 @@ impl Job<'_> {
         };
         kind.prepare(args.method).map_err(|error| Failure::points(&self.label, &error))?;
         drop(phase);
-        let (vertices, triangles, hull) = match &kind {
+        let kind = ManuallyDrop::new(kind);
+        let (vertices, triangles, hull) = match &*kind {
             Kind::Points(s) => (s.d.vertex_count(), s.d.triangle_count(), s.d.hull_vertices().count()),
             Kind::Lines(s) => (s.d.vertex_count(), s.d.triangle_count(), s.d.hull_vertices().count()),
         };

@@ -78,8 +78,8 @@ impl Raster {
 
     /// The values, row by row, as the grid has them; NaN where there are none.
     pub fn into_values(self) -> Vec<f64> {
-        let cells = &self.cells;
-        parallel::collect(cells.len(), |k| f64::from_bits(cells[k].load(Ordering::Relaxed)))
+        // In the memory that they are in.
+        self.cells.into_iter().map(|cell| f64::from_bits(cell.into_inner())).collect()
     }
 
     /// The rows up to the middle corner, then those above it.

@@ -25,8 +25,9 @@ impl<W: Write + Seek> Writer<W> {
 
     pub(super) fn write_rows(&mut self, values: &[f64]) -> std::io::Result<()> {
         for part in values.chunks(1 << 13) {
-            self.bytes.clear();
-            self.bytes.extend(part.iter().flat_map(|value| value.to_le_bytes()));
+            self.bytes.resize(8 * part.len(), 0);
+            let places = self.bytes.as_chunks_mut().0;
+            places.iter_mut().zip(part).for_each(|(place, value)| *place = value.to_le_bytes());
             self.out.write_all(&self.bytes)?;
         }
         Ok(())

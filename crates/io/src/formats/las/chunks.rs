@@ -210,6 +210,7 @@ fn decode_all(
                 })
             })
             .collect();
+        kept.cloud.reserve(decoded.iter().flatten().map(|part| part.cloud.xy.len()).sum());
         for part in decoded {
             kept.append(part?);
         }
