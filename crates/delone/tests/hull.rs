@@ -122,7 +122,7 @@ fn one_set_has_one_hull() {
 fn large_hulls_are_the_same_by_all_algorithms() {
     let mut random = Random::new(11);
     let n = 20_000;
-    for round in 0..6 {
+    for round in 0..12 {
         let mut point = |i: usize| {
             let p = [0, 1, 2].map(|_| random.between(-1.0, 1.0));
             let size = p.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -134,7 +134,15 @@ fn large_hulls_are_the_same_by_all_algorithms() {
                 3 => p.map(|x| (x * 12.0).round()),
                 // A cylinder whose ends are nearly flat: rounding decides what is above what.
                 4 => [p[0] / size, p[1] / size, if i.is_multiple_of(2) { 1.0 } else { -1.0 } + 1e-16 * p[2]],
-                _ => [p[0], p[1], p[0] * 0.3 + p[1] * 0.7],
+                5 => [p[0], p[1], p[0] * 0.3 + p[1] * 0.7],
+                // Balls: of a lattice, with many points at each place; of any size; where few numbers are; long in each way.
+                _ if size > 1.0 => [0.0; 3],
+                6 => p.map(|x| (x * 9.0).round()),
+                7 => p.map(|x| x * 1e-310),
+                8 => p.map(|x| x * 1e308),
+                9 => p.map(|x| 1e9 + x * 1e-5),
+                10 => [p[0] * 1e300, p[1] * 1e-300, p[2]],
+                _ => [p[0] * 1e-300, p[1], p[2] * 1e300],
             }
         };
         let points: Points = (0..n).map(&mut point).collect();

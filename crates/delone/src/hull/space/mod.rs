@@ -6,6 +6,7 @@
 //! shell of triangles (`shell.rs`), the third one flips its edges, by exact decisions; `faces.rs` joins coplanar triangles in the end, so that the
 //! result is a function of the set.
 
+mod columns;
 mod faces;
 mod flips;
 mod history;

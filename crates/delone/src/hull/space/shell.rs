@@ -60,7 +60,7 @@ pub(super) struct Shell {
     /// For each corner of a horizon the fresh facet whose first corner it is.
     starting: Vec<u32>,
     /// The box around the points: its ends, axis by axis.
-    limits: [(f64, f64); 3],
+    pub(super) limits: [(f64, f64); 3],
     /// Its size.
     extent: [f64; 3],
 }
