@@ -6,7 +6,8 @@
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Stderr, Stdout, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::Duration;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -28,13 +29,25 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 pub fn remove_unfinished() {
     /// Threads go on meanwhile, and may write into a folder that is being emptied.
     const TRIES: usize = 10;
-    // Whoever holds the lock may be the one that was stopped.
-    if let Ok(mut paths) = UNFINISHED.try_lock() {
+    if let Some(mut paths) = lock_soon(&UNFINISHED) {
         for path in paths.drain(..) {
             let is_gone = fs::remove_file(&path).is_ok();
             _ = is_gone || (0..TRIES).any(|_| fs::remove_dir_all(&path).is_ok());
         }
     }
+}
+
+/// Locks what another thread mostly holds for no longer than it takes to make a file; but whoever holds it may be the one that was stopped.
+fn lock_soon<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
+    const TRIES: usize = 200;
+    (0..TRIES).find_map(|k| match mutex.try_lock() {
+        Ok(guard) => Some(guard),
+        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            std::thread::sleep(Duration::from_millis(if k + 1 < TRIES { 5 } else { 0 }));
+            None
+        }
+    })
 }
 
 /// A folder for work, which goes with all that is in it when this is dropped, or by [`remove_unfinished`].
@@ -423,5 +436,31 @@ mod tests {
         let bytes = fs::read(&path).expect("readable");
         flate2::read::GzDecoder::new(&bytes[..]).read_to_string(&mut text).expect("gzip");
         assert_eq!(text, "0,1\n");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::{Mutex, mpsc};
+    use std::time::Duration;
+
+    use super::lock_soon;
+
+    #[test]
+    fn a_lock_that_another_thread_holds_is_waited_for() {
+        let mutex = Mutex::new(1);
+        let (ready, wait) = mpsc::channel();
+        std::thread::scope(|scope| {
+            scope.spawn(|| {
+                let _held = mutex.lock();
+                _ = ready.send(());
+                std::thread::sleep(Duration::from_millis(30));
+            });
+            assert!(wait.recv().is_ok());
+            assert!(lock_soon(&mutex).is_some());
+        });
+        // One that is never given back ends the patience.
+        let _held = mutex.lock();
+        assert!(lock_soon(&mutex).is_none());
     }
 }
