@@ -22,6 +22,7 @@
 //! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
 //! ```
 
+mod bundle;
 mod cell;
 mod centre;
 mod circumcentre;
@@ -53,6 +54,7 @@ mod sign;
 mod stages;
 mod within;
 
+pub use bundle::{Ball, Bundle};
 pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
 pub use circumcentre::{circumcentre, power_centre};

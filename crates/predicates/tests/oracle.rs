@@ -3,7 +3,7 @@
 use delone_generators::Random;
 use delone_oracle::exact;
 use delone_predicates::{
-    Filter, Filter3, Four, Grid, Hub, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction,
+    Bundle, Filter, Filter3, Four, Grid, Hub, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction,
     centre_side, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
     in_circle_with_ties, in_sphere, in_sphere_with_ties, is_surely_further, lexicographic, lexicographic3,
     orient2d, orient3d,
@@ -383,7 +383,7 @@ fn tuples_in_space(seed: u64, n: usize, mut judge: impl FnMut(&str, [Point3; 5])
 
 #[test]
 fn in_sphere_is_exact() {
-    let (mut ties, mut total) = (0, 0);
+    let (mut ties, mut told, mut total) = (0, 0, 0);
     tuples_in_space(12, 5_000, |name, five| {
         let [a, b, c, d, e] = five;
         let expected = exact::in_sphere_unperturbed(a, b, c, d, e);
@@ -404,6 +404,16 @@ fn in_sphere_is_exact() {
             assert_eq!(filter.orient3d(a, b, c, d), orient3d(a, b, c, d), "{name}: {five:?}, in a box");
             let both = filter.in_spheres([[&a, &b, &c, &d], [&b, &a, &c, &d]], &e);
             assert_eq!(both, [sign(perturbed), -sign(perturbed)], "{name}: {five:?}, two at once");
+            let bundle = Bundle::new([a, b, c].map(|p| (p, 0.0)));
+            let turn = bundle.side((d, 0.0), &filter);
+            assert!(
+                turn.is_none_or(|turn| turn == orient3d(a, b, c, d)),
+                "{name}: {five:?}, a bundle's side"
+            );
+            if let Some(side) = bundle.through((d, 0.0)).side((e, 0.0), &filter) {
+                told += 1;
+                assert_eq!(side, sign(perturbed), "{name}: {five:?}, of a bundle");
+            }
             let [a, b] = if orient3d(a, b, c, d).is_positive() { [a, b] } else { [b, a] };
             let is_beyond = [[b, d, c], [a, c, d], [a, d, b], [a, b, c]]
                 .map(|[u, v, w]| orient3d(u, v, w, e).is_negative());
@@ -420,6 +430,7 @@ fn in_sphere_is_exact() {
     });
     assert!(total > part(150_000), "only {total} tuples");
     assert!(ties > part(5_000), "only {ties} ties");
+    assert!(told > part(50_000), "only {told} spheres of bundles told a side");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use delone_generators::Random;
 use delone_oracle::power::{Lifted, compare};
 use delone_predicates::{
-    Filter3, Grid, Line, Sign, Site, Spot, compare_powers, in_circle, in_power_circle,
+    Bundle, Filter3, Grid, Line, Sign, Site, Spot, compare_powers, in_circle, in_power_circle,
     in_power_circle_with_ties, in_power_interval, in_power_sphere, in_power_sphere_with_ties, in_sphere,
     orient2d, orient3d, power_centre,
 };
@@ -105,7 +105,7 @@ fn the_test_on_a_line_is_exact_and_canonical() {
 
 #[test]
 fn the_test_in_space_is_exact_and_canonical() {
-    let mut ties = 0;
+    let (mut ties, mut told) = (0, 0);
     tuples::<3, 5>(3, 1200, |name, sites| {
         let [a, b, c, d, e] = sites;
         let turn = orient3d(a.0, b.0, c.0, d.0);
@@ -134,9 +134,16 @@ fn the_test_in_space_is_exact_and_canonical() {
         assert_eq!(filter.in_power_sphere([p, q, r, s], t), expected(true), "{name}: {sites:?}");
         let both = filter.in_power_spheres([[p, q, r, s], [q, p, r, s]], t);
         assert_eq!(both, [expected(true), -expected(true)], "{name}: {sites:?}");
+        let bundle = Bundle::new([a, b, c]);
+        assert!(bundle.side(d, &filter).is_none_or(|side| side == turn), "{name}: {sites:?}");
+        if let Some(side) = bundle.through(d).side(e, &filter) {
+            told += 1;
+            assert_eq!(side, expected(true), "{name}: {sites:?}");
+        }
         ties += usize::from(expected(false).is_zero());
     });
     assert!(ties > 500, "only {ties} ties were met");
+    assert!(told > 500, "only {told} spheres of bundles told a side");
 }
 
 /// Where the radical axes of three sites meet a fourth one has less power exactly if it is below their plane.

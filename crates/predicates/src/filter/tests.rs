@@ -225,6 +225,32 @@ fn the_in_sphere_bound_covers_its_formula() {
     }
 }
 
+/// Minors of two rows, those with what a third row gives, and four products: the same bounds.
+#[test]
+fn the_bounds_in_space_cover_the_bundle_formulas() {
+    let d = Bounded::difference(1.0);
+    for weights in [None, Some(0.0), Some(0.5), Some(3.0), Some(100.0)] {
+        let square = d.times(d).plus(d.times(d)).plus(d.times(d));
+        let lift = weights.map_or(square, |most| square.plus(Bounded::difference(most)));
+        let minor = d.times(d).plus(d.times(d));
+        let lifted = d.times(lift).plus(lift.times(d));
+        // The last sum's rounding does not change the sign, and its second operand is a product.
+        let volume = minor.times(d).plus(minor.times(d));
+        let orientation = volume.error + minor.times(d).error;
+        assert!(orientation <= ORIENT3D_BOUND * 6.0 * (1.0 - 8.0 * U), "{} u", orientation / U / 6.0);
+        let volume = volume.plus(minor.times(d));
+        let factor = minor.times(lift).plus(lifted.times(d)).plus(lifted.times(d));
+        let pair = factor.times(d).plus(factor.times(d));
+        let other = factor.times(d).plus(volume.times(lift));
+        // The rounding of the last sum does not change its sign.
+        let (error, permanent) = (pair.error + other.error, 24.0 * lift.max);
+        let bound = if weights.is_some() { POWER_SPHERE_BOUND } else { IN_SPHERE_BOUND };
+        assert!(error <= bound * permanent * (1.0 - 16.0 * U), "{} u", error / U / permanent);
+        let is_near = weights > Some(0.0) || error >= 0.7 * bound * permanent;
+        assert!(is_near, "the bound is far too large: {} u", error / U / permanent);
+    }
+}
+
 #[test]
 fn small_boxes_of_a_grid_in_space_are_exact() {
     let grid = Grid::of(&[1.0, 2.0]);

@@ -10,6 +10,7 @@ pub(in crate::space) mod kernel;
 mod remove;
 pub(in crate::space) mod scaffold;
 pub(in crate::space) mod simplices;
+mod wrap;
 
 use delone_predicates::{Filter3, Grid};
 
@@ -21,6 +22,7 @@ use arena::{Arena, Memory, View};
 use cavity::Cavity;
 use hole::Hole;
 use kernel::Lift;
+use wrap::Wrap;
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
@@ -42,6 +44,7 @@ pub(in crate::space) struct Layer<W: Lift = ()> {
     pub(in crate::space) scaffold: Vec<Place>,
     pub(in crate::space) cavity: Cavity,
     pub(in crate::space) hole: Hole,
+    wrap: Wrap,
     /// What holes are filled with.
     pub(in crate::space) fill: Option<Box<Layer<W>>>,
 }

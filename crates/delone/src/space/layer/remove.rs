@@ -1,22 +1,25 @@
-//! Removal of a vertex: its star becomes a hole, refilled with the triangulation of the vertices around it.
+//! Removal of a vertex: its star becomes a hole, refilled with the triangulation of the vertices around it. Small holes inside
+//! of the hull are filled facet by facet (`wrap`), others by triangulating those vertices apart (`hole`).
 //!
 //! Source: Devillers & Teillaud, "Perturbations and vertex removal in a 3D Delaunay triangulation", SODA 2003.
 //!
 //! With weights this gives the triangulation of the others that were vertices; those that the removed one hid are inserted by the
 //! owner.
 //!
-//! Cost: O(d log d) expected for a star of d tetrahedra, 27 on average, if the triangulation of its link is of size O(d).
+//! Cost for a star of d tetrahedra, 27 on average: O(d^2) tests of four products where it is small and the filling is of size O(d);
+//! O(d log d) expected above that, if the triangulation of its link is of size O(d).
 
 use super::Layer;
 use super::hole::Hole;
 use super::kernel::Lift;
+use super::wrap::Wrap;
 use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
 use crate::tally::Tally;
 
 /// What became of the hole that a star left.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Filled {
+pub(super) enum Filled {
     All,
     /// The other vertices span less than before.
     SpansLess,
@@ -33,13 +36,23 @@ impl<W: Lift> Layer<W> {
             return self.rebuild(None);
         }
         let mut hole = std::mem::take(&mut self.hole);
-        let mut fill = self.fill.take().unwrap_or_default();
-        let filled = self.fill_star(v, &mut hole, &mut fill);
+        self.mesh.star(v, &mut hole.cells);
+        let (filled, created) = if Wrap::suits(&self.mesh, &hole.cells) {
+            let mut wrap = std::mem::take(&mut self.wrap);
+            let filled = wrap.fill(self, v, &hole.cells).map_or(Filled::NoRoom, |()| Filled::All);
+            self.wrap = wrap;
+            (filled, self.wrap.count())
+        } else {
+            let mut fill = self.fill.take().unwrap_or_default();
+            let filled = self.fill_apart(v, &mut hole, &mut fill);
+            self.fill = Some(fill);
+            (filled, hole.inside.len())
+        };
         if filled == Filled::All {
             tally.destroyed(hole.cells.len());
-            tally.created(hole.inside.len());
+            tally.created(created);
         }
-        (self.hole, self.fill) = (hole, Some(fill));
+        self.hole = hole;
         match filled {
             Filled::NoRoom => None,
             Filled::All => {
@@ -54,10 +67,10 @@ impl<W: Lift> Layer<W> {
         }
     }
 
-    /// Removes the star of a vertex and fills the hole. Nothing has changed if it is not filled.
-    fn fill_star(&mut self, v: Place, hole: &mut Hole, fill: &mut Self) -> Filled {
+    /// Removes the star of a vertex, which the hole holds, and fills it with what its other vertices are triangulated to. Nothing
+    /// has changed if it is not filled.
+    pub(super) fn fill_apart(&mut self, v: Place, hole: &mut Hole, fill: &mut Self) -> Filled {
         let mesh = &self.mesh;
-        mesh.star(v, &mut hole.cells);
         hole.set_vertices(self, Some(v), None);
         hole.triangulate(self, fill);
         // Across from the vertex.
