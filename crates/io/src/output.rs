@@ -350,10 +350,12 @@ impl Seek for Output {
 
 #[cfg(test)]
 mod tests {
-    use super::Output;
+    use super::{Output, lock_soon};
     use std::fs;
     use std::io::{Seek, SeekFrom, Write};
     use std::path::Path;
+    use std::sync::{Mutex, mpsc};
+    use std::time::Duration;
 
     fn write(path: &Path, content: &[u8]) {
         let mut output = Output::create(path).expect("writable");
@@ -437,14 +439,6 @@ mod tests {
         flate2::read::GzDecoder::new(&bytes[..]).read_to_string(&mut text).expect("gzip");
         assert_eq!(text, "0,1\n");
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::{Mutex, mpsc};
-    use std::time::Duration;
-
-    use super::lock_soon;
 
     #[test]
     fn a_lock_that_another_thread_holds_is_waited_for() {
