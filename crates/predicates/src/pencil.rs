@@ -6,6 +6,8 @@
 //! `dot_p cross_q - dot_q cross_p` (Cline & Renka, "A storage-efficient method for construction of a
 //! Thiessen triangulation", 1984): four products a candidate, two a comparison.
 
+use std::hint::select_unpredictable;
+
 use crate::counters::{Predicate, Stage, count};
 use crate::in_circle::{in_circle_exact, in_circle_tie};
 use crate::orient::orient2d_exact;
@@ -63,6 +65,27 @@ impl Pencil {
             }
             None => in_circle_exact(self.l, self.r, p.point, q.point),
         }
+    }
+
+    /// Which of some points is above the base and has none of the others that are above inside of its circle, if floating point
+    /// can tell all of that: `None` if not, or if none is above.
+    ///
+    /// Whether a point is better than those before is chance: it is selected, and not branched on.
+    #[inline]
+    pub fn apex(&self, points: impl Iterator<Item = Point2>, filter: &Filter) -> Option<usize> {
+        // So far the circle is the half-plane above.
+        let (mut best, mut dot, mut cross) = (None, f64::INFINITY, 0.0);
+        let mut is_sure = true;
+        for (k, q) in points.enumerate() {
+            let m = self.member(q);
+            let circle = dot * m.cross - m.dot * cross;
+            is_sure &= filter.tells_orient(m.cross) & ((m.cross < 0.0) | filter.tells_circle(circle));
+            let is_better = (m.cross > 0.0) & (circle > 0.0);
+            best = select_unpredictable(is_better, Some(k), best);
+            dot = select_unpredictable(is_better, m.dot, dot);
+            cross = select_unpredictable(is_better, m.cross, cross);
+        }
+        best.filter(|_| is_sure)
     }
 }
 

@@ -163,7 +163,7 @@ fn in_circle_ties_are_decided_for_distinct_points() {
 /// The static filters may never say more than is true, whatever box or grid they are given.
 #[test]
 fn pencils_with_static_filters_are_exact() {
-    let mut told = 0;
+    let (mut told, mut chosen) = (0, 0);
     tuples(4, 60_000, |name, [l, r, p, q]| {
         let points = [l, r, p, q];
         let extent = |k: usize| {
@@ -182,6 +182,13 @@ fn pencils_with_static_filters_are_exact() {
             sign(exact::in_circle(l, r, p, q)),
             "{name}: {points:?}"
         );
+        // Of two points above the base the one inside of the other's circle, whatever is below.
+        let turns = [p, q].map(|m| exact::orient2d(l, r, m) > 0);
+        let is_p = turns[0] && !(turns[1] && exact::in_circle(l, r, p, q) > 0);
+        if let Some(k) = pencil.apex([p, q].into_iter(), &filter) {
+            chosen += 1;
+            assert!(turns[k] && is_p == (k == 0), "{name}: {points:?}");
+        }
         if let Some(Four { turns, circle }) = Four::of(l, r, p, q, &filter) {
             told += 1;
             for (bit, [a, b, c]) in [[l, r, p], [l, r, q], [l, p, q], [r, p, q]].into_iter().enumerate() {
@@ -193,6 +200,7 @@ fn pencils_with_static_filters_are_exact() {
         }
     });
     assert!(told > part(60_000), "only {told} fours were told");
+    assert!(chosen > part(60_000), "only {chosen} apexes were told");
 }
 
 #[test]

@@ -9,7 +9,9 @@
 
 use std::fmt::Debug;
 
-use delone_predicates::{Sign, in_circle, in_power_circle, in_power_interval, orient2d, strictly_between};
+use delone_predicates::{
+    Filter, Pencil, Sign, in_circle, in_power_circle, in_power_interval, orient2d, strictly_between,
+};
 
 use crate::ids::Place;
 use crate::weight::Weight;
@@ -40,6 +42,13 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
             Sign::Zero => Self::contains_on_line(u, v, q),
             Sign::Negative => false,
         }
+    }
+
+    /// Which of some candidates is on the left of a side and in conflict with none of the others there: the apex of a hole's side. `None`
+    /// where that is not plain, or not known without asking one by one. The filter holds for all.
+    #[inline]
+    fn apex(_side: [Site<Self>; 2], _candidates: &[Site<Self>], _filter: &Filter) -> Option<usize> {
+        None
     }
 
     /// Whether a triangle is in conflict with a site. `site` gives the site of each corner that is not the ghost.
@@ -86,6 +95,11 @@ impl Kernel for NearestSites {
     #[expect(clippy::inline_always, reason = "calls are 6 % of all instructions of an insertion")]
     fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool {
         in_circle(a.0, b.0, c.0, q.0).is_positive()
+    }
+
+    #[inline]
+    fn apex([a, b]: [Site<Self>; 2], candidates: &[Site<Self>], filter: &Filter) -> Option<usize> {
+        Pencil::new(a.0, b.0).apex(candidates.iter().map(|site| site.0), filter)
     }
 }
 

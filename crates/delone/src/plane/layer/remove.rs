@@ -12,7 +12,7 @@
 //! Where no site hides another the border of the hole has all sites that its triangles can have. Under a kernel that hides sites
 //! this gives the triangulation of those that were vertices, and those that the removed one hid are inserted by the owner.
 
-use delone_predicates::orient2d;
+use delone_predicates::{Filter, orient2d};
 
 use super::Layer;
 use super::kernel::{Kernel, Site, Sites};
@@ -20,6 +20,7 @@ use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::Mesh2;
 use crate::mesh::triangles::surgery::{BorderEdge, Part};
 use crate::plane::construct;
+use crate::points::Bounds;
 use crate::tally::Tally;
 
 /// The largest degree at which looking at all candidates is cheaper than building.
@@ -145,8 +146,20 @@ impl<K: Kernel> Hole<K> {
     /// linear search, because the circles through two points are ordered.
     fn fill_small<T: Tally>(&mut self, mesh: &mut Mesh2, tally: &mut T) {
         let Self { border, sites, triangles, pending, .. } = self;
+        // Without the ghost it is filled with finite triangles, which its own small box tells apart.
+        let filter = border.iter().all(|(v, _)| !v.is_ghost()).then(|| {
+            let [width, height] = Bounds::of(sites.iter().map(|site| site.0)).extent();
+            Filter::for_box(width, height, None)
+        });
         mesh.fill_hole(border, triangles, pending, (), |first, last, ()| {
-            (apex::<K, T>(border, sites, first, last, tally), (), ())
+            let (side, between) = ([sites[last], sites[first]], &sites[first + 1..last]);
+            let plain = filter.as_ref().and_then(|filter| K::apex(side, between, filter));
+            let Some(k) = plain else { return (apex::<K, T>(border, sites, first, last, tally), (), ()) };
+            for _ in between {
+                tally.orientation();
+                tally.in_circle();
+            }
+            (first + 1 + k, (), ())
         });
     }
 
