@@ -67,25 +67,26 @@ impl Pencil {
         }
     }
 
-    /// Which of some points is above the base and has none of the others that are above inside of its circle, if floating point
-    /// can tell all of that: `None` if not, or if none is above.
+    /// Which of some points is above the base and has none of the others that are above inside of its circle, and how many are above; if
+    /// floating point can tell all of that: `None` if not, or if none is above.
     ///
     /// Whether a point is better than those before is chance: it is selected, and not branched on.
     #[inline]
-    pub fn apex(&self, points: impl Iterator<Item = Point2>, filter: &Filter) -> Option<usize> {
+    pub fn apex(&self, points: impl Iterator<Item = Point2>, filter: &Filter) -> Option<(usize, usize)> {
         // So far the circle is the half-plane above.
         let (mut best, mut dot, mut cross) = (None, f64::INFINITY, 0.0);
-        let mut is_sure = true;
+        let (mut is_sure, mut above) = (true, 0);
         for (k, q) in points.enumerate() {
             let m = self.member(q);
             let circle = dot * m.cross - m.dot * cross;
             is_sure &= filter.tells_orient(m.cross) & ((m.cross < 0.0) | filter.tells_circle(circle));
+            above += usize::from(m.cross > 0.0);
             let is_better = (m.cross > 0.0) & (circle > 0.0);
             best = select_unpredictable(is_better, Some(k), best);
             dot = select_unpredictable(is_better, m.dot, dot);
             cross = select_unpredictable(is_better, m.cross, cross);
         }
-        best.filter(|_| is_sure)
+        best.filter(|_| is_sure).map(|best| (best, above))
     }
 }
 

@@ -185,9 +185,10 @@ fn pencils_with_static_filters_are_exact() {
         // Of two points above the base the one inside of the other's circle, whatever is below.
         let turns = [p, q].map(|m| exact::orient2d(l, r, m) > 0);
         let is_p = turns[0] && !(turns[1] && exact::in_circle(l, r, p, q) > 0);
-        if let Some(k) = pencil.apex([p, q].into_iter(), &filter) {
+        if let Some((k, above)) = pencil.apex([p, q].into_iter(), &filter) {
             chosen += 1;
             assert!(turns[k] && is_p == (k == 0), "{name}: {points:?}");
+            assert_eq!(above, turns.into_iter().map(usize::from).sum(), "{name}: {points:?}");
         }
         if let Some(Four { turns, circle }) = Four::of(l, r, p, q, &filter) {
             told += 1;

@@ -44,10 +44,10 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
         }
     }
 
-    /// Which of some candidates is on the left of a side and in conflict with none of the others there: the apex of a hole's side. `None`
-    /// where that is not plain, or not known without asking one by one. The filter holds for all.
+    /// Which of some candidates is on the left of a side and in conflict with none of the others there: the apex of a hole's side; and how
+    /// many are there. `None` where that is not plain, or not known without asking one by one. The filter holds for all.
     #[inline]
-    fn apex(_side: [Site<Self>; 2], _candidates: &[Site<Self>], _filter: &Filter) -> Option<usize> {
+    fn apex(_side: [Site<Self>; 2], _candidates: &[Site<Self>], _filter: &Filter) -> Option<(usize, usize)> {
         None
     }
 
@@ -98,7 +98,7 @@ impl Kernel for NearestSites {
     }
 
     #[inline]
-    fn apex([a, b]: [Site<Self>; 2], candidates: &[Site<Self>], filter: &Filter) -> Option<usize> {
+    fn apex([a, b]: [Site<Self>; 2], candidates: &[Site<Self>], filter: &Filter) -> Option<(usize, usize)> {
         Pencil::new(a.0, b.0).apex(candidates.iter().map(|site| site.0), filter)
     }
 }

@@ -153,12 +153,14 @@ impl<K: Kernel> Hole<K> {
         });
         mesh.fill_hole(border, triangles, pending, (), |first, last, ()| {
             let (side, between) = ([sites[last], sites[first]], &sites[first + 1..last]);
-            let plain = filter.as_ref().and_then(|filter| K::apex(side, between, filter));
-            let Some(k) = plain else { return (apex::<K, T>(border, sites, first, last, tally), (), ()) };
-            for _ in between {
-                tally.orientation();
-                tally.in_circle();
-            }
+            // The only one needs no test.
+            let filter = filter.as_ref().filter(|_| between.len() > 1);
+            let plain = filter.and_then(|filter| K::apex(side, between, filter));
+            let Some((k, above)) = plain else {
+                return (apex::<K, T>(border, sites, first, last, tally), (), ());
+            };
+            between.iter().for_each(|_| tally.orientation());
+            (1..above).for_each(|_| tally.in_circle());
             (first + 1 + k, (), ())
         });
     }
