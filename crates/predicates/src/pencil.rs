@@ -81,7 +81,7 @@ impl Pencil {
             let circle = dot * m.cross - m.dot * cross;
             is_sure &= filter.tells_orient(m.cross) & ((m.cross < 0.0) | filter.tells_circle(circle));
             above += usize::from(m.cross > 0.0);
-            let is_better = (m.cross > 0.0) & (circle > 0.0);
+            let is_better = u8::from(m.cross > 0.0) & u8::from(circle > 0.0) != 0;
             best = select_unpredictable(is_better, Some(k), best);
             dot = select_unpredictable(is_better, m.dot, dot);
             cross = select_unpredictable(is_better, m.cross, cross);
