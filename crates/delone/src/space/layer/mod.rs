@@ -44,7 +44,7 @@ pub(in crate::space) struct Layer<W: Lift = ()> {
     pub(in crate::space) scaffold: Vec<Place>,
     pub(in crate::space) cavity: Cavity,
     pub(in crate::space) hole: Hole,
-    wrap: Wrap,
+    wrap: Option<Box<Wrap>>,
     /// What holes are filled with.
     pub(in crate::space) fill: Option<Box<Layer<W>>>,
 }

@@ -38,10 +38,11 @@ impl<W: Lift> Layer<W> {
         let mut hole = std::mem::take(&mut self.hole);
         self.mesh.star(v, &mut hole.cells);
         let (filled, created) = if Wrap::suits(&self.mesh, &hole.cells) {
-            let mut wrap = std::mem::take(&mut self.wrap);
+            let mut wrap = self.wrap.take().unwrap_or_default();
             let filled = wrap.fill(self, v, &hole.cells).map_or(Filled::NoRoom, |()| Filled::All);
-            self.wrap = wrap;
-            (filled, self.wrap.count())
+            let created = wrap.count();
+            self.wrap = Some(wrap);
+            (filled, created)
         } else {
             let mut fill = self.fill.take().unwrap_or_default();
             let filled = self.fill_apart(v, &mut hole, &mut fill);
