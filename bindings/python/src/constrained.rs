@@ -7,12 +7,11 @@ use delone::{
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
-use crate::pool::{FEW, detached};
+use crate::pool::{FEW, detached, is_many, shared};
 use crate::triangulation::{Rows, State, coordinates, table};
 
 /// Bytes that a segment takes, the input apart.
@@ -240,14 +239,7 @@ impl Constrained {
             let ends = met.map(|e| [c.mesh().origin(e), c.mesh().destination(e)]);
             Ok(ends.map_or([-1; 2], |ends| ends.map(|v| v.index() as i64)))
         };
-        let is_many = lines.len() >= 2 * SIGHTS;
-        let found: PyResult<Vec<[i64; 2]>> = detached(py, is_many, || {
-            if is_many {
-                lines.par_iter().with_min_len(SIGHTS).map(first).collect()
-            } else {
-                lines.iter().map(first).collect()
-            }
-        })?;
+        let found = detached(py, is_many(&lines, SIGHTS), || shared(&lines, SIGHTS, first))?;
         PyArray1::from_vec(py, found?.into_flattened()).reshape([lines.len(), 2])
     }
 

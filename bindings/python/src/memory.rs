@@ -36,6 +36,16 @@ impl Need {
     }
 }
 
+/// Room for k numbers for each query; the answer may be larger than memory.
+pub fn room_for_neighbors<T>(queries: usize, k: usize) -> PyResult<Vec<T>> {
+    let mut room = Vec::new();
+    let size = queries.checked_mul(k);
+    if size.is_none_or(|size| room.try_reserve_exact(size).is_err()) {
+        return Err(PyMemoryError::new_err(format!("{queries} times {k} neighbours")));
+    }
+    Ok(room)
+}
+
 /// Refuses results of so many bytes if there is no memory for them.
 pub fn room(bytes: usize, what: &str) -> PyResult<()> {
     let mut room = Vec::<u8>::new();

@@ -2,14 +2,12 @@
 
 use delone::{Error, Neighbors2, Neighbors3};
 use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
-use crate::memory::NEIGHBORS;
-use crate::pool::detached;
+use crate::memory::{NEIGHBORS, room_for_neighbors};
+use crate::pool::{detached, is_many, shared};
 use crate::triangulation::coordinates;
 
 /// Queries that one task answers.
@@ -67,7 +65,7 @@ impl Neighbors {
         queries: PyReadonlyArray2<'py, f64>,
         k: usize,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let mut padded = room::<i64>(queries.shape()[0], k)?;
+        let mut padded = room_for_neighbors::<i64>(queries.shape()[0], k)?;
         for found in answers!(self, py, queries, tree, q => tree.k_nearest(q, k))? {
             let missing = k - found.len();
             padded.extend(found.into_iter().map(|i| i as i64));
@@ -86,8 +84,10 @@ impl Neighbors {
         k: usize,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i64>>)> {
         let [count, columns] = [points.shape()[0], points.shape()[1]];
-        let (mut distances, mut indices) =
-            (room::<f64>(queries.shape()[0], k)?, room::<i64>(queries.shape()[0], k)?);
+        let (mut distances, mut indices) = (
+            room_for_neighbors::<f64>(queries.shape()[0], k)?,
+            room_for_neighbors::<i64>(queries.shape()[0], k)?,
+        );
         let points = points.as_slice()?;
         let distance = |i: usize, q: &[f64]| {
             let p = &points[i * columns..][..columns];
@@ -129,29 +129,12 @@ impl Neighbors {
     }
 }
 
-/// Room for k numbers a query; the answer may be larger than memory.
-fn room<T>(queries: usize, k: usize) -> PyResult<Vec<T>> {
-    let mut room = Vec::new();
-    let size = queries.checked_mul(k);
-    if size.is_none_or(|size| room.try_reserve_exact(size).is_err()) {
-        return Err(PyMemoryError::new_err(format!("{queries} times {k} neighbours")));
-    }
-    Ok(room)
-}
-
 /// The answers to queries, in their order, on all threads if they are many. The first error that any query has.
-fn answers<Q: Copy + Send + Sync, A: Send>(
+fn answers<Q: Copy + Sync, A: Send>(
     py: Python<'_>,
     queries: &[Q],
     answer: impl Fn(Q) -> Result<A, Error> + Sync + Send,
 ) -> PyResult<Vec<A>> {
-    let is_many = queries.len() >= 2 * QUERIES;
-    let found: Result<Vec<A>, Error> = detached(py, is_many, || {
-        if is_many {
-            queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
-        } else {
-            queries.iter().map(|&q| answer(q)).collect()
-        }
-    })?;
-    found.map_err(python_error)
+    detached(py, is_many(queries, QUERIES), || shared(queries, QUERIES, |&q| answer(q)))?
+        .map_err(python_error)
 }

@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// Work on fewer items is done where it is asked for: the library cuts it into one part, and asks for no threads.
@@ -66,4 +67,23 @@ pub fn after_fork() {
 /// Does work without Python's lock, if it is long on all threads.
 pub fn detached<T: Send>(py: Python<'_>, is_long: bool, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     py.detach(|| if is_long { Ok(pool()?.install(work)) } else { Ok(work()) })
+}
+
+/// Whether so many items are worth the threads, if a task takes as many.
+pub fn is_many<I>(items: &[I], task: usize) -> bool {
+    items.len() >= 2 * task
+}
+
+/// What work says of all items, in their order, in tasks of as many if they are enough; the first error of any. To be called where
+/// [`detached`] has gone to.
+pub fn shared<I: Sync, A: Send, E: Send>(
+    items: &[I],
+    task: usize,
+    work: impl Fn(&I) -> Result<A, E> + Sync + Send,
+) -> Result<Vec<A>, E> {
+    if is_many(items, task) {
+        items.par_iter().with_min_len(task).map(work).collect()
+    } else {
+        items.iter().map(work).collect()
+    }
 }

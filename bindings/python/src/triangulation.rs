@@ -11,12 +11,11 @@ use delone::{
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
-use crate::memory::TRIANGULATION;
-use crate::pool::{FEW, detached, generation};
+use crate::memory::{TRIANGULATION, room_for_neighbors};
+use crate::pool::{FEW, detached, generation, is_many, shared};
 
 /// Queries that one task answers.
 const QUERIES: usize = 1024;
@@ -251,13 +250,8 @@ impl<T: Ask> State<T> {
         queries: &[T::Point],
         answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
     ) -> PyResult<Vec<A>> {
-        let is_many = queries.len() >= 2 * QUERIES;
-        self.asking(py, is_many, queries.is_empty(), || {
-            if is_many {
-                queries.par_iter().with_min_len(QUERIES).map(|&q| answer(q)).collect()
-            } else {
-                queries.iter().map(|&q| answer(q)).collect()
-            }
+        self.asking(py, is_many(queries, QUERIES), queries.is_empty(), || {
+            shared(queries, QUERIES, |&q| answer(q))
         })
     }
 
@@ -309,12 +303,7 @@ impl<T: Ask> State<T> {
     }
 
     pub fn k_nearest(&self, py: Python<'_>, queries: Vec<T::Point>, k: usize) -> PyResult<Vec<i64>> {
-        // The answer may be larger than memory.
-        let mut padded = Vec::new();
-        let size = queries.len().checked_mul(k);
-        if size.is_none_or(|size| padded.try_reserve_exact(size).is_err()) {
-            return Err(PyMemoryError::new_err(format!("{} times {k} neighbours", queries.len())));
-        }
+        let mut padded = room_for_neighbors(queries.len(), k)?;
         let most = k.min(self.triangulation.vertex_count());
         let found = self.answers(py, &queries, |q| self.triangulation.k_nearest(q, most))?;
         for found in found {

@@ -47,6 +47,15 @@ pub(crate) fn map<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Send 
     tasks.into_iter().map(work).collect()
 }
 
+/// The same for tasks that so many items are shared among: one after the other if threads are not worth it.
+pub(crate) fn share<T: Send, R: Send>(
+    items: usize,
+    tasks: Vec<T>,
+    work: impl Fn(T) -> R + Send + Sync,
+) -> Vec<R> {
+    if parts(items) > 1 { map(tasks, work) } else { tasks.into_iter().map(work).collect() }
+}
+
 /// Does work on so many items on one of the threads, if several are worth it: where it hands out tasks again and again, none of them has to
 /// wake another thread and wait for it.
 pub(crate) fn inside<R: Send>(items: usize, work: impl FnOnce() -> R + Send) -> R {
@@ -105,8 +114,13 @@ fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -
 
 /// The indices of items, in as many ranges as work on them is cut into.
 pub(crate) fn ranges(items: usize) -> Vec<std::ops::Range<usize>> {
+    even_ranges(items, parts(items))
+}
+
+/// Nearly equal ranges of indices.
+pub(crate) fn even_ranges(count: usize, parts: usize) -> Vec<std::ops::Range<usize>> {
     let mut from = 0;
-    even_ends(items, parts(items)).into_iter().map(|to| std::mem::replace(&mut from, to)..to).collect()
+    even_ends(count, parts).into_iter().map(|to| std::mem::replace(&mut from, to)..to).collect()
 }
 
 /// Cuts a slice into parts that end at given positions, increasing, the last at the end of the slice.

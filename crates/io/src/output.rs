@@ -40,11 +40,11 @@ pub fn remove_unfinished() {
 /// Locks what another thread mostly holds for no longer than it takes to make a file; but whoever holds it may be the one that was stopped.
 fn lock_soon<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     const TRIES: usize = 200;
-    (0..TRIES).find_map(|k| match mutex.try_lock() {
+    (0..TRIES).find_map(|_| match mutex.try_lock() {
         Ok(guard) => Some(guard),
         Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
         Err(TryLockError::WouldBlock) => {
-            std::thread::sleep(Duration::from_millis(if k + 1 < TRIES { 5 } else { 0 }));
+            std::thread::sleep(Duration::from_millis(5));
             None
         }
     })

@@ -320,12 +320,8 @@ class ConstrainedDelaunay:
 
     def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
         """The k nearest vertices, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
-        k = as_index(k, "k")
-        if k < 1:
-            raise ValueError(f"k must be at least 1, not {k}")
         queries, shape = as_queries(xi, 2)
-        if k >= 2**62:
-            raise MemoryError(f"{len(queries)} times {k} neighbours")
+        k = as_count(k, len(queries))
         return self._core.k_nearest(queries, k).reshape((*shape, k))
 
     def first_constraint(self, a: ArrayLike, b: ArrayLike) -> NDArray[np.int64]:

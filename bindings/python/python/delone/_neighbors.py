@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._points import as_index, as_points, as_queries
+from ._points import as_count, as_points, as_queries
 
 
 class Neighbors:
@@ -75,7 +75,7 @@ class Neighbors:
     def k_nearest(self, xi: ArrayLike, k: int) -> NDArray[np.int64]:
         """The k nearest points, nearest first, with one more axis than `nearest`; -1 where there are not so many."""
         queries, shape = as_queries(xi, self.ndim)
-        k = _as_count(k, len(queries))
+        k = as_count(k, len(queries))
         return self._core.k_nearest(queries, k).reshape((*shape, k))
 
     def within(self, xi: ArrayLike, radius: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -99,17 +99,7 @@ class Neighbors:
         distance is infinite and the index is the number of points.
         """
         queries, shape = as_queries(x, self.ndim)
-        k = _as_count(k, len(queries))
+        k = as_count(k, len(queries))
         distances, indices = self._core.query(self._points, queries, k)
         rows = shape if k == 1 else (*shape, k)
         return distances.reshape(rows)[()], indices.reshape(rows)[()]
-
-
-def _as_count(k: int, queries: int) -> int:
-    """How many neighbours each of so many queries is to have."""
-    k = as_index(k, "k")
-    if k < 1:
-        raise ValueError(f"k must be at least 1, not {k}")
-    if k >= 2**62:
-        raise MemoryError(f"{queries} times {k} neighbours")
-    return k

@@ -131,6 +131,16 @@ def as_index(value: Any, what: str) -> int:
     raise TypeError(f"{what} must be an integer, not {value!r}")
 
 
+def as_count(k: Any, queries: int) -> int:
+    """How many neighbours each of so many queries is to have: at least one."""
+    k = as_index(k, "k")
+    if k < 1:
+        raise ValueError(f"k must be at least 1, not {k}")
+    if k >= 2**62:
+        raise MemoryError(f"{queries} times {k} neighbours")
+    return int(k)
+
+
 def as_flag(value: Any, what: str) -> bool:
     """True or False, or the numbers 1 and 0."""
     if isinstance(value, (bool, np.bool_)) or (isinstance(value, (int, np.integer)) and value in (0, 1)):

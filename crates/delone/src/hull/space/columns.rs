@@ -5,7 +5,7 @@
 //! roundings, but neither differences nor products fall as a coordinate grows: there is a least coordinate that is not before a cell, and
 //! the lattice has its lines there. So no point inside of a column is outside of the body, nor a corner of it.
 //!
-//! Cost: O(1) for each facet and each line of the lattice; two reads for a point.
+//! Cost: O(1) for each facet and each line of the lattice in its box, up to a bound; two reads for a point.
 
 use delone_predicates::{orient2d, orient3d};
 
@@ -26,12 +26,13 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Those in a hull, over so many cells along each axis; nothing where cells could not be told apart.
-    pub(super) fn inside(hull: &Shell, cells: usize) -> Option<Self> {
+    /// Those in a hull, over so many cells along each axis; nothing where cells could not be told apart, or where the facets have more
+    /// lines in their boxes than may be looked at.
+    pub(super) fn inside(hull: &Shell, cells: usize, most_looks: usize) -> Option<Self> {
         let [x, y, z] = hull.limits;
         let (x, y) = (Axis::new(x, cells)?, Axis::new(y, cells)?);
         let lines = Lines { x: x.lines(), y: y.lines(), margin: (z.1 - z.0) * MARGIN };
-        let inside = lines.inside(hull, &x, &y);
+        let inside = lines.inside(hull, &x, &y, most_looks)?;
         let mut ends = vec![NOWHERE; cells * cells];
         // The first and the last cells have no ends.
         for row in 1..cells - 1 {
@@ -104,9 +105,11 @@ struct Lines {
 }
 
 impl Lines {
-    /// For each line, row by row, heights between which it is strictly inside of a hull.
-    fn inside(&self, hull: &Shell, x: &Axis, y: &Axis) -> Vec<(f64, f64)> {
+    /// For each line, row by row, heights between which it is strictly inside of a hull. Long thin facets at a slant have most lines of the
+    /// lattice in their boxes, and there may be thousands of them.
+    fn inside(&self, hull: &Shell, x: &Axis, y: &Axis, most_looks: usize) -> Option<Vec<(f64, f64)>> {
         let mut ends = vec![NOWHERE; self.x.len() * self.y.len()];
+        let mut left = most_looks;
         for facet in hull.facets.iter().filter(|facet| facet.alive) {
             let corners @ [a, b, c] = facet.corners.map(|i| hull.points[i as usize]);
             let flat = corners.map(|p| [p[0], p[1]]);
@@ -122,8 +125,10 @@ impl Lines {
                 let [first, last] = [of.iter().min(), of.iter().max()].map(|cell| cell.copied().unwrap_or(0));
                 first.max(1) - 1..last
             };
-            for row in range(y, 1) {
-                for column in range(x, 0) {
+            let (rows, columns) = (range(y, 1), range(x, 0));
+            left = left.checked_sub(rows.len() * columns.len())?;
+            for row in rows {
+                for column in columns.clone() {
                     let q = [self.x[column], self.y[row]];
                     let is_beside = |i: usize| {
                         let side = orient2d(flat[i], flat[(i + 1) % 3], q);
@@ -140,7 +145,7 @@ impl Lines {
                 }
             }
         }
-        ends
+        Some(ends)
     }
 }
 
@@ -181,7 +186,7 @@ mod tests {
                 .collect();
             let Start::Tetrahedron(corners) = Start::of(&points) else { panic!("they span space") };
             let hull = Quickhull::new(points.clone(), corners).finish();
-            let Some(columns) = Columns::inside(&hull, 12) else {
+            let Some(columns) = Columns::inside(&hull, 12, usize::MAX) else {
                 assert!(!is_plain);
                 continue;
             };
@@ -205,6 +210,16 @@ mod tests {
             }
             assert!(held > 100 || !is_plain, "{held}");
         }
+    }
+
+    #[test]
+    fn slanted_facets_are_too_many_looks() {
+        let arc = (-200..200).map(|i| f64::from(i) / 200.0).map(|x| [x, x, 1.0 - x * x]);
+        let points: Vec<_> = arc.chain([[1.0, -1.0, 0.0], [-1.0, 1.0, 0.0]]).collect();
+        let Start::Tetrahedron(corners) = Start::of(&points) else { panic!("they span space") };
+        let hull = Quickhull::new(points, corners).finish();
+        assert!(Columns::inside(&hull, 100, 1_000_000).is_none());
+        assert!(Columns::inside(&hull, 100, 10_000_000).is_some());
     }
 
     #[test]

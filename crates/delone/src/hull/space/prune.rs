@@ -4,7 +4,7 @@
 //! Here these are the corners of the hull of a sample, and what is tested are columns inside of that hull (`columns.rs`), which takes
 //! two comparisons a point. The hull of the sample is found in the same way, and the columns decide exactly, so nothing is lost.
 //!
-//! Cost: O(n), one pass, and a hull of O(n^(2/3)) points.
+//! Cost: O(n), one pass, and a hull of O(n^(2/3)) points; the columns are looked for with O(n) decisions, or not at all.
 
 use super::columns::Columns;
 use super::quickhull::Quickhull;
@@ -26,7 +26,7 @@ pub(super) fn candidates(points: &[[f64; 3]]) -> Option<Vec<u32>> {
     // Of a ball, a sample of m leaves 3 n / sqrt(m) points, and k cells along an axis leave 6 n / k.
     let root = (points.len() as f64).cbrt();
     let cells = ((2.0 * root) as usize).min(MOST_CELLS);
-    let columns = Columns::inside(&hull(every(points, (root / 2.0) as usize))?, cells)?;
+    let columns = Columns::inside(&hull(every(points, (root / 2.0) as usize))?, cells, points.len())?;
     let mut kept = vec![0; points.len()];
     let mut count = 0;
     for (p, i) in points.iter().zip(0..) {

@@ -77,8 +77,9 @@ impl Wrap {
         self.set_border(layer, v, star);
         self.cells.clear();
         while let Some((facet, outer)) = self.open.pop().zip(self.outer.pop()) {
-            let slot = star.get(self.cells.len()).copied().or_else(|| layer.mesh.new_cell());
-            let (Some(apex), Some(t)) = (self.apex(layer, facet), slot) else {
+            let apex = self.apex(layer, facet);
+            let mut slot = || star.get(self.cells.len()).copied().or_else(|| layer.mesh.new_cell());
+            let Some((apex, t)) = apex.and_then(|apex| Some((apex, slot()?))) else {
                 self.cells.iter().skip(star.len()).for_each(|cell| layer.mesh.free_cell(cell.0));
                 return None;
             };

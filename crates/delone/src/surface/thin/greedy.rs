@@ -59,8 +59,10 @@ impl<'a, S: Samples> Greedy<'a, S> {
             // All samples once more, without a bound: what was left out wrongly would be seen here.
             let (error, missed) = self.prove(allowed);
             let before = self.vertices.len();
-            if before < max_points {
-                missed.into_iter().for_each(|(t, sample)| self.choose(sample, t));
+            for (t, sample) in missed {
+                if self.vertices.len() < max_points {
+                    self.choose(sample, t);
+                }
             }
             if self.vertices.len() == before {
                 return Thinned { vertices: self.vertices.into_iter().map(|s| s as usize).collect(), error };
@@ -106,14 +108,9 @@ impl<'a, S: Samples> Greedy<'a, S> {
         fresh.dedup();
         let this = &*self;
         let worst = |&t: &u32| this.samples.worst(this.corners(t), allowed);
-        let found: Vec<Option<(f64, u32)>> =
-            if fresh.len() > TASK && parallel::parts(self.samples.count()) > 1 {
-                let tasks = fresh.chunks(TASK).collect();
-                parallel::map(tasks, |task: &[u32]| task.iter().map(worst).collect::<Vec<_>>()).concat()
-            } else {
-                fresh.iter().map(worst).collect()
-            };
-        for (&t, worst) in fresh.iter().zip(found) {
+        let all = |task: &[u32]| -> Vec<Option<(f64, u32)>> { task.iter().map(worst).collect() };
+        let found = parallel::share(self.samples.count(), fresh.chunks(TASK).collect(), all);
+        for (&t, worst) in fresh.iter().zip(found.into_iter().flatten()) {
             if let Some((error, sample)) = worst
                 && error > allowed
             {
@@ -133,16 +130,14 @@ impl<'a, S: Samples> Greedy<'a, S> {
         let count = self.samples.count();
         let seen: Vec<AtomicBool> = std::iter::repeat_with(AtomicBool::default).take(count).collect();
         let triangles = self.mesh.triangles.len();
-        let tasks = parallel::even_ends(triangles, parallel::parts(count))
-            .into_iter()
-            .scan(0, |from, to| Some(std::mem::replace(from, to)..to));
+        let tasks = parallel::even_ranges(triangles, parallel::parts(count));
         let judge = |triangles: Range<usize>| {
             let mut verdict = Verdict::new(allowed, &seen);
             triangles.map(|t| t as u32).for_each(|t| self.samples.judge(self.corners(t), t, &mut verdict));
             verdict
         };
         let mut verdict = Verdict::new(allowed, &seen);
-        for part in parallel::map(tasks.collect(), judge) {
+        for part in parallel::map(tasks, judge) {
             verdict.largest = verdict.largest.max(part.largest);
             verdict.missed.extend(part.missed);
         }

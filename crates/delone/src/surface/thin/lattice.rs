@@ -99,12 +99,8 @@ impl<'a> Lattice<'a> {
         let blocks = |rows: &[f64]| -> Vec<Block> {
             (0..columns).step_by(SIDE).map(|k| Block::new(rows, stride, k..columns)).collect()
         };
-        let bands = padded.chunks(stride * SIDE);
-        let blocks = if parallel::parts(values.len()) > 1 {
-            parallel::map(bands.collect(), blocks).concat()
-        } else {
-            bands.flat_map(blocks).collect()
-        };
+        let bands = padded.chunks(stride * SIDE).collect();
+        let blocks = parallel::share(values.len(), bands, blocks).concat();
         Self { grid, columns, values: padded, stride, blocks, over: 1.0 / columns as f64 }
     }
 
