@@ -26,7 +26,8 @@ pub(super) fn candidates(points: &[[f64; 3]]) -> Option<Vec<u32>> {
     // Of a ball, a sample of m leaves 3 n / sqrt(m) points, and k cells along an axis leave 6 n / k.
     let root = (points.len() as f64).cbrt();
     let cells = ((2.0 * root) as usize).min(MOST_CELLS);
-    let columns = Columns::inside(&hull(every(points, (root / 2.0) as usize))?, cells, points.len())?;
+    let most_looks = points.len() + 8 * cells * cells;
+    let columns = Columns::inside(&hull(every(points, (root / 2.0) as usize))?, cells, most_looks)?;
     let mut kept = vec![0; points.len()];
     let mut count = 0;
     for (p, i) in points.iter().zip(0..) {
