@@ -239,7 +239,8 @@ impl Constrained {
             let ends = met.map(|e| [c.mesh().origin(e), c.mesh().destination(e)]);
             Ok(ends.map_or([-1; 2], |ends| ends.map(|v| v.index() as i64)))
         };
-        let found = detached(py, is_many(&lines, SIGHTS), || shared(&lines, SIGHTS, first))?;
+        let found: PyResult<Vec<[i64; 2]>> =
+            detached(py, is_many(&lines, SIGHTS), || shared(&lines, SIGHTS, first))?;
         PyArray1::from_vec(py, found?.into_flattened()).reshape([lines.len(), 2])
     }
 
