@@ -1,21 +1,26 @@
 //! Exact signs in machine integers: coordinates scaled to a common power of two that fit 61 bits.
+//! Scaled in floating point, which is exact or is seen not to be; tiny ones bit by bit.
 //!
 //! Differences then fit 62 bits and a sign, dot and cross products 125, and the in-circle determinant
 //! compares two products of 250 bits.
 
 use std::cmp::Ordering;
 
-use super::decode;
+use super::{TINY, decode, scale_to_bits, to_integers};
 use crate::Sign;
 
-/// The coordinates as integers on their common scale, if they fit 61 bits.
+/// The coordinates as integers on a common scale, if they fit 61 bits.
+#[inline]
 fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
+    if coordinates.iter().any(|x| x.abs() > TINY) {
+        return to_integers(coordinates, scale_to_bits(coordinates, 61)?);
+    }
     let mut aligned = [0; N];
     align_into(coordinates, &mut aligned)?;
     Some(aligned)
 }
 
-/// The same for any number of them; what is zero is left as it is.
+/// The same for any number and of any size; what is zero is left as it is.
 pub(crate) fn align_into(coordinates: &[f64], aligned: &mut [i64]) -> Option<()> {
     let scale = coordinates.iter().map(|&x| decode(x).1).min().unwrap_or(0);
     for (out, &x) in aligned.iter_mut().zip(coordinates) {
@@ -116,7 +121,7 @@ fn wide_product(x: u128, y: u128) -> (u128, u128) {
 
 #[cfg(test)]
 mod tests {
-    use super::{align, wide_product};
+    use super::{align, align_into, wide_product};
 
     #[test]
     fn products_of_the_largest_factors() {
@@ -143,7 +148,30 @@ mod tests {
         assert_eq!(align(&[1.0, 2f64.powi(60)]), Some([1, 1 << 60]));
         assert_eq!(align(&[1.0, 2f64.powi(61)]), None);
         assert_eq!(align(&[0.0, 1e300]).map(|x| x[0]), Some(0));
-        assert_eq!(align(&[0.5, -0.75]), Some([2, -3]));
+        assert_eq!(align(&[0.5, -0.75]), Some([2, -3].map(|x| x << 59)));
         assert_eq!(align(&[1e-300, 1e300]), None);
+        assert_eq!(align(&[0.0; 2]), Some([0; 2]));
+    }
+
+    #[test]
+    fn both_ways_of_aligning_agree() {
+        let mut random = delone_generators::Random::new(5);
+        let mut fit = [0; 2];
+        for _ in 0..20_000 {
+            let numbers: [f64; 4] = std::array::from_fn(|_| {
+                let size = 2f64.powi(random.below(12) as i32 - if random.below(9) == 0 { 1074 } else { 1 });
+                [-0.0, size, random.between(-2.0, 2.0) * size][random.below(30).min(2)]
+            });
+            let mut aligned = [0; 4];
+            let general = align_into(&numbers, &mut aligned).map(|()| aligned);
+            // On scales that differ by a power of two.
+            let odd = |x: [i64; 4]| {
+                let shift = x.iter().map(|x| x.trailing_zeros()).min().unwrap_or(0);
+                x.map(|x| x.checked_shr(shift).unwrap_or(0))
+            };
+            assert_eq!(align(&numbers).map(odd), general.map(odd), "{numbers:?}");
+            fit[usize::from(general.is_some())] += 1;
+        }
+        assert!(fit.iter().all(|&fit| fit > 1000), "{fit:?}");
     }
 }

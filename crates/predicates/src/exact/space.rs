@@ -6,32 +6,13 @@
 
 use std::cmp::Ordering;
 
+use super::{scale_to_bits, to_integers};
 use crate::Sign;
-
-/// The logarithm of the largest coordinate.
-const BITS: i32 = 60;
 
 /// The coordinates as integers on a common scale, if they fit.
 #[inline]
 fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
-    let mut largest = 0.0_f64;
-    for x in coordinates {
-        largest = largest.max(x.abs());
-    }
-    let exponent = (largest.to_bits() >> 52) as i32 - 1023;
-    if !(-900..=900).contains(&exponent) {
-        return None;
-    }
-    let scale = f64::from_bits(((1023 + BITS - 1 - exponent) as u64) << 52);
-    let mut aligned = [0; N];
-    let mut exact = true;
-    for (out, x) in aligned.iter_mut().zip(coordinates) {
-        // Exact, being a product with a power of two; unless it is subnormal, and then it is no integer.
-        let scaled = x * scale;
-        *out = scaled as i64;
-        exact &= *out as f64 == scaled && (*out != 0 || *x == 0.0);
-    }
-    exact.then_some(aligned)
+    to_integers(coordinates, scale_to_bits(coordinates, 60)?)
 }
 
 /// A vector, with its squared length.
