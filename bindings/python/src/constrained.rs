@@ -240,7 +240,7 @@ impl Constrained {
             Ok(ends.map_or([-1; 2], |ends| ends.map(|v| v.index() as i64)))
         };
         let found: PyResult<Vec<[i64; 2]>> =
-            detached(py, is_many(&lines, SIGHTS), || shared(&lines, SIGHTS, first))?;
+            detached(py, is_many(lines, SIGHTS), || shared(lines, SIGHTS, first))?;
         PyArray1::from_vec(py, found?.into_flattened()).reshape([lines.len(), 2])
     }
 
