@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
-from ._points import as_choice, as_flag, as_index, as_numbers, as_points, as_queries, as_segments
+from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries, as_segments
 
 T = TypeVar("T")
 

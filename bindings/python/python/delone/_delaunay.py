@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._options import parse
-from ._points import as_flag, as_index, as_indices, as_points, as_queries
+from ._points import as_count, as_flag, as_indices, as_points, as_queries
 from ._simplices import neighbors_of, transforms
 
 T = TypeVar("T")
