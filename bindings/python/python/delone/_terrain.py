@@ -249,9 +249,10 @@ def simplify(
 ) -> Simplified:
     """Few of many points with heights, such that the triangles of these few are nowhere far from any of the others.
 
-    Greedy insertion: the corners of the hull first, then always the point that is furthest off in height; when none is too
-    far off, points that later ones made superfluous go. The result does not depend on the order of the points, nor on
-    threads. O(log n) for each point that is chosen, and the points in its star.
+    Greedy insertion: the corners of the hull first, then round after round the point of each triangle that is furthest off in
+    height, or with `max_points` always the furthest of all; when none is too far off, points that later ones made superfluous
+    go. The result does not depend on the order of the points, nor on threads. O(log n) for each point that is chosen, and the
+    points in its star.
 
     Parameters
     ----------

@@ -64,12 +64,17 @@ impl Cloud {
         let c = corners.map(|s| self.points[s as usize]);
         let plane = self.plane(corners);
         let around = [0, 1].map(|k| [c[0][k].min(c[1][k]).min(c[2][k]), c[0][k].max(c[1][k]).max(c[2][k])]);
+        // The box around a long thin triangle at a slant may hold any number of boxes that are beyond one of its sides.
+        let [u, v] = [1, 2].map(|k| [c[k][0] - c[0][0], c[k][1] - c[0][1]]);
+        let is_slanted = 16.0 * (u[0] * v[1] - u[1] * v[0])
+            < (around[0][1] - around[0][0]) * (around[1][1] - around[1][0]);
         let leaves = self.boxes.len() / 2;
         let mut stack = vec![1];
         while let Some(i) = stack.pop() {
             let Bound(bound) = &self.boxes[i];
             let both = [0, 1].map(|k| [bound[k][0].max(around[k][0]), bound[k][1].min(around[k][1])]);
-            if both.iter().any(|side| side[0] > side[1]) {
+            let is_beyond = |k: usize| self.is_beyond(both, [c[k], c[(k + 1) % 3]]);
+            if both.iter().any(|side| side[0] > side[1]) || is_slanted && (0..3).any(is_beyond) {
                 continue;
             }
             let middle = both.map(|side| side[0] / 2.0 + side[1] / 2.0);
@@ -90,6 +95,13 @@ impl Cloud {
                 }
             }
         }
+    }
+
+    /// Whether a box between coordinates of points is on the right of an edge: its corner that is furthest to the left is.
+    #[inline]
+    fn is_beyond(&self, [x, y]: [[f64; 2]; 2], [from, to]: [[f64; 2]; 2]) -> bool {
+        let corner = [x[usize::from(to[1] < from[1])], y[usize::from(to[0] > from[0])]];
+        self.filter.orient2d(from, to, corner).is_negative()
     }
 
     /// The plane over a triangle, and the least and the largest height of its corners; the corners themselves, lexicographically, if it
@@ -201,5 +213,54 @@ impl Samples for Cloud {
 
     fn error(&self, corners: Triple, sample: u32) -> f64 {
         self.distance(&self.plane(corners), sample as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use delone_generators::{Kind, Random};
+    use delone_oracle::exact;
+
+    use super::*;
+
+    /// Also in thin triangles at a slant, whose boxes have many others in them.
+    #[test]
+    fn boxes_hide_nothing() {
+        let mut random = Random::new(3);
+        let even = Kind::Uniform.points(400, 1);
+        let cross = even.iter().flat_map(|&[x, y]| [[x - 0.5, 0.0], [0.0, y - 0.5]]).collect();
+        let slope = even.iter().map(|&[x, y]| [x, x + y / 64.0]).collect();
+        for mut points in [even, cross, slope, Kind::Grid.points(400, 1)] {
+            points.sort_unstable_by(|&p, &q| lexicographic(p, q));
+            points.dedup();
+            let filter = super::super::filter(1e9, 1e9, points.as_flattened());
+            let (count, heights) = (points.len(), vec![0.0; points.len()]);
+            let cloud = Cloud::new(points, heights, filter);
+            let mut met = 0;
+            for _ in 0..3000 {
+                let mut corners = [0; 3].map(|_: u32| random.below(count) as u32);
+                let of = |corners: Triple| corners.map(|s| cloud.points[s as usize]);
+                let side = |[a, b, c]: [[f64; 2]; 3]| exact::orient2d(a, b, c);
+                if side(of(corners)) < 0 {
+                    corners.swap(0, 1);
+                }
+                let [a, b, c] = of(corners);
+                if side([a, b, c]) == 0 {
+                    continue;
+                }
+                let mut found = Vec::new();
+                cloud.enter(corners, &Cell::new(0.0), |s, _| found.push(s));
+                found.sort_unstable();
+                let is_in = |&s: &u32| {
+                    let q = cloud.points[s as usize];
+                    !corners.contains(&s)
+                        && [[a, b, q], [b, c, q], [c, a, q]].into_iter().all(|t| side(t) >= 0)
+                };
+                let inside: Vec<u32> = (0..count as u32).filter(is_in).collect();
+                assert_eq!(found, inside, "{corners:?}");
+                met += inside.len();
+            }
+            assert!(met > 1000, "{met}");
+        }
     }
 }
