@@ -21,7 +21,7 @@ small | usual | long) ;;
 esac
 mkdir -p "$folder"
 cargo build --release -q
-delone=target/release/delone
+delone=${CARGO_TARGET_DIR:-target}/release/delone
 
 # Name, and the largest set of each size.
 experiment() {
