@@ -75,7 +75,7 @@ impl Failure {
     pub(crate) fn graph(path: &Path, error: &delone::Error) -> Self {
         let help = match error {
             delone::Error::SegmentsCross { .. } => {
-                "repair the data, or split segments with --crossings split"
+                "repair the data, or split segments with --crossings split, which triangulate and mesh have"
             }
             delone::Error::NoSuchPoint { .. } => "segments name points by index, from 0",
             delone::Error::Coordinate { .. } => "seeds of holes and regions are finite points",

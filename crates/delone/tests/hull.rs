@@ -161,6 +161,18 @@ fn large_hulls_are_the_same_by_all_algorithms() {
     }
 }
 
+/// Powers of two change nothing, however far they bring products out of the range of numbers.
+#[test]
+fn scales_do_not_show() {
+    let curve: Points = (0..900).map(|i| f64::from(i) / 1024.0).map(|t| [t, t * t, t * t * t]).collect();
+    let plain = Hull3::from_points(&curve).expect("finite");
+    assert_eq!(plain.corners().len(), 900);
+    for exponent in [-900, -400, 400, 1000] {
+        let scaled: Points = curve.iter().map(|p| p.map(|x| x * 2_f64.powi(exponent))).collect();
+        assert_eq!(Hull3::from_points(&scaled).expect("finite"), plain, "2^{exponent}");
+    }
+}
+
 #[test]
 fn spans_are_told() {
     let span = |points: &[[f64; 3]]| Hull3::from_points(points).expect("finite").dimension();

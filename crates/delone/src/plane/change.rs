@@ -118,7 +118,9 @@ impl Delaunay2 {
             Spot::Vertex(place) => return Err(Error::Occupied { vertex: self.base.mesh.name(place) }),
             spot => {
                 self.names().release(v);
-                self.named.as_mut().expect("made with the names")[v.index()] = q;
+                if let Some(named) = &mut self.named {
+                    named[v.index()] = q;
+                }
                 let new = self.base.insert(spot, q, &mut ()).unwrap_or(old);
                 self.base.mesh.names().bind(v, new);
                 if let Some(locator) = self.locator.get_mut() {

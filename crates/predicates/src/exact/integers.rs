@@ -1,19 +1,19 @@
-//! Exact signs in machine integers: coordinates scaled to a common power of two that fit 61 bits.
-//! Scaled in floating point, which is exact or is seen not to be; tiny ones bit by bit.
+//! Exact signs in machine integers: coordinates scaled to a common power of two that fit 61 bits. They are scaled in floating
+//! point, which is exact or is seen not to be, and tiny ones bit by bit.
 //!
 //! Differences then fit 62 bits and a sign, dot and cross products 125, and the in-circle determinant
 //! compares two products of 250 bits.
 
 use std::cmp::Ordering;
 
-use super::{TINY, decode, scale_to_bits, to_integers};
+use super::{TINY, decode, to_integers};
 use crate::Sign;
 
 /// The coordinates as integers on a common scale, if they fit 61 bits.
 #[inline]
 fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
     if coordinates.iter().any(|x| x.abs() > TINY) {
-        return to_integers(coordinates, scale_to_bits(coordinates, 61)?);
+        return to_integers(coordinates, 61);
     }
     let mut aligned = [0; N];
     align_into(coordinates, &mut aligned)?;

@@ -141,31 +141,27 @@ fn expansions_hold(coordinates: &[f64]) -> bool {
 /// Coordinates up to this one are too small to be scaled by one number.
 const TINY: f64 = 1e-270;
 
-/// The power of two that makes integers of so many bits of coordinates, if they can be; none if all are [`TINY`], or some are too
-/// small beside others.
+/// The coordinates times a power of two, if these are integers of so many bits. None if all coordinates are [`TINY`].
 #[inline]
-fn scale_to_bits(coordinates: &[f64], bits: i32) -> Option<f64> {
+fn to_integers<const N: usize>(coordinates: &[f64; N], bits: i32) -> Option<[i64; N]> {
     let (mut largest, mut least) = (0.0_f64, f64::MAX);
     for x in coordinates {
         largest = largest.max(x.abs());
         least = least.min(if *x == 0.0 { f64::MAX } else { x.abs() });
     }
     let exponent = |x: f64| (x.to_bits() >> 52) as i32 - 1023;
-    // Products below the range take a hundred times as long as others.
-    let may_fit = largest > TINY && exponent(least) > exponent(largest) - bits;
-    may_fit.then(|| f64::from_bits(((1022 + bits - exponent(largest)) as u64) << 52))
-}
-
-/// The coordinates times a power of two, if these are integers.
-#[inline]
-fn to_integers<const N: usize>(coordinates: &[f64; N], scale: f64) -> Option<[i64; N]> {
+    // What is that much smaller is below one, and products below the range would take a hundred times as long as others.
+    if largest <= TINY || exponent(least) <= exponent(largest) - bits {
+        return None;
+    }
+    let scale = f64::from_bits(((1022 + bits - exponent(largest)) as u64) << 52);
     let mut integers = [0; N];
     let mut exact = true;
     for (out, x) in integers.iter_mut().zip(coordinates) {
-        // Exact, being a product with a power of two; unless it is subnormal, and then it is no integer.
+        // Exact, being a product with a power of two that is not below one.
         let scaled = x * scale;
         *out = scaled as i64;
-        exact &= *out as f64 == scaled && (*out != 0 || *x == 0.0);
+        exact &= *out as f64 == scaled;
     }
     exact.then_some(integers)
 }

@@ -6,13 +6,13 @@
 
 use std::cmp::Ordering;
 
-use super::{scale_to_bits, to_integers};
+use super::to_integers;
 use crate::Sign;
 
 /// The coordinates as integers on a common scale, if they fit.
 #[inline]
 fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
-    to_integers(coordinates, scale_to_bits(coordinates, 60)?)
+    to_integers(coordinates, 60)
 }
 
 /// A vector, with its squared length.

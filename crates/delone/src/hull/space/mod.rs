@@ -17,11 +17,17 @@ mod start;
 
 pub use history::HullHistory3;
 
+use std::ops::Range;
+
 use crate::error::Error;
 use crate::mesh::Dimension;
+use crate::order::quantize::scaled;
 use crate::points::{self, Position3};
 use faces::Faces;
 use start::{Start, turn};
+
+/// Sizes of sets whose volumes are in the range of numbers, those of small facets too: without heights no point would be the furthest.
+const SIZES: Range<f64> = 1e-60..1e60;
 
 /// The convex hull of points in space.
 ///
@@ -51,6 +57,8 @@ impl Hull3 {
     pub fn from_points<P: Position3>(points: &[P]) -> Result<Self, Error> {
         let points = &*P::all(points);
         check(points)?;
+        let scaled = scaled(points.len(), |i| points[i], &SIZES);
+        let points = scaled.as_ref().map_or(points, |(points, _)| points);
         Ok(match prune::candidates(points) {
             None => Self::of(points),
             Some(kept) => {

@@ -64,10 +64,11 @@ impl Cloud {
         let c = corners.map(|s| self.points[s as usize]);
         let plane = self.plane(corners);
         let around = [0, 1].map(|k| [c[0][k].min(c[1][k]).min(c[2][k]), c[0][k].max(c[1][k]).max(c[2][k])]);
-        // The box around a long thin triangle at a slant may hold any number of boxes that are beyond one of its sides.
-        let [u, v] = [1, 2].map(|k| [c[k][0] - c[0][0], c[k][1] - c[0][1]]);
-        let is_slanted = 16.0 * (u[0] * v[1] - u[1] * v[0])
-            < (around[0][1] - around[0][0]) * (around[1][1] - around[1][0]);
+        // The box around a long thin triangle at a slant may hold any number of boxes that are beyond one of its sides. In parts of its
+        // box, so that nothing leaves the range.
+        let size = around.map(|[low, high]| high - low);
+        let [u, v] = [1, 2].map(|i| [0, 1].map(|k| (c[i][k] - c[0][k]) / size[k]));
+        let is_slanted = 16.0 * (u[0] * v[1] - u[1] * v[0]) < 1.0;
         let leaves = self.boxes.len() / 2;
         let mut stack = vec![1];
         while let Some(i) = stack.pop() {
