@@ -126,8 +126,12 @@ fn segments_stay_edges() {
     assert_eq!(kept.concat(), [0, 10, 24, 30, 96, 110, 120]);
     let poly = std::fs::read_to_string(place.path("m.poly")).expect("a graph");
     assert!(poly.contains("2 4") && poly.contains("3 4"), "{poly}");
-    // Crossing segments are named.
+    // They may meet at a point, which stays; those that cross elsewhere are named.
     place.file("x.csv", "0,120\n10,110\n");
+    place.succeed("simplify p.csv --segments x.csv --max-error 9 -o m.ply --kept k.csv");
+    let kept = rows(&std::fs::read_to_string(place.path("k.csv")).expect("indices"));
+    assert_eq!(kept.concat(), [0, 10, 60, 110, 120]);
+    place.file("x.csv", "0,12\n1,11\n");
     place.fail("simplify p.csv --segments x.csv --max-error 1 -o m.ply", 1, "segments 0 and 1 cross");
 }
 

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use delone_predicates::{Filter, lexicographic};
 
 use super::plane::{Plane, Worst};
-use super::{Samples, Triple, Verdict};
+use super::{Found, Samples, Triple, Verdict};
 use crate::ids::VertexId;
 use crate::surface::linear;
 
@@ -142,6 +142,7 @@ impl Cloud {
 pub(super) struct Entry {
     error: f64,
     point: [f64; 2],
+    sample: u32,
     triangle: u32,
 }
 
@@ -170,11 +171,11 @@ impl Samples for Cloud {
     type Entry = Entry;
 
     fn entry(&self, error: f64, sample: u32, triangle: u32) -> Entry {
-        Entry { error, point: self.point(sample), triangle }
+        Entry { error, point: self.point(sample), sample, triangle }
     }
 
-    fn triangle_of(entry: &Entry) -> u32 {
-        entry.triangle
+    fn found(&self, &Entry { error, sample, triangle, .. }: &Entry) -> Found {
+        Found { error, sample, triangle }
     }
 
     fn count(&self) -> usize {

@@ -1,15 +1,16 @@
 //! The choice: in rounds, from a heap of the worst sample of each triangle.
 //!
-//! A round takes all that are too far away, the worst first, but for those whose triangle has gone in the same round; then the new
-//! triangles are measured, on all threads. With always the worst of all alone as many are left in the end, and a sixth more triangles are
-//! measured that are gone before their turn comes. Where the number of points is bounded it matters who comes first, so there a round takes one.
+//! A round takes all that are too far away, the worst first; those whose triangle has gone in the same round only if they are at least half
+//! as far from the one they are in now. Then the new triangles are measured, on all threads. With always the worst of all alone as many
+//! are left in the end, and a sixth more triangles are measured that are gone before their turn comes. Where the number of points is bounded
+//! it matters who comes first, so there a round takes one.
 
 use std::collections::BinaryHeap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use super::mesh::Mesh;
-use super::{Samples, Thinned, Triple, Verdict};
+use super::{Found, Samples, Thinned, Triple, Verdict};
 use crate::parallel;
 
 /// Rounding of errors, in parts of the largest height.
@@ -50,7 +51,7 @@ impl<'a, S: Samples> Greedy<'a, S> {
         loop {
             self.measure(allowed);
             while self.vertices.len() < max_points && !self.heap.is_empty() {
-                self.round(max_points);
+                self.round(max_points, allowed);
                 self.measure(allowed);
             }
             if self.heap.is_empty() && !std::mem::replace(&mut is_pruned, true) {
@@ -71,7 +72,7 @@ impl<'a, S: Samples> Greedy<'a, S> {
     }
 
     /// Chooses what is in the heap, or the worst alone.
-    fn round(&mut self, max_points: usize) {
+    fn round(&mut self, max_points: usize, allowed: f64) {
         let is_bounded = max_points < self.samples.count();
         let entries = if is_bounded {
             self.heap.pop().into_iter().collect()
@@ -79,13 +80,18 @@ impl<'a, S: Samples> Greedy<'a, S> {
             std::mem::take(&mut self.heap).into_sorted_vec()
         };
         for entry in entries.into_iter().rev() {
-            let t = S::triangle_of(&entry);
-            if let Some((error, sample)) = self.worst[t as usize]
-                && self.samples.entry(error, sample, t) == entry
-            {
+            let Found { error, sample, triangle: t } = self.samples.found(&entry);
+            let is_left = || !is_bounded && self.error_near(sample, t) > allowed.max(error / 2.0);
+            if self.worst[t as usize] == Some((error, sample)) || is_left() {
                 self.choose(sample, t);
             }
         }
+    }
+
+    /// The error of a sample now, near to a triangle that it was in; where it is between two, of both the larger.
+    fn error_near(&self, sample: u32, t: u32) -> f64 {
+        let error = |t: u32| self.samples.error(self.corners(t), sample);
+        self.mesh.around(t, self.samples.point(sample)).into_iter().flatten().map(error).fold(0.0, f64::max)
     }
 
     /// Makes a sample a vertex, from a triangle that it is in or was in.
@@ -147,7 +153,7 @@ impl<'a, S: Samples> Greedy<'a, S> {
             if seen[sample as usize].load(Relaxed) || !self.samples.is_there(sample) {
                 continue;
             }
-            if let Some(t) = self.mesh.find(near, self.samples.point(sample)) {
+            if let [Some(t), _] = self.mesh.around(near, self.samples.point(sample)) {
                 near = t;
                 verdict.take(t, sample, self.samples.error(self.corners(t), sample));
             }

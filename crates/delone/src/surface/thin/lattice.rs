@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering::Relaxed;
 
 use super::plane::{Plane, Worst};
 use super::sides::{Part, Sides};
-use super::{Samples, Triple, Verdict};
+use super::{Found, Samples, Triple, Verdict};
 use crate::parallel;
 use crate::surface::Grid;
 
@@ -115,6 +115,13 @@ impl<'a> Lattice<'a> {
     #[inline]
     fn at(&self, [column, row]: [i32; 2]) -> f64 {
         self.values[row as usize * self.stride + column as usize]
+    }
+
+    /// Columns from the least x, rows from the least y on; and back.
+    fn turned(&self, [column, row]: [u32; 2]) -> [u32; 2] {
+        let [forwards, upwards] = self.grid.step().map(|step| step > 0.0);
+        let [columns, rows] = [self.columns, self.grid.rows()].map(|n| n as u32);
+        [if forwards { column } else { columns - 1 - column }, if upwards { row } else { rows - 1 - row }]
     }
 
     fn sample([column, row]: [i32; 2], columns: usize) -> u32 {
@@ -242,17 +249,17 @@ impl Samples for Lattice<'_> {
     }
 
     fn entry(&self, error: f64, sample: u32, triangle: u32) -> u128 {
-        let [column, row] = self.cell(sample);
-        let [columns, rows] = [self.columns as u32, self.grid.rows() as u32];
-        let [forwards, upwards] = self.grid.step().map(|step| step > 0.0);
-        let column = if forwards { column as u32 } else { columns - 1 - column as u32 };
-        let row = if upwards { row as u32 } else { rows - 1 - row as u32 };
+        let [column, row] = self.turned(self.cell(sample).map(|k| k as u32));
+        let rows = self.grid.rows() as u32;
         // Errors are positive, so their bits have their order.
         u128::from(error.to_bits()) << 64 | u128::from(!(column * rows + row)) << 32 | u128::from(triangle)
     }
 
-    fn triangle_of(entry: &u128) -> u32 {
-        *entry as u32
+    fn found(&self, &entry: &u128) -> Found {
+        let (place, rows) = (!((entry >> 32) as u32), self.grid.rows() as u32);
+        let [column, row] = self.turned([place / rows, place % rows]);
+        let error = f64::from_bits((entry >> 64) as u64);
+        Found { error, sample: row * self.columns as u32 + column, triangle: entry as u32 }
     }
 
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {

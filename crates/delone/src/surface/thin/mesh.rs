@@ -134,12 +134,16 @@ impl Mesh {
         Spot::Outside
     }
 
-    /// A triangle that a point is in or on the border of, from another one; `None` outside of all.
-    pub(super) fn find(&self, from: u32, q: [f64; 2]) -> Option<u32> {
+    /// The triangles that a point is in or on the border of, from another one; none outside of all, and for a vertex.
+    pub(super) fn around(&self, from: u32, q: [f64; 2]) -> [Option<u32>; 2] {
         match self.spot(from, q) {
-            Spot::Inside(t) => Some(t),
-            Spot::Edge(e) => Some(e / 3),
-            Spot::Vertex | Spot::Outside => None,
+            Spot::Inside(t) => [Some(t), None],
+            Spot::Edge(e) => {
+                let (triangle, k) = self.edge(e);
+                let beyond = triangle.across[k];
+                [Some(e / 3), (beyond != NONE).then_some(beyond / 3)]
+            }
+            Spot::Vertex | Spot::Outside => [None; 2],
         }
     }
 

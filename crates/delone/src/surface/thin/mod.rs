@@ -47,8 +47,8 @@ trait Samples: Sync {
     type Entry: Copy + Ord + Send + Sync;
     /// The entry of a sample with a positive error in a triangle.
     fn entry(&self, error: f64, sample: u32, triangle: u32) -> Self::Entry;
-    /// Its triangle.
-    fn triangle_of(entry: &Self::Entry) -> u32;
+    /// What an entry was made of.
+    fn found(&self, entry: &Self::Entry) -> Found;
     /// The numbers are below this one.
     fn count(&self) -> usize;
     /// Whether there is a sample of a number.
@@ -63,6 +63,13 @@ trait Samples: Sync {
     fn judge(&self, corners: Triple, triangle: u32, verdict: &mut Verdict<'_>);
     /// The error of a sample in a triangle.
     fn error(&self, corners: Triple, sample: u32) -> f64;
+}
+
+/// The worst sample of a triangle.
+struct Found {
+    error: f64,
+    sample: u32,
+    triangle: u32,
 }
 
 /// What was found when all samples of some triangles were measured once more.
@@ -182,19 +189,29 @@ impl Thinning {
         for &(duplicate, first) in &sorted.duplicates {
             place[duplicate as usize] = place[first as usize];
         }
-        let mut start: Vec<usize> = Hull2::from_points(points)?.corners().to_vec();
-        start.extend(segments.as_flattened());
-        start.iter_mut().for_each(|i| *i = sorted.indices[place[*i] as usize] as usize);
-        start.sort_unstable();
-        start.dedup();
-        let at = |i: usize| start.partition_point(|&j| j < sorted.indices[place[i] as usize] as usize);
-        let segments: Vec<[usize; 2]> = segments.iter().map(|ends| ends.map(at)).collect();
+        let first = |i: usize| sorted.indices[place[i] as usize] as usize;
+        let hull = Hull2::from_points(points)?;
+        let ends = || hull.corners().iter().chain(segments.as_flattened());
+        let begin = |junctions: &[usize]| {
+            let mut start: Vec<usize> = ends().chain(junctions).map(|&i| first(i)).collect();
+            start.sort_unstable();
+            start.dedup();
+            let at = |i: usize| start.partition_point(|&j| j < first(i));
+            let segments: Vec<[usize; 2]> = segments.iter().map(|ends| ends.map(at)).collect();
+            (start.into_iter().map(|i| place[i]).collect::<Vec<u32>>(), segments)
+        };
         let heights = sorted.indices.iter().map(|&i| heights[i as usize]).collect();
         let filter =
             filter(bounds.high[0] - bounds.low[0], bounds.high[1] - bounds.low[1], points.as_flattened());
         let samples = Cloud::new(sorted.points, heights, filter);
-        let start: Vec<u32> = start.into_iter().map(|i| place[i]).collect();
-        let thinned = self.thin(&samples, &start, &segments, filter)?;
+        let (start, between) = begin(&[]);
+        let thinned = match self.thin(&samples, &start, &between, filter) {
+            Err(Error::SegmentsCross { .. }) => {
+                let (start, between) = begin(&junctions(points, segments)?);
+                self.thin(&samples, &start, &between, filter)?
+            }
+            thinned => thinned?,
+        };
         let all = 0..samples.points.len() as u32;
         Ok(thinned
             .unwrap_or_else(|| Thinned { vertices: all.map(|s| s as usize).collect(), error: 0.0 })
@@ -202,6 +219,7 @@ impl Thinning {
     }
 
     /// Thins the cells of a raster that have data: values row by row, NaN where there is none. Vertices are numbers of cells.
+    /// Errors are those over columns and rows, without the rounding of where centres are.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a largest error that is NaN or negative, [`Error::Values`] for other than one value a cell,
@@ -306,6 +324,20 @@ impl Thinned {
         self.vertices.iter_mut().for_each(|v| *v = names[*v] as usize);
         self
     }
+}
+
+/// The points where segments meet: with more than two edges of theirs. Segments that cross elsewhere are an error.
+fn junctions(points: &[[f64; 2]], segments: &[[usize; 2]]) -> Result<Vec<usize>, Error> {
+    let c = Constrained2::with_crossings(points, segments, Crossings::Refuse)?;
+    let mesh = c.mesh();
+    let mut edges = vec![0_u32; points.len()];
+    let fixed = c.triangle_ids().flat_map(|t| [0, 1, 2].map(|k| t.edge(k))).filter(|&e| mesh.is_fixed(e));
+    for e in fixed {
+        // An edge is met from both of its sides, one of the hull once.
+        edges[mesh.origin(e).index()] += 1;
+        edges[mesh.destination(e).index()] += 1;
+    }
+    Ok((0..points.len()).filter(|&i| edges[i] > 4).collect())
 }
 
 /// What floating point decides in a box of this size, for coordinates on a lattice or not.

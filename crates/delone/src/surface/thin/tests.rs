@@ -93,14 +93,16 @@ fn by_definition(points: &[[f64; 2]], z: &[f64], bound: f64) -> Vec<usize> {
     loop {
         let before = left.len();
         for (error, i, corners) in worst_by_definition(points, z, &left) {
+            if error <= bound || left.contains(&i) {
+                continue;
+            }
             let chosen: Vec<[f64; 2]> = left.iter().map(|&i| points[i]).collect();
             let d = Delaunay2::from_points(&chosen).expect("finite");
-            let is_there = d.triangles().any(|t| {
-                let mut there = t.map(|v| left[v.index()]);
-                there.sort_unstable();
-                there == corners
-            });
-            if error > bound && is_there {
+            let t = crate::Ask::find(&d, points[i]).expect("finite").simplex.expect("inside");
+            let mut there = d.mesh().corners(t).map(|v| left[v.index()]);
+            let now = (z[i] - plane(there.map(|i| points[i]), there.map(|i| z[i]), points[i])).abs();
+            there.sort_unstable();
+            if there == corners || now > bound.max(error / 2.0) {
                 left.push(i);
             }
         }
@@ -193,6 +195,18 @@ fn segments_stay() {
         assert!(found <= bound + 1e-9, "{bound}: {found}");
         assert!((thinned.error - found).abs() < 1e-9);
     }
+}
+
+/// Segments may meet at a point inside of both: it is where their edges end, so it stays.
+#[test]
+fn segments_meet_at_points() {
+    let points: Vec<[f64; 2]> = (0..121).map(|i| [f64::from(i % 11), f64::from(i / 11)]).collect();
+    let flat = vec![0.0; points.len()];
+    let thin = |segments: &[[usize; 2]]| Thinning::new().max_error(1.0).points(&points, &flat, segments);
+    assert_eq!(thin(&[[0, 120], [10, 110]]).expect("valid").vertices, [0, 10, 60, 110, 120]);
+    let star = thin(&[[55, 65], [5, 115], [0, 120], [20, 100]]).expect("valid");
+    assert_eq!(star.vertices, [0, 5, 10, 20, 55, 60, 65, 100, 110, 115, 120]);
+    assert!(matches!(thin(&[[0, 120], [1, 11]]), Err(Error::SegmentsCross { first: 0, second: 1, .. })));
 }
 
 #[test]
