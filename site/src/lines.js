@@ -1,76 +1,60 @@
-// Many lines by WebGL 2: a canvas strokes sixty thousand edges slower than they are triangulated.
+// Many lines, straight into the pixels: a canvas strokes sixty thousand edges slower than they are triangulated, and a graphics processor
+// is not everywhere. Each line covers the two pixels nearest to it in every column, or row where it is steep (Wu, "An efficient antialiasing
+// technique", SIGGRAPH 1991). Cost: the pixels of the canvas, and O(1) for each pixel of a line.
 
-const VERTEX = `#version 300 es
-in vec2 place; uniform vec2 size;
-void main() { vec2 p = place / size * 2.0 - 1.0; gl_Position = vec4(p.x, -p.y, 0, 1); }`;
-const FRAGMENT = `#version 300 es
-precision mediump float; uniform vec4 colour; out vec4 shown;
-void main() { shown = colour; }`;
+/** Something that draws all edges of a triangulation on a canvas, in place of all that is there. */
+export function edgePainter() {
+  let image;
+  let pixels;
+  let covered;
 
-/** A drawer of edges on a canvas of its own behind another one; it says whether it can: without WebGL 2 it cannot. */
-export function lines(front) {
-  let draw;
-  // Begun when it is needed: a page has room for few of them.
-  return (made, coords, size) => {
-    if (draw === undefined && made) draw = begin(front) ?? null;
-    draw?.(made, coords, size);
-    return Boolean(draw);
-  };
-}
-
-function begin(front) {
-  const canvas = document.createElement("canvas");
-  const gl = canvas.getContext("webgl2", {antialias: true, premultipliedAlpha: true});
-  if (!gl) return undefined;
-  const program = gl.createProgram();
-  for (const [kind, text] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
-    const shader = gl.createShader(kind);
-    gl.shaderSource(shader, text);
-    gl.compileShader(shader);
-    gl.attachShader(program, shader);
+  /**
+   * Notes by how much a line of one pixel's width covers each pixel, of 255. It is given by numbers of pixels: along the axis that it is
+   * less steep to, from the lesser one, and across. So many pixels there are that way, and so many steps of memory they are apart.
+   */
+  function cover(x0, y0, x1, y1, length, breadth, along, across) {
+    const slope = x1 > x0 ? (y1 - y0) / (x1 - x0) : 0;
+    const first = Math.max(Math.round(x0), 0);
+    const last = Math.min(Math.round(x1), length - 1);
+    let y = y0 + (first - x0) * slope;
+    for (let x = first; x <= last; x++, y += slope) {
+      const row = Math.floor(y);
+      if (row < 0 || row >= breadth - 1) continue;
+      const share = (255 * (y - row)) | 0;
+      const at = x * along + row * across;
+      if (covered[at] < 255 - share) covered[at] = 255 - share;
+      if (covered[at + across] < share) covered[at + across] = share;
+    }
   }
-  gl.bindAttribLocation(program, 0, "place");
-  gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return undefined;
-  gl.useProgram(program);
-  const both = document.createElement("div");
-  both.className = "layers";
-  front.replaceWith(both);
-  canvas.setAttribute("aria-hidden", "true");
-  both.append(canvas, front);
-  const [size, colour] = ["size", "colour"].map((name) => gl.getUniformLocation(program, name));
-  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
-  gl.enableVertexAttribArray(0);
-  gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-  gl.enable(gl.BLEND);
-  gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-  let places = new Float32Array(0);
-  let indices = new Uint32Array(0);
 
-  /** Draws all edges of a triangulation in a colour "#rrggbb"; without one it takes away what was drawn. */
-  return (made, coords, {width, height, worldWidth, worldHeight, colour: shade, alpha = 1}) => {
-    if (canvas.width !== width) canvas.width = width;
-    if (canvas.height !== height) canvas.height = height;
-    gl.viewport(0, 0, width, height);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT);
-    if (!made) return;
-    const {triangles, halfedges} = made;
-    if (places.length < coords.length) places = new Float32Array(coords.length);
-    if (indices.length < 2 * triangles.length) indices = new Uint32Array(2 * triangles.length);
-    places.set(coords);
-    let count = 0;
+  /** Draws with so many pixels a unit of the coordinates, in a colour "#rrggbb". */
+  return (context, {triangles, halfedges}, coords, {scale, colour, alpha = 1}) => {
+    const {width, height} = context.canvas;
+    if (image?.width !== width || image.height !== height) {
+      image = context.createImageData(width, height);
+      pixels = new Uint32Array(image.data.buffer);
+      covered = new Uint8Array(width * height);
+    }
+    covered.fill(0);
     for (let e = 0; e < triangles.length; e++) {
       if (halfedges[e] > e) continue;
-      indices[count++] = triangles[e];
-      indices[count++] = triangles[e % 3 === 2 ? e - 2 : e + 1];
+      const a = 2 * triangles[e];
+      const b = 2 * triangles[e % 3 === 2 ? e - 2 : e + 1];
+      const x0 = coords[a] * scale - 0.5;
+      const y0 = coords[a + 1] * scale - 0.5;
+      const x1 = coords[b] * scale - 0.5;
+      const y1 = coords[b + 1] * scale - 0.5;
+      if (Math.abs(y1 - y0) <= Math.abs(x1 - x0)) {
+        if (x0 < x1) cover(x0, y0, x1, y1, width, height, 1, width);
+        else cover(x1, y1, x0, y0, width, height, 1, width);
+      } else if (y0 < y1) cover(y0, x0, y1, x1, height, width, width, 1);
+      else cover(y1, x1, y0, x0, height, width, width, 1);
     }
-    gl.uniform2f(size, worldWidth, worldHeight);
-    const part = (k) => parseInt(shade.slice(1 + 2 * k, 3 + 2 * k), 16) / 255;
-    gl.uniform4f(colour, part(0) * alpha, part(1) * alpha, part(2) * alpha, alpha);
-    gl.bufferData(gl.ARRAY_BUFFER, places.subarray(0, coords.length), gl.STREAM_DRAW);
-    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices.subarray(0, count), gl.STREAM_DRAW);
-    gl.drawElements(gl.LINES, count, gl.UNSIGNED_INT, 0);
+    // The bytes of each shade, whichever their order in a word.
+    const part = (k) => parseInt(colour.slice(1 + 2 * k, 3 + 2 * k), 16);
+    const bytes = Uint8Array.from({length: 1024}, (_, i) => (i < 4 ? 0 : i % 4 === 3 ? (i >> 2) * alpha : part(i % 4)));
+    const shades = new Uint32Array(bytes.buffer);
+    for (let i = 0; i < covered.length; i++) pixels[i] = shades[covered[i]];
+    context.putImageData(image, 0, 0);
   };
 }

@@ -1,7 +1,7 @@
 // Files of one's own: read, triangulated and drawn here; saved as GeoJSON or as a picture.
 
 import {giveUp, run} from "../background.js";
-import {lines} from "../lines.js";
+import {edgePainter} from "../lines.js";
 import {read} from "../readers.js";
 import {random} from "../random.js";
 import {Stage, WIDTH, colours, dots, edges, strokePath} from "../stage.js";
@@ -9,18 +9,16 @@ import {Stage, WIDTH, colours, dots, edges, strokePath} from "../stage.js";
 export function data(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#data-${name}`);
-  const drawLines = lines(canvas);
+  const paint = edgePainter();
   let made;
   let given;
   let shown; // coordinates on the stage
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
     const {scale} = stage;
-    const {width, height} = canvas;
-    const size = {width, height, worldWidth: WIDTH, worldHeight: stage.height, colour: colour.delaunay};
     const isMany = made.triangles.length > 30_000;
-    const isDone = drawLines(isMany ? made : undefined, shown, size);
-    if (!(isMany && isDone)) strokePath(context, edges(made, shown), colour.delaunay, {scale});
+    if (isMany) paint(context, made, shown, {scale: stage.pixels, colour: colour.delaunay});
+    else strokePath(context, edges(made, shown), colour.delaunay, {scale});
     if (shown.length < 6000) dots(context, shown, colour.ink, 2 / scale);
   });
 

@@ -2,13 +2,13 @@
 
 import {Delaunator, Delaunay} from "delone/full";
 import {giveUp, run} from "../background.js";
-import {lines} from "../lines.js";
+import {edgePainter} from "../lines.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, prefersCalm, ring, strokePath} from "../stage.js";
 
 /** Up to here points are changed one by one. */
 const FEW = 3000;
-/** From here on edges are drawn by the graphics processor, and points not at all. */
+/** From here on edges are painted into the pixels, and points not at all. */
 const MANY = 8000;
 /** From here on triangles are made off the page's thread. */
 const HUGE = 200_000;
@@ -16,7 +16,7 @@ const HUGE = 200_000;
 export function play(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#play-${name}`);
-  const drawLines = lines(canvas);
+  const paint = edgePainter();
   let coords = new Float64Array(0);
   let gone = new Set();
   let d; // few points: a triangulation that changes
@@ -30,13 +30,12 @@ export function play(section, tell) {
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
     const scale = stage.scale;
-    const {width, height} = canvas;
     const isMany = made.triangles.length / 3 > 2 * MANY;
-    const isDone = drawLines(isMany && of("delaunay").checked ? made : undefined, coords, {
-      width, height, worldWidth: WIDTH, worldHeight: stage.height, colour: colour.delaunay,
-      alpha: made.triangles.length > 600_000 ? 0.35 : 0.8,
-    });
-    if (of("delaunay").checked && !(isMany && isDone)) strokePath(context, edges(made, coords), colour.delaunay, {scale});
+    if (of("delaunay").checked) {
+      const alpha = made.triangles.length > 600_000 ? 0.35 : 0.8;
+      if (isMany) paint(context, made, coords, {scale: stage.pixels, colour: colour.delaunay, alpha});
+      else strokePath(context, edges(made, coords), colour.delaunay, {scale});
+    }
     const isSmall = coords.length / 2 <= MANY;
     if (of("voronoi").checked && d) {
       const path = new Path2D(d.voronoi([0, 0, WIDTH, stage.height]).render() ?? "");
