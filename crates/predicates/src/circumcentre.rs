@@ -34,6 +34,12 @@ pub(crate) fn circumcentre_within(a: Point2, b: Point2, c: Point2, reach: f64) -
     in_floating_point(a, b, c, reach).or_else(|| rounded_once(a, b, c))
 }
 
+/// The larger of two numbers; `f64::max`, which also knows what is no number, is a call in WebAssembly.
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
 /// The fast way, if it is good enough.
 #[inline]
 fn in_floating_point(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Point2> {
@@ -52,11 +58,11 @@ fn in_floating_point(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Poin
     // Products of up to four factors must be normal numbers, or nothing is known about their errors: with one difference
     // near zero also those of two.
     let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc) && size > 1e-280;
-    if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
+    if in_range && area.abs() > CANCELLED * size && larger(x.abs(), y.abs()) > CANCELLED * terms {
         let (x, y) = (x / (2.0 * area), y / (2.0 * area));
         let centre = [a[0] + x, a[1] + y];
         // A quotient of numbers in range may be too large; only the exact centre tells.
-        if x.abs().max(y.abs()) <= reach && centre[0].is_finite() && centre[1].is_finite() {
+        if larger(x.abs(), y.abs()) <= reach && centre[0].is_finite() && centre[1].is_finite() {
             return Some(centre);
         }
     }
@@ -97,7 +103,7 @@ fn power_centre_in_floating_point(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<
     let terms = (cy.abs() + cx.abs()) * b_size + (by.abs() + bx.abs()) * c_size;
     // As above; what is small beside the terms is not known well enough.
     let in_range = (1e-70..1e70).contains(&b_size) && (1e-70..1e70).contains(&c_size) && size > 1e-280;
-    if in_range && area.abs() > CANCELLED * size && x.abs().max(y.abs()) > CANCELLED * terms {
+    if in_range && area.abs() > CANCELLED * size && larger(x.abs(), y.abs()) > CANCELLED * terms {
         let (x, y) = (x / (2.0 * area), y / (2.0 * area));
         let centre = [a[0] + x, a[1] + y];
         return Some(centre).filter(|centre| centre.iter().all(|x| x.is_finite()));
