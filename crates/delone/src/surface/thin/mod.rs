@@ -119,7 +119,7 @@ pub struct Thinning {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thinned {
     /// The points that are left, by their indices in the input, cells of a raster row by row: those that there were to begin with (the
-    /// corners of the hull and the ends of segments, by index), then in the order in which they were chosen, but for those that later ones made
+    /// corners of the hull, the ends of segments and where they meet, by index), then in the order in which they were chosen, but for those that later ones made
     /// superfluous. Their canonical triangulation, with the segments, is what the others were measured against.
     pub vertices: Vec<usize>,
     /// The largest distance in height of any input point from the triangles, computed for all of them in the end.
@@ -152,8 +152,8 @@ impl Thinning {
         Self { max_points, ..self }
     }
 
-    /// Thins points with heights. Segments are between points by index; they are edges of what is left, and their ends are among its
-    /// vertices. Of points that are equal the first counts.
+    /// Thins points with heights. Segments are between points by index; they are edges of what is left, and their ends and the points where
+    /// they meet are among its vertices. Of points that are equal the first counts.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a largest error that is NaN or negative, [`Error::Values`] for other than one height a point,
