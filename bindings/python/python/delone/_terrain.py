@@ -233,7 +233,7 @@ class Simplified(NamedTuple):
     """What is left of points with heights."""
 
     indices: NDArray[np.int64]
-    """The points that are left, by their indices: the corners of the hull, the ends of segments and where they meet, then the others as chosen."""
+    """The points left, by index: corners of the hull, ends of segments and where they meet, then the others as chosen."""
     triangles: NDArray[np.int32]
     """The triangles between them, (m, 3), counter-clockwise, by the rows of `indices`."""
     error: float
