@@ -70,14 +70,23 @@ class Engine {
 
   /** Takes an array of integers from the tray, as unsigned ones or of another type of 32 bits. */
   ints(k, Type = Uint32Array) {
-    const {exports} = this;
-    return new Type(exports.memory.buffer, exports.ints_at(k) >>> 0, exports.ints_count(k)).slice();
+    return this.intsThere(k, Type).slice();
   }
 
   /** Takes an array of numbers from the tray. */
   floats(k) {
+    return this.floatsThere(k).slice();
+  }
+
+  /** The same where it lies: to be read before anything else is called. */
+  intsThere(k, Type) {
     const {exports} = this;
-    return new Float64Array(exports.memory.buffer, exports.floats_at(k) >>> 0, exports.floats_count(k)).slice();
+    return new Type(exports.memory.buffer, exports.ints_at(k) >>> 0, exports.ints_count(k));
+  }
+
+  floatsThere(k) {
+    const {exports} = this;
+    return new Float64Array(exports.memory.buffer, exports.floats_at(k) >>> 0, exports.floats_count(k));
   }
 
   /** Gives the tray's memory back. */

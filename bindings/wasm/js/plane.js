@@ -6,7 +6,7 @@
 // Memory: what the module holds for a triangulation, some 100 bytes a point, goes when it is disposed of or when nobody refers to it any
 // more and the garbage collector has found that out, which it does between tasks, not in a loop.
 
-import {Cells} from "./cells.js";
+import {Cells, inOrder} from "./cells.js";
 import {DeloneError} from "./errors.js";
 import {currentEngine} from "./module.js";
 
@@ -218,9 +218,9 @@ export class Plane {
 
   /** Cells clipped to a rectangle. */
   cells(bounds) {
-    this.call("cells", ...bounds, 0);
+    const beyond = this.call("cells", ...bounds, 0);
     const {engine} = this;
-    const cells = new Cells(engine.ints(0), engine.floats(0));
+    const cells = new Cells(...inOrder(engine.intsThere(0, Int32Array), engine.floatsThere(0), beyond));
     engine.clear();
     return cells;
   }
@@ -236,7 +236,7 @@ export class Plane {
     this.#giveRings(rings);
     this.call("cells_in_polygon", 0);
     const {engine} = this;
-    const cells = new Cells(engine.ints(1), engine.floats(0), engine.ints(0));
+    const cells = new Cells(engine.ints(1, Int32Array), engine.floats(0), engine.ints(0));
     engine.clear();
     return cells;
   }

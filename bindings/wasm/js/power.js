@@ -31,7 +31,7 @@ export class Power {
     this.hidden = engine.ints(1);
     /** The areas of all cells; zero where there is none. */
     this.areas = engine.floats(1);
-    this.#cells = new Cells(engine.ints(2), engine.floats(0));
+    this.#cells = new Cells(engine.ints(2, Int32Array), engine.floats(0));
     engine.clear();
   }
 

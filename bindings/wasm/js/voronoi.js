@@ -92,11 +92,12 @@ export class Voronoi {
     return this.#cells.ring(this.#plane.place(i));
   }
 
-  /** The cells that are not empty, each with its `index`. */
+  /** The cells that are not empty, each with its `index`: of the triangulation as it is when the first one is asked for. */
   *cellPolygons() {
     const count = this.delaunay.points.length >> 1;
+    const [cells, plane] = [this.#cells, this.#plane];
     for (let i = 0; i < count; ++i) {
-      const polygon = this.cellPolygon(i);
+      const polygon = cells.ring(plane.place(i));
       if (!polygon) continue;
       polygon.index = i;
       yield polygon;

@@ -17,14 +17,13 @@ fn leave(xmin: f64, ymin: f64, xmax: f64, ymax: f64) -> Result<i32, Fault> {
     tray::leave_ints(0, triangles.map(|v| v.index() as u32).collect());
     tray::leave_ints(1, regular.hidden().map(|v| v.index() as u32).collect());
     let cells = regular.power().clip(&region);
-    let (mut spans, mut corners, mut areas) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut ends, mut corners, mut areas) = (Vec::new(), Vec::new(), Vec::new());
     for cell in (0..points.len()).map(|i| cells.cell(VertexId::new(i))) {
-        let start = corners.len() as u32;
         corners.extend(cell.rings().flat_map(Ring::points));
-        spans.extend([start, corners.len() as u32]);
+        ends.push(corners.len() as u32);
         areas.push(cell.area());
     }
-    tray::leave_ints(2, spans);
+    tray::leave_ints(2, ends);
     tray::leave_floats(0, corners.into_flattened());
     tray::leave_floats(1, areas);
     Ok(0)
@@ -32,7 +31,7 @@ fn leave(xmin: f64, ymin: f64, xmax: f64, ymax: f64) -> Result<i32, Fault> {
 
 export! {
     /// Of the points on the tray, with as many numbers as weights. Leaves as integers triangles, the sites that have no cell because others
-    /// are heavier, and where the ring of each cell starts and ends; as numbers corners, and areas.
+    /// are heavier, and where the ring of each cell ends; as numbers corners, and areas.
     fn power(xmin: f64, ymin: f64, xmax: f64, ymax: f64) -> i32 {
         answer(leave(xmin, ymin, xmax, ymax))
     }

@@ -104,8 +104,8 @@ export! {
         })
     }
 
-    /// Leaves the cells of all points clipped to a rectangle: as integers where the ring of each starts and ends, as numbers corners. Or,
-    /// if `measured`, areas and centroids.
+    /// Leaves the cells of all points clipped to a rectangle: as integers where the ring of each starts and ends, as numbers corners. Says
+    /// up to which corner those of a group lie together. Or, if `measured`, areas and centroids.
     fn cells(plane: usize, xmin: f64, ymin: f64, xmax: f64, ymax: f64, measured: i32) -> i32 {
         planes::with(plane, |plane| {
             let region = Region2::rectangle([xmin, ymin], [xmax, ymax])?;
@@ -118,10 +118,11 @@ export! {
                 return Ok(0);
             }
             let mut rings = Rings::room(d);
+            let beyond = rings.corners.len();
             d.voronoi().clip_each(&region, |v, cell| cell.rings().for_each(|ring| rings.add(v, ring)));
             tray::leave_ints(0, rings.spans.into_flattened());
             tray::leave_floats(0, rings.corners.into_flattened());
-            Ok(0)
+            Ok(beyond as i32)
         })
     }
 }
@@ -129,7 +130,7 @@ export! {
 #[cfg(feature = "regions")]
 export! {
     /// Leaves the cells of all points clipped to the polygon on the tray: as integers for each point its first ring and the end of its
-    /// rings, for each ring where it starts and ends, as numbers corners. Or, if `measured`, areas and centroids.
+    /// rings, for each ring where it ends, as numbers corners. Or, if `measured`, areas and centroids.
     fn cells_in_polygon(plane: usize, measured: i32) -> i32 {
         planes::with(plane, |plane| {
             let region = polygon()?;
@@ -143,18 +144,17 @@ export! {
                 measures.leave();
                 return Ok(0);
             }
-            let (mut ends, mut spans, mut corners) = (Vec::new(), Vec::new(), Vec::<[f64; 2]>::new());
+            let (mut rings, mut ends, mut corners) = (Vec::new(), Vec::new(), Vec::<[f64; 2]>::new());
             for v in sites {
-                let first = spans.len() as u32;
+                let first = ends.len() as u32;
                 for ring in cells.rings(v) {
-                    let start = corners.len() as u32;
                     corners.extend(ring.points());
-                    spans.push([start, corners.len() as u32]);
+                    ends.push(corners.len() as u32);
                 }
-                ends.push([first, spans.len() as u32]);
+                rings.push([first, ends.len() as u32]);
             }
-            tray::leave_ints(0, ends.into_flattened());
-            tray::leave_ints(1, spans.into_flattened());
+            tray::leave_ints(0, rings.into_flattened());
+            tray::leave_ints(1, ends);
             tray::leave_floats(0, corners.into_flattened());
             Ok(0)
         })
