@@ -96,6 +96,26 @@ for (const [name, [points, bounds]] of Object.entries(cases)) {
   });
 }
 
+test("each of many cells is that of its point", () => {
+  // Several groups of points, cells with more corners than their points have triangles, cells of which nothing is left, and duplicates.
+  const points = uniform(20000);
+  points.copyWithin(9000, 100, 140);
+  for (const bounds of [[0, 0, 1, 1], [0.2, 0.3, 0.7, 0.6], [-5, -5, 5, 5]]) {
+    const v = new Delaunay(points).voronoi(bounds);
+    const areas = v.areas();
+    const polygons = [...v.cellPolygons()];
+    const isThere = new Set(polygons.map(({index}) => index));
+    assert.ok(areas.every((a, i) => a > 0 === isThere.has(i)));
+    for (const polygon of polygons) {
+      const [ring, i] = [polygon.slice(0, -1), polygon.index];
+      assert.ok(Math.abs(area(ring) - areas[i]) < 1e-12, `${i}: ${area(ring)} for ${areas[i]}`);
+      assert.deepEqual(v.cellPolygon(i), [...polygon]);
+      const [x, y] = ring.reduce(([a, b], [x, y]) => [a + x / ring.length, b + y / ring.length], [0, 0]);
+      assert.ok(v.contains(i, x, y));
+    }
+  }
+});
+
 test("bounds without area have no cells", () => {
   const v = new Delaunay(uniform(20)).voronoi([0, 0, 0, 1]);
   assert.deepEqual([...v.cellPolygons()], []);
