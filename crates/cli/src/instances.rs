@@ -36,7 +36,12 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
         let mut work = Work::default();
         {
             let _phase = Phase::start(quiet, "triangulating");
-            hints.triangulate_observed(&points, &mut work).map_err(|error| Failure::points(input, &error))?;
+            // Steps are counted on one thread.
+            let done = match stats_path {
+                None => hints.triangulate(&points),
+                Some(_) => hints.triangulate_observed(&points, &mut work),
+            };
+            done.map_err(|error| Failure::points(input, &error))?;
         }
         stats.phase("build");
         if hints.gave_up() {

@@ -251,6 +251,12 @@ pub trait Imprecise: Sized + Send + Sync {
     ) -> Result<Self, Error>;
 
     /// Triangulates an instance: point i near centre i.
+    fn triangulate(
+        &mut self,
+        instance: &[<Self::Triangulation as Triangulation>::Point],
+    ) -> Result<&Self::Triangulation, Error>;
+
+    /// The same by hints, and tells each step.
     fn triangulate_observed<O: Tally>(
         &mut self,
         instance: &[<Self::Triangulation as Triangulation>::Point],

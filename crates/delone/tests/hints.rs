@@ -108,6 +108,26 @@ fn nested_disks_take_quadratic_time_until_hints_are_given_up() {
     }
 }
 
+/// Threads never show, and instances may be triangulated on one thread and on several in turns.
+#[cfg(feature = "rayon")]
+#[test]
+fn instances_on_several_threads_are_those_on_one() {
+    let n = 40_000;
+    let mut hints = Hints2::from_points(&Kind::Uniform.points(n, 1), HintOrder::default()).expect("finite");
+    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    let (one, many) = (pool(1), pool(3));
+    for (kind, seed) in [(Kind::Uniform, 1), (Kind::SmallIntegers, 2), (Kind::Line, 3), (Kind::Uniform, 1)] {
+        let instance = kind.points(n, seed);
+        for threads in [&one, &many] {
+            same(threads.install(|| hints.triangulate(&instance)).expect("finite"), &instance, kind.name());
+        }
+        let mut broken = instance.clone();
+        broken[n / 2][1] = f64::NAN;
+        assert!(many.install(|| hints.triangulate(&broken).is_err() && hints.triangulate(&broken[1..]).is_err()));
+        same(hints.current(), &instance, "the last one is still there");
+    }
+}
+
 #[test]
 fn hints_that_mislead_in_space_are_given_up() {
     let n = 60_000;

@@ -11,6 +11,9 @@
 //! for an instance that has nothing to do with the centres (or disks that overlap as in §6.2), walks are given up after
 //! O(n) steps, and the instance is built by divide and conquer: O(n log n) at worst. Nothing is allocated for an instance
 //! after the first, unless walks were given up.
+//!
+//! Each walk needs what the one before has made, so hints are for one thread. Where there are more, a large instance is
+//! built by divide and conquer, which makes the same of it and is as fast as hints on one thread already.
 
 use std::collections::BTreeMap;
 
@@ -26,8 +29,8 @@ use crate::mesh::Names;
 use crate::order;
 use crate::order::HintOrder;
 use crate::order::random::SplitMix;
-use crate::points::Position2;
-use crate::points::{check_count, check_finite};
+use crate::parallel;
+use crate::points::{Position2, check_count, check_finite};
 use crate::tally::Tally;
 
 /// Steps a point that walks may take in all, and some more for small sets.
@@ -109,13 +112,23 @@ impl Hints2 {
         self.order.iter().enumerate().map(hint).collect()
     }
 
-    /// Triangulates an instance: point i is near centre i, or anywhere.
+    /// Triangulates an instance: point i is near centre i, or anywhere. By hints on one thread; on several, if the points are many, by
+    /// divide and conquer on all of them.
     ///
     /// # Errors
     /// [`Error::Length`] if there are more or fewer points than centres; [`Error::NotFinite`] names the first NaN or
     /// infinite coordinate. The last instance is still there then.
     pub fn triangulate<P: Position2>(&mut self, instance: &[P]) -> Result<&Delaunay2, Error> {
-        self.insert::<_, _, false>(instance, &mut ())
+        if parallel::parts(instance.len()) == 1 {
+            return self.insert::<_, _, false>(instance, &mut ());
+        }
+        self.check(instance)?;
+        self.gave_up = false;
+        let mut positions = self.current.named.take().unwrap_or_default();
+        positions.clear();
+        positions.extend(instance.iter().map(Position2::xy));
+        self.current.rebuild(positions);
+        Ok(&self.current)
     }
 
     /// Triangulates an instance of points that move from one to the next: the nearest neighbours of this one are the hints for the
@@ -160,12 +173,16 @@ impl Hints2 {
         Ok(&self.current)
     }
 
-    /// Puts an instance at its places, none a vertex yet.
-    fn restart<P: Position2>(&mut self, instance: &[P]) -> Result<(), Error> {
+    fn check<P: Position2>(&self, instance: &[P]) -> Result<(), Error> {
         if instance.len() != self.order.len() {
             return Err(Error::Length { expected: self.order.len(), found: instance.len() });
         }
-        check_finite(instance.iter().map(Position2::xy))?;
+        check_finite(instance.iter().map(Position2::xy))
+    }
+
+    /// Puts an instance at its places, none a vertex yet.
+    fn restart<P: Position2>(&mut self, instance: &[P]) -> Result<(), Error> {
+        self.check(instance)?;
         let d = &mut self.current;
         let named = d.named.get_or_insert_default();
         named.clear();

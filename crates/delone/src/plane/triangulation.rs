@@ -160,6 +160,10 @@ impl Imprecise for Hints2 {
         Self::from_points(centres, order)
     }
 
+    fn triangulate(&mut self, instance: &[[f64; 2]]) -> Result<&Delaunay2, Error> {
+        self.triangulate(instance)
+    }
+
     fn triangulate_observed<O: Tally>(
         &mut self,
         instance: &[[f64; 2]],

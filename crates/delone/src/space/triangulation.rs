@@ -158,6 +158,10 @@ impl Imprecise for Hints3 {
         Self::from_points(centres, order)
     }
 
+    fn triangulate(&mut self, instance: &[[f64; 3]]) -> Result<&Delaunay3, Error> {
+        self.triangulate(instance)
+    }
+
     fn triangulate_observed<O: Tally>(
         &mut self,
         instance: &[[f64; 3]],
