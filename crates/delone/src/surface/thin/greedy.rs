@@ -28,23 +28,15 @@ pub(super) struct Greedy<'a, S: Samples> {
     heap: BinaryHeap<S::Entry>,
     /// The worst sample of each triangle and its error, if that is more than allowed: other entries are those of triangles that are gone.
     worst: Vec<Option<(f64, u32)>>,
-    /// Triangles of this round, which are not measured yet: the sample of a corner above, the triangle below. By samples they are sorted as
-    /// they lie in the plane, so that what is measured is near in memory.
-    fresh: Vec<u64>,
-}
-
-/// A triangle to be measured, with its first corner.
-fn fresh(sample: u32, t: u32) -> u64 {
-    u64::from(sample) << 32 | u64::from(t)
+    /// Triangles of this round, which are not measured yet; some more than once.
+    fresh: Vec<u32>,
 }
 
 impl<'a, S: Samples> Greedy<'a, S> {
     pub(super) fn new(samples: &'a S, mesh: Mesh, vertices: &[u32]) -> Self {
         let count = mesh.triangles.len();
-        let (worst, heap) = (vec![None; count], BinaryHeap::new());
-        let mut this = Self { samples, mesh, vertices: vertices.to_vec(), heap, worst, fresh: Vec::new() };
-        this.fresh = (0..count as u32).map(|t| fresh(this.corners(t)[0], t)).collect();
-        this
+        let (worst, fresh) = (vec![None; count], (0..count as u32).collect());
+        Self { samples, mesh, vertices: vertices.to_vec(), heap: BinaryHeap::new(), worst, fresh }
     }
 
     fn corners(&self, t: u32) -> Triple {
@@ -111,7 +103,7 @@ impl<'a, S: Samples> Greedy<'a, S> {
         self.worst.resize(self.mesh.triangles.len(), None);
         for &t in &self.mesh.star {
             self.worst[t as usize] = None;
-            self.fresh.push(fresh(sample, t));
+            self.fresh.push(t);
         }
     }
 
@@ -119,16 +111,12 @@ impl<'a, S: Samples> Greedy<'a, S> {
     fn measure(&mut self, allowed: f64) {
         let mut fresh = std::mem::take(&mut self.fresh);
         fresh.sort_unstable();
+        fresh.dedup();
         let this = &*self;
-        let worst = |&entry: &u64| {
-            let corners = this.corners(entry as u32);
-            // Else a later one has its number.
-            let is_there = corners[0] == (entry >> 32) as u32;
-            is_there.then(|| this.samples.worst(corners, allowed)).flatten()
-        };
-        let all = |task: &[u64]| -> Vec<Option<(f64, u32)>> { task.iter().map(worst).collect() };
+        let worst = |&t: &u32| this.samples.worst(this.corners(t), allowed);
+        let all = |task: &[u32]| -> Vec<Option<(f64, u32)>> { task.iter().map(worst).collect() };
         let found = parallel::share(self.samples.count(), fresh.chunks(TASK).collect(), all);
-        for (t, worst) in fresh.iter().map(|&entry| entry as u32).zip(found.into_iter().flatten()) {
+        for (&t, worst) in fresh.iter().zip(found.into_iter().flatten()) {
             if let Some((error, sample)) = worst
                 && error > allowed
             {
