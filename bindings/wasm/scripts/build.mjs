@@ -5,7 +5,8 @@
 //     node scripts/build.mjs --debug    with all assertions, not made smaller: for tests
 //     node scripts/build.mjs --check    says whether dist/ is there, and builds nothing
 
-import {spawnSync} from "node:child_process";
+import {spawn} from "node:child_process";
+import {once} from "node:events";
 import {copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync} from "node:fs";
 import {fileURLToPath} from "node:url";
 import {deflateRawSync} from "node:zlib";
@@ -26,16 +27,18 @@ if (process.argv.includes("--check")) {
 }
 
 /** Builds a module with cargo in a folder, and gives its bytes. */
-function cargo(folder, profile, features) {
+async function cargo(folder, profile, features) {
   const args = ["rustc", "--lib", "--target", "wasm32-unknown-unknown", "--message-format", "json-render-diagnostics"];
   args.push("--profile", isDebug ? "checked" : profile);
   if (features) args.push("--features", features);
   // What makes it smaller needs to know where addresses are.
   if (!isDebug) args.push("--", "-C", "link-arg=--emit-relocs");
-  const built = spawnSync("cargo", args, {cwd: folder, env: {CARGO_TARGET_DIR: `${root}target`, ...process.env}, stdio: ["ignore", "pipe", "inherit"], encoding: "utf8", maxBuffer: 2 ** 28});
-  if (built.error) throw built.error;
-  if (built.status) process.exit(built.status);
-  const artifacts = built.stdout.trim().split("\n").map((line) => JSON.parse(line));
+  const child = spawn("cargo", args, {cwd: folder, env: {CARGO_TARGET_DIR: `${root}target`, ...process.env}, stdio: ["ignore", "pipe", "inherit"]});
+  let told = "";
+  child.stdout.setEncoding("utf8").on("data", (text) => (told += text));
+  const [status] = await once(child, "close");
+  if (status) process.exit(status);
+  const artifacts = told.trim().split("\n").map((line) => JSON.parse(line));
   const [path] = artifacts.flatMap((artifact) => artifact.filenames ?? []).filter((name) => name.endsWith(".wasm"));
   return readFileSync(path);
 }
@@ -49,15 +52,22 @@ function inline(bytes) {
 mkdirSync(dist, {recursive: true});
 // A package has no links.
 for (const name of ["LICENSE-MIT", "LICENSE-APACHE"]) copyFileSync(`${root}../../${name}`, root + name);
-const modules = [["", root, "small"], ["-full", root, "release", "full"], ["-laz", `${root}laz`, "release"]];
-for (const [name, ...how] of modules) {
-  const raw = cargo(...how);
+
+/** Makes a module of what cargo makes, and a script of that. */
+async function make(name, ...how) {
+  const raw = await cargo(...how);
   const bytes = isDebug ? raw : await shrink(raw);
   // That of files is loaded by its script alone.
   if (name !== "-laz") writeFileSync(`${dist}delone${name}.wasm`, bytes);
   writeFileSync(`${dist}inline${name}.js`, inline(bytes));
   console.log(`delone${name}.wasm: ${bytes.length} bytes`);
 }
+
+const small = () => make("", root, "small");
+const others = () => make("-full", root, "release", "full").then(() => make("-laz", `${root}laz`, "release"));
+// At once what has another profile and so a folder of its own. With checks all have the same one.
+if (isDebug) await small().then(others);
+else await Promise.all([small(), others()]);
 
 const {build} = await import("esbuild");
 const scripts = [
