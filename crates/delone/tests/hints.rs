@@ -123,7 +123,9 @@ fn instances_on_several_threads_are_those_on_one() {
         }
         let mut broken = instance.clone();
         broken[n / 2][1] = f64::NAN;
-        assert!(many.install(|| hints.triangulate(&broken).is_err() && hints.triangulate(&broken[1..]).is_err()));
+        assert!(
+            many.install(|| hints.triangulate(&broken).is_err() && hints.triangulate(&broken[1..]).is_err())
+        );
         same(hints.current(), &instance, "the last one is still there");
     }
 }
