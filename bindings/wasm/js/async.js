@@ -18,14 +18,20 @@ export function init(source = new URL("../dist/delone.wasm", import.meta.url)) {
     (module) => useModule(module),
     (error) => {
       waiting = undefined;
-      throw Object.assign(new DeloneError("not-ready", `the module could not be had: ${error.message}`), {cause: error});
+      throw Object.assign(new DeloneError("not-ready", `the module could not be had: ${error?.message ?? error}`), {cause: error});
     },
   );
   return waiting;
 }
 
+/** A module, and this one. */
 async function compile(source) {
-  source = await source;
+  const module = await compiled(await source);
+  if (!WebAssembly.Module.exports(module).some(({name}) => name === "triangulate")) throw new Error("it is another module");
+  return module;
+}
+
+async function compiled(source) {
   if (source instanceof WebAssembly.Module) return source;
   if (ArrayBuffer.isView(source) || source instanceof ArrayBuffer) return WebAssembly.compile(source);
   if (typeof Response !== "undefined" && source instanceof Response) return WebAssembly.compile(await checked(source).arrayBuffer());

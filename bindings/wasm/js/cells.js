@@ -4,14 +4,14 @@
 const group = 4096;
 
 /**
- * Rings in the order of their points. In the module those of a group of points lie together, in any order, up to a corner; the few rings
- * beyond it anywhere. Gives where each ring ends, and the corners.
+ * Rings in the order of their points. In the module those of a group of points lie together, in any order; the few that had no room there are
+ * counted on beyond the others. Gives where each ring ends, and the corners.
  *
  * To be read ring by ring while arrays are made of them, corners have to lie in a row: else each ring is a miss of the cache, which takes
  * as long as its arrays.
  */
-export function inOrder(spans, corners, beyond) {
-  const count = spans.length >> 1;
+export function inOrder(spans, corners, others) {
+  const [count, beyond] = [spans.length >> 1, corners.length >> 1];
   let total = 0;
   for (let k = 0; k < 2 * count; k += 2) total += spans[k + 1] - spans[k];
   const ends = new Int32Array(count);
@@ -34,7 +34,7 @@ export function inOrder(spans, corners, beyond) {
     for (let k = first; k < last; ++k) {
       const [start, end] = [2 * spans[2 * k], 2 * spans[2 * k + 1]];
       if (end > 2 * beyond) {
-        for (let at = start; at < end; ++at) ordered[to++] = corners[at];
+        for (let at = start; at < end; ++at) ordered[to++] = others[at - 2 * beyond];
       } else {
         for (let at = start; at < end; ++at) ordered[to++] = near[at - 2 * low];
       }

@@ -1,19 +1,32 @@
 // Segments that are edges, and polygons to triangles. In the full module. Nothing stays in the module: there is nothing to dispose of.
 
-import {DeloneError} from "./errors.js";
-import {flatCoordinates} from "./input.js";
+import {DeloneError, shown} from "./errors.js";
+import {flatCoordinates, flatRings, listed} from "./input.js";
 import {currentEngine} from "./module.js";
 
 const fills = ["all", "even-odd", "nonzero"];
+const crossingNames = ["refuse", "split"];
 
-/** Indices as the module takes them. */
+/** The number of a choice. */
+function chosen(names, name, what) {
+  const number = names.indexOf(name);
+  if (number < 0) throw new DeloneError("range", `there is no ${what} ${shown(name)}: ${names.join(", ")}`);
+  return number;
+}
+
+/** Indices as the module takes them, of pairs or in a row. */
 function indices(segments) {
-  const flat = Array.from(segments ?? []).flat();
-  const wrong = flat.findIndex((i) => !Number.isInteger(i) || i < 0 || i >= 2 ** 32);
-  if (wrong >= 0 || flat.length % 2) {
-    const k = wrong < 0 ? flat.length - 1 : wrong;
-    throw new DeloneError("no-such-point", `segment ${k >> 1} does not have two indices of points for its ends`, k >> 1);
-  }
+  const all = Array.from(listed(segments ?? [], "segments are pairs of indices"));
+  const isRow = all.every((i) => typeof i === "number");
+  const pairs = isRow ? Array.from({length: Math.ceil(all.length / 2)}, (_, k) => all.slice(2 * k, 2 * k + 2)) : all;
+  const isIndex = (i) => Number.isInteger(i) && i >= 0 && i < 2 ** 32;
+  const flat = new Uint32Array(2 * pairs.length);
+  pairs.forEach((pair, k) => {
+    if (pair?.length !== 2 || !isIndex(pair[0]) || !isIndex(pair[1])) {
+      throw new DeloneError("no-such-point", `segment ${k} does not have two indices of points for its ends`, k);
+    }
+    flat.set([pair[0], pair[1]], 2 * k);
+  });
   return flat;
 }
 
@@ -22,13 +35,13 @@ export class Constrained {
    * The constrained Delaunay triangulation of points (a flat array) and segments, pairs of indices. `fill` says which triangles are
    * inside: "all", "even-odd", "nonzero". Segments that cross are an error, or are split with `crossings: "split"`.
    */
-  constructor(points, segments, {fill = "all", crossings = "refuse"} = {}) {
-    const number = fills.indexOf(fill);
-    if (number < 0) throw new DeloneError("range", `there is no fill ${String(fill)}: ${fills.join(", ")}`);
+  constructor(points, segments, options) {
+    const {fill = "all", crossings = "refuse"} = options ?? {};
+    const [number, isSplit] = [chosen(fills, fill, "fill"), chosen(crossingNames, crossings, "way with crossings")];
     const engine = currentEngine();
     engine.givePoints(flatCoordinates(points));
     engine.giveIndices(indices(segments));
-    engine.call(undefined, "constrain", crossings === "split" ? 1 : 0, number);
+    engine.call(undefined, "constrain", isSplit, number);
     /** Those given, then those where segments were split. */
     this.points = engine.floats(0);
     /** Corners of the triangles inside, three each, counter-clockwise with y down. */
@@ -39,14 +52,14 @@ export class Constrained {
   }
 
   /** Triangles inside of rings, each an array of points: an odd number of rings is around them. */
-  static polygon(rings, {fill = "even-odd", crossings = "refuse"} = {}) {
-    const points = [];
+  static polygon(rings, options) {
+    const {flat, ends} = flatRings(rings);
     const segments = [];
-    for (const ring of rings) {
-      const first = points.length;
-      points.push(...ring);
-      ring.forEach((_, k) => segments.push([first + k, first + ((k + 1) % ring.length)]));
+    let first = 0;
+    for (const end of ends) {
+      for (let i = first; i < end; ++i) segments.push([i, i + 1 < end ? i + 1 : first]);
+      first = end;
     }
-    return new Constrained(points.flat(), segments, {fill, crossings});
+    return new Constrained(flat, segments, {fill: "even-odd", ...options});
   }
 }

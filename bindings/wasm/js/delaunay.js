@@ -3,10 +3,10 @@
 // The arrays are made when first read, and again after a change. Points are never moved, and never copied unless they change by
 // `insert` or `move`.
 
-import {absentees, checkNumber, flatCoordinates, flattened, pointX, pointY, takeOptions} from "./input.js";
+import {absentees, checkNumber, flatCoordinates, flattened, number, pointX, pointY, takeOptions} from "./input.js";
 import {alongLine} from "./line.js";
 import {closed, drawn, drawPolygon} from "./path.js";
-import {Plane, planeOf} from "./plane.js";
+import {joinedTo, Plane, planeOf} from "./plane.js";
 import {Voronoi} from "./voronoi.js";
 
 const next = (e) => (e % 3 === 2 ? e - 2 : e + 1);
@@ -15,8 +15,12 @@ export class Delaunay {
   #plane;
   #options;
   #arrays;
-  /** Points that were removed; an update does not bring them back. */
+  /** Points that were removed, and those that equalled them; an update does not bring them back. */
   #removed = new Set();
+  /** For each point with points that equal it these, since the last update. */
+  #equals;
+  /** The points that we know, to see when they are others. */
+  #known;
   /** Our own copy of the points once they changed here, with room for more. */
   #own;
   #version = 0;
@@ -35,9 +39,12 @@ export class Delaunay {
     this.update();
   }
 
-  /** Triangulates again, after points were changed in place. */
+  /** Triangulates again, after points were changed in place, or are another array: of that all are there. */
   update() {
     const flat = flatCoordinates(this.points);
+    if (this.points !== this.#known) this.#removed.clear();
+    this.#known = this.points;
+    this.#equals = undefined;
     const plane = new Plane(flat, absentees(flat, this.#options, this.#removed.size ? this.#removed : undefined));
     this.#plane?.dispose();
     this.#plane = plane;
@@ -123,10 +130,17 @@ export class Delaunay {
       if (rank >= 0 && rank < collinear.length - 1) yield collinear[rank + 1];
       return;
     }
-    const {hull, halfedges, triangles} = this.#now;
-    if (hull.length === 2) {
-      const k = hull.indexOf(i);
-      if (k >= 0) yield hull[1 - k];
+    yield* this[joinedTo](i);
+  }
+
+  /** The vertices that a vertex is joined to: also where rounding made points of a line no line, and none for points that equal others. */
+  *[joinedTo](i) {
+    const now = this.#now;
+    const {hull, halfedges, triangles} = now;
+    if (now.dimension < 2) {
+      const rank = (now.alongHull ??= ranked(hull, this.points.length >> 1))[i];
+      if (rank > 0) yield hull[rank - 1];
+      if (rank >= 0 && rank < hull.length - 1) yield hull[rank + 1];
       return;
     }
     const first = this.inedges[i] ?? -1;
@@ -143,8 +157,7 @@ export class Delaunay {
 
   /** The nearest point, exactly: of equally near ones the least by x, then y. -1 for no point, and for what is not finite. */
   find(x, y) {
-    x = +x;
-    y = +y;
+    [x, y] = [number(x), number(y)];
     return Number.isFinite(x) && Number.isFinite(y) ? this.#plane.nearest(x, y) : -1;
   }
 
@@ -189,7 +202,7 @@ export class Delaunay {
   /** The radius may come first, as in d3. */
   renderPoints(context, r) {
     if (r === undefined && typeof context?.moveTo !== "function") [context, r] = [null, context];
-    r = r == null ? 2 : +r;
+    r = r == null ? 2 : number(r);
     return drawn(context, (context) => {
       const {points} = this;
       for (let i = 0; i < points.length >> 1; ++i) {
@@ -202,7 +215,7 @@ export class Delaunay {
   }
 
   #corners(i) {
-    return this.triangles.subarray(3 * i, 3 * i + 3);
+    return Number.isInteger(i) && i >= 0 ? this.triangles.subarray(3 * i, 3 * i + 3) : [];
   }
 
   hullPolygon() {
@@ -231,17 +244,37 @@ export class Delaunay {
 
   /** Removes a point; the others keep their indices. Points that equal it go with it. */
   remove(i) {
+    const gone = [i, ...this.#equalTo(i)];
     this.#plane.remove(i);
-    this.#removed.add(i);
+    gone.forEach((j) => this.#removed.add(j));
     this.#changed();
   }
 
-  /** Moves a point, which keeps its index. */
+  /** Moves a point, which keeps its index. Points that equalled it are removed. */
   move(i, x, y) {
     const at = [checkNumber(x, "x"), checkNumber(y, "y")];
+    const gone = this.#equalTo(i);
     this.#plane.move(i, ...at);
+    // Where it is already it stays, and they do.
+    if (at[0] !== this.points[2 * i] || at[1] !== this.points[2 * i + 1]) {
+      gone.forEach((j) => this.#removed.add(j));
+      this.#equals.delete(i);
+    }
     this.#store(i, at);
     this.#changed();
+  }
+
+  /** The points that equal one and are no vertices for that. */
+  #equalTo(i) {
+    if (!this.#equals) {
+      this.#equals = new Map();
+      const {duplicates} = this;
+      for (let k = 0; k < duplicates.length; k += 2) {
+        const [point, vertex] = [duplicates[k], duplicates[k + 1]];
+        this.#equals.get(vertex)?.push(point) ?? this.#equals.set(vertex, [point]);
+      }
+    }
+    return this.#equals.get(i) ?? [];
   }
 
   /** Writes a point into our own copy of all. */
@@ -254,7 +287,7 @@ export class Delaunay {
       this.#own = own;
     }
     this.#own.set(at, 2 * i);
-    this.points = this.#own.subarray(0, 2 * count);
+    this.#known = this.points = this.#own.subarray(0, 2 * count);
   }
 
   /** The same as `find`, and an error for what is not finite. */
@@ -273,8 +306,8 @@ export class Delaunay {
   }
 
   /** Where a point falls: in a triangle, on an edge, on a vertex, outside. A `strategy` gives also the path that it took. */
-  locate(x, y, {strategy} = {}) {
-    return this.#plane.locate(checkNumber(x, "x"), checkNumber(y, "y"), strategy);
+  locate(x, y, options) {
+    return this.#plane.locate(checkNumber(x, "x"), checkNumber(y, "y"), options?.strategy);
   }
 
   /** Proves that the triangulation is the canonical one, or throws. */

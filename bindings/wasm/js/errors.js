@@ -31,6 +31,15 @@ const faults = [
   ["not-finite", (i, value) => `point ${i} has the weight ${value}, which is not finite`, (i) => i],
 ];
 
+/** Anything as text; some things cannot be. */
+export function shown(value) {
+  try {
+    return String(value);
+  } catch {
+    return typeof value;
+  }
+}
+
 /** Everything that this package throws. */
 export class DeloneError extends Error {
   /**

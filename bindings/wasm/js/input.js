@@ -1,6 +1,6 @@
 // What users give, made into flat arrays of numbers or refused with the index of what is wrong.
 
-import {DeloneError} from "./errors.js";
+import {DeloneError, shown} from "./errors.js";
 
 /** More points than this no triangulation holds. */
 const MOST = 2 ** 29;
@@ -13,18 +13,68 @@ function checkLength(length, what) {
   return length;
 }
 
-/** As a number. What is missing is not zero, which `Number` says of `null` and of empty text. */
-function number(value) {
+/** As a number. What is missing is not zero, which `Number` says of `null`, of empty text and of empty arrays. */
+export function number(value) {
   if (typeof value === "number") return value;
-  if (value == null || typeof value === "symbol" || (typeof value === "string" && value.trim() === "")) return NaN;
-  return Number(value);
+  if (value == null || Array.isArray(value) || (typeof value === "string" && value.trim() === "")) return NaN;
+  try {
+    return Number(value);
+  } catch {
+    return NaN;
+  }
+}
+
+/** Whether something is an array, or like one. */
+const isArray = (value) => value != null && typeof value === "object" && "length" in value;
+
+/** Numbers in a row, from an array or what is like one; what is missing is NaN. */
+export function numbers(values, what) {
+  if (!isArray(values)) throw new DeloneError("input", `${what} are an array of numbers`);
+  return Float64Array.from({length: checkLength(values.length, 1)}, (_, i) => number(values[i]));
+}
+
+/** Four numbers: least and largest x and y by turns, the larger ones not below. */
+export function checkBounds(bounds) {
+  const four = isArray(bounds) ? [0, 1, 2, 3].map((k) => number(bounds[k])) : [];
+  const [xmin, ymin, xmax, ymax] = four;
+  if (!four.length || !four.every(Number.isFinite) || xmax < xmin || ymax < ymin) throw new DeloneError("bounds", "invalid bounds");
+  return four;
+}
+
+/** Rings of points `[x, y]` with the coordinates of all in a row, and where each ring ends. Of points of more coordinates two count. */
+export function flatRings(rings) {
+  const [flat, ends] = [[], []];
+  for (const ring of listed(rings, "polygons are arrays of rings")) {
+    for (const point of listed(ring, "rings are arrays of points")) {
+      if (!isArray(point)) throw new DeloneError("input", "points are arrays of two numbers", flat.length >> 1);
+      flat.push(number(point[0]), number(point[1]));
+    }
+    ends.push(flat.length >> 1);
+  }
+  return {flat: Float64Array.from(flat), ends};
+}
+
+/** What can be iterated. */
+export function listed(items, otherwise) {
+  if (items == null || typeof items !== "object" || typeof items[Symbol.iterator] !== "function") throw new DeloneError("input", otherwise);
+  return items;
+}
+
+/** An array without numbers, or an error if its numbers were given away. */
+function checkAttached(array) {
+  try {
+    new Uint8Array(array.buffer);
+    return array;
+  } catch (cause) {
+    throw Object.assign(new DeloneError("input", "the coordinates were given away: their buffer is detached"), {cause});
+  }
 }
 
 /** A flat array of coordinates, checked. What is a typed array already stays itself. */
 export function flatCoordinates(coords) {
   if (coords == null || typeof coords !== "object") throw new DeloneError("input", "Expected coords to contain numbers: there is no array.");
   const length = checkLength(coords.length, 2);
-  if (coords instanceof Float64Array) return coords;
+  if (coords instanceof Float64Array) return length ? coords : checkAttached(coords);
   const flat = new Float64Array(length);
   for (let i = 0; i < length; ++i) {
     const value = coords[i];
@@ -38,6 +88,7 @@ export function flatCoordinates(coords) {
 /** Points of any kind as a flat array, by functions that give their coordinates. `x` and `y` are called as d3 does. */
 export function flattened(points, x, y, that) {
   if (points == null) throw new DeloneError("input", "there are no points");
+  for (const f of [x, y]) if (typeof f !== "function") throw new DeloneError("input", "coordinates are told by functions");
   if ("length" in Object(points)) {
     const length = checkLength(points.length, 1);
     const flat = new Float64Array(2 * length);
@@ -69,11 +120,11 @@ export function takeOptions(args) {
 }
 
 /** Which points are left out: those not finite, if that is wanted, and those removed. Nothing if none is. */
-export function absentees(flat, {skipInvalid = false} = {}, removed = undefined) {
+export function absentees(flat, options, removed = undefined) {
   const count = flat.length >> 1;
   let absent;
   const leave = (i) => ((absent ??= new Uint8Array(count))[i] = 1);
-  if (skipInvalid) {
+  if (options?.skipInvalid) {
     for (let i = 0; i < count; ++i) {
       if (!Number.isFinite(flat[2 * i]) || !Number.isFinite(flat[2 * i + 1])) leave(i);
     }
@@ -85,7 +136,7 @@ export function absentees(flat, {skipInvalid = false} = {}, removed = undefined)
 /** An index of a point, or an error. */
 export function checkIndex(i, count) {
   if (!Number.isInteger(i) || i < 0 || i >= count) {
-    throw new DeloneError("no-such-point", `${String(i)} is not the index of a point: there are ${count}`);
+    throw new DeloneError("no-such-point", `${shown(i)} is not the index of a point: there are ${count}`);
   }
   return i;
 }
@@ -93,6 +144,6 @@ export function checkIndex(i, count) {
 /** A finite number, or an error. */
 export function checkNumber(value, what) {
   const x = number(value);
-  if (!Number.isFinite(x)) throw new DeloneError("not-finite", `${what} is ${String(value)}, which is not finite`);
+  if (!Number.isFinite(x)) throw new DeloneError("not-finite", `${what} is ${shown(value)}, which is not finite`);
   return x;
 }

@@ -2,7 +2,8 @@
 // that what a damaged one does to it is over with the call, and so is its memory.
 
 import packed from "../dist/inline-laz.js";
-import {DeloneError} from "./errors.js";
+import {DeloneError, shown} from "./errors.js";
+import {listed} from "./input.js";
 import {unpack} from "./unpack.js";
 
 let module;
@@ -23,7 +24,7 @@ const error = (code, message) => new DeloneError(code, message);
  *
  * @param {ArrayBuffer | ArrayBufferView} file
  */
-export function readLas(file, {classes = []} = {}) {
+export function readLas(file, options) {
   if (!(file instanceof ArrayBuffer) && !ArrayBuffer.isView(file)) throw error("not-numbers", "expected the bytes of a file");
   const bytes = file instanceof ArrayBuffer ? new Uint8Array(file) : new Uint8Array(file.buffer, file.byteOffset, file.byteLength);
   module ??= unpack(packed);
@@ -31,7 +32,10 @@ export function readLas(file, {classes = []} = {}) {
   const start = room(bytes.length) >>> 0;
   if (!start) throw error("memory", `there is no memory for a file of ${bytes.length} bytes`);
   new Uint8Array(memory.buffer, start, bytes.length).set(bytes);
-  for (const wanted of classes) want(wanted);
+  for (const wanted of listed(options?.classes ?? [], "classes are an array of numbers")) {
+    if (!Number.isInteger(wanted) || wanted < 0 || wanted > 255) throw error("range", `${shown(wanted)} is no class: they are 0 to 255`);
+    want(wanted);
+  }
   let found;
   try {
     found = read();

@@ -7,7 +7,8 @@
 // more and the garbage collector has found that out, which it does between tasks, not in a loop.
 
 import {Cells, inOrder} from "./cells.js";
-import {DeloneError} from "./errors.js";
+import {DeloneError, shown} from "./errors.js";
+import {flatRings, numbers} from "./input.js";
 import {currentEngine} from "./module.js";
 
 const forgotten = new FinalizationRegistry(({engine, number}) => {
@@ -45,6 +46,9 @@ function polygons(ends, coordinates) {
 
 /** Under this name a triangulation shows what it stands on, to the files here. */
 export const planeOf = Symbol("plane");
+
+/** Under this name it tells what a vertex is joined to. */
+export const joinedTo = Symbol("joined");
 
 export class Plane {
   #held;
@@ -97,7 +101,7 @@ export class Plane {
   /** The same, where it must be one. */
   vertex(i) {
     const place = this.place(i);
-    if (place < 0) throw new DeloneError("no-such-point", `point ${String(i)} is no vertex of this triangulation`, i);
+    if (place < 0) throw new DeloneError("no-such-point", `point ${shown(i)} is no vertex of this triangulation`, i);
     return place;
   }
 
@@ -175,7 +179,7 @@ export class Plane {
   /** Where a point falls; by a strategy of choice with what it looked at on the way, which only the full module tells. */
   locate(x, y, strategy) {
     const by = strategy === undefined ? 0 : strategies.indexOf(strategy);
-    if (by < 0) throw new DeloneError("range", `there is no strategy ${String(strategy)}: ${strategies.join(", ")}`);
+    if (by < 0) throw new DeloneError("range", `there is no strategy ${shown(strategy)}: ${strategies.join(", ")}`);
     const isTold = strategy !== undefined;
     const kind = kinds[isTold ? this.call("locate_by", x, y, by) : this.call("locate", x, y)];
     const {engine} = this;
@@ -187,10 +191,9 @@ export class Plane {
 
   /** Values by the user's index as the module has its points. */
   #placed(values) {
-    if (values?.length !== this.#count) {
-      throw new DeloneError("values", `${values?.length} values where there should be ${this.#count}`);
-    }
-    return this.#given ? this.#given.map((i) => values[i]) : values;
+    const all = numbers(values, "values");
+    if (all.length !== this.#count) throw new DeloneError("values", `${all.length} values where there should be ${this.#count}`);
+    return this.#given ? this.#given.map((i) => all[i]) : all;
   }
 
   interpolate(values, queries, method, isNearest) {
@@ -218,9 +221,9 @@ export class Plane {
 
   /** Cells clipped to a rectangle. */
   cells(bounds) {
-    const beyond = this.call("cells", ...bounds, 0);
+    this.call("cells", ...bounds, 0);
     const {engine} = this;
-    const cells = new Cells(...inOrder(engine.intsThere(0, Int32Array), engine.floatsThere(0), beyond));
+    const cells = new Cells(...inOrder(engine.intsThere(0, Int32Array), engine.floatsThere(0), engine.floatsThere(1)));
     engine.clear();
     return cells;
   }
@@ -242,10 +245,8 @@ export class Plane {
   }
 
   #giveRings(rings) {
-    const ends = [];
-    let end = 0;
-    for (const ring of rings) ends.push((end += ring.length));
-    this.engine.givePoints(Float64Array.from(rings.flat(2)), end);
+    const {flat, ends} = flatRings(rings);
+    this.engine.givePoints(flat);
     this.engine.giveIndices(ends);
   }
 

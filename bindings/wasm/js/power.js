@@ -3,7 +3,7 @@
 
 import {Cells} from "./cells.js";
 import {DeloneError} from "./errors.js";
-import {checkNumber, flatCoordinates} from "./input.js";
+import {checkBounds, flatCoordinates, numbers} from "./input.js";
 import {currentEngine} from "./module.js";
 
 export class Power {
@@ -13,21 +13,22 @@ export class Power {
    * Of points, a flat array, and a weight for each, a squared radius: a place belongs to the point with the least squared distance less
    * the weight. Cells are clipped to bounds with an area.
    */
-  constructor(points, weights, [xmin, ymin, xmax, ymax] = [0, 0, 960, 500]) {
-    const bounds = [xmin, ymin, xmax, ymax].map((x) => checkNumber(x, "bounds"));
-    if (bounds[2] <= bounds[0] || bounds[3] <= bounds[1]) throw new DeloneError("bounds", "invalid bounds");
+  constructor(points, weights, bounds = [0, 0, 960, 500]) {
+    const [xmin, ymin, xmax, ymax] = checkBounds(bounds);
+    if (xmax === xmin || ymax === ymin) throw new DeloneError("bounds", "invalid bounds");
     const flat = flatCoordinates(points);
     const count = flat.length >> 1;
-    if (weights?.length !== count) throw new DeloneError("values", `${weights?.length} weights where there should be ${count}`);
+    const all = numbers(weights, "weights");
+    if (all.length !== count) throw new DeloneError("values", `${all.length} weights where there should be ${count}`);
     const engine = currentEngine();
     engine.givePoints(flat, count);
-    engine.giveNumbers(weights);
-    engine.call(undefined, "power", ...bounds);
+    engine.giveNumbers(all);
+    engine.call(undefined, "power", xmin, ymin, xmax, ymax);
     this.points = points;
     this.weights = weights;
     /** Corners of the triangles, three each, counter-clockwise with y down. */
     this.triangles = engine.ints(0);
-    /** The points that have no cell, because everywhere another one is nearer by its weight. */
+    /** The points that have no cell anywhere, because another one is nearer by its weight, or equals them. */
     this.hidden = engine.ints(1);
     /** The areas of all cells; zero where there is none. */
     this.areas = engine.floats(1);

@@ -2,19 +2,20 @@
 // exactly, and only then rounded, to the same numbers from both sides of each edge. It is always that of the triangulation as it is.
 
 import {Cells} from "./cells.js";
-import {DeloneError} from "./errors.js";
-import {planeOf} from "./plane.js";
+import {checkBounds, number} from "./input.js";
+import {joinedTo, planeOf} from "./plane.js";
 import {drawn, drawPolygon} from "./path.js";
+
+/** Cells with so many corners are not made again for each neighbour. */
+const LARGE = 32;
 
 export class Voronoi {
   #made = {version: -1};
 
   /** Or by `delaunay.voronoi(bounds)`. */
-  constructor(delaunay, [xmin, ymin, xmax, ymax] = [0, 0, 960, 500]) {
-    const bounds = [+xmin, +ymin, +xmax, +ymax];
-    if (!bounds.every(Number.isFinite) || bounds[2] < bounds[0] || bounds[3] < bounds[1]) throw new DeloneError("bounds", "invalid bounds");
+  constructor(delaunay, bounds = [0, 0, 960, 500]) {
     this.delaunay = delaunay;
-    [this.xmin, this.ymin, this.xmax, this.ymax] = bounds;
+    [this.xmin, this.ymin, this.xmax, this.ymax] = checkBounds(bounds);
   }
 
   /** Triangulates again, after points were changed in place. */
@@ -24,14 +25,16 @@ export class Voronoi {
   }
 
   get #bounds() {
-    return [this.xmin, this.ymin, this.xmax, this.ymax];
+    return checkBounds([this.xmin, this.ymin, this.xmax, this.ymax]);
   }
 
-  /** What was made of the triangulation as it is. */
+  /** What was made of the triangulation and the bounds as they are. */
   get #now() {
     const {version} = this.delaunay;
-    if (this.#made.version !== version) this.#made = {version};
-    return this.#made;
+    const {xmin, ymin, xmax, ymax} = this;
+    const made = this.#made;
+    if (made.version === version && made.xmin === xmin && made.ymin === ymin && made.xmax === xmax && made.ymax === ymax) return made;
+    return (this.#made = {version, xmin, ymin, xmax, ymax});
   }
 
   get #plane() {
@@ -68,8 +71,7 @@ export class Voronoi {
 
   /** Whether a point is in the cell of another one, its border included. Exact. */
   contains(i, x, y) {
-    x = +x;
-    y = +y;
+    [x, y] = [number(x), number(y)];
     return Number.isFinite(x) && Number.isFinite(y) && this.#plane.isNearest(i, x, y);
   }
 
@@ -80,11 +82,21 @@ export class Voronoi {
 
   /** The points whose cells have an edge with that of a point inside the bounds. */
   *neighbors(i) {
-    const sides = new Set(sidesOf(this.#ring(i), (a, b) => `${b},${a}`));
-    if (!sides.size) return;
-    for (const j of this.delaunay.neighbors(i)) {
-      if (sidesOf(this.#ring(j), (a, b) => `${a},${b}`).some((side) => sides.has(side))) yield j;
-    }
+    const cell = this.#cell(i);
+    if (!cell.ring.length) return;
+    for (const j of this.delaunay[joinedTo](i)) if (touch(cell, this.#cell(j))) yield j;
+  }
+
+  /** A cell; one with many corners, which many ask about, is kept with the names of its sides. */
+  #cell(i) {
+    const large = (this.#now.large ??= new Map());
+    const known = large.get(i);
+    if (known) return known;
+    const ring = this.#ring(i);
+    if (ring.length < LARGE) return {ring};
+    const cell = {ring, names: new Set(ring.map((p, k) => `${p},${after(ring, k)}`))};
+    large.set(i, cell);
+    return cell;
   }
 
   /** A cell as a closed ring; null if it is empty or there is none. */
@@ -163,7 +175,14 @@ export class Voronoi {
   }
 }
 
-/** The sides of a ring, as names of their ends. */
-function sidesOf(ring, name) {
-  return ring.map((p, k) => name(p, ring[(k + 1) % ring.length]));
+const after = (ring, k) => ring[(k + 1) % ring.length];
+
+/** Whether two cells have a side in common: each has it the other way round, by the same numbers. */
+function touch(a, b) {
+  if (a.ring.length > b.ring.length) [a, b] = [b, a];
+  const same = (p, q) => p[0] === q[0] && p[1] === q[1];
+  return a.ring.some((p, k) => {
+    const q = after(a.ring, k);
+    return b.names ? b.names.has(`${q},${p}`) : b.ring.some((r, m) => same(r, q) && same(after(b.ring, m), p));
+  });
 }

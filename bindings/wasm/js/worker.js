@@ -1,7 +1,11 @@
 // Triangulates off the main thread. Arrays are transferred, not copied, but for the points, which are yours.
 
 import {DeloneError} from "./errors.js";
+import {flatCoordinates} from "./input.js";
 import {builtin, isNode} from "./node.js";
+
+/** Whether a buffer can be given away: one that is not shared. */
+const isMovable = (buffer) => buffer instanceof ArrayBuffer;
 
 /** A thread that triangulates. Tasks wait for each other. */
 export class DelaunayWorker {
@@ -18,6 +22,7 @@ export class DelaunayWorker {
     this.#thread.then((thread) => {
       const hear = (event, handle) => (isNode ? thread.on(event, handle) : thread.addEventListener(event, handle));
       hear("message", (message) => this.#finish(isNode ? message : message.data));
+      hear("messageerror", () => this.#finishAll(new DeloneError("internal", "an answer of the worker cannot be read")));
       hear("error", (error) => this.#finishAll(new DeloneError("internal", `the worker failed: ${error.message}`)));
       this.#hold(thread);
     });
@@ -29,19 +34,29 @@ export class DelaunayWorker {
   }
 
   /**
-   * Triangulates a flat array of coordinates. With `transfer` its buffer is given away, and comes back in `coords`; else it is copied.
+   * Triangulates a flat array of coordinates. With `transfer` its buffer is given away, if it is one that can be, and comes back in `coords`;
+   * else it is copied.
    * Resolves to what a `Delaunator` has: coords, triangles, halfedges, hull.
    */
-  async triangulate(coords, {transfer = false, skipInvalid = false} = {}) {
+  async triangulate(coords, options) {
     if (this.#end) throw this.#end;
-    const given = transfer && coords instanceof Float64Array ? coords : Float64Array.from(coords);
+    const {transfer = false, skipInvalid = false} = options ?? {};
+    const flat = flatCoordinates(coords);
+    // What another type was, or an array, is a copy already.
+    const given = flat === coords && !(transfer && isMovable(flat.buffer)) ? flat.slice() : flat;
     const thread = await this.#thread;
     if (this.#end) throw this.#end;
     const id = this.#next++;
     return new Promise((resolve, reject) => {
+      // Another call may have given it away in between, which not every thread notices.
+      flatCoordinates(given);
+      try {
+        thread.postMessage({id, coords: given, skipInvalid: Boolean(skipInvalid)}, [given.buffer]);
+      } catch (cause) {
+        throw Object.assign(new DeloneError("input", `the coordinates cannot be sent: ${cause.message}`), {cause});
+      }
       this.#tasks.set(id, {resolve, reject});
       this.#hold(thread);
-      thread.postMessage({id, coords: given, skipInvalid}, [given.buffer]);
     });
   }
 

@@ -15,7 +15,11 @@ fn leave(xmin: f64, ymin: f64, xmax: f64, ymax: f64) -> Result<i32, Fault> {
     // Corners are counter-clockwise with y down, as elsewhere.
     let triangles = regular.triangles().flat_map(|[a, b, c]| [a, c, b]);
     tray::leave_ints(0, triangles.map(|v| v.index() as u32).collect());
-    tray::leave_ints(1, regular.hidden().map(|v| v.index() as u32).collect());
+    let duplicates = regular.duplicates().map(|duplicate| duplicate.point);
+    let mut hidden: Vec<usize> = regular.hidden().map(VertexId::index).chain(duplicates).collect();
+    hidden.sort_unstable();
+    hidden.dedup();
+    tray::leave_ints(1, hidden.into_iter().map(|i| i as u32).collect());
     let cells = regular.power().clip(&region);
     let (mut ends, mut corners, mut areas) = (Vec::new(), Vec::new(), Vec::new());
     for cell in (0..points.len()).map(|i| cells.cell(VertexId::new(i))) {

@@ -32,6 +32,8 @@ struct Rings {
     /// For each point where its ring starts and ends.
     spans: Vec<[u32; 2]>,
     corners: Vec<[f64; 2]>,
+    /// Those that have no room, counted on beyond the others: an array that has to grow for a few of them would take twice the memory.
+    others: Vec<[f64; 2]>,
     /// For each group where the next ring goes, and where its room ends.
     rooms: Vec<[usize; 2]>,
 }
@@ -49,7 +51,7 @@ impl Rings {
             end += room[1];
             *room = [end - room[1], end];
         }
-        Self { spans: vec![[0; 2]; count], corners: vec![[0.0; 2]; end], rooms }
+        Self { spans: vec![[0; 2]; count], corners: vec![[0.0; 2]; end], others: Vec::new(), rooms }
     }
 
     fn add(&mut self, v: VertexId, ring: Ring<'_>) {
@@ -63,8 +65,8 @@ impl Rings {
             }
         } else {
             // Cut cells may have more.
-            start = self.corners.len();
-            self.corners.extend(ring.points());
+            start = self.corners.len() + self.others.len();
+            self.others.extend(ring.points());
         }
         self.spans[v.index()] = [start, start + count].map(|at| at as u32);
     }
@@ -104,8 +106,8 @@ export! {
         })
     }
 
-    /// Leaves the cells of all points clipped to a rectangle: as integers where the ring of each starts and ends, as numbers corners. Says
-    /// up to which corner those of a group lie together. Or, if `measured`, areas and centroids.
+    /// Leaves the cells of all points clipped to a rectangle: as integers where the ring of each starts and ends, as numbers corners, first
+    /// those that lie together by groups. Or, if `measured`, areas and centroids.
     fn cells(plane: usize, xmin: f64, ymin: f64, xmax: f64, ymax: f64, measured: i32) -> i32 {
         planes::with(plane, |plane| {
             let region = Region2::rectangle([xmin, ymin], [xmax, ymax])?;
@@ -118,11 +120,11 @@ export! {
                 return Ok(0);
             }
             let mut rings = Rings::room(d);
-            let beyond = rings.corners.len();
             d.voronoi().clip_each(&region, |v, cell| cell.rings().for_each(|ring| rings.add(v, ring)));
             tray::leave_ints(0, rings.spans.into_flattened());
             tray::leave_floats(0, rings.corners.into_flattened());
-            Ok(beyond as i32)
+            tray::leave_floats(1, rings.others.into_flattened());
+            Ok(0)
         })
     }
 }

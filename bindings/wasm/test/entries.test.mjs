@@ -47,11 +47,39 @@ test("the async entry: not ready, ready by default, by bytes, by a module, once;
   assert.equal(node(`${head} await init(readFileSync("dist/delone.wasm")); ${use}`), "3");
   assert.equal(node(`${head} await init(new WebAssembly.Module(readFileSync("dist/delone-full.wasm"))); ${use}`), "3");
   assert.equal(node(`${head} await init(new Response(readFileSync("dist/delone.wasm"))); ${use}`), "3");
+  const empty = "Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0)";
+  assert.equal(node(`${head} await init(${empty}).catch((e) => console.log(e.code)); await init(); ${use}`), "not-ready\n3");
+  assert.equal(node(`${head} await init(Promise.reject(null)).catch((e) => console.log(e.code)); await init(); ${use}`), "not-ready\n3");
   assert.equal(node(`${head} await init("none.wasm").catch((e) => console.log(e.code)); await init(); ${use}`), "not-ready\n3");
 });
 
 test("the small module names what it does not have", () => {
   assert.equal(node('import {Delaunay} from "delone"; try { Delaunay.from([[0, 0]]).insert(1, 1) } catch (e) { console.log(e.code) }'), "unavailable");
+});
+
+test("a worker takes what can be taken, and says what cannot", async () => {
+  const worker = new DelaunayWorker();
+  const fails = async (coords, code, index) =>
+    assert.rejects(worker.triangulate(coords, {transfer: true}), (error) => {
+      assert.deepEqual([error.name, error.code, error.index], ["DeloneError", code, index]);
+      return true;
+    });
+  const given = Float64Array.of(0, 0, 1, 0, 0, 1);
+  const both = [worker.triangulate(given, {transfer: true}), fails(given, "input")];
+  assert.equal((await both[0]).triangles.length, 3);
+  await both[1];
+  await fails(given, "input");
+  const shared = new Float64Array(new SharedArrayBuffer(48));
+  shared.set([0, 0, 1, 0, 0, 1]);
+  assert.equal((await worker.triangulate(shared, {transfer: true, skipInvalid: null})).triangles.length, 3);
+  assert.equal((await worker.triangulate([0, 0, 1, 0, 0, 1], null)).triangles.length, 3);
+  assert.equal((await worker.triangulate(new Float64Array(0), {transfer: true})).triangles.length, 0);
+  await fails([0, null, 1, 0, 0, 1], "not-finite", 0);
+  await fails("0", "input");
+  await fails({length: -3}, "length");
+  await fails(null, "input");
+  await fails([1n, 0], "not-a-number", 0);
+  await worker.terminate();
 });
 
 test("a worker", async () => {

@@ -12,9 +12,9 @@ export interface ConstrainedOptions {
 
 /** The constrained Delaunay triangulation of points and segments. */
 export class Constrained {
-  constructor(points: Coordinates, segments: Iterable<ArrayLike<number>>, options?: ConstrainedOptions);
+  constructor(points: Coordinates, segments: Iterable<ArrayLike<number>> | Iterable<number>, options?: ConstrainedOptions);
   /** Triangles inside of rings. */
-  static polygon(rings: Delaunay.Point[][], options?: ConstrainedOptions): Constrained;
+  static polygon(rings: Iterable<Iterable<ArrayLike<number>>>, options?: ConstrainedOptions): Constrained;
   /** Those given, then those where segments were split. */
   points: Float64Array;
   /** Corners of the triangles inside, three each, counter-clockwise with y down. */
@@ -31,7 +31,7 @@ export class Power {
   weights: ArrayLike<number>;
   /** Corners of the triangles, three each, counter-clockwise with y down. */
   triangles: Uint32Array;
-  /** The points that have no cell. */
+  /** The points that have no cell anywhere: others are heavier there, or equal them. */
   hidden: Uint32Array;
   areas: Float64Array;
   cellPolygon(i: number): Delaunay.Polygon | null;

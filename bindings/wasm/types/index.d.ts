@@ -111,9 +111,9 @@ export class Delaunay<P = Delaunay.Point> {
   locate(x: number, y: number, options?: {strategy?: Strategy}): Located;
   /** Full module: inserts a point, and returns its index, or that of the point that is there. */
   insert(x: number, y: number): number;
-  /** Full module: removes a point; the others keep their indices. */
+  /** Full module: removes a point, and what equals it; the others keep their indices. */
   remove(i: number): void;
-  /** Full module: moves a point, which keeps its index. */
+  /** Full module: moves a point, which keeps its index. What equalled it is removed. */
   move(i: number, x: number, y: number): void;
   /** Full module: proves that the triangulation is the canonical one, or throws. */
   check(): void;
@@ -173,7 +173,7 @@ export class Voronoi<P = Delaunay.Point> {
   /** Where all points would move in a step of Lloyd's relaxation, as a flat array. */
   relax(): Float64Array;
   /** Full module: cells clipped to a polygon of rings; for each point an array of closed rings. */
-  clip(polygon: Delaunay.Point[][]): Delaunay.Polygon[][];
+  clip(polygon: Iterable<Iterable<ArrayLike<number>>>): Delaunay.Polygon[][];
 }
 
 export default Delaunay;

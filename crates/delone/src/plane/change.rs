@@ -97,7 +97,7 @@ impl Delaunay2 {
         Ok(())
     }
 
-    /// Moves a vertex, which keeps its id.
+    /// Moves a vertex, which keeps its id. Points that were reported as its duplicates go, as by [`Self::remove`].
     ///
     /// Cost: one insertion and one removal.
     ///

@@ -85,7 +85,7 @@ impl Delaunay3 {
         Ok(())
     }
 
-    /// Moves a vertex, which keeps its id.
+    /// Moves a vertex, which keeps its id. Points that were reported as its duplicates go, as by [`Self::remove`].
     ///
     /// Cost: one insertion and one removal.
     ///
