@@ -178,6 +178,19 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
   assert.match(await status(page, "location"), /All four found the same/);
 });
 
+test("a polygon that is being drawn is forgotten by a new beginning", async (t) => {
+  const page = await open(t);
+  await page.click("#voronoi-clip");
+  await page.click("#voronoi-reset");
+  assert.equal(await page.getAttribute("#voronoi-clip", "aria-pressed"), "false");
+  await page.locator("#voronoi canvas").click();
+  await page.click("#voronoi-clip");
+  assert.match(await status(page, "voronoi"), /^Tap the corners/);
+  await page.locator("#voronoi canvas").click();
+  await page.click("#voronoi-clip");
+  assert.match(await status(page, "voronoi"), /needs three corners/);
+});
+
 /** Drops a file as a browser would. */
 async function drop(page, name, text) {
   await page.locator("#data canvas").scrollIntoViewIfNeeded();
