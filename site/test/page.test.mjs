@@ -191,8 +191,29 @@ test("a polygon that is being drawn is forgotten by a new beginning", async (t) 
   assert.match(await status(page, "voronoi"), /needs three corners/);
 });
 
+/** Presses a button, or chooses a value, in the very moment that a figure says something. */
+const whenSaid = (page, section, pattern, control, value) =>
+  page.evaluate(
+    ([section, source, control, value]) => {
+      const status = document.querySelector(`#${section} figcaption`);
+      const observer = new MutationObserver(() => {
+        if (!new RegExp(source).test(status.textContent)) return;
+        observer.disconnect();
+        const element = document.querySelector(control);
+        if (value === undefined) return element.click();
+        element.value = value;
+        element.dispatchEvent(new Event("change"));
+      });
+      observer.observe(status, {childList: true});
+    },
+    [section, pattern.source, control, value],
+  );
+
+/** Lines of so many points, no two in the same place. */
+const scattered = (count) => Array.from({length: count}, (_, i) => `${(i * 7919) % 100_003},${(i * i) % 99_991}`).join("\n");
+
 /** Drops a file as a browser would. */
-async function drop(page, name, text) {
+async function startDrop(page, name, text) {
   await page.locator("#data canvas").scrollIntoViewIfNeeded();
   const transfer = await page.evaluateHandle(
     ([name, text]) => {
@@ -203,6 +224,11 @@ async function drop(page, name, text) {
     [name, text],
   );
   for (const kind of ["dragenter", "dragover", "drop"]) await page.dispatchEvent("#data", kind, {dataTransfer: transfer});
+}
+
+/** The same, and waits for what is said of it. */
+async function drop(page, name, text) {
+  await startDrop(page, name, text);
   await page.waitForFunction(() => !/Reading|triangulating/.test(document.querySelector("#data figcaption").textContent));
   return status(page, "data");
 }
@@ -226,6 +252,31 @@ test("files are read, or said to be wrong, and the page lives on", async (t) => 
   const saved = page.waitForEvent("download");
   await page.click("#data-geojson");
   assert.equal((await saved).suggestedFilename(), "triangles.geojson");
+});
+
+test("figures that work at the same time all come to their end", async (t) => {
+  const page = await open(t);
+  await still(page);
+  const says = (section, pattern) =>
+    page.waitForFunction(
+      ([section, source]) => new RegExp(source).test(document.querySelector(`#${section} figcaption`).textContent),
+      [section, pattern.source],
+      {timeout: 60_000},
+    );
+  await page.selectOption("#race-count", "100000");
+  await page.click("#race-start");
+  await page.selectOption("#play-count", "1000000");
+  await page.click("#data-sample");
+  await says("data", /2,400 points, 4,7\d\d triangles/);
+  await says("play", /^1,000,000 points, 1,99/);
+  await says("race", /^\d+,\d+ triangles/);
+  // Who changes his mind gives up his own work only.
+  await page.selectOption("#play-count", "1000000");
+  await whenSaid(page, "data", /triangulating/, "#play-count", "3");
+  await startDrop(page, "many.csv", scattered(100_000));
+  await says("play", /^3 points/);
+  assert.ok(await page.isEnabled("#play-motion"));
+  await says("data", /100,000 points, 199,\d+ triangles/);
 });
 
 test("a point cloud is read", async (t) => {

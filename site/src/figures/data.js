@@ -1,6 +1,6 @@
 // Files of one's own: read, triangulated and drawn here; saved as GeoJSON or as a picture.
 
-import {giveUp, run} from "../background.js";
+import {background} from "../background.js";
 import {edgePainter} from "../lines.js";
 import {read} from "../readers.js";
 import {random} from "../random.js";
@@ -9,6 +9,7 @@ import {Stage, WIDTH, colours, dots, edges, strokePath} from "../stage.js";
 export function data(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#data-${name}`);
+  const worker = background();
   const paint = edgePainter();
   let made;
   let given;
@@ -36,11 +37,11 @@ export function data(section, tell) {
   }
 
   async function take(name, points) {
-    giveUp();
+    worker.giveUp();
     given = points.coords.slice();
     const count = given.length / 2;
     tell(`${name}: ${count.toLocaleString("en")} points, triangulating …`);
-    made = await run({task: "triangulate", coords: points.coords}, [points.coords.buffer]);
+    made = await worker.run({task: "triangulate", coords: points.coords}, [points.coords.buffer]);
     shown = fit(given);
     const triangles = made.triangles.length / 3;
     tell(

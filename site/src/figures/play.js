@@ -1,7 +1,7 @@
 // Points that come, go and move: up to a few thousand one by one, more of them all anew in every frame, a million off the page's thread.
 
 import {Delaunator, Delaunay} from "delone/full";
-import {giveUp, run} from "../background.js";
+import {background} from "../background.js";
 import {edgePainter} from "../lines.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, prefersCalm, ring, strokePath} from "../stage.js";
@@ -16,6 +16,7 @@ const HUGE = 200_000;
 export function play(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#play-${name}`);
+  const worker = background();
   const paint = edgePainter();
   let coords = new Float64Array(0);
   let gone = new Set();
@@ -112,11 +113,16 @@ export function play(section, tell) {
     return made;
   }
 
-  async function begin() {
-    giveUp();
+  /** Other points, or others by the same numbers: what was known of single ones holds no longer. */
+  function take(points) {
+    coords = points;
     gone = new Set();
     chosen = -1;
     speeds = undefined;
+  }
+
+  async function begin() {
+    worker.giveUp();
     frames = [];
     const points = sets();
     const isHuge = points.length / 2 > HUGE;
@@ -126,15 +132,18 @@ export function play(section, tell) {
       of("motion").setAttribute("aria-pressed", "false");
       tell(`${(points.length / 2).toLocaleString("en")} points: triangulating …`);
       try {
-        const result = await run({task: "triangulate", coords: points}, [points.buffer]);
+        const result = await worker.run({task: "triangulate", coords: points}, [points.buffer]);
+        take(result.coords);
         d?.dispose();
-        [d, made, coords, ms] = [undefined, result, result.coords, result.ms];
+        [d, made, ms] = [undefined, result, result.ms];
       } catch (error) {
-        if (error.message !== "cancelled") tell(`That did not work: ${error.message}`, true);
+        if (error.message === "cancelled") return;
+        tell(`That did not work: ${error.message}`, true);
+        of("motion").disabled = coords.length / 2 > HUGE; // the points are still those before
         return;
       }
     } else {
-      coords = points;
+      take(points);
       make();
     }
     say();
@@ -166,10 +175,7 @@ export function play(section, tell) {
   /** Forgets points that are gone. */
   function compact() {
     const kept = Array.from({length: coords.length / 2}, (_, i) => i).filter((i) => !gone.has(i));
-    coords = Float64Array.from(kept.flatMap((i) => [coords[2 * i], coords[2 * i + 1]]));
-    gone = new Set();
-    chosen = -1;
-    speeds = undefined;
+    take(Float64Array.from(kept.flatMap((i) => [coords[2 * i], coords[2 * i + 1]])));
   }
 
   /** Runs a change of single points. */
