@@ -254,6 +254,20 @@ test("files are read, or said to be wrong, and the page lives on", async (t) => 
   assert.equal((await saved).suggestedFilename(), "triangles.geojson");
 });
 
+test("the least and the largest coordinates are drawn", async (t) => {
+  const page = await open(t);
+  for (const [name, text] of [
+    ["least.csv", "0,0\n1e-320,0\n0,1e-320\n-4e-324,5e-324\n"],
+    ["largest.csv", "-1.7e308,-1.7e308\n1.7e308,-1.7e308\n0,1.7e308\n0,0\n"],
+    ["both.csv", "-1.7e308,1e-323\n1.7e308,0\n0,1e-323\n"],
+    ["flat.csv", "0,1\n1e-310,1\n5e-311,1.0000000000000002\n"],
+  ]) {
+    assert.match(await drop(page, name, text), /points, [1-9]/);
+    const [count] = await drawn(page, "data");
+    assert.ok(count > 500, `${name}: ${count} pixels`);
+  }
+});
+
 test("figures that work at the same time all come to their end", async (t) => {
   const page = await open(t);
   await still(page);

@@ -1,6 +1,7 @@
 // Files of one's own: read, triangulated and drawn here; saved as GeoJSON or as a picture.
 
 import {background} from "../background.js";
+import {fit} from "../fit.js";
 import {edgePainter} from "../lines.js";
 import {read} from "../readers.js";
 import {random} from "../random.js";
@@ -23,26 +24,13 @@ export function data(section, tell) {
     if (shown.length < 6000) dots(context, shown, colour.ink, 2 / scale);
   });
 
-  /** Fits points into the stage, y up. */
-  function fit(coords) {
-    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (let i = 0; i < coords.length; i += 2) {
-      [x0, x1] = [Math.min(x0, coords[i]), Math.max(x1, coords[i])];
-      [y0, y1] = [Math.min(y0, coords[i + 1]), Math.max(y1, coords[i + 1])];
-    }
-    const margin = 15;
-    const size = Math.min((WIDTH - 2 * margin) / (x1 - x0 || 1), (stage.height - 2 * margin) / (y1 - y0 || 1));
-    const [dx, dy] = [(WIDTH - (x1 - x0) * size) / 2, (stage.height - (y1 - y0) * size) / 2];
-    return coords.map((x, i) => (i % 2 ? stage.height - dy - (x - y0) * size : dx + (x - x0) * size));
-  }
-
   async function take(name, points) {
     worker.giveUp();
     given = points.coords.slice();
     const count = given.length / 2;
     tell(`${name}: ${count.toLocaleString("en")} points, triangulating …`);
     made = await worker.run({task: "triangulate", coords: points.coords}, [points.coords.buffer]);
-    shown = fit(given);
+    shown = fit(given, WIDTH, stage.height, 15);
     const triangles = made.triangles.length / 3;
     tell(
       `${name}: ${count.toLocaleString("en")} points, ${triangles.toLocaleString("en")} triangles in ${made.ms.toFixed(0)} ms` +
