@@ -2,6 +2,7 @@
 // console. From the disk, as `dist/index.html` is opened by a double click. CHROMIUM says where the browser is.
 
 import assert from "node:assert/strict";
+import {readFileSync} from "node:fs";
 import {after, before, test} from "node:test";
 import {fileURLToPath} from "node:url";
 import {chromium} from "playwright-core";
@@ -252,6 +253,33 @@ test("files are read, or said to be wrong, and the page lives on", async (t) => 
   const saved = page.waitForEvent("download");
   await page.click("#data-geojson");
   assert.equal((await saved).suggestedFilename(), "triangles.geojson");
+});
+
+test("the last of two files is shown, however slowly the first is read", async (t) => {
+  const page = await open(t);
+  await page.evaluate(() => {
+    const {arrayBuffer} = Blob.prototype;
+    Blob.prototype.arrayBuffer = async function () {
+      if (this.name === "slow.csv") await new Promise((resolve) => setTimeout(resolve, 500));
+      return arrayBuffer.call(this);
+    };
+  });
+  await startDrop(page, "slow.csv", "0,0\n1,0\n0,1\n1,1\n");
+  assert.match(await drop(page, "fast.csv", "0,0\n1,0\n0,1\n"), /^fast.csv: 3 points/);
+  await page.waitForTimeout(700);
+  assert.match(await status(page, "data"), /^fast.csv: 3 points/);
+});
+
+test("triangles are saved with their own points while others are being made", async (t) => {
+  const page = await open(t);
+  await drop(page, "few.csv", "0.5,0.5\n1.5,0.5\n0.5,1.5\n");
+  const saved = page.waitForEvent("download");
+  await whenSaid(page, "data", /triangulating/, "#data-geojson");
+  await startDrop(page, "many.csv", scattered(1000));
+  const {geometry} = JSON.parse(readFileSync(await (await saved).path(), "utf8"));
+  const [[ring], ...others] = geometry.coordinates;
+  assert.deepEqual(others, []);
+  assert.deepEqual(new Set(ring.map(String)), new Set(["0.5,0.5", "1.5,0.5", "0.5,1.5"]));
 });
 
 test("the least and the largest coordinates are drawn", async (t) => {
