@@ -249,6 +249,8 @@ test("files are read, or said to be wrong, and the page lives on", async (t) => 
   assert.match(await drop(page, "i.las", "LASF"), /i.las cannot be read/);
   assert.match(await drop(page, "j.csv", "0,0\n".repeat(300_000)), /300,000 points, 0 triangles/);
   assert.match(await drop(page, "k.csv", "0,0\n1,0\n0,1e400\n"), /line 3/);
+  assert.match(await drop(page, "l.csv", "0,0,n/a\r1,0,Berlin\r0,1,\r"), /3 points, 1 triangles/);
+  assert.match(await drop(page, "m.csv", "x;y\n0,5;0\n1,5;0\n0;1,5\n"), /3 points, 1 triangles/);
   assert.match(await drop(page, "a.csv", "0,0\n1,0\n0,1\n"), /3 points, 1 triangles/);
   const saved = page.waitForEvent("download");
   await page.click("#data-geojson");
