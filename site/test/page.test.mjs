@@ -139,6 +139,19 @@ test("a million points, and twenty thousand that move", async (t) => {
   await page.click("#play-motion");
 });
 
+/** Draws a line from point to point with the keyboard. */
+async function wall(page, ...ends) {
+  const canvas = page.locator("#walls canvas");
+  await canvas.focus();
+  for (const end of ends) {
+    for (let i = 0; i < 60; i++) {
+      await canvas.press("ArrowRight");
+      if ((await status(page, "walls")).startsWith(`Point ${end}.`)) break;
+    }
+    await canvas.press("Enter");
+  }
+}
+
 test("cells, constraints, steps, surfaces and location react", async (t) => {
   const page = await open(t);
   const spread = async () => Number(/by (\d+) %/.exec(await status(page, "voronoi"))[1]);
@@ -154,17 +167,7 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
   await page.locator("#voronoi-weights").fill("80");
   await page.waitForFunction(() => /^Power cells/.test(document.querySelector("#voronoi figcaption").textContent));
 
-  const walls = page.locator("#walls canvas");
-  await walls.focus();
-  for (const [from, to] of [[0, 30], [10, 40], [20, 50], [5, 55], [15, 45], [25, 35]]) {
-    for (const end of [from, to]) {
-      for (let i = 0; i < 60; i++) {
-        await walls.press("ArrowRight");
-        if ((await status(page, "walls")).startsWith(`Point ${end}.`)) break;
-      }
-      await walls.press("Enter");
-    }
-  }
+  for (const ends of [[0, 30], [10, 40], [20, 50], [5, 55], [15, 45], [25, 35]]) await wall(page, ...ends);
   await page.check("#walls-split");
   assert.match(await status(page, "walls"), /^Lines: \d+/);
   const before = await status(page, "steps");
@@ -177,6 +180,40 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
   await page.keyboard.press("+");
   await page.click("#location-again");
   assert.match(await status(page, "location"), /All four found the same/);
+});
+
+test("lines that cross are refused alone, and stay split until they are undone", async (t) => {
+  const page = await open(t);
+  const picture = async () => {
+    await drawn(page, "walls");
+    return page.locator("#walls canvas").evaluate((canvas) => canvas.toDataURL());
+  };
+  await page.click("#walls-clear");
+  await page.check("#walls-split");
+  await wall(page, 0, 30);
+  await wall(page, 20, 50);
+  const both = /^Lines: 2; edges of them: \d+, 1 new vertices/;
+  assert.match(await status(page, "walls"), both);
+  const split = await picture();
+  // A third line that crosses none, so that the last one is not to blame.
+  await wall(page, 10, 40);
+  await page.click("#walls-split");
+  assert.match(await status(page, "walls"), /^They stay split, for segments 0 and 1 cross near/);
+  assert.ok(await page.isChecked("#walls-split"));
+  await page.click("#walls-undo");
+  assert.match(await status(page, "walls"), both);
+  assert.equal(await picture(), split);
+  await page.click("#walls-undo");
+  const alone = await status(page, "walls");
+  assert.match(alone, /^Lines: 1; edges of them: \d+\.$/);
+  const one = await picture();
+  await page.uncheck("#walls-split");
+  assert.equal(await status(page, "walls"), alone);
+  await wall(page, 20, 50);
+  assert.match(await status(page, "walls"), /^Refused: segments 0 and 1 cross near/);
+  assert.equal(await picture(), one);
+  await page.click("#walls-undo");
+  assert.match(await status(page, "walls"), /^Lines: 0;/);
 });
 
 test("a polygon that is being drawn is forgotten by a new beginning", async (t) => {
