@@ -101,6 +101,29 @@ test("points come, go and move, by pointer and by keyboard", async (t) => {
   assert.match(await status(page, "play"), /^59 points/);
 });
 
+test("a long press removes the point below one finger, two short ones remove none", async (t) => {
+  const page = await open(t, {hasTouch: true});
+  await still(page);
+  await page.selectOption("#play-kind", "circle");
+  await page.selectOption("#play-count", "3");
+  await page.locator("#play canvas").scrollIntoViewIfNeeded();
+  const box = await page.locator("#play canvas").boundingBox();
+  const points = [0, 1].map((i) => {
+    const [turn, radius] = [(2 * Math.PI * i) / 3, 0.45 * box.height];
+    return {x: box.x + box.width / 2 + Math.cos(turn) * radius, y: box.y + box.height / 2 + Math.sin(turn) * radius, id: i};
+  });
+  const client = await page.context().newCDPSession(page);
+  const press = async (touchPoints, ms) => {
+    await client.send("Input.dispatchTouchEvent", {type: "touchStart", touchPoints});
+    await page.waitForTimeout(ms);
+    await client.send("Input.dispatchTouchEvent", {type: "touchEnd", touchPoints: []});
+    await page.waitForTimeout(800);
+    return status(page, "play");
+  };
+  assert.match(await press(points, 60), /^3 points/);
+  assert.match(await press(points.slice(1), 800), /^2 points/);
+});
+
 test("degenerate sets are shown, and said to be what they are", async (t) => {
   const page = await open(t);
   await still(page);

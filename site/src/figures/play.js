@@ -27,6 +27,7 @@ export function play(section, tell) {
   let ms = 0;
   let serial = 0;
   let frames = [];
+  const fingers = new Map(); // by pointer: the point that is dragged, and the timer of a long press
 
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
@@ -119,6 +120,16 @@ export function play(section, tell) {
     gone = new Set();
     chosen = -1;
     speeds = undefined;
+    letGo(() => true);
+  }
+
+  /** Ends dragging and long presses of some fingers. */
+  function letGo(which) {
+    for (const [pointer, finger] of fingers) {
+      if (!which(finger, pointer)) continue;
+      clearTimeout(finger.held);
+      fingers.delete(pointer);
+    }
   }
 
   async function begin() {
@@ -204,6 +215,7 @@ export function play(section, tell) {
       d.remove(i);
       gone.add(i);
       chosen = -1;
+      letGo(({dragged}) => dragged === i);
     });
   const move = (i, x, y) =>
     change(() => {
@@ -216,8 +228,6 @@ export function play(section, tell) {
     return i >= 0 && Math.hypot(coords[2 * i] - x, coords[2 * i + 1] - y) <= reach ? i : -1;
   };
 
-  let dragged = -1;
-  let held;
   canvas.addEventListener("pointerdown", (event) => {
     if (stage.isMoving) of("motion").click();
     if (!d) return;
@@ -229,13 +239,13 @@ export function play(section, tell) {
     }
     canvas.setPointerCapture(event.pointerId);
     if (i < 0) insert(place);
-    dragged = i < 0 ? chosen : i;
-    chosen = dragged;
-    if (i >= 0) held = setTimeout(() => (remove(i), (dragged = -1)), 600);
+    else chosen = i;
+    if (chosen >= 0) fingers.set(event.pointerId, {dragged: chosen, held: i < 0 ? undefined : setTimeout(() => remove(i), 600)});
     stage.invalidate();
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (dragged < 0) return;
+    if (!fingers.has(event.pointerId)) return;
+    const {dragged, held} = fingers.get(event.pointerId);
     const [x, y] = stage.at(event);
     if (Math.hypot(x - coords[2 * dragged], y - coords[2 * dragged + 1]) > stage.px(3)) {
       clearTimeout(held);
@@ -243,10 +253,7 @@ export function play(section, tell) {
     }
   });
   for (const end of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(end, () => {
-      clearTimeout(held);
-      dragged = -1;
-    });
+    canvas.addEventListener(end, (event) => letGo((_, pointer) => pointer === event.pointerId));
   }
   canvas.addEventListener("keydown", (event) => {
     if (!d) return;
