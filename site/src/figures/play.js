@@ -69,7 +69,8 @@ export function play(section, tell) {
 
   function say() {
     const count = coords.length / 2 - gone.size;
-    const triangles = made.triangles.length / 3;
+    // Two points have one in the arrays, as d3-delaunay has it, and none in truth.
+    const triangles = made.hull.length > 2 ? made.triangles.length / 3 : 0;
     const number = (x) => x.toLocaleString("en");
     const rate = frames.length > 5 ? `, ${Math.round((frames.length - 1) * 1000 / (frames.at(-1) - frames[0]))} frames a second, of which a frame takes ${stage.cost.toFixed(0)} ms here` : "";
     const what =
