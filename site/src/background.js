@@ -1,38 +1,43 @@
-// The worker, as promises. A new one is made when a task is given up.
+// Workers, as promises. Each figure has one of its own, so that none waits for the work of another or ends it.
 
 import source from "worker:text";
 
-let worker;
-let next = 0;
-const tasks = new Map();
+/** A worker, made when it is first needed, and made anew when a task is given up. */
+export function background() {
+  let worker;
+  let next = 0;
+  const tasks = new Map();
 
-function start() {
-  const url = URL.createObjectURL(new Blob([source], {type: "text/javascript"}));
-  worker = new Worker(url);
-  URL.revokeObjectURL(url);
-  worker.addEventListener("message", ({data}) => {
-    const {resolve, reject} = tasks.get(data.id);
-    tasks.delete(data.id);
-    if (data.error) reject(new Error(data.error));
-    else resolve(data);
-  });
-  worker.addEventListener("error", (event) => giveUp(event.message || "the worker failed"));
-}
+  function start() {
+    const url = URL.createObjectURL(new Blob([source], {type: "text/javascript"}));
+    worker = new Worker(url);
+    URL.revokeObjectURL(url);
+    worker.addEventListener("message", ({data}) => {
+      const {resolve, reject} = tasks.get(data.id);
+      tasks.delete(data.id);
+      if (data.error) reject(new Error(data.error));
+      else resolve(data);
+    });
+    worker.addEventListener("error", (event) => giveUp(event.message || "the worker failed"));
+  }
 
-/** Runs a task; buffers in `transfer` are given away. */
-export function run(message, transfer = []) {
-  if (!worker) start();
-  const id = next++;
-  return new Promise((resolve, reject) => {
-    tasks.set(id, {resolve, reject});
-    worker.postMessage({id, ...message}, transfer);
-  });
-}
+  /** Runs a task; buffers in `transfer` are given away. */
+  function run(message, transfer = []) {
+    if (!worker) start();
+    const id = next++;
+    return new Promise((resolve, reject) => {
+      tasks.set(id, {resolve, reject});
+      worker.postMessage({id, ...message}, transfer);
+    });
+  }
 
-/** Ends whatever runs. */
-export function giveUp(reason = "cancelled") {
-  worker?.terminate();
-  worker = undefined;
-  for (const {reject} of tasks.values()) reject(new Error(reason));
-  tasks.clear();
+  /** Ends whatever runs. */
+  function giveUp(reason = "cancelled") {
+    worker?.terminate();
+    worker = undefined;
+    for (const {reject} of tasks.values()) reject(new Error(reason));
+    tasks.clear();
+  }
+
+  return {run, giveUp};
 }

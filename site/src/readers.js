@@ -1,5 +1,6 @@
-// Points of files: columns of text, GeoJSON, LAS and LAZ. Each gives {coords, heights?}, or throws what is wrong and where.
+// Points of files: columns of text, GeoJSON, LAS and LAZ. Each gives {coords}, or throws what is wrong and where.
 
+import {columns} from "./columns.js";
 import {load} from "./load.js";
 
 /** Reads a file by its name and its first bytes. */
@@ -14,32 +15,6 @@ export async function read(file) {
   }
   const text = new TextDecoder().decode(bytes);
   return /^\s*[{[]/.test(text) ? geojson(text) : columns(text);
-}
-
-/** Columns of numbers: x, y and perhaps a height, with or without a heading. */
-export function columns(text) {
-  const coords = [];
-  const heights = [];
-  let width = 0;
-  const lines = text.split(/\r?\n/);
-  for (const [number, line] of lines.entries()) {
-    if (!line.trim() || line.startsWith("#")) continue;
-    const cells = line.trim().split(/\s*[,;\t]\s*|\s+/).map((cell) => (cell === "" ? NaN : Number(cell)));
-    if (coords.length === 0 && heights.length === 0 && cells.some(Number.isNaN)) {
-      if (width) throw new Error(`line ${number + 1}: numbers are expected, not "${line.slice(0, 40)}"`);
-      width = -1; // one heading
-      continue;
-    }
-    if (width <= 0) width = cells.length;
-    if (width < 2) throw new Error(`line ${number + 1}: two columns are needed, x and y`);
-    if (cells.length < 2 || !Number.isFinite(cells[0]) || !Number.isFinite(cells[1])) {
-      throw new Error(`line ${number + 1}: x and y are expected, not "${line.slice(0, 40)}"`);
-    }
-    coords.push(cells[0], cells[1]);
-    if (width > 2) heights.push(Number.isFinite(cells[2]) ? cells[2] : 0);
-  }
-  if (!coords.length) throw new Error("there are no points in this file");
-  return {coords: Float64Array.from(coords), heights: heights.length ? Float64Array.from(heights) : undefined};
 }
 
 /** All positions of a GeoJSON object. */

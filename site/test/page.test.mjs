@@ -2,6 +2,7 @@
 // console. From the disk, as `dist/index.html` is opened by a double click. CHROMIUM says where the browser is.
 
 import assert from "node:assert/strict";
+import {readFileSync} from "node:fs";
 import {after, before, test} from "node:test";
 import {fileURLToPath} from "node:url";
 import {chromium} from "playwright-core";
@@ -100,6 +101,29 @@ test("points come, go and move, by pointer and by keyboard", async (t) => {
   assert.match(await status(page, "play"), /^59 points/);
 });
 
+test("a long press removes the point below one finger, two short ones remove none", async (t) => {
+  const page = await open(t, {hasTouch: true});
+  await still(page);
+  await page.selectOption("#play-kind", "circle");
+  await page.selectOption("#play-count", "3");
+  await page.locator("#play canvas").scrollIntoViewIfNeeded();
+  const box = await page.locator("#play canvas").boundingBox();
+  const points = [0, 1].map((i) => {
+    const [turn, radius] = [(2 * Math.PI * i) / 3, 0.45 * box.height];
+    return {x: box.x + box.width / 2 + Math.cos(turn) * radius, y: box.y + box.height / 2 + Math.sin(turn) * radius, id: i};
+  });
+  const client = await page.context().newCDPSession(page);
+  const press = async (touchPoints, ms) => {
+    await client.send("Input.dispatchTouchEvent", {type: "touchStart", touchPoints});
+    await page.waitForTimeout(ms);
+    await client.send("Input.dispatchTouchEvent", {type: "touchEnd", touchPoints: []});
+    await page.waitForTimeout(800);
+    return status(page, "play");
+  };
+  assert.match(await press(points, 60), /^3 points/);
+  assert.match(await press(points.slice(1), 800), /^2 points/);
+});
+
 test("degenerate sets are shown, and said to be what they are", async (t) => {
   const page = await open(t);
   await still(page);
@@ -118,7 +142,7 @@ test("degenerate sets are shown, and said to be what they are", async (t) => {
     await page.keyboard.press("n");
     await page.keyboard.press("Delete");
     const text = await status(page, "play");
-    assert.ok(left ? text.startsWith(`${left} point`) : text.startsWith("No points"), text);
+    assert.match(text, [/^No points/, /^1 point\. One alone/, /^2 points on a line, which have no triangles/][left]);
   }
 });
 
@@ -138,6 +162,19 @@ test("a million points, and twenty thousand that move", async (t) => {
   await page.click("#play-motion");
 });
 
+/** Draws a line from point to point with the keyboard. */
+async function wall(page, ...ends) {
+  const canvas = page.locator("#walls canvas");
+  await canvas.focus();
+  for (const end of ends) {
+    for (let i = 0; i < 60; i++) {
+      await canvas.press("ArrowRight");
+      if ((await status(page, "walls")).startsWith(`Point ${end}.`)) break;
+    }
+    await canvas.press("Enter");
+  }
+}
+
 test("cells, constraints, steps, surfaces and location react", async (t) => {
   const page = await open(t);
   const spread = async () => Number(/by (\d+) %/.exec(await status(page, "voronoi"))[1]);
@@ -153,17 +190,7 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
   await page.locator("#voronoi-weights").fill("80");
   await page.waitForFunction(() => /^Power cells/.test(document.querySelector("#voronoi figcaption").textContent));
 
-  const walls = page.locator("#walls canvas");
-  await walls.focus();
-  for (const [from, to] of [[0, 30], [10, 40], [20, 50], [5, 55], [15, 45], [25, 35]]) {
-    for (const end of [from, to]) {
-      for (let i = 0; i < 60; i++) {
-        await walls.press("ArrowRight");
-        if ((await status(page, "walls")).startsWith(`Point ${end}.`)) break;
-      }
-      await walls.press("Enter");
-    }
-  }
+  for (const ends of [[0, 30], [10, 40], [20, 50], [5, 55], [15, 45], [25, 35]]) await wall(page, ...ends);
   await page.check("#walls-split");
   assert.match(await status(page, "walls"), /^Lines: \d+/);
   const before = await status(page, "steps");
@@ -178,8 +205,76 @@ test("cells, constraints, steps, surfaces and location react", async (t) => {
   assert.match(await status(page, "location"), /All four found the same/);
 });
 
+test("lines that cross are refused alone, and stay split until they are undone", async (t) => {
+  const page = await open(t);
+  const picture = async () => {
+    await drawn(page, "walls");
+    return page.locator("#walls canvas").evaluate((canvas) => canvas.toDataURL());
+  };
+  await page.click("#walls-clear");
+  await page.check("#walls-split");
+  await wall(page, 0, 30);
+  await wall(page, 20, 50);
+  const both = /^Lines: 2; edges of them: \d+, 1 new vertices/;
+  assert.match(await status(page, "walls"), both);
+  const split = await picture();
+  // A third line that crosses none, so that the last one is not to blame.
+  await wall(page, 10, 40);
+  await page.click("#walls-split");
+  assert.match(await status(page, "walls"), /^They stay split, for segments 0 and 1 cross near/);
+  assert.ok(await page.isChecked("#walls-split"));
+  await page.click("#walls-undo");
+  assert.match(await status(page, "walls"), both);
+  assert.equal(await picture(), split);
+  await page.click("#walls-undo");
+  const alone = await status(page, "walls");
+  assert.match(alone, /^Lines: 1; edges of them: \d+\.$/);
+  const one = await picture();
+  await page.uncheck("#walls-split");
+  assert.equal(await status(page, "walls"), alone);
+  await wall(page, 20, 50);
+  assert.match(await status(page, "walls"), /^Refused: segments 0 and 1 cross near/);
+  assert.equal(await picture(), one);
+  await page.click("#walls-undo");
+  assert.match(await status(page, "walls"), /^Lines: 0;/);
+});
+
+test("a polygon that is being drawn is forgotten by a new beginning", async (t) => {
+  const page = await open(t);
+  await page.click("#voronoi-clip");
+  await page.click("#voronoi-reset");
+  assert.equal(await page.getAttribute("#voronoi-clip", "aria-pressed"), "false");
+  await page.locator("#voronoi canvas").click();
+  await page.click("#voronoi-clip");
+  assert.match(await status(page, "voronoi"), /^Tap the corners/);
+  await page.locator("#voronoi canvas").click();
+  await page.click("#voronoi-clip");
+  assert.match(await status(page, "voronoi"), /needs three corners/);
+});
+
+/** Presses a button, or chooses a value, in the very moment that a figure says something. */
+const whenSaid = (page, section, pattern, control, value) =>
+  page.evaluate(
+    ([section, source, control, value]) => {
+      const status = document.querySelector(`#${section} figcaption`);
+      const observer = new MutationObserver(() => {
+        if (!new RegExp(source).test(status.textContent)) return;
+        observer.disconnect();
+        const element = document.querySelector(control);
+        if (value === undefined) return element.click();
+        element.value = value;
+        element.dispatchEvent(new Event("change"));
+      });
+      observer.observe(status, {childList: true});
+    },
+    [section, pattern.source, control, value],
+  );
+
+/** Lines of so many points, no two in the same place. */
+const scattered = (count) => Array.from({length: count}, (_, i) => `${(i * 7919) % 100_003},${(i * i) % 99_991}`).join("\n");
+
 /** Drops a file as a browser would. */
-async function drop(page, name, text) {
+async function startDrop(page, name, text) {
   await page.locator("#data canvas").scrollIntoViewIfNeeded();
   const transfer = await page.evaluateHandle(
     ([name, text]) => {
@@ -190,6 +285,11 @@ async function drop(page, name, text) {
     [name, text],
   );
   for (const kind of ["dragenter", "dragover", "drop"]) await page.dispatchEvent("#data", kind, {dataTransfer: transfer});
+}
+
+/** The same, and waits for what is said of it. */
+async function drop(page, name, text) {
+  await startDrop(page, name, text);
   await page.waitForFunction(() => !/Reading|triangulating/.test(document.querySelector("#data figcaption").textContent));
   return status(page, "data");
 }
@@ -209,10 +309,78 @@ test("files are read, or said to be wrong, and the page lives on", async (t) => 
   assert.match(await drop(page, "i.las", "LASF"), /i.las cannot be read/);
   assert.match(await drop(page, "j.csv", "0,0\n".repeat(300_000)), /300,000 points, 0 triangles/);
   assert.match(await drop(page, "k.csv", "0,0\n1,0\n0,1e400\n"), /line 3/);
+  assert.match(await drop(page, "l.csv", "0,0,n/a\r1,0,Berlin\r0,1,\r"), /3 points, 1 triangles/);
+  assert.match(await drop(page, "m.csv", "x;y\n0,5;0\n1,5;0\n0;1,5\n"), /3 points, 1 triangles/);
   assert.match(await drop(page, "a.csv", "0,0\n1,0\n0,1\n"), /3 points, 1 triangles/);
   const saved = page.waitForEvent("download");
   await page.click("#data-geojson");
   assert.equal((await saved).suggestedFilename(), "triangles.geojson");
+});
+
+test("the last of two files is shown, however slowly the first is read", async (t) => {
+  const page = await open(t);
+  await page.evaluate(() => {
+    const {arrayBuffer} = Blob.prototype;
+    Blob.prototype.arrayBuffer = async function () {
+      if (this.name === "slow.csv") await new Promise((resolve) => setTimeout(resolve, 500));
+      return arrayBuffer.call(this);
+    };
+  });
+  await startDrop(page, "slow.csv", "0,0\n1,0\n0,1\n1,1\n");
+  assert.match(await drop(page, "fast.csv", "0,0\n1,0\n0,1\n"), /^fast.csv: 3 points/);
+  await page.waitForTimeout(700);
+  assert.match(await status(page, "data"), /^fast.csv: 3 points/);
+});
+
+test("triangles are saved with their own points while others are being made", async (t) => {
+  const page = await open(t);
+  await drop(page, "few.csv", "0.5,0.5\n1.5,0.5\n0.5,1.5\n");
+  const saved = page.waitForEvent("download");
+  await whenSaid(page, "data", /triangulating/, "#data-geojson");
+  await startDrop(page, "many.csv", scattered(1000));
+  const {geometry} = JSON.parse(readFileSync(await (await saved).path(), "utf8"));
+  const [[ring], ...others] = geometry.coordinates;
+  assert.deepEqual(others, []);
+  assert.deepEqual(new Set(ring.map(String)), new Set(["0.5,0.5", "1.5,0.5", "0.5,1.5"]));
+});
+
+test("the least and the largest coordinates are drawn", async (t) => {
+  const page = await open(t);
+  for (const [name, text] of [
+    ["least.csv", "0,0\n1e-320,0\n0,1e-320\n-4e-324,5e-324\n"],
+    ["largest.csv", "-1.7e308,-1.7e308\n1.7e308,-1.7e308\n0,1.7e308\n0,0\n"],
+    ["both.csv", "-1.7e308,1e-323\n1.7e308,0\n0,1e-323\n"],
+    ["flat.csv", "0,1\n1e-310,1\n5e-311,1.0000000000000002\n"],
+  ]) {
+    assert.match(await drop(page, name, text), /points, [1-9]/);
+    const [count] = await drawn(page, "data");
+    assert.ok(count > 500, `${name}: ${count} pixels`);
+  }
+});
+
+test("figures that work at the same time all come to their end", async (t) => {
+  const page = await open(t);
+  await still(page);
+  const says = (section, pattern) =>
+    page.waitForFunction(
+      ([section, source]) => new RegExp(source).test(document.querySelector(`#${section} figcaption`).textContent),
+      [section, pattern.source],
+      {timeout: 60_000},
+    );
+  await page.selectOption("#race-count", "100000");
+  await page.click("#race-start");
+  await page.selectOption("#play-count", "1000000");
+  await page.click("#data-sample");
+  await says("data", /2,400 points, 4,7\d\d triangles/);
+  await says("play", /^1,000,000 points, 1,99/);
+  await says("race", /^\d+,\d+ triangles/);
+  // Who changes his mind gives up his own work only.
+  await page.selectOption("#play-count", "1000000");
+  await whenSaid(page, "data", /triangulating/, "#play-count", "3");
+  await startDrop(page, "many.csv", scattered(100_000));
+  await says("play", /^3 points/);
+  assert.ok(await page.isEnabled("#play-motion"));
+  await says("data", /100,000 points, 199,\d+ triangles/);
 });
 
 test("a point cloud is read", async (t) => {

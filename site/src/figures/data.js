@@ -1,6 +1,7 @@
 // Files of one's own: read, triangulated and drawn here; saved as GeoJSON or as a picture.
 
-import {giveUp, run} from "../background.js";
+import {background} from "../background.js";
+import {fit} from "../fit.js";
 import {edgePainter} from "../lines.js";
 import {read} from "../readers.js";
 import {random} from "../random.js";
@@ -9,10 +10,11 @@ import {Stage, WIDTH, colours, dots, edges, strokePath} from "../stage.js";
 export function data(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#data-${name}`);
+  const worker = background();
   const paint = edgePainter();
-  let made;
-  let given;
-  let shown; // coordinates on the stage
+  let made; // arrays of triangles, and the coordinates that they are of
+  let shown; // those on the stage
+  let latest = 0; // how often points were asked for
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
     const {scale} = stage;
@@ -22,45 +24,35 @@ export function data(section, tell) {
     if (shown.length < 6000) dots(context, shown, colour.ink, 2 / scale);
   });
 
-  /** Fits points into the stage, y up. */
-  function fit(coords) {
-    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (let i = 0; i < coords.length; i += 2) {
-      [x0, x1] = [Math.min(x0, coords[i]), Math.max(x1, coords[i])];
-      [y0, y1] = [Math.min(y0, coords[i + 1]), Math.max(y1, coords[i + 1])];
+  /** Shows points that `read` promises, unless others are asked for in the meantime. */
+  async function open(name, read) {
+    const turn = ++latest;
+    worker.giveUp();
+    try {
+      tell(`Reading ${name} …`);
+      const {coords} = await read();
+      if (turn === latest) await take(name, coords);
+    } catch (error) {
+      if (turn === latest) tell(`${name} cannot be read: ${error.message}.`, true);
     }
-    const margin = 15;
-    const size = Math.min((WIDTH - 2 * margin) / (x1 - x0 || 1), (stage.height - 2 * margin) / (y1 - y0 || 1));
-    const [dx, dy] = [(WIDTH - (x1 - x0) * size) / 2, (stage.height - (y1 - y0) * size) / 2];
-    return coords.map((x, i) => (i % 2 ? stage.height - dy - (x - y0) * size : dx + (x - x0) * size));
   }
 
-  async function take(name, points) {
-    giveUp();
-    given = points.coords.slice();
-    const count = given.length / 2;
-    tell(`${name}: ${count.toLocaleString("en")} points, triangulating …`);
-    made = await run({task: "triangulate", coords: points.coords}, [points.coords.buffer]);
-    shown = fit(given);
+  async function take(name, coords) {
+    const points = `${name}: ${(coords.length / 2).toLocaleString("en")} points`;
+    tell(`${points}, triangulating …`);
+    const result = await worker.run({task: "triangulate", coords}, [coords.buffer]);
+    [made, shown] = [result, fit(result.coords, WIDTH, stage.height, 15)];
     const triangles = made.triangles.length / 3;
     tell(
-      `${name}: ${count.toLocaleString("en")} points, ${triangles.toLocaleString("en")} triangles in ${made.ms.toFixed(0)} ms` +
+      `${points}, ${triangles.toLocaleString("en")} triangles in ${made.ms.toFixed(0)} ms` +
         (triangles ? "." : ": they are on a line, or too few."),
     );
     for (const button of ["geojson", "picture"]) of(button).disabled = !triangles;
     stage.invalidate();
   }
 
-  async function open(file) {
-    try {
-      tell(`Reading ${file.name} …`);
-      await take(file.name, await read(file));
-    } catch (error) {
-      if (error.message !== "cancelled") tell(`${file.name} cannot be read: ${error.message}.`, true);
-    }
-  }
-
-  of("file").addEventListener("change", () => of("file").files[0] && open(of("file").files[0]));
+  const openFile = (file) => open(file.name, () => read(file));
+  of("file").addEventListener("change", () => of("file").files[0] && openFile(of("file").files[0]));
   for (const kind of ["dragenter", "dragover"]) {
     section.addEventListener(kind, (event) => {
       event.preventDefault();
@@ -71,14 +63,14 @@ export function data(section, tell) {
   section.addEventListener("drop", (event) => {
     event.preventDefault();
     const [file] = event.dataTransfer.files;
-    if (file) open(file);
+    if (file) openFile(file);
     else tell("That was no file.", true);
   });
   // A file that misses the figure must not replace the page.
   for (const kind of ["dragover", "drop"]) addEventListener(kind, (event) => event.preventDefault());
 
-  of("sample").addEventListener("click", () => {
-    // Towns along rivers: three random walks.
+  /** Towns along rivers: three random walks. */
+  async function sample() {
     const next = random(77);
     const coords = [];
     for (let river = 0; river < 3; river++) {
@@ -89,8 +81,9 @@ export function data(section, tell) {
         coords.push(x + (next() - 0.5) * 0.2, y + (next() - 0.5) * 0.2);
       }
     }
-    take("The sample", {coords: Float64Array.from(coords)}).catch((error) => tell(error.message, true));
-  });
+    return {coords: Float64Array.from(coords)};
+  }
+  of("sample").addEventListener("click", () => open("The sample", sample));
 
   function save(name, blob) {
     const link = Object.assign(document.createElement("a"), {href: URL.createObjectURL(blob), download: name});
@@ -109,7 +102,7 @@ export function data(section, tell) {
     sheet.toBlob((blob) => save("triangles.png", blob));
   });
   of("geojson").addEventListener("click", () => {
-    const at = (i) => [given[2 * i], given[2 * i + 1]];
+    const at = (i) => [made.coords[2 * i], made.coords[2 * i + 1]];
     const polygons = [];
     for (let t = 0; t < made.triangles.length; t += 3) {
       const [a, b, c] = made.triangles.subarray(t, t + 3);

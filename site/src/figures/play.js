@@ -1,7 +1,7 @@
 // Points that come, go and move: up to a few thousand one by one, more of them all anew in every frame, a million off the page's thread.
 
 import {Delaunator, Delaunay} from "delone/full";
-import {giveUp, run} from "../background.js";
+import {background} from "../background.js";
 import {edgePainter} from "../lines.js";
 import {random, scatter} from "../random.js";
 import {Stage, WIDTH, dots, edges, prefersCalm, ring, strokePath} from "../stage.js";
@@ -16,6 +16,7 @@ const HUGE = 200_000;
 export function play(section, tell) {
   const canvas = section.querySelector("canvas");
   const of = (name) => section.querySelector(`#play-${name}`);
+  const worker = background();
   const paint = edgePainter();
   let coords = new Float64Array(0);
   let gone = new Set();
@@ -26,6 +27,7 @@ export function play(section, tell) {
   let ms = 0;
   let serial = 0;
   let frames = [];
+  const fingers = new Map(); // by pointer: the point that is dragged, and the timer of a long press
 
   const stage = new Stage(canvas, (context, colour) => {
     if (!made) return;
@@ -67,7 +69,8 @@ export function play(section, tell) {
 
   function say() {
     const count = coords.length / 2 - gone.size;
-    const triangles = made.triangles.length / 3;
+    // Two points have one in the arrays, as d3-delaunay has it, and none in truth.
+    const triangles = made.hull.length > 2 ? made.triangles.length / 3 : 0;
     const number = (x) => x.toLocaleString("en");
     const rate = frames.length > 5 ? `, ${Math.round((frames.length - 1) * 1000 / (frames.at(-1) - frames[0]))} frames a second, of which a frame takes ${stage.cost.toFixed(0)} ms here` : "";
     const what =
@@ -112,11 +115,26 @@ export function play(section, tell) {
     return made;
   }
 
-  async function begin() {
-    giveUp();
+  /** Other points, or others by the same numbers: what was known of single ones holds no longer. */
+  function take(points) {
+    coords = points;
     gone = new Set();
     chosen = -1;
     speeds = undefined;
+    letGo(() => true);
+  }
+
+  /** Ends dragging and long presses of some fingers. */
+  function letGo(which) {
+    for (const [pointer, finger] of fingers) {
+      if (!which(finger, pointer)) continue;
+      clearTimeout(finger.held);
+      fingers.delete(pointer);
+    }
+  }
+
+  async function begin() {
+    worker.giveUp();
     frames = [];
     const points = sets();
     const isHuge = points.length / 2 > HUGE;
@@ -126,15 +144,18 @@ export function play(section, tell) {
       of("motion").setAttribute("aria-pressed", "false");
       tell(`${(points.length / 2).toLocaleString("en")} points: triangulating …`);
       try {
-        const result = await run({task: "triangulate", coords: points}, [points.buffer]);
+        const result = await worker.run({task: "triangulate", coords: points}, [points.buffer]);
+        take(result.coords);
         d?.dispose();
-        [d, made, coords, ms] = [undefined, result, result.coords, result.ms];
+        [d, made, ms] = [undefined, result, result.ms];
       } catch (error) {
-        if (error.message !== "cancelled") tell(`That did not work: ${error.message}`, true);
+        if (error.message === "cancelled") return;
+        tell(`That did not work: ${error.message}`, true);
+        of("motion").disabled = coords.length / 2 > HUGE; // the points are still those before
         return;
       }
     } else {
-      coords = points;
+      take(points);
       make();
     }
     say();
@@ -166,10 +187,7 @@ export function play(section, tell) {
   /** Forgets points that are gone. */
   function compact() {
     const kept = Array.from({length: coords.length / 2}, (_, i) => i).filter((i) => !gone.has(i));
-    coords = Float64Array.from(kept.flatMap((i) => [coords[2 * i], coords[2 * i + 1]]));
-    gone = new Set();
-    chosen = -1;
-    speeds = undefined;
+    take(Float64Array.from(kept.flatMap((i) => [coords[2 * i], coords[2 * i + 1]])));
   }
 
   /** Runs a change of single points. */
@@ -198,6 +216,7 @@ export function play(section, tell) {
       d.remove(i);
       gone.add(i);
       chosen = -1;
+      letGo(({dragged}) => dragged === i);
     });
   const move = (i, x, y) =>
     change(() => {
@@ -210,8 +229,6 @@ export function play(section, tell) {
     return i >= 0 && Math.hypot(coords[2 * i] - x, coords[2 * i + 1] - y) <= reach ? i : -1;
   };
 
-  let dragged = -1;
-  let held;
   canvas.addEventListener("pointerdown", (event) => {
     if (stage.isMoving) of("motion").click();
     if (!d) return;
@@ -223,13 +240,13 @@ export function play(section, tell) {
     }
     canvas.setPointerCapture(event.pointerId);
     if (i < 0) insert(place);
-    dragged = i < 0 ? chosen : i;
-    chosen = dragged;
-    if (i >= 0) held = setTimeout(() => (remove(i), (dragged = -1)), 600);
+    else chosen = i;
+    if (chosen >= 0) fingers.set(event.pointerId, {dragged: chosen, held: i < 0 ? undefined : setTimeout(() => remove(i), 600)});
     stage.invalidate();
   });
   canvas.addEventListener("pointermove", (event) => {
-    if (dragged < 0) return;
+    if (!fingers.has(event.pointerId)) return;
+    const {dragged, held} = fingers.get(event.pointerId);
     const [x, y] = stage.at(event);
     if (Math.hypot(x - coords[2 * dragged], y - coords[2 * dragged + 1]) > stage.px(3)) {
       clearTimeout(held);
@@ -237,10 +254,7 @@ export function play(section, tell) {
     }
   });
   for (const end of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(end, () => {
-      clearTimeout(held);
-      dragged = -1;
-    });
+    canvas.addEventListener(end, (event) => letGo((_, pointer) => pointer === event.pointerId));
   }
   canvas.addEventListener("keydown", (event) => {
     if (!d) return;

@@ -1,10 +1,11 @@
-// Ours against delaunator, in the worker.
+// Ours against delaunator, in a worker.
 
-import {giveUp, run} from "../background.js";
+import {background} from "../background.js";
 import {scatter} from "../random.js";
 
 export function race(section, tell) {
   const of = (name) => section.querySelector(`#race-${name}`);
+  const worker = background();
   const busy = (is) => {
     of("start").disabled = is;
     of("cancel").disabled = !is;
@@ -15,7 +16,7 @@ export function race(section, tell) {
     tell(`${count.toLocaleString("en")} points …`);
     try {
       const coords = scatter(count, 540, count);
-      const {ours, theirs, counts} = await run({task: "race", coords, runs: count > 200_000 ? 3 : 7}, [coords.buffer]);
+      const {ours, theirs, counts} = await worker.run({task: "race", coords, runs: count > 200_000 ? 3 : 7}, [coords.buffer]);
       const row = document.createElement("tr");
       for (const text of [count.toLocaleString("en"), `${ours.toFixed(1)} ms`, `${theirs.toFixed(1)} ms`, `${(theirs / ours).toFixed(1)} x`]) {
         row.append(Object.assign(document.createElement("td"), {textContent: text}));
@@ -28,5 +29,5 @@ export function race(section, tell) {
     }
     busy(false);
   });
-  of("cancel").addEventListener("click", () => giveUp());
+  of("cancel").addEventListener("click", () => worker.giveUp());
 }

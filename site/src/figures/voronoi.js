@@ -61,8 +61,13 @@ export function voronoi(section, tell) {
     tell(`${areas.length} cells; their areas differ by ${(100 * spread).toFixed(0)} % (standard deviation).`);
     stage.invalidate();
   }
+  function setDrawing(is) {
+    isDrawing = is;
+    of("clip").setAttribute("aria-pressed", String(is));
+  }
   const begin = () => {
     [polygon, weights] = [undefined, undefined];
+    setDrawing(false);
     of("weights").value = 0;
     take(scatter(120, stage.height, 11, 10));
   };
@@ -77,8 +82,7 @@ export function voronoi(section, tell) {
   of("relax").addEventListener("click", () => take(d.voronoi([0, 0, WIDTH, stage.height]).relax()));
   of("reset").addEventListener("click", begin);
   of("clip").addEventListener("click", () => {
-    isDrawing = !isDrawing;
-    of("clip").setAttribute("aria-pressed", String(isDrawing));
+    setDrawing(!isDrawing);
     if (isDrawing) {
       polygon = [];
       tell("Tap the corners of a polygon, then press the button again.");

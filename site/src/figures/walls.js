@@ -41,15 +41,25 @@ export function walls(section, tell) {
   });
   const coords = scatter(60, stage.height, 14, 30);
 
-  function make() {
+  /** Takes these lines in place of those before. Gives what is wrong if that cannot be; then lines and picture stay as they are. */
+  function take(lines) {
     try {
-      made = new Constrained(coords, walls, {crossings: of("split").checked ? "split" : "refuse"});
-      const more = made.points.length / 2 - coords.length / 2;
-      tell(`Lines: ${walls.length}; edges of them: ${made.constraints.length / 2}${more ? `, ${more} new vertices where they cross` : ""}.`);
+      made = new Constrained(coords, lines, {crossings: of("split").checked ? "split" : "refuse"});
     } catch (error) {
-      walls.pop();
-      tell(`Refused: ${error.message}.`, true);
+      return error.message;
     }
+    walls = lines;
+    const more = made.points.length / 2 - coords.length / 2;
+    tell(`Lines: ${walls.length}; edges of them: ${made.constraints.length / 2}${more ? `, ${more} new vertices where they cross` : ""}.`);
+    stage.invalidate();
+    return undefined;
+  }
+  /** Ends the line that was begun. */
+  function end(at) {
+    if (from < 0) return;
+    const wrong = take(at === from ? walls : [...walls, [from, at]]);
+    if (wrong) tell(`Refused: ${wrong}.`, true);
+    [from, to] = [-1, undefined];
     stage.invalidate();
   }
   const nearest = ([x, y]) => {
@@ -69,15 +79,7 @@ export function walls(section, tell) {
     to = stage.at(event);
     stage.invalidate();
   });
-  canvas.addEventListener("pointerup", (event) => {
-    const end = nearest(stage.at(event));
-    if (from >= 0 && end !== from) {
-      walls.push([from, end]);
-      make();
-    }
-    [from, to] = [-1, undefined];
-    stage.invalidate();
-  });
+  canvas.addEventListener("pointerup", (event) => end(nearest(stage.at(event))));
   // With the keyboard: two keys choose the ends one after the other.
   let cursor = 0;
   canvas.addEventListener("keydown", (event) => {
@@ -88,18 +90,19 @@ export function walls(section, tell) {
       tell(`Point ${cursor}. Enter ${from < 0 ? "begins" : "ends"} a line here.`);
     } else if (event.key === "Enter") {
       if (from < 0) from = cursor;
-      else {
-        if (from !== cursor) walls.push([from, cursor]);
-        [from, to] = [-1, undefined];
-        make();
-      }
+      else end(cursor);
     } else return;
     stage.invalidate();
     event.preventDefault();
   });
-  of("split").addEventListener("change", make);
-  of("undo").addEventListener("click", () => (walls.pop(), make()));
-  of("clear").addEventListener("click", () => ((walls = []), make()));
-  walls = [[3, 17]];
-  make();
+  of("split").addEventListener("change", () => {
+    const wrong = take(walls);
+    if (!wrong) return;
+    // Lines that cross are there already: which of them should go is not for us to say.
+    of("split").checked = true;
+    tell(`They stay split, for ${wrong}. Undo lines that cross first.`, true);
+  });
+  of("undo").addEventListener("click", () => take(walls.slice(0, -1)));
+  of("clear").addEventListener("click", () => take([]));
+  take([[3, 17]]);
 }
