@@ -114,14 +114,25 @@ impl Constrained2 {
             (bent, report) = (split.bent, split.counts);
             (graph, _, _) = constrained(split.points, &indices(&split.pieces), &mut report);
         }
-        Ok(Self {
+        Ok(Self::of(graph, Segments::new(ends, bent), report))
+    }
+
+    /// Triangulates finite points and segments between them; `None` if some cross, without a search for which.
+    pub(crate) fn if_uncrossed(points: Vec<[f64; 2]>, segments: &[[usize; 2]]) -> Option<Self> {
+        let mut report = ConstraintReport2::default();
+        let (graph, ends, refused) = constrained(points, segments, &mut report);
+        refused.is_empty().then(|| Self::of(graph, Segments::new(ends, BTreeMap::new()), report))
+    }
+
+    fn of(graph: Delaunay2, segments: Segments, report: ConstraintReport2) -> Self {
+        Self {
             graph,
-            segments: Segments::new(ends, bent),
+            segments,
             cover: OnceLock::new(),
             has_chains: report.through_vertices > 0 || report.rounds > 0,
             report,
             channel: Channel::default(),
-        })
+        }
     }
 }
 

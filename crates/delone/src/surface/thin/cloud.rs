@@ -70,21 +70,29 @@ impl Cloud {
         let [u, v] = [1, 2].map(|i| [0, 1].map(|k| (c[i][k] - c[0][k]) / size[k]));
         let is_slanted = 16.0 * (u[0] * v[1] - u[1] * v[0]) < 1.0;
         let leaves = self.boxes.len() / 2;
-        let mut stack = vec![1];
-        while let Some(i) = stack.pop() {
+        // A bound of the errors in a box, if it has some of the triangle.
+        let most = |i: usize| {
             let Bound(bound) = &self.boxes[i];
             let both = [0, 1].map(|k| [bound[k][0].max(around[k][0]), bound[k][1].min(around[k][1])]);
             let is_beyond = |k: usize| self.is_beyond(both, [c[k], c[(k + 1) % 3]]);
             if both.iter().any(|side| side[0] > side[1]) || is_slanted && (0..3).any(is_beyond) {
-                continue;
+                return None;
             }
             let middle = both.map(|side| side[0] / 2.0 + side[1] / 2.0);
             let half = both.map(|side| side[1] / 2.0 - side[0] / 2.0);
-            if plane.as_ref().is_ok_and(|(plane, _)| plane.most(middle, half, bound[2]) < floor.get()) {
+            Some(plane.as_ref().map_or(f64::INFINITY, |(plane, _)| plane.most(middle, half, bound[2])))
+        };
+        // The box that may have the worst is entered first, so that most others need not be.
+        let mut stack: Vec<(usize, f64)> = Vec::new();
+        stack.extend(most(1).map(|most| (1, most)));
+        while let Some((i, bound)) = stack.pop() {
+            if bound < floor.get() {
                 continue;
             }
             if i < leaves {
-                stack.extend([2 * i + 1, 2 * i]);
+                let [low, high] = [2 * i, 2 * i + 1].map(|i| most(i).map(|most| (i, most)));
+                let is_low_first = low.zip(high).is_some_and(|(low, high)| low.1 >= high.1);
+                stack.extend(if is_low_first { [high, low] } else { [low, high] }.into_iter().flatten());
                 continue;
             }
             let first = (i - leaves) * LEAF;

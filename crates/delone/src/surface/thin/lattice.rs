@@ -1,7 +1,9 @@
 //! The cells of a raster, measured against planes over triangles: row by row, and over large triangles block by block, of which most
 //! are surely not worse than the worst so far. Blocks are tilted, so that this is a matter of how rough they are, not of how steep.
 //!
-//! Cells and corners are numbers of columns and rows here, so that which cells are in a triangle is exact. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
+//! Cells and corners are numbers of columns and rows here, so that which cells are in a triangle is exact. Where centres were rounded, what
+//! is on a line by these numbers may be a triangle: so thin that the cells between its corners are measured against the longest side, as
+//! they are against the others from across these. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -135,6 +137,38 @@ impl<'a> Lattice<'a> {
         along(0).then_with(|| along(1))
     }
 
+    /// Tells the cells between the first and the last of three on a line, and how far each is from the straight line between their heights.
+    #[cold]
+    fn along(&self, corners: Triple, mut take: impl FnMut([i32; 2], f64)) {
+        let cells = corners.map(|s| self.cell(s));
+        let by_row = |[column, row]: &[i32; 2]| (*row, *column);
+        let (Some(a), Some(b)) = (cells.into_iter().min_by_key(by_row), cells.into_iter().max_by_key(by_row))
+        else {
+            return;
+        };
+        let [across, down] = [b[0] - a[0], b[1] - a[1]];
+        let steps = divisor(across.unsigned_abs(), down.unsigned_abs()) as i32;
+        let [low, high] = [self.at(a), self.at(b)];
+        for k in 1..steps {
+            let cell = [a[0] + across / steps * k, a[1] + down / steps * k];
+            let z = self.at(cell);
+            if !z.is_nan() {
+                take(cell, (z - (low + (high - low) * (f64::from(k) / f64::from(steps)))).abs());
+            }
+        }
+    }
+
+    /// The worst of these.
+    fn worst_along(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {
+        let mut worst = Worst::above(floor);
+        self.along(corners, |cell, error| {
+            if error >= worst.error {
+                worst.offer(error, cell, |a, b| self.order(a, b));
+            }
+        });
+        worst.sample.map(|cell| (worst.error, Self::sample(cell, self.columns)))
+    }
+
     /// The plane over a triangle and its sides; `None` where it has no area here.
     fn triangle(&self, [a, b, c]: Triple) -> Option<(Plane, Sides)> {
         // Cells are numbered row by row.
@@ -228,6 +262,11 @@ impl<'a> Lattice<'a> {
     }
 }
 
+/// The greatest common divisor.
+fn divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { divisor(b, a % b) }
+}
+
 impl Samples for Lattice<'_> {
     type Entry = u128;
 
@@ -263,7 +302,7 @@ impl Samples for Lattice<'_> {
     }
 
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {
-        let (plane, sides) = self.triangle(corners)?;
+        let Some((plane, sides)) = self.triangle(corners) else { return self.worst_along(corners, floor) };
         let mut worst = Worst::above(floor);
         if sides.size().iter().all(|&size| size >= LARGE) {
             self.by_blocks(&plane, &sides, &mut worst);
@@ -275,7 +314,10 @@ impl Samples for Lattice<'_> {
     }
 
     fn judge(&self, corners: Triple, t: u32, verdict: &mut Verdict<'_>) {
-        let Some((plane, sides)) = self.triangle(corners) else { return };
+        let Some((plane, sides)) = self.triangle(corners) else {
+            return self
+                .along(corners, |cell, error| verdict.take(t, Self::sample(cell, self.columns), error));
+        };
         sides.each(|part| {
             let Part { row, columns: [a, b] } = part;
             if a > b {
@@ -295,7 +337,11 @@ impl Samples for Lattice<'_> {
     }
 
     fn error(&self, corners: Triple, sample: u32) -> f64 {
-        let place = self.cell(sample).map(f64::from);
-        self.triangle(corners).map_or(0.0, |(plane, _)| (self.height(sample) - plane.at(place)).abs())
+        if let Some((plane, _)) = self.triangle(corners) {
+            return (self.height(sample) - plane.at(self.cell(sample).map(f64::from))).abs();
+        }
+        let (mut found, here) = (0.0, self.cell(sample));
+        self.along(corners, |cell, error| found = if cell == here { error } else { found });
+        found
     }
 }

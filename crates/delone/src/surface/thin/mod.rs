@@ -29,14 +29,17 @@ use crate::hull::Hull2;
 use crate::ids::MAX_POINTS;
 use crate::order::morton;
 use crate::parallel;
-use crate::plane::{Constrained2, Crossings};
+use crate::plane::Constrained2;
 use crate::points::{check_count, check_finite, survey};
 use crate::triangulation::Triangulation;
 use cloud::Cloud;
 use greedy::Greedy;
-use lattice::Lattice;
+use lattice::{HIGHEST, Lattice};
 use mesh::{Mesh, NONE};
 use plane::LOW;
+
+/// What higher heights than [`HIGHEST`] are multiplied with, and all others with them: 2^-64.
+const LOWERED: f64 = f64::from_bits((1023 - 64) << 52);
 
 /// Three samples: the corners of a triangle.
 type Triple = [u32; 3];
@@ -200,26 +203,35 @@ impl Thinning {
             let segments: Vec<[usize; 2]> = segments.iter().map(|ends| ends.map(at)).collect();
             (start.into_iter().map(|i| place[i]).collect::<Vec<u32>>(), segments)
         };
-        let heights = sorted.indices.iter().map(|&i| heights[i as usize]).collect();
+        // Planes over higher ones, and differences of them, may be beyond all numbers.
+        let scale = if heights.iter().all(|z| z.abs() < HIGHEST) { 1.0 } else { LOWERED };
+        let heights = sorted.indices.iter().map(|&i| heights[i as usize] * scale).collect();
         let filter =
             filter(bounds.high[0] - bounds.low[0], bounds.high[1] - bounds.low[1], points.as_flattened());
         let samples = Cloud::new(sorted.points, heights, filter);
-        let (start, between) = begin(&[]);
-        let thinned = match self.thin(&samples, &start, &between, filter) {
-            Err(Error::SegmentsCross { .. }) => {
-                let (start, between) = begin(&junctions(points, segments)?);
-                self.thin(&samples, &start, &between, filter)?
+        let scaled = Self { max_error: self.max_error * scale, ..*self };
+        let at = |start: &[u32]| start.iter().map(|&s| samples.point(s)).collect::<Vec<_>>();
+        let (mut start, between) = begin(&[]);
+        // Mostly they meet at ends of theirs alone. To be told where else takes long where many do.
+        let meet_at_ends = Constrained2::if_uncrossed(at(&start), &between);
+        let c = match meet_at_ends {
+            Some(c) => c,
+            None => {
+                let between;
+                (start, between) = begin(&junctions(points, segments)?);
+                Constrained2::from_parts(&at(&start), &between)?
             }
-            thinned => thinned?,
         };
         let all = 0..samples.points.len() as u32;
-        Ok(thinned
+        let thinned = scaled
+            .thin(&samples, &start, &c, filter)
             .unwrap_or_else(|| Thinned { vertices: all.map(|s| s as usize).collect(), error: 0.0 })
-            .named(&sorted.indices))
+            .named(&sorted.indices);
+        Ok(Thinned { error: thinned.error / scale, ..thinned })
     }
 
     /// Thins the cells of a raster that have data: values row by row, NaN where there is none. Vertices are numbers of cells.
-    /// Errors are those over columns and rows, without the rounding of where centres are.
+    /// Errors are those over columns and rows, without the rounding of where centres are, which moves a place by a small part of a cell.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a largest error that is NaN or negative, [`Error::Values`] for other than one value a cell,
@@ -245,9 +257,8 @@ impl Thinning {
             return Err(Error::Height { index, value: values[index] });
         }
         // Planes over cells end before numbers do.
-        let is_extreme =
-            |z: f64| z != 0.0 && !z.is_nan() && !(LOW * 1e20..lattice::HIGHEST).contains(&z.abs());
-        if values.iter().any(|&z| is_extreme(z)) {
+        let is_extreme = |z: f64| z != 0.0 && !z.is_nan() && !(LOW * 1e20..HIGHEST).contains(&z.abs());
+        if values.iter().any(|&z| is_extreme(z)) || is_coarse(grid) {
             return self.cells(grid, values);
         }
         let start: Vec<u32> = corners(grid, values)?.into_iter().map(|i| i as u32).collect();
@@ -256,7 +267,8 @@ impl Thinning {
         let [dx, dy] = grid.step().map(f64::abs);
         let filter = filter(width * dx, height * dy, &sides);
         let samples = Lattice::new(grid, values);
-        let thinned = self.thin(&samples, &start, &[], filter)?;
+        let points: Vec<[f64; 2]> = start.iter().map(|&s| samples.point(s)).collect();
+        let thinned = self.thin(&samples, &start, &Constrained2::from_parts(&points, &[])?, filter);
         let all = || (0..values.len()).filter(|&i| !values[i].is_nan()).collect();
         Ok(thinned.unwrap_or_else(|| Thinned { vertices: all(), error: 0.0 }))
     }
@@ -277,18 +289,16 @@ impl Thinning {
         Err(Error::Parameter { name: "the largest error", value: self.max_error, range: "zero or positive" })
     }
 
-    /// Chooses samples; `None` where there are no triangles, so that nothing can be left out.
+    /// Chooses samples, from those that a triangulation is of; `None` where there are no triangles, so that nothing can be left out.
     fn thin<S: Samples>(
         &self,
         samples: &S,
         start: &[u32],
-        segments: &[[usize; 2]],
+        c: &Constrained2,
         filter: Filter,
-    ) -> Result<Option<Thinned>, Error> {
-        let points: Vec<[f64; 2]> = start.iter().map(|&s| samples.point(s)).collect();
-        let c = Constrained2::with_crossings(&points, segments, Crossings::Refuse)?;
+    ) -> Option<Thinned> {
         if c.triangle_count() == 0 {
-            return Ok(None);
+            return None;
         }
         let mut number = vec![NONE; c.slot_count()];
         for (n, t) in c.triangle_ids().enumerate() {
@@ -300,7 +310,7 @@ impl Thinning {
             .map(|t| {
                 let corners = mesh.corners(t).map(|v| v.index() as u32);
                 let across =
-                    [0, 1, 2].map(|k| Triangulation::across(&c, t, k).map_or(NONE, |u| number[u.index()]));
+                    [0, 1, 2].map(|k| Triangulation::across(c, t, k).map_or(NONE, |u| number[u.index()]));
                 let ends = |e| [mesh.origin(e), mesh.destination(e)].map(|v| v.index() as u32);
                 let fixed: Vec<[u32; 2]> = [0, 1, 2]
                     .map(|k| t.edge(k))
@@ -312,9 +322,9 @@ impl Thinning {
                 (corners, across, [0, 1, 2].map(is_fixed))
             })
             .collect();
-        let mesh = Mesh::new(points, &triangles, filter);
+        let mesh = Mesh::new(c.points().to_vec(), &triangles, filter);
         let greedy = Greedy::new(samples, mesh, start);
-        Ok(Some(parallel::inside(samples.count(), || greedy.run(self.max_error, self.max_points))))
+        Some(parallel::inside(samples.count(), || greedy.run(self.max_error, self.max_points)))
     }
 }
 
@@ -328,7 +338,7 @@ impl Thinned {
 
 /// The points where segments meet: with more than two edges of theirs. Segments that cross elsewhere are an error.
 fn junctions(points: &[[f64; 2]], segments: &[[usize; 2]]) -> Result<Vec<usize>, Error> {
-    let c = Constrained2::with_crossings(points, segments, Crossings::Refuse)?;
+    let c = Constrained2::from_parts(points, segments)?;
     let mesh = c.mesh();
     let mut edges = vec![0_u32; points.len()];
     let fixed = c.triangle_ids().flat_map(|t| [0, 1, 2].map(|k| t.edge(k))).filter(|&e| mesh.is_fixed(e));
@@ -343,6 +353,17 @@ fn junctions(points: &[[f64; 2]], segments: &[[usize; 2]]) -> Result<Vec<usize>,
 /// What floating point decides in a box of this size, for coordinates on a lattice or not.
 fn filter(width: f64, height: f64, coordinates: &[f64]) -> Filter {
     Filter::for_box(width, height, Steps::of(coordinates))
+}
+
+/// Whether centres are rounded so much, in parts of a cell, that a triangle may turn over by it.
+fn is_coarse(grid: &Grid) -> bool {
+    let count = [grid.columns(), grid.rows()];
+    let most = |k: usize, place: fn(&Grid, usize) -> f64| {
+        place(grid, 0).abs().max(place(grid, count[k].saturating_sub(1)).abs()) / grid.step()[k].abs()
+    };
+    let rounding = f64::EPSILON * most(0, Grid::x).max(most(1, Grid::y));
+    // Twice the area of a triangle of cells is one cell at least, and no side is longer than both sides of the raster.
+    rounding * (count[0] as f64 + count[1] as f64) > 1.0 / 256.0
 }
 
 /// The cells at the corners of the hull of those with data, by number.

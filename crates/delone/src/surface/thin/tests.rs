@@ -347,3 +347,104 @@ fn thin_triangles_hide_no_points() {
     let thinned = Thinning::new().raster(&grid, &values).expect("finite");
     assert_eq!((thinned.vertices, thinned.error), (vec![0, 2, 6, 8, 4], 0.0));
 }
+
+/// The height in a triangle, however thin, from areas in integers: coordinates are multiples of 2^-44 here.
+fn exact_height(c: [[f64; 2]; 3], z: [f64; 3], q: [f64; 2]) -> f64 {
+    let whole = |x: f64| {
+        let scaled = x * 2f64.powi(44);
+        assert!(scaled.fract() == 0.0 && scaled.abs() < 2f64.powi(60), "{x}");
+        scaled as i128
+    };
+    let cross = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        let [a, b, c] = [a, b, c].map(|p| p.map(whole));
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    let weights = [cross(q, c[1], c[2]), cross(q, c[2], c[0]), cross(q, c[0], c[1])];
+    let all = weights.iter().sum::<i128>() as f64;
+    weights.iter().zip(z).map(|(&w, z)| w as f64 / all * z).sum()
+}
+
+/// Cells on a line are the corners of thin triangles where their centres are rounded.
+#[test]
+fn rasters_with_slanted_borders_and_rounded_cells_are_near() {
+    let mut random = Random::new(5);
+    let mut thin = 0;
+    for (round, side) in
+        [0.1, 0.3, 0.7, 1.1, 0.1, 1.0 / 3.0, 0.1, 2.7].into_iter().cycle().take(120).enumerate()
+    {
+        let n = 8 + random.below(16);
+        let down = if round % 2 == 0 { side } else { -side };
+        let origin = [500.1, 700.3].map(|x: f64| (x / side).round() * side);
+        let grid = Grid::new(origin, [side, down], n, n).expect("a grid");
+        let [a, b] = [1 + random.below(3), 1 + random.below(3)];
+        let mut values: Vec<f64> = (0..n * n)
+            .map(|i| if a * (i % n) > b * (i / n) { f64::NAN } else { (0.4 * (i % n) as f64).sin() * 3.0 })
+            .collect();
+        values.iter_mut().for_each(|z| *z += random.unit());
+        let bound = [0.5, 1.5, 3.0][round % 3];
+        let thinned = Thinning::new().max_error(bound).raster(&grid, &values).expect("valid");
+        let centre = |i: usize| grid.centre(i % n, i / n);
+        let chosen: Vec<[f64; 2]> = thinned.vertices.iter().map(|&i| centre(i)).collect();
+        let d = Delaunay2::from_points(&chosen).expect("finite");
+        let mut worst = 0.0_f64;
+        for i in (0..n * n).filter(|&i| !values[i].is_nan()) {
+            let t = crate::Ask::find(&d, centre(i)).expect("finite").simplex.expect("inside of the hull");
+            let corners = d.mesh().corners(t);
+            let height = |v: VertexId| values[thinned.vertices[v.index()]];
+            let at = exact_height(corners.map(|v| d.point(v)), corners.map(height), centre(i));
+            worst = worst.max((values[i] - at).abs());
+        }
+        assert!(worst <= bound + 1e-9, "{round}: {worst} where {bound} is allowed");
+        assert!(thinned.error >= worst - 1e-9, "{round}: {} and {worst}", thinned.error);
+        let on_line = |t| {
+            let [a, b, c] = d.mesh().corners(t).map(|v| thinned.vertices[v.index()] as i64);
+            let n = n as i64;
+            (b % n - a % n) * (c / n - a / n) == (b / n - a / n) * (c % n - a % n)
+        };
+        thin += d.triangle_ids().filter(|&t| on_line(t)).count();
+    }
+    assert!(thin > 20, "{thin}");
+}
+
+/// Rounding of centres by more than a part of a cell: then cells are points.
+#[test]
+fn rasters_of_coarse_coordinates_are_near() {
+    let grid = Grid::new([1e15, 1e15], [0.3, 0.3], 12, 9).expect("a grid");
+    let values: Vec<f64> = (0..108).map(|i| f64::from(i % 7) * 1.5 + f64::from(i / 12)).collect();
+    let centres: Vec<[f64; 2]> = (0..108).map(|i| grid.centre(i % 12, i / 12)).collect();
+    let by_points = Thinning::new().max_error(1.0).points(&centres, &values, &[]).expect("valid");
+    assert_eq!(Thinning::new().max_error(1.0).raster(&grid, &values).expect("valid"), by_points);
+}
+
+#[test]
+fn heights_at_the_end_of_numbers() {
+    let points = [[0.0, 0.0], [4.0, 4.03], [8.0, 8.0], [4.0, 4.01]];
+    for high in [1e300, 2e306, f64::MAX] {
+        let z = [0.0, high, 0.0, -high];
+        let thinned = Thinning::new().points(&points, &z, &[]).expect("valid");
+        assert_eq!((thinned.vertices.len(), thinned.error), (4, 0.0), "{high}");
+        let one = Thinning::new().max_points(3).points(&points, &z, &[]).expect("valid");
+        // On the slope between a corner of the hull that is high and the base.
+        assert!(one.error > high, "{high}: {}", one.error);
+        let some = Thinning::new().max_error(3.0 * (high / 2.0)).points(&points, &z, &[]).expect("valid");
+        assert!(some.vertices.len() == 3 && some.error <= 3.0 * (high / 2.0), "{high}: {some:?}");
+    }
+}
+
+/// Many segments that meet at one point, which is no end of theirs: what crosses is not asked for where nothing does.
+#[test]
+fn many_segments_meet_at_one_point() {
+    let count = 400;
+    let mut points = vec![[0.0, 0.0]];
+    let mut segments = Vec::new();
+    for k in 0..count {
+        let p = [f64::from(k + 1), f64::from((k * 37) % 401 + 1)];
+        segments.push([points.len(), points.len() + 1]);
+        points.extend([p, p.map(|x| -x)]);
+    }
+    let z = heights(&points.iter().map(|p| p.map(|x| x / 400.0)).collect::<Vec<_>>());
+    let thinned =
+        Thinning::new().max_error(1.0).points(&points, &z, &segments).expect("they meet at a point");
+    assert!(thinned.vertices.contains(&0));
+    assert!(error(&points, &z, &thinned.vertices, &segments) <= 1.0 + 1e-6);
+}
