@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use delone::surface::{Grid, Interpolator, Outside, gradients};
-use delone::{Bounds, Delaunay2, Delaunay3, Error, Surround};
+use delone::{Delaunay2, Delaunay3, Error, Surround};
 use delone_io::{Cloud, Format, Output, RasterInfo, RasterWriter, Sample, write_array};
 
 use crate::args::{InterpolateArgs, MethodName, OutsideName};
@@ -35,7 +35,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let (queries, grid) = match (&args.queries, args.grid) {
         (Some(path), _) => (room::queries::<R>(path, quiet)?, None),
         (None, size) => {
-            let bounds = Bounds::of(points.iter().map(|p| [p.as_ref()[0], p.as_ref()[1]]));
+            let bounds = room::bounds(&points, &label)?;
             let grid =
                 Grid::aligned(&bounds, size.unwrap_or(1.0)).map_err(|e| Failure::points(&label, &e))?;
             (centres::<R>(&grid, &label)?, Some(grid))

@@ -218,7 +218,7 @@ pub enum Error {
     #[error("the work was stopped")]
     Stopped,
     /// A parameter is out of range.
-    #[error("{name} is {value}; it must be {range}")]
+    #[error("{name} is {}; it must be {range}", short(*.value))]
     Parameter {
         /// Its name.
         name: &'static str,
@@ -227,6 +227,15 @@ pub enum Error {
         /// What it must be.
         range: &'static str,
     },
+}
+
+/// A number without hundreds of zeros.
+fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() || (1e-6..1e16).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 /// What is said of other pairs.

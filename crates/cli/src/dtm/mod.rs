@@ -23,6 +23,7 @@ use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
 use crate::message::{Failure, say, warn};
 use crate::progress::Phase;
+use crate::room;
 use crate::stats::{Stats, grouped};
 use crate::tiles::Held;
 use bands::About;
@@ -128,7 +129,7 @@ impl Job<'_> {
         inputs::check(cloud, &self.label, args)?;
         let crs = self.crs(cloud);
         self.check_clip(crs.as_ref())?;
-        let grid = self.grid(&Bounds::of(cloud.xy.iter().copied()), cloud.xy.len() as f64)?;
+        let grid = self.grid(&room::bounds(&cloud.xy, &self.label)?, cloud.xy.len() as f64)?;
         let mut lines = Lines::read(args, crs.as_ref(), quiet)?;
         if args.method != MethodName::Linear {
             lines.cut(grid.step()[0] / 4.0).map_err(|error| Failure::graph(&self.label, &error))?;

@@ -9,8 +9,8 @@ mod space;
 use std::path::{Path, PathBuf};
 
 use delone::{
-    Change, Coordinates, Counters, Dimension, Graph, Imprecise, Locate, Regular, Triangulation, Verdict,
-    VertexId,
+    Bounds, Change, Coordinates, Counters, Dimension, Error, Graph, Imprecise, Locate, Regular,
+    Triangulation, Verdict, VertexId,
 };
 use delone_io::{Cloud, Drawable, Format, Mesh, Source, Trim};
 
@@ -75,7 +75,6 @@ pub(crate) trait Room: Change<Point: Drawable> {
 
     fn read_simplices(source: Box<dyn Source>, format: Format) -> Result<Vec<Self::Row>, delone_io::Error>;
 
-    /// Judges simplices from elsewhere.
     /// Judges simplices of points, with weights if there are some.
     fn verify(
         points: &[Self::Point],
@@ -119,6 +118,25 @@ pub(crate) fn read<R: Room>(input: &InputArgs, quiet: bool) -> Result<(Vec<R::Po
     let mut cloud = files::points(input, R::Point::COUNT, quiet)?;
     let points = R::take_points(&mut cloud, &input.label())?;
     Ok((points, cloud))
+}
+
+/// The box around points, in the plane.
+///
+/// # Errors
+/// The first point whose place is not finite; and where there is none.
+pub(crate) fn bounds<P: AsRef<[f64]>>(points: &[P], label: &Path) -> Result<Bounds<2>, Failure> {
+    if points.is_empty() {
+        let what = format!("{}: there are no points", label.display());
+        return Err(Failure::new(what, "give other points, or all classes of them"));
+    }
+    let coordinates = |p: &P| [p.as_ref()[0], p.as_ref()[1]];
+    for (index, p) in points.iter().enumerate() {
+        let p = coordinates(p);
+        if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
+            return Err(Failure::points(label, &Error::NotFinite { index, axis, value: p[axis] }));
+        }
+    }
+    Ok(Bounds::of(points.iter().map(coordinates)))
 }
 
 /// Reads points that are asked for, or centres.

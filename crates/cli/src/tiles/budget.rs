@@ -107,6 +107,9 @@ impl Budget {
 
 /// Bytes as `--memory` takes them, rounded up.
 pub(super) fn in_words(bytes: u64) -> String {
+    if bytes < 1 << 20 {
+        return format!("{}K", bytes.div_ceil(1 << 10));
+    }
     let megabytes = bytes.div_ceil(1 << 20);
     if megabytes < 10_000 { format!("{megabytes}M") } else { format!("{}G", megabytes.div_ceil(1 << 10)) }
 }

@@ -98,7 +98,9 @@ impl<'a> Input<'a> {
         let about = self.read("counting", quiet, &mut |path, first, points, heights| {
             if let Some(k) = heights.and_then(|heights| heights.iter().position(|z| !z.is_finite())) {
                 let index = first + k as u64;
-                let what = format!("{}: point {index} has a height that is not finite", path.display());
+                let height = heights.map_or(f64::NAN, |heights| heights[k]);
+                let what =
+                    format!("{}: point {index} has the height {height}, which is not finite", path.display());
                 return Err(Failure::new(what, "remove that point or repair its height"));
             }
             for (k, &p) in points.iter().enumerate() {

@@ -149,7 +149,7 @@ impl Thinning {
     }
 
     /// The number of points to stop at, all of which are left if they are not enough for the largest error. The corners of the hull and the
-    /// ends of segments stay, be they more.
+    /// ends of segments stay, be they more, and all points where these are on a line.
     #[must_use]
     pub fn max_points(self, max_points: usize) -> Self {
         Self { max_points, ..self }
