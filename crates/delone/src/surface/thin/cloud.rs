@@ -9,10 +9,8 @@ use std::cmp::Ordering;
 
 use delone_predicates::{Filter, lexicographic};
 
-use super::plane::{Plane, Worst};
+use super::plane::{self, Plane, Worst};
 use super::{Found, Samples, Triple, Verdict};
-use crate::ids::VertexId;
-use crate::surface::linear;
 
 /// Points of a box that has no boxes.
 const LEAF: usize = 16;
@@ -138,10 +136,7 @@ impl Cloud {
     /// The height over a point as a mean of the corners'.
     #[cold]
     fn by_weights(&self, corners: &Triple, q: [f64; 2]) -> f64 {
-        let corners = corners.map(|s| (VertexId::new(s as usize), self.point(s)));
-        let mut weights = Vec::with_capacity(3);
-        linear::weigh(q, &corners, &mut weights);
-        weights.iter().map(|&(v, share)| share * self.heights[v.index()]).sum()
+        plane::mean(corners.map(|s| self.point(s)), corners.map(|s| self.heights[s as usize]), q)
     }
 }
 

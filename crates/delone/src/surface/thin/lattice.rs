@@ -2,14 +2,15 @@
 //! are surely not worse than the worst so far. Blocks are tilted, so that this is a matter of how rough they are, not of how steep.
 //!
 //! Cells and corners are numbers of columns and rows here, so that which cells are in a triangle is exact. Where centres were rounded, what
-//! is on a line by these numbers may be a triangle: so thin that the cells between its corners are measured against the longest side, as
-//! they are against the others from across these. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
+//! is on a line by these numbers may be the corners of a triangle, and what is in it their centres tell. Cost: O(cells) once; for a triangle as many cells as it has, for a large one a part of them.
 
 use std::cmp::Ordering;
 use std::ops::Range;
 use std::sync::atomic::Ordering::Relaxed;
 
-use super::plane::{Plane, Worst};
+use delone_predicates::{lexicographic, orient2d};
+
+use super::plane::{Plane, Worst, mean};
 use super::sides::{Part, Sides};
 use super::{Found, Samples, Triple, Verdict};
 use crate::parallel;
@@ -137,23 +138,32 @@ impl<'a> Lattice<'a> {
         along(0).then_with(|| along(1))
     }
 
-    /// Tells the cells between the first and the last of three on a line, and how far each is from the straight line between their heights.
+    /// Tells the cells in a triangle whose corners are on a line by their numbers, but for these, and how far each is off. They are on that
+    /// line; whether they are in this triangle or in one beside it their centres tell.
     #[cold]
     fn along(&self, corners: Triple, mut take: impl FnMut([i32; 2], f64)) {
         let cells = corners.map(|s| self.cell(s));
-        let by_row = |[column, row]: &[i32; 2]| (*row, *column);
-        let (Some(a), Some(b)) = (cells.into_iter().min_by_key(by_row), cells.into_iter().max_by_key(by_row))
-        else {
-            return;
-        };
-        let [across, down] = [b[0] - a[0], b[1] - a[1]];
-        let steps = divisor(across.unsigned_abs(), down.unsigned_abs()) as i32;
-        let [low, high] = [self.at(a), self.at(b)];
+        let by_row = |&[column, row]: &[i32; 2]| (row, column);
+        let mut sorted = cells;
+        sorted.sort_unstable_by_key(by_row);
+        let [a, _, b] = sorted;
+        let across = [b[0] - a[0], b[1] - a[1]];
+        let steps = divisor(across[0].unsigned_abs(), across[1].unsigned_abs()) as i32;
+        // In lexicographic order, so that what is rounded does not depend on theirs.
+        let mut places = corners.map(|s| (self.point(s), self.height(s)));
+        let [p, q, r] = places.map(|place| place.0);
+        places.sort_unstable_by(|u, v| lexicographic(u.0, v.0));
         for k in 1..steps {
-            let cell = [a[0] + across / steps * k, a[1] + down / steps * k];
-            let z = self.at(cell);
-            if !z.is_nan() {
-                take(cell, (z - (low + (high - low) * (f64::from(k) / f64::from(steps)))).abs());
+            let cell = [0, 1].map(|axis| a[axis] + across[axis] / steps * k);
+            let (sample, z) = (Self::sample(cell, self.columns), self.at(cell));
+            let centre = self.point(sample);
+            let is_in =
+                || [[p, q], [q, r], [r, p]].iter().all(|&[u, v]| !orient2d(u, v, centre).is_negative());
+            if !z.is_nan() && !cells.contains(&cell) && is_in() {
+                take(
+                    cell,
+                    (z - mean(places.map(|place| place.0), places.map(|place| place.1), centre)).abs(),
+                );
             }
         }
     }

@@ -214,13 +214,12 @@ impl Thinning {
         let (mut start, between) = begin(&[]);
         // Mostly they meet at ends of theirs alone. To be told where else takes long where many do.
         let meet_at_ends = Constrained2::if_uncrossed(at(&start), &between);
-        let c = match meet_at_ends {
-            Some(c) => c,
-            None => {
-                let between;
-                (start, between) = begin(&junctions(points, segments)?);
-                Constrained2::from_parts(&at(&start), &between)?
-            }
+        let c = if let Some(c) = meet_at_ends {
+            c
+        } else {
+            let between;
+            (start, between) = begin(&junctions(points, segments)?);
+            Constrained2::from_parts(&at(&start), &between)?
         };
         let all = 0..samples.points.len() as u32;
         let thinned = scaled

@@ -2,6 +2,9 @@
 
 use std::cmp::Ordering;
 
+use crate::ids::VertexId;
+use crate::surface::linear;
+
 /// Below these, areas and slopes, and differences of heights, may have lost more than roundings.
 const TINY: f64 = 1e-280;
 pub(super) const LOW: f64 = 1e-200;
@@ -78,6 +81,14 @@ impl Plane {
         let (z, span) = (self.at(middle), self.slope[0].abs() * half[0] + self.slope[1].abs() * half[1]);
         (most - (z - span)).max(z + span - least)
     }
+}
+
+/// The height in a triangle that is too thin for a plane, as a mean of those of its corners.
+pub(super) fn mean(corners: [[f64; 2]; 3], heights: [f64; 3], q: [f64; 2]) -> f64 {
+    let corners = [0, 1, 2].map(|k| (VertexId::new(k), corners[k]));
+    let mut weights = Vec::with_capacity(3);
+    linear::weigh(q, &corners, &mut weights);
+    weights.iter().map(|&(v, share)| share * heights[v.index()]).sum()
 }
 
 /// The worst so far: the largest error, of equal ones that of the lexicographically least point.

@@ -395,7 +395,7 @@ fn rasters_with_slanted_borders_and_rounded_cells_are_near() {
             worst = worst.max((values[i] - at).abs());
         }
         assert!(worst <= bound + 1e-9, "{round}: {worst} where {bound} is allowed");
-        assert!(thinned.error >= worst - 1e-9, "{round}: {} and {worst}", thinned.error);
+        assert!((thinned.error - worst).abs() < 1e-9, "{round}: {} and {worst}", thinned.error);
         let on_line = |t| {
             let [a, b, c] = d.mesh().corners(t).map(|v| thinned.vertices[v.index()] as i64);
             let n = n as i64;
