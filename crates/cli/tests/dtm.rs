@@ -447,31 +447,6 @@ fn refusals() {
 }
 
 #[test]
-fn places_and_numbers_that_are_none_are_named() {
-    let place = Place::new();
-    place.file("inf.csv", "x,y,z\n0,0,1\ninf,0,2\n0,1,3\n1,1,1\n");
-    place.file("none.csv", "x,y,z\n");
-    place.file("high.csv", "x,y,z\n0,0,1\n1,0,inf\n0,1,3\n");
-    place.file("p.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,3\n");
-    let infinite = "point 1 has the x coordinate inf, which is not finite";
-    for (status, arguments, part) in [
-        (1, "dtm inf.csv --cell 1 -o a.npy", infinite),
-        (1, "dtm inf.csv -o a.npy", infinite),
-        (1, "dtm inf.csv --cell 1 --memory 64M -o a.npy", infinite),
-        (1, "interpolate inf.csv --grid 1 -o a.npy", infinite),
-        (1, "simplify inf.csv --max-error 1 -o a.ply", infinite),
-        (1, "interpolate none.csv --grid 1 -o a.npy", "there are no points"),
-        (1, "dtm high.csv --cell 1 -o a.npy", "point 1 has the height inf, which is not finite"),
-        (1, "dtm high.csv --cell 1 --memory 64M -o a.npy", "point 1 has the height inf, which is not finite"),
-        (2, "dtm p.csv --memory 1K -o a.npy", "--memory 1K is not enough"),
-        (2, "dtm p.csv --epsg 99999999 -o a.tif", "99999999"),
-        (2, "contours p.csv --interval 1e-300 -o a.geojson", "e300"),
-    ] {
-        place.fail(&format!("-q {arguments}"), status, part);
-    }
-}
-
-#[test]
 fn values_are_interpolated() {
     let place = Place::new();
     let points = Kind::Uniform.points(300, 1);

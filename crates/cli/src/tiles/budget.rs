@@ -133,7 +133,7 @@ mod tests {
         assert_eq!((small.most(), small.tiles(10), small.tiles(100)), (10, 1, 13));
         assert_eq!(
             (in_words(1), in_words(64 << 20), in_words(20 << 30)),
-            ("1M".into(), "64M".into(), "20G".into())
+            ("1K".into(), "64M".into(), "20G".into())
         );
     }
 }

@@ -68,6 +68,9 @@ impl Cloud {
         let [u, v] = [1, 2].map(|i| [0, 1].map(|k| (c[i][k] - c[0][k]) / size[k]));
         let is_slanted = 16.0 * (u[0] * v[1] - u[1] * v[0]) < 1.0;
         let leaves = self.boxes.len() / 2;
+        let heights = corners.map(|s| self.heights[s as usize]);
+        let (lowest, highest) =
+            (heights.into_iter().fold(f64::MAX, f64::min), heights.into_iter().fold(f64::MIN, f64::max));
         // A bound of the errors in a box, if it has some of the triangle.
         let most = |i: usize| {
             let Bound(bound) = &self.boxes[i];
@@ -76,9 +79,13 @@ impl Cloud {
             if both.iter().any(|side| side[0] > side[1]) || is_slanted && (0..3).any(is_beyond) {
                 return None;
             }
+            // Heights in a triangle are between those of its corners.
+            let Ok((plane, _)) = &plane else {
+                return Some((bound[2][1] - lowest).max(highest - bound[2][0]));
+            };
             let middle = both.map(|side| side[0] / 2.0 + side[1] / 2.0);
             let half = both.map(|side| side[1] / 2.0 - side[0] / 2.0);
-            Some(plane.as_ref().map_or(f64::INFINITY, |(plane, _)| plane.most(middle, half, bound[2])))
+            Some(plane.most(middle, half, bound[2]))
         };
         // The box that may have the worst is entered first, so that most others need not be.
         let mut stack: Vec<(usize, f64)> = Vec::new();
