@@ -13,7 +13,7 @@ use super::plane::{self, Plane, Worst};
 use super::{Found, Samples, Triple, Verdict};
 
 /// Boxes of fewer boxes than this are entered unless the triangle is long and thin: to ask where they are takes as long.
-const FEW: usize = 4;
+const FEW: usize = 16;
 
 /// Points of a box that has no boxes.
 const LEAF: usize = 16;
