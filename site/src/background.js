@@ -13,10 +13,12 @@ export function background() {
     worker = new Worker(url);
     URL.revokeObjectURL(url);
     worker.addEventListener("message", ({data}) => {
-      const {resolve, reject} = tasks.get(data.id);
+      const task = tasks.get(data.id);
+      // An answer may have been under way when its task was given up.
+      if (!task) return;
       tasks.delete(data.id);
-      if (data.error) reject(new Error(data.error));
-      else resolve(data);
+      if (data.error) task.reject(new Error(data.error));
+      else task.resolve(data);
     });
     worker.addEventListener("error", (event) => giveUp(event.message || "the worker failed"));
   }

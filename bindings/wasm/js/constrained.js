@@ -60,6 +60,7 @@ export class Constrained {
       for (let i = first; i < end; ++i) segments.push([i, i + 1 < end ? i + 1 : first]);
       first = end;
     }
-    return new Constrained(flat, segments, {fill: "even-odd", ...options});
+    const {fill = "even-odd", crossings} = options ?? {};
+    return new Constrained(flat, segments, {fill, crossings});
   }
 }

@@ -42,12 +42,10 @@ export class Delaunay {
   /** Triangulates again, after points were changed in place, or are another array: of that all are there. */
   update() {
     const flat = flatCoordinates(this.points);
-    if (this.points !== this.#known) this.#removed.clear();
-    this.#known = this.points;
-    this.#equals = undefined;
-    const plane = new Plane(flat, absentees(flat, this.#options, this.#removed.size ? this.#removed : undefined));
+    const removed = this.points === this.#known ? this.#removed : new Set();
+    const plane = new Plane(flat, absentees(flat, this.#options, removed.size ? removed : undefined));
     this.#plane?.dispose();
-    this.#plane = plane;
+    [this.#plane, this.#removed, this.#known, this.#equals] = [plane, removed, this.points, undefined];
     this.#changed();
     return this;
   }

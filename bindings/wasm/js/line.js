@@ -18,7 +18,9 @@ function isThin(points, isThere) {
     mostX = Math.max(mostX, Math.abs(x(i)));
     mostY = Math.max(mostY, Math.abs(y(i)));
   }
-  const [dx, dy] = [x(last) - x(first), y(last) - y(first)];
+  // In parts of the longer one, so that products are in the range of coordinates, whatever these are.
+  const length = Math.max(Math.abs(x(last) - x(first)), Math.abs(y(last) - y(first)));
+  const [dx, dy] = [(x(last) - x(first)) / length, (y(last) - y(first)) / length];
   const most = UNITS * (Math.abs(dx) * mostY + Math.abs(dy) * mostX);
   for (let i = 0; i < points.length >> 1; ++i) {
     // Where this leaves the range of numbers it is not less.

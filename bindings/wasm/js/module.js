@@ -56,7 +56,7 @@ class Engine {
     room.set(coords.length === 2 * count ? coords : coords.subarray(0, 2 * count));
   }
 
-  /** Puts numbers, which are numbers indeed, onto the tray. */
+  /** Puts an array of numbers onto the tray; what is none would be zero there. */
   giveNumbers(numbers) {
     this.call(undefined, "room_for_numbers", numbers.length);
     new Float64Array(this.exports.memory.buffer, this.exports.numbers_at() >>> 0, numbers.length).set(numbers);

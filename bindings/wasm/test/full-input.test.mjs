@@ -27,10 +27,14 @@ test("points on a line up to rounding, and points that are not", () => {
     d.triangles.forEach((i, e) => joined[i].add(d.triangles[e % 3 === 2 ? e - 2 : e + 1]).add(d.triangles[e % 3 ? e - 1 : e + 2]));
     joined.forEach((found, i) => assert.deepEqual(new Set(d.neighbors(i)), found));
   }
-  for (const [a, b] of [[0.1, 0.7], [3, -1 / 3], [1e-9, 1e9]]) {
-    const line = Array.from({length: 40}, (_, k) => (k % 2 ? 5 + b * ((k >> 1) / 7) : a * ((k >> 1) / 7)));
-    assert.deepEqual([...new Delaunay(line).collinear], Array.from({length: 20}, (_, k) => k));
+  for (const scale of [1e-200, 1, 1e200, 1e300]) {
+    assert.equal(new Delaunay(uniform(50).map((x) => scale * x)).collinear, undefined);
+    for (const [a, b] of [[0.1, 0.7], [3, -1 / 3], [1e-9, 1e6]]) {
+      const line = Array.from({length: 40}, (_, k) => scale * (k % 2 ? 5 + b * ((k >> 1) / 7) : a * ((k >> 1) / 7)));
+      assert.deepEqual([...new Delaunay(line).collinear], Array.from({length: 20}, (_, k) => k));
+    }
   }
+  for (const tiny of [[0, 0, 5e-324, 0, 0, 5e-324], [1e308, -1e308, -1e308, 1e308, 1e308, 1e308]]) assert.equal(new Delaunay(tiny).collinear, undefined);
 });
 
 test("what equals a point that goes is gone with it", () => {
@@ -56,6 +60,11 @@ test("what equals a point that goes is gone with it", () => {
   line.remove(1);
   assert.deepEqual([[...line.collinear], [...line.neighbors(0)]], [[0, 3, 4], [3]]);
 
+  const good = d.points;
+  d.points = [0, 0, 1, NaN];
+  fails(() => d.update(), "not-finite", 1);
+  d.points = good;
+  assert.equal(d.update().find(1, 1), at);
   d.points = uniform(20);
   assert.equal(d.update().find(d.points[8], d.points[9]), 4);
   prove(d, d.points);
@@ -68,6 +77,8 @@ test("rings of points with heights, in typed arrays, and of very many points", (
   const v = new Delaunay(uniform(30).map((x) => 4 * x)).voronoi(bounds);
   assert.deepEqual(v.clip([ring]), v.clip([flat]));
   assert.deepEqual(v.clip(new Set([new Set(flat)])), v.clip([flat]));
+  const inner = [[1, 1], [2, 1], [1, 2]];
+  assert.deepEqual(Constrained.polygon([flat, inner], {fill: undefined}), Constrained.polygon([flat, inner]));
   const circle = Array.from({length: 130_000}, (_, k) => [Math.cos(k / 130_000 * 2 * Math.PI), Math.sin(k / 130_000 * 2 * Math.PI)]);
   assert.equal(Constrained.polygon([circle]).triangles.length, 3 * 129_998);
   assert.deepEqual(new Constrained(square, [Uint32Array.of(0, 2)]).constraints, new Constrained(square, [0, 2]).constraints);
