@@ -47,7 +47,7 @@ pub(crate) struct TriangulateArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) algorithm: Option<AlgorithmName>,
     /// File of approximate positions, row by row those of the points: they are preprocessed, and the points located from
-    /// their hints.
+    /// their hints. In the plane many points are divided and conquered instead where there are several threads, without --stats.
     #[arg(long, value_name = "CENTRES", conflicts_with_all = ["algorithm", "locate"])]
     pub(crate) hints: Option<PathBuf>,
     /// The order in which --hints inserts points [default: spatial].

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use delone::Error;
 use delone_io::{Cloud, Format, ReadOptions};
 use serde_json::{Value, json};
 
@@ -96,23 +97,16 @@ impl<'a> Input<'a> {
         let mut sample: Vec<(u64, [f64; 2])> = Vec::new();
         let (mut most, mut count) = (u64::MAX, 0);
         let about = self.read("counting", quiet, &mut |path, first, points, heights| {
-            if let Some(k) = heights.and_then(|heights| heights.iter().position(|z| !z.is_finite())) {
-                let index = first + k as u64;
-                let height = heights.map_or(f64::NAN, |heights| heights[k]);
-                let what =
-                    format!("{}: point {index} has the height {height}, which is not finite", path.display());
-                return Err(Failure::new(what, "remove that point or repair its height"));
+            let heights = heights.unwrap_or_default();
+            if let Some(k) = heights.iter().position(|z| !z.is_finite()) {
+                let (index, value) = (first as usize + k, heights[k]);
+                return Err(Failure::points(path, &Error::Height { index, value }));
             }
             for (k, &p) in points.iter().enumerate() {
                 let index = first + k as u64;
                 if let Some(axis) = p.iter().position(|x| !x.is_finite()) {
-                    let what = format!(
-                        "{}: point {index} has the {} coordinate {}, which is not finite",
-                        path.display(),
-                        ["x", "y"][axis],
-                        p[axis]
-                    );
-                    return Err(Failure::new(what, "remove that point or repair its coordinates"));
+                    let error = Error::NotFinite { index: index as usize, axis, value: p[axis] };
+                    return Err(Failure::points(path, &error));
                 }
                 let hash = hashed(index);
                 if hash <= most {

@@ -13,7 +13,7 @@
 //! after the first, unless walks were given up.
 //!
 //! Each walk needs what the one before has made, so hints are for one thread. Where there are more, a large instance is
-//! built by divide and conquer, which makes the same of it and is as fast as hints on one thread already.
+//! built by divide and conquer, in new memory, which makes the same of it and is as fast as hints on one thread already.
 
 use std::collections::BTreeMap;
 
