@@ -1,6 +1,6 @@
 //! Hilbert order in space, and the rounds of a biased randomized insertion order along it.
 //!
-//! Sources: Skilling, "Programming the Hilbert curve", AIP Conference Proceedings 2004, for the keys; Amenta, Choi &
+//! Sources: Hamilton, "Compact Hilbert indices", Dalhousie University CS-2006-07, 2006, for the keys; Amenta, Choi &
 //! Rote, "Incremental constructions con BRIO", SoCG 2003, for the rounds. Keys have a few bits more than it takes to
 //! tell evenly spread points apart; where many points share a key, they get keys in their own bounding box, recursively.
 //!
@@ -15,8 +15,8 @@ use crate::points::Bounds;
 const MOST_BITS: u32 = 10;
 /// Runs of equal keys up to this length keep the order of the input.
 const SHORT_RUN: usize = 32;
-/// Each round holds three times as many points as all before it: of four, two to this power.
-const GROWTH: u32 = 2;
+/// Each round holds seven times as many points as all before it: of eight, two to this power.
+const GROWTH: u32 = 3;
 /// The first round is not made smaller than this.
 const SMALLEST: usize = 64;
 
@@ -88,21 +88,7 @@ impl Cells {
 }
 
 /// The position of a cell along the curve.
-fn curve(mut x: [u32; 3], bits: u32) -> u64 {
-    // All ones where a bit is set: which bits are set is chance, so nothing branches on it.
-    let ones = |x: u32, bit: u32| (x >> bit & 1).wrapping_neg();
-    for bit in (1..bits).rev() {
-        let below = (1 << bit) - 1;
-        for i in 0..3 {
-            let flip = ones(x[i], bit);
-            let t = (x[0] ^ x[i]) & below & !flip;
-            x[0] ^= t | below & flip;
-            x[i] ^= t;
-        }
-    }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    let t = (1..bits).fold(0, |t, bit| t ^ ((1 << bit) - 1) & ones(x[2], bit));
+fn curve([x, y, z]: [u32; 3], bits: u32) -> u64 {
     let spread = |x: u32| {
         let x = u64::from(x);
         let x = (x | x << 32) & 0x001f_0000_0000_ffff;
@@ -111,12 +97,50 @@ fn curve(mut x: [u32; 3], bits: u32) -> u64 {
         let x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
         (x | x << 2) & 0x1249_2492_4924_9249
     };
-    spread(x[0] ^ t) << 2 | spread(x[1] ^ t) << 1 | spread(x[2] ^ t)
+    let octants = spread(x) << 2 | spread(y) << 1 | spread(z);
+    let (mut turn, mut key) = (0, 0);
+    for bit in (0..bits).rev() {
+        let octant = (octants >> (3 * bit)) as u8 & 7;
+        let step = STEPS[usize::from(turn | octant)];
+        key = key << 3 | u64::from(step & 7);
+        turn = step & !7;
+    }
+    key
+}
+
+/// For each of the 24 turns of the curve, and each octant of a cell that it goes through, when it comes there, and in the upper bits
+/// how it is turned inside: where it begins (three bits), and the axis that it ends along.
+const STEPS: [u8; 256] = steps();
+
+const fn steps() -> [u8; 256] {
+    const fn rotated(octant: u32, by: u32) -> u32 {
+        (octant << by | octant >> (3 - by)) & 7
+    }
+    let mut steps = [0; 256];
+    let mut i = 0;
+    while i < 24 * 8 {
+        let (axis, begin, octant) = (i >> 6, i >> 3 & 7, i & 7);
+        let by = (axis + 1) % 3;
+        // Octants come in the order of the Gray code, rotated.
+        let gray = rotated(octant ^ begin, (3 - by) % 3);
+        let when = gray ^ gray >> 1 ^ gray >> 2;
+        let (first, along) = match when {
+            0 => (0, 0),
+            _ => {
+                let even = when - 1 & !1;
+                (even ^ even >> 1, (when - (when + 1) % 2).trailing_ones() % 3)
+            }
+        };
+        let turn = (axis + along + 1) % 3 << 3 | begin ^ rotated(first, by);
+        steps[i as usize] = (turn << 3 | when) as u8;
+        i += 1;
+    }
+    steps
 }
 
 /// The numbers below `count`, dealt into rounds at random: increasing in each, the smallest round first.
 pub(crate) fn rounds(count: usize, seed: u64) -> Vec<u32> {
-    // Each number is in the last round but for a chance of one in four, and so on.
+    // Each number is in the last round but for a chance of one in eight, and so on.
     let most = (count / SMALLEST).max(1).ilog2() / GROWTH;
     let mut random = SplitMix(seed);
     let steps: Vec<u8> =

@@ -21,6 +21,7 @@ use crate::mesh::Mesh2;
 use crate::mesh::triangles::surgery::{BorderEdge, Part};
 use crate::plane::construct;
 use crate::points::Bounds;
+use crate::prefetch::prefetch;
 use crate::tally::Tally;
 
 /// The largest degree at which looking at all candidates is cheaper than building.
@@ -58,9 +59,9 @@ impl<K: Kernel> Layer<K> {
     }
 
     fn remove_from_plane<T: Tally>(&mut self, v: Place, tally: &mut T) {
-        self.prefetch_window::<4, 2>(v.index());
+        self.prefetch_window::<6, 2>(v.index());
         let mut hole = std::mem::take(&mut self.hole);
-        hole.dig(&self.mesh, v);
+        hole.dig(&self.mesh, &self.points, v);
         let degree = hole.border.len();
         tally.destroyed(degree);
         if let Some(chain) = self.line_without(&hole) {
@@ -103,22 +104,31 @@ impl<K: Kernel> Hole<K> {
     }
 
     /// Collects the star of a vertex, in both directions at once: the next triangle on one side is fetched from
-    /// memory while that on the other is waited for.
-    fn dig(&mut self, mesh: &Mesh2, v: Place) {
+    /// memory while that on the other is waited for, and so is what filling the hole reads of its border.
+    fn dig(&mut self, mesh: &Mesh2, points: &[[f64; 2]], v: Place) {
+        let ask = |outside: EdgeId, p: Place| {
+            prefetch(&mesh.edges, outside.index());
+            prefetch(points, p.index());
+            prefetch(&mesh.incident, p.index());
+        };
         self.spokes.clear();
         self.border.clear();
         self.triangles.clear();
         let mut left = mesh.incident[v.index()];
         let mut right = mesh.twin(left).next();
         self.spokes.push(left);
+        ask(mesh.twin(left.next()), mesh.head(left));
         while left != right {
             left = mesh.spin(left);
             self.spokes.push(left);
+            ask(mesh.twin(left.next()), mesh.head(left));
             if left == right {
                 break;
             }
             self.triangles.push(right.triangle());
-            self.border.push((mesh.tail(right.next()), mesh.twin(right.next())));
+            let (p, outside) = (mesh.tail(right.next()), mesh.twin(right.next()));
+            ask(outside, p);
+            self.border.push((p, outside));
             right = mesh.twin(right).next();
         }
         // So far clockwise, from the right of the first spoke on: turned, it goes before the rest.

@@ -166,8 +166,16 @@ fn find_walls(fill: &mut Mesh3, vertices: &[Place], parts: &[Done]) -> Option<Ve
         sum += *at;
         *at = sum;
     }
+    let mut is_at_wall = vec![false; vertices.len()];
+    let at_walls = seam.iter().flat_map(|(corners, _)| corners).filter(|p| !p.is_ghost());
+    at_walls.for_each(|p| is_at_wall[p.index()] = true);
     let mut walls = Vec::with_capacity(count);
     for t in 0..fill.cells.len() {
+        // Most have no three corners at one.
+        let at_wall = |p: &&Place| p.is_ghost() || is_at_wall[p.index()];
+        if fill.cells[t].corners.iter().filter(at_wall).count() < 3 {
+            continue;
+        }
         let t = TetrahedronId::new(t);
         for f in [0, 1, 2, 3].map(|k| t.facet(k)) {
             let corners = turned(fill.facet_places(f));

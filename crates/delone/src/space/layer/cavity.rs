@@ -27,6 +27,9 @@ const WAITING: u8 = 3;
 /// Borders of more facets are glued by sorting: the table grows with the square of their number.
 const MANY: usize = 2000;
 
+/// Memory is asked for so many vertices at least: hardly any border has more.
+const FEW: usize = 64;
+
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
 pub(in crate::space) struct Cavity {
@@ -232,7 +235,9 @@ impl Cavity {
         let side = (self.border.len() / 2 + 3).next_power_of_two();
         let width = side.trailing_zeros();
         if self.table.len() < side * side {
-            self.table.resize(side * side, FacetId::NONE);
+            let most = side.max(FEW);
+            self.table.resize(most * most, FacetId::NONE);
+            self.vertices.reserve(most);
         }
         let table = &mut self.table[..side * side];
         self.edges.clear();
