@@ -4,14 +4,15 @@
 //! others, which are refused, are followed: they cross constraints, and two of them that cross pass through one triangle.
 //! Decisions are exact.
 //!
-//! Cost: that of following what is refused, as many triangles as it crosses; and for each triangle the square of the number of
-//! such segments in it.
+//! Cost: that of following what is refused, as many triangles as it crosses; and for each triangle the number of pairs that come
+//! together there: from different sides, or from a corner.
 
 use std::collections::BTreeSet;
 
 use delone_predicates::{Line, Spot, orient2d, segment_rounds_to};
 
 use super::overlaps::sorted;
+use super::passes::{self, Passes};
 use super::trace::Ground;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::plane::Delaunay2;
@@ -46,28 +47,12 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
     let mesh = graph.mesh();
     let ground = Ground { mesh, points: &graph.base.points };
     let mut met = Met::default();
-    let mut passes: Vec<(TriangleId, u32)> = Vec::new();
-    let mut crossed: Vec<(EdgeId, u32)> = Vec::new();
+    let Passes { passes, crossed } = Passes::of(graph, segments, refused);
     let places = |s: u32| segments[s as usize].map(|v| mesh.place(v).expect("a vertex"));
     let undirected = |e: EdgeId| e.min(mesh.twin(e));
     for &s in refused {
-        let mut along = Vec::new();
-        let mut pass = |e: EdgeId| passes.extend([e, mesh.twin(e)].map(|e| (e.triangle(), s)));
-        ground.follow(
-            places(s),
-            |e, _| along.push(e),
-            |e| {
-                pass(e);
-                if mesh.is_fixed(e) {
-                    crossed.push((undirected(e), s));
-                }
-                true
-            },
-        );
-        along.into_iter().for_each(pass);
         met.through.extend(ground.vertices_on(places(s)).into_iter().map(|v| (s, mesh.name(v))));
     }
-    crossed.sort_unstable();
     let mut last = ([Place::GHOST; 2], None);
     let is_accepted = |s: &u32| refused.binary_search(s).is_err();
     for s in (0..segments.len() as u32).filter(is_accepted) {
@@ -89,20 +74,14 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
         }
     }
     met.through.sort_unstable();
-    passes.sort_unstable();
-    passes.dedup();
-    for at_one in passes.chunk_by(|p, q| p.0 == q.0) {
-        for (i, &(_, first)) in at_one.iter().enumerate() {
-            for &(_, second) in &at_one[i + 1..] {
-                let crossing = Crossing { first, second };
-                if cross(graph, segments[first as usize], segments[second as usize])
-                    && !met.have_vertex(crossing)
-                {
-                    met.crossings.push(crossing);
-                }
-            }
+    let mut crossings = Vec::new();
+    passes::each_pair(&passes, |first, second| {
+        let crossing = Crossing { first, second };
+        if cross(graph, segments[first as usize], segments[second as usize]) && !met.have_vertex(crossing) {
+            crossings.push(crossing);
         }
-    }
+    });
+    met.crossings.append(&mut crossings);
     met.crossings.sort_unstable();
     met.crossings.dedup();
     met
@@ -233,4 +212,64 @@ pub(super) fn line(graph: &Delaunay2, [v, w]: [VertexId; 2]) -> Line {
 pub(super) fn place(graph: &Delaunay2, first: [VertexId; 2], second: [VertexId; 2]) -> [f64; 2] {
     let meeting = Spot::Meeting(line(graph, first), line(graph, second));
     meeting.rounded(0.0).expect("between the ends of both")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use delone_generators::{Kind, Random};
+    use delone_oracle::exact::orient2d as side;
+
+    use super::*;
+    use crate::plane::constrained::ConstraintReport2;
+    use crate::plane::constrained::build::constrained;
+
+    /// Also those in one point, along each other, and through vertices.
+    #[test]
+    fn crossings_are_those_by_definition() {
+        let mut random = Random::new(5);
+        let mut met_count = 0;
+        for round in 0..200 {
+            let few = [8, 20, 60][round % 3];
+            let points = match round % 4 {
+                0 => Kind::Grid.points(few, 1),
+                1 => Kind::Circle.points(few, round as u64),
+                2 => (0..few).map(|i| [f64::from(i as u32 % 3), f64::from(i as u32 / 3)]).collect(),
+                _ => Kind::Uniform.points(few, round as u64),
+            };
+            let count = points.len();
+            let segments: Vec<[usize; 2]> = if round % 8 == 1 {
+                (0..count / 2).map(|i| [i, i + count / 2]).collect()
+            } else {
+                (0..2 * few).map(|_| [0; 2].map(|_| random.below(count))).collect()
+            };
+            let (graph, ends, refused) = constrained(points, &segments, &mut ConstraintReport2::default());
+            let met = meet(&graph, &ends, &refused);
+            let at = |s: usize| ends[s].map(|v| graph.point(v));
+            let inside = |[a, b]: [[f64; 2]; 2], q: [f64; 2]| {
+                let is_in_box = (0..2).all(|k| (a[k].min(b[k])..=a[k].max(b[k])).contains(&q[k]));
+                q != a && q != b && is_in_box && side(a, b, q) == 0
+            };
+            let vertices: Vec<VertexId> = graph.vertices().collect();
+            let on = |s: usize| -> BTreeSet<VertexId> {
+                vertices.iter().copied().filter(|&v| inside(at(s), graph.point(v))).collect()
+            };
+            let on: Vec<BTreeSet<VertexId>> = (0..ends.len()).map(on).collect();
+            let mut crossings = Vec::new();
+            for second in 0..ends.len() {
+                for first in 0..second {
+                    let ([a, b], [c, d]) = (at(first), at(second));
+                    let is_crossed = side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+                    if is_crossed && on[first].is_disjoint(&on[second]) {
+                        crossings.push(Crossing { first: first as u32, second: second as u32 });
+                    }
+                }
+            }
+            crossings.sort_unstable();
+            assert_eq!(met.crossings, crossings, "round {round}");
+            met_count += crossings.len();
+        }
+        assert!(met_count > 10_000, "{met_count}");
+    }
 }

@@ -25,6 +25,7 @@ mod force;
 mod locate;
 mod nearest;
 mod overlaps;
+mod passes;
 mod patch;
 mod polygons;
 mod refined;
