@@ -124,15 +124,14 @@ const fn steps() -> [u8; 256] {
         // Octants come in the order of the Gray code, rotated.
         let gray = rotated(octant ^ begin, (3 - by) % 3);
         let when = gray ^ gray >> 1 ^ gray >> 2;
-        let (first, along) = match when {
-            0 => (0, 0),
-            _ => {
-                let even = when - 1 & !1;
-                (even ^ even >> 1, (when - (when + 1) % 2).trailing_ones() % 3)
-            }
+        let (first, along) = if when == 0 {
+            (0, 0)
+        } else {
+            let even = (when - 1) & !1;
+            (even ^ even >> 1, (when - (when + 1) % 2).trailing_ones() % 3)
         };
-        let turn = (axis + along + 1) % 3 << 3 | begin ^ rotated(first, by);
-        steps[i as usize] = (turn << 3 | when) as u8;
+        let turn = [(axis + along + 1) % 3, begin ^ rotated(first, by)];
+        steps[i as usize] = (turn[0] << 6 | turn[1] << 3 | when) as u8;
         i += 1;
     }
     steps
