@@ -25,6 +25,17 @@ pub(crate) fn format(path: &Path, said: Option<Format>, option: &str) -> Result<
     }
 }
 
+/// The format of a file that is read beside the input, which alone may come from standard input.
+fn format_beside(path: &Path) -> Result<Format, Failure> {
+    if is_standard(path) {
+        return Err(Failure::usage(
+            "only the input itself can come from standard input",
+            "name a file for this one",
+        ));
+    }
+    format(path, None, "the extension")
+}
+
 fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
@@ -268,7 +279,7 @@ pub(crate) fn graph_with_points(
         all.cloud.remarks[told..].iter().for_each(|remark| note(quiet, remark));
     }
     if let Some(path) = segments {
-        let format = format(path, None, "the extension")?;
+        let format = format_beside(path)?;
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
         let more = delone_io::read_segments(source, format).map_err(failed)?;
@@ -288,7 +299,7 @@ pub(crate) fn graph_with_points(
 
 /// Reads a number for each point.
 pub(crate) fn numbers(path: &Path, quiet: bool) -> Result<Vec<f64>, Failure> {
-    let format = format(path, None, "the extension")?;
+    let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     delone_io::read_numbers(source, format).map_err(|error| Failure::file(path, &error))
 }
@@ -329,7 +340,7 @@ pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Clou
 
 /// Reads the points of a file beside those of the input.
 pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<Cloud, Failure> {
-    let format = format(path, None, "the extension")?;
+    let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     let cloud =
         delone_io::read_points(source, format, options).map_err(|error| Failure::file(path, &error))?;
@@ -341,7 +352,7 @@ pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<C
 
 /// Reads the rings of polygons.
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
-    let format = format(path, None, "the extension")?;
+    let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))
 }

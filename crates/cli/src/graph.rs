@@ -42,7 +42,7 @@ pub(crate) fn run<R: Room>(args: &ProximityArgs, quiet: bool) -> Result<(), Fail
     stats.phase("graph");
     let edges = Edges { points: &points, pairs: &pairs, crs: about.crs.as_ref() };
     stats.set("edges", pairs.len());
-    stats.set("length", edges.lengths().sum::<f64>());
+    stats.set("length", edges.lengths().fold(0.0, |sum, length| sum + length));
     let _phase = Phase::start(quiet, "writing");
     for (path, format) in &outputs {
         if is_picture(*format) {

@@ -93,7 +93,7 @@ impl Failure {
 }
 
 /// A line on standard error, if somebody reads it.
-fn tell(text: impl Display) {
+pub(crate) fn tell(text: impl Display) {
     _ = writeln!(std::io::stderr(), "{text}");
 }
 

@@ -1,13 +1,14 @@
 //! `delone replay`: a text file of operations, as it comes with a report of a bug.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use delone::{Coordinates, Error, Found, Inserted, VertexId, Work};
 use delone_io::{Mesh, picture, write_mesh};
 
 use crate::args::ReplayArgs;
 use crate::files;
-use crate::message::{Failure, answer};
+use crate::message::{Failure, answer, tell};
 use crate::progress::Phase;
 use crate::room::{self, Room, positive};
 use crate::stats::{Stats, work_done};
@@ -35,6 +36,12 @@ pub(crate) fn run<R: Room>(args: &ReplayArgs, quiet: bool) -> Result<(), Failure
     let mut d = R::default();
     d.set_strategy(strategy).map_err(|error| args.strategy.refused(&error))?;
     let replayed = replay(args, &mut d, &mut stats, quiet)?;
+    if outputs.iter().any(|(path, _)| path == Path::new("-")) {
+        // The file alone.
+        tell(replayed.answers.trim_end());
+    } else {
+        answer(&replayed.answers)?;
+    }
     stats.triangulation(&d, d.counters());
     stats.set("counters", work_done(&replayed.work));
     let mesh = Mesh::new(&d, &replayed.points);
@@ -46,7 +53,7 @@ pub(crate) fn run<R: Room>(args: &ReplayArgs, quiet: bool) -> Result<(), Failure
     stats.write(args.stats.as_deref())
 }
 
-/// Reads and performs all operations, and prints the answers.
+/// Reads and performs all operations.
 fn replay<R: Room>(
     args: &ReplayArgs,
     d: &mut R,
@@ -79,7 +86,6 @@ fn replay<R: Room>(
     }
     stats.phase("build");
     stats.set("operations", replayed.operations);
-    answer(&replayed.answers)?;
     Ok(replayed)
 }
 
@@ -99,7 +105,8 @@ fn parse<P: Coordinates>(line: &str) -> Result<Option<Operation<P>>, String> {
     let with_id = sign == "-" || sign == ">";
     let takes = usize::from(with_id) + if sign == "-" { 0 } else { P::COUNT };
     if values.len() != takes {
-        return Err(format!("{sign} takes {takes} values, not {}", values.len()));
+        let word = if takes == 1 { "value" } else { "values" };
+        return Err(format!("{sign} takes {takes} {word}, not {}", values.len()));
     }
     let mut point = P::default();
     for (x, word) in point.as_mut().iter_mut().zip(&values[usize::from(with_id)..]) {

@@ -168,16 +168,13 @@ pub(crate) fn beside(
 fn weights(input: &InputArgs, args: &WeightArgs, count: usize, quiet: bool) -> Result<Vec<f64>, Failure> {
     let Some(said) = args.given() else { return Ok(vec![0.0; count]) };
     let (numbers, label) = beside(input, said, count, "weights", quiet)?;
-    let weights: Vec<f64> = numbers.into_iter().map(|number| args.weight(number)).collect();
-    match weights.iter().position(|w| !w.is_finite()) {
-        Some(index) => Err(Failure::new(
-            format!(
-                "{}: point {index} has the weight {}, which is not finite",
-                label.display(),
-                weights[index]
-            ),
-            "remove that point or repair its weight: every finite number is accepted",
-        )),
-        None => Ok(weights),
-    }
+    let weight = |(index, number)| {
+        args.weight(number).map_err(|flaw| {
+            Failure::new(
+                format!("{}: point {index} has {flaw}", label.display()),
+                "remove that point or repair its number: weights may be any finite ones, radii from 0 to 1e154",
+            )
+        })
+    };
+    numbers.into_iter().enumerate().map(weight).collect()
 }

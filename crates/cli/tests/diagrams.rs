@@ -134,6 +134,11 @@ fn hulls_and_furthest_points() {
     place.file("bad.csv", "0,0\nnan,1\n");
     place.fail("hull bad.csv -o h.npy", 1, "point 1");
     place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");
+    place.fail(
+        "furthest p.csv --queries - -o h.npy",
+        2,
+        "only the input itself can come from standard input",
+    );
     place.fail("hull p.csv -o h.png", 2, "npy or csv");
     // What would change nothing is refused.
     place.fail("hull p.csv --algorithm flips -o h.npy", 2, "--algorithm is for hulls in space");

@@ -56,6 +56,9 @@ fn every_format_says_the_same() {
     assert_eq!((&stats["edges"], &stats["duplicates"]), (&5.into(), &1.into()));
     assert!((stats["length"].as_f64().expect("a number") - 4.0 * 2f64.sqrt() - 50f64.sqrt()).abs() < 1e-12);
     assert!(read("t.svg").contains("<svg") && place.path("t.png").exists());
+    place.file("one.csv", "x,y\n1,2\n");
+    place.succeed("graph one.csv --kind spanning-tree -o one.npy --stats s.json");
+    assert!(read("s.json").contains("\"length\": 0.0"), "{}", read("s.json"));
     // What is written is read as segments again.
     place.succeed("triangulate p.csv --segments t.npy -o again.npy");
 }

@@ -393,11 +393,16 @@ fn operations_are_replayed() {
         assert!(lines[4].starts_with("? triangle 0 1"), "{locate}: {}", lines[4]);
         assert_eq!(lines[5..], ["= 1", "@ 3", "? outside 1 3", "? edge 0 1", "? outside 2 1"], "{locate}");
     }
-    assert_eq!(place.succeed("replay ops.txt -o - --to ele --quiet").matches("\n1").count(), 1);
+    let told = place.run("replay ops.txt -o - --to ele --quiet");
+    let lines = |bytes: &[u8]| String::from_utf8_lossy(bytes).lines().map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(lines(&told.stdout)[0], "1 3 0", "the file is alone");
+    assert_eq!(lines(&told.stderr)[..4], ["+ 0", "+ 1", "+ 2", "+ 3"]);
     place.file("bad.txt", "+ 0 0\n- 0\n- 0\n");
     place.fail("replay bad.txt -o t2.npy", 1, "line 3: 0 is no vertex");
     place.file("bad.txt", "+ 0 0\n+ 1\n");
     place.fail("replay bad.txt -o t2.npy", 1, "line 2: + takes 2 values, not 1");
+    place.file("bad.txt", "-\n");
+    place.fail("replay bad.txt -o t2.npy", 1, "line 1: - takes 1 value, not 0");
     place.file("bad.txt", "+ 0 inf\n");
     place.fail("replay bad.txt -o t2.npy", 1, "line 1: the y coordinate inf is not finite");
     place.file("bad.txt", "insert 0 0\n");

@@ -50,6 +50,11 @@ fn what_is_wrong_with_weights_is_named() {
     fail("--weights few.csv", 1, "2 weights for 6 points");
     fail("--weights wrong.csv", 1, "line 4");
     fail("--weights inf.csv", 1, "point 3 has the weight inf");
+    place.file("large.csv", "1\n2\n3\n4\n1e200\n6\n");
+    place.file("negative.csv", "1\n2\n3\n4\n5\n-4\n");
+    fail("--radii inf.csv", 1, "point 3 has the radius inf, which is not finite");
+    fail("--radii large.csv", 1, "point 4 has the radius 1e200, whose square is too large");
+    fail("--radii negative.csv", 1, "point 5 has the radius -4.0, which is negative");
     fail("--weights name", 1, "name is no file");
     fail("--weights q", 1, "there is no column");
     fail("--weights r --radii r", 2, "cannot be used with");

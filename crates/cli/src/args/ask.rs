@@ -105,7 +105,8 @@ pub(crate) struct ReplayArgs {
     pub(crate) operations: PathBuf,
     #[command(flatten)]
     pub(crate) dim: DimArgs,
-    /// Output file for the triangles at the end, in any format that meshes have; may be repeated.
+    /// Output file for the triangles at the end, in any format that meshes have, or - for standard output: answers go to standard error
+    /// then; may be repeated.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.

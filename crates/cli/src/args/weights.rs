@@ -23,9 +23,17 @@ impl WeightArgs {
         self.weights.as_deref().or(self.radii.as_deref())
     }
 
-    /// The weight that a number means.
-    pub(crate) fn weight(&self, number: f64) -> f64 {
-        if self.radii.is_some() { number * number } else { number }
+    /// The weight that a number means, or what is wrong with it.
+    pub(crate) fn weight(&self, number: f64) -> Result<f64, String> {
+        let (what, weight) =
+            if self.radii.is_some() { ("radius", number * number) } else { ("weight", number) };
+        let flaw = match weight {
+            _ if !number.is_finite() => "which is not finite",
+            _ if self.radii.is_some() && number < 0.0 => "which is negative",
+            _ if !weight.is_finite() => "whose square is too large for a number",
+            _ => return Ok(weight),
+        };
+        Err(format!("the {what} {number:?}, {flaw}"))
     }
 
     /// The file that is read beside the points, if one is.
