@@ -57,7 +57,7 @@ fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure>
         ));
     }
     if let Some(path) = &args.filtration {
-        let format = files::format(path, None, "the extension")?;
+        let format = files::format_beside(path)?;
         if !matches!(format, Format::Npz | Format::Text) {
             return Err(Failure::file(path, &delone_io::Error::NotAFiltration(format)));
         }
@@ -111,7 +111,7 @@ fn complexes<R: Room, const D: usize>(
     let all: usize = (0..4).map(|dimension| alpha.values(dimension).len()).sum();
     stats.set("faces", all);
     if let Some(path) = &args.filtration {
-        let format = files::format(path, None, "the extension")?;
+        let format = files::format_beside(path)?;
         let _phase = Phase::start(quiet, "writing");
         files::write(path, |out| write_filtration(out, format, &alpha))?;
     }

@@ -25,11 +25,11 @@ pub(crate) fn format(path: &Path, said: Option<Format>, option: &str) -> Result<
     }
 }
 
-/// The format of a file that is read beside the input, which alone may come from standard input.
-fn format_beside(path: &Path) -> Result<Format, Failure> {
+/// The format of a file beside the input and the output, which alone may be standard ones.
+pub(crate) fn format_beside(path: &Path) -> Result<Format, Failure> {
     if is_standard(path) {
         return Err(Failure::usage(
-            "only the input itself can come from standard input",
+            "only the input itself can come from standard input, and only -o go to standard output",
             "name a file for this one",
         ));
     }

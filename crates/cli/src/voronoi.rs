@@ -30,8 +30,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     if let Some((path, format)) = outputs.iter().find(|(_, format)| !cells(format)) {
         return Err(Failure::file(path, &delone_io::Error::NotCells(*format)));
     }
-    let sites_format =
-        args.sites.as_deref().map(|path| files::format(path, None, "the extension")).transpose()?;
+    let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
     if !args.bounds.is_empty() && args.clip != Path::new("box") {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
     }

@@ -25,13 +25,16 @@ impl WeightArgs {
 
     /// The weight that a number means, or what is wrong with it.
     pub(crate) fn weight(&self, number: f64) -> Result<f64, String> {
-        let (what, weight) =
-            if self.radii.is_some() { ("radius", number * number) } else { ("weight", number) };
-        let flaw = match weight {
-            _ if !number.is_finite() => "which is not finite",
-            _ if self.radii.is_some() && number < 0.0 => "which is negative",
-            _ if !weight.is_finite() => "whose square is too large for a number",
-            _ => return Ok(weight),
+        let is_radius = self.radii.is_some();
+        let (what, weight) = if is_radius { ("radius", number * number) } else { ("weight", number) };
+        let flaw = if !number.is_finite() {
+            "which is not finite"
+        } else if is_radius && number < 0.0 {
+            "which is negative"
+        } else if !weight.is_finite() {
+            "whose square is too large for a number"
+        } else {
+            return Ok(weight);
         };
         Err(format!("the {what} {number:?}, {flaw}"))
     }
