@@ -5,6 +5,7 @@ pub(crate) mod plane;
 pub(crate) mod quantize;
 mod radix;
 pub(crate) mod random;
+mod shells;
 pub(crate) mod space;
 
 /// In which order centres are inserted, and instances after them.

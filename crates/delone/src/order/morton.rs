@@ -18,6 +18,7 @@ use bytemuck::Zeroable;
 
 use super::quantize::Quantizer;
 use super::radix;
+use super::shells::Shells;
 use crate::memory::zeroed;
 use crate::parallel;
 use crate::points::{Bounds, survey};
@@ -52,9 +53,20 @@ pub(crate) struct KeyBox {
     pub(crate) start: usize,
     /// One past the last position.
     pub(crate) end: usize,
-    quantizer: Option<Quantizer>,
-    /// Twice the bits per axis: the depth at which keys are used up.
+    cells: Cells,
+    /// The depth at which keys are used up: twice the bits per axis.
     depth: u32,
+}
+
+/// What the keys of a box tell apart.
+#[derive(Clone, Copy, Debug)]
+enum Cells {
+    /// Nothing: the box is a single point, or has a few.
+    One,
+    /// Cells of a square.
+    Square(Quantizer),
+    /// Blocks around the origin, of all sizes: what is in one has a box of its own.
+    Shells(Shells),
 }
 
 impl KeyBox {
@@ -66,7 +78,11 @@ impl KeyBox {
 
     /// Upper bounds on width and height of the cells at a depth, before the cut there.
     pub(crate) fn cell(&self, depth: u32) -> [f64; 2] {
-        self.quantizer.map_or([0.0; 2], |quantizer| quantizer.block([depth.div_ceil(2), depth / 2]))
+        match &self.cells {
+            Cells::One => [0.0; 2],
+            Cells::Square(quantizer) => quantizer.block([depth.div_ceil(2), depth / 2]),
+            Cells::Shells(shells) => shells.block(depth),
+        }
     }
 
     /// The depth of a cut, an index below [`Self::depths`], and whether it separates by x (else by y).
@@ -96,12 +112,18 @@ impl Cut {
 
     /// Between keys of `depth` bits.
     #[inline]
-    fn between(left: u64, right: u64, depth: u32) -> Self {
-        match (left ^ right) >> 32 {
+    fn between(left: u32, right: u32, depth: u32) -> Self {
+        match left ^ right {
             0 => Self::SAME_CELL,
             // Keys that first differ at depth d differ in bit depth - 1 - d.
-            differing => Self((depth - differing.ilog2()) as u8),
+            differing => Self::at(depth - 1 - differing.ilog2()),
         }
+    }
+
+    /// At a depth.
+    #[inline]
+    fn at(depth: u32) -> Self {
+        Self((depth + 1) as u8)
     }
 
     /// Before the `i`th of the points of one cell: balanced, because between two equal numbers of trailing
@@ -127,8 +149,8 @@ pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds<2>) -> Sorted {
             boxes: Vec::with_capacity(1),
             ..Sorter::new(0, &mut sorted.points, &mut sorted.indices, &mut sorted.cuts)
         };
-        let depth = sorter.key_box(points, bounds, |i| i as u32, 0..n);
-        sorter.runs(0..n, depth);
+        let key_box = sorter.key_box(points, bounds, |i| i as u32, 0..n);
+        sorter.runs(0..n, &key_box);
         let Sorter { boxes, removed, duplicates, .. } = sorter;
         (sorted.boxes, sorted.duplicates) = (boxes, duplicates);
         sorted.close_gaps(&removed);
@@ -165,46 +187,75 @@ impl<'a> Sorter<'a> {
     }
 
     /// Sorts points, which are in input order, into some positions, by keys in the box around them. The cut before the
-    /// first is left as it is. Returns the bits of the keys.
+    /// first is left as it is.
     fn key_box(
         &mut self,
         points: &[[f64; 2]],
         bounds: &Bounds<2>,
         index_of: impl Fn(usize) -> u32 + Sync,
         to: Range<usize>,
-    ) -> u32 {
-        let n = points.len();
-        let bits = key_bits(n);
-        let depth = 2 * bits;
-        let quantizer = Quantizer::new(bounds.low, bounds.high, bits);
-        self.boxes.push(KeyBox { start: self.start + to.start, end: self.start + to.end, quantizer, depth });
-        if bits == 0 {
-            let mut run = [([0.0; 2], 0); FEW];
-            for (k, (item, &p)) in run.iter_mut().zip(points).enumerate() {
-                *item = (p, index_of(k));
-            }
-            self.short_run(to.start, &mut run[..n], depth);
-            return depth;
-        }
-        // An entry holds a key above and a place in `points` below. Without a box all keys are equal.
-        let key = |p: [f64; 2]| {
-            let [column, row] = quantizer.map_or([0, 0], |quantizer| quantizer.cell(p));
-            u64::from(spread(column) << 1 | spread(row))
+    ) -> KeyBox {
+        let bits = key_bits(points.len());
+        let shells = if bits > 0 { Shells::around(points, bounds, bits) } else { None };
+        let (cells, depth) = match (shells, Quantizer::new(bounds.low, bounds.high, bits)) {
+            (Some(shells), _) => (Cells::Shells(shells), shells.depth()),
+            (None, Some(quantizer)) => (Cells::Square(quantizer), 2 * bits),
+            (None, None) => (Cells::One, 2 * bits),
         };
-        let mut entries = parallel::collect(n, |i| key(points[i]) << 32 | i as u64);
-        radix::sort(&mut entries, depth);
+        let key_box = KeyBox { start: self.start + to.start, end: self.start + to.end, cells, depth };
+        self.boxes.push(key_box);
+        let between = |left, right| Cut::between(left, right, depth);
+        match cells {
+            _ if bits == 0 => {
+                let mut run = [([0.0; 2], 0); FEW];
+                for (k, (item, &p)) in run.iter_mut().zip(points).enumerate() {
+                    *item = (p, index_of(k));
+                }
+                self.short_run(to.start, &mut run[..points.len()], depth);
+            }
+            Cells::One => self.by_keys(points, index_of, to, depth, |_| 0, between),
+            Cells::Square(quantizer) => {
+                let key = |p| {
+                    let [column, row] = quantizer.cell(p);
+                    spread(column) << 1 | spread(row)
+                };
+                self.by_keys(points, index_of, to, depth, key, between);
+            }
+            Cells::Shells(shells) => {
+                let between = |left, right| match left == right {
+                    true => Cut::SAME_CELL,
+                    false => Cut::at(shells.cut(left, right)),
+                };
+                self.by_keys(points, index_of, to, Shells::KEY_BITS, |p| shells.key(p), between);
+            }
+        }
+        key_box
+    }
+
+    /// Sorts points into some positions by keys, between which there are cuts.
+    fn by_keys(
+        &mut self,
+        points: &[[f64; 2]],
+        index_of: impl Fn(usize) -> u32 + Sync,
+        to: Range<usize>,
+        key_bits: u32,
+        key: impl Fn([f64; 2]) -> u32 + Sync,
+        between: impl Fn(u32, u32) -> Cut + Sync,
+    ) {
+        let n = points.len();
+        // An entry holds a key above and a place in `points` below.
+        let mut entries = parallel::collect(n, |i| u64::from(key(points[i])) << 32 | i as u64);
+        radix::sort(&mut entries, key_bits);
         let parts = parallel::parts(n);
         if parts == 1 {
-            self.put_in_order(to, &entries, 0, points, &index_of, depth);
-            return depth;
+            return self.put_in_order(to, &entries, 0, points, &index_of, &between);
         }
         let ends: Vec<usize> = parallel::even_ends(n, parts).into_iter().map(|end| to.start + end).collect();
         let first = self.start + to.start;
         parallel::map(self.split(to, &ends), |mut task| {
             let from = task.start - first;
-            task.put_in_order(0..task.points.len(), &entries, from, points, &index_of, depth);
+            task.put_in_order(0..task.points.len(), &entries, from, points, &index_of, &between);
         });
-        depth
     }
 
     /// Writes points, indices and cuts of sorted entries, from one of them on, to some positions: three plain loops,
@@ -216,7 +267,7 @@ impl<'a> Sorter<'a> {
         from: usize,
         points: &[[f64; 2]],
         index_of: &(impl Fn(usize) -> u32 + Sync),
-        depth: u32,
+        between: &(impl Fn(u32, u32) -> Cut + Sync),
     ) {
         let place = |entry: u64| entry as u32 as usize;
         for (point, &entry) in self.points[to.clone()].iter_mut().zip(&entries[from..]) {
@@ -229,15 +280,15 @@ impl<'a> Sorter<'a> {
         let skipped = usize::from(from == 0);
         let pairs = entries[from + skipped - 1..].windows(2);
         for (cut, pair) in self.cuts[to].iter_mut().skip(skipped).zip(pairs) {
-            *cut = Cut::between(pair[0], pair[1], depth);
+            *cut = between((pair[0] >> 32) as u32, (pair[1] >> 32) as u32);
         }
     }
 
     /// Sorts what shares a cell, among the points of a box.
-    fn runs(&mut self, within: Range<usize>, depth: u32) {
+    fn runs(&mut self, within: Range<usize>, key_box: &KeyBox) {
         let parts = parallel::parts(within.len());
         if parts == 1 {
-            return self.runs_of_part(within, depth);
+            return self.runs_of_part(within, key_box);
         }
         // Parts end where cells do.
         let mut ends: Vec<usize> = Vec::new();
@@ -250,7 +301,7 @@ impl<'a> Sorter<'a> {
             }
         }
         let sorted = parallel::map(self.split(within, &ends), |mut task| {
-            task.runs_of_part(0..task.points.len(), depth);
+            task.runs_of_part(0..task.points.len(), key_box);
             (task.boxes, task.duplicates, task.removed)
         });
         for (boxes, duplicates, removed) in sorted {
@@ -261,7 +312,9 @@ impl<'a> Sorter<'a> {
     }
 
     /// The same one after the other.
-    fn runs_of_part(&mut self, within: Range<usize>, depth: u32) {
+    fn runs_of_part(&mut self, within: Range<usize>, key_box: &KeyBox) {
+        let depth = key_box.depth;
+        let all_have_boxes = matches!(key_box.cells, Cells::Shells(_));
         let mut at = within.start + 1;
         while let Some(found) =
             self.cuts[at.min(within.end)..within.end].iter().position(|&cut| cut == Cut::SAME_CELL)
@@ -272,6 +325,7 @@ impl<'a> Sorter<'a> {
             at = run.end + 1;
             // Most are very short.
             match run.len() {
+                _ if all_have_boxes => self.nested_box(run),
                 ..=4 => self.run_of_at_most::<4>(run, depth),
                 5..=SHORT_RUN => self.run_of_at_most::<SHORT_RUN>(run, depth),
                 _ => self.nested_box(run),
@@ -298,9 +352,9 @@ impl<'a> Sorter<'a> {
             run.clone().skip(1).for_each(|at| self.remove(at, run.start));
             return;
         }
-        let depth = self.key_box(&points, &survey(&points).0, |i| indices[i], run.clone());
+        let key_box = self.key_box(&points, &survey(&points).0, |i| indices[i], run.clone());
         drop((points, indices));
-        self.runs(run, depth);
+        self.runs(run, &key_box);
     }
 
     /// Sorts the points of one cell, with their indices, lexicographically to where they belong, with the cuts of a
