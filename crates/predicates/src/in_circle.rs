@@ -30,6 +30,13 @@ pub fn in_circle_with_ties(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
     in_circle_filter(a, b, c, d).unwrap_or_else(|| exact::in_circle(a, b, c, d))
 }
 
+/// All stages for four points that the filter of a box leaves in doubt: they may be close together in it.
+#[cold]
+#[inline(never)]
+pub(crate) fn in_circle_in_doubt(a: Point2, b: Point2, c: Point2, d: Point2) -> Sign {
+    in_circle(a, b, c, d)
+}
+
 /// The exact and the perturbed stage, out of line: they are rarely reached.
 #[cold]
 #[inline(never)]

@@ -30,3 +30,10 @@ pub fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
 pub(crate) fn orient2d_exact(a: Point2, b: Point2, c: Point2) -> Sign {
     exact::orient2d(a, b, c)
 }
+
+/// Both stages for three points that the filter of a box leaves in doubt: they may be close together in it.
+#[cold]
+#[inline(never)]
+pub(crate) fn orient2d_in_doubt(a: Point2, b: Point2, c: Point2) -> Sign {
+    orient2d(a, b, c)
+}

@@ -9,8 +9,8 @@
 use std::hint::select_unpredictable;
 
 use crate::counters::{Predicate, Stage, count};
-use crate::in_circle::{in_circle_exact, in_circle_tie};
-use crate::orient::orient2d_exact;
+use crate::in_circle::{in_circle_in_doubt, in_circle_tie};
+use crate::orient::orient2d_in_doubt;
 use crate::{Filter, Point2, Sign};
 
 /// The circles through a base l-r. The filter given with a question must hold for all points in it.
@@ -50,7 +50,7 @@ impl Pencil {
             count(Predicate::Orient2d, Stage::Filter);
             return sign;
         }
-        orient2d_exact(self.l, self.r, m.point)
+        orient2d_in_doubt(self.l, self.r, m.point)
     }
 
     /// `in_circle(l, r, p, q)`, canonical on ties: positive iff q is inside the circle through l, r and a
@@ -63,7 +63,7 @@ impl Pencil {
                 count(Predicate::InCircle, Stage::Filter);
                 sign
             }
-            None => in_circle_exact(self.l, self.r, p.point, q.point),
+            None => in_circle_in_doubt(self.l, self.r, p.point, q.point),
         }
     }
 

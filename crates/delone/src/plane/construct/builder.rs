@@ -43,6 +43,11 @@ impl<'a, K: Kernel> Builder<'a, K> {
         ]
     }
 
+    /// A builder of the same positions over other points, which lie like these. It counts from zero.
+    pub(super) fn over<'b>(&'b mut self, points: &'b [[f64; 2]]) -> Builder<'b, K> {
+        Builder::new(points, self.weights, self.start, self.edges, self.leaving)
+    }
+
     #[inline]
     fn record(&self, e: EdgeId) -> &HalfEdge {
         &self.edges[e.index() - 8 * self.start]

@@ -33,7 +33,7 @@ use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::triangles::{HalfEdge, Mesh2};
 use crate::order::morton::{self, Cut, KeyBox, Sorted};
-use crate::order::quantize::scaled;
+use crate::order::quantize::{power_to_one, scaled};
 use crate::parallel;
 use crate::plane::layer::kernel::NearestSites;
 use crate::points::{Bounds, survey};
@@ -130,7 +130,8 @@ pub(super) fn build<K: Merging>(
     let mut builder = Builder::<K>::new(ordered, weights, 0, &mut edges, &mut leaving);
     if n > 0 {
         let grid = grid_of(ordered.as_flattened(), finest_step(boxes, scale));
-        Tree { cuts, boxes, scale, grid }.build(0, LEVELS, &mut builder);
+        let near = if K::HIDES { None } else { Near::of(ordered, boxes, scale) };
+        Tree { cuts, boxes, scale, grid, near: near.as_ref() }.build(0, LEVELS, &mut builder);
     }
     let counters = builder.counters;
     (edges, counters)
@@ -138,6 +139,43 @@ pub(super) fn build<K: Merging>(
 
 /// Sizes of sets whose products are in the range of the filters, also those of small cells: 2^-80 to 2^200.
 const SIZES: Range<f64> = 8.3e-25..1.6e60;
+
+/// The points of boxes that are too large or too small for filters, multiplied by a power of two for each box: those in which
+/// no other box is nested, where most of the work is.
+struct Near {
+    /// All points. Those of other boxes are as they were.
+    points: Vec<[f64; 2]>,
+    /// For each box the power, 1 if it is as it was.
+    powers: Vec<f64>,
+}
+
+impl Near {
+    /// `None` if there is no such box.
+    fn of(ordered: &[[f64; 2]], boxes: &[KeyBox], scale: f64) -> Option<Self> {
+        let power = |(i, b): (usize, &KeyBox)| {
+            let holds_boxes = boxes.get(i + 1).is_some_and(|next| next.start < b.end);
+            let [width, height] = b.cell(0);
+            if holds_boxes { None } else { power_to_one(width.max(height) * scale, &SIZES) }
+        };
+        let powers: Vec<Option<f64>> = boxes.iter().enumerate().map(power).collect();
+        if powers.iter().all(Option::is_none) {
+            return None;
+        }
+        let mut near = Self { points: ordered.to_vec(), powers: vec![1.0; boxes.len()] };
+        for ((key_box, power), of_box) in boxes.iter().zip(powers).zip(&mut near.powers) {
+            let Some(power) = power else { continue };
+            let run = key_box.start..key_box.end;
+            let (points, back) = (&mut near.points[run.clone()], 1.0 / power);
+            points.iter_mut().for_each(|p| *p = p.map(|x| x * power));
+            if points.iter().zip(&ordered[run.clone()]).all(|(p, q)| p.map(|x| x * back) == *q) {
+                *of_box = power;
+            } else {
+                points.copy_from_slice(&ordered[run]);
+            }
+        }
+        Some(near)
+    }
+}
 
 /// The finest step of a grid on which arithmetic is exact in the smallest cells of some box, about.
 fn finest_step(boxes: &[KeyBox], scale: f64) -> f64 {
@@ -169,6 +207,7 @@ struct Tree<'a> {
     /// What coordinates have been multiplied with since the boxes were made.
     scale: f64,
     grid: Option<Grid>,
+    near: Option<&'a Near>,
 }
 
 /// Halves of halves are on the stack, and far points can make thousands of them: deeper than this, one thread goes on.
@@ -196,9 +235,11 @@ impl Tree<'_> {
     /// that are not too large, which tasks build in memory of their own.
     fn build<K: Merging>(&self, index: usize, levels: u32, builder: &mut Builder<K>) -> Part {
         let key_box = self.boxes[index];
+        let near = self.near.filter(|near| near.powers[index] != 1.0);
+        let (power, grid) = near.map_or((1.0, self.grid), |near| (near.powers[index], None));
         let cell_filter = |depth| {
-            let [width, height] = key_box.cell(depth);
-            Filter::for_box(width * self.scale, height * self.scale, self.grid)
+            let [width, height] = key_box.cell(depth).map(|side| side * self.scale * power);
+            Filter::for_box(width, height, grid)
         };
         // A few points have one depth, and need no memory for it.
         let (one, many);
@@ -212,7 +253,15 @@ impl Tree<'_> {
         let cells = Cells { key_box, filters };
         let all = key_box.start..key_box.end;
         let most = all.len().div_ceil(parallel::parts(all.len()));
-        self.halve(&Work { index, cells: &cells, most }, all, levels, builder)
+        let work = Work { index, cells: &cells, most };
+        let Some(near) = near else {
+            return self.halve(&work, all, levels, builder);
+        };
+        let mut scaled = builder.over(&near.points);
+        let part = self.halve(&work, all, levels, &mut scaled);
+        let counters = scaled.counters;
+        builder.counters.add(&counters);
+        part
     }
 
     /// Triangulates a run of points of a box that is a subtree. If it has too many, both halves at its shallowest cut at once,
