@@ -11,14 +11,14 @@
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 use std::ops::Range;
 
 use bytemuck::Zeroable;
 
 use super::quantize::Quantizer;
 use super::radix;
-use super::shells::Shells;
+use super::shells::{self, Shells};
 use crate::memory::zeroed;
 use crate::parallel;
 use crate::points::{Bounds, survey};
@@ -153,6 +153,8 @@ pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds<2>) -> Sorted {
         sorter.runs(0..n, &key_box);
         let Sorter { boxes, removed, duplicates, .. } = sorter;
         (sorted.boxes, sorted.duplicates) = (boxes, duplicates);
+        // Shells are given boxes at once, with others on both sides of those inside.
+        sorted.boxes.sort_by_key(|b| (b.start, Reverse(b.end)));
         sorted.close_gaps(&removed);
     }
     sorted
@@ -198,7 +200,7 @@ impl<'a> Sorter<'a> {
         let bits = key_bits(points.len());
         let shells = if bits > 0 { Shells::around(points, bounds, bits) } else { None };
         let (cells, depth) = match (shells, Quantizer::new(bounds.low, bounds.high, bits)) {
-            (Some(shells), _) => (Cells::Shells(shells), shells.depth()),
+            (Some(shells), _) => (Cells::Shells(shells), shells::DEPTHS),
             (None, Some(quantizer)) => (Cells::Square(quantizer), 2 * bits),
             (None, None) => (Cells::One, 2 * bits),
         };
@@ -213,7 +215,7 @@ impl<'a> Sorter<'a> {
                 }
                 self.short_run(to.start, &mut run[..points.len()], depth);
             }
-            Cells::One => self.by_keys(points, index_of, to, depth, |_| 0, between),
+            Cells::One => drop(self.by_keys(points, index_of, to, depth, |_| 0, between)),
             Cells::Square(quantizer) => {
                 let key = |p| {
                     let [column, row] = quantizer.cell(p);
@@ -224,15 +226,30 @@ impl<'a> Sorter<'a> {
             Cells::Shells(shells) => {
                 let between = |left, right| match left == right {
                     true => Cut::SAME_CELL,
-                    false => Cut::at(shells.cut(left, right)),
+                    false => Cut::at(shells.cut(left, right) % shells::DEPTHS),
                 };
-                self.by_keys(points, index_of, to, Shells::KEY_BITS, |p| shells.key(p), between);
+                let keys = self.by_keys(points, index_of, to, Shells::KEY_BITS, |p| shells.key(p), between);
+                self.inner_boxes(key_box, shells, &keys);
             }
         }
         key_box
     }
 
-    /// Sorts points into some positions by keys, between which there are cuts.
+    /// The boxes nested in a box of shells, by its sorted entries.
+    fn inner_boxes(&mut self, outer: KeyBox, shells: Shells, entries: &[u64]) {
+        for (inner, [first, last]) in (1..).map_while(|k| shells.nth_box(k)) {
+            let start = outer.start + entries.partition_point(|entry| entry >> 32 < u64::from(first));
+            let end = outer.start + entries.partition_point(|entry| entry >> 32 <= u64::from(last));
+            let inner_box = KeyBox { start, end, cells: Cells::Shells(inner), ..outer };
+            match self.boxes.last_mut() {
+                // Nothing is between the two.
+                Some(around) if around.start == start && around.end == end => *around = inner_box,
+                _ => self.boxes.push(inner_box),
+            }
+        }
+    }
+
+    /// Sorts points into some positions by keys, between which there are cuts. Returns keys above places, sorted.
     fn by_keys(
         &mut self,
         points: &[[f64; 2]],
@@ -241,14 +258,15 @@ impl<'a> Sorter<'a> {
         key_bits: u32,
         key: impl Fn([f64; 2]) -> u32 + Sync,
         between: impl Fn(u32, u32) -> Cut + Sync,
-    ) {
+    ) -> Vec<u64> {
         let n = points.len();
         // An entry holds a key above and a place in `points` below.
         let mut entries = parallel::collect(n, |i| u64::from(key(points[i])) << 32 | i as u64);
         radix::sort(&mut entries, key_bits);
         let parts = parallel::parts(n);
         if parts == 1 {
-            return self.put_in_order(to, &entries, 0, points, &index_of, &between);
+            self.put_in_order(to, &entries, 0, points, &index_of, &between);
+            return entries;
         }
         let ends: Vec<usize> = parallel::even_ends(n, parts).into_iter().map(|end| to.start + end).collect();
         let first = self.start + to.start;
@@ -256,6 +274,7 @@ impl<'a> Sorter<'a> {
             let from = task.start - first;
             task.put_in_order(0..task.points.len(), &entries, from, points, &index_of, &between);
         });
+        entries
     }
 
     /// Writes points, indices and cuts of sorted entries, from one of them on, to some positions: three plain loops,

@@ -2,34 +2,36 @@
 //!
 //! At the origin alone boxes of doubles can nest hundreds of times; elsewhere their 53 bits are soon used up. Keys of a
 //! box in which most points are near to the origin find one crowded cell, whose box is as crowded again. Exponents
-//! tell at once in which of these boxes a point is: around each corner that the four quadrants have at the origin, squares
-//! shrink by a power of two from *level* to level, and what is between two squares is cut into two blocks: one beyond the
-//! smaller square along x, and one above or below the smaller square.
+//! tell at once in which of these boxes a point is: squares around the origin halve from *level* to level, and what is
+//! between two squares is cut into four blocks, like the blades of a pinwheel: left of the smaller square, below it, right of
+//! it and above it.
 //!
-//! Cost: O(1) a point, O(log n) for a sample.
+//! Cost: O(1) a point, O(1) for a sample.
 
 use crate::points::Bounds;
 
-/// As many levels as cuts of a byte and one digit of the sort can hold.
-const LEVELS: i32 = 120;
+/// The cuts of a level.
+const BLADES: u32 = 4;
 
-/// Bits of the slot of a cell in its quadrant.
-const SLOT_BITS: u32 = 9;
+/// The levels of a box: its cuts are counted by a byte.
+const LEVELS: u32 = 60;
+
+/// The depths at which a box is cut. The smallest square of one is the box of the next.
+pub(super) const DEPTHS: u32 = BLADES * LEVELS;
 
 /// Squares around the origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shells {
     /// The biased exponent of the largest coordinate.
-    largest: i32,
-    /// Exponents a level.
-    width: i32,
-    /// How many squares are cut out of each other.
-    levels: i32,
+    largest: u32,
+    /// The cuts of all levels.
+    depth: u32,
     extent: [f64; 2],
 }
 
 impl Shells {
-    /// For points of which each middle quarter of a sample has more magnitudes than a quarter of the bits of a key. `None` for others.
+    /// For points of which each middle quarter of a sample has more magnitudes than a quarter of the bits of a key. `None` for
+    /// others.
     pub(super) fn around(points: &[[f64; 2]], bounds: &Bounds<2>, bits: u32) -> Option<Self> {
         const SAMPLE: usize = 64;
         let taken = points.len().min(SAMPLE);
@@ -41,80 +43,76 @@ impl Shells {
         sample.sort_unstable();
         // Two clusters have two magnitudes, one of them between quartiles.
         let [first, second, third] = [1, 2, 3].map(|quarter| sample[quarter * taken / 4]);
-        if (second - first).min(third - second) <= (bits as i32 / 4).max(2) {
+        if (second - first).min(third - second) <= (bits / 4).max(2) {
             return None;
         }
         let largest = exponents(bounds.low).into_iter().chain(exponents(bounds.high)).max()?;
-        // A few at the very origin would make all levels wide.
-        let range = largest - sample[taken / 16] + 1;
-        let width = (range + LEVELS - 1) / LEVELS;
         let extent = [0, 1].map(|k| bounds.high[k] - bounds.low[k]);
-        Some(Self { largest, width, levels: (range + width - 1) / width, extent })
+        Some(Self { largest, depth: BLADES * (largest + 1 - sample[0]), extent })
     }
 
     /// The bits of a key.
-    pub(super) const KEY_BITS: u32 = 2 + SLOT_BITS;
+    pub(super) const KEY_BITS: u32 = 14;
 
-    /// The deepest cut is above this depth.
-    pub(super) fn depth(&self) -> u32 {
-        2 + 2 * self.levels as u32
-    }
-
-    /// The place of a point's cell among all in Morton order: the quadrant, then the slot. Blocks on the way to the origin
-    /// have slots from 0 up, those behind it from `4 * levels` down, and what is in the smallest square is between them.
+    /// The place of a point's block among all: blocks before the smaller squares are numbered from 0 up by the depth of
+    /// their cuts, those behind them from twice the last depth down, and what is in the smallest square is between.
     #[inline]
     pub(super) fn key(&self, p: [f64; 2]) -> u32 {
-        const { assert!(4 * LEVELS < 1 << SLOT_BITS) };
-        let level = exponents(p).map(|exponent| (self.largest - exponent) / self.width);
-        let outermost = level[0].min(level[1]);
-        let after = p.map(|x| u32::from(x >= 0.0));
-        let quadrant = after[0] << 1 | after[1];
-        let slot = if outermost >= self.levels {
-            2 * self.levels
-        } else {
-            let axis = usize::from(level[0] > level[1]);
-            let depth = 2 * outermost + axis as i32;
-            if after[axis] == 1 { 4 * self.levels - depth } else { depth }
-        };
-        quadrant << SLOT_BITS | slot as u32
+        const { assert!(2 * BLADES * 2047 < 1 << Self::KEY_BITS) };
+        let exponents = exponents(p);
+        let largest = exponents[0].max(exponents[1]);
+        let first = BLADES * (self.largest - largest);
+        if first >= self.depth {
+            return self.depth;
+        }
+        let [is_beside, is_beyond] = exponents.map(|exponent| exponent == largest);
+        match [is_beside && p[0] < 0.0, is_beyond && p[1] < 0.0, is_beside] {
+            [true, ..] => first,
+            [_, true, _] => first + 1,
+            [.., true] => 2 * self.depth - (first + 2),
+            _ => 2 * self.depth - (first + 3),
+        }
     }
 
     /// The depth of the cut between two keys. Even ones are by x.
     #[inline]
     pub(super) fn cut(&self, left: u32, right: u32) -> u32 {
-        match (left ^ right) >> SLOT_BITS {
-            0 => {
-                let depth = |key: u32| {
-                    let slot = key & ((1 << SLOT_BITS) - 1);
-                    slot.min(4 * self.levels as u32 - slot)
-                };
-                2 + depth(left).min(depth(right))
-            }
-            1 => 1,
-            _ => 0,
-        }
+        let depth = |key: u32| key.min(2 * self.depth - key);
+        depth(left).min(depth(right))
     }
 
-    /// Upper bounds on width and height of what a cut of some depth divides.
+    /// The squares from some box on, and the first and the last key in it. `None` if there are not so many boxes.
+    pub(super) fn nth_box(&self, k: u32) -> Option<(Self, [u32; 2])> {
+        let first = k * DEPTHS;
+        let depth = self.depth.checked_sub(first).filter(|&rest| rest > 0)?;
+        Some((Self { largest: self.largest - k * LEVELS, depth, ..*self }, [first, 2 * self.depth - first]))
+    }
+
+    /// Upper bounds on width and height of what a cut of some depth below [`DEPTHS`] divides.
     pub(super) fn block(&self, depth: u32) -> [f64; 2] {
-        let side = |cuts: u32| self.side((cuts as i32 - 1).max(0) * self.width);
-        let sides = if depth < 2 { [f64::INFINITY; 2] } else { [side(depth.div_ceil(2)), side(depth / 2)] };
+        let [half, next] = [0, 1].map(|below| self.half(depth / BLADES + below));
+        let sides = match depth % BLADES {
+            0 => [2.0 * half, 2.0 * half],
+            1 => [half + next, 2.0 * half],
+            2 => [half + next, half + next],
+            _ => [2.0 * next, half + next],
+        };
         [0, 1].map(|k| self.extent[k].min(sides[k]))
     }
 
-    /// The side of the squares, or more, that are so many exponents below the largest.
-    fn side(&self, below: i32) -> f64 {
-        match self.largest - below + 1 {
+    /// Half the side, or more, of the square of a level.
+    fn half(&self, level: u32) -> f64 {
+        match (self.largest + 1).saturating_sub(level) {
             2047.. => f64::INFINITY,
-            biased => f64::from_bits((biased.max(1) as u64) << 52),
+            biased => f64::from_bits(u64::from(biased.max(1)) << 52),
         }
     }
 }
 
 /// The biased exponents of coordinates.
 #[inline]
-fn exponents(p: [f64; 2]) -> [i32; 2] {
-    p.map(|x| (x.to_bits() >> 52) as i32 & 0x7ff)
+fn exponents(p: [f64; 2]) -> [u32; 2] {
+    p.map(|x| (x.to_bits() >> 52) as u32 & 0x7ff)
 }
 
 #[cfg(test)]
@@ -142,12 +140,11 @@ mod tests {
             let mut points = kind.points(300, 2);
             points.extend([[0.0, 0.0], [-0.0, 5e-324], [f64::MAX, f64::MIN], [0.0, -f64::MAX]]);
             let shells = shells(&points).expect("magnitudes");
-            assert!(shells.depth() < 247);
             for (p, q) in points.iter().flat_map(|p| points.iter().map(move |q| (*p, *q))) {
                 let (left, right) = (shells.key(p), shells.key(q));
                 if left < right {
                     let depth = shells.cut(left, right);
-                    assert!(depth < shells.depth());
+                    assert!(depth < shells.depth);
                     let axis = depth as usize % 2;
                     assert!(p[axis] < q[axis], "{p:?} {q:?}");
                     let block = shells.block(depth);

@@ -526,7 +526,7 @@ mod tests {
             points.extend(crowds);
         }
         let Sorted { points: sorted, cuts, boxes, .. } = morton::sort(&points, &survey(&points).0);
-        let tree = Tree { cuts: &cuts, boxes: &boxes, scale: 1.0, grid: None };
+        let tree = Tree { cuts: &cuts, boxes: &boxes, scale: 1.0, grid: None, near: None };
         let mut met = [0; 2];
         judge_runs(&tree, 0, 0..sorted.len(), &mut met);
         assert_eq!(met, [sorted.len() - 1, boxes.len() - 1]);
