@@ -17,6 +17,8 @@ pub enum Predicate {
 pub enum Stage {
     /// Floating point with an error bound, or floating point that is exact on a small grid.
     Filter,
+    /// Signs of differences alone.
+    Signs,
     /// 64- to 256-bit integers.
     Integers,
     /// Floating-point expansions (the `robust` crate).
@@ -31,7 +33,7 @@ pub enum Stage {
 
 /// Counts by predicate and stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Counts([[u64; 6]; 2]);
+pub struct Counts([[u64; 7]; 2]);
 
 impl Counts {
     /// The number of decisions of `predicate` at `stage`.
@@ -45,7 +47,7 @@ mod on {
     use super::{Counts, Predicate, Stage};
     use std::sync::atomic::{AtomicU64, Ordering};
 
-    static COUNTS: [[AtomicU64; 6]; 2] = [const { [const { AtomicU64::new(0) }; 6] }; 2];
+    static COUNTS: [[AtomicU64; 7]; 2] = [const { [const { AtomicU64::new(0) }; 7] }; 2];
 
     #[inline]
     pub(crate) fn count(predicate: Predicate, stage: Stage) {

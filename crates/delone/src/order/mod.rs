@@ -1,5 +1,6 @@
 //! Permutations of points: the orders in which algorithms visit them. Knows coordinates, no mesh.
 
+pub(crate) mod cuts;
 pub(crate) mod morton;
 pub(crate) mod plane;
 pub(crate) mod quantize;

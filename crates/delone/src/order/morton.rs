@@ -1,30 +1,25 @@
 //! Morton order with the cuts between neighbours: the tree on which divide and conquer works.
 //!
 //! Points are sorted by the interleaved bits of their cells (x first). Between two neighbours in that order
-//! runs the cut of the first bit in which their keys differ: its depth tells the size of the cell that it
-//! halves and, by its parity, the axis. The cuts alone are the tree, so no tree is stored.
+//! runs the cut of the first bit in which their keys differ.
 //!
 //! Keys have three bits more than log2 n, and as many more as radix passes of the same number can take; a few points have
 //! none. Skewed data collapse into few cells; there a run of equal keys is sorted again in its own bounding box,
 //! recursively. A nested box is at least 2^5 times smaller than the one around it, so 2100 / 5 is a bound on the depth
-//! for any doubles. Equal points meet in the end, and all but the first given are set aside as duplicates.
+//! for any doubles; where boxes would nest that deep, at the origin, exponents are the keys (`shells.rs`). Equal points meet in the end, and all but the first given are set aside as duplicates.
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
 use std::cmp::{Ordering, Reverse};
 use std::ops::Range;
 
-use bytemuck::Zeroable;
-
+use super::cuts::{Cells, Cut, KeyBox, SHORT_RUN};
 use super::quantize::Quantizer;
 use super::radix;
 use super::shells::{self, Shells};
 use crate::memory::zeroed;
 use crate::parallel;
 use crate::points::{Bounds, survey};
-
-/// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
-const SHORT_RUN: usize = 32;
 
 /// Sets up to this size get no keys.
 const FEW: usize = 12;
@@ -44,94 +39,6 @@ pub(crate) struct Sorted {
     pub(crate) boxes: Vec<KeyBox>,
     /// Input index and representative of each point that equals an earlier one, in order of discovery.
     pub(crate) duplicates: Vec<(u32, u32)>,
-}
-
-/// One set of keys: the positions it sorted and the geometry of its cells.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct KeyBox {
-    /// First position in the order.
-    pub(crate) start: usize,
-    /// One past the last position.
-    pub(crate) end: usize,
-    cells: Cells,
-    /// The depth at which keys are used up: twice the bits per axis.
-    depth: u32,
-}
-
-/// What the keys of a box tell apart.
-#[derive(Clone, Copy, Debug)]
-enum Cells {
-    /// Nothing: the box is a single point, or has a few.
-    One,
-    /// Cells of a square.
-    Square(Quantizer),
-    /// Blocks around the origin, of all sizes: what is in one has a box of its own.
-    Shells(Shells),
-}
-
-impl KeyBox {
-    /// The number of depths at which this box is cut; at the last, keys are equal and the order is
-    /// lexicographic.
-    pub(crate) fn depths(&self) -> u32 {
-        self.depth + 1
-    }
-
-    /// Upper bounds on width and height of the cells at a depth, before the cut there.
-    pub(crate) fn cell(&self, depth: u32) -> [f64; 2] {
-        match &self.cells {
-            Cells::One => [0.0; 2],
-            Cells::Square(quantizer) => quantizer.block([depth.div_ceil(2), depth / 2]),
-            Cells::Shells(shells) => shells.block(depth),
-        }
-    }
-
-    /// The depth of a cut, an index below [`Self::depths`], and whether it separates by x (else by y).
-    pub(crate) fn split(&self, cut: Cut) -> (usize, bool) {
-        let depth = u32::from(cut.0 - 1).min(self.depth);
-        (depth as usize, depth % 2 == 0)
-    }
-}
-
-/// The cut between two neighbours: larger is deeper. [`Cut::OUTSIDE`] is shallower than all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Zeroable)]
-pub(crate) struct Cut(u8);
-
-impl Cut {
-    /// The border of a box.
-    pub(crate) const OUTSIDE: Self = Self(0);
-    /// Not decided by keys: both are in one cell.
-    const SAME_CELL: Self = Self(254);
-    /// Before a point that equals the one before it. None is left when sorting is done.
-    const DUPLICATE: Self = Self(255);
-
-    /// The first of the shallowest of some cuts. In two passes over bytes, which take sixteen at a time.
-    pub(crate) fn first_shallowest(cuts: &[Self]) -> Option<usize> {
-        let shallowest = cuts.iter().fold(u8::MAX, |least, cut| least.min(cut.0));
-        cuts.iter().position(|cut| cut.0 == shallowest)
-    }
-
-    /// Between keys of `depth` bits.
-    #[inline]
-    fn between(left: u32, right: u32, depth: u32) -> Self {
-        match left ^ right {
-            0 => Self::SAME_CELL,
-            // Keys that first differ at depth d differ in bit depth - 1 - d.
-            differing => Self::at(depth - 1 - differing.ilog2()),
-        }
-    }
-
-    /// At a depth.
-    #[inline]
-    fn at(depth: u32) -> Self {
-        Self((depth + 1) as u8)
-    }
-
-    /// Before the `i`th of the points of one cell: balanced, because between two equal numbers of trailing
-    /// zeros lies a larger one.
-    fn within_cell(i: u32, depth: u32) -> Self {
-        const { assert!(SHORT_RUN <= 32) };
-        Self((depth + 6 - i.trailing_zeros()) as u8)
-    }
 }
 
 /// Sorts points within their bounds, in parallel if they are many. All must be finite, and fewer than 2^32.
@@ -224,9 +131,9 @@ impl<'a> Sorter<'a> {
                 self.by_keys(points, index_of, to, depth, key, between);
             }
             Cells::Shells(shells) => {
-                let between = |left, right| match left == right {
-                    true => Cut::SAME_CELL,
-                    false => Cut::at(shells.cut(left, right) % shells::DEPTHS),
+                let between = |left, right| match shells.cut(left, right) {
+                    _ if left == right => Cut::SAME_CELL,
+                    cut => Cut::at(cut % shells::DEPTHS),
                 };
                 let keys = self.by_keys(points, index_of, to, Shells::KEY_BITS, |p| shells.key(p), between);
                 self.inner_boxes(key_box, shells, &keys);
@@ -453,7 +360,7 @@ fn spread(x: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cut, Sorted, survey};
+    use super::{Cut, KeyBox, Sorted, survey};
     use delone_generators::Kind;
 
     fn sort(points: &[[f64; 2]]) -> Sorted {
@@ -504,7 +411,7 @@ mod tests {
         for &kind in Kind::ALL {
             let sorted = sort(&kind.points(2000, 6));
             for key_box in &sorted.boxes {
-                let inside = |b: &super::KeyBox, at: usize| b.start < at && at < b.end;
+                let inside = |b: &KeyBox, at: usize| b.start < at && at < b.end;
                 let nested: Vec<_> = sorted
                     .boxes
                     .iter()

@@ -28,6 +28,14 @@ use crate::filter::{in_circle_scaled, in_sphere_scaled, orient2d_scaled, orient3
 use crate::{Point2, Point3, Sign};
 
 pub(crate) fn orient2d(a: Point2, b: Point2, c: Point2) -> Sign {
+    // The sign of a difference is never wrong, and neither is that of a difference of products whose signs differ.
+    let difference = |p: Point2, axis: usize| Sign::of(&p[axis], &c[axis]);
+    let left = difference(a, 0) * difference(b, 1);
+    let right = difference(a, 1) * difference(b, 0);
+    if left != right || left.is_zero() {
+        count(Predicate::Orient2d, Stage::Signs);
+        return Sign::of(&left, &right);
+    }
     let coordinates = [a[0], a[1], b[0], b[1], c[0], c[1]];
     if let Some(sign) = integers::orient2d(&coordinates) {
         count(Predicate::Orient2d, Stage::Integers);

@@ -29,11 +29,13 @@ use super::Built;
 use super::builder::Builder;
 use super::leaf::Leaf;
 use super::merge::{Merging, Part};
+use super::near::{Near, SIZES, finest_step, grid_of};
 use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::triangles::{HalfEdge, Mesh2};
-use crate::order::morton::{self, Cut, KeyBox, Sorted};
-use crate::order::quantize::{power_to_one, scaled};
+use crate::order::cuts::{Cut, KeyBox};
+use crate::order::morton::{self, Sorted};
+use crate::order::quantize::scaled;
 use crate::parallel;
 use crate::plane::layer::kernel::NearestSites;
 use crate::points::{Bounds, survey};
@@ -135,68 +137,6 @@ pub(super) fn build<K: Merging>(
     }
     let counters = builder.counters;
     (edges, counters)
-}
-
-/// Sizes of sets whose products are in the range of the filters, also those of small cells: 2^-80 to 2^200.
-const SIZES: Range<f64> = 8.3e-25..1.6e60;
-
-/// The points of boxes that are too large or too small for filters, multiplied by a power of two for each box: those in which
-/// no other box is nested, where most of the work is.
-struct Near {
-    /// All points. Those of other boxes are as they were.
-    points: Vec<[f64; 2]>,
-    /// For each box the power, 1 if it is as it was.
-    powers: Vec<f64>,
-}
-
-impl Near {
-    /// `None` if there is no such box.
-    fn of(ordered: &[[f64; 2]], boxes: &[KeyBox], scale: f64) -> Option<Self> {
-        let power = |(i, b): (usize, &KeyBox)| {
-            let holds_boxes = boxes.get(i + 1).is_some_and(|next| next.start < b.end);
-            let [width, height] = b.cell(0);
-            if holds_boxes { None } else { power_to_one(width.max(height) * scale, &SIZES) }
-        };
-        let powers: Vec<Option<f64>> = boxes.iter().enumerate().map(power).collect();
-        if powers.iter().all(Option::is_none) {
-            return None;
-        }
-        let mut near = Self { points: ordered.to_vec(), powers: vec![1.0; boxes.len()] };
-        for ((key_box, power), of_box) in boxes.iter().zip(powers).zip(&mut near.powers) {
-            let Some(power) = power else { continue };
-            let run = key_box.start..key_box.end;
-            let (points, back) = (&mut near.points[run.clone()], 1.0 / power);
-            points.iter_mut().for_each(|p| *p = p.map(|x| x * power));
-            if points.iter().zip(&ordered[run.clone()]).all(|(p, q)| p.map(|x| x * back) == *q) {
-                *of_box = power;
-            } else {
-                points.copy_from_slice(&ordered[run]);
-            }
-        }
-        Some(near)
-    }
-}
-
-/// The finest step of a grid on which arithmetic is exact in the smallest cells of some box, about.
-fn finest_step(boxes: &[KeyBox], scale: f64) -> f64 {
-    let finest = |b: &KeyBox| {
-        let [width, height] = b.cell(b.depths() - 1);
-        Filter::finest_step(width * scale, height * scale)
-    };
-    boxes.iter().map(finest).fold(f64::INFINITY, f64::min)
-}
-
-/// The grid of coordinates if it is coarser than a step. In parallel: the grid of the first part is mostly that of all.
-fn grid_of(coordinates: &[f64], least: f64) -> Option<Grid> {
-    let parts = parallel::parts(coordinates.len() / 2);
-    if parts > 1 {
-        let mut parts = coordinates.chunks(coordinates.len().div_ceil(parts));
-        let first = Grid::coarser_than(least, parts.next()?)?;
-        if parallel::map(parts.collect(), |part| first.holds_all(part)).iter().all(|&holds| holds) {
-            return Some(first);
-        }
-    }
-    Grid::coarser_than(least, coordinates)
 }
 
 /// The tree that the cuts are, walked without being built.

@@ -6,6 +6,7 @@ mod divide_and_conquer;
 pub(super) mod incremental;
 mod leaf;
 mod merge;
+mod near;
 mod number;
 mod weighted;
 
