@@ -30,19 +30,21 @@ pub(super) struct Shells {
 }
 
 impl Shells {
-    /// For points of which each middle quarter of a sample has more magnitudes than a quarter of the bits of a key. `None` for
-    /// others.
+    /// For many points of which each middle quarter of a sample has more magnitudes than a quarter of the bits of a key.
+    /// `None` for others.
     pub(super) fn around(points: &[[f64; 2]], bounds: &Bounds<2>, bits: u32) -> Option<Self> {
         const SAMPLE: usize = 64;
-        let taken = points.len().min(SAMPLE);
-        let mut sample = [0; SAMPLE];
-        for (k, exponent) in sample.iter_mut().enumerate().take(taken) {
-            *exponent = exponents(points[k * points.len() / taken]).into_iter().max()?;
+        // A few are sorted by keys in no time, however deep.
+        if points.len() < 2 * SAMPLE {
+            return None;
         }
-        let sample = &mut sample[..taken];
+        let mut sample = [0; SAMPLE];
+        for (k, exponent) in sample.iter_mut().enumerate() {
+            *exponent = exponents(points[k * points.len() / SAMPLE]).into_iter().max()?;
+        }
         sample.sort_unstable();
         // Two clusters have two magnitudes, one of them between quartiles.
-        let [first, second, third] = [1, 2, 3].map(|quarter| sample[quarter * taken / 4]);
+        let [first, second, third] = [1, 2, 3].map(|quarter| sample[quarter * SAMPLE / 4]);
         if (second - first).min(third - second) <= (bits / 4).max(2) {
             return None;
         }
