@@ -91,6 +91,46 @@ fn only_what_is_outside_of_the_ball_is_away() {
     }
 }
 
+/// What is told to be clear of a box has no point of it inside; and most boxes that are far away are told.
+fn boxes<const D: usize>(seed: u64, rounds: usize) {
+    let (mut clear, mut held) = (0, 0);
+    for kind in 0..6 {
+        let mut r = Random::new(seed);
+        for _ in 0..rounds {
+            let (a, b) = (point::<D>(kind, &mut r), point::<D>(kind, &mut r));
+            let some: [[f64; D]; 3] = std::array::from_fn(|_| point::<D>(kind, &mut r));
+            let low = std::array::from_fn(|k| some.iter().fold(f64::INFINITY, |least, p| least.min(p[k])));
+            let high = std::array::from_fn(|k| some.iter().fold(f64::NEG_INFINITY, |most, p| most.max(p[k])));
+            if a == b {
+                continue;
+            }
+            for beta in BETAS {
+                let lune = Lune::new(a, b, beta);
+                // The points, the corners, and the nearest one to the middle.
+                let middle: [f64; D] =
+                    std::array::from_fn(|k| (0.5 * a[k] + 0.5 * b[k]).max(low[k]).min(high[k]));
+                let corners = (0..1 << D).map(|c| std::array::from_fn(|k| [low, high][c >> k & 1][k]));
+                let inside = some
+                    .into_iter()
+                    .chain(corners)
+                    .chain([middle])
+                    .any(|p| lune.place(&p) == LunePlace::Inside);
+                let is_clear = lune.is_clear_of(&low, &high);
+                assert!(!(inside && is_clear), "{a:?} {b:?} {beta} {low:?} {high:?}");
+                clear += usize::from(is_clear);
+                held += usize::from(inside);
+            }
+        }
+    }
+    assert!(clear > rounds && held > rounds, "{clear} {held}");
+}
+
+#[test]
+fn boxes_are_clear_of_lunes() {
+    boxes::<2>(5, 3000);
+    boxes::<3>(6, 2000);
+}
+
 #[test]
 fn lengths_are_exact() {
     let mut equal = 0;

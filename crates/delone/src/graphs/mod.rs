@@ -22,6 +22,8 @@ use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::Metric;
 use crate::parallel;
+#[cfg(test)]
+pub(crate) use lunes::looks;
 pub(crate) use net::Net;
 
 /// A proximity graph of the vertices of a triangulation; in space disks are balls. For [`Delaunay2::graph`] and
@@ -37,7 +39,8 @@ pub enum Graph {
     /// Pairs whose closed disk with both on a diameter holds no other vertex. O(n) in the plane.
     Gabriel,
     /// Pairs to which no vertex is nearer, strictly and from both, than they are to each other. After the Gabriel graph a
-    /// search an edge of the vertices around its lune: O(n) on evenly spread points, O(n^2) in the worst case.
+    /// search an edge of the vertices around its lune: O(n) on evenly spread points, O(n log n) on rows along the axes, O(n^2) where many
+    /// vertices are on the borders of many lunes, or nearly.
     RelativeNeighbors,
     /// The Euclidean minimum spanning tree: pairs by length, and those of one length by the positions of the
     /// lexicographically smaller end and then of the other; each that closes no ring is in. O(n log n) after the Gabriel graph.

@@ -22,7 +22,7 @@ pub(crate) struct Net<const D: usize> {
 }
 
 impl<const D: usize> Net<D> {
-    pub(super) fn of(sites: &(impl Sites<D> + ?Sized)) -> Self {
+    pub(crate) fn of(sites: &(impl Sites<D> + ?Sized)) -> Self {
         let places = sites.along_curve();
         let mut ranks = vec![u32::MAX; sites.place_count()];
         places.iter().enumerate().for_each(|(rank, v)| ranks[v.index()] = rank as u32);

@@ -103,3 +103,45 @@ impl Delaunay2 {
         Ok(graphs::named(graphs::edges(&self.base, graph)?, self.points().len(), |v| self.mesh().name(v)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use delone_generators::Kind;
+
+    use super::*;
+    use crate::graphs::looks;
+
+    fn looks_of(points: &[[f64; 2]], beta: f64) -> (usize, usize) {
+        let d = Delaunay2::from_points(points).expect("finite");
+        let net = Net::of(&d.base);
+        looks(&net, &d.base.gabriel(&|| unreachable!("the plane needs none")), beta)
+    }
+
+    /// Across there are as many edges as along; around each all vertices of both rows are in the smallest ball.
+    #[test]
+    fn lunes_between_rows_that_are_far_apart_take_few_looks() {
+        let n = 2000;
+        let rows = |slope: f64, apart: f64| -> Vec<[f64; 2]> {
+            let row = |x: f64| [[x, x * slope], [x - apart * slope, x * slope + apart]];
+            (0..n).flat_map(|i| row(f64::from(i))).collect()
+        };
+        for (slope, apart, most) in [(0.0, 1e6, 150), (0.5, 2000.0, 400)] {
+            let (looked, found) = looks_of(&rows(slope, apart), 2.0);
+            assert_eq!(found as i32, 3 * n - 2, "{slope}");
+            assert!(looked < most * found, "{looked} looks for {found} edges, slope {slope}");
+        }
+    }
+
+    #[test]
+    fn boxes_and_neighbors_agree() {
+        for &kind in Kind::ALL {
+            for beta in [1.1, 2.0, 5.0] {
+                let points = kind.points(700, 1);
+                let (looked, _) = looks_of(&points, beta);
+                if kind == Kind::Uniform && beta <= 2.0 {
+                    assert!(looked < 30 * points.len(), "{looked} looks");
+                }
+            }
+        }
+    }
+}
