@@ -10,7 +10,7 @@
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::cuts::{Cells, Cut, KeyBox, SHORT_RUN};
@@ -56,12 +56,17 @@ pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds<2>) -> Sorted {
             boxes: Vec::with_capacity(1),
             ..Sorter::new(0, &mut sorted.points, &mut sorted.indices, &mut sorted.cuts)
         };
-        let key_box = sorter.key_box(points, bounds, |i| i as u32, 0..n);
+        let key_box = sorter.key_box(points, bounds, None, 0..n);
         sorter.runs(0..n, &key_box);
         let Sorter { boxes, removed, duplicates, .. } = sorter;
         (sorted.boxes, sorted.duplicates) = (boxes, duplicates);
         // Shells are given boxes at once, with others on both sides of those inside.
-        sorted.boxes.sort_by_key(|b| (b.start, Reverse(b.end)));
+        let mut order: Vec<u64> =
+            sorted.boxes.iter().enumerate().map(|(k, b)| (b.start as u64) << 32 | k as u64).collect();
+        if !order.is_sorted() {
+            order.sort_unstable();
+            sorted.boxes = order.into_iter().map(|entry| sorted.boxes[entry as u32 as usize]).collect();
+        }
         sorted.close_gaps(&removed);
     }
     sorted
@@ -95,13 +100,13 @@ impl<'a> Sorter<'a> {
         parts.map(|((start, points), (indices, cuts))| Sorter::new(start, points, indices, cuts)).collect()
     }
 
-    /// Sorts points, which are in input order, into some positions, by keys in the box around them. The cut before the
-    /// first is left as it is.
+    /// Sorts points, which are in input order and have indices of their own if they are not all, into some positions, by keys
+    /// in the box around them. The cut before the first is left as it is.
     fn key_box(
         &mut self,
         points: &[[f64; 2]],
         bounds: &Bounds<2>,
-        index_of: impl Fn(usize) -> u32 + Sync,
+        indices: Option<&[u32]>,
         to: Range<usize>,
     ) -> KeyBox {
         let bits = key_bits(points.len());
@@ -113,31 +118,29 @@ impl<'a> Sorter<'a> {
         };
         let key_box = KeyBox { start: self.start + to.start, end: self.start + to.end, cells, depth };
         self.boxes.push(key_box);
-        let between = |left, right| Cut::between(left, right, depth);
-        match cells {
-            _ if bits == 0 => {
-                let mut run = [([0.0; 2], 0); FEW];
-                for (k, (item, &p)) in run.iter_mut().zip(points).enumerate() {
-                    *item = (p, index_of(k));
-                }
-                self.short_run(to.start, &mut run[..points.len()], depth);
+        if bits == 0 {
+            let mut run = [([0.0; 2], 0); FEW];
+            for (k, (item, &p)) in run.iter_mut().zip(points).enumerate() {
+                *item = (p, indices.map_or(k as u32, |indices| indices[k]));
             }
-            Cells::One => drop(self.by_keys(points, index_of, to, depth, |_| 0, between)),
-            Cells::Square(quantizer) => {
-                let key = |p| {
-                    let [column, row] = quantizer.cell(p);
-                    spread(column) << 1 | spread(row)
-                };
-                self.by_keys(points, index_of, to, depth, key, between);
-            }
-            Cells::Shells(shells) => {
-                let between = |left, right| match shells.cut(left, right) {
-                    _ if left == right => Cut::SAME_CELL,
-                    cut => Cut::at(cut % shells::DEPTHS),
-                };
-                let keys = self.by_keys(points, index_of, to, Shells::KEY_BITS, |p| shells.key(p), between);
-                self.inner_boxes(key_box, shells, &keys);
-            }
+            self.short_run(to.start, &mut run[..points.len()], depth);
+            return key_box;
+        }
+        // An entry holds a key above and a place in `points` below.
+        let entry = |key: u32, i: usize| u64::from(key) << 32 | i as u64;
+        let mut entries = match cells {
+            Cells::One => (0..points.len()).map(|i| entry(0, i)).collect(),
+            Cells::Square(quantizer) => parallel::collect(points.len(), |i| {
+                let [column, row] = quantizer.cell(points[i]);
+                entry(spread(column) << 1 | spread(row), i)
+            }),
+            Cells::Shells(shells) => parallel::collect(points.len(), |i| entry(shells.key(points[i]), i)),
+        };
+        let key_bits = if let Cells::Shells(_) = cells { Shells::KEY_BITS } else { depth };
+        radix::sort(&mut entries, key_bits);
+        self.put_all_in_order(&key_box, &entries, points, indices, to);
+        if let Cells::Shells(shells) = cells {
+            self.inner_boxes(key_box, shells, &entries);
         }
         key_box
     }
@@ -156,57 +159,57 @@ impl<'a> Sorter<'a> {
         }
     }
 
-    /// Sorts points into some positions by keys, between which there are cuts. Returns keys above places, sorted.
-    fn by_keys(
+    /// Writes points, indices and cuts of sorted entries to some positions.
+    fn put_all_in_order(
         &mut self,
+        key_box: &KeyBox,
+        entries: &[u64],
         points: &[[f64; 2]],
-        index_of: impl Fn(usize) -> u32 + Sync,
+        indices: Option<&[u32]>,
         to: Range<usize>,
-        key_bits: u32,
-        key: impl Fn([f64; 2]) -> u32 + Sync,
-        between: impl Fn(u32, u32) -> Cut + Sync,
-    ) -> Vec<u64> {
-        let n = points.len();
-        // An entry holds a key above and a place in `points` below.
-        let mut entries = parallel::collect(n, |i| u64::from(key(points[i])) << 32 | i as u64);
-        radix::sort(&mut entries, key_bits);
-        let parts = parallel::parts(n);
+    ) {
+        let parts = parallel::parts(entries.len());
         if parts == 1 {
-            self.put_in_order(to, &entries, 0, points, &index_of, &between);
-            return entries;
+            return self.put_in_order(key_box, to, entries, 0, points, indices);
         }
-        let ends: Vec<usize> = parallel::even_ends(n, parts).into_iter().map(|end| to.start + end).collect();
+        let ends = parallel::even_ends(entries.len(), parts).into_iter();
+        let ends: Vec<usize> = ends.map(|end| to.start + end).collect();
         let first = self.start + to.start;
         parallel::map(self.split(to, &ends), |mut task| {
             let from = task.start - first;
-            task.put_in_order(0..task.points.len(), &entries, from, points, &index_of, &between);
+            task.put_in_order(key_box, 0..task.points.len(), entries, from, points, indices);
         });
-        entries
     }
 
-    /// Writes points, indices and cuts of sorted entries, from one of them on, to some positions: three plain loops,
-    /// because the points come from everywhere in memory and nothing should stand in the way of fetching many at once.
+    /// The same from one of the entries on: three plain loops, because the points come from everywhere in memory and nothing
+    /// should stand in the way of fetching many at once.
     fn put_in_order(
         &mut self,
+        key_box: &KeyBox,
         to: Range<usize>,
         entries: &[u64],
         from: usize,
         points: &[[f64; 2]],
-        index_of: &(impl Fn(usize) -> u32 + Sync),
-        between: &(impl Fn(u32, u32) -> Cut + Sync),
+        indices: Option<&[u32]>,
     ) {
-        let place = |entry: u64| entry as u32 as usize;
         for (point, &entry) in self.points[to.clone()].iter_mut().zip(&entries[from..]) {
-            *point = points[place(entry)];
+            *point = points[entry as u32 as usize];
         }
         for (index, &entry) in self.indices[to.clone()].iter_mut().zip(&entries[from..]) {
-            *index = index_of(place(entry));
+            *index = indices.map_or(entry as u32, |indices| indices[entry as u32 as usize]);
         }
         // The first of all has none before it.
         let skipped = usize::from(from == 0);
         let pairs = entries[from + skipped - 1..].windows(2);
-        for (cut, pair) in self.cuts[to].iter_mut().skip(skipped).zip(pairs) {
-            *cut = between((pair[0] >> 32) as u32, (pair[1] >> 32) as u32);
+        let keys = pairs.map(|pair| [pair[0], pair[1]].map(|entry| (entry >> 32) as u32));
+        let cuts = self.cuts[to].iter_mut().skip(skipped).zip(keys);
+        if let Cells::Shells(shells) = key_box.cells {
+            cuts.for_each(|(cut, [left, right])| {
+                let depth = shells.cut(left, right) % shells::DEPTHS;
+                *cut = if left == right { Cut::SAME_CELL } else { Cut::at(depth) };
+            });
+        } else {
+            cuts.for_each(|(cut, [left, right])| *cut = Cut::between(left, right, key_box.depth));
         }
     }
 
@@ -278,7 +281,7 @@ impl<'a> Sorter<'a> {
             run.clone().skip(1).for_each(|at| self.remove(at, run.start));
             return;
         }
-        let key_box = self.key_box(&points, &survey(&points).0, |i| indices[i], run.clone());
+        let key_box = self.key_box(&points, &survey(&points).0, Some(&indices), run.clone());
         drop((points, indices));
         self.runs(run, &key_box);
     }
