@@ -38,11 +38,13 @@ impl Shells {
         if points.len() < 2 * SAMPLE {
             return None;
         }
-        let mut sample = [0; SAMPLE];
+        // Sorted as the words that are sorted elsewhere, by the same code.
+        let mut sample = [0_u64; SAMPLE];
         for (k, exponent) in sample.iter_mut().enumerate() {
-            *exponent = exponents(points[k * points.len() / SAMPLE]).into_iter().max()?;
+            *exponent = exponents(points[k * points.len() / SAMPLE]).into_iter().max()?.into();
         }
         sample.sort_unstable();
+        let sample = sample.map(|exponent| exponent as u32);
         // Two clusters have two magnitudes, one of them between quartiles.
         let [first, second, third] = [1, 2, 3].map(|quarter| sample[quarter * SAMPLE / 4]);
         if (second - first).min(third - second) <= (bits / 4).max(2) {

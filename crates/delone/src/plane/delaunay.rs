@@ -76,7 +76,7 @@ impl Delaunay2 {
 
     /// Triangulates points with the default algorithm.
     ///
-    /// O(n log n) in the worst case; about 100 bytes a point above the input.
+    /// O(n log n) in the worst case for coordinates of few magnitudes (see [`Algorithm2`]); about 100 bytes a point above the input.
     ///
     /// # Errors
     /// [`Error::NotFinite`] names the first NaN or infinite coordinate; [`Error::TooManyPoints`] is returned

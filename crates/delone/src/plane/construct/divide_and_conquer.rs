@@ -5,8 +5,8 @@
 //! for constructing Delaunay triangulations", Algorithmica 1987 (alternating cuts). The cuts here are those of
 //! the Morton order, so nothing is stored for the recursion and nothing is searched.
 //!
-//! Cost: O(n log n) in the worst case for any data of bounded exponent range; 32 bytes a triangle and nothing
-//! is allocated while merging.
+//! Cost: O(n log n) in the worst case for any data of bounded exponent range, O(m n) for points nested at m magnitudes: each merge
+//! in such a chain may replace all triangles of the inner ones. 32 bytes a triangle, and nothing is allocated while merging.
 //!
 //! # In place
 //!

@@ -27,7 +27,9 @@ use crate::tally::{Counters, Work};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Algorithm2 {
-    /// Divide and conquer in Morton order: the fastest, O(n log n) in the worst case, without randomness.
+    /// Divide and conquer in Morton order: the fastest, O(n log n) in the worst case for coordinates of few magnitudes, without
+    /// randomness. Where points at m magnitudes are nested, sets can be made for which it is O(m n): a thousand fans around one
+    /// tiny segment, each a half as large as the one before.
     #[default]
     DivideAndConquer,
     /// Insertion one by one in a biased randomized order along a Hilbert curve, each point located by a walk
