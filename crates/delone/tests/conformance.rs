@@ -150,6 +150,84 @@ fn large_sets_agree<'a>(kinds: impl Iterator<Item = &'a Kind>, size: usize, extr
     }
 }
 
+/// Points nested at the origin, or seemingly: in one or all quadrants, on axes and rays, symmetric, on lattices, over all exponents, with
+/// chains of boxes that are just full, samples that mislead, fans around a tiny segment, and columns of nests elsewhere.
+fn nests() -> Vec<(&'static str, Vec<[f64; 2]>)> {
+    let power = |e: i32| if e < -1022 { f64::from_bits(1 << (e + 1074)) } else { 2f64.powi(e) };
+    let (least, all) = (-1074, 2097);
+    let at = |count: usize, make: &dyn Fn(i32, usize) -> [f64; 2]| -> Vec<[f64; 2]> {
+        (0..count).map(|i| make(least + (i * all as usize / count) as i32, i)).collect()
+    };
+    let sign = |i: usize, bit: u32| if i >> bit & 1 == 1 { -1.0 } else { 1.0 };
+    let mut sets = vec![
+        ("quadrant", at(300, &|e, i| [power(e) * (1.0 + i as f64 / 512.0), power(e) * (i % 7) as f64 / 8.0])),
+        ("quadrants", at(400, &|e, i| [sign(i, 0) * power(e), sign(i, 1) * power(e) * (i % 5) as f64 / 4.0])),
+        (
+            "axes",
+            at(300, &|e, i| {
+                if i % 2 == 0 { [sign(i, 1) * power(e), 0.0] } else { [-0.0, sign(i, 2) * power(e)] }
+            }),
+        ),
+        ("ray", at(200, &|e, _| [power(e), power(e) / 2.0])),
+        ("squares", at(400, &|e, i| [sign(i, 0), sign(i, 1)].map(|s| s * power(e - (i % 4) as i32 / 4)))),
+        ("subnormal lattice", at(300, &|_, i| [i % 17, i / 17].map(|k| f64::from_bits(k as u64)))),
+        (
+            "corners",
+            at(200, &|e, i| {
+                if i % 3 == 0 {
+                    [sign(i, 0) * f64::MAX, sign(i, 1) * f64::MAX]
+                } else {
+                    [power(e), -power(e)]
+                }
+            }),
+        ),
+        ("one row", at(300, &|e, i| [sign(i, 0) * power(e), 1e300])),
+    ];
+    for octaves in [59, 60, 61, 120, 121] {
+        let ring = move |i: usize| {
+            let e = (i * octaves / 256) as i32;
+            [
+                sign(i, 0) * power(e - 40) * (1.0 + (i % 9) as f64 / 16.0),
+                sign(i, 1) * power(e - 40) * (i % 3) as f64,
+            ]
+        };
+        sets.push(("full chains", (0..256).map(ring).collect()));
+    }
+    let mut random = Random::new(1);
+    // What a sample of 64 sees is nested, what it does not see is elsewhere, or deeper.
+    for other in [-900, 3, 900] {
+        let fooled = |i: usize| {
+            let e = if i.is_multiple_of(5) { (i * 7) as i32 % 1500 - 700 } else { other };
+            [power(e) * random.between(0.5, 1.0), power(e) * random.between(-1.0, 1.0)]
+        };
+        sets.push(("fooled", (0..320).map(fooled).collect()));
+    }
+    let fan = (0..60)
+        .map(|j| (1.0 + f64::from(j) / 1_048_576.0, j))
+        .map(|(d, j)| [-d * power(2 * j - 60), power(j)]);
+    let segment = (0..200).map(|i| [0.0, (f64::from(i * 37 % 200) - 100.0) * power(-70)]);
+    sets.push(("fans", fan.chain(segment).collect()));
+    let column = |i: i32| [f64::from(16 + i % 3) * power(1000), power(i * 31 % 2058 - 1058)];
+    sets.push(("columns", (0..300).map(column).collect()));
+    sets
+}
+
+/// Also turned, mirrored and scaled: whatever the origin is in the order, the triangulation is that of the points.
+#[test]
+fn nests_agree_across_algorithms() {
+    for (name, points) in nests() {
+        let scalable = || scalable_algorithms().into_iter().take(4).collect::<Vec<_>>();
+        let expected = agreed(&points, name, scalable());
+        let turns: [fn([f64; 2]) -> [f64; 2]; 3] = [|[x, y]| [y, x], |[x, y]| [-x, y], |[x, y]| [y, -x]];
+        for turn in turns {
+            agreed(&points.iter().map(|&p| turn(p)).collect::<Vec<_>>(), name, scalable());
+        }
+        let mut shuffled = points.clone();
+        Random::new(7).shuffle(&mut shuffled);
+        assert!(agreed(&shuffled, name, Vec::new()) == expected, "{name} shuffled");
+    }
+}
+
 #[test]
 fn sets_of_lower_dimension() {
     for (points, dimension, hull) in [

@@ -29,7 +29,7 @@ use crate::tally::{Counters, Work};
 pub enum Algorithm2 {
     /// Divide and conquer in Morton order: the fastest, O(n log n) in the worst case for coordinates of few magnitudes, without
     /// randomness. Where points at m magnitudes are nested, sets can be made for which it is O(m n): a thousand fans around one
-    /// tiny segment, each a half as large as the one before.
+    /// tiny segment, each half as large as the one before.
     #[default]
     DivideAndConquer,
     /// Insertion one by one in a biased randomized order along a Hilbert curve, each point located by a walk
