@@ -6,7 +6,8 @@
 //! Keys have three bits more than log2 n, and as many more as radix passes of the same number can take; a few points have
 //! none. Skewed data collapse into few cells; there a run of equal keys is sorted again in its own bounding box,
 //! recursively. A nested box is at least 2^5 times smaller than the one around it, so 2100 / 5 is a bound on the depth
-//! for any doubles; where boxes would nest that deep, at the origin, exponents are the keys (`shells.rs`). Equal points meet in the end, and all but the first given are set aside as duplicates.
+//! for any doubles; where boxes would nest that deep, at the origin, exponents are the keys (`shells.rs`). Equal points meet in
+//! the end, and all but the first given are set aside as duplicates.
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
 
