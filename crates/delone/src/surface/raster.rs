@@ -16,6 +16,7 @@ use delone_predicates::orient2d;
 use super::grid::Grid;
 use super::interpolator::check_values;
 use crate::error::Error;
+use crate::ids::VertexId;
 use crate::parallel;
 use crate::triangulation::{Ask, Triangulation};
 
@@ -82,6 +83,19 @@ impl Raster {
         self.cells.into_iter().map(|cell| f64::from_bits(cell.into_inner())).collect()
     }
 
+    /// The ranks of vertices, by id.
+    fn ranks<T: Triangulation<Point = [f64; 2]>>(&self, d: &T) -> Vec<Rank> {
+        let rank = |axis: &Axis, x: f64| {
+            let before = axis.first_from(x);
+            [before as u32, before as u32 + u32::from(axis.places.get(before) == Some(&x))]
+        };
+        parallel::collect(d.ids_given(), |v| {
+            let [x, y] = d.position(VertexId::new(v)).unwrap_or_default();
+            let ([x, upto_x], [y, upto_y]) = (rank(&self.xs, x), rank(&self.ys, y));
+            [[x, y], [upto_x, upto_y]]
+        })
+    }
+
     /// The rows up to the middle corner, then those above it.
     fn scan(&self, first: usize, corners: [[f64; 2]; 3], values: [f64; 3]) {
         let (low, middle, high, is_middle_left) = sorted(corners, values);
@@ -136,6 +150,17 @@ impl Raster {
             put(end.column - 1, right.value);
         }
     }
+}
+
+/// How many columns and rows are before a point, and how many before or at it.
+type Rank = [[u32; 2]; 2];
+
+/// Whether the box of a triangle holds a centre.
+#[inline]
+fn may_hold([a, b, c]: [Rank; 3]) -> bool {
+    let [columns, rows] = [0, 1].map(|k| a[0][k].min(b[0][k]).min(c[0][k]) < a[1][k].max(b[1][k]).max(c[1][k]));
+    // Without a branch: each alone is hard to foretell.
+    columns & rows
 }
 
 /// Where columns or rows are.
@@ -365,10 +390,12 @@ fn paint<T: Triangulation<Point = [f64; 2]>>(
     raster: &Raster,
     keep: impl Fn(T::Simplex) -> bool + Sync,
 ) {
+    // Where most triangles hold no centre, most of the time would go into finding that out from coordinates.
+    let ranks = if raster.grid.cells() < d.vertex_count() as f64 { raster.ranks(d) } else { Vec::new() };
     let one = |s: T::Simplex| {
-        if keep(s) {
-            let corners = d.corners(s);
-            let [a, b, c] = *corners.as_ref() else { return };
+        let corners = d.corners(s);
+        let [a, b, c] = *corners.as_ref() else { return };
+        if (ranks.is_empty() || may_hold([a, b, c].map(|v| ranks[v.index()]))) && keep(s) {
             let points = [a, b, c].map(|v| d.position(v).unwrap_or_default());
             raster.paint(points, [a, b, c].map(|v| heights[v.index()]));
         }
