@@ -44,7 +44,8 @@ use crate::tally::Tally;
 #[non_exhaustive]
 pub enum Locate {
     /// A k-d tree of hints, rebuilt when the number of points doubles. In the plane a walk that its hint sends too far is
-    /// given up for the levels of a hierarchy, made at the first need: where triangles are long and thin, near is not close by.
+    /// given up for the levels of a hierarchy, which are made when long walks have taken as many steps as there are vertices:
+    /// where triangles are long and thin, near is not close by.
     #[default]
     Tree,
     /// No structure: a walk from the vertex inserted last.

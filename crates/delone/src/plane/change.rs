@@ -10,7 +10,6 @@ use super::locate::Found;
 use super::locator::Locator;
 use crate::error::Error;
 use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
-use crate::locate::tree::Tree;
 use crate::locate::{Locate, Start, Strategy, Walk};
 use crate::mesh::Names;
 use crate::mesh::triangles::Room;
@@ -320,7 +319,7 @@ impl Delaunay2 {
             self.upkeep.laid_out = count;
             self.rearrange_now(Room::Much);
         } else if let Some(Locator::Tree(hints)) = self.locator.get_mut() {
-            hints.tree = Tree::build(&self.base);
+            hints.renew(&self.base);
         }
     }
 }

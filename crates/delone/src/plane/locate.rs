@@ -112,9 +112,7 @@ impl Delaunay2 {
     pub(super) fn spot<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Found {
         let locator = self.locator();
         if let Locator::Tree(hints) = locator {
-            let start = hints.start(&self.base, q, tally);
-            let found = self.base.spot_within(start, q, hints.most(), tally);
-            let (spot, steps) = found.unwrap_or_else(|| hints.rescue(&self.base, q, tally));
+            let (spot, steps, start) = hints.spot(&self.base, q, tally);
             return Found { spot, steps, start };
         }
         let start = locator.start(&self.base, q, tally);

@@ -1,6 +1,7 @@
 //! The strategies of location at work in the plane.
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use super::Delaunay2;
 use super::layer::Layer;
@@ -37,7 +38,7 @@ impl Locator {
     /// The structure for the vertices that there are.
     pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
         match locate {
-            Locate::Tree => Self::Tree(Hints { tree: Tree::build(layer), levels: OnceLock::new() }),
+            Locate::Tree => Self::Tree(Hints::build(layer)),
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
@@ -96,36 +97,83 @@ impl Strategy<Layer> for Locator {
     }
 }
 
-/// A tree of hints and, from the first walk on that it sends too far, the levels of a hierarchy.
+/// A tree of hints and, when walks from them have taken as long as it takes to make them, the levels of a hierarchy.
 ///
 /// A hint is near the goal, but where triangles are long and thin, as between two curves with many points, there may be any
-/// number of them between two points that are near each other. The levels do not care.
-#[derive(Clone, Debug)]
+/// number of them between two points that are near each other. The levels do not care, but cost each insertion an eighth: a
+/// long walk beside the hull of evenly spread points, one in a hundred thousand, is no reason for them.
+#[derive(Debug)]
 pub(super) struct Hints {
-    pub(super) tree: Tree<EdgeId>,
+    tree: Tree<EdgeId>,
     levels: OnceLock<Box<Levels<Layer>>>,
+    /// The steps of long walks since the hints were made.
+    spent: AtomicUsize,
+}
+
+impl Clone for Hints {
+    fn clone(&self) -> Self {
+        let spent = self.spent.load(Relaxed).into();
+        Self { tree: self.tree.clone(), levels: self.levels.clone(), spent }
+    }
 }
 
 impl Hints {
     /// A walk from a hint that takes more steps is given up, if there are levels. On evenly spread points it takes four on
     /// average.
     const MOST: usize = 64;
-    /// The same as long as there are none. Just beyond the hull of evenly spread points a walk may take a hundred.
-    const MOST_WITHOUT: usize = 300;
+    /// A walk that takes more steps is long.
+    const LONG: usize = 300;
+
+    /// Hints at the vertices that there are.
+    pub(super) fn build(layer: &Layer) -> Self {
+        Self { tree: Tree::build(layer), levels: OnceLock::new(), spent: 0.into() }
+    }
+
+    /// Other hints, and the levels that there are.
+    pub(super) fn renew(&mut self, layer: &Layer) {
+        self.tree = Tree::build(layer);
+        *self.spent.get_mut() = 0;
+    }
 
     /// So many steps a walk from a hint may take.
     #[inline]
-    pub(super) fn most(&self) -> usize {
-        if self.levels.get().is_some() { Self::MOST } else { Self::MOST_WITHOUT }
+    fn most(&self) -> usize {
+        if self.levels.get().is_some() { Self::MOST } else { usize::MAX }
+    }
+
+    /// Finds a point, and tells how many steps that took, and where from.
+    #[inline]
+    pub(super) fn spot<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize, Start) {
+        let start = self.tree.start(layer, q, tally);
+        let most = self.most();
+        let (spot, steps) = match layer.spot_within(start, q, most, tally) {
+            Some(found) => found,
+            None => self.rescue(layer, q, tally),
+        };
+        if steps > Self::LONG && most == usize::MAX {
+            self.spend(layer, steps);
+        }
+        (spot, steps, start)
     }
 
     /// Finds a point that the tree's hint is far from.
     #[cold]
-    pub(super) fn rescue<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
-        let given_up = self.most();
-        let levels = self.levels.get_or_init(|| Box::new(Levels::build(Hierarchy::default(), layer)));
-        let (spot, steps) = layer.spot(levels.start(layer, q, tally), q, tally);
-        (spot, steps + given_up)
+    fn rescue<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
+        let (spot, steps) = layer.spot(self.levels(layer).start(layer, q, tally), q, tally);
+        (spot, steps + Self::MOST)
+    }
+
+    /// Keeps account of a long walk.
+    #[cold]
+    fn spend(&self, layer: &Layer, steps: usize) {
+        // To make the levels takes as long as some such steps a vertex.
+        if self.spent.fetch_add(steps, Relaxed) + steps > layer.mesh.vertex_count {
+            self.levels(layer);
+        }
+    }
+
+    fn levels(&self, layer: &Layer) -> &Levels<Layer> {
+        self.levels.get_or_init(|| Box::new(Levels::build(Hierarchy::default(), layer)))
     }
 }
 
@@ -150,7 +198,7 @@ impl Strategy<Layer> for Hints {
     }
 
     fn rearranged(&mut self, layer: &Layer, moved: &[Place]) {
-        self.tree = Tree::build(layer);
+        self.renew(layer);
         if let Some(levels) = self.levels.get_mut() {
             levels.rearranged(layer, moved);
         }
@@ -162,7 +210,7 @@ impl Delaunay2 {
     pub fn footprint(&self) -> Footprint {
         let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
         match self.locator() {
-            Locator::Tree(Hints { tree, levels }) => {
+            Locator::Tree(Hints { tree, levels, .. }) => {
                 footprint.strategy = tree.bytes();
                 if let Some(levels) = levels.get() {
                     footprint.levels = levels.sizes();
@@ -207,10 +255,12 @@ mod tests {
         d
     }
 
-    /// Makes the levels behind hints as a walk does that goes too far.
+    /// Makes the levels behind hints as walks do that go too far.
     fn rescue(d: &Delaunay2) {
         let Locator::Tree(hints) = d.locator() else { panic!("hints") };
-        hints.rescue(&d.base, [0.5; 2], &mut ());
+        hints.spend(&d.base, d.vertex_count());
+        assert!(d.footprint().levels.is_empty());
+        hints.spend(&d.base, 1);
     }
 
     const STEEP: Hierarchy = Hierarchy {
