@@ -17,7 +17,9 @@
 //!
 //! Filter: a product of two rounded differences is wrong by 3u of itself, sums of three by 2u more, the factor, and the last
 //! difference, by u each: 7u of the sum of all magnitudes, for which [`told`] allows 8u. What underflow loses, at most beta
-//! times three of the least numbers, is as nothing beside u times a size of beta 1e-290.
+//! times three of the least numbers, is as nothing beside u times a size of beta 1e-290. All differences are scaled by the power
+//! of two that brings v near to one, so that segments of any length are alike; those beyond 2^400 are cut off there, where every
+//! lune has ended (those of larger beta than 2^300 are taken as they are).
 
 use crate::distance::{ERROR, told};
 use crate::{Sign, exact};
@@ -31,6 +33,41 @@ pub struct Lune<const D: usize> {
     a: [f64; D],
     b: [f64; D],
     beta: f64,
+    scale: Scale,
+    /// From a to b, scaled.
+    v: [f64; D],
+}
+
+/// What differences of coordinates are multiplied by, so that those of a segment's ends are near to one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Scale {
+    /// A power of two, at most one: of what is long, before it is subtracted, or the difference might be too large.
+    before: f64,
+    /// A power of two, at least one: of what is short, after it was subtracted, or it might be too large before.
+    after: f64,
+    /// Where differences are cut off.
+    most: f64,
+}
+
+impl Scale {
+    /// From this beta on nothing is scaled.
+    const LARGEST_BETA: f64 = f64::from_bits((1023 + 300) << 52);
+
+    #[inline]
+    fn of<const D: usize>(a: &[f64; D], b: &[f64; D], beta: f64) -> Self {
+        if beta > Self::LARGEST_BETA {
+            return Self { before: 1.0, after: 1.0, most: f64::INFINITY };
+        }
+        let length = (0..D).fold(0.0f64, |most, k| most.max((0.5 * b[k] - 0.5 * a[k]).abs()));
+        let exponent = ((length.to_bits() >> 52) as i64 - 1022).clamp(-1000, 1000);
+        let power = |exponent: i64| f64::from_bits(((1023 + exponent) as u64) << 52);
+        Self { before: power((-exponent).min(0)), after: power((-exponent).max(0)), most: power(400) }
+    }
+
+    #[inline]
+    fn difference(&self, to: f64, from: f64) -> f64 {
+        ((to * self.before - from * self.before) * self.after).max(-self.most).min(self.most)
+    }
 }
 
 /// Where a point is.
@@ -48,7 +85,8 @@ impl<const D: usize> Lune<D> {
     /// Of the segment from `a` to `b`, which differ; `beta` is finite and at least 1.
     #[inline]
     pub fn new(a: [f64; D], b: [f64; D], beta: f64) -> Self {
-        Self { a, b, beta }
+        let scale = Scale::of(&a, &b, beta);
+        Self { a, b, beta, scale, v: std::array::from_fn(|k| scale.difference(b[k], a[k])) }
     }
 
     /// Where a point is. Exact in whether it is inside, for every finite input. O(1).
@@ -62,8 +100,8 @@ impl<const D: usize> Lune<D> {
     /// ```
     #[inline]
     pub fn place(&self, p: &[f64; D]) -> LunePlace {
-        let (one, one_size) = ball_terms(&self.a, &self.b, p, self.beta);
-        let (two, two_size) = ball_terms(&self.b, &self.a, p, self.beta);
+        let (one, one_size) = self.ball_terms(&self.a, p, 1.0);
+        let (two, two_size) = self.ball_terms(&self.b, p, -1.0);
         let least = self.beta * SMALLEST;
         if one_size >= least && two_size >= least {
             // The error of the sum is that of both.
@@ -83,7 +121,7 @@ impl<const D: usize> Lune<D> {
     }
 
     /// Whether surely no point of a box is inside, because the box is outside of one of the two balls. Of boxes that hardly are,
-    /// or whose squares leave the range of numbers, it is not told. O(1).
+    /// it is not told. O(1).
     ///
     /// ```
     /// use delone_predicates::Lune;
@@ -92,34 +130,36 @@ impl<const D: usize> Lune<D> {
     /// assert!(!lune.is_clear_of(&[3.5, -9.0], &[9.0, 9.0]));
     /// ```
     pub fn is_clear_of(&self, low: &[f64; D], high: &[f64; D]) -> bool {
-        let is_beyond = |from: &[f64; D], to: &[f64; D]| {
+        let is_beyond = |from: &[f64; D], sign: f64| {
             let (mut least, mut size) = (0.0, 0.0);
             for k in 0..D {
                 // Of u^2 - beta u v the least is at beta v / 2, or as near to it as the box goes.
-                let v = self.beta * (to[k] - from[k]);
-                let u = (0.5 * v).max(low[k] - from[k]).min(high[k] - from[k]);
+                let v = self.beta * sign * self.v[k];
+                let [low, high] = [low[k], high[k]].map(|x| self.scale.difference(x, from[k]));
+                let u = (0.5 * v).max(low).min(high);
                 least += u * (u - v);
                 size += u.abs() * (u.abs() + v.abs());
             }
             // Where u is, is wrong by as much as it is rounded, and the product by twice that.
             least > 4.0 * ERROR * size && size >= self.beta * SMALLEST && size.is_finite()
         };
-        is_beyond(&self.a, &self.b) || is_beyond(&self.b, &self.a)
+        is_beyond(&self.a, 1.0) || is_beyond(&self.b, -1.0)
     }
-}
 
-/// beta u.v - |u|^2, and the sum of the magnitudes of its products.
-#[inline]
-fn ball_terms<const D: usize>(a: &[f64; D], b: &[f64; D], p: &[f64; D], beta: f64) -> (f64, f64) {
-    let (mut dot, mut size, mut square) = (0.0, 0.0, 0.0);
-    for k in 0..D {
-        let u = p[k] - a[k];
-        let product = u * (b[k] - a[k]);
-        dot += product;
-        size += product.abs();
-        square += u * u;
+    /// beta u.v - |u|^2, scaled, and the sum of the magnitudes of its products: of the ball at an end, for the other one with the
+    /// sign of v turned.
+    #[inline]
+    fn ball_terms(&self, from: &[f64; D], p: &[f64; D], sign: f64) -> (f64, f64) {
+        let (mut dot, mut size, mut square) = (0.0, 0.0, 0.0);
+        for k in 0..D {
+            let u = self.scale.difference(p[k], from[k]);
+            let product = u * self.v[k];
+            dot += product;
+            size += product.abs();
+            square += u * u;
+        }
+        (self.beta * sign * dot - square, self.beta * size + square)
     }
-    (beta * dot - square, beta * size + square)
 }
 
 /// Whether the closed ball with diameter ab holds a point: whether a and b are seen from it at a right angle or a wider one.

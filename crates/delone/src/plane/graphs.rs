@@ -132,6 +132,26 @@ mod tests {
         }
     }
 
+    /// Beyond the range of squares too.
+    #[test]
+    fn lunes_of_any_scale_take_the_same_looks() {
+        for points in [Kind::Uniform.points(2000, 1), Kind::Clusters.points(2000, 1)] {
+            for beta in [1.2, 2.0] {
+                let usual = looks_of(&points, beta);
+                for exponent in [-900, -520, 520, 900] {
+                    let scale = 2f64.powi(exponent);
+                    let scaled: Vec<_> = points.iter().map(|p| p.map(|x| x * scale)).collect();
+                    assert_eq!(looks_of(&scaled, beta), usual, "2^{exponent}");
+                }
+            }
+        }
+        // Two scales at once.
+        let both = Kind::Uniform.points(2000, 1).into_iter().zip([1.0, 1e-200].into_iter().cycle());
+        let both: Vec<_> = both.map(|(p, scale)| p.map(|x| x * scale)).collect();
+        let (looked, found) = looks_of(&both, 2.0);
+        assert!(looked < 60 * found, "{looked} looks for {found} edges");
+    }
+
     #[test]
     fn boxes_and_neighbors_agree() {
         for &kind in Kind::ALL {
