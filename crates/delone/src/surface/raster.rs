@@ -158,7 +158,8 @@ type Rank = [[u32; 2]; 2];
 /// Whether the box of a triangle holds a centre.
 #[inline]
 fn may_hold([a, b, c]: [Rank; 3]) -> bool {
-    let [columns, rows] = [0, 1].map(|k| a[0][k].min(b[0][k]).min(c[0][k]) < a[1][k].max(b[1][k]).max(c[1][k]));
+    let [columns, rows] =
+        [0, 1].map(|k| a[0][k].min(b[0][k]).min(c[0][k]) < a[1][k].max(b[1][k]).max(c[1][k]));
     // Without a branch: each alone is hard to foretell.
     columns & rows
 }

@@ -7,14 +7,12 @@
 //! Cost: that of following what is refused, as many triangles as it crosses; and for each triangle the number of pairs that come
 //! together there: from different sides, or from a corner.
 
-use std::collections::BTreeSet;
-
-use delone_predicates::{Line, Spot, orient2d, segment_rounds_to};
+use delone_predicates::{Line, Spot, orient2d};
 
 use super::overlaps::sorted;
 use super::passes::{self, Passes};
 use super::trace::Ground;
-use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::ids::{EdgeId, Place, VertexId};
 use crate::plane::Delaunay2;
 
 /// Two segments that cross strictly inside of both, at no vertex.
@@ -85,114 +83,6 @@ pub(super) fn meet(graph: &Delaunay2, segments: &[[VertexId; 2]], refused: &[u32
     met.crossings.sort_unstable();
     met.crossings.dedup();
     met
-}
-
-/// The wanted vertices in the box of a segment, ends apart, that points of it are rounded to.
-///
-/// Triangles are looked at from those that it passes on, across edges that come as near to it as roundings go: what is that near
-/// is convex, so it is connected.
-pub(super) fn touched(
-    graph: &Delaunay2,
-    ends: [VertexId; 2],
-    is_wanted: impl Fn(&VertexId) -> bool,
-) -> Vec<VertexId> {
-    let mesh = graph.mesh();
-    let ground = Ground { mesh, points: &graph.base.points };
-    let (Some(a), Some(b)) = (mesh.place(ends[0]), mesh.place(ends[1])) else { return Vec::new() };
-    let (mut along, mut across) = (Vec::new(), Vec::new());
-    ground.follow(
-        [a, b],
-        |e, _| along.push(e),
-        |e| {
-            across.push(e);
-            true
-        },
-    );
-    let met = along.into_iter().chain(across);
-    let mut pending: Vec<TriangleId> = met.flat_map(|e| [e.triangle(), mesh.twin(e).triangle()]).collect();
-    let mut seen: BTreeSet<TriangleId> = pending.iter().copied().collect();
-    let band = Band::around([a, b].map(|v| ground.point(v)));
-    let mut corners = Vec::new();
-    while let Some(t) = pending.pop() {
-        corners.extend(mesh.places(t).into_iter().filter(|v| !v.is_ghost()));
-        for e in [0, 1, 2].map(|k| t.edge(k)) {
-            let [v, w] = [mesh.tail(e), mesh.head(e)];
-            let next = mesh.twin(e).triangle();
-            if !v.is_ghost()
-                && !w.is_ghost()
-                && !seen.contains(&next)
-                && band.may_meet(ground.point(v), ground.point(w))
-            {
-                seen.insert(next);
-                pending.push(next);
-            }
-        }
-    }
-    corners.sort_unstable();
-    corners.dedup();
-    let is_touched = |v: &VertexId| {
-        let point = graph.point(*v);
-        let in_box = (0..2).all(|k| band.low[k] <= point[k] && point[k] <= band.high[k]);
-        in_box && !ends.contains(v) && is_wanted(v) && segment_rounds_to(band.ends[0], band.ends[1], point)
-    };
-    corners.into_iter().map(|v| mesh.name(v)).filter(is_touched).collect()
-}
-
-/// What is as near to a segment as the cells of points in its box are wide, and a little more.
-struct Band {
-    ends: [[f64; 2]; 2],
-    low: [f64; 2],
-    high: [f64; 2],
-    width: [f64; 2],
-}
-
-impl Band {
-    fn around(ends: [[f64; 2]; 2]) -> Self {
-        let [a, b] = ends;
-        let step = |x: f64| x.abs() - x.abs().next_down();
-        Self {
-            ends,
-            low: [0, 1].map(|k| a[k].min(b[k])),
-            high: [0, 1].map(|k| a[k].max(b[k])),
-            width: [0, 1].map(|k| 4.0 * step(a[k].abs().max(b[k].abs()).next_up())),
-        }
-    }
-
-    /// Whether an edge may come into it: false only if it surely does not.
-    fn may_meet(&self, v: [f64; 2], w: [f64; 2]) -> bool {
-        let apart = |k: usize| {
-            v[k].max(w[k]) < self.low[k] - self.width[k] || v[k].min(w[k]) > self.high[k] + self.width[k]
-        };
-        if apart(0) || apart(1) {
-            return false;
-        }
-        let mut side = None;
-        for p in [v, w] {
-            for (x, y) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
-                // At least to the next number.
-                let moved = |k: usize, sign: f64| {
-                    let by = p[k] + sign * self.width[k];
-                    if by == p[k] && sign > 0.0 {
-                        p[k].next_up()
-                    } else if by == p[k] {
-                        p[k].next_down()
-                    } else {
-                        by
-                    }
-                };
-                let corner = [moved(0, x), moved(1, y)];
-                if corner.iter().any(|x| !x.is_finite()) {
-                    return true;
-                }
-                let of_corner = orient2d(self.ends[0], self.ends[1], corner);
-                if of_corner.is_zero() || side.is_some_and(|side| side != of_corner) {
-                    return true;
-                }
-                side = Some(of_corner);
-            }
-        }
-        false
-    }
 }
 
 /// Whether two segments cross strictly inside of both.

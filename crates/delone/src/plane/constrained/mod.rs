@@ -15,6 +15,7 @@
 //! fixed edges: names, places, layouts of memory, hints and removal are the same code, and only insertion and walks look for
 //! fixed edges, where there are any.
 
+mod band;
 mod build;
 mod change;
 mod check;

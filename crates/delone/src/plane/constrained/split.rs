@@ -21,13 +21,14 @@
 //! Sources: Hobby, "Practical segment intersection with finite precision output", CGTA 1999; Guibas & Marimont, "Rounding
 //! arrangements dynamically", IJCGA 1998.
 //!
-//! Cost: a round follows every edge twice through the triangulation (see `crossings`).
+//! Cost: a round follows every edge twice through the triangulation (see `crossings` and `band`).
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use delone_predicates::{lexicographic, orient2d};
 
+use super::band::Bands;
 use super::crossings::{self, Crossing, Met};
 use super::segments::SegmentId;
 use super::{ConstraintReport2, build};
@@ -149,9 +150,10 @@ impl<'a> On<'a> {
         };
         // Nothing else can be on an edge that is not crossed and has no rounded crossing in its box.
         let looked_at = edges.iter().enumerate().filter(|&(e, &ends)| crosses[e] || is_near(ends));
+        let mut bands = Bands::new(graph);
         for (e, &ends) in looked_at {
             let is_wanted = |v: &VertexId| crosses[e] || hot.binary_search(v).is_ok();
-            on.extend(crossings::touched(graph, ends, is_wanted).into_iter().map(|v| (e as u32, v)));
+            on.extend(bands.touched(ends, is_wanted).into_iter().map(|v| (e as u32, v)));
         }
         Self::sorted(graph, edges, on)
     }
