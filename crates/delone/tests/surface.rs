@@ -292,6 +292,37 @@ fn rasters_are_what_locating_gives() {
     }
 }
 
+/// Slopes that no number is small enough for, and coordinates with few bits.
+#[test]
+fn rasters_are_linear_at_any_scale() {
+    let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+    let plane = [0.0, 1.0, 3.0, 2.0];
+    let some = Kind::Uniform.points(30, 1);
+    for size in [1e300, 1.0, 1e-300, 2f64.powi(-1030)] {
+        for height in [1e-25, 1e-15, 1.0, 1e-300, 1e300] {
+            let mut points: Vec<[f64; 2]> = corners.iter().map(|p| p.map(|x| x * size)).collect();
+            points.extend(some.iter().map(|p| p.map(|x| 4.0 * x * size)));
+            let heights: Vec<f64> = (0..points.len())
+                .map(|i| match plane.get(i) {
+                    Some(z) => z * height,
+                    None => (points[i][0] / size / 4.0 + points[i][1] / size / 2.0) * height,
+                })
+                .collect();
+            let d = Delaunay2::from_points(&points).expect("finite");
+            let grid = Grid::new([0.0, 0.0], [size * 0.5; 2], 8, 8).expect("a raster");
+            let values = rasterize(&d, &heights, &grid, |_| true).expect("heights");
+            for (k, value) in values.iter().enumerate() {
+                let [x, y] = [(k % 8) as f64 + 0.5, (k / 8) as f64 + 0.5].map(|x| x / 2.0);
+                let expected = (x / 4.0 + y / 2.0) * height;
+                assert!(
+                    (value - expected).abs() <= 1e-11 * height,
+                    "{size:e} {height:e} {k}: {value:e} {expected:e}"
+                );
+            }
+        }
+    }
+}
+
 /// How many last places of a coordinate fit into the width of a triangle: what roundings of a coordinate may do to a height.
 fn flatness(d: &Delaunay2, _: &[VertexId], t: Option<delone::TriangleId>) -> f64 {
     let Some(t) = t else { return 0.0 };

@@ -136,11 +136,11 @@ impl Raster {
             cells[column].store(value.to_bits(), Ordering::Relaxed);
         };
         let slope = (right.value - left.value) / (right.x - left.x);
+        let is_plain = slope.is_finite() && is_told(slope, left.value, right.value);
         let (least, most) = (left.value.min(right.value), left.value.max(right.value));
         let inside = &self.xs.places[start.column..end.column];
         for (column, &x) in inside.iter().enumerate() {
-            let value =
-                if slope.is_finite() { left.value + (x - left.x) * slope } else { left.mean(&right, x) };
+            let value = if is_plain { left.value + (x - left.x) * slope } else { left.mean(&right, x) };
             put(start.column + column, value.max(least).min(most));
         }
         if start.is_on_edge {
@@ -237,8 +237,17 @@ struct Side {
     /// How far it goes to the right for each unit upwards; and how far the value rises.
     slope: f64,
     rise: f64,
+    /// Whether neither of these has lost more than roundings.
+    is_told: bool,
     /// A bound of the error of where it meets a row.
     doubt: f64,
+}
+
+/// Whether a slope between two numbers is none that underflow has made of a difference.
+#[inline]
+fn is_told(slope: f64, from: f64, to: f64) -> bool {
+    const LEAST: f64 = f64::from_bits((1023 - 960) << 52);
+    slope.abs() >= LEAST || from == to
 }
 
 impl Side {
@@ -252,7 +261,8 @@ impl Side {
         let is_plain = low[0] == high[0] || (slope.abs() > 2f64.powi(-500) && slope.abs() < 2f64.powi(500));
         let is_known = is_plain && size > 2f64.powi(-500) && size < 2f64.powi(1000) && over < 2f64.powi(1000);
         let doubt = if is_known { size * (16.0 * f64::EPSILON) } else { f64::INFINITY };
-        Self { low, high, values: [first, second], slope, rise, doubt }
+        let is_told = is_told(slope, low[0], high[0]) && is_told(rise, first, second);
+        Self { low, high, values: [first, second], slope, rise, is_told, doubt }
     }
 
     #[inline]
@@ -267,7 +277,7 @@ impl Side {
         let up = y - self.low[1];
         let x = self.low[0] + up * self.slope;
         let value = (first + up * self.rise).max(first.min(second)).min(first.max(second));
-        if x.is_finite() && (first + up * self.rise).is_finite() {
+        if self.is_told && x.is_finite() && (first + up * self.rise).is_finite() {
             return Meeting { side: self, x, value };
         }
         self.mean(y)
@@ -277,7 +287,8 @@ impl Side {
     #[cold]
     fn mean(&self, y: f64) -> Meeting<'_> {
         let [first, second] = self.values;
-        let share = (y / 4.0 - self.low[1] / 4.0) / (self.high[1] / 4.0 - self.low[1] / 4.0);
+        let scale = if (self.high[1] - self.low[1]).is_finite() { 1.0 } else { 0.25 };
+        let share = (y * scale - self.low[1] * scale) / (self.high[1] * scale - self.low[1] * scale);
         let share = if share.is_nan() { 0.5 } else { share };
         let mean = |a: f64, b: f64| a * (1.0 - share) + b * share;
         let value = mean(first, second).max(first.min(second)).min(first.max(second));
