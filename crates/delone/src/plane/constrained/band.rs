@@ -107,9 +107,18 @@ impl<'a> Bands<'a> {
             if head.is_ghost() || tip.is_ghost() {
                 continue;
             }
-            let [q, r] = [head, tip].map(|w| [from(w)[0] - p[0], from(w)[1] - p[1]]);
-            let (size, length) = (span(q) * span(r), span([r[0] - q[0], r[1] - q[1]]));
-            let distance = ((q[0] * r[1] - q[1] * r[0]).abs() - SMALL * size) / length;
+            let [q, r] = [head, tip].map(|w| [0, 1].map(|k| from(w)[k] - p[k]));
+            let along = [r[0] - q[0], r[1] - q[1]];
+            let dot = |u: [f64; 2]| u[0] * along[0] + u[1] * along[1];
+            let size = span(q) * span(r);
+            // Thin triangles point at the vertex, with the nearer end.
+            let distance = if dot(q) >= 0.0 {
+                span(q) / 2.0
+            } else if dot(r) <= 0.0 {
+                span(r) / 2.0
+            } else {
+                ((q[0] * r[1] - q[1] * r[0]).abs() - SMALL * size) / span(along)
+            };
             let is_told = size > TINY && distance.is_finite();
             least = least.min(if is_told { distance } else { 0.0 });
         }
@@ -270,6 +279,8 @@ mod tests {
             hub.extend((0..n).map(|i| [1000.0 * step(i).cos(), 1000.0 * step(i).sin()]));
             let mut segments = vec![[1, 2]];
             segments.extend((0..n).map(|i| [0, i + 3]));
+            // With points where they cross, as a round has them, beside which triangles are as thin as can be.
+            hub.extend((0..n).map(|i| [400.0, 400.0 * step(i).tan()]));
             let (_, looked) = judge(hub, &segments);
             let mut row = vec![[0.0, -1.0], [n as f64, -1.0]];
             row.extend((0..n).flat_map(|i| [[i as f64 + 0.1, 0.1], [i as f64 + 0.9, 0.9]]));
