@@ -68,15 +68,30 @@ fn counted(operation: impl FnOnce(&mut Work)) -> Work {
     work
 }
 
+/// A triangulation that has been asked so often that it has made whatever it makes for queries.
+fn asked(points: &[[f64; 2]]) -> Delaunay2 {
+    let d = Delaunay2::from_points(points).expect("finite");
+    let mut random = Random::new(2);
+    for _ in 0..4000 {
+        d.find(between(points, &mut random)).expect("finite");
+    }
+    d
+}
+
+/// The middle of two of the points.
+fn between(points: &[[f64; 2]], random: &mut Random) -> [f64; 2] {
+    let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
+    [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0)
+}
+
 /// Queries among so many points of each kind.
 fn queries_visit_few_triangles(n: usize) {
     for (name, points) in all(n) {
-        let d = Delaunay2::from_points(&points).expect("finite");
+        let d = asked(&points);
         let mut random = Random::new(1);
         let (mut visited, mut compared) = (Counts::default(), Counts::default());
         for _ in 0..2000 {
-            let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
-            let middle = [0, 1].map(|k| p[k] / 2.0 + q[k] / 2.0);
+            let middle = between(&points, &mut random);
             visited.add(counted(|work| _ = d.find_observed(middle, work).expect("finite")).visited);
             compared.add(counted(|work| _ = d.nearest_observed(middle, work).expect("finite")).compared);
         }
@@ -168,8 +183,7 @@ fn queries_at_any_scale_visit_as_many() {
     let points = Kind::Uniform.points(20_000, 1);
     for exponent in [-900, -400, -160, 0, 160, 400, 900] {
         let scaled = |p: [f64; 2]| p.map(|x| x * 2f64.powi(exponent));
-        let d =
-            Delaunay2::from_points(&points.iter().map(|&p| scaled(p)).collect::<Vec<_>>()).expect("finite");
+        let d = asked(&points.iter().map(|&p| scaled(p)).collect::<Vec<_>>());
         let mut random = Random::new(1);
         let mut visited = Counts::default();
         for _ in 0..2000 {
@@ -177,5 +191,34 @@ fn queries_at_any_scale_visit_as_many() {
             visited.add(counted(|work| _ = d.find_observed(q, work).expect("finite")).visited);
         }
         visited.hold(&format!("2^{exponent}: triangles of a query"), 6.0, 300);
+    }
+}
+
+/// Hints are made when walks without them have taken as many steps as there are vertices, and not before: a few queries wait for
+/// nothing, and many take as long as if hints had been there.
+#[test]
+fn a_few_queries_need_no_hints() {
+    let n = 20_000;
+    for (name, points) in all(n) {
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let mut random = Random::new(1);
+        let mut ask = |count: usize| {
+            let mut work = Work::default();
+            for _ in 0..count {
+                d.find_observed(between(&points, &mut random), &mut work).expect("finite");
+            }
+            work
+        };
+        let few = ask(10);
+        let calm = ["uniform", "grid"].contains(&&*name);
+        if calm {
+            assert!(few.compared > 100 && few.visited + few.compared < 2000, "{name}: {few:?}");
+        }
+        // Walks until there are hints, and long ones until there are levels, of each the last one across everything.
+        let cold = ask(2000);
+        let warm = ask(2000);
+        assert!(cold.visited <= warm.visited + 6 * n as u64, "{name}: {cold:?} {warm:?}");
+        // Levels have samples of their own.
+        assert!(!calm || warm.compared == 0, "{name}: {warm:?}");
     }
 }

@@ -18,8 +18,8 @@ impl Surround for Delaunay2 {
     fn find_near(&self, near: Option<TriangleId>, q: [f64; 2]) -> Result<Found<TriangleId>, Error> {
         let q = finite(q)?;
         match self.inside_near(near, &Hub::new(q)) {
-            Some(seed) => Ok(self.inside(seed)),
-            None => Ok(self.find_from(near, q)),
+            Ok(seed) => Ok(self.inside(seed)),
+            Err(last) => Ok(self.find_from(last, q)),
         }
     }
 
@@ -32,11 +32,14 @@ impl Surround for Delaunay2 {
         let q = finite(q)?;
         around.clear();
         let hub = Hub::new(q);
-        if let Some(seed) = self.inside_near(near, &hub) {
-            self.dig(seed, &hub, around);
-            return Ok(self.inside(seed));
-        }
-        let found = self.find_from(near, q);
+        let last = match self.inside_near(near, &hub) {
+            Ok(seed) => {
+                self.dig(seed, &hub, around);
+                return Ok(self.inside(seed));
+            }
+            Err(last) => last,
+        };
+        let found = self.find_from(last, q);
         if let (Some(t), 2..) = (found.simplex, found.face().len()) {
             self.dig(t.edge(0), &hub, around);
         }
@@ -60,22 +63,21 @@ impl Delaunay2 {
         ([a, b, c], [a.cross(&b), b.cross(&c), c.cross(&a)])
     }
 
-    /// Where a point is in general.
-    fn find_from(&self, near: Option<TriangleId>, q: [f64; 2]) -> Found<TriangleId> {
-        let near = near.filter(|&t| self.mesh().is_triangle(t));
-        let spot = near.and_then(|t| self.base.spot_within(Start::Hint(t.edge(0), 0), q, NEAR, &mut ()));
+    /// Where a point is in general, from the edge that a walk ended at.
+    fn find_from(&self, last: Option<EdgeId>, q: [f64; 2]) -> Found<TriangleId> {
+        let spot = last.and_then(|e| self.base.spot_within(Start::Hint(e, 0), q, NEAR, &mut ()));
         let spot = spot.map_or_else(|| self.spot(q, &mut ()).spot, |found| found.0);
         self.found(self.base.classify(spot, q))
     }
 
     /// Walks to a triangle that a point is strictly inside of: what there mostly is, and needs no more decisions.
-    /// An edge of it.
+    /// An edge of it; or of where the walk ended, if it began.
     #[inline]
-    fn inside_near(&self, near: Option<TriangleId>, hub: &Hub) -> Option<EdgeId> {
+    fn inside_near(&self, near: Option<TriangleId>, hub: &Hub) -> Result<EdgeId, Option<EdgeId>> {
         let (mesh, points) = (&self.base.mesh, &self.base.points);
-        let near = near.filter(|&t| mesh.is_triangle(t) && self.base.spanned)?;
-        if mesh.is_tagged || mesh.is_ghost(near) {
-            return None;
+        let near = near.filter(|&t| mesh.is_triangle(t)).ok_or(None)?;
+        if mesh.is_tagged || mesh.is_ghost(near) || !self.base.spanned {
+            return Err(Some(near.edge(0)));
         }
         let mut edge = near.edge(0);
         let ([mut a, mut b, mut c], [mut ab, mut bc, mut ca]) = self.seen(edge, hub);
@@ -93,18 +95,18 @@ impl Delaunay2 {
                 crossed = edge.previous();
                 (b, ab) = (c, -ca);
             } else {
-                return (!sides.contains(&Sign::Zero)).then_some(edge);
+                return if sides.contains(&Sign::Zero) { Err(Some(edge)) } else { Ok(edge) };
             }
             edge = mesh.twin(crossed);
             let tip = mesh.tip(edge);
             if tip.is_ghost() {
-                return None;
+                return Err(Some(edge));
             }
             c = hub.spoke(points[tip.index()]);
             (bc, ca) = (b.cross(&c), c.cross(&a));
             behind = Sign::Positive;
         }
-        None
+        Err(Some(edge))
     }
 
     /// Depth first in counter-clockwise order, so that the border comes in its cyclic order. No vertex is inside of the cavity: no
