@@ -365,8 +365,6 @@ fn conflict_lists_move_a_point_log_n_times() {
 #[test]
 fn the_hint_tree_starts_next_door() {
     let tree = located(100_000, Locate::Tree);
-    // Otherwise it is made after some queries.
-    assert!(tree.footprint().strategy > 0);
     let visited = mean(&tree, |work| work.visited);
     assert!(visited < 4.5, "{visited} triangles from the hint");
     let jump = located(100_000, Locate::JumpAndWalk(JumpAndWalk::default()));

@@ -50,7 +50,7 @@ struct Scale {
 }
 
 impl Scale {
-    /// From this beta on nothing is scaled.
+    /// For a larger beta nothing is scaled.
     const LARGEST_BETA: f64 = f64::from_bits((1023 + 300) << 52);
 
     #[inline]

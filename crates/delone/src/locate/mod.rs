@@ -43,10 +43,9 @@ use crate::tally::Tally;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Locate {
-    /// A k-d tree of hints, rebuilt when the number of points doubles. In the plane it is made when walks from the nearest of a few
-    /// vertices have taken as many steps as there are vertices, so that a few queries wait for nothing; and a walk that its hint
-    /// sends too far is given up for the levels of a hierarchy, once long walks have taken as many steps again: where triangles are
-    /// long and thin, near is not close by.
+    /// A k-d tree of hints, rebuilt when the number of points doubles. In the plane a walk that its hint sends too far is
+    /// given up for the levels of a hierarchy, which are made when long walks have taken as many steps as there are vertices:
+    /// where triangles are long and thin, near is not close by.
     #[default]
     Tree,
     /// No structure: a walk from the vertex inserted last.

@@ -38,7 +38,7 @@ impl Locator {
     /// The structure for the vertices that there are.
     pub(super) fn build(locate: Locate, layer: &Layer) -> Self {
         match locate {
-            Locate::Tree => Self::Tree(Hints::default()),
+            Locate::Tree => Self::Tree(Hints::build(layer)),
             Locate::Walk(walk) => Self::FromLast(FromLast::new(walk)),
             Locate::JumpAndWalk(options) => Self::JumpAndWalk(options),
             Locate::Hierarchy(options) => Self::Hierarchy(Box::new(Levels::build(options, layer))),
@@ -102,14 +102,11 @@ impl Strategy<Layer> for Locator {
 /// A hint is near the goal, but where triangles are long and thin, as between two curves with many points, there may be any
 /// number of them between two points that are near each other. The levels do not care, but cost each insertion an eighth: a
 /// long walk beside the hull of evenly spread points, one in a hundred thousand, is no reason for them.
-///
-/// The tree too is made only when walks from the nearest of a few vertices have taken as long as that takes: of a million points
-/// it is a tenth of a second, which whoever asks for a few places would wait for.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Hints {
-    tree: OnceLock<Tree<EdgeId>>,
+    tree: Tree<EdgeId>,
     levels: OnceLock<Box<Levels<Layer>>>,
-    /// The steps of walks without the tree, and then those of long walks since it was made.
+    /// The steps of long walks since the hints were made.
     spent: AtomicUsize,
 }
 
@@ -127,19 +124,15 @@ impl Hints {
     /// A walk that takes more steps is long.
     const LONG: usize = 300;
 
-    /// Other hints, if there are any, and the levels that there are.
-    pub(super) fn renew(&mut self, layer: &Layer) {
-        if let Some(tree) = self.tree.get_mut() {
-            *tree = Tree::build(layer);
-            *self.spent.get_mut() = 0;
-        }
+    /// Hints at the vertices that there are.
+    pub(super) fn build(layer: &Layer) -> Self {
+        Self { tree: Tree::build(layer), levels: OnceLock::new(), spent: 0.into() }
     }
 
-    fn tree(&self, layer: &Layer) -> &Tree<EdgeId> {
-        self.tree.get_or_init(|| {
-            self.spent.store(0, Relaxed);
-            Tree::build(layer)
-        })
+    /// Other hints, and the levels that there are.
+    pub(super) fn renew(&mut self, layer: &Layer) {
+        self.tree = Tree::build(layer);
+        *self.spent.get_mut() = 0;
     }
 
     /// So many steps a walk from a hint may take.
@@ -151,8 +144,7 @@ impl Hints {
     /// Finds a point, and tells how many steps that took, and where from.
     #[inline]
     pub(super) fn spot<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize, Start) {
-        let Some(tree) = self.tree.get() else { return self.without_tree(layer, q, tally) };
-        let start = tree.start(layer, q, tally);
+        let start = self.tree.start(layer, q, tally);
         let most = self.most();
         let (spot, steps) = match layer.spot_within(start, q, most, tally) {
             Some(found) => found,
@@ -160,19 +152,6 @@ impl Hints {
         };
         if steps > Self::LONG && most == usize::MAX {
             self.spend(layer, steps);
-        }
-        (spot, steps, start)
-    }
-
-    /// Finds a point while there is no tree, and makes one for those that come if that has paid.
-    #[cold]
-    fn without_tree<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize, Start) {
-        let sampling = JumpAndWalk::default();
-        let start = sampling.start(layer, q, tally);
-        let (spot, steps) = layer.spot(start, q, tally);
-        let looked = steps + sampling.sample_size(layer.mesh.vertex_count, 2);
-        if self.spent.fetch_add(looked, Relaxed) + looked > layer.mesh.vertex_count {
-            self.tree(layer);
         }
         (spot, steps, start)
     }
@@ -201,14 +180,12 @@ impl Hints {
 impl Strategy<Layer> for Hints {
     #[inline]
     fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
-        self.tree(layer).start(layer, q, tally)
+        self.tree.start(layer, q, tally)
     }
 
     #[inline]
     fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, tally: &mut T) {
-        if let Some(tree) = self.tree.get_mut() {
-            tree.inserted(layer, v, start, tally);
-        }
+        self.tree.inserted(layer, v, start, tally);
         if let Some(levels) = self.levels.get_mut() {
             levels.inserted(layer, v, start, tally);
         }
@@ -233,9 +210,9 @@ impl Delaunay2 {
     pub fn footprint(&self) -> Footprint {
         let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
         match self.locator() {
-            Locator::Tree(hints) => {
-                footprint.strategy = hints.tree(&self.base).bytes();
-                if let Some(levels) = hints.levels.get() {
+            Locator::Tree(Hints { tree, levels, .. }) => {
+                footprint.strategy = tree.bytes();
+                if let Some(levels) = levels.get() {
                     footprint.levels = levels.sizes();
                     footprint.strategy += levels.bytes(Layer::bytes);
                 }
@@ -281,7 +258,6 @@ mod tests {
     /// Makes the levels behind hints as walks do that go too far.
     fn rescue(d: &Delaunay2) {
         let Locator::Tree(hints) = d.locator() else { panic!("hints") };
-        hints.tree(&d.base);
         hints.spend(&d.base, d.vertex_count());
         assert!(d.footprint().levels.is_empty());
         hints.spend(&d.base, 1);

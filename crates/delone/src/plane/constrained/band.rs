@@ -23,7 +23,7 @@ pub(super) struct Bands<'a> {
     ground: Ground<'a>,
     /// For each place how far the edges around it are away, at least, if that was asked.
     clear: Vec<Option<f64>>,
-    /// How many triangles have been looked at.
+    /// How many triangles have been looked at, which tests bound.
     looked: usize,
 }
 
