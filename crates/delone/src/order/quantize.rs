@@ -63,14 +63,26 @@ fn usual_size<const D: usize>(count: usize, point: impl Fn(usize) -> [f64; D]) -
     let taken = count.min(SAMPLE);
     let sample: Vec<[f64; D]> = (0..taken).map(|k| point(k * count / taken)).collect();
     let middle = (0..D).map(|axis| {
-        let mut along: Vec<f64> = sample.iter().map(|p| p[axis]).collect();
-        along.sort_unstable_by(f64::total_cmp);
+        // Sorted as the words that are sorted elsewhere, by the same code.
+        let mut along: Vec<u64> = sample.iter().map(|p| word(p[axis])).collect();
+        along.sort_unstable();
         match taken {
             0 => 0.0,
-            _ => along[(3 * taken / 4).min(taken - 1)] - along[taken / 4],
+            _ => number(along[(3 * taken / 4).min(taken - 1)]) - number(along[taken / 4]),
         }
     });
     middle.fold(0.0, f64::max)
+}
+
+/// A word for a number: they are ordered alike.
+fn word(x: f64) -> u64 {
+    let bits = x.to_bits();
+    if x.is_sign_negative() { !bits } else { bits | 1 << 63 }
+}
+
+/// The number of a word.
+fn number(word: u64) -> f64 {
+    f64::from_bits(if word >> 63 == 0 { !word } else { word & !(1 << 63) })
 }
 
 /// The power of two that brings a size outside of some range near to 1. `None` within the range, and for no size.
@@ -96,7 +108,14 @@ pub(crate) fn scaled<const D: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::Quantizer;
+    use super::{Quantizer, number, word};
+
+    #[test]
+    fn words_are_ordered_as_numbers_are() {
+        let ascending = [f64::MIN, -1.0, -5e-324, -0.0, 0.0, 5e-324, f64::MIN_POSITIVE, 1.0, f64::MAX];
+        assert!(ascending.is_sorted_by(|&x, &y| word(x) < word(y)));
+        assert!(ascending.iter().all(|&x| number(word(x)).to_bits() == x.to_bits()));
+    }
 
     #[test]
     fn every_range_is_cut_from_end_to_end() {
