@@ -3,11 +3,12 @@
 use std::cmp::Ordering;
 
 use delone::{
-    Algorithm2, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location2, Nearest, VertexId,
-    Walk, Work,
+    Algorithm2, Ask, Delaunay2, Dimension, Error, Hierarchy, JumpAndWalk, Locate, Location2, Nearest,
+    VertexId, Walk, Work,
 };
 use delone_generators::{Kind, Random};
 use delone_oracle::exact;
+use delone_oracle::nearest::compare_segments;
 
 fn strategies() -> Vec<Locate> {
     let steep = Hierarchy { ratio: 3.0, smallest_level: 2, ..Hierarchy::default() };
@@ -55,15 +56,29 @@ fn is_right(d: &Delaunay2, q: [f64; 2], location: Location2) -> bool {
         Location2::Vertex(v) => point(v) == q,
         Location2::Edge(e) => {
             let [a, b] = d.segment(e);
-            between(a, b)
+            let [own, other] = [e, mesh.twin(e)].map(|e| mesh.is_ghost(e.triangle()));
+            let is_facing = if own == other { mesh.origin(e) < mesh.destination(e) } else { other };
+            between(a, b) && is_facing
         }
         Location2::Triangle(t) => {
             let [a, b, c] = mesh.corners(t).map(point);
             [[a, b], [b, c], [c, a]].iter().all(|[u, v]| exact::orient2d(*u, *v, q) > 0)
         }
         Location2::Outside(e) => {
-            let [a, b] = d.segment(e);
-            !mesh.is_ghost(e.triangle()) && mesh.apex(mesh.twin(e)).is_ghost() && exact::orient2d(a, b, q) < 0
+            let own = d.segment(e);
+            // Of two edges that are as near the other one begins where this one ends.
+            let is_first = |f: [f64; 2], g: [f64; 2]| match compare_segments(q, own, [f, g]) {
+                Ordering::Less => true,
+                Ordering::Equal => own == [f, g] || f == own[1],
+                Ordering::Greater => false,
+            };
+            let hull: Vec<_> = d.hull_vertices().map(point).collect();
+            let mut edges = hull.iter().zip(hull.iter().cycle().skip(1));
+            let is_beyond = |f: [f64; 2], g: [f64; 2]| exact::orient2d(f, g, q) < 0;
+            !mesh.is_ghost(e.triangle())
+                && mesh.apex(mesh.twin(e)).is_ghost()
+                && is_beyond(own[0], own[1])
+                && edges.all(|(&f, &g)| !is_beyond(f, g) || is_first(f, g))
         }
         Location2::LowerDimensional(dimension) => {
             let on_edge = d.edges().any(|[a, b]| between(point(a), point(b)));
@@ -91,6 +106,46 @@ fn every_strategy_answers_by_definition() {
             }
         }
     }
+}
+
+/// Neither on strategies, nor on what has been there before.
+#[test]
+fn answers_depend_on_the_vertices_alone() {
+    let face = |d: &Delaunay2, q: [f64; 2]| {
+        let found = d.find(q).expect("finite");
+        let mut corners = found.face().to_vec();
+        if corners.len() == 3 {
+            corners.sort_unstable();
+        }
+        (found.is_outside, corners)
+    };
+    let mut outside = 0;
+    for &kind in Kind::ALL {
+        let points = kind.points(60, 4);
+        let mut random = Random::new(7);
+        let mut asked = queries(&points, &mut random);
+        // Some that are near the hull, and some that are far away.
+        for _ in 0..60 {
+            let p = points[random.below(points.len())];
+            let scale = [1.0 + f64::EPSILON, 1.1, 3.0, 1e9][random.below(4)];
+            asked.push([p[0] * scale, p[1] * scale].map(|x| if x.is_finite() { x } else { 1e308 }));
+        }
+        let fresh = Delaunay2::from_points(&points).expect("finite");
+        let expected: Vec<_> = asked.iter().map(|&q| face(&fresh, q)).collect();
+        outside += expected.iter().filter(|found| found.0 && found.1.len() == 2).count();
+        for (i, locate) in strategies().into_iter().enumerate() {
+            let mut others = points.clone();
+            others.extend(Kind::ALL[i].points(40, 1));
+            let mut d = Delaunay2::from_points(&others).expect("finite");
+            let doomed: Vec<_> = d.vertices().filter(|v| v.index() >= points.len()).collect();
+            doomed.into_iter().for_each(|v| d.remove(v).expect("a vertex"));
+            d.set_strategy(locate).expect("in range");
+            for (&q, expected) in asked.iter().zip(&expected) {
+                assert_eq!(face(&d, q), *expected, "{} {locate:?} {q:?}", kind.name());
+            }
+        }
+    }
+    assert!(outside > 1000, "{outside}");
 }
 
 #[test]

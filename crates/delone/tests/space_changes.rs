@@ -2,11 +2,12 @@
 //! against brute force.
 
 use delone::{
-    Delaunay2, Delaunay3, Dimension, Error, Hierarchy, Inserted, JumpAndWalk, Locate, Location3, Nearest,
-    VertexId, Walk,
+    Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted, JumpAndWalk, Locate, Location3,
+    Nearest, VertexId, Walk,
 };
 use delone_generators::{Kind3, Random};
 use delone_oracle::exact;
+use delone_oracle::nearest::compare_triangles;
 
 type Points = Vec<[f64; 3]>;
 
@@ -173,8 +174,12 @@ fn judge(d: &Delaunay3, q: [f64; 3], at: Location3, name: &str) {
         }
         Location3::Facet(f) => {
             assert_eq!(side(d.mesh().facet_corners(f)), 0, "{name} {q:?}");
+            let opposite = |f: FacetId| d.mesh().corners(f.tetrahedron())[f.corner()];
+            let is_spanned = d.dimension() == Dimension::Space;
+            assert!(!is_spanned || opposite(f) < opposite(d.mesh().twin(f)), "{name} {q:?}");
         }
         Location3::Edge([v, w]) => {
+            assert!(v < w, "{name} {q:?}");
             let (a, b) = (d.point(v), d.point(w));
             for k in 0..3 {
                 let [a, b, q] = [a, b, q].map(|p| [p[(k + 1) % 3], p[(k + 2) % 3]]);
@@ -183,7 +188,19 @@ fn judge(d: &Delaunay3, q: [f64; 3], at: Location3, name: &str) {
             assert!((0..3).all(|k| a[k].min(b[k]) <= q[k] && q[k] <= a[k].max(b[k])), "{name} {q:?}");
         }
         Location3::Vertex(v) => assert_eq!(d.point(v), q, "{name}"),
-        Location3::Outside(f) => assert!(side(d.mesh().facet_corners(f)) < 0, "{name} {q:?}"),
+        Location3::Outside(f) => {
+            let own = d.mesh().facet_corners(f);
+            assert!(side(own) < 0, "{name} {q:?}");
+            let sorted = |mut corners: [VertexId; 3]| {
+                corners.sort_unstable();
+                corners
+            };
+            for other in d.hull_facets() {
+                let order = compare_triangles(q, own.map(|v| d.point(v)), other.map(|v| d.point(v)));
+                let is_right = side(other) <= 0 || order.then(sorted(own).cmp(&sorted(other))).is_le();
+                assert!(is_right, "{name} {q:?} {own:?} {other:?}");
+            }
+        }
         Location3::LowerDimensional(dimension) => {
             assert!(dimension < Dimension::Space, "{name} {q:?}");
             assert!(d.vertices().all(|v| d.point(v) != q), "{name} {q:?}");

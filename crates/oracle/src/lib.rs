@@ -7,6 +7,7 @@
 //! - [`brute`]: the canonical triangulation of up to 64 points and of all their subsets, by trying all
 //!   triples against all points;
 //! - [`lines`]: where lines meet, as fractions;
+//! - [`nearest`]: which of two segments or triangles is nearer to a point;
 //! - [`constrained`]: the canonical constrained triangulation of up to 40 points, by what triangles see;
 //! - [`crossings`]: which segments cross, where, and what is left once they are split;
 //! - [`alpha`]: alpha complexes of few sites, with sizes as fractions;
@@ -23,6 +24,7 @@ pub mod crossings;
 pub mod exact;
 pub mod graphs;
 pub mod lines;
+pub mod nearest;
 pub mod orders;
 pub mod power;
 mod quick;

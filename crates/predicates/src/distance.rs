@@ -139,6 +139,28 @@ pub fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     told(x + y, x.abs() + y.abs()).unwrap_or_else(|| exact::angle(o, a, b))
 }
 
+/// The same in space.
+///
+/// ```
+/// use delone_predicates::{Sign, angle3};
+/// assert_eq!(angle3([0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0]), Sign::Zero);
+/// ```
+pub fn angle3(o: Point3, a: Point3, b: Point3) -> Sign {
+    angle_at(o, a, b)
+}
+
+/// The same in any dimension.
+#[inline]
+pub(crate) fn angle_at<const D: usize>(o: [f64; D], a: [f64; D], b: [f64; D]) -> Sign {
+    let (mut dot, mut size) = (0.0, 0.0);
+    for k in 0..D {
+        let product = (a[k] - o[k]) * (b[k] - o[k]);
+        dot += product;
+        size += product.abs();
+    }
+    told(dot, size).unwrap_or_else(|| exact::lengths::angle(o, a, b))
+}
+
 /// The order of two squared distances, if floating point can tell.
 #[inline]
 pub(crate) fn compared(left: f64, right: f64) -> Option<Ordering> {

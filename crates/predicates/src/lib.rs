@@ -49,6 +49,7 @@ mod pencil;
 mod perturb;
 mod plane;
 mod power;
+mod side_in_plane;
 mod sign;
 #[cfg(test)]
 mod stages;
@@ -61,7 +62,7 @@ pub use circumcentre::{circumcentre, power_centre};
 pub use clear::{keeps_clear, keeps_clear_of_sites};
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{
-    Reach, angle, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
+    Reach, angle, angle3, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
     is_surely_further, segment_keeps_away,
 };
 pub use filter::{Filter, Filter3, Grid};
@@ -84,6 +85,7 @@ pub use power::{
     compare_powers, in_power_circle, in_power_circle_with_ties, in_power_interval, in_power_sphere,
     in_power_sphere_with_ties,
 };
+pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
 pub use within::{stays_within, stays_within3};
 

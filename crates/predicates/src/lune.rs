@@ -21,7 +21,7 @@
 //! of two that brings v near to one, so that segments of any length are alike; those beyond 2^400 are cut off there, where every
 //! lune has ended (those of larger beta than 2^300 are taken as they are).
 
-use crate::distance::{ERROR, told};
+use crate::distance::{ERROR, angle_at, told};
 use crate::{Sign, exact};
 
 /// Below beta times this a size could be wrong by more than the error bound.
@@ -173,11 +173,5 @@ impl<const D: usize> Lune<D> {
 /// ```
 #[inline]
 pub fn in_diametral_ball<const D: usize>(a: [f64; D], b: [f64; D], p: [f64; D]) -> bool {
-    let (mut dot, mut size) = (0.0, 0.0);
-    for k in 0..D {
-        let product = (a[k] - p[k]) * (b[k] - p[k]);
-        dot += product;
-        size += product.abs();
-    }
-    !told(dot, size).unwrap_or_else(|| exact::lengths::angle(p, a, b)).is_positive()
+    !angle_at(p, a, b).is_positive()
 }

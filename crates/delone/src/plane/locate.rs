@@ -19,11 +19,12 @@ use crate::tally::Tally;
 pub enum Location2 {
     /// Strictly inside this triangle.
     Triangle(TriangleId),
-    /// Strictly inside this edge, in one of its two directions.
+    /// Strictly inside this edge: on the hull the one whose triangle is finite, elsewhere from the smaller vertex to the other one.
     Edge(EdgeId),
     /// On this vertex.
     Vertex(VertexId),
-    /// Strictly outside of the convex hull: beyond this hull edge, whose triangle is finite.
+    /// Strictly outside of the convex hull: beyond this hull edge, whose triangle is finite. It has the point of the hull that is nearest;
+    /// if two edges have it that the point is beyond, this is the first counter-clockwise.
     Outside(EdgeId),
     /// On no vertex and no edge of a triangulation that has no triangle.
     LowerDimensional(Dimension),
@@ -65,7 +66,7 @@ impl Delaunay2 {
     /// Finds where a point falls, and tells each step.
     pub(super) fn locate_observed<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Result<Location2, Error> {
         let q = finite(q)?;
-        Ok(self.base.classify(self.spot(q, tally).spot, q))
+        Ok(self.base.classify(self.spot(q, tally).spot, q, tally))
     }
 
     /// Finds where a point falls by a walk from a triangle that is near it: O(1) expected from nearby.
@@ -82,7 +83,7 @@ impl Delaunay2 {
         let q = finite(q.xy())?;
         let known = self.base.mesh.is_triangle(start);
         let start = if known { Start::At(start.edge(0), walk) } else { Start::Anywhere };
-        Ok(self.base.classify(self.base.spot(start, q, tally).0, q))
+        Ok(self.base.classify(self.base.spot(start, q, tally).0, q, tally))
     }
 
     /// The strategy of location.
@@ -135,22 +136,31 @@ impl Delaunay2 {
 }
 
 impl<K: Kernel> Layer<K> {
-    /// Where a point is that falls on a spot.
-    pub(super) fn classify(&self, spot: Spot, q: [f64; 2]) -> Location2 {
+    /// Where a point is that falls on a spot: the same for one set of vertices, wherever a walk began.
+    pub(super) fn classify<T: Tally>(&self, spot: Spot, q: [f64; 2], tally: &mut T) -> Location2 {
         let mesh = &self.mesh;
+        let on_edge = |e: EdgeId| {
+            let twin = mesh.twin(e);
+            let is_turned = match [e, twin].map(|e| mesh.is_ghost(e.triangle())) {
+                [is_outside, is_inside] if is_outside != is_inside => is_outside,
+                _ => mesh.origin(e) > mesh.destination(e),
+            };
+            Location2::Edge(if is_turned { twin } else { e })
+        };
         match spot {
             Spot::Vertex(v) => Location2::Vertex(mesh.name(v)),
-            Spot::Segment(e) => Location2::Edge(e),
+            Spot::Segment(e) => on_edge(e),
             Spot::Triangle(triangle) => {
-                if let Some(k) = mesh.places(triangle).iter().position(|v| v.is_ghost()) {
-                    return Location2::Outside(mesh.twin(triangle.edge(k).next()));
+                if mesh.is_ghost(triangle) {
+                    return Location2::Outside(self.nearest_hull_edge(triangle, q, tally));
                 }
                 let through = |e: &EdgeId| {
                     let [a, b] = [mesh.tail(*e), mesh.head(*e)].map(|v| self.points[v.index()]);
                     orient2d(a, b, q).is_zero()
                 };
                 let edges = [0, 1, 2].map(|k| triangle.edge(k));
-                edges.into_iter().find(through).map_or(Location2::Triangle(triangle), Location2::Edge)
+                let on = edges.into_iter().find(through);
+                on.map_or(Location2::Triangle(triangle), on_edge)
             }
             Spot::Empty | Spot::BesidePoint | Spot::End(_) | Spot::BesideLine(_) => {
                 Location2::LowerDimensional(mesh.dimension())

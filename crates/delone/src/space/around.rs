@@ -20,7 +20,7 @@ impl Surround for Delaunay3 {
         let filter = self.base.filter_with(q);
         let view = View { filter: &filter, ..self.base.view() };
         match near.and_then(|t| view.walk_within(t, q, NEAR)) {
-            Some(t) => Ok(self.found(self.base.classify(t, q))),
+            Some(t) => Ok(self.found(self.base.classify(t, q, &mut ()))),
             None => self.find(q),
         }
     }

@@ -19,13 +19,15 @@ use crate::tally::Tally;
 pub enum Location3 {
     /// Strictly inside this tetrahedron.
     Tetrahedron(TetrahedronId),
-    /// Strictly inside this facet, on one of its two sides; of coplanar points, inside this triangle.
+    /// Strictly inside this facet, from the side where the opposite vertex is the smaller one, and on the hull from inside; of coplanar
+    /// points, inside this triangle.
     Facet(FacetId),
-    /// Strictly inside the edge between these vertices.
+    /// Strictly inside the edge between these vertices, the smaller one first.
     Edge([VertexId; 2]),
     /// On this vertex.
     Vertex(VertexId),
-    /// Strictly outside of the convex hull: beyond this facet of it, seen from inside.
+    /// Strictly outside of the convex hull: beyond this facet of it, seen from inside. It has the point of the hull that is nearest; of several
+    /// facets that have it and that the point is beyond, this is the one with the smallest vertices.
     Outside(FacetId),
     /// Outside of the hull of points that do not span space.
     LowerDimensional(Dimension),
@@ -62,7 +64,7 @@ impl Delaunay3 {
         }
         let start = self.locator().start(&self.base, q, tally);
         let t = self.base.walk(self.base.start_cell(start), q, tally);
-        Ok(self.base.classify(t, q))
+        Ok(self.base.classify(t, q, tally))
     }
 
     /// Finds where a point falls by a walk from a tetrahedron that is near it: O(1) expected from nearby.
@@ -75,7 +77,7 @@ impl Delaunay3 {
         if !known {
             return self.locate_observed(q, &mut ());
         }
-        Ok(self.base.classify(self.base.walk(start, q, &mut ()), q))
+        Ok(self.base.classify(self.base.walk(start, q, &mut ()), q, &mut ()))
     }
 
     /// The strategy of location.
@@ -97,13 +99,15 @@ impl Delaunay3 {
 }
 
 impl<W: Lift> Layer<W> {
-    /// Where a point is that falls into a tetrahedron or beyond it.
-    pub(super) fn classify(&self, t: TetrahedronId, q: [f64; 3]) -> Location3 {
+    /// Where a point is that falls into a tetrahedron or beyond it: the same for one set of vertices, wherever a walk began.
+    pub(super) fn classify<T: Tally>(&self, t: TetrahedronId, q: [f64; 3], tally: &mut T) -> Location3 {
         let (layer, mesh) = (self, &self.mesh);
         let dimension = self.dimension();
         if mesh.is_ghost(t) {
             return match dimension {
-                Dimension::Space => Location3::Outside(mesh.twin(t.facet(3))),
+                Dimension::Space => {
+                    Location3::Outside(mesh.twin(self.nearest_hull_facet(t, q, tally).facet(3)))
+                }
                 _ => Location3::LowerDimensional(dimension),
             };
         }
@@ -119,10 +123,19 @@ impl<W: Lift> Layer<W> {
         let on: Vec<usize> = (0..4).filter(is_on).collect();
         match on[..] {
             [] => Location3::Tetrahedron(t),
-            [k] => Location3::Facet(t.facet(k)),
+            [k] => {
+                let sides = [t.facet(k), mesh.twin(t.facet(k))];
+                // The ghost vertex is larger than all others.
+                let opposite =
+                    sides.map(|f| mesh.name(mesh.cells[f.tetrahedron().index()].corners[f.corner()]));
+                let is_turned = dimension == Dimension::Space && opposite[1] < opposite[0];
+                Location3::Facet(sides[usize::from(is_turned)])
+            }
             _ => {
                 let mut ends = (0..4).filter(|k| !on.contains(k)).map(|k| mesh.name(corners[k]));
-                Location3::Edge([(); 2].map(|()| ends.next().unwrap_or(VertexId::GHOST)))
+                let mut ends = [(); 2].map(|()| ends.next().unwrap_or(VertexId::GHOST));
+                ends.sort_unstable();
+                Location3::Edge(ends)
             }
         }
     }

@@ -123,6 +123,14 @@ pub(super) fn in_sphere(coordinates: &[f64; 15]) -> Sign {
     (positive - lift(&d) * three(&a, &b, &c) - lift(&b) * three(&a, &c, &d)).sign()
 }
 
+/// Points a, b, c, q: |b - a|^2 (c - a).(q - a) against (b - a).(c - a) (b - a).(q - a).
+pub(super) fn side_in_plane(coordinates: &[f64; 12]) -> Sign {
+    let (p, _) = integers(coordinates);
+    let [u, v, w] = [1, 2, 3].map(|i| [0, 1, 2].map(|k| &p[3 * i + k] - &p[k]));
+    let dot = |u: &[BigInt; 3], v: &[BigInt; 3]| (0..3).map(|k| &u[k] * &v[k]).sum::<BigInt>();
+    (dot(&u, &u) * dot(&v, &w) - dot(&u, &v) * dot(&u, &w)).sign()
+}
+
 /// The point at the same distance from three points, correctly rounded; a coordinate that no `f64` can hold is
 /// infinite. None for collinear points.
 pub(super) fn circumcentre(coordinates: &[f64; 6]) -> Option<[f64; 2]> {

@@ -133,6 +133,13 @@ pub(crate) fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -
     integers().or_else(scaled).unwrap_or_else(|| big::in_sphere(&coordinates))
 }
 
+#[cold]
+pub(crate) fn side_in_plane(a: Point3, b: Point3, c: Point3, q: Point3) -> Sign {
+    let mut coordinates = [0.0; 12];
+    coordinates.copy_from_slice([a, b, c, q].as_flattened());
+    big::side_in_plane(&coordinates)
+}
+
 fn coord(p: Point2) -> robust::Coord<f64> {
     robust::Coord { x: p[0], y: p[1] }
 }

@@ -5,6 +5,7 @@
 //! Cost: [`Layer::lay_out`] a sort and O(n); the operations are in `insert` and `remove`.
 
 pub(in crate::plane) mod cavity;
+mod hull;
 pub(in crate::plane) mod insert;
 pub(in crate::plane) mod kernel;
 pub(in crate::plane) mod line;

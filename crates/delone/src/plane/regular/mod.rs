@@ -204,7 +204,7 @@ impl Regular2 {
     /// [`Error::Coordinate`] if a coordinate is not finite.
     pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
         let q = finite(q.xy())?;
-        Ok(self.base.classify(self.spot(q).0, q))
+        Ok(self.base.classify(self.spot(q).0, q, &mut ()))
     }
 
     /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the

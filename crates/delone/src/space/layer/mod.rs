@@ -6,6 +6,7 @@ pub(in crate::space) mod cavity;
 mod faces;
 mod ground;
 pub(in crate::space) mod hole;
+mod hull;
 pub(in crate::space) mod kernel;
 mod remove;
 pub(in crate::space) mod scaffold;

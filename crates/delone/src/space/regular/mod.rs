@@ -178,7 +178,7 @@ impl Regular3 {
         if !self.base.is_in_span(q) {
             return Ok(Location3::LowerDimensional(self.dimension()));
         }
-        Ok(self.base.classify(self.cell_at(q), q))
+        Ok(self.base.classify(self.cell_at(q), q, &mut ()))
     }
 
     /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
