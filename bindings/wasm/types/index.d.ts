@@ -46,7 +46,7 @@ export interface Located {
   kind: "triangle" | "edge" | "vertex" | "outside" | "none";
   /** A triangle that holds the point, or -1. */
   triangle: number;
-  /** The corners of what the point is on; outside the ends of a hull edge that it is beyond. */
+  /** The corners of what the point is on; outside the ends of the nearest hull edge that it is beyond. */
   vertices: number[];
   /** What was looked at on the way, if a strategy was given: triangles, ends of hull edges, vertices. */
   path?: Delaunay.Polygon[];

@@ -144,13 +144,13 @@ impl<S> Found<S> {
         Self { corners, count, simplex, is_outside: false }
     }
 
-    /// Outside, beyond a facet of the hull; or off everything, if there is none.
+    /// Outside, beyond the nearest facet of the hull; or off everything, if there is none.
     pub fn beyond(facet: &[VertexId]) -> Self {
         Self { is_outside: true, ..Self::on(facet, None) }
     }
 
     /// The corners of the smallest face that holds the point: one is a vertex, two are an edge, three a triangle, four a
-    /// tetrahedron. Outside those of a facet of the hull that the point is beyond, counter-clockwise seen from there; none
+    /// tetrahedron. Outside those of the facet of the hull that is nearest to the point, counter-clockwise seen from there; none
     /// where the points span less than the whole.
     pub fn face(&self) -> &[VertexId] {
         &self.corners[..self.count]

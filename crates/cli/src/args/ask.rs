@@ -89,8 +89,8 @@ pub(crate) struct FurthestArgs {
   + X Y      insert; answers '+ ID', or '= ID' if that vertex has the same coordinates
   - ID       remove
   > ID X Y   move
-  ? X Y      locate; answers '? triangle A B C', '? edge A B', '? vertex A', '? outside A B' (a hull edge that
-             the point is beyond) or '? nowhere' (there is no triangle, and the point is on no edge)
+  ? X Y      locate; answers '? triangle A B C', '? edge A B', '? vertex A', '? outside A B' (the
+             hull edge nearest to it) or '? nowhere' (there is no triangle, and the point is on no edge)
   @ X Y      nearest vertex; answers '@ ID' or '@ none'
 With --dim 3 points have three coordinates, and '?' answers 'tetrahedron A B C D', 'facet A B C', 'edge A B',
 'vertex A', 'outside A B C' or 'nowhere'.

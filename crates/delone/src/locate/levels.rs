@@ -6,6 +6,7 @@
 //! above, a cavity there, where the descent has left the triangle; a removal a hole on each level of the vertex.
 
 use super::links::Links;
+use super::nearest::{self, Metric};
 use super::{Ground, Hierarchy, Level, Start, Strategy, Walk};
 use crate::ids::Place;
 use crate::order::random::SplitMix;
@@ -48,6 +49,17 @@ impl<L: Level> Levels<L> {
             levels.lift(ground, v, &mut ());
         }
         levels
+    }
+
+    /// A vertex that is near to a point: the nearest one of the lowest sample, down along edges on each of them.
+    pub(crate) fn nearest<T: Tally>(&self, q: L::Point, tally: &mut T) -> Option<Place>
+    where
+        L: Metric,
+    {
+        self.samples.iter().rev().fold(None, |above, sample| {
+            let from = above.or_else(|| sample.ground.any_vertex())?;
+            Some(sample.links.below(nearest::descend(&sample.ground, from, q, tally)))
+        })
     }
 
     /// The number of vertices of each level above the triangulation.

@@ -29,17 +29,29 @@ pub(crate) trait Metric: Ground {
 
 /// The nearest vertex, down along edges from another one.
 pub(crate) fn descend<G: Metric, T: Tally>(ground: &G, from: Place, q: G::Point, tally: &mut T) -> Place {
-    let mut best = from;
+    descend_within(ground, from, q, usize::MAX, tally).0
+}
+
+/// The same, but it ends, on the way, once more than `most` vertices have been compared; and how many have.
+pub(crate) fn descend_within<G: Metric, T: Tally>(
+    ground: &G,
+    from: Place,
+    q: G::Point,
+    most: usize,
+    tally: &mut T,
+) -> (Place, usize) {
+    let (mut best, mut compared) = (from, 0);
     loop {
         let mut next = best;
         ground.beside(best, |w| {
             tally.compared();
+            compared += 1;
             if ground.nearer(q, w, next).is_lt() {
                 next = w;
             }
         });
-        if next == best {
-            return best;
+        if next == best || compared > most {
+            return (next, compared);
         }
         best = next;
     }

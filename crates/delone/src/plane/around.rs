@@ -67,7 +67,7 @@ impl Delaunay2 {
     fn find_from(&self, last: Option<EdgeId>, q: [f64; 2]) -> Found<TriangleId> {
         let spot = last.and_then(|e| self.base.spot_within(Start::Hint(e, 0), q, NEAR, &mut ()));
         let spot = spot.map_or_else(|| self.spot(q, &mut ()).spot, |found| found.0);
-        self.found(self.base.classify(spot, q, &mut ()))
+        self.found(self.classify(spot, q, &mut ()))
     }
 
     /// Walks to a triangle that a point is strictly inside of: what there mostly is, and needs no more decisions.

@@ -66,7 +66,8 @@ impl Delaunay2 {
     /// Finds where a point falls, and tells each step.
     pub(super) fn locate_observed<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Result<Location2, Error> {
         let q = finite(q)?;
-        Ok(self.base.classify(self.spot(q, tally).spot, q, tally))
+        let spot = self.spot(q, tally).spot;
+        Ok(self.classify(spot, q, tally))
     }
 
     /// Finds where a point falls by a walk from a triangle that is near it: O(1) expected from nearby.
@@ -83,7 +84,7 @@ impl Delaunay2 {
         let q = finite(q.xy())?;
         let known = self.base.mesh.is_triangle(start);
         let start = if known { Start::At(start.edge(0), walk) } else { Start::Anywhere };
-        Ok(self.base.classify(self.base.spot(start, q, tally).0, q, tally))
+        Ok(self.base.classify(self.base.spot(start, q, tally).0, q))
     }
 
     /// The strategy of location.
@@ -121,6 +122,24 @@ impl Delaunay2 {
         Found { spot, steps, start }
     }
 
+    /// Where a point is that falls on a spot.
+    pub(super) fn classify<T: Tally>(&self, spot: Spot, q: [f64; 2], tally: &mut T) -> Location2 {
+        match spot {
+            Spot::Triangle(t) if self.mesh().is_ghost(t) => {
+                Location2::Outside(self.hull_edge_beyond(t, q, tally))
+            }
+            _ => self.base.classify(spot, q),
+        }
+    }
+
+    /// The hull edge that is nearest to a point beyond that of a ghost. The way along the hull is not the only one.
+    pub(super) fn hull_edge_beyond<T: Tally>(&self, ghost: TriangleId, q: [f64; 2], tally: &mut T) -> EdgeId {
+        match self.locator() {
+            Locator::Tree(hints) => hints.hull_edge(&self.base, ghost, q, tally),
+            _ => self.base.nearest_hull_edge(ghost, q, usize::MAX).0,
+        }
+    }
+
     /// Finds a point that will be inserted, if it is no vertex yet, by the strategy.
     #[inline]
     pub(super) fn spot_to_insert<T: Tally>(&mut self, q: [f64; 2], tally: &mut T) -> Found {
@@ -137,7 +156,7 @@ impl Delaunay2 {
 
 impl<K: Kernel> Layer<K> {
     /// Where a point is that falls on a spot: the same for one set of vertices, wherever a walk began.
-    pub(super) fn classify<T: Tally>(&self, spot: Spot, q: [f64; 2], tally: &mut T) -> Location2 {
+    pub(super) fn classify(&self, spot: Spot, q: [f64; 2]) -> Location2 {
         let mesh = &self.mesh;
         let on_edge = |e: EdgeId| {
             let twin = mesh.twin(e);
@@ -152,7 +171,7 @@ impl<K: Kernel> Layer<K> {
             Spot::Segment(e) => on_edge(e),
             Spot::Triangle(triangle) => {
                 if mesh.is_ghost(triangle) {
-                    return Location2::Outside(self.nearest_hull_edge(triangle, q, tally));
+                    return Location2::Outside(self.nearest_hull_edge(triangle, q, usize::MAX).0);
                 }
                 let through = |e: &EdgeId| {
                     let [a, b] = [mesh.tail(*e), mesh.head(*e)].map(|v| self.points[v.index()]);

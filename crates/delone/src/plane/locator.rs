@@ -10,11 +10,12 @@ use super::layer::insert::Spot;
 use super::stars::Stars;
 #[cfg(feature = "histories")]
 use super::versions::Versions;
-use crate::ids::{EdgeId, Place};
+use crate::ids::{EdgeId, Place, TriangleId};
 #[cfg(feature = "histories")]
 use crate::locate::delaunay_tree::DelaunayTree;
 use crate::locate::from_last::FromLast;
 use crate::locate::levels::Levels;
+use crate::locate::nearest::{descend, descend_within};
 use crate::locate::tree::Tree;
 use crate::locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Start, Strategy};
 use crate::tally::Tally;
@@ -121,6 +122,8 @@ impl Hints {
     /// A walk from a hint that takes more steps is given up, if there are levels. On evenly spread points it takes four on
     /// average.
     const MOST: usize = 64;
+    /// The same along the hull, where mostly the first edge is the nearest one.
+    const MOST_ALONG_HULL: usize = 16;
     /// A walk that takes more steps is long.
     const LONG: usize = 300;
 
@@ -135,17 +138,17 @@ impl Hints {
         *self.spent.get_mut() = 0;
     }
 
-    /// So many steps a walk from a hint may take.
+    /// So many steps may be taken: any number, where there are no levels.
     #[inline]
-    fn most(&self) -> usize {
-        if self.levels.get().is_some() { Self::MOST } else { usize::MAX }
+    fn most(&self, with_levels: usize) -> usize {
+        if self.levels.get().is_some() { with_levels } else { usize::MAX }
     }
 
     /// Finds a point, and tells how many steps that took, and where from.
     #[inline]
     pub(super) fn spot<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize, Start) {
         let start = self.tree.start(layer, q, tally);
-        let most = self.most();
+        let most = self.most(Self::MOST);
         let (spot, steps) = match layer.spot_within(start, q, most, tally) {
             Some(found) => found,
             None => self.rescue(layer, q, tally),
@@ -161,6 +164,43 @@ impl Hints {
     fn rescue<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
         let (spot, steps) = layer.spot(self.levels(layer).start(layer, q, tally), q, tally);
         (spot, steps + Self::MOST)
+    }
+
+    /// The hull edge that is nearest to a point beyond that of a ghost.
+    pub(super) fn hull_edge<T: Tally>(
+        &self,
+        layer: &Layer,
+        ghost: TriangleId,
+        q: [f64; 2],
+        tally: &mut T,
+    ) -> EdgeId {
+        let most = self.most(Self::MOST_ALONG_HULL);
+        let (edge, steps) = layer.nearest_hull_edge(ghost, q, most);
+        (0..steps).for_each(|_| tally.visited());
+        if steps > most {
+            return match self.rescue(layer, q, tally).0 {
+                Spot::Triangle(ghost) => layer.nearest_hull_edge(ghost, q, usize::MAX).0,
+                _ => edge,
+            };
+        }
+        if steps > Self::LONG {
+            self.spend(layer, steps);
+        }
+        edge
+    }
+
+    /// The vertex that is nearest to a point, down along edges from one that may be.
+    pub(super) fn nearest<T: Tally>(&self, layer: &Layer, from: Place, q: [f64; 2], tally: &mut T) -> Place {
+        let most = self.most(Self::LONG);
+        let (nearest, compared) = descend_within(layer, from, q, most, tally);
+        if compared > most {
+            let from = self.levels(layer).nearest(q, tally).unwrap_or(nearest);
+            return descend(layer, from, q, tally);
+        }
+        if compared > Self::LONG {
+            self.spend(layer, compared);
+        }
+        nearest
     }
 
     /// Keeps account of a long walk.

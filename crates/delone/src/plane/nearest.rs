@@ -14,6 +14,7 @@ use delone_predicates::{compare_distances, compare_with_radius, lexicographic};
 use super::Delaunay2;
 use super::layer::Layer;
 use super::layer::insert::Spot;
+use super::locator::Locator;
 use crate::error::Error;
 use crate::ids::{Place, VertexId};
 use crate::locate::nearest::{self, Metric};
@@ -111,16 +112,24 @@ impl Delaunay2 {
             Spot::Vertex(v) | Spot::End(v) => return Some(v),
             Spot::BesidePoint => return mesh.lone,
             Spot::Segment(e) => better(mesh.tail(e), mesh.head(e)),
+            Spot::Triangle(t) if mesh.is_ghost(t) => {
+                let e = self.hull_edge_beyond(t, q, tally);
+                better(mesh.tail(e), mesh.head(e))
+            }
             Spot::Triangle(t) | Spot::BesideLine(t) => {
                 mesh.places(t).into_iter().filter(|v| !v.is_ghost()).reduce(better)?
             }
         };
-        Some(nearest::descend(&self.base, start, q, tally))
+        Some(match self.locator() {
+            Locator::Tree(hints) => hints.nearest(&self.base, start, q, tally),
+            _ => nearest::descend(&self.base, start, q, tally),
+        })
     }
 
     pub(super) fn sorted_names(&self, places: impl IntoIterator<Item = Place>) -> Vec<VertexId> {
-        let mut names: Vec<_> = places.into_iter().map(|v| self.base.mesh.name(v)).collect();
+        // Sorted as the words that are sorted elsewhere, by the same code.
+        let mut names: Vec<u64> = places.into_iter().map(|v| self.base.mesh.name(v).index() as u64).collect();
         names.sort_unstable();
-        names
+        names.into_iter().map(|name| VertexId::new(name as usize)).collect()
     }
 }

@@ -22,15 +22,21 @@ pub(in crate::plane) fn near<K: Kernel, T: Tally>(
 ) -> (Place, EdgeId) {
     let triangle = walk(layer, start, q, tally).triangle;
     tally.phase(Phase::Nearest);
+    let is_outside = layer.mesh.is_ghost(triangle);
+    // Beyond the hull, at the edge of it that is nearest.
+    let triangle = if is_outside {
+        layer.mesh.twin(layer.nearest_hull_edge(triangle, q, usize::MAX).0).triangle()
+    } else {
+        triangle
+    };
     let corners = layer.mesh.places(triangle).into_iter().filter(|v| !v.is_ghost());
     let nearer = |a: Place, b: Place| if layer.compare_distances(q, b, a) == Ordering::Less { b } else { a };
     let best = corners.reduce(nearer).expect("a triangle has a finite corner");
     (0..3).for_each(|_| tally.compared());
-    let is_outside = || layer.mesh.places(triangle).iter().any(|v| v.is_ghost());
     let nearest = match nearest {
         Nearest::Corner => best,
         // Beyond the hull no triangle contains `q`.
-        Nearest::Exact if is_outside() => descend(layer, best, q, tally),
+        Nearest::Exact if is_outside => descend(layer, best, q, tally),
         Nearest::Exact => search(layer, triangle, best, q, tally),
         Nearest::InCircle => search_conflicts(layer, triangle, best, q, tally),
     };

@@ -204,7 +204,7 @@ impl Regular2 {
     /// [`Error::Coordinate`] if a coordinate is not finite.
     pub fn locate<P: Position2>(&self, q: P) -> Result<Location2, Error> {
         let q = finite(q.xy())?;
-        Ok(self.base.classify(self.spot(q).0, q, &mut ()))
+        Ok(self.base.classify(self.spot(q).0, q))
     }
 
     /// The vertex with the least power at a point: the one whose power cell contains it; of several the one whose point is the
@@ -220,6 +220,9 @@ impl Regular2 {
             Spot::Vertex(v) | Spot::End(v) => v,
             Spot::BesidePoint => self.base.mesh.lone.unwrap_or(Place::new(0)),
             Spot::Segment(e) => self.base.mesh.tail(e),
+            Spot::Triangle(t) if self.mesh().is_ghost(t) => {
+                self.base.mesh.tail(self.base.nearest_hull_edge(t, q, usize::MAX).0)
+            }
             Spot::BesideLine(t) | Spot::Triangle(t) => {
                 let corners = self.base.mesh.places(t).into_iter().find(|p| !p.is_ghost());
                 corners.unwrap_or(Place::new(0))

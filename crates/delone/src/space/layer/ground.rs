@@ -109,6 +109,9 @@ impl<W: Lift> Ground for Layer<W> {
     ) -> (Place, TetrahedronId) {
         let t = self.walk(self.start_cell(start), q, tally);
         tally.phase(Phase::Nearest);
+        // Beyond the hull, at the facet of it that is nearest.
+        let t =
+            if self.is_spanned() && self.mesh.is_ghost(t) { self.nearest_hull_facet(t, q, tally) } else { t };
         let nearer = |a: Place, b: Place| if self.compare_distances(q, b, a).is_lt() { b } else { a };
         let corners = self.mesh.cells[t.index()].corners.into_iter().filter(|p| !p.is_ghost());
         let best = corners.reduce(nearer).expect("a tetrahedron has a finite corner");
