@@ -130,6 +130,41 @@ fn queries_visit_few_triangles_on_many_points() {
     queries_visit_few_triangles(100_000);
 }
 
+/// Beyond one of the points, seen from another one: mostly outside.
+fn beyond(points: &[[f64; 2]], random: &mut Random) -> [f64; 2] {
+    let [p, q] = [(); 2].map(|()| points[random.below(points.len())]);
+    [0, 1].map(|k| (3.0 * p[k] - 2.0 * q[k]).clamp(f64::MIN, f64::MAX))
+}
+
+/// Neither to the nearest hull edge nor to the nearest vertex.
+#[test]
+fn queries_outside_do_not_follow_the_hull() {
+    for (name, points) in all(20_000) {
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let mut random = Random::new(1);
+        let (mut visited, mut compared) = (Counts::default(), Counts::default());
+        for round in 0..4000 {
+            let q = beyond(&points, &mut random);
+            let found = counted(|work| _ = d.find_observed(q, work).expect("finite"));
+            let nearest = counted(|work| _ = d.nearest_observed(q, work).expect("finite"));
+            // By then there are levels, if they are needed.
+            if round >= 2000 {
+                visited.add(found.visited);
+                compared.add(nearest.compared);
+            }
+        }
+        let [find, near] = match &*name {
+            "two sloped lines" => [500.0, 2700.0],
+            "two parabolas" => [6000.0, 12_000.0],
+            "near-line" => [300.0, 700.0],
+            "hub" => [300.0, 22_000.0],
+            _ => [300.0, 200.0],
+        };
+        visited.hold(&format!("{name}: triangles and hull edges"), find, u64::MAX);
+        compared.hold(&format!("{name}: comparisons for the nearest"), near, u64::MAX);
+    }
+}
+
 #[test]
 fn changes_visit_few_triangles_on_any_points() {
     for (name, points) in all(20_000) {
