@@ -15,7 +15,7 @@ use crate::triangulation::{Ask, Found, Triangulation};
 /// A triangulation that tells what surrounds a point.
 pub trait Surround: Ask {
     /// Finds where a point falls, by a walk from a simplex that is near it, or by the strategy of location where that would be long
-    /// and where none is given.
+    /// and where none is given. Outside it tells no face: which facet is the nearest takes longer to find than that it is outside.
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.

@@ -3,6 +3,7 @@
 use delone_predicates::{Hub, Sign, Spoke};
 
 use super::Delaunay2;
+use super::layer::insert::Spot;
 use super::layer::kernel::{Kernel, NearestSites};
 use crate::around::{Around, Side, Surround};
 use crate::error::Error;
@@ -67,7 +68,10 @@ impl Delaunay2 {
     fn find_from(&self, last: Option<EdgeId>, q: [f64; 2]) -> Found<TriangleId> {
         let spot = last.and_then(|e| self.base.spot_within(Start::Hint(e, 0), q, NEAR, &mut ()));
         let spot = spot.map_or_else(|| self.spot(q, &mut ()).spot, |found| found.0);
-        self.found(self.classify(spot, q, &mut ()))
+        match spot {
+            Spot::Triangle(t) if self.mesh().is_ghost(t) => Found::beyond(&[]),
+            _ => self.found(self.base.classify(spot, q)),
+        }
     }
 
     /// Walks to a triangle that a point is strictly inside of: what there mostly is, and needs no more decisions.

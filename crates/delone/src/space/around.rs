@@ -8,7 +8,7 @@ use crate::ids::TetrahedronId;
 use crate::mesh::Dimension;
 use crate::mesh::tetrahedra::FACETS;
 use crate::points::finite;
-use crate::triangulation::{Ask, Found};
+use crate::triangulation::Found;
 
 /// Walks from a hint that are longer cost more than the search for a better one.
 const NEAR: usize = 24;
@@ -19,10 +19,14 @@ impl Surround for Delaunay3 {
         let near = near.filter(|&t| self.mesh().is_cell(t) && self.dimension() == Dimension::Space);
         let filter = self.base.filter_with(q);
         let view = View { filter: &filter, ..self.base.view() };
-        match near.and_then(|t| view.walk_within(t, q, NEAR)) {
-            Some(t) => Ok(self.found(self.base.classify(t, q, &mut ()))),
-            None => self.find(q),
-        }
+        let t = match near.and_then(|t| view.walk_within(t, q, NEAR)) {
+            found @ Some(_) => found,
+            None => self.walk_to(q, &mut ()),
+        };
+        Ok(match t {
+            Some(t) if !self.mesh().is_ghost(t) => self.found(self.base.classify(t, q, &mut ())),
+            _ => Found::beyond(&[]),
+        })
     }
 
     fn surround(

@@ -59,12 +59,19 @@ impl Delaunay3 {
     /// Finds where a point falls, and tells each step.
     pub(super) fn locate_observed<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Result<Location3, Error> {
         let q = finite(q)?;
+        Ok(match self.walk_to(q, tally) {
+            Some(t) => self.base.classify(t, q, tally),
+            None => Location3::LowerDimensional(self.dimension()),
+        })
+    }
+
+    /// The tetrahedron that a point falls into, by the strategy, or a ghost that it falls beyond; none off the span.
+    pub(super) fn walk_to<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<TetrahedronId> {
         if !self.base.is_in_span(q) {
-            return Ok(Location3::LowerDimensional(self.dimension()));
+            return None;
         }
         let start = self.locator().start(&self.base, q, tally);
-        let t = self.base.walk(self.base.start_cell(start), q, tally);
-        Ok(self.base.classify(t, q, tally))
+        Some(self.base.walk(self.base.start_cell(start), q, tally))
     }
 
     /// Finds where a point falls by a walk from a tetrahedron that is near it: O(1) expected from nearby.
