@@ -2,8 +2,8 @@
 //! against brute force.
 
 use delone::{
-    Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted, JumpAndWalk, Locate, Location3,
-    Nearest, VertexId, Walk,
+    Ask, Delaunay2, Delaunay3, Dimension, Error, FacetId, Hierarchy, Inserted, JumpAndWalk, Locate,
+    Location3, Nearest, VertexId, Walk, Work,
 };
 use delone_generators::{Kind3, Random};
 use delone_oracle::exact;
@@ -274,4 +274,19 @@ fn duplicates_follow_their_vertex() {
     }
     life::<Delaunay2>(|x| [x, x * x]);
     life::<Delaunay3>(|x| [x, x * x, x * x * x]);
+}
+
+/// Points on a line, and in a plane, are found from the hints there.
+#[test]
+fn nearest_below_space_does_not_go_through_all() {
+    for (kind, most) in [(Kind3::OnLine, 200), (Kind3::Slanted, 800)] {
+        let points = kind.points(20_000, 3);
+        let d = Delaunay3::from_points(&points).expect("finite");
+        assert!(d.dimension() < Dimension::Space);
+        let mut work = Work::default();
+        for (p, q) in points.iter().zip(points.iter().skip(7)).take(1000) {
+            d.nearest_observed([0, 1, 2].map(|k| p[k] * 0.75 + q[k] * 0.25), &mut work).expect("finite");
+        }
+        assert!(work.compared < most * 1000, "{} {}", kind.name(), work.compared);
+    }
 }

@@ -97,11 +97,16 @@ impl Delaunay3 {
 
     pub(super) fn nearest_place<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<Place> {
         let layer = &self.base;
-        // Below space the walk may lead to the scaffold; the way along edges is short enough.
+        let any = layer.any_vertex()?;
+        let start = self.locator().start(layer, q, tally);
         let start = if layer.is_spanned() {
-            layer.near(self.locator().start(layer, q, tally), q, Nearest::Corner, tally).0
+            layer.near(start, q, Nearest::Corner, tally).0
         } else {
-            layer.any_vertex()?
+            // Below space the walk may lead to the scaffold: from the hint the way along edges is short enough.
+            let hint = layer.mesh.cells.get(layer.start_cell(start).index());
+            let corners = hint.into_iter().flat_map(|cell| cell.corners);
+            let vertex = corners.filter(|&p| !p.is_ghost() && !layer.is_scaffold(p)).min();
+            vertex.unwrap_or(any)
         };
         Some(nearest::descend(layer, start, q, tally))
     }
