@@ -85,7 +85,7 @@ impl<L: Level> Levels<L> {
         &self,
         base: &G,
         q: L::Point,
-        mut each: impl FnMut(L::Hint),
+        each: &mut dyn FnMut(L::Hint),
         tally: &mut T,
     ) -> Start<L::Hint> {
         let mut level = self.used();
@@ -207,7 +207,7 @@ impl<L: Level> Levels<L> {
     ) -> Start<L::Hint> {
         let mut hints = std::mem::take(&mut self.trail.hints);
         hints.clear();
-        let start = self.descend(base, q, |hint| hints.push(hint), tally);
+        let start = self.descend(base, q, &mut |hint| hints.push(hint), tally);
         self.trail = Trail { goal: Some(q), hints };
         start
     }
@@ -215,7 +215,7 @@ impl<L: Level> Levels<L> {
 
 impl<L: Level, G: Ground<Point = L::Point, Hint = L::Hint>> Strategy<G> for Levels<L> {
     fn start<T: Tally>(&self, ground: &G, q: L::Point, tally: &mut T) -> Start<L::Hint> {
-        self.descend(ground, q, |_| {}, tally)
+        self.descend(ground, q, &mut |_| {}, tally)
     }
 
     fn start_to_insert<T: Tally>(&mut self, ground: &G, q: L::Point, tally: &mut T) -> Start<L::Hint> {

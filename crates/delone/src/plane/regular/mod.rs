@@ -220,9 +220,6 @@ impl Regular2 {
             Spot::Vertex(v) | Spot::End(v) => v,
             Spot::BesidePoint => self.base.mesh.lone.unwrap_or(Place::new(0)),
             Spot::Segment(e) => self.base.mesh.tail(e),
-            Spot::Triangle(t) if self.mesh().is_ghost(t) => {
-                self.base.mesh.tail(self.base.nearest_hull_edge(t, q, usize::MAX).0)
-            }
             Spot::BesideLine(t) | Spot::Triangle(t) => {
                 let corners = self.base.mesh.places(t).into_iter().find(|p| !p.is_ghost());
                 corners.unwrap_or(Place::new(0))
