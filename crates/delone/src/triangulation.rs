@@ -150,8 +150,8 @@ impl<S> Found<S> {
     }
 
     /// The corners of the smallest face that holds the point: one is a vertex, two are an edge, three a triangle, four a
-    /// tetrahedron; the first of three or four may be any of them. Outside those of the facet of the hull that is nearest to the point, counter-clockwise seen from there; none
-    /// where the points span less than the whole.
+    /// tetrahedron; the first of three or four may be any of them. Outside those of the facet of the hull that is nearest to the
+    /// point, counter-clockwise seen from there; none where the points span less than the whole.
     pub fn face(&self) -> &[VertexId] {
         &self.corners[..self.count]
     }

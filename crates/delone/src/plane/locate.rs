@@ -136,7 +136,7 @@ impl Delaunay2 {
     pub(super) fn hull_edge_beyond<T: Tally>(&self, ghost: TriangleId, q: [f64; 2], tally: &mut T) -> EdgeId {
         match self.locator() {
             Locator::Tree(hints) => hints.hull_edge(&self.base, ghost, q, tally),
-            _ => self.base.nearest_hull_edge(ghost, q, usize::MAX).0,
+            _ => self.base.hull_edge_nearest_to(q, ghost, tally),
         }
     }
 

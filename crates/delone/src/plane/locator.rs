@@ -179,7 +179,7 @@ impl Hints {
         (0..steps).for_each(|_| tally.visited());
         if steps > most {
             return match self.rescue(layer, q, tally).0 {
-                Spot::Triangle(ghost) => layer.nearest_hull_edge(ghost, q, usize::MAX).0,
+                Spot::Triangle(ghost) => layer.hull_edge_nearest_to(q, ghost, tally),
                 _ => edge,
             };
         }

@@ -104,9 +104,8 @@ impl Delaunay3 {
         } else {
             // Below space the walk may lead to the scaffold: from the hint the way along edges is short enough.
             let hint = layer.mesh.cells.get(layer.start_cell(start).index());
-            let corners = hint.into_iter().flat_map(|cell| cell.corners);
-            let vertex = corners.filter(|&p| !p.is_ghost() && !layer.is_scaffold(p)).min();
-            vertex.unwrap_or(any)
+            let mut corners = hint.into_iter().flat_map(|cell| cell.corners);
+            corners.find(|&p| !p.is_ghost() && !layer.is_scaffold(p)).unwrap_or(any)
         };
         Some(nearest::descend(layer, start, q, tally))
     }

@@ -10,6 +10,7 @@ use delone_predicates::angle;
 use super::Layer;
 use super::kernel::Kernel;
 use crate::ids::{EdgeId, Place, TriangleId};
+use crate::tally::Tally;
 
 impl<K: Kernel> Layer<K> {
     /// Of the hull edges that a point is strictly beyond, given the ghost of one, that with the nearest point to it; of two that meet in
@@ -48,5 +49,17 @@ impl<K: Kernel> Layer<K> {
             steps += 1;
         }
         (hull_edge(at), steps)
+    }
+
+    /// The same, however far, told as it goes.
+    pub(in crate::plane) fn hull_edge_nearest_to<T: Tally>(
+        &self,
+        q: [f64; 2],
+        ghost: TriangleId,
+        tally: &mut T,
+    ) -> EdgeId {
+        let (edge, steps) = self.nearest_hull_edge(ghost, q, usize::MAX);
+        (0..steps).for_each(|_| tally.visited());
+        edge
     }
 }

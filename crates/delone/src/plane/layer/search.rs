@@ -25,7 +25,7 @@ pub(in crate::plane) fn near<K: Kernel, T: Tally>(
     let is_outside = layer.mesh.is_ghost(triangle);
     // Beyond the hull, at the edge of it that is nearest.
     let triangle = if is_outside {
-        layer.mesh.twin(layer.nearest_hull_edge(triangle, q, usize::MAX).0).triangle()
+        layer.mesh.twin(layer.hull_edge_nearest_to(q, triangle, tally)).triangle()
     } else {
         triangle
     };

@@ -104,12 +104,12 @@ fn nearest_face(corners: [[f64; 3]; 3], q: [f64; 3]) -> Face {
     let next = |k: usize| corners[(k + 1) % 3];
     let previous = |k: usize| corners[(k + 2) % 3];
     let towards = |from, to| angle3(from, to, q).is_positive();
-    let is_inside = |k: usize| side_in_plane(next(k), previous(k), corners[k], q).is_positive();
-    if (0..3).all(is_inside) {
+    let is_inside = [0, 1, 2].map(|k| side_in_plane(next(k), previous(k), corners[k], q).is_positive());
+    if is_inside == [true; 3] {
         return Face::Whole;
     }
     let is_beside =
-        |k: &usize| towards(next(*k), previous(*k)) && towards(previous(*k), next(*k)) && !is_inside(*k);
+        |k: &usize| !is_inside[*k] && towards(next(*k), previous(*k)) && towards(previous(*k), next(*k));
     if let Some(k) = (0..3).find(is_beside) {
         return Face::Side(k);
     }
