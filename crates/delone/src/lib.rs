@@ -111,6 +111,7 @@ pub mod plane;
 mod points;
 mod prefetch;
 mod regular;
+mod sorting;
 pub mod space;
 pub mod surface;
 mod tally;

@@ -5,6 +5,13 @@
 //! hundred times fewer. Measured on 10^6 points: 210 ns a point without, 184 with. Fresh pages are zero, so arrays that begin
 //! as zeros need no pass over them: another 2 %, 5 % on a grid.
 
+#[cfg(feature = "rayon")]
+use std::mem::MaybeUninit;
+#[cfg(feature = "rayon")]
+use std::sync::Mutex;
+#[cfg(feature = "rayon")]
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use bytemuck::Zeroable;
 
 /// Smaller arrays come from memory that was used before.
@@ -46,6 +53,42 @@ fn grow<T: Copy>(items: &mut Vec<T>, more: usize) {
     *items = larger;
 }
 
+/// Appends the items 0 to `count`, in parts that `for_each` hands out by their numbers, to several threads if it likes. No thread touches
+/// memory before its parts are written, so page faults are shared as well.
+///
+/// Rayon's `collect_into_vec` does the same, and is compiled anew for each closure: 7 % of the time that the library takes to build.
+#[cfg(feature = "rayon")]
+pub(crate) fn extend_in_parts<T: Send>(
+    items: &mut Vec<T>,
+    count: usize,
+    part: usize,
+    item: impl Fn(usize) -> T + Sync,
+    for_each: impl FnOnce(usize, &(dyn Fn(usize) + Sync)),
+) {
+    items.reserve(count);
+    let parts: Vec<Mutex<&mut [MaybeUninit<T>]>> =
+        items.spare_capacity_mut()[..count].chunks_mut(part).map(Mutex::new).collect();
+    let written = AtomicUsize::new(0);
+    for_each(parts.len(), &|k| {
+        // A part that is handed out twice is empty the second time.
+        let places = std::mem::take(&mut *parts[k].lock().expect("a part is written once"));
+        for (i, place) in places.iter_mut().enumerate() {
+            place.write(item(k * part + i));
+        }
+        written.fetch_add(places.len(), Ordering::AcqRel);
+    });
+    assert_eq!(written.into_inner(), count, "every part is handed out");
+    #[expect(
+        unsafe_code,
+        reason = "the standard library has no safe way to fill a vector from several threads"
+    )]
+    // SAFETY: `reserve` made room for `count` items. A part is counted after all of it was written, and only once, since its slice
+    // is taken; so `count` says that each of the first `count` places of the room was.
+    unsafe {
+        items.set_len(items.len() + count);
+    }
+}
+
 /// Asks for large pages where nothing has been written yet.
 fn advise<T>(items: &mut [T]) {
     let bytes = size_of_val(items);
@@ -71,6 +114,31 @@ fn advise<T>(items: &mut [T]) {
 #[cfg(test)]
 mod tests {
     use super::{LARGE, make_room, room_for, zeroed};
+
+    #[cfg(feature = "rayon")]
+    #[test]
+    fn parts_are_fetched_from_whoever_has_them() {
+        let boxed = |i: usize| Box::new(i);
+        for (count, part) in [(0, 3), (1, 3), (3, 3), (10, 3), (12, 3)] {
+            let mut items = vec![Box::new(7)];
+            // Out of order, from two threads, and some of them twice.
+            super::extend_in_parts(&mut items, count, part, boxed, |parts, write| {
+                std::thread::scope(|scope| {
+                    scope.spawn(|| (0..parts).rev().step_by(2).for_each(write));
+                    (0..parts).for_each(write);
+                });
+            });
+            assert!(items.into_iter().map(|item| *item).eq([7].into_iter().chain(0..count)));
+        }
+    }
+
+    #[cfg(feature = "rayon")]
+    #[test]
+    #[should_panic(expected = "every part is handed out")]
+    fn a_part_that_is_not_fetched_is_no_item() {
+        let mut items = Vec::new();
+        super::extend_in_parts(&mut items, 10, 3, Box::new, |parts, write| (1..parts).for_each(write));
+    }
 
     #[test]
     fn zeros_are_zero() {

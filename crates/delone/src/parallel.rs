@@ -3,8 +3,12 @@
 //! Tasks own disjoint parts of arrays, so what they write does not depend on who does it: results are the same bits for any
 //! number of threads.
 
+#[cfg(feature = "rayon")]
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+#[cfg(feature = "rayon")]
+use crate::memory::extend_in_parts;
 use crate::memory::room_for;
 
 /// Work on fewer items is not worth a thread. The Python package relies on it: it gives less than this no pool of its own, and a
@@ -41,8 +45,13 @@ pub(crate) fn parts(items: usize) -> usize {
 pub(crate) fn map<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Send + Sync) -> Vec<R> {
     #[cfg(feature = "rayon")]
     if tasks.len() > 1 {
-        use rayon::prelude::*;
-        return tasks.into_par_iter().with_max_len(1).map(work).collect();
+        let places: Vec<_> = tasks.into_iter().map(|task| Mutex::new((Some(task), None))).collect();
+        erased::for_each(places.len(), &|i| {
+            let mut place = places[i].lock().expect("a task is done once");
+            place.1 = place.0.take().map(&work);
+        });
+        let done = |place: Mutex<(Option<T>, Option<R>)>| place.into_inner().expect("no task failed").1;
+        return places.into_iter().map(|place| done(place).expect("every task is done")).collect();
     }
     tasks.into_iter().map(work).collect()
 }
@@ -61,7 +70,7 @@ pub(crate) fn share<T: Send, R: Send>(
 pub(crate) fn inside<R: Send>(items: usize, work: impl FnOnce() -> R + Send) -> R {
     #[cfg(feature = "rayon")]
     if parts(items) > 1 {
-        return rayon::scope(|_| work());
+        return once(work, erased::inside);
     }
     #[cfg(not(feature = "rayon"))]
     let _ = items;
@@ -71,7 +80,11 @@ pub(crate) fn inside<R: Send>(items: usize, work: impl FnOnce() -> R + Send) -> 
 /// Does two tasks, at once if there is a thread for each.
 pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     #[cfg(feature = "rayon")]
-    return rayon::join(a, b);
+    return {
+        let mut second = None;
+        let first = once(a, |a| second = Some(once(b, |b| erased::join(a, b))));
+        (first, second.expect("both are done"))
+    };
     #[cfg(not(feature = "rayon"))]
     (a(), b())
 }
@@ -104,8 +117,7 @@ pub(crate) fn collect<T: Send>(count: usize, item: impl Fn(usize) -> T + Send + 
 fn collect_into<T: Send>(mut items: Vec<T>, count: usize, item: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
     #[cfg(feature = "rayon")]
     if parts(count) > 1 {
-        use rayon::prelude::*;
-        (0..count).into_par_iter().with_min_len(PART).map(item).collect_into_vec(&mut items);
+        extend_in_parts(&mut items, count, PART, item, erased::for_each);
         return items;
     }
     items.extend((0..count).map(item));
@@ -137,4 +149,33 @@ pub(crate) fn split_at<'a, T>(mut items: &'a mut [T], ends: &[usize]) -> Vec<&'a
 /// Where nearly equal parts end.
 pub(crate) fn even_ends(count: usize, parts: usize) -> Vec<usize> {
     (1..=parts).map(|k| count * k / parts).collect()
+}
+
+/// Runs a task that gives a result by what runs one that gives none.
+#[cfg(feature = "rayon")]
+fn once<R: Send>(work: impl FnOnce() -> R + Send, run: impl FnOnce(&mut (dyn FnMut() + Send))) -> R {
+    let (mut work, mut result) = (Some(work), None);
+    run(&mut || result = work.take().map(|work| work()));
+    result.expect("the task was run")
+}
+
+/// The few functions of rayon that are used, each compiled once: rayon makes some forty functions for each type of task, which were
+/// a fifth of the library's code.
+#[cfg(feature = "rayon")]
+mod erased {
+    use rayon::prelude::*;
+
+    /// Does the tasks 0, 1, 2 and so on, each on whatever thread is free.
+    pub(super) fn for_each(tasks: usize, task: &(dyn Fn(usize) + Sync)) {
+        (0..tasks).into_par_iter().with_max_len(1).for_each(task);
+    }
+
+    pub(super) fn join(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
+        rayon::join(a, b);
+    }
+
+    /// Does a task on a thread of the pool.
+    pub(super) fn inside(task: &mut (dyn FnMut() + Send)) {
+        rayon::scope(|_| task());
+    }
 }

@@ -8,6 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::ids::{Duplicate, Place, VertexId};
+use crate::sorting;
 
 /// A site that is no vertex.
 #[derive(Clone, Copy, Debug)]
@@ -146,7 +147,7 @@ impl<C: Copy + Ord> Under<C> {
 
 /// Puts sites into an order in which few that become vertices are hidden by a later one.
 pub(crate) fn heaviest_first<S>(sites: &mut [S], weights: &[f64], site: impl Fn(&S) -> (VertexId, Place)) {
-    sites.sort_unstable_by(|a, b| {
+    sorting::by(sites, |a, b| {
         let [(id, place), (other, there)] = [a, b].map(&site);
         weights[there.index()].total_cmp(&weights[place.index()]).then(id.cmp(&other))
     });

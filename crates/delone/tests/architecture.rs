@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// The rooms of the library, bottom to top, in floors. A room may use those on lower floors, and its own inside; rooms on
 /// the same floor do not know each other.
 const FLOORS: &[&[&str]] = &[
-    &["ids", "prefetch", "memory", "tally", "verdict"],
+    &["ids", "prefetch", "memory", "sorting", "tally", "verdict"],
     &["error", "parallel", "vertex_map", "weight", "duplicates", "under", "regular"],
     &["points"],
     &["order"],
@@ -218,4 +218,27 @@ fn files_are_short_and_rooms_have_names() {
     assert!(lengths.len() > 150);
     let median = lengths[lengths.len() / 2];
     assert!(median < MEDIAN, "half of all files have {median} lines and more");
+}
+
+/// A file of tests that no program has would never run.
+#[test]
+fn every_file_of_tests_is_in_a_program() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut programs = 0;
+    for package in fs::read_dir(crates).expect("readable") {
+        let package = package.expect("readable").path();
+        let Ok(main) = fs::read_to_string(package.join("tests/main.rs")) else { continue };
+        programs += 1;
+        let manifest = fs::read_to_string(package.join("Cargo.toml")).expect("readable");
+        assert!(manifest.contains("autotests = false"), "{}", package.display());
+        for entry in fs::read_dir(package.join("tests")).expect("readable") {
+            let path = entry.expect("readable").path();
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let is_code = path.is_dir() || path.extension().is_some_and(|extension| extension == "rs");
+            let is_there = main.lines().any(|line| line == format!("mod {stem};"))
+                || manifest.lines().any(|line| line == format!("name = \"{stem}\""));
+            assert!(!is_code || stem == "main" || is_there, "{} is in no program", path.display());
+        }
+    }
+    assert!(programs >= 4);
 }

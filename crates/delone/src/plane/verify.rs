@@ -11,6 +11,7 @@ use delone_predicates::{Sign, in_circle, in_circle_with_ties, lexicographic, ori
 
 use crate::error::Error;
 use crate::points::check_finite;
+use crate::sorting;
 use crate::verdict::Verdict;
 pub use weights::verify_weighted;
 
@@ -176,7 +177,7 @@ fn check_coverage(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> Result<(usiz
     let mut used = vec![false; points.len()];
     triangles.as_flattened().iter().for_each(|&corner| used[corner] = true);
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_unstable_by(|&i, &j| lexicographic(points[i], points[j]).then(used[j].cmp(&used[i])));
+    sorting::by(&mut order, |&i, &j| lexicographic(points[i], points[j]).then(used[j].cmp(&used[i])));
     let mut duplicates = 0;
     let mut corner: Vec<usize> = (0..points.len()).collect();
     let mut last = None;

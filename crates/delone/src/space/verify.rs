@@ -15,6 +15,7 @@ use delone_predicates::{
 use crate::error::Error;
 use crate::mesh::tetrahedra::FACETS;
 use crate::points::check_in_space;
+use crate::sorting;
 use crate::space::check::goes_once;
 use crate::verdict::Verdict;
 pub use weights::verify_weighted;
@@ -153,7 +154,7 @@ fn check_coverage(points: &[[f64; 3]], tetrahedra: &[[usize; 4]]) -> Result<usiz
     let mut used = vec![false; points.len()];
     tetrahedra.as_flattened().iter().for_each(|&corner| used[corner] = true);
     let mut order: Vec<usize> = (0..points.len()).collect();
-    order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(used[j].cmp(&used[i])));
+    sorting::by(&mut order, |&i, &j| lexicographic3(points[i], points[j]).then(used[j].cmp(&used[i])));
     let mut duplicates = 0;
     let mut corner = None;
     for i in order {

@@ -11,6 +11,7 @@ use crate::around::Surround;
 use crate::error::Error;
 use crate::ids::VertexId;
 use crate::parallel;
+use crate::sorting;
 
 /// The gradients at all vertices, by the index of the vertex: values per unit of length along each axis. Zero for ids that are no
 /// vertices, along directions in which there are no neighbours, and where a number would leave the range of `f64`.
@@ -73,7 +74,7 @@ fn weigh<T: Surround>(d: &T, v: VertexId, star: &mut Star) {
         // In space roundings depend on the order of corners, which in the plane only turns.
         let mut order = [0, 1, 2, 3];
         if corners.len() == 4 {
-            order.sort_unstable_by(|&i, &j| compare(points[i], points[j]));
+            sorting::by(&mut order, |&i, &j| compare(points[i], points[j]));
         }
         let sums = duals(&order.map(|k| points[k])[..corners.len()]);
         let rank = |corner: usize| order.iter().position(|&k| k == corner).unwrap_or_default();
@@ -87,7 +88,7 @@ fn weigh<T: Surround>(d: &T, v: VertexId, star: &mut Star) {
     }
     // Sums have the same bits whatever the triangulation was made of.
     let place = |v: VertexId| three(d.position(v).unwrap_or_default());
-    star.sort_unstable_by(|a, b| compare(place(a.0), place(b.0)).then(a.1.total_cmp(&b.1)));
+    sorting::by(star, |a, b| compare(place(a.0), place(b.0)).then(a.1.total_cmp(&b.1)));
     star.dedup_by(|next, kept| {
         let is_same = next.0 == kept.0;
         kept.1 += if is_same { next.1 } else { 0.0 };

@@ -8,6 +8,7 @@ use super::natural::{Cell, Measure, compare, three};
 use crate::around::{Around, Surround};
 use crate::error::Error;
 use crate::ids::VertexId;
+use crate::sorting;
 use crate::triangulation::{Ask, Found};
 
 /// What there is outside of the hull.
@@ -190,7 +191,7 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         self.corners.clear();
         let point = |&v: &VertexId| (v, self.d.position(v).unwrap_or_default());
         self.corners.extend(found.face().iter().map(point));
-        self.corners.sort_unstable_by(|a, b| compare(three(a.1), three(b.1)));
+        sorting::by(&mut self.corners, |a, b| compare(three(a.1), three(b.1)));
         linear::weigh(q, &self.corners, &mut self.weights);
         Ok(&self.weights)
     }

@@ -8,6 +8,7 @@
 use super::Region;
 use crate::error::Error;
 use crate::points::{Bounds, check_finite};
+use crate::sorting;
 
 /// A node of the tree of tiles: a tile, or what it was cut into. The root is 1, the halves of node k are 2 k, below the cut, and
 /// 2 k + 1, above it and on it.
@@ -236,7 +237,7 @@ impl<const D: usize> Cuts<D> {
     pub fn cuts(&self) -> Vec<(Node, Cut)> {
         let cut = |step: &Step| step.cut.map(|(cut, _)| (step.node, cut));
         let mut cuts: Vec<(Node, Cut)> = self.steps.iter().filter_map(cut).collect();
-        cuts.sort_unstable_by_key(|&(node, _)| node);
+        sorting::by_key(&mut cuts, |&(node, _)| node);
         cuts
     }
 }
@@ -246,7 +247,7 @@ impl<const D: usize> Cuts<D> {
 fn best_cut<const D: usize>(points: &mut [[f64; D]], tiles: usize) -> Option<Cut> {
     let extent = Bounds::of(points.iter().copied()).extent();
     let mut axes: [usize; D] = std::array::from_fn(|axis| axis);
-    axes.sort_by(|&i, &j| extent[j].total_cmp(&extent[i]));
+    sorting::by(&mut axes, |&i, &j| extent[j].total_cmp(&extent[i]));
     let rank = (points.len() as u128 * (tiles / 2) as u128 / tiles as u128) as usize;
     axes.into_iter().find_map(|axis| {
         let by_axis = |p: &[f64; D], q: &[f64; D]| p[axis].total_cmp(&q[axis]);

@@ -21,6 +21,7 @@ use super::{Hull3, check};
 use crate::error::Error;
 use crate::order::random::SplitMix;
 use crate::points::Position3;
+use crate::sorting;
 use crate::tally::{Counters, Tally, Work};
 
 impl Hull3 {
@@ -50,7 +51,7 @@ impl Hull3 {
             return Ok((Self::of(points), Counters::Incremental(work)));
         };
         let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
+        sorting::by(&mut order, |&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
         order.dedup_by(|later, first| points[*later] == points[*first]);
         SplitMix(seed).shuffle(&mut order);
         work.created(4);

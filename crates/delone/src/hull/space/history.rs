@@ -25,6 +25,7 @@ use crate::error::Error;
 use crate::mesh::Dimension;
 use crate::order::random::SplitMix;
 use crate::points::{self, Position3};
+use crate::sorting;
 use crate::tally::{Counters, Tally, Work};
 
 /// A convex hull with its history.
@@ -81,7 +82,7 @@ impl HullHistory3 {
         let points = &*P::all(points);
         check(points)?;
         let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
+        sorting::by(&mut order, |&i, &j| lexicographic3(points[i], points[j]).then(i.cmp(&j)));
         order.dedup_by(|later, first| points[*later] == points[*first]);
         SplitMix(seed).shuffle(&mut order);
         let mut work = Work::default();

@@ -25,6 +25,7 @@ use crate::plane::layer::Layer;
 use crate::plane::{Delaunay2, construct};
 use crate::points::{Position2, check_count, check_finite};
 use crate::prefetch::prefetch;
+use crate::sorting;
 
 /// What happens where two segments cross.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -270,7 +271,7 @@ fn lay_all(
 
 /// Puts segments in a biased random order, each round by where the ends are in memory.
 fn in_rounds(segments: &mut [Numbered]) {
-    deal(segments, ANY_SEED, |round| round.sort_unstable_by_key(|&(ends, s)| (sorted(ends), s)));
+    deal(segments, ANY_SEED, |round| sorting::by_key(round, |&(ends, s)| (sorted(ends), s)));
 }
 
 /// Whether half of some segments are edges, as far as a sample tells.

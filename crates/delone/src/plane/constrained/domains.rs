@@ -13,6 +13,7 @@ use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId, VertexId};
 use crate::plane::Location2;
 use crate::points::finite;
+use crate::sorting;
 
 /// What is inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -233,7 +234,7 @@ impl Constrained2 {
             found.push((least, part));
         }
         let mut order: Vec<u32> = (0..found.len() as u32).collect();
-        order.sort_unstable_by_key(|&part| found[part as usize].0);
+        sorting::by_key(&mut order, |&part| found[part as usize].0);
         let mut number = vec![0; found.len()];
         order.iter().enumerate().for_each(|(new, &old)| number[old as usize] = new as u32);
         of.iter_mut().filter(|part| **part != NONE).for_each(|part| *part = number[*part as usize]);
@@ -305,7 +306,7 @@ impl Constrained2 {
             ]
         });
         let mut borders: Vec<Border> = both.collect();
-        borders.sort_unstable_by_key(|border| border.part);
+        sorting::by_key(&mut borders, |border| border.part);
         borders
     }
 }

@@ -15,6 +15,7 @@ use delone_predicates::{lexicographic, strictly_between};
 use super::ConstraintReport2;
 use super::trace::{Beginning, Ground, Leaves};
 use crate::ids::{EdgeId, Place};
+use crate::sorting;
 
 /// A constraint edge, the segments along it less those against it, and the number of both.
 pub(super) type Weight = (EdgeId, i32, usize);
@@ -77,7 +78,7 @@ impl Overlaps {
         let new = self.runs.len() as u32;
         self.runs.push(Run { of: new, ends });
         let mut whole = new;
-        self.runs[new as usize].ends.sort_unstable_by(|&v, &w| along(points, v, w));
+        sorting::by(&mut self.runs[new as usize].ends, |&v, &w| along(points, v, w));
         for edge in edges {
             if let Some(old) = self.of.insert(sorted(edge), new) {
                 whole = self.join(points, whole, old);
@@ -139,8 +140,8 @@ impl Overlaps {
                 groups.push((run.map_or(Err(ends), |run| Ok(self.find(run))), ends));
             }
         }
-        groups.iter_mut().for_each(|(_, ends)| ends.sort_unstable_by(|&v, &w| along(points, v, w)));
-        groups.sort_unstable_by(|(a, [v, w]), (b, [x, y])| {
+        groups.iter_mut().for_each(|(_, ends)| sorting::by(ends, |&v, &w| along(points, v, w)));
+        sorting::by(&mut groups, |(a, [v, w]), (b, [x, y])| {
             a.cmp(b).then_with(|| along(points, *v, *x)).then_with(|| along(points, *w, *y))
         });
         for group in groups.chunk_by(|a, b| a.0 == b.0) {
@@ -213,7 +214,7 @@ pub(super) fn weights(
         let twin = ground.mesh.twin(weight.0);
         *weight = if weight.0 < twin { *weight } else { (twin, -weight.1, weight.2) };
     }
-    weights.sort_unstable_by_key(|weight| weight.0);
+    sorting::by_key(&mut weights, |weight| weight.0);
     weights.dedup_by(|later, first| {
         let same = later.0 == first.0;
         if same {

@@ -14,6 +14,7 @@ use super::{Constrained2, Domains2};
 use crate::error::Error;
 use crate::ids::{MAX_POINTS, Place, TriangleId, VertexId};
 use crate::plane::layer::Layer;
+use crate::sorting;
 
 /// What is remembered while a triangulation is refined.
 #[derive(Debug)]
@@ -53,7 +54,7 @@ impl Constrained2 {
         let candidates = self.segments().filter(|_| self.has_chains);
         let chains = candidates.filter(longer).filter_map(with_chain).collect();
         let mut parts: Vec<usize> = (0..domains.parts().len()).collect();
-        parts.sort_by_key(|&part| !domains.parts()[part].is_inside);
+        sorting::by_key(&mut parts, |&part| !domains.parts()[part].is_inside);
         let inside = parts.partition_point(|&part| domains.parts()[part].is_inside);
         let mut number = vec![0; parts.len()];
         parts.iter().enumerate().for_each(|(k, &part)| number[part] = k + 1);

@@ -34,6 +34,7 @@ use super::segments::SegmentId;
 use super::{ConstraintReport2, build};
 use crate::ids::VertexId;
 use crate::plane::Delaunay2;
+use crate::sorting;
 
 /// Segments without crossings.
 pub(super) struct Split {
@@ -100,7 +101,7 @@ fn round(graph: &Delaunay2, edges: &[Ends], met: &Met, points: &mut Vec<[f64; 2]
     // By place: an old vertex before a new one that equals it.
     let mut known: Vec<([f64; 2], Option<VertexId>)> = places.iter().map(|&p| (p, None)).collect();
     known.extend(graph.vertices().map(|v| (graph.point(v), Some(v))));
-    known.sort_by(|p, q| lexicographic(p.0, q.0).then_with(|| q.1.cmp(&p.1)));
+    sorting::by(&mut known, |p, q| lexicographic(p.0, q.0).then_with(|| q.1.cmp(&p.1)));
     known.dedup_by(|later, earlier| later.0 == earlier.0);
     for (p, vertex) in &mut known {
         vertex.get_or_insert_with(|| {
@@ -141,7 +142,7 @@ impl<'a> On<'a> {
         let mut hot = rounded.to_vec();
         hot.sort_unstable();
         let mut places: Vec<[f64; 2]> = hot.iter().map(|&v| graph.point(v)).collect();
-        places.sort_by(|p, q| lexicographic(*p, *q));
+        sorting::by(&mut places, |p, q| lexicographic(*p, *q));
         let is_near = |ends: Ends| {
             let [a, b] = ends.map(|v| graph.point(v));
             let start = places.partition_point(|p| p[0] < a[0].min(b[0]));
@@ -175,7 +176,7 @@ impl<'a> On<'a> {
             };
             axis(0).then_with(|| axis(1))
         };
-        on.sort_by(|p, q| p.0.cmp(&q.0).then_with(|| along(p.0, p.1, q.1)));
+        sorting::by(&mut on, |p, q| p.0.cmp(&q.0).then_with(|| along(p.0, p.1, q.1)));
         on.dedup();
         let is_off = |e: u32, v: VertexId| {
             let [a, b] = edges[e as usize].map(|v| graph.point(v));

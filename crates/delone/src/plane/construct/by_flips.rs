@@ -16,6 +16,7 @@ use crate::order::random::SplitMix;
 use crate::plane::flips::{DUMMIES, Flips};
 #[cfg(feature = "histories")]
 use crate::plane::versions::Versions;
+use crate::sorting;
 use crate::tally::Work;
 
 /// Triangulates points by conflict lists; returns also the work and how often a point was put into a list.
@@ -99,7 +100,7 @@ impl Build {
         let mut mesh = Mesh2::closed(count, &flips.mesh, is_present, place).unwrap_or_else(|| {
             let mut chain: Vec<Place> = self.vertices.iter().map(|&i| stands(i as usize)).collect();
             let point = |v: &Place| flips.points[DUMMIES + v.index()];
-            chain.sort_unstable_by(|a, b| lexicographic(point(a), point(b)));
+            sorting::by(&mut chain, |a, b| lexicographic(point(a), point(b)));
             let mut mesh = Mesh2::empty(count);
             mesh.build_line(chain.into_iter().map(|v| (v, false)));
             mesh

@@ -10,6 +10,7 @@ use super::circle::Circle;
 use super::grow::{Complex, NO_REGION};
 use crate::ids::{TriangleId, VertexId};
 use crate::plane::Delaunay2;
+use crate::sorting;
 
 /// A diagram in any order.
 pub(super) struct Loose {
@@ -113,7 +114,7 @@ fn in_order(
     }
     let mut from = 0;
     for &to in &ends[..limit] {
-        sorted[from..to as usize].sort_unstable_by(|&i, &j| compare(i, j));
+        sorting::by(&mut sorted[from..to as usize], |&i, &j| compare(i, j));
         from = to as usize;
     }
     sorted

@@ -26,6 +26,7 @@ use crate::ids::{Inserted, MAX_POINTS, Place};
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
 use crate::points::{Position2, check_count, check_finite, finite};
+use crate::sorting;
 use crate::tally::Tally;
 use grow::Found;
 use planes::{INTERIOR, Planes, Radial};
@@ -74,7 +75,7 @@ impl NearestSites2 {
         let points: Vec<[f64; 2]> = points.iter().map(Position2::xy).collect();
         check_finite(points.iter().copied())?;
         let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_unstable_by(|&i, &j| lexicographic(points[i], points[j]).then(i.cmp(&j)));
+        sorting::by(&mut order, |&i, &j| lexicographic(points[i], points[j]).then(i.cmp(&j)));
         order.dedup_by(|later, first| points[*later] == points[*first]);
         SplitMix(seed).shuffle(&mut order);
         let mut sites = Self { layer: Layer::new(Mesh2::empty(points.len()), points), ..Self::default() };
@@ -84,7 +85,7 @@ impl NearestSites2 {
             sites.line.push(site);
         }
         let points = &sites.layer.points;
-        sites.line.sort_unstable_by(|v, w| lexicographic(points[v.index()], points[w.index()]));
+        sorting::by(&mut sites.line, |v, w| lexicographic(points[v.index()], points[w.index()]));
         for site in order {
             let found = sites.find(sites.layer.points[site.index()]);
             sites.settle(site, found)?;

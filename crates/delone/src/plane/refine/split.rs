@@ -16,6 +16,7 @@ use super::shape::{squared, squared_height};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
+use crate::sorting;
 
 impl Mesher<'_> {
     /// Splits a constraint, perhaps because of a size, unless that is refused.
@@ -320,6 +321,6 @@ fn around(q: [f64; 2]) -> Vec<[f64; 2]> {
     let near = |x: f64| [x.next_down(), x, x.next_up()];
     let mut others: Vec<[f64; 2]> = near(q[0]).into_iter().flat_map(|x| near(q[1]).map(|y| [x, y])).collect();
     others.retain(|&p| p != q);
-    others.sort_by(|&p, &r| lexicographic(p, r));
+    sorting::by(&mut others, |&p, &r| lexicographic(p, r));
     others
 }

@@ -10,6 +10,7 @@
 //!
 //! Cost: O(k log k) for k corners, O(k) for a convex ring.
 
+use crate::sorting;
 use delone_predicates::{Line, Sign, Spot};
 
 /// A corner of a ring, and the edge that leaves it.
@@ -186,7 +187,7 @@ fn join(mut chains: Vec<Ring>, half: Line, kept: &mut Vec<Ring>) {
 /// The indices of spots on a line, in their order along it.
 fn along(half: Line, spots: Vec<Spot>) -> Vec<usize> {
     let mut order: Vec<usize> = (0..spots.len()).collect();
-    order.sort_by(|&i, &j| half.compare(&spots[i], &spots[j]));
+    sorting::by(&mut order, |&i, &j| half.compare(&spots[i], &spots[j]));
     order
 }
 

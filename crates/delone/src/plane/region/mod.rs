@@ -13,6 +13,7 @@ use delone_predicates::{Line, Spot};
 use crate::error::{Error, RegionProblem};
 use crate::plane::Delaunay2;
 use crate::points::{Bounds, Position2};
+use crate::sorting;
 use clip::{Ring, clip, sides};
 use sweep::nesting;
 use tree::{Node, Relation};
@@ -233,7 +234,9 @@ fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
         return problem(0, RegionProblem::Empty);
     }
     let mut order: Vec<usize> = (0..corners.len()).collect();
-    order.sort_by(|&i, &j| delone_predicates::lexicographic(corners[i], corners[j]).then(i.cmp(&j)));
+    sorting::by(&mut order, |&i, &j| {
+        delone_predicates::lexicographic(corners[i], corners[j]).then(i.cmp(&j))
+    });
     match order.windows(2).find(|pair| corners[pair[0]] == corners[pair[1]]) {
         Some(pair) => problem(pair[1], RegionProblem::VisitedTwice),
         None => Ok(()),

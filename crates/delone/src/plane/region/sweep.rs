@@ -15,6 +15,7 @@ use std::collections::BTreeSet;
 use delone_predicates::{lexicographic, orient2d, strictly_between};
 
 use crate::error::{Error, RegionProblem};
+use crate::sorting;
 
 /// How a ring lies among the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,7 +93,7 @@ pub(in crate::plane) fn nesting(rings: &[Vec<[f64; 2]>]) -> Result<Vec<Nesting>,
             events.extend([(low, side), (high, side)]);
         }
     }
-    events.sort_by(|a, b| lexicographic(a.0, b.0));
+    sorting::by(&mut events, |a, b| lexicographic(a.0, b.0));
     for at_one in events.chunk_by(|a, b| a.0 == b.0) {
         sweep.pass(at_one)?;
     }

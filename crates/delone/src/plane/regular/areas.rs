@@ -13,6 +13,7 @@ use crate::error::Error;
 use crate::ids::VertexId;
 use crate::plane::region::Region2;
 use crate::points::Position2;
+use crate::sorting;
 
 /// Systems are solved to this share of what they are to make up for: more would not make fewer steps.
 const PRECISION: f64 = 1e-4;
@@ -95,7 +96,7 @@ impl Regular2 {
         };
         // Neighbours in the plane are to be neighbours in memory.
         let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_unstable_by_key(|&i| r.mesh().place(VertexId::new(i)));
+        sorting::by_key(&mut order, |&i| r.mesh().place(VertexId::new(i)));
         let mut rest = missing(&now);
         let worst = |rest: &[f64]| {
             rest.iter().zip(&wanted).fold(0.0, |m: f64, (rest, wanted)| m.max(rest.abs() / wanted))
@@ -136,7 +137,7 @@ fn solve(now: &Jacobian2, missing: &[f64], order: &[usize]) -> Vec<f64> {
     order.iter().enumerate().for_each(|(k, &i)| rank[i] = k as u32);
     let ranked = |&([v, w], value): &([VertexId; 2], f64)| ([v, w].map(|v| rank[v.index()]), value);
     let mut derivatives: Vec<([u32; 2], f64)> = now.derivatives.iter().map(ranked).collect();
-    derivatives.sort_unstable_by_key(|derivative| derivative.0);
+    sorting::by_key(&mut derivatives, |derivative| derivative.0);
     let mut diagonal = vec![0.0; count];
     for &([v, w], value) in &derivatives {
         diagonal[v as usize] -= value;

@@ -21,6 +21,7 @@ use crate::plane::region::{Region2, enlarged};
 use crate::plane::voronoi::cells::{Cells2, Cellular, cut_out};
 use crate::plane::voronoi::centres::Centres;
 use crate::points::Bounds;
+use crate::sorting;
 
 /// The power diagram of the sites of a triangulation.
 ///
@@ -112,7 +113,7 @@ impl<'a> Power2<'a> {
                 }
             }
         }
-        derivatives.sort_unstable_by_key(|derivative| derivative.0);
+        sorting::by_key(&mut derivatives, |derivative| derivative.0);
         Jacobian2 { areas, derivatives }
     }
 

@@ -4,6 +4,7 @@
 //! found among the edges of that vertex, sorted by angle. Cost: O(n log n) to sort, O(log n) for each edge that a segment runs
 //! along.
 
+use crate::sorting;
 use std::cmp::Ordering;
 
 use delone_predicates::{lexicographic, orient2d, strictly_between};
@@ -54,7 +55,7 @@ impl Stars {
         let mut edges: Vec<[usize; 2]> = sides.iter().flat_map(|s| [[s.0, s.1], [s.1, s.0]]).collect();
         edges.sort_unstable();
         edges.dedup();
-        edges.sort_by(|&[v, p], &[w, q]| v.cmp(&w).then_with(|| by_angle(points, v, p, q)));
+        sorting::by(&mut edges, |&[v, p], &[w, q]| v.cmp(&w).then_with(|| by_angle(points, v, p, q)));
         Self(edges)
     }
 

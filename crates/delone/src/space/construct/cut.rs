@@ -16,6 +16,7 @@ use crate::order::random::SplitMix;
 use crate::parallel;
 use crate::points::Bounds;
 use crate::points::Position3;
+use crate::sorting;
 
 /// Fewer points are not worth it.
 const MANY: usize = 1 << 14;
@@ -167,7 +168,7 @@ fn at_border<P: Position3, W: Lift>(
     mut sample: Vec<u32>,
     &Cut { axis, at, most }: &Cut<W>,
 ) -> Option<f64> {
-    sample.sort_by(|&i, &j| sites.point(i)[axis].total_cmp(&sites.point(j)[axis]));
+    sorting::by(&mut sample, |&i, &j| sites.point(i)[axis].total_cmp(&sites.point(j)[axis]));
     let (low, high) = sample.split_at(sample.partition_point(|&i| sites.point(i)[axis] < at));
     let of_half = |half: &[u32], other: &[u32], most: W| {
         let order = order::space::hilbert(half.len(), &|i| sites.point(half[i as usize]));
@@ -211,7 +212,7 @@ fn choose<P: Position3>(points: &[P], indices: &[u32]) -> Option<(usize, f64)> {
     const TRIED: usize = 1024;
     let extent = Bounds::of(indices.iter().map(|&i| points[i as usize].xyz())).extent();
     let mut axes = [0, 1, 2];
-    axes.sort_by(|&i, &j| extent[j].total_cmp(&extent[i]));
+    sorting::by(&mut axes, |&i, &j| extent[j].total_cmp(&extent[i]));
     let mut random = SplitMix(1);
     let tried: Vec<[f64; 3]> =
         (0..TRIED).map(|_| points[indices[random.below(indices.len())] as usize].xyz()).collect();

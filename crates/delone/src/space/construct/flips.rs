@@ -33,6 +33,7 @@ use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Mesh3;
 use crate::mesh::tetrahedra::Tetrahedron;
 use crate::order::random::SplitMix;
+use crate::sorting;
 use crate::space::layer::Layer;
 use crate::space::layer::kernel::Lift;
 use crate::space::layer::simplices::is_in_sphere;
@@ -75,7 +76,7 @@ pub(in crate::space) fn build<W: Lift, T: Tally>(
 fn random_order<W: Lift>(layer: &Layer<W>, seed: u64) -> (Vec<u32>, Rest) {
     let site = |i: u32| layer.site(Place::new(i as usize));
     let mut order: Vec<u32> = (0..layer.points.len() as u32).collect();
-    order.sort_unstable_by(|&i, &j| {
+    sorting::by(&mut order, |&i, &j| {
         let ((p, v), (q, w)) = (site(i), site(j));
         let heavier = w.value().partial_cmp(&v.value()).unwrap_or(Ordering::Equal);
         lexicographic3(p, q).then(heavier).then(i.cmp(&j))

@@ -7,6 +7,7 @@
 //!
 //! Cost: O(t + k log k) for t triangles and k points.
 
+use crate::sorting;
 use std::collections::BTreeMap;
 
 use super::ContourBand;
@@ -61,7 +62,7 @@ pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
         }
     }
     for band in &mut bands {
-        band.polygons.sort_by(|a, b| compare(&a[0], &b[0]));
+        sorting::by(&mut band.polygons, |a, b| compare(&a[0], &b[0]));
     }
     bands.retain(|band| !band.polygons.is_empty());
     bands
@@ -78,9 +79,9 @@ fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
             None => {}
         }
     }
-    holes.sort_by(|a, b| compare(a, b));
+    sorting::by(&mut holes, |a, b| compare(a, b));
     // The smallest that hold a hole come first: what is inside of another begins further on.
-    polygons.sort_by(|a: &Vec<Ring>, b| compare(&b[0], &a[0]));
+    sorting::by(&mut polygons, |a: &Vec<Ring>, b| compare(&b[0], &a[0]));
     // A line along the border has nothing between the two: what is around it and its hole are the same ring.
     holes.retain(|hole| {
         let around: Ring = hole[..1].iter().chain(hole[1..].iter().rev()).copied().collect();

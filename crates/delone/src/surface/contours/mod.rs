@@ -20,6 +20,7 @@ mod trace;
 
 use crate::error::Error;
 use crate::ids::VertexId;
+use crate::sorting;
 use crate::triangulation::Triangulation;
 
 pub use levels::Levels;
@@ -130,7 +131,9 @@ impl Contours {
                 is_closed,
             }));
         }
-        lines.sort_by(|a, b| a.level.total_cmp(&b.level).then_with(|| loops::compare(&a.points, &b.points)));
+        sorting::by(&mut lines, |a, b| {
+            a.level.total_cmp(&b.level).then_with(|| loops::compare(&a.points, &b.points))
+        });
         Ok(lines)
     }
 

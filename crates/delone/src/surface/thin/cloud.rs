@@ -4,6 +4,7 @@
 //! Which points are in a triangle is exact. Cost: O(n log n) once; O(log n) for a triangle and as much again as it has points, for a
 //! large one a part of them.
 
+use crate::sorting;
 use std::cell::Cell;
 use std::cmp::Ordering;
 
@@ -133,7 +134,7 @@ impl Cloud {
         let range = [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])];
         let plane = Plane::new(corners.map(|s| self.points[s as usize]), z, THIN);
         plane.map(|plane| (plane, range)).ok_or_else(|| {
-            corners.sort_unstable_by(|&a, &b| lexicographic(self.point(a), self.point(b)));
+            sorting::by(&mut corners, |&a, &b| lexicographic(self.point(a), self.point(b)));
             corners
         })
     }
@@ -240,6 +241,7 @@ impl Samples for Cloud {
 mod tests {
     use delone_generators::{Kind, Random};
     use delone_oracle::exact;
+    use delone_oracle::share;
 
     use super::*;
 
@@ -257,7 +259,7 @@ mod tests {
             let (count, heights) = (points.len(), vec![0.0; points.len()]);
             let cloud = Cloud::new(points, heights, filter);
             let mut met = 0;
-            for _ in 0..3000 {
+            for _ in 0..share(3000) {
                 let mut corners = [0; 3].map(|_: u32| random.below(count) as u32);
                 let of = |corners: Triple| corners.map(|s| cloud.points[s as usize]);
                 let side = |[a, b, c]: [[f64; 2]; 3]| exact::orient2d(a, b, c);
@@ -280,7 +282,7 @@ mod tests {
                 assert_eq!(found, inside, "{corners:?}");
                 met += inside.len();
             }
-            assert!(met > 1000, "{met}");
+            assert!(met > share(1000), "{met}");
         }
     }
 }

@@ -1,4 +1,5 @@
 use delone_generators::{Kind3, Random};
+use delone_oracle::share;
 
 use super::*;
 use crate::mesh::Names;
@@ -104,7 +105,7 @@ fn flips_hide_what_is_hidden() {
 fn flips_end_on_lattices() {
     let mut random = Random::new(2);
     let mut hidden = 0;
-    for round in 0..3000 {
+    for round in 0..share(3000) {
         let (side, n) = (2 + random.below(4), 1 + random.below(60));
         let flat = random.below(8);
         let scale = [1.0, 1.0, 1e-200, 1e200][random.below(4)];
@@ -128,5 +129,5 @@ fn flips_end_on_lattices() {
             hidden += judge(&points, &weights, seed, &what);
         }
     }
-    assert!(hidden > 10_000, "{hidden}");
+    assert!(hidden > share(10_000), "{hidden}");
 }
