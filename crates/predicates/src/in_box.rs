@@ -6,7 +6,7 @@ pub use power::SiteRef;
 
 use std::ops::{Add, Mul, Sub};
 
-use wide::f64x2;
+use crate::lanes::Lanes;
 
 use crate::filter::Filter3;
 use crate::perturb::in_sphere_perturbed;
@@ -64,9 +64,9 @@ impl Filter3 {
     /// are written in other pieces than they are read, and reading waits for that.
     #[inline]
     pub fn in_spheres(&self, [p, q]: [[&Point3; 4]; 2], e: &Point3) -> [Sign; 2] {
-        let [ex, ey, ez] = e.map(f64x2::splat);
+        let [ex, ey, ez] = e.map(Lanes::splat);
         let from_e = |k: usize| {
-            let pair = |axis: usize| f64x2::new([p[k][axis], q[k][axis]]);
+            let pair = |axis: usize| Lanes::new([p[k][axis], q[k][axis]]);
             [pair(0) - ex, pair(1) - ey, pair(2) - ez]
         };
         let [first, second] = sphere_determinant(from_e(0), from_e(1), from_e(2), from_e(3)).to_array();

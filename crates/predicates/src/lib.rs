@@ -38,6 +38,7 @@ mod hub;
 mod in_box;
 mod in_circle;
 mod in_sphere;
+mod lanes;
 mod length;
 mod lexicographic;
 mod line;

@@ -18,7 +18,7 @@ mod fraction;
 #[cfg(test)]
 mod tests;
 
-use wide::f64x2;
+use crate::lanes::Lanes;
 
 use crate::{Sign, Site, angle, compare_powers};
 use ball::{Ball, Lane};
@@ -129,7 +129,7 @@ impl RadiusScale {
         let both: [([[f64; 2]; D], [f64; 2]); N] = std::array::from_fn(|i| {
             (std::array::from_fn(|axis| [first[i].0[axis], second[i].0[axis]]), [first[i].1, second[i].1])
         });
-        let [least, most] = self.bounds(&both, f64x2::new).map(f64x2::to_array);
+        let [least, most] = self.bounds(&both, Lanes::new).map(Lanes::to_array);
         [self.rounded(&first, least[0], most[0]), self.rounded(&second, least[1], most[1])]
     }
 

@@ -1,6 +1,6 @@
 //! The same for points with weights.
 
-use wide::f64x2;
+use crate::lanes::Lanes;
 
 use super::volumes;
 use crate::filter::Filter3;
@@ -14,16 +14,16 @@ impl Filter3 {
     /// [`Self::in_power_sphere`] of two quadruples at once.
     #[inline]
     pub fn in_power_spheres(&self, [p, q]: [[SiteRef<'_>; 4]; 2], e: SiteRef<'_>) -> [Sign; 2] {
-        let at = e.0.map(f64x2::splat);
-        let weight = f64x2::splat(e.1);
+        let at = e.0.map(Lanes::splat);
+        let weight = Lanes::splat(e.1);
         let row = |k: usize| {
-            let difference = |axis: usize| f64x2::new([p[k].0[axis], q[k].0[axis]]) - at[axis];
+            let difference = |axis: usize| Lanes::new([p[k].0[axis], q[k].0[axis]]) - at[axis];
             [difference(0), difference(1), difference(2)]
         };
         let rows = [row(0), row(1), row(2), row(3)];
         let lift = |k: usize| {
             let [x, y, z] = rows[k];
-            x * x + y * y + z * z - (f64x2::new([p[k].1, q[k].1]) - weight)
+            x * x + y * y + z * z - (Lanes::new([p[k].1, q[k].1]) - weight)
         };
         let [abc, bcd, cda, dab] = volumes(rows[0], rows[1], rows[2], rows[3]);
         let [first, second] = ((lift(3) * abc - lift(2) * dab) + (lift(1) * cda - lift(0) * bcd)).to_array();

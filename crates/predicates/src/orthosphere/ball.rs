@@ -14,7 +14,7 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use wide::f64x2;
+use crate::lanes::Lanes;
 
 use super::fraction::Number;
 
@@ -38,7 +38,7 @@ impl Lane for f64 {
     }
 }
 
-impl Lane for f64x2 {
+impl Lane for Lanes {
     #[inline]
     fn all(x: f64) -> Self {
         Self::splat(x)
