@@ -1,9 +1,8 @@
 //! The formats of finite elements: judged by small parsers of what their manuals say, against the triangulation.
 
-mod scene;
-
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::scene::{Scene, least_first, sorted, source, written};
 use delone::{Delaunay2, Delaunay3};
 use delone_generators::{Graph, Kind3};
 use delone_io::{
@@ -11,7 +10,6 @@ use delone_io::{
     write_mesh,
 };
 use delone_predicates::{Sign, orient2d};
-use scene::{Scene, least_first, sorted, source, written};
 
 /// What a solver sees of a file.
 #[derive(Debug, Default)]

@@ -276,6 +276,40 @@ fn heights_and_special_rings() {
     assert_eq!(good(Format::Node, "1 2 1 1\n0 1 2 3 4\n").point_markers, Some(vec![4]));
 }
 
+/// Heights and measures by the flags of EWKB and by the thousands of OGC.
+#[test]
+fn positions_of_well_known_binary_are_two_to_four_numbers() {
+    for (kind, heights) in [
+        (2_u32, false),
+        (2 | 1 << 31, true),
+        (2 | 1 << 30, false),
+        (2 | 3 << 30, true),
+        (1002, true),
+        (2002, false),
+        (3002, true),
+    ] {
+        let width = match kind {
+            2 => 2,
+            3002 => 4,
+            _ if kind == (2 | 3 << 30) => 4,
+            _ => 3,
+        };
+        for big in [false, true] {
+            let mut out = Binary { bytes: vec![u8::from(!big)], big };
+            out.number(kind);
+            out.number(2);
+            for i in 0..2 * width {
+                let x = f64::from(i);
+                out.bytes.extend(if big { x.to_be_bytes() } else { x.to_le_bytes() });
+            }
+            let found = good(Format::Wkb, &out.bytes).cloud;
+            let step = f64::from(width);
+            assert_eq!(found.xy, [[0.0, 1.0], [step, step + 1.0]], "{kind}");
+            assert_eq!(found.z, heights.then(|| vec![2.0, step + 2.0]), "{kind}");
+        }
+    }
+}
+
 #[test]
 fn broken_geometries_are_named() {
     let open = |error: Error| matches!(error, Error::OpenRing { polygon: 0, ring: 0, .. });
@@ -318,6 +352,16 @@ fn broken_geometries_are_named() {
     let error = graph(Format::Wkb, "0103zz").expect_err("digits").to_string();
     assert_eq!(error, "line 1: it is neither well-known binary nor hexadecimal digits");
     assert_eq!(graph(Format::Wkb, "").map(|empty| empty.segments.len()).ok(), Some(0));
+    for (bytes, message) in [
+        (&[2][..], "the order of its bytes is 2, neither 0 nor 1"),
+        (&[1, 8, 0, 0, 0], "kind 8 is none of points, lines, polygons and collections of them"),
+        (&[1, 1, 16, 0, 0], "kind 4097 is none of points"),
+        (&[1, 4, 0, 0, 0, 1, 0, 0, 0, 1, 2, 0, 0, 0], "a geometry of kind 2 among others of kind 1"),
+        (&[1, 1, 0, 0, 0, 0], "the file ends inside of it"),
+    ] {
+        let error = graph(Format::Wkb, bytes).expect_err("broken").to_string();
+        assert!(error.starts_with(&format!("WKB: the geometry at byte 0: {message}")), "{error}");
+    }
     let nan = [&[1, 1, 0, 0, 0][..], &f64::NAN.to_le_bytes(), &f64::NAN.to_le_bytes()].concat();
     assert!(good(Format::Wkb, nan).cloud.xy.is_empty(), "an empty point");
 }

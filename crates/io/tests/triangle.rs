@@ -1,16 +1,14 @@
 //! What the files of Triangle say beyond points and triangles: second order, attributes, markers, Voronoi diagrams.
 
-mod scene;
-
 use std::collections::BTreeMap;
 
+use crate::scene::{Scene, least_first, sorted, source, written};
 use delone::{Delaunay2, Triangulation};
 use delone_generators::Kind;
 use delone_io::{
     Attributes, Error, Format, Mesh, ReadOptions, read_graph, read_triangles, write_voronoi_edge,
     write_voronoi_node,
 };
-use scene::{Scene, least_first, sorted, source, written};
 
 /// The numbers on each line but the first.
 fn table(text: &str) -> Vec<Vec<f64>> {

@@ -1,16 +1,12 @@
 //! Well-known binary of geometries, plain or with the number of their system (EWKB), one after another; or the same in
-//! hexadecimal digits, as databases print it. Read by the `wkb` crate.
+//! hexadecimal digits, as databases print it.
+//!
+//! Source: OGC 06-103r4 "Simple feature access", section 8.2; PostGIS for the flags of EWKB. Read by hand: the crates that read it take
+//! longer to build than the rest of the readers.
 
 use std::io::{self, Read, Write};
 
-use geo_traits::{
-    CoordTrait, Dimensions, GeometryCollectionTrait as _, GeometryTrait as _, GeometryType, LineStringTrait,
-    MultiLineStringTrait as _, MultiPointTrait as _, MultiPolygonTrait as _, PointTrait, PolygonTrait,
-};
-use wkb::reader::Wkb;
-
 use super::shapes::Shapes;
-use crate::guard::decode;
 use crate::{Cloud, Crs, Error, Graph, Shape, Source};
 
 /// Reads the positions of all geometries, in their order.
@@ -44,20 +40,15 @@ fn read(mut source: Box<dyn Source>) -> Result<(Shapes, Option<Crs>), Error> {
     let mut at = 0;
     while at < bytes.len() {
         let wrong = |what: String| Error::content(format!("WKB: the geometry at byte {at}: {what}"));
-        let rest = &bytes[at..];
-        let system = system(rest);
-        let size = decode("WKB", || {
-            let geometry = Wkb::try_new(rest).map_err(|error| wrong(error.to_string()))?;
-            collect(&geometry, &mut shapes);
-            Ok(geometry.buf().len())
-        })?;
+        let mut reader = Reader { rest: &bytes[at..], is_big: false };
+        let system = reader.geometry(&mut shapes, None, DEEPEST).map_err(wrong)?;
         if let (Some(before), Some(now)) = (&crs, &system)
             && before != now
         {
             return Err(wrong(format!("its coordinates are {now}, those before it {before}")));
         }
         crs = crs.or(system);
-        at += size.max(1);
+        at = bytes.len() - reader.rest.len();
     }
     Ok((shapes, crs))
 }
@@ -88,70 +79,120 @@ fn digits(text: &[u8]) -> Result<Option<Vec<u8>>, Error> {
     Ok(Some(bytes))
 }
 
-/// In the kind of a geometry, whether the number of its system follows.
-const WITH_SYSTEM: u32 = 1 << 29;
+/// Collections in each other at most: nobody has more, and each takes a piece of the stack.
+const DEEPEST: u32 = 100;
 
-/// The system of a geometry, if it has one.
-fn system(geometry: &[u8]) -> Option<Crs> {
-    let number = |at: usize| {
-        let bytes = geometry.get(at..at + 4)?.try_into().ok()?;
-        Some(if geometry[0] == 0 { u32::from_be_bytes(bytes) } else { u32::from_le_bytes(bytes) })
-    };
-    let number = if number(1)? & WITH_SYSTEM == 0 { None } else { number(5) };
-    number.filter(|&number| number > 0).map(Crs::of_epsg)
+/// What is left of the bytes, and in which order numbers are.
+struct Reader<'a> {
+    rest: &'a [u8],
+    is_big: bool,
 }
 
-fn collect(geometry: &Wkb, shapes: &mut Shapes) {
-    match geometry.as_type() {
-        GeometryType::Point(point) => dot(point, shapes),
-        GeometryType::MultiPoint(points) => points.points().for_each(|point| dot(&point, shapes)),
-        GeometryType::LineString(line) => chain(line, shapes),
-        GeometryType::MultiLineString(lines) => lines.line_strings().for_each(|line| chain(&line, shapes)),
-        GeometryType::Polygon(polygon) => area(polygon, shapes),
-        GeometryType::MultiPolygon(polygons) => {
-            polygons.polygons().for_each(|polygon| area(&polygon, shapes));
+/// How many numbers a position has, and whether the third is a height.
+#[derive(Clone, Copy)]
+struct Width {
+    numbers: usize,
+    high: bool,
+}
+
+impl Reader<'_> {
+    fn bytes<const N: usize>(&mut self) -> Result<[u8; N], String> {
+        let (&bytes, rest) = self.rest.split_first_chunk().ok_or("the file ends inside of it")?;
+        self.rest = rest;
+        Ok(bytes)
+    }
+
+    fn count(&mut self) -> Result<u32, String> {
+        self.bytes().map(if self.is_big { u32::from_be_bytes } else { u32::from_le_bytes })
+    }
+
+    fn number(&mut self) -> Result<f64, String> {
+        self.bytes().map(if self.is_big { f64::from_be_bytes } else { f64::from_le_bytes })
+    }
+
+    /// Reads a geometry, of a given kind if it is inside of one that has no others, and gives its system.
+    fn geometry(
+        &mut self,
+        shapes: &mut Shapes,
+        inside: Option<u32>,
+        depth: u32,
+    ) -> Result<Option<Crs>, String> {
+        let [order] = self.bytes()?;
+        if order > 1 {
+            return Err(format!("the order of its bytes is {order}, neither 0 nor 1"));
         }
-        GeometryType::GeometryCollection(all) => all.geometries().for_each(|one| collect(one, shapes)),
-        // Kinds that the format does not have.
-        _ => {}
+        self.is_big = order == 0;
+        let word = self.count()?;
+        let flags = word & (WITH_HEIGHTS | WITH_MEASURES | WITH_SYSTEM);
+        // The flags of EWKB, or the thousands of OGC.
+        let (kind, thousands) = ((word ^ flags) % 1000, (word ^ flags) / 1000);
+        let high = flags & WITH_HEIGHTS != 0 || thousands & 1 != 0;
+        let measured = flags & WITH_MEASURES != 0 || thousands & 2 != 0;
+        let width = Width { numbers: 2 + usize::from(high) + usize::from(measured), high };
+        if thousands > 3 || !(POINT..=COLLECTION).contains(&kind) {
+            return Err(format!("kind {word} is none of points, lines, polygons and collections of them"));
+        }
+        if let Some(expected) = inside
+            && expected != kind
+        {
+            return Err(format!("a geometry of kind {kind} among others of kind {expected}"));
+        }
+        let system =
+            if flags & WITH_SYSTEM == 0 { None } else { Some(self.count()?).filter(|&number| number > 0) };
+        match kind {
+            POINT => self.position(width, shapes, true)?,
+            LINE => {
+                let start = shapes.len();
+                self.positions(width, shapes)?;
+                shapes.line(start);
+            }
+            POLYGON => {
+                shapes.polygon();
+                for _ in 0..self.count()? {
+                    let start = shapes.len();
+                    self.positions(width, shapes)?;
+                    shapes.ring(start, false);
+                }
+            }
+            _ if depth == 0 => return Err(format!("more than {DEEPEST} collections in each other")),
+            _ => {
+                let inside = (kind != COLLECTION).then_some(kind - 3);
+                for _ in 0..self.count()? {
+                    self.geometry(shapes, inside, depth - 1)?;
+                }
+            }
+        }
+        Ok(system.map(Crs::of_epsg))
+    }
+
+    fn positions(&mut self, width: Width, shapes: &mut Shapes) -> Result<(), String> {
+        (0..self.count()?).try_for_each(|_| self.position(width, shapes, false))
+    }
+
+    /// Reads a position; a point that has no number is an empty one.
+    fn position(&mut self, width: Width, shapes: &mut Shapes, may_be_empty: bool) -> Result<(), String> {
+        let mut numbers = [0.0; 4];
+        for number in &mut numbers[..width.numbers] {
+            *number = self.number()?;
+        }
+        let taken = &numbers[..if width.high { 3 } else { 2 }];
+        if !(may_be_empty && taken.iter().all(|number| number.is_nan())) {
+            shapes.position(taken);
+        }
+        Ok(())
     }
 }
 
-fn dot(point: &impl PointTrait<T = f64>, shapes: &mut Shapes) {
-    // A point without coordinates is an empty one.
-    if let Some(at) = point.coord() {
-        position(&at, shapes);
-    }
-}
-
-fn position(at: &impl CoordTrait<T = f64>, shapes: &mut Shapes) {
-    let high = matches!(at.dim(), Dimensions::Xyz | Dimensions::Xyzm);
-    let z = if high { at.nth(2) } else { None };
-    let numbers = [at.x(), at.y(), z.unwrap_or_default()];
-    shapes.position(if z.is_some() { &numbers } else { &numbers[..2] });
-}
-
-fn chain(line: &impl LineStringTrait<T = f64>, shapes: &mut Shapes) {
-    let start = shapes.len();
-    line.coords().for_each(|at| position(&at, shapes));
-    shapes.line(start);
-}
-
-fn area(polygon: &impl PolygonTrait<T = f64>, shapes: &mut Shapes) {
-    shapes.polygon();
-    for ring in polygon.exterior().into_iter().chain(polygon.interiors()) {
-        let start = shapes.len();
-        ring.coords().for_each(|at| position(&at, shapes));
-        shapes.ring(start, false);
-    }
-}
-
-/// Kinds of geometries, and what is added where they have heights.
+/// Kinds of geometries; several points, lines or polygons are three further.
+const POINT: u32 = 1;
+const LINE: u32 = 2;
 const POLYGON: u32 = 3;
 const MULTIPOINT: u32 = 4;
 const COLLECTION: u32 = 7;
-const POINT: u32 = 1;
+/// What EWKB adds to a kind: positions have heights, or measures; the number of the system follows.
 const WITH_HEIGHTS: u32 = 1 << 31;
+const WITH_MEASURES: u32 = 1 << 30;
+const WITH_SYSTEM: u32 = 1 << 29;
 
 /// The first bytes of a geometry, little endian.
 fn begin(out: &mut dyn Write, kind: u32, crs: Option<u32>) -> io::Result<()> {
