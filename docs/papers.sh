@@ -20,7 +20,7 @@ small | usual | long) ;;
     ;;
 esac
 mkdir -p "$folder"
-cargo build --release -q
+cargo build --release -q --features experiments
 delone=${CARGO_TARGET_DIR:-target}/release/delone
 
 # Name, and the largest set of each size.

@@ -10,6 +10,7 @@ mod constrained;
 mod contours;
 mod draw;
 mod dtm;
+#[cfg(feature = "experiments")]
 mod experiment;
 mod files;
 mod furthest;
@@ -99,7 +100,10 @@ fn main() -> ExitCode {
         Command::Contours(args) => contours::run(&args, quiet),
         Command::Simplify(args) => simplify::run(&args, quiet),
         Command::Replay(args) => in_room!(replay, args, quiet),
+        #[cfg(feature = "experiments")]
         Command::Experiment(args) => experiment::run(&args, quiet),
+        #[cfg(not(feature = "experiments"))]
+        Command::Experiment { .. } => Err(message::Failure::left_out("delone experiment", "experiments")),
         Command::Version => about::version(),
         Command::Completions { shell } => about::completions(shell),
         Command::Man { output } => about::man(output.as_deref(), quiet),

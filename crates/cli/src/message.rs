@@ -27,6 +27,15 @@ impl Failure {
         Self { status: 2, ..Self::new(message, help) }
     }
 
+    /// Something that a feature of the crate has, which is off in this program.
+    #[cfg(not(all(feature = "experiments", feature = "parquet")))]
+    pub(crate) fn left_out(what: &str, feature: &str) -> Self {
+        Self::usage(
+            format!("{what} is not in this program, which was built without {feature}"),
+            format!("cargo install delone-cli --features {feature}"),
+        )
+    }
+
     /// Something wrong with a file.
     pub(crate) fn file(path: &Path, error: &delone_io::Error) -> Self {
         use delone_io::Error;

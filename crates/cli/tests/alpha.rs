@@ -1,8 +1,6 @@
 //! The command `alpha`.
 
-mod place;
-
-use place::{Place, rows};
+use crate::place::{Place, rows};
 use serde_json::Value;
 
 fn json(place: &Place, name: &str) -> Value {

@@ -1,8 +1,6 @@
 //! The commands `voronoi`, `hull` and `furthest`, and motions and imprecise points in pictures.
 
-mod place;
-
-use place::{Place, data, rows};
+use crate::place::{Place, data, rows};
 use serde_json::Value;
 
 /// The features of a file of cells: site, area, geometry.
@@ -246,26 +244,6 @@ fn disks_and_hints_are_drawn() {
     assert_eq!((strokes("#2e7d32"), strokes("#cfd8dc")), (4, 2));
     place.fail("draw p.csv --certain -o x.svg", 2, "--disks");
     place.fail("draw p.csv --disks 1e308 --certain -o x.svg", 1, "radius");
-    place.succeed("generate cube -n 200 --seed 1 -o model.ply");
-    let table = place.succeed("experiment scan model.ply --largest 200");
-    assert!(table.contains("Noisy samples of a scanned model"), "{table}");
-    place.fail("experiment scan", 2, "needs a file");
-    place.fail("experiment imprecise model.ply", 2, "only scan");
-    let last = u64::MAX;
-    place.fail(&format!("experiment scopes --largest 100 --seed {last}"), 2, "seed");
-    place.file("few.csv", "1,2,3\n");
-    place.fail("experiment scan few.csv", 1, "too few");
-    // Points are named as they are in the file, and the file is not blamed for sums that overflow.
-    let model = |wide: &str| -> String {
-        let row = |i: i32| {
-            if i == 77 { format!("{wide} 1 2\n") } else { format!("{i} {} {}\n", i * i % 17, i % 5) }
-        };
-        (0..150).map(row).collect()
-    };
-    place.file("nan.xyz", model("nan"));
-    place.fail("experiment scan nan.xyz", 1, "point 77 has the x coordinate NaN");
-    place.file("wide.xyz", model("1e300"));
-    place.fail("experiment scan wide.xyz", 1, "the model is too large");
 }
 
 /// Where which sites are the nearest: a feature a set, and a sound answer to orders that there are not.

@@ -6,9 +6,7 @@ use delone::Delaunay2;
 use delone::surface::Interpolator;
 use delone_generators::{Kind, Random};
 
-mod place;
-
-use place::{Place, data, text};
+use crate::place::{Place, data, text};
 
 /// The shape and the values of an array of f64.
 fn array(bytes: &[u8]) -> (Vec<usize>, Vec<f64>) {

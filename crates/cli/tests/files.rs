@@ -4,9 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-mod place;
-
-use place::{Place, data, text};
+use crate::place::{Place, data, text};
 
 /// The number of points that `info` counts.
 fn points(place: &Place, line: &str) -> usize {

@@ -1,8 +1,6 @@
 //! `delone graph`: what is written, of what, and what is refused.
 
-mod place;
-
-use place::{Place, rows};
+use crate::place::{Place, rows};
 
 /// A square, its middle twice, and a far point.
 const POINTS: &str = "0,0\n2,0\n2,2\n0,2\n1,1\n1,1\n9,1\n";

@@ -3,9 +3,7 @@
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 
-mod place;
-
-use place::{Place, text};
+use crate::place::{Place, text};
 
 /// A square with a square hole, a segment inside that ends freely, heights 2 x + y + 5, markers, and a region.
 const PLAN: &str = "# a plan

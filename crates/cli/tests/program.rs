@@ -2,9 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-mod place;
-
-use place::{Place, data, rows, text};
+use crate::place::{Place, data, rows, text};
 
 #[test]
 fn real_ground_points_become_a_mesh_and_a_picture() {
@@ -436,34 +434,25 @@ fn wrong_queries_are_named() {
     assert_eq!(place.succeed("locate points.csv --queries empty.csv -o - --to csv -q"), "");
 }
 
+/// What is left out is named, with the way to get it.
 #[test]
-fn experiments_leave_tables_and_plots() {
+#[cfg(not(any(feature = "experiments", feature = "parquet")))]
+fn features_that_are_off_say_how_to_get_them() {
     let place = Place::new();
-    let table = place.succeed("experiment jump-and-walk --largest 3000 -o out --stats s.json");
-    assert!(table.contains("about 36"));
-    let table = place.succeed("experiment scopes -o out");
-    assert!(table.contains("6/((k+1)(k+2)(k+3))"));
-    place.succeed("experiment history --largest 300 -o out");
-    let table = place.succeed("experiment hierarchy --largest 5000 --trials 1 -o out");
-    assert!(table.contains("parabola  5000"));
-    for name in ["jump-and-walk-sample", "history-growth", "hierarchy-random"] {
-        let svg = std::fs::read_to_string(place.path(&format!("out/{name}.svg"))).expect("a plot");
-        assert!(svg.starts_with("<svg") && svg.matches("<polyline").count() > 1, "{name}");
+    place.file("p.csv", "0,0\n1,0\n0,1\n");
+    for (line, feature) in [
+        ("experiment", "experiments"),
+        ("experiment hierarchy --largest 5000 -o out", "experiments"),
+        ("experiment --largest -1 scan model.ply", "experiments"),
+        ("tiles p.csv -o t --parquet", "parquet"),
+        ("tiles nothing.csv --parquet -o t", "parquet"),
+    ] {
+        place.fail(line, 2, &format!("built without {feature}"));
+        let help = text(&place.run(line).stderr);
+        assert!(help.contains(&format!("cargo install delone-cli --features {feature}")), "{help}");
     }
-    let csv = std::fs::read_to_string(place.path("out/hierarchy-seconds.csv")).expect("a table");
-    assert_eq!(csv.lines().count(), 6);
-    place.fail("experiment nothing", 2, "nothing");
-    place.fail("experiment history --trials 0", 2, "--trials");
-    place.file("taken", "a file");
-    place.fail("experiment conflicts -o taken", 1, "cannot write into the folder");
-    // Below the smallest set of each there is no empty table, and with it no bug.
-    for (name, smallest) in
-        [("history", 100), ("jump-and-walk", 1000), ("hierarchy", 5000), ("imprecise", 10_000)]
-    {
-        place.fail(
-            &format!("experiment {name} --largest {}", smallest - 1),
-            2,
-            &format!("is below {smallest}"),
-        );
-    }
+    let help = place.succeed("--help").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("without the feature experiments"), "{help}");
+    let help = place.succeed("tiles --help").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("without the feature parquet"), "{help}");
 }

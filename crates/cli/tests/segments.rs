@@ -2,9 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-mod place;
-
-use place::{Place, rows, text};
+use crate::place::{Place, rows, text};
 
 /// The triangles that `triangulate` writes of something.
 fn triangles(place: &Place, what: &str) -> Vec<Vec<i64>> {

@@ -1,8 +1,6 @@
 //! The commands with `--dim 3`.
 
-mod place;
-
-use place::{Place, rows};
+use crate::place::{Place, rows};
 use serde_json::Value;
 
 fn json(place: &Place, name: &str) -> Value {

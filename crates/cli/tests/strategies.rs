@@ -1,8 +1,6 @@
 //! The parameters of strategies of location on the command line: they arrive, they change no answer, and what does not fit is refused.
 
-mod place;
-
-use place::Place;
+use crate::place::Place;
 
 /// The visited triangles that a command wrote to `s.json`.
 fn visited(place: &Place) -> u64 {

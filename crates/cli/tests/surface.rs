@@ -1,8 +1,6 @@
 //! `contours` and `simplify` as a user meets them: results, exit statuses, messages.
 
-mod place;
-
-use place::{Place, data, rows, text};
+use crate::place::{Place, data, rows, text};
 use serde_json::Value;
 
 /// A raster of a cone, 41 cells wide, with a hole in its data.

@@ -1,8 +1,6 @@
 //! Triangle's switches: which files are written, and what is in them.
 
-mod place;
-
-use place::{Place, text};
+use crate::place::{Place, text};
 
 /// A square with a square hole and a bay that no segment closes, counted from 1. Two regions, one with a largest area.
 const PLAN: &str = "10 2 0 1

@@ -8,9 +8,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-mod place;
-
-use place::{Place, data, text};
+use crate::place::{Place, data, text};
 
 fn manifest(place: &Place, folder: &str) -> Value {
     let text = fs::read(place.path(folder).join("tiles.json")).expect("a manifest");

@@ -1,8 +1,6 @@
 //! Points with weights as a user meets them.
 
-mod place;
-
-use place::{Place, text};
+use crate::place::{Place, text};
 
 fn read(place: &Place, name: &str) -> String {
     std::fs::read_to_string(place.path(name)).expect("written")

@@ -5,10 +5,8 @@
 
 use std::hint::black_box;
 
-use delone::{Delaunay2, Hierarchy, Locate, NearestSites2, Work};
+use delone::{Delaunay2, Hierarchy, Locate, NearestSites2, Neighbors2, Work};
 use delone_generators::Kind;
-use kiddo::SquaredEuclidean;
-use kiddo::immutable::float::kdtree::ImmutableKdTree;
 
 use super::plot::Plot;
 use super::table::{Table, short};
@@ -116,14 +114,14 @@ fn times(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let mut table = Table::new(
         "radial-times",
         "Nanoseconds of a query for the nearest of n uniform sites",
-        &["points", "radial", "hierarchy", "hint tree", "kiddo's k-d tree"],
+        &["points", "radial", "hierarchy", "hint tree", "k-d tree"],
     );
     let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
     for n in decades(100, options.largest) {
         let points = Kind::Uniform.points(n, seed);
         let sites = NearestSites2::from_points(&points, seed)?;
         let mut d = Delaunay2::from_points(&points)?;
-        let tree: ImmutableKdTree<f64, u32, 2, 32> = ImmutableKdTree::new_from_slice(&points);
+        let tree = Neighbors2::from_points(&points)?;
         let each =
             |ask: &dyn Fn([f64; 2])| timed(|| queries.iter().for_each(|&q| ask(q))).1 * 1e9 / QUERIES as f64;
         let ask = |d: &Delaunay2, q| _ = black_box(d.nearest(q));
@@ -135,7 +133,7 @@ fn times(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             each(&|q| _ = black_box(sites.nearest(q))),
             each(&|q| ask(&d, q)),
             by_tree,
-            each(&|q| _ = black_box(tree.nearest_one::<SquaredEuclidean>(&q))),
+            each(&|q| _ = black_box(tree.nearest(q))),
         ];
         table.row([vec![n.to_string()], row.map(short).to_vec()].concat());
         for (curve, ns) in curves.iter_mut().zip(row) {
@@ -144,9 +142,7 @@ fn times(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     }
     let mut plot =
         Plot::new("radial-times", "Nearest of n uniform sites", ["sites n", "nanoseconds a query"]);
-    for (name, curve) in
-        ["radial triangles", "hierarchy", "hint tree", "kiddo's k-d tree"].into_iter().zip(curves)
-    {
+    for (name, curve) in ["radial triangles", "hierarchy", "hint tree", "k-d tree"].into_iter().zip(curves) {
         plot.curve(name, curve);
     }
     findings.tables.push(table);

@@ -3,6 +3,8 @@
 
 mod alpha;
 mod ask;
+#[cfg(feature = "experiments")]
+mod experiment;
 mod graph;
 mod mesh;
 mod points;
@@ -25,9 +27,11 @@ use delone_io::{Format, LAS_CLASSES};
 
 pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
+#[cfg(feature = "experiments")]
+pub(crate) use experiment::ExperimentArgs;
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
-pub(crate) use points::{CheckArgs, ExperimentArgs, GenerateArgs, InfoArgs, ReduceArgs};
+pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use relief::{ContoursArgs, SimplifyArgs};
@@ -104,7 +108,15 @@ pub(crate) enum Command {
     /// Shrink points on which algorithms disagree, and print them as a test.
     Reduce(ReduceArgs),
     /// Repeat the experiments of the papers, with the papers' figures beside.
+    #[cfg(feature = "experiments")]
     Experiment(ExperimentArgs),
+    /// Repeat the experiments of the papers. Not in this program, which was built without the feature experiments.
+    #[cfg(not(feature = "experiments"))]
+    Experiment {
+        /// Read by a program that has the feature.
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+        _rest: Vec<std::ffi::OsString>,
+    },
     /// Print the version.
     Version,
     /// Print a script that completes commands and options in a shell.

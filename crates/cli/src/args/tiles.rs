@@ -57,7 +57,10 @@ pub(crate) struct TilesArgs {
     #[arg(long)]
     pub(crate) neighbors: bool,
     /// Write tables in Parquet too; with --resume also for tiles that are done.
-    #[cfg(feature = "parquet")]
+    #[cfg_attr(
+        not(feature = "parquet"),
+        doc = "Not in this program, which was built without the feature parquet."
+    )]
     #[arg(long)]
     pub(crate) parquet: bool,
     /// Points of a tile at most, instead of as many as memory allows.

@@ -107,7 +107,6 @@ pub(super) fn tiles(input: InputArgs) -> TilesArgs {
         workers: None,
         heights: true,
         neighbors: false,
-        #[cfg(feature = "parquet")]
         parquet: false,
         tile: None,
         duplicates: DuplicatesName::First,

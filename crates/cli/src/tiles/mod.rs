@@ -47,6 +47,10 @@ use crate::progress::Phase;
 use crate::stats::{Stats, grouped};
 
 pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
+    #[cfg(not(feature = "parquet"))]
+    if args.parquet {
+        return Err(Failure::left_out("--parquet", "parquet"));
+    }
     files::keep_apart(&args.input.paths(), args.input.stats.as_deref())?;
     let workers = args.workers.map_or(rayon::current_num_threads(), usize::from);
     let budget = Budget::new(args.memory, workers, args.tile)?;

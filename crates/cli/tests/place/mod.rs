@@ -1,7 +1,5 @@
 //! What tests of the program share.
 
-#![allow(dead_code)] // each test file uses some of it
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 

@@ -1,0 +1,66 @@
+//! What `experiment` takes.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use delone_experiments::{EXPERIMENTS, Experiment};
+
+use super::count;
+
+const EXPERIMENT_EXAMPLES: &str = "Examples:
+  delone experiment hierarchy --largest 50000
+  delone experiment jump-and-walk -o results
+  delone experiment history -o results
+  delone experiment radial --largest 1000000
+  delone experiment imprecise --largest 10000000 -o results
+  delone experiment scan model.ply
+  delone experiment growth --largest 10000000 -o results
+
+A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
+seconds on this machine and differ from run to run; counts depend on the seed alone.";
+
+/// Repeat experiments.
+#[derive(Debug, Args)]
+#[command(after_help = experiment_help())]
+pub(crate) struct ExperimentArgs {
+    /// Which experiment.
+    #[arg(value_name = "NAME", value_parser = experiment_names(), hide_possible_values = true)]
+    name: String,
+    /// File of points in space, for scan.
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: Option<PathBuf>,
+    /// Folder for tables and plots.
+    #[arg(long, short, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
+    /// The largest set.
+    #[arg(long, value_name = "N", default_value = "500000", value_parser = count)]
+    pub(crate) largest: usize,
+    /// How often each quantity is measured, from other points and in other orders; tables give mean and deviation.
+    #[arg(long, value_name = "T", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) trials: u16,
+    /// Seed of points and orders.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write what was counted and timed to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+/// The names of all experiments.
+fn experiment_names() -> impl TypedValueParser<Value = String> {
+    PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.name))
+}
+
+/// What each experiment shows, and examples.
+fn experiment_help() -> String {
+    let list = EXPERIMENTS.iter().map(|e| format!("  {:<15} {}\n", e.name, e.about)).collect::<String>();
+    format!("Experiments:\n{list}\n{EXPERIMENT_EXAMPLES}")
+}
+
+impl ExperimentArgs {
+    /// The experiment asked for.
+    pub(crate) fn experiment(&self) -> &'static Experiment {
+        Experiment::named(&self.name).expect("the parser takes these names alone")
+    }
+}

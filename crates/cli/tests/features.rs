@@ -1,0 +1,79 @@
+//! What is in the program by its features: experiments, tables in Parquet. `folder.rs` has more of the second.
+
+use std::fs;
+
+use crate::place::Place;
+
+#[test]
+fn experiments_leave_tables_and_plots() {
+    let place = Place::new();
+    let table = place.succeed("experiment jump-and-walk --largest 3000 -o out --stats s.json");
+    assert!(table.contains("about 36"));
+    let table = place.succeed("experiment scopes -o out");
+    assert!(table.contains("6/((k+1)(k+2)(k+3))"));
+    place.succeed("experiment history --largest 300 -o out");
+    let table = place.succeed("experiment hierarchy --largest 5000 --trials 1 -o out");
+    assert!(table.contains("parabola  5000"));
+    for name in ["jump-and-walk-sample", "history-growth", "hierarchy-random"] {
+        let svg = std::fs::read_to_string(place.path(&format!("out/{name}.svg"))).expect("a plot");
+        assert!(svg.starts_with("<svg") && svg.matches("<polyline").count() > 1, "{name}");
+    }
+    let csv = std::fs::read_to_string(place.path("out/hierarchy-seconds.csv")).expect("a table");
+    assert_eq!(csv.lines().count(), 6);
+    place.fail("experiment nothing", 2, "nothing");
+    place.fail("experiment history --trials 0", 2, "--trials");
+    place.file("taken", "a file");
+    place.fail("experiment hierarchy --largest 100 --stats no/s.json", 1, "cannot write");
+    place.fail("experiment conflicts -o taken", 1, "cannot write into the folder");
+    // Below the smallest set of each there is no empty table, and with it no bug.
+    for (name, smallest) in
+        [("history", 100), ("jump-and-walk", 1000), ("hierarchy", 5000), ("imprecise", 10_000)]
+    {
+        place.fail(
+            &format!("experiment {name} --largest {}", smallest - 1),
+            2,
+            &format!("is below {smallest}"),
+        );
+    }
+}
+
+#[test]
+fn an_experiment_takes_a_model() {
+    let place = Place::new();
+    place.succeed("generate cube -n 200 --seed 1 -o model.ply");
+    let table = place.succeed("experiment scan model.ply --largest 200");
+    assert!(table.contains("Noisy samples of a scanned model"), "{table}");
+    place.fail("experiment scan", 2, "needs a file");
+    place.fail("experiment imprecise model.ply", 2, "only scan");
+    let last = u64::MAX;
+    place.fail(&format!("experiment scopes --largest 100 --seed {last}"), 2, "seed");
+    place.file("few.csv", "1,2,3\n");
+    place.fail("experiment scan few.csv", 1, "too few");
+    // Points are named as they are in the file, and the file is not blamed for sums that overflow.
+    let model = |wide: &str| -> String {
+        let row = |i: i32| {
+            if i == 77 { format!("{wide} 1 2\n") } else { format!("{i} {} {}\n", i * i % 17, i % 5) }
+        };
+        (0..150).map(row).collect()
+    };
+    place.file("nan.xyz", model("nan"));
+    place.fail("experiment scan nan.xyz", 1, "point 77 has the x coordinate NaN");
+    place.file("wide.xyz", model("1e300"));
+    place.fail("experiment scan wide.xyz", 1, "the model is too large");
+}
+
+#[test]
+fn tables_are_written() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 2000 --seed 3 -o p.csv");
+    place.succeed("-q tiles p.csv -o t --tile 300 --parquet");
+    let names = fs::read_dir(place.path("t")).expect("readable").map(|e| e.expect("readable").file_name());
+    let names: Vec<String> = names.map(|name| name.to_string_lossy().into_owned()).collect();
+    for name in &names {
+        if let Some(number) = name.strip_suffix(".npy").filter(|name| !name.starts_with("ids")) {
+            let table = format!("{number}.parquet").replace("seam", "triangles");
+            let bytes = fs::read(place.path("t").join(&table)).expect("a table for each shard");
+            assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "{table}");
+        }
+    }
+}

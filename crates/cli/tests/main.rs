@@ -1,0 +1,21 @@
+//! All tests of the program from outside, in one program.
+
+mod alpha;
+mod diagrams;
+mod dtm;
+#[cfg(all(feature = "experiments", feature = "parquet"))]
+mod features;
+mod files;
+mod folder;
+mod graph;
+mod mesh;
+mod place;
+mod program;
+mod segments;
+mod space;
+mod strategies;
+mod surface;
+mod switches;
+mod tiles;
+mod weights;
+mod window;
