@@ -5,7 +5,7 @@ use delone::{
     VertexId, Walk,
 };
 use delone_generators::{Kind, Random};
-use delone_oracle::brute;
+use delone_oracle::{all_cases, brute};
 use proptest::prelude::*;
 
 fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
@@ -120,7 +120,11 @@ fn small_sets_are_checked_after_every_change() {
 fn long_mixes_end_in_the_triangulation_of_what_is_left() {
     for (i, &kind) in Kind::ALL.iter().enumerate() {
         let hard = kind.is_extreme();
-        let (n, steps) = if hard { (400, 2_000) } else { (20_000, 100_000) };
+        let (n, steps) = match (hard, all_cases()) {
+            (true, _) => (400, 2_000),
+            (false, true) => (20_000, 100_000),
+            (false, false) => (6_000, 30_000),
+        };
         let source = kind.points(n, 3);
         let locate = if i % 2 == 0 { Locate::Tree } else { Locate::Hierarchy(Hierarchy::default()) };
         let mut twin = Twin { d: Delaunay2::with_strategy(locate).expect("in range"), living: Vec::new() };

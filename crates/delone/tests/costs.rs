@@ -143,12 +143,14 @@ fn queries_outside_do_not_follow_the_hull() {
         let d = Delaunay2::from_points(&points).expect("finite");
         let mut random = Random::new(1);
         let (mut visited, mut compared) = (Counts::default(), Counts::default());
-        for round in 0..4000 {
+        // The vertex that all others of a hub are at is a neighbour of each, and has to be left by all of its edges.
+        let rounds = if name == "hub" { 200 } else { 4000 };
+        for round in 0..rounds {
             let q = beyond(&points, &mut random);
             let found = counted(|work| _ = d.find_observed(q, work).expect("finite"));
             let nearest = counted(|work| _ = d.nearest_observed(q, work).expect("finite"));
             // By then there are levels, if they are needed.
-            if round >= 2000 {
+            if round >= rounds / 2 {
                 visited.add(found.visited);
                 compared.add(nearest.compared);
             }

@@ -5,7 +5,7 @@ use delone::{
     Moving2, Moving3, Step2, Step3, VertexId, Work,
 };
 use delone_generators::{Kind, Kind3, Random};
-use delone_oracle::{brute, exact};
+use delone_oracle::{all_cases, brute, exact};
 
 const ORDERS: [HintOrder; 2] = [HintOrder::Random { seed: 3 }, HintOrder::Spatial { seed: 4 }];
 
@@ -424,7 +424,11 @@ fn where_too_much_turns_over_all_is_built_anew() {
 fn moving_points_in_space_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
     let mut repaired = [0; 10];
     for &kind in Kind3::ALL {
-        let n = if kind == Kind3::HugeSpan3 { 40 } else { 300 };
+        let n = match kind {
+            Kind3::HugeSpan3 => 40,
+            _ if all_cases() => 300,
+            _ => 100,
+        };
         let start = kind.points(n, 1);
         let spacing = size(&start) / (n as f64).cbrt();
         let mut moving = Moving3::from_points(&start).expect("finite");

@@ -1,7 +1,7 @@
 //! Properties over hostile small sets, with shrinking: whatever fails, fails small.
 
 use delone::{Algorithm2, Delaunay2, Hierarchy, Locate};
-use delone_oracle::brute;
+use delone_oracle::{brute, share};
 use proptest::prelude::*;
 
 /// A coordinate from a few families that meet: small integers, their neighbours in f64, halves, tiny and huge.
@@ -25,7 +25,7 @@ fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: share(3000) as u32, ..ProptestConfig::default() })]
 
     #[test]
     fn every_algorithm_is_the_oracle(points in points(), seed in 0_u64..100) {

@@ -3,6 +3,7 @@
 use delone::{Delaunay2, Delaunay3, Error, Hierarchy, Locate, Moving2, Moving3, Step2, VertexId, Work};
 use delone::{Hull3, HullHistory3};
 use delone_generators::{Kind, Kind3, Random};
+use delone_oracle::share;
 
 const LEAST: f64 = f64::from_bits(1);
 
@@ -161,7 +162,7 @@ fn rectangles_outside_of_large_hulls_are_cheap() {
         let d = Delaunay2::from_points(&points).expect("finite");
         let mut random = Random::new(5);
         let mut most = 0;
-        for _ in 0..1000 {
+        for _ in 0..share(1000) {
             let (size, reach) = (4.0 * random.unit().powi(4), 2.0 + random.normal().abs());
             let low = [(); 2].map(|()| random.between(-reach, reach));
             let high = low.map(|x| x + size * random.unit());

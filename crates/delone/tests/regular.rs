@@ -6,6 +6,7 @@ use delone::{
 };
 use delone_generators::{Kind, Kind3, Random};
 use delone_oracle::power::Lifted;
+use delone_oracle::share;
 use delone_predicates::{compare_powers, orient2d, orient3d};
 
 type Site<const D: usize> = ([f64; D], f64);
@@ -222,12 +223,12 @@ fn a_life<const D: usize, R: Regular<Point = [f64; D]>>(
 #[test]
 fn a_life_is_the_definition_at_every_step_in_the_plane() {
     let built: Build<2, Regular2> = |points, weights, _| Regular2::from_parts(points, weights);
-    a_life::<2, Regular2>(in_plane, 150, &[built, Regular2::with_seed]);
+    a_life::<2, Regular2>(in_plane, 3 * share(150), &[built, Regular2::with_seed]);
 }
 
 #[test]
 fn a_life_is_the_definition_at_every_step_in_space() {
-    a_life::<3, Regular3>(in_space, 60, &[Regular3::with_seed, Regular3::by_flips]);
+    a_life::<3, Regular3>(in_space, 3 * share(60), &[Regular3::with_seed, Regular3::by_flips]);
 }
 
 /// Where points fall, against all triangles and tetrahedra.

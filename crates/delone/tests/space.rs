@@ -3,7 +3,7 @@
 use delone::space::verify::{Objection3, verify};
 use delone::{Algorithm3, Delaunay3, Dimension, Hierarchy, Locate, Regular3, VertexId};
 use delone_generators::{Kind3, Random};
-use delone_oracle::brute;
+use delone_oracle::{all_cases, brute};
 
 type Points = Vec<[f64; 3]>;
 
@@ -55,9 +55,10 @@ fn small_sets_against_the_oracle() {
 fn large_sets_agree_across_orders() {
     for &kind in Kind3::ALL {
         let n = match kind {
-            Kind3::HugeSpan3 => 300,
-            Kind3::Linked | Kind3::Far => 600,
-            _ => 4_000,
+            Kind3::HugeSpan3 => 100,
+            Kind3::Linked | Kind3::Far => 200,
+            _ if all_cases() => 4_000,
+            _ => 1_000,
         };
         let mut points = kind.points(n, 2);
         let d = Delaunay3::from_points(&points).expect("finite");
@@ -100,7 +101,7 @@ fn sites_agree_across_algorithms() {
         (all, hidden)
     };
     for &kind in Kind3::ALL {
-        let n = if matches!(kind, Kind3::HugeSpan3 | Kind3::Linked | Kind3::Far) { 300 } else { 2_500 };
+        let n = if matches!(kind, Kind3::HugeSpan3 | Kind3::Linked | Kind3::Far) { 300 } else { 800 };
         let points = kind.points(n, 2);
         let size = points.iter().flatten().fold(0.0, |size, x| f64::max(size, x.abs()));
         let mut random = Random::new(5);

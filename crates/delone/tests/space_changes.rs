@@ -6,8 +6,8 @@ use delone::{
     Location3, Nearest, VertexId, Walk, Work,
 };
 use delone_generators::{Kind3, Random};
-use delone_oracle::exact;
 use delone_oracle::nearest::compare_triangles;
+use delone_oracle::{exact, some_of};
 
 type Points = Vec<[f64; 3]>;
 
@@ -140,7 +140,7 @@ fn every_strategy_locates_what_is_there() {
         queries.retain(|q| q.iter().all(|x| x.is_finite()));
         for locate in strategies() {
             d.set_strategy(locate).expect("in range");
-            for &q in &queries {
+            for &q in some_of(&queries) {
                 let at = d.locate(q).expect("finite");
                 judge(&d, q, at, kind.name());
             }

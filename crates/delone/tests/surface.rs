@@ -3,6 +3,7 @@
 use delone::surface::{Grid, Interpolator, Outside, Raster, gradients, rasterize};
 use delone::{Ask, Bounds, Constrained2, Delaunay2, Delaunay3, Region2, Surround, VertexId};
 use delone_generators::{Kind, Kind3, Random};
+use delone_oracle::all_cases;
 
 /// Places to ask at: everywhere, on vertices, on edges, near the hull, outside.
 fn queries<const D: usize>(points: &[[f64; D]], random: &mut Random) -> Vec<[f64; D]> {
@@ -145,7 +146,8 @@ fn sibson_is_what_cells_lose_in_space() {
     let points = Kind3::Cube.points(200, 3);
     let d = Delaunay3::from_points(&points).expect("finite");
     let mut random = Random::new(4);
-    for q in [[0.5, 0.45, 0.55], [0.4, 0.6, 0.5]] {
+    let queries = [[0.5, 0.45, 0.55], [0.4, 0.6, 0.5]];
+    for &q in &queries[usize::from(!all_cases())..] {
         let weights = Interpolator::sibson(&d).weights(q).expect("finite").to_vec();
         let mut hits = vec![0.0; points.len()];
         let mut total = 0.0;

@@ -1,8 +1,8 @@
 //! The number of threads never shows: the same bits for one and for many.
-#![cfg(feature = "rayon")]
 
 use delone::{Algorithm3, Delaunay2, Delaunay3, Locate, Regular2, Regular3, VertexId};
 use delone_generators::{Kind, Kind3};
+use delone_oracle::all_cases;
 use rayon::ThreadPoolBuilder;
 
 /// Everything that a triangulation is: corners and neighbours by triangle, an edge of each vertex, duplicates.
@@ -21,7 +21,7 @@ fn threads_never_show() {
         .into();
     for &kind in Kind::ALL {
         // Cells that hold a large part of the points are sorted and built in parallel too.
-        let n = if kind.is_extreme() { 40_000 } else { 150_000 };
+        let n = if kind.is_extreme() { 40_000 } else { 80_000 };
         let points = kind.points(n, 1);
         let all: Vec<_> = pools
             .iter()
@@ -123,8 +123,10 @@ fn threads_never_show_in_space() {
             Delaunay3::with_algorithm(points, Algorithm3::Incremental { seed: 0 }).expect("finite")
         })
     };
+    // Enough for cuts.
+    let many = if all_cases() { 130_000 } else { 60_000 };
     for (kind, n) in
-        [(Kind3::Cube, 130_000), (Kind3::Clusters3, 60_000), (Kind3::Grid3, 50_000), (Kind3::Sphere, 20_000)]
+        [(Kind3::Cube, many), (Kind3::Clusters3, 50_000), (Kind3::Grid3, 40_000), (Kind3::Sphere, 20_000)]
     {
         // Points that equal others, on either side of every cut.
         let mut points = kind.points(n, 1);

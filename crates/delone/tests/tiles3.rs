@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use delone::tiles::{Border3, Cut, Cuts, Fingerprint, Node, Region, Tile3, join3};
 use delone::{BorderProblem, Delaunay3, Dimension, Error};
 use delone_generators::{Kind3, Random};
+use delone_oracle::{all_cases, some_of};
 
 type Point = [f64; 3];
 type Tetrahedron = [Point; 4];
@@ -155,11 +156,11 @@ fn tiles_give_what_memory_gives() {
     for &kind in Kind3::ALL {
         // Linked circles have a tetrahedron for each pair of points.
         let most = if kind == Kind3::Linked { 150 } else { 600 };
-        for n in (0..25).chain([40, 100, 250, 600]).filter(|&n| n <= most) {
+        for n in some_of(0..25).chain([40, 100, 250, 600]).filter(|&n| n <= most) {
             runs += judge(&kind.points(n, n as u64), &format!("{} {n}", kind.name()));
         }
     }
-    assert!(runs > 8_000, "{runs}");
+    assert!(runs > if all_cases() { 8_000 } else { 2_000 }, "{runs}");
 }
 
 #[test]
@@ -241,6 +242,9 @@ fn nasty_sets() {
     sets.push(Kind3::Cube.points(900, 4).into_iter().filter(around).collect());
     for (k, points) in sets.iter().enumerate() {
         judge(points, &format!("nasty set {k}"));
+        if !all_cases() {
+            continue;
+        }
         let mut shuffled = points.clone();
         r.shuffle(&mut shuffled);
         judge(&shuffled, &format!("nasty set {k}, shuffled"));

@@ -2,6 +2,7 @@
 
 use delone::{Cells2, Delaunay2, Region2, VertexId};
 use delone_generators::{Kind, Random};
+use delone_oracle::share;
 use proptest::prelude::*;
 
 type Points = Vec<[f64; 2]>;
@@ -286,7 +287,7 @@ fn landmarks(d: &Delaunay2) -> Points {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: share(3000) as u32, ..ProptestConfig::default() })]
 
     #[test]
     fn cells_tile_regions_made_of_landmarks(kind in 0..9_usize, seed in any::<u64>(), scale in -3..4_i32) {

@@ -14,6 +14,7 @@
 //! - [`graphs`]: proximity graphs, by trying all pairs against all points;
 //! - [`orders`]: Voronoi diagrams of order k, by trying all triples;
 //! - [`power`]: regular triangulations of few sites with weights;
+//! - [`share`], [`some_of`] and [`all_cases`]: how many cases of a test are judged;
 //! - [`certificate`]: the proof that a large triangulation is the canonical constrained one.
 
 pub mod alpha;
@@ -30,3 +31,6 @@ pub mod power;
 mod quick;
 #[cfg(test)]
 mod samples;
+mod share;
+
+pub use share::{all_cases, is_due, share, some_of};

@@ -1,7 +1,7 @@
 //! Every predicate against integer determinants of unlimited size, on random and adversarial tuples.
 
 use delone_generators::Random;
-use delone_oracle::exact;
+use delone_oracle::{exact, share};
 use delone_predicates::{
     Bundle, Filter, Filter3, Four, Grid, Hub, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction,
     centre_side, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
@@ -105,16 +105,10 @@ fn sign(value: i8) -> Sign {
     Sign::of(&value, &0)
 }
 
-/// A third of a number of tuples; all of them where `DELONE_PART` is 1 (.ci/run), or the part of them that is enough for most
-/// mutants (CONTRIBUTING.md, "Mutation testing").
-fn part(n: usize) -> usize {
-    n / std::env::var("DELONE_PART").map_or(3, |x| x.parse::<usize>().expect("a number"))
-}
-
 fn tuples(seed: u64, n: usize, mut judge: impl FnMut(&str, [Point2; 4])) {
     for (name, family) in FAMILIES {
         let mut random = Random::new(seed);
-        for _ in 0..part(n) {
+        for _ in 0..share(n) {
             let points = family(&mut random);
             // The perturbation raises points, not places: the in-circle test is for distinct ones.
             if (0..4).all(|i| (0..i).all(|j| points[i] != points[j])) {
@@ -200,8 +194,8 @@ fn pencils_with_static_filters_are_exact() {
             assert_eq!(expected, sign(exact::in_circle(l, r, p, q)), "{name}: {points:?}");
         }
     });
-    assert!(told > part(60_000), "only {told} fours were told");
-    assert!(chosen > part(60_000), "only {chosen} apexes were told");
+    assert!(told > share(60_000), "only {told} fours were told");
+    assert!(chosen > share(60_000), "only {chosen} apexes were told");
 }
 
 #[test]
@@ -290,7 +284,7 @@ fn distances_and_angles_are_exact() {
         }
         assert_eq!(angle(q, a, b), sign(exact::angle(q, a, b)), "{name}: {q:?} {a:?} {b:?}");
     });
-    assert!(equal > part(1000), "only {equal} ties were met");
+    assert!(equal > share(1000), "only {equal} ties were met");
 }
 
 #[test]
@@ -304,7 +298,7 @@ fn sides_of_circumcentres_are_exact() {
         assert_eq!(centre_direction(o, a, b), expected_direction, "{name}: {o:?} {a:?} {b:?}");
         zero += usize::from(expected == 0);
     });
-    assert!(zero > part(1000), "only {zero} ties were met");
+    assert!(zero > share(1000), "only {zero} ties were met");
 }
 
 #[test]
@@ -351,8 +345,8 @@ fn orient3d_is_exact() {
             }
         }
     });
-    assert!(told > part(100_000), "planes told only {told} sides");
-    assert!(zero > part(10_000), "only {zero} coplanar tuples were met");
+    assert!(told > share(100_000), "planes told only {told} sides");
+    assert!(zero > share(10_000), "only {zero} coplanar tuples were met");
 }
 
 /// Families of five points in space, made of those in the plane.
@@ -437,9 +431,9 @@ fn in_sphere_is_exact() {
         let turned = [in_sphere(e, b, c, d, a), in_sphere(a, b, c, e, d)];
         assert!(turned.iter().all(|&s| s == -sign(perturbed)), "{name}: {five:?}, turned");
     });
-    assert!(total > part(150_000), "only {total} tuples");
-    assert!(ties > part(5_000), "only {ties} ties");
-    assert!(told > part(50_000), "only {told} spheres of bundles told a side");
+    assert!(total > share(150_000), "only {total} tuples");
+    assert!(ties > share(5_000), "only {ties} ties");
+    assert!(told > share(50_000), "only {told} spheres of bundles told a side");
 }
 
 #[test]
@@ -471,5 +465,5 @@ fn distances_in_space_are_exact() {
             }
         }
     });
-    assert!(equal > part(1000), "only {equal} ties were met");
+    assert!(equal > share(1000), "only {equal} ties were met");
 }

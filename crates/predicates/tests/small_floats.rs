@@ -2,7 +2,7 @@
 //! numbers, the roots and the fourth and fifth roots of these, and neighbours of one. A guard against underflow or overflow that is
 //! off by a binade, or looks at the wrong product, lets some tuple of these through.
 
-use delone_oracle::exact;
+use delone_oracle::{exact, is_due};
 use delone_predicates::{
     Point2, Sign, angle, centre_direction, centre_side, compare_distances, compare_distances3,
     compare_with_radius, compare_with_radius3, in_circle_with_ties, in_sphere_with_ties, orient2d, orient3d,
@@ -33,9 +33,12 @@ fn numbers(exponents: &[i32], multiples: &[f64]) -> Vec<f64> {
 /// Calls for every tuple of N numbers of a list; the first of a tuple is not negative, as signs only mirror.
 fn tuples<const N: usize>(numbers: &[f64], mut call: impl FnMut([f64; N])) {
     let mut at = [0; N];
+    let mut turns = 0;
     'all: loop {
         let tuple = at.map(|i| numbers[i]);
-        if tuple[0] >= 0.0 {
+        // Of numbers of both signs and zero there is an odd count, so that every number gets its turn at every place.
+        turns += 1;
+        if tuple[0] >= 0.0 && is_due(turns) {
             call(tuple);
         }
         for place in &mut at {

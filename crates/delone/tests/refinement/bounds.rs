@@ -6,7 +6,7 @@ use delone::{Constrained2, Error, Fill, Keep, Reason, Refinement, RegionSeed2, S
 use delone_generators::Random;
 use delone_oracle::exact;
 
-use crate::judge::{Points, Segments, coordinates, corners, judge, refine};
+use super::judge::{Points, Segments, coordinates, corners, judge, refine};
 
 fn square() -> (Points, Segments) {
     let points = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [1.0, 1.0], [3.0, 1.0], [2.0, 3.0]];

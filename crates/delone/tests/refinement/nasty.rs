@@ -1,8 +1,9 @@
 //! Inputs of every nasty kind, small enough for a debug build.
 
 use delone_generators::{Graph, Kind};
+use delone_oracle::all_cases;
 
-use crate::judge::{Points, Segments};
+use super::judge::{Points, Segments};
 
 pub(crate) fn wedge(degrees: f64, length: f64, in_box: bool) -> (Points, Segments) {
     let (sin, cos) = degrees.to_radians().sin_cos();
@@ -78,7 +79,8 @@ pub(crate) fn nasty() -> Vec<(String, Points, Segments)> {
         let (points, segments) = slit(gap);
         all.push((format!("slit of {gap}"), points, segments));
     }
-    all.push(("cusp".to_owned(), cusp(32).0, cusp(32).1));
+    let (points, segments) = cusp(if all_cases() { 32 } else { 12 });
+    all.push(("cusp".to_owned(), points, segments));
     for kind in [Kind::Uniform, Kind::Grid, Kind::Circle, Kind::Line] {
         all.push((kind.name().to_owned(), kind.points(40, 5), Vec::new()));
     }
