@@ -20,8 +20,12 @@ small | usual | long) ;;
     ;;
 esac
 mkdir -p "$folder"
-cargo build --release -q --features experiments
-delone=${CARGO_TARGET_DIR:-target}/release/delone
+# A program that is there already may be named.
+delone=${DELONE:-}
+if [ -z "$delone" ]; then
+    cargo build --release -q --features experiments
+    delone=${CARGO_TARGET_DIR:-target}/release/delone
+fi
 
 # Name, and the largest set of each size.
 experiment() {
