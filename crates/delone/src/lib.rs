@@ -70,6 +70,16 @@
 //! | `mint` | | points of `mint` as input |
 //! | `geo-types` | | points and coordinates of `geo-types` as input |
 //!
+//! # Debug builds
+//!
+//! A debug build of a program computes exact predicates without the optimiser. To optimise Delone alone, once:
+//!
+//! ```toml
+//! [profile.dev.package]
+//! delone = { opt-level = 3 }
+//! delone-predicates = { opt-level = 3 }
+//! ```
+//!
 //! Examples that leave a picture: `cargo run --example terrain`, `cells`, `moving`, `section`, `labels`, `exactness`, `ghosts`.
 
 // The code of the README and of the book is compiled and run with that of this documentation.

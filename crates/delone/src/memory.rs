@@ -137,7 +137,7 @@ mod tests {
     #[should_panic(expected = "every part is handed out")]
     fn a_part_that_is_not_fetched_is_no_item() {
         let mut items = Vec::new();
-        super::extend_in_parts(&mut items, 10, 3, Box::new, |parts, write| (1..parts).for_each(write));
+        super::extend_in_parts(&mut items, 10, 3, |i| i, |parts, write| (1..parts).for_each(write));
     }
 
     #[test]

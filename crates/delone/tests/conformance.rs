@@ -130,14 +130,14 @@ fn sets_of_thousands_agree_across_algorithms_and_shuffles() {
 }
 
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn sets_of_a_hundred_thousand_agree_across_algorithms_and_shuffles() {
     large_sets_agree(Kind::ALL.iter().step_by(2), 100_000, 3_000);
 }
 
 /// The other kinds, at the same time.
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn more_sets_of_a_hundred_thousand_agree_across_algorithms_and_shuffles() {
     large_sets_agree(Kind::ALL.iter().skip(1).step_by(2), 100_000, 3_000);
 }

@@ -167,7 +167,7 @@ fn lives() {
 
 /// A million changes of small sets.
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn long_lives() {
     let mut random = Random::new(17);
     let mut done = 0;

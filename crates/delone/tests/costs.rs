@@ -125,7 +125,7 @@ fn queries_visit_few_triangles_on_any_points() {
 }
 
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn queries_visit_few_triangles_on_many_points() {
     queries_visit_few_triangles(100_000);
 }

@@ -131,7 +131,7 @@ fn tiles_give_what_memory_gives() {
 }
 
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn tiles_give_what_memory_gives_of_many() {
     for &kind in Kind::ALL {
         if !kind.is_extreme() {

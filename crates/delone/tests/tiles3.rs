@@ -164,7 +164,7 @@ fn tiles_give_what_memory_gives() {
 }
 
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn tiles_give_what_memory_gives_of_many() {
     for kind in [Kind3::Cube, Kind3::Ball, Kind3::Grid3, Kind3::Clusters3, Kind3::Layers, Kind3::Balls] {
         let points = kind.points(120_000, 1);

@@ -83,7 +83,7 @@ fn stress_sets_of_ten_thousand() {
 }
 
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn stress_sets_of_ninety_thousand() {
     stress_sets(300);
 }

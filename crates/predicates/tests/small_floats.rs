@@ -123,7 +123,7 @@ fn orientations_and_distances_in_space() {
 }
 
 #[test]
-#[ignore = "long: .ci/run"]
+#[ignore = "long: .ci/run --long"]
 fn spheres() {
     for (one, other) in [(-1074, 0), (-216, -215), (-152, 0), (0, 100), (99, 101), (-1074, 1022)] {
         let numbers = [0.0, power(one), -power(other)];
