@@ -56,7 +56,7 @@ fn grow<T: Copy>(items: &mut Vec<T>, more: usize) {
 /// Appends the items 0 to `count`, in parts that `for_each` hands out by their numbers, to several threads if it likes. No thread touches
 /// memory before its parts are written, so page faults are shared as well.
 ///
-/// Rayon's `collect_into_vec` does the same, and is compiled anew for each closure: 7 % of the time that the library takes to build.
+/// Rayon's `collect_into_vec` does the same, and is compiled anew for each closure.
 #[cfg(feature = "rayon")]
 pub(crate) fn extend_in_parts<T: Send>(
     items: &mut Vec<T>,
