@@ -83,6 +83,9 @@ pub struct ReadOptions {
 
 /// Reads the points of a file, in its order.
 ///
+/// A number in text becomes the double that is nearest to it, however many digits it has; of two that are as near, the one whose
+/// last bit is 0. Writers give the fewest digits that read back as the same bits.
+///
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
     use formats::{

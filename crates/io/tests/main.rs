@@ -5,6 +5,8 @@ mod constrained;
 mod elements;
 mod graphs;
 mod new_kind;
+mod numbers;
 mod rasters;
+mod same_points;
 mod scene;
 mod triangle;

@@ -22,7 +22,7 @@ pub use shade::{Light, ShadeWriter};
 /// The numbers that a GeoTIFF is written with. Text is written with as many digits as these need, and arrays of NumPy with 64 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sample {
-    /// Floating point of 32 bits.
+    /// Floating point of 32 bits; as text the fewest digits that read back as the same 32 bits.
     #[default]
     F32,
     /// Floating point of 64 bits.
