@@ -95,6 +95,17 @@ stl = trimesh.load(folder / "points.stl", process=False)
 worst = np.abs(stl.vertices - moved - points[triangles].reshape(-1, 3)).max()
 assert worst < 1e-3, f"STL is {worst} off"
 
+# Degrees with heights in metres, and a turned lattice, whose border has triangles an ulp wide: nothing turns over.
+track = np.c_[np.cumsum(rng.uniform(-4e-5, 4e-5, (900, 2)), axis=0) + (7.62, 51.96), rng.uniform(50, 90, 900)].round(6)
+lattice = np.indices((25, 25)).reshape(2, -1).T @ [[np.cos(0.3), np.sin(0.3)], [-np.sin(0.3), np.cos(0.3)]]
+for name, hard in [("track", track), ("lattice", lattice)]:
+    np.save(folder / f"{name}.npy", hard)
+    run("triangulate", f"{name}.npy", "-o", f"{name}.stl")
+    mesh = trimesh.load(folder / f"{name}.stl", process=False)
+    assert (mesh.face_normals[:, 2] > 0).all() and (mesh.area_faces > 0).all(), f"triangles of {name}.stl turn over"
+    assert len(mesh.faces) > 0.9 * 2 * len(hard), f"{name}.stl lost triangles"
+print("trimesh: no triangle of STL turns over")
+
 # Tetrahedra, hulls and cells.
 run("generate", "ball", "-n", 300, "-o", "ball.npy")
 run("triangulate", "ball.npy", "--dim", 3, "-o", "ball.vtu", "-o", "ball.npy.npy", "-o", "ball.msh", "-o", "ball.inp")

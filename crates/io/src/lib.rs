@@ -277,6 +277,10 @@ trait Shape {
     fn positions(&self) -> impl Iterator<Item = [f64; 3]>;
     /// The triangles as indices of points.
     fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + Send;
+    /// Whether the triangles are around a body; otherwise they are over the plane.
+    fn is_closed(&self) -> bool {
+        false
+    }
     /// A value for each point.
     fn heights(&self) -> Option<&[f64]>;
     /// The region of each triangle, where there are any.

@@ -72,6 +72,10 @@ impl Shape for Solid {
         self.faces.iter().flat_map(|face| face[1..].windows(2).map(|side| [face[0], side[0], side[1]]))
     }
 
+    fn is_closed(&self) -> bool {
+        true
+    }
+
     fn heights(&self) -> Option<&[f64]> {
         None
     }

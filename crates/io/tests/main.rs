@@ -9,4 +9,5 @@ mod numbers;
 mod rasters;
 mod same_points;
 mod scene;
+mod stl;
 mod triangle;
