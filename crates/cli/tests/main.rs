@@ -9,6 +9,7 @@ mod files;
 mod folder;
 mod graph;
 mod mesh;
+mod narrow;
 mod place;
 mod program;
 mod segments;

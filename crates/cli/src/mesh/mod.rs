@@ -6,16 +6,16 @@ mod markers;
 mod names;
 mod plan;
 mod proof;
+mod seeds;
 mod source;
 mod tell;
 
 use std::path::Path;
 
-use delone::{Constrained2, Domains2, Error, Fill, Location2, Refined2, Seeds2, Triangulation, VertexId};
+use delone::{Constrained2, Error, Location2, Refined2, Seeds2, Triangulation, VertexId};
 use delone_io::{
     Attributes, Constraints, Format, Graph, Mesh, picture, write_mesh, write_voronoi_edge, write_voronoi_node,
 };
-use delone_predicates::orient2d;
 
 use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
 use crate::constrained::{Constrained, extended};
@@ -27,6 +27,7 @@ use field::{Sizes, along, between};
 use kept::Kept;
 use names::{Content, Target};
 use plan::{Plan, Written};
+use seeds::Outside;
 use source::{Again, Material, Sources};
 
 pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
@@ -123,15 +124,15 @@ impl Made {
         let Constrained { mut triangulation, mut graph, inside, heights, .. } = from;
         let regions = std::mem::take(&mut graph.regions);
         // Seeds say for all rules what is inside, so that regions are known, and that files mean the same.
-        let seeds = if fill == FillName::Seeds {
-            Seeds2 { holes: graph.holes.clone(), regions, keep_concavities: plan.traits.convex }
+        let outside = if fill == FillName::Seeds {
+            let holes = graph.holes.clone();
+            Outside::of_seeds(Seeds2 { holes, regions, keep_concavities: plan.traits.convex })
         } else {
-            let holes = outside(&triangulation, &inside, label)?;
-            Seeds2 { holes, regions, keep_concavities: true }
+            Outside::of_rule(&triangulation, &inside, (fill, regions), label, quiet)?
         };
         let size = |p: [f64; 2]| sizes.map_or(f64::INFINITY, |sizes| sizes.at(p));
         let area = |p: [f64; 2]| again.as_ref().map_or(f64::INFINITY, |again| again.area(p));
-        let mut wanted = plan.refinement().fill(Fill::Seeds(&seeds));
+        let mut wanted = plan.refinement().fill(outside.fill());
         if sizes.is_some() {
             wanted = wanted.size(&size);
         }
@@ -159,7 +160,7 @@ impl Made {
             });
             Attributes { width, values: spread(width, &first) }
         });
-        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again })
+        Ok(Self { triangulation, refined, graph, seeds: outside.seeds, heights, attributes, again })
     }
 
     /// Writes all files.
@@ -258,39 +259,6 @@ fn refused(label: &Path, error: &Error) -> Failure {
         ),
         _ => Failure::graph(label, error),
     }
-}
-
-/// A point in each part of a triangulation that is outside.
-fn outside(c: &Constrained2, inside: &Domains2, label: &Path) -> Result<Vec<[f64; 2]>, Failure> {
-    // The middle of the largest triangle that has it strictly inside.
-    let mut best: Vec<Option<(f64, [f64; 2])>> = vec![None; inside.parts().len()];
-    for t in c.triangle_ids().filter(|&t| !inside.is_inside(t)) {
-        let corners = c.mesh().corners(t).map(|v| c.point(v));
-        let [p, q, r] = corners;
-        let middle = centroid(corners);
-        let is_in = [[p, q], [q, r], [r, p]].iter().all(|&[a, b]| orient2d(a, b, middle).is_positive());
-        let Some(part) = inside.part(t).filter(|_| is_in) else { continue };
-        let area = c.area(t);
-        if best[part].is_none_or(|(known, _)| area > known) {
-            best[part] = Some((area, middle));
-        }
-    }
-    let mut seeds: Vec<[f64; 2]> = Vec::new();
-    for (part, best) in inside.parts().iter().zip(best).filter(|(part, _)| !part.is_inside) {
-        let Some((_, middle)) = best else {
-            return Err(Failure::new(
-                format!(
-                    "{}: one of {} parts outside, of {} triangles, is so narrow that no point is in it",
-                    label.display(),
-                    inside.parts().len(),
-                    part.triangles
-                ),
-                "join the points there that are so near each other",
-            ));
-        };
-        seeds.push(middle);
-    }
-    Ok(seeds)
 }
 
 /// The values at a place of a triangulation, linear in each triangle.
