@@ -332,14 +332,13 @@ fn cells_that_roundings_could_take_across_are_cut_out() {
     let two = |exponent: i32| 2f64.powi(exponent);
     for size in [[1.0, 1.0], [1024.0, 1.0], [1.0, 1024.0], [1024.0, 1024.0]] {
         for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-            // Centres of circles of this radius are off by 2^-40 of it.
-            let radius = f64::max(size[0], size[1]) / 2.0;
-            assert!(!is_whole(size, [0.0, 0.0], axis, sign, radius * two(-40)), "{size:?} {axis} {sign}");
             assert!(!is_whole(size, [0.0, 0.0], axis, sign, 0.0), "{size:?} {axis} {sign}");
-            assert!(is_whole(size, [0.0, 0.0], axis, sign, radius * two(-34)), "{size:?} {axis} {sign}");
-            // Far away that is as small.
+            // A step beyond is enough, because corners are correctly rounded; far away steps are larger.
+            let half = size[axis] / 2.0;
+            assert!(is_whole(size, [0.0, 0.0], axis, sign, half * f64::EPSILON), "{size:?} {axis} {sign}");
             let far = [two(22), two(22)];
-            assert!(is_whole(size, far, axis, sign, radius * two(-18)), "{size:?} {axis} {sign}");
+            assert!(!is_whole(size, far, axis, sign, two(-32)), "{size:?} {axis} {sign}");
+            assert!(is_whole(size, far, axis, sign, two(-30)), "{size:?} {axis} {sign}");
         }
     }
 }

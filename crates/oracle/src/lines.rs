@@ -91,3 +91,22 @@ pub fn meet_near(first: Line, second: Line, place: Point2, error: [f64; 2]) -> O
     let off = |axis: usize| (&at[axis] - &place[axis] * &below).magnitude().clone();
     Some([0, 1].into_iter().all(|axis| BigInt::from(off(axis)) <= &error[axis] * &below))
 }
+
+/// Whether each coordinate of a point is the nearest `f64` of where two lines meet, of two at one distance the even one. `None` for
+/// parallel lines.
+pub fn meet_nearest_to(first: Line, second: Line, place: Point2) -> Option<[bool; 2]> {
+    let neighbours = [place.map(f64::next_down), place.map(f64::next_up)];
+    // What is beyond the largest number is as far away as another step.
+    let steps = Line::Through(neighbours[0].map(|x| x.max(f64::MIN)), neighbours[1].map(|x| x.min(f64::MAX)));
+    let points = scaled(&[first, second, Line::Through(place, place), steps]);
+    let (at, below) = meeting([&first, &second], &points)?;
+    let ([here, _], [low, high]) = (&points[2], &points[3]);
+    Some([0, 1].map(|axis| {
+        let twice: BigInt = &at[axis] * 2;
+        let [least, most] = [low, high].map(|end| (&here[axis] + &end[axis]) * &below);
+        let is_even = place[axis].to_bits() & 1 == 0;
+        let is_beyond = |end: &Vector| end[axis] == here[axis];
+        (twice > least || (is_even && twice == least) || is_beyond(low))
+            && (twice < most || (is_even && twice == most) || is_beyond(high))
+    }))
+}

@@ -54,6 +54,33 @@ pub(crate) fn on_one_scale<const D: usize>(sites: &[Site<D>]) -> (Vec<[BigInt; D
     (points, weights, of_points - finer)
 }
 
+/// Whether each coordinate of a point is the nearest `f64` of the point with the same power to three sites, of two at one distance
+/// the even one. False for collinear sites.
+pub fn has_nearest_centre(sites: [Site<2>; 3], place: [f64; 2]) -> bool {
+    // What is beyond the largest number is as far away as another step.
+    let [low, high] = [place.map(|x| x.next_down().max(f64::MIN)), place.map(|x| x.next_up().min(f64::MAX))];
+    let [a, b, c] = sites;
+    let (p, w, _) = on_one_scale(&[a, b, c, (low, 0.0), (place, 0.0), (high, 0.0)]);
+    // Twice the scalar product with the difference of two points is that of their lifts.
+    let row = |k: usize| [0, 1].map(|axis| (&p[k][axis] - &p[0][axis]) * 2);
+    let lift = |k: usize| p[k].iter().map(|x| x * x).sum::<BigInt>() - &w[k];
+    let ([b, c], [lift_b, lift_c]) = ([row(1), row(2)], [lift(1) - lift(0), lift(2) - lift(0)]);
+    let mut below: BigInt = &b[0] * &c[1] - &b[1] * &c[0];
+    let mut at: [BigInt; 2] = [&lift_b * &c[1] - &lift_c * &b[1], &b[0] * &lift_c - &c[0] * &lift_b];
+    if below < BigInt::ZERO {
+        (below, at) = (-below, at.map(|x| -x));
+    }
+    below != BigInt::ZERO
+        && (0..2).all(|axis| {
+            let twice: BigInt = &at[axis] * 2;
+            let is_even = place[axis].to_bits() & 1 == 0;
+            let [least, most] = [3, 5].map(|end| (&p[4][axis] + &p[end][axis]) * &below);
+            let is_beyond = |end: usize| p[end][axis] == p[4][axis];
+            (twice > least || (is_even && twice == least) || is_beyond(3))
+                && (twice < most || (is_even && twice == most) || is_beyond(5))
+        })
+}
+
 /// The order of |q - p|^2 - w for two sites.
 pub fn compare<const D: usize>(q: [f64; D], a: Site<D>, b: Site<D>) -> Ordering {
     let (points, weights, _) = on_one_scale(&[(q, 0.0), a, b]);

@@ -1,19 +1,34 @@
-//! The centre of a circle through three points: filter, exact. A construction, so it is rounded; nothing is decided
-//! by it.
+//! The centre of a circle through three points, and the point with the same power to three sites: floating point,
+//! balls, exact. Constructions, so they are rounded, and correctly; nothing is decided by them.
+//!
+//! Correctly rounded means: each coordinate is the nearest `f64` of the exact one. Rounding keeps order, so corners of a cell that are
+//! nearer to each other than a unit in the last place may become one, but seldom change places.
 
-use crate::{Point2, Site, exact};
+use crate::ball::{Ball, U, two_product, two_sum};
+use crate::line::{middle, rounded};
+use crate::{Line, Point2, Site, exact};
 
-/// The share of a sum that may cancel before the exact way is taken: 2^-8 leaves more than 40 correct bits.
-const CANCELLED: f64 = 1.0 / 256.0;
+/// Squares of lengths in this range have products of four factors that are normal numbers.
+const LEAST_SQUARE: f64 = 1e-70;
+const LARGEST_SQUARE: f64 = 1e70;
+/// The products that an area is the difference of are together larger than this: what underflows is nothing beside them.
+const LEAST_PRODUCTS: f64 = 1e-280;
+/// Products below this one do not overflow in halves of their factors.
+const LARGEST_PRODUCTS: f64 = 1e280;
+/// An area is at least this share of its products: its error is 2^-39 of it then, which the room in the bounds covers.
+const LEAST_SHARE: f64 = 1.0 / 4096.0;
+/// Half of the error of n, in u of its terms.
+pub(crate) const TERMS_BOUND: f64 = 4.02;
+/// The error of d, in u of its products.
+pub(crate) const AREA_BOUND: f64 = 5.02;
+/// What an underflow may take from the terms of a numerator is nothing beside their bound with this added.
+const TERMS_FLOOR: f64 = 1e-300;
 
-/// The centre of the circle through three points that are not collinear. In coordinate units; the same bits for
-/// every order of the points.
+/// The centre of the circle through three points that are not collinear. In coordinate units, correctly rounded: each coordinate
+/// is the nearest `f64` of the exact one, so the same bits for every order of the points, and for four points on one circle
+/// whichever three are asked.
 ///
-/// Triangles that are not flat are computed in floating point, with an error below 2^-40 of the radius. For
-/// flat ones, whose centre hangs on the last bits of the corners, and for coordinates whose products leave the range
-/// of `f64`, the exact centre is rounded once. `None` if it is too far away for an `f64`, and for collinear points.
-///
-/// O(1).
+/// `None` if it is too far away for an `f64`, and for collinear points. O(1).
 ///
 /// ```
 /// use delone_predicates::circumcentre;
@@ -24,58 +39,75 @@ const CANCELLED: f64 = 1.0 / 256.0;
 /// ```
 #[inline]
 pub fn circumcentre(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
-    circumcentre_within(a, b, c, f64::INFINITY)
+    in_floating_point(a, b, c).or_else(|| slowly([a, b, c]))
 }
 
-/// The same, rounded once from the exact centre too where the centre is further away than a reach: then the error is
-/// 2^-40 of that reach at most, and a rounding.
+/// The fast way, if it surely gives the nearest numbers.
+///
+/// The offset from a corner is n / 2d. Differences, products and sums have one rounding each, the inverse of d and the product with n
+/// one more each.
 #[inline]
-pub(crate) fn circumcentre_within(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Point2> {
-    in_floating_point(a, b, c, reach).or_else(|| rounded_once(a, b, c))
-}
-
-/// The larger of two numbers; `f64::max`, which also knows what is no number, is a call in WebAssembly.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-/// The fast way, if it is good enough.
-#[inline]
-fn in_floating_point(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Point2> {
-    // From the smallest point: of the other two either may be first, which changes two signs that cancel. Without
-    // branches, because nothing predicts them.
-    let points = [a, b, c];
-    let least = usize::from(is_less(b, a));
-    let least = if is_less(c, points[least]) { 2 } else { least };
-    let [a, b, c] = [least, [1, 2, 0][least], [2, 0, 1][least]].map(|i| points[i]);
+fn in_floating_point(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
     let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
     let (left, right) = (bx * cy, by * cx);
     let (area, size) = (left - right, left.abs() + right.abs());
     let (bb, cc) = (bx * bx + by * by, cx * cx + cy * cy);
     let (x, y) = (cy * bb - by * cc, bx * cc - cx * bb);
-    let terms = (cy.abs() + cx.abs()) * bb + (by.abs() + bx.abs()) * cc;
-    // Products of up to four factors must be normal numbers, or nothing is known about their errors: with one difference
-    // near zero also those of two.
-    let in_range = (1e-70..1e70).contains(&bb) && (1e-70..1e70).contains(&cc) && size > 1e-280;
-    if in_range && area.abs() > CANCELLED * size && larger(x.abs(), y.abs()) > CANCELLED * terms {
-        let (x, y) = (x / (2.0 * area), y / (2.0 * area));
-        let centre = [a[0] + x, a[1] + y];
-        // A quotient of numbers in range may be too large; only the exact centre tells.
-        if larger(x.abs(), y.abs()) <= reach && centre[0].is_finite() && centre[1].is_finite() {
-            return Some(centre);
-        }
+    let terms_x = cy.abs() * bb + by.abs() * cc + TERMS_FLOOR;
+    let terms_y = cx.abs() * bb + bx.abs() * cc + TERMS_FLOOR;
+    let (half, whole) = (0.5 / area, 1.0 / area.abs());
+    let (x, y) = (x * half, y * half);
+    let off = |terms: f64, offset: f64| {
+        U * (whole * (TERMS_BOUND * terms + AREA_BOUND * offset * size) + 3.0 * offset)
+    };
+    let squares = LEAST_SQUARE..LARGEST_SQUARE;
+    // Without branches up to here, because nothing predicts them.
+    if squares.contains(&bb)
+        && squares.contains(&cc)
+        && size > LEAST_PRODUCTS
+        && area.abs() > size * LEAST_SHARE
+        && let Some(x) = Ball::around_sum(a[0], x, off(terms_x, x.abs())).nearest()
+        && let Some(y) = Ball::around_sum(a[1], y, off(terms_y, y.abs())).nearest()
+    {
+        return Some([x, y]);
     }
     None
 }
 
+/// Two points at one height have the centre above their middle, which is often half way between two numbers; a right angle has it
+/// in the middle of the side across. No precision would settle these.
+#[inline(never)]
+fn slowly(points: [Point2; 3]) -> Option<Point2> {
+    let [a, b, c] = points;
+    if a == b || b == c || c == a {
+        return None;
+    }
+    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| Line::Bisector(p, q));
+    let known = [0, 1].map(|axis| sides.iter().find_map(|side| side.fixed(axis)));
+    rounded::meeting(&Line::Bisector(a, b), &Line::Bisector(a, c), known)
+        .or_else(|| of_right_angle(points))
+        .or_else(|| exact::circumcentre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite())))
+}
+
+/// The middle of the longest side, if the angle across is exactly a right one, as far as products of two `f64`s tell.
+fn of_right_angle([a, b, c]: [Point2; 3]) -> Option<Point2> {
+    let right = |&(o, p, q): &(Point2, Point2, Point2)| {
+        let differences =
+            [(p[0], o[0]), (q[0], o[0]), (p[1], o[1]), (q[1], o[1])].map(|(x, y)| two_sum(x, -y));
+        let [x, z, y, w] = differences.map(|difference| difference.0);
+        let (m, n) = (two_product(x, z), two_product(y, w));
+        let in_range = |p: f64| (LEAST_PRODUCTS..LARGEST_PRODUCTS).contains(&p.abs());
+        let is_exact = differences.iter().all(|difference| difference.1 == 0.0) && in_range(m.0);
+        is_exact && m.0 == -n.0 && m.1 == -n.1
+    };
+    let (_, p, q) = [(a, b, c), (b, c, a), (c, a, b)].into_iter().find(right)?;
+    Some([middle(p[0], q[0])?, middle(p[1], q[1])?])
+}
+
 /// The point that has the same power to three sites whose points are not collinear: the Voronoi vertex of power diagrams. In
-/// coordinate units; the same bits for every order of the sites.
+/// coordinate units, correctly rounded, so the same bits for every order of the sites.
 ///
-/// Computed in floating point where nothing cancels, with an error below 2^-40 of the distance from the lexicographically least of
-/// the three points, or else rounded once. `None` if it is too far away for an `f64`, and for collinear points.
-///
-/// O(1).
+/// `None` if it is too far away for an `f64`, and for collinear points. O(1).
 ///
 /// ```
 /// use delone_predicates::power_centre;
@@ -84,54 +116,23 @@ fn in_floating_point(a: Point2, b: Point2, c: Point2, reach: f64) -> Option<Poin
 /// assert_eq!(power_centre(a, ([2.0, 0.0], 2.0), c), Some([0.5, 1.0])); // further from the heavy one
 /// ```
 pub fn power_centre(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
-    power_centre_in_floating_point(a, b, c)
-        .or_else(|| exact::power::power_centre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite())))
-}
-
-/// The fast way, if it is good enough.
-fn power_centre_in_floating_point(a: Site<2>, b: Site<2>, c: Site<2>) -> Option<Point2> {
-    let sites = [a, b, c];
-    let least = usize::from(is_less(b.0, a.0));
-    let least = if is_less(c.0, sites[least].0) { 2 } else { least };
-    let [(a, wa), (b, wb), (c, wc)] = [least, [1, 2, 0][least], [2, 0, 1][least]].map(|i| sites[i]);
-    let (bx, by, cx, cy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
-    let (left, right) = (bx * cy, by * cx);
-    let (area, size) = (left - right, left.abs() + right.abs());
-    let lift = |x: f64, y: f64, weight: f64| (x * x + y * y - weight, x * x + y * y + weight.abs());
-    let ((bb, b_size), (cc, c_size)) = (lift(bx, by, wb - wa), lift(cx, cy, wc - wa));
-    let (x, y) = (cy * bb - by * cc, bx * cc - cx * bb);
-    let terms = (cy.abs() + cx.abs()) * b_size + (by.abs() + bx.abs()) * c_size;
-    // As above; what is small beside the terms is not known well enough.
-    let in_range = (1e-70..1e70).contains(&b_size) && (1e-70..1e70).contains(&c_size) && size > 1e-280;
-    if in_range && area.abs() > CANCELLED * size && larger(x.abs(), y.abs()) > CANCELLED * terms {
-        let (x, y) = (x / (2.0 * area), y / (2.0 * area));
-        let centre = [a[0] + x, a[1] + y];
-        return Some(centre).filter(|centre| centre.iter().all(|x| x.is_finite()));
+    if a.1 == b.1 && b.1 == c.1 {
+        return circumcentre(a.0, b.0, c.0);
     }
-    None
-}
-
-#[inline]
-#[expect(clippy::needless_bitwise_bool, reason = "a branch would be mispredicted every other time")]
-fn is_less(a: Point2, b: Point2) -> bool {
-    (a[0] < b[0]) | ((a[0] == b[0]) & (a[1] < b[1]))
-}
-
-#[cold]
-#[inline(never)]
-fn rounded_once(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
-    exact::circumcentre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite()))
+    if a.0 == b.0 || b.0 == c.0 || c.0 == a.0 {
+        return None;
+    }
+    let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| Line::Radical(p, q));
+    let known = [0, 1].map(|axis| sides.iter().find_map(|side| side.fixed(axis)));
+    rounded::meeting(&Line::Radical(a, b), &Line::Radical(a, c), known)
+        .or_else(|| exact::power::power_centre(a, b, c).filter(|centre| centre.iter().all(|x| x.is_finite())))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{circumcentre, rounded_once};
-    use crate::Point2;
+    use super::{circumcentre, in_floating_point, of_right_angle};
+    use crate::exact;
     use delone_generators::Kind;
-
-    fn in_floating_point(a: Point2, b: Point2, c: Point2) -> Option<Point2> {
-        super::in_floating_point(a, b, c, f64::INFINITY)
-    }
 
     #[test]
     fn a_centre_too_far_away_is_none() {
@@ -141,66 +142,59 @@ mod tests {
     }
 
     #[test]
-    fn the_fast_way_is_near_the_exact_one() {
-        let mut fast = 0;
+    fn every_way_gives_the_exact_centre_rounded() {
+        let (mut all, mut fast) = (0, 0);
         for &kind in Kind::ALL {
-            for p in kind.points(3000, 1).chunks_exact(3) {
-                let (Some(near), Some(exact)) =
-                    (circumcentre(p[0], p[1], p[2]), rounded_once(p[0], p[1], p[2]))
-                else {
-                    continue;
-                };
-                let radius = (exact[0] - p[0][0]).hypot(exact[1] - p[0][1]);
-                let error = (near[0] - exact[0]).hypot(near[1] - exact[1]);
-                let rounding = exact[0].abs().max(exact[1].abs()) * f64::EPSILON;
-                assert!(error <= radius * 2f64.powi(-40) + rounding, "{kind:?} {p:?}: {near:?}, {exact:?}");
-                fast += usize::from(error > 0.0);
+            let points = kind.points(3000, 1);
+            // As they are, and moved to where they are small beside their coordinates.
+            let far = points.iter().map(|p| p.map(|x| x / 64.0 + 1.0));
+            let all_points: Vec<[f64; 2]> = points.iter().copied().chain(far).collect();
+            for p in all_points.chunks_exact(3) {
+                let exact = exact::circumcentre(p[0], p[1], p[2]);
+                let expected = exact.filter(|centre| centre.iter().all(|x| x.is_finite()));
+                assert_eq!(circumcentre(p[0], p[1], p[2]), expected, "{kind:?} {p:?}");
+                if let Some(found) = in_floating_point(p[0], p[1], p[2]) {
+                    assert_eq!(Some(found), expected, "{kind:?} {p:?}");
+                    fast += 1;
+                }
+                all += 1;
             }
         }
-        assert!(fast > 100, "only {fast} centres came from floating point");
+        assert!(fast > all / 6, "only {fast} of {all} centres came from floating point");
     }
 
     #[test]
     fn the_fast_way_is_taken_where_nothing_cancels() {
-        let triangle = |size: f64| [[0.0, 0.0], [2.0 * size, 0.5 * size], [0.5 * size, 2.0 * size]];
-        for size in [1.0, 1e-30, 1e30] {
-            let [a, b, c] = triangle(size);
-            assert!(in_floating_point(a, b, c).is_some(), "{size}");
-            // An eighth of a sum is left, which is enough; a thousandth is not.
-            assert!(in_floating_point(a, b, [1.75 * size, 0.5625 * size]).is_some(), "{size}");
-            assert_eq!(in_floating_point(a, b, [1.75 * size, 0.438 * size]), None, "{size}");
+        // Of places about 100 times as far away as the triangle is large.
+        let triangle = |size: f64| {
+            [[101.0, 99.0], [103.0, 99.5], [101.5, 101.125]].map(|p: [f64; 2]| p.map(|x| x * size))
+        };
+        for exponent in [0, -100, 100] {
+            let [a, b, c] = triangle(2f64.powi(exponent));
+            assert!(in_floating_point(a, b, c).is_some(), "{exponent}");
+            // A five thousandth of the products is not enough.
+            let flat = [102.75, 99.4377].map(|x| x * 2f64.powi(exponent));
+            assert_eq!(in_floating_point(a, b, flat), None, "{exponent}");
+            // Nor is a place where numbers are as dense as errors are large.
+            let near = [a, b, c].map(|p| [p[0] - a[0], p[1] - a[1]]);
+            assert_eq!(in_floating_point(near[0], near[1], near[2]), None, "{exponent}");
         }
-        // One side alone leaves the range, and then the other.
-        for size in [1e-36, 1e36] {
-            assert_eq!(
-                in_floating_point([-1.0, -1.0], [size, 2.0 * size], [2.0, 0.25]).is_some(),
-                size < 1.0
-            );
-            let [a, b, c] = triangle(size);
+        for exponent in [-120, 120] {
+            let [a, b, c] = triangle(2f64.powi(exponent));
             assert_eq!(in_floating_point(a, b, c), None);
-            let other = size.recip();
-            assert_eq!(in_floating_point([0.0, 0.0], [size, 0.0], [size, other]), None);
         }
-        // The points are taken in the same order, whatever their x coordinates have in common.
-        let points = [[0.1, 0.7], [0.1, 0.3], [0.9, 0.2]];
-        let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-        let centres = orders.map(|order| {
-            let [a, b, c] = order.map(|i| points[i]);
-            in_floating_point(a, b, c).expect("an even triangle")
-        });
-        assert_eq!(centres, [centres[0]; 6]);
     }
 
     #[test]
-    fn the_order_of_the_points_does_not_matter() {
-        for &kind in Kind::ALL {
-            for p in kind.points(300, 2).chunks_exact(3) {
-                let centre = circumcentre(p[0], p[1], p[2]);
-                for [i, j, k] in [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
-                    assert_eq!(circumcentre(p[i], p[j], p[k]), centre);
-                }
-            }
+    fn right_angles_are_seen_where_products_tell() {
+        let from = 1.0 + f64::EPSILON;
+        let (o, p, q) = ([from, 1.0], [from + 0.75, 2.25], [from - 1.25, 1.75]);
+        for [a, b, c] in [[o, p, q], [q, o, p], [p, q, o]] {
+            assert_eq!(of_right_angle([a, b, c]), Some([from - 0.25, 2.0]));
         }
+        assert_eq!(of_right_angle([[0.0, 0.0], [3.0, 4.0], [-8.0, 6.0]]), Some([-2.5, 5.0]));
+        assert_eq!(of_right_angle([[0.0, 0.0], [3.0, 4.0], [-8.0, 6.0_f64.next_up()]]), None);
+        assert_eq!(of_right_angle([[0.0, 0.0], [3e-200, 4e-200], [-8e-200, 6e-200]]), None);
     }
 
     #[test]
@@ -212,5 +206,9 @@ mod tests {
         let centre = circumcentre([near, 1e-4], [near, -1e-4], [far, 3.981_071_705_534_969_5e-5]);
         assert_eq!(centre, Some([4.000_000_000_000_001e300, 0.0]));
         assert_eq!(circumcentre([1e300, 0.0], [0.0, 1e300], [0.0, 0.0]), Some([5e299, 5e299]));
+        // A middle whose sum is too large for a number.
+        let far = 1.7e308;
+        let middle = far / 2.0 + 1.6e308 / 2.0;
+        assert_eq!(circumcentre([far, 0.0], [far, 2.0], [1.6e308, 0.0]), Some([middle, 1.0]));
     }
 }

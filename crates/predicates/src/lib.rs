@@ -22,6 +22,7 @@
 //! assert_eq!(in_circle(a, b, [0.0, 1.0], c), Sign::Negative);
 //! ```
 
+mod ball;
 mod bundle;
 mod cell;
 mod centre;

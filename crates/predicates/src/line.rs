@@ -8,10 +8,12 @@
 //! there is the determinant of all three, over that of (a, b) of the first two. Degree four in the coordinates.
 
 mod exact;
+pub(crate) mod rounded;
 
 use std::cmp::Ordering;
 
-use crate::circumcentre::{circumcentre_within, power_centre};
+use crate::ball::U;
+use crate::circumcentre::{circumcentre, power_centre};
 use crate::{Point2, Sign, Site, compare_distances, compare_powers, lexicographic, orient2d};
 
 /// A directed line, given by what is positive: on its left.
@@ -152,23 +154,25 @@ impl Line {
         }
     }
 
+    /// The coordinate of all its points on an axis, correctly rounded, where it is parallel to the other axis.
+    pub(crate) fn fixed(&self, along: usize) -> Option<f64> {
+        let across = 1 - along;
+        match *self {
+            Self::Above(..) | Self::Below(..) => self.at(along),
+            Self::Through(p, q) => (p[along] == q[along]).then_some(p[along]),
+            Self::Radical((_, w), (_, v)) if w != v => None,
+            Self::Bisector(p, q) | Self::Radical((p, _), (q, _)) if p[across] == q[across] => {
+                middle(p[along], q[along])
+            }
+            Self::Bisector(..) | Self::Radical(..) => None,
+        }
+    }
+
     /// One of the points that it is given by.
     fn point(&self) -> Option<Point2> {
         match *self {
             Self::Through(p, _) | Self::Bisector(p, _) | Self::Radical((p, _), _) => Some(p),
             _ => None,
-        }
-    }
-
-    /// The same points, in the direction that does not depend on how it was given.
-    fn undirected(&self) -> Self {
-        let is_less = |p: Point2, q: Point2| lexicographic(p, q).is_lt();
-        match *self {
-            Self::Through(p, q) if is_less(q, p) => Self::Through(q, p),
-            Self::Bisector(p, q) if is_less(q, p) => Self::Bisector(q, p),
-            Self::Radical(p, q) if is_less(q.0, p.0) => Self::Radical(q, p),
-            Self::Below(axis, at) => Self::Above(axis, at),
-            same => same,
         }
     }
 
@@ -220,65 +224,55 @@ impl Line {
 }
 
 impl Spot {
-    /// The place in coordinate units, the same bits whatever the order and the directions of the lines. Off by at
-    /// most 2^-40 of `size` and a rounding, from floating point where that is good enough; otherwise the exact place is
-    /// rounded once. `None` for lines that do not meet, and if it is too far away for an `f64`.
+    /// The place in coordinate units, correctly rounded: each coordinate is the nearest `f64` of the exact one, so the same bits
+    /// whatever the order and the directions of the lines. `None` for lines that do not meet, and if it is too far away for an
+    /// `f64`.
     ///
-    /// Two bisectors that share a site meet at [`crate::circumcentre`], to the bit unless the radius is larger
-    /// than `size`. O(1).
+    /// Two bisectors that share a site meet at [`crate::circumcentre`]. O(1).
     ///
     /// ```
     /// use delone_predicates::{Line, Spot};
     /// let meeting = Spot::Meeting(Line::Through([0.0, 0.0], [1.0, 1.0]), Line::Bisector([0.0, 0.0], [3.0, 0.0]));
-    /// assert_eq!(meeting.rounded(3.0), Some([1.5, 1.5]));
+    /// assert_eq!(meeting.rounded(), Some([1.5, 1.5]));
     /// ```
-    pub fn rounded(&self, size: f64) -> Option<Point2> {
-        let (first, second) = match *self {
-            Self::Point(p) => return Some(p),
-            Self::Meeting(first, second) => (first.undirected(), second.undirected()),
-        };
-        // Of lines with the same numbers either may be first: their points are the same.
-        let (first, second) =
-            if first.numbers() <= second.numbers() { (first, second) } else { (second, first) };
-        if let (Line::Bisector(a, b), Line::Bisector(c, d)) = (first, second) {
-            if a == c || b == c {
-                return circumcentre_within(a, b, d, size);
-            } else if a == d || b == d {
-                return circumcentre_within(a, b, c, size);
+    pub fn rounded(&self) -> Option<Point2> {
+        match *self {
+            Self::Point(p) => Some(p),
+            Self::Meeting(Line::Bisector(a, b), Line::Bisector(c, d)) if a == c || b == c => {
+                circumcentre(a, b, d)
+            }
+            Self::Meeting(Line::Bisector(a, b), Line::Bisector(c, d)) if a == d || b == d => {
+                circumcentre(a, b, c)
+            }
+            Self::Meeting(Line::Radical(a, b), Line::Radical(c, d)) if a == c || b == c => {
+                power_centre(a, b, d)
+            }
+            Self::Meeting(Line::Radical(a, b), Line::Radical(c, d)) if a == d || b == d => {
+                power_centre(a, b, c)
+            }
+            Self::Meeting(first, second) => {
+                let known = [0, 1].map(|axis| first.fixed(axis).or(second.fixed(axis)));
+                rounded::meeting(&first, &second, known)
+                    .or_else(|| exact::meeting(&first, &second).filter(|p| p.iter().all(|x| x.is_finite())))
             }
         }
-        if let (Line::Radical(a, b), Line::Radical(c, d)) = (first, second) {
-            if a == c || b == c {
-                return power_centre(a, b, d);
-            } else if a == d || b == d {
-                return power_centre(a, b, c);
-            }
-        }
-        let at = |axis: usize| first.at(axis).or(second.at(axis));
-        if let (Some(x), Some(y)) = (at(0), at(1)) {
-            return Some([x, y]);
-        }
-        let [x, y] = meeting_filter(&first, &second, size * GOOD)
-            .or_else(|| exact::meeting(&first, &second))
-            .filter(|p| p.iter().all(|x| x.is_finite()))?;
-        Some([at(0).unwrap_or(x), at(1).unwrap_or(y)])
     }
 }
 
-/// How good floating point must be, as a share of the size that matters: 2^-44.
-const GOOD: f64 = 1.0 / (1_u64 << 44) as f64;
-
-const U: f64 = f64::EPSILON / 2.0;
 /// The determinant, relative to its permanent: 12 roundings, and room for those of the permanent.
 pub(crate) const SIDE_BOUND: f64 = 16.0 * U;
 /// Two products of two differences each.
 pub(crate) const TURN_BOUND: f64 = 5.0 * U;
-/// A product of a difference and a last coefficient, less another one.
-pub(crate) const MEETING_BOUND: f64 = 10.0 * U;
 /// The largest a and b for which [`FLOOR`] is valid, 2^200; c and its size may be as large as the square.
 const CEILING: f64 = f64::from_bits((1023 + 200) << 52);
 /// All errors by underflow: each of fewer than 32 products is off by at most 2^-1075, times at most 2^402.
 const FLOOR: f64 = f64::from_bits((1023 - 660) << 52);
+
+/// Half of the sum, correctly rounded; `None` if the sum is too large for an `f64`.
+pub(crate) fn middle(a: f64, b: f64) -> Option<f64> {
+    // A sum that is rounded is not subnormal, so halving it is exact. No negative zero.
+    Some(0.5 * (a + b) + 0.0).filter(|x| x.is_finite())
+}
 
 /// a x + b y + c in floating point, relative to a point near by: a and b with one rounding each.
 #[derive(Clone, Copy)]
@@ -321,26 +315,6 @@ fn side_filter(first: &Line, second: &Line, third: &Line) -> Option<Sign> {
         return None;
     }
     Some(outside_of(value, SIDE_BOUND * permanent + FLOOR)? * turn)
-}
-
-/// Where two lines meet, if floating point is surely off by no more than `error`, roundings of the result apart.
-fn meeting_filter(first: &Line, second: &Line, error: f64) -> Option<Point2> {
-    let from = second.point().or(first.point())?;
-    let (e, f) = (first.equation(from), second.equation(from));
-    let (left, right) = (e.a * f.b, e.b * f.a);
-    let (denominator, size) = (left - right, left.abs() + right.abs());
-    // Half of the denominator is left after all errors, which is what the factors of two below are for.
-    if !(e.in_range() && f.in_range() && denominator.abs() > 2.0 * TURN_BOUND * size + f64::MIN_POSITIVE) {
-        return None;
-    }
-    let (x, y) = ((e.b * f.c - f.b * e.c) / denominator, (e.c * f.a - f.c * e.a) / denominator);
-    let off = |terms: f64, quotient: f64| {
-        let of_terms = MEETING_BOUND * terms + FLOOR;
-        2.0 * (of_terms + quotient.abs() * (TURN_BOUND * size + f64::MIN_POSITIVE)) / denominator.abs()
-    };
-    let off_x = off(e.b.abs() * f.size + f.b.abs() * e.size, x);
-    let off_y = off(e.size * f.a.abs() + f.size * e.a.abs(), y);
-    (off_x <= error && off_y <= error).then(|| [from[0] + x, from[1] + y])
 }
 
 /// What floating point decides by itself, and from where on: an answer that is right but late is seen by no comparison

@@ -7,22 +7,21 @@
 //! each corner as seen from the last one.
 //!
 //! Questions read filter, integers, big integers; zero is no answer that matters here: whoever is on a sphere makes one of the same
-//! size. Sizes are rounded once: [`ball`] arithmetic knows a number to a hundred bits with a bound of its error, and if all that
+//! size. Sizes are rounded once: [`crate::ball`] arithmetic knows a number to a hundred bits with a bound of its error, and if all that
 //! it may be is rounded to one `f64` that is the result; otherwise a fraction of big integers is rounded. So no size is ever in
 //! the wrong order with a size that it is part of, and all machines find the same bits.
 
-mod ball;
 mod exact;
 mod filter;
 mod fraction;
 #[cfg(test)]
 mod tests;
 
+use crate::ball::{Ball, Lane, Number};
 use crate::lanes::Lanes;
 
 use crate::{Sign, Site, angle, compare_powers};
-use ball::{Ball, Lane};
-use fraction::{Fraction, Number, smallest};
+use fraction::{Fraction, smallest};
 
 /// Whether `q` is strictly inside of the smallest sphere orthogonal to one site: has less power at its point than the site itself.
 ///

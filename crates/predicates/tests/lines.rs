@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use delone_generators::Random;
 use delone_oracle::lines::{self, Line as Judged};
+use delone_oracle::share;
 use delone_predicates::{Line, Point2, Sign, Spot, circumcentre};
 
 /// Coordinates of one kind; lines are made of those of one kind.
@@ -112,7 +113,7 @@ fn orders_along_lines_are_exact() {
                 }
                 Judged::Axis(..) => continue,
             };
-            let [at_p, at_q] = [p, q].map(|spot| spot.rounded(0.0));
+            let [at_p, at_q] = [p, q].map(|spot| spot.rounded());
             let (Some(at_p), Some(at_q)) = (at_p, at_q) else { continue };
             if at_p[axis] != at_q[axis] {
                 let expected = (at_p[axis].total_cmp(&at_q[axis]) as i8 * direction).cmp(&0);
@@ -145,33 +146,65 @@ fn points_of_a_line_are_in_its_order() {
     assert!(up.compare(&Spot::Point([1.0, 0.0]), &Spot::Point([1.0, 2.0])).is_gt());
 }
 
-/// Within the size and a rounding, and the same bits from all sides.
+/// The nearest number of each exact coordinate, and so the same bits from all sides.
 #[test]
-fn meetings_are_rounded_well() {
+fn meetings_are_correctly_rounded() {
     let mut rounded = 0;
-    triples(3, 10_000, |name, [e, f, _], judged| {
-        for size in [0.0, 1e-3, 1.0, 1e6, f64::MAX] {
-            let Some(at) = Spot::Meeting(e, f).rounded(size) else { continue };
-            let swapped = |line: Line| match line {
-                Line::Through(p, q) => Line::Through(q, p),
-                Line::Bisector(p, q) => Line::Bisector(q, p),
-                Line::Radical(p, q) => Line::Radical(q, p),
-                Line::Above(axis, at) => Line::Below(axis, at),
-                Line::Below(axis, at) => Line::Above(axis, at),
-            };
-            for other in
-                [Spot::Meeting(f, e), Spot::Meeting(swapped(e), f), Spot::Meeting(swapped(f), swapped(e))]
-            {
-                let same = other.rounded(size).is_some_and(|p| p.map(f64::to_bits) == at.map(f64::to_bits));
-                assert!(same, "{name}: {e:?} {f:?}: {at:?} and {other:?}");
-            }
-            let error = at.map(|x| x.abs() * f64::EPSILON + size * 2f64.powi(-40) + f64::from_bits(1));
-            let near = lines::meet_near(judged[0], judged[1], at, error);
-            assert_eq!(near, Some(true), "{name}: {e:?} {f:?} at {at:?} for {size}");
-            rounded += 1;
+    triples(3, 20_000, |name, [e, f, _], judged| {
+        let Some(at) = Spot::Meeting(e, f).rounded() else {
+            let far = lines::meet_near(judged[0], judged[1], [0.0; 2], [f64::MAX; 2]);
+            assert_ne!(far, Some(true), "{name}: {e:?} {f:?} meet");
+            return;
+        };
+        let swapped = |line: Line| match line {
+            Line::Through(p, q) => Line::Through(q, p),
+            Line::Bisector(p, q) => Line::Bisector(q, p),
+            Line::Radical(p, q) => Line::Radical(q, p),
+            Line::Above(axis, at) => Line::Below(axis, at),
+            Line::Below(axis, at) => Line::Above(axis, at),
+        };
+        for other in
+            [Spot::Meeting(f, e), Spot::Meeting(swapped(e), f), Spot::Meeting(swapped(f), swapped(e))]
+        {
+            let same = other.rounded().is_some_and(|p| p.map(f64::to_bits) == at.map(f64::to_bits));
+            assert!(same, "{name}: {e:?} {f:?}: {at:?} and {other:?}");
         }
+        let nearest = lines::meet_nearest_to(judged[0], judged[1], at);
+        assert_eq!(nearest, Some([true; 2]), "{name}: {e:?} {f:?} at {at:?}");
+        rounded += 1;
     });
-    assert!(rounded > 100_000, "only {rounded}");
+    assert!(rounded > 50_000, "only {rounded}");
+}
+
+/// Right angles, equal heights and slivers: centres half way between two numbers, and such that hang on the last bits.
+#[test]
+fn circumcentres_are_correctly_rounded() {
+    let mut random = Random::new(9);
+    let judge = |name: &str, [a, b, c]: [Point2; 3]| {
+        let Some(at) = circumcentre(a, b, c) else { return 0 };
+        let nearest = lines::meet_nearest_to(Judged::Bisector(a, b), Judged::Bisector(a, c), at);
+        assert_eq!(nearest, Some([true; 2]), "{name}: {a:?} {b:?} {c:?} at {at:?}");
+        for [p, q, r] in [[a, c, b], [b, a, c], [b, c, a], [c, a, b], [c, b, a]] {
+            assert_eq!(circumcentre(p, q, r).map(|p| p.map(f64::to_bits)), Some(at.map(f64::to_bits)));
+        }
+        1
+    };
+    let mut judged = 0;
+    for &(name, coordinate) in FAMILIES {
+        for _ in 0..share(20_000) {
+            let mut point = || [coordinate(&mut random), coordinate(&mut random)];
+            let [a, b, [x, y]] = [(); 3].map(|()| point());
+            let (u, w) = ([b[0] - a[0], b[1] - a[1]], f64::from(random.below(5) as u8));
+            let turned = [a[0] - w * u[1], a[1] + w * u[0]];
+            let beside = [0, 1].map(|k| (a[k] / 2.0 + b[k] / 2.0).next_up());
+            for c in [[x, y], [x, a[1]], [b[0], y], [b[0], a[1]], turned, beside] {
+                if a.iter().chain(&b).chain(&c).all(|x| x.is_finite()) && a != b {
+                    judged += judge(name, [a, b, c]);
+                }
+            }
+        }
+    }
+    assert!(judged > share(500_000), "only {judged}");
 }
 
 #[test]
@@ -181,11 +214,9 @@ fn meetings_of_bisectors_are_circumcentres() {
         let mut point = || -> Point2 { [random.unit(), random.unit()] };
         let (a, b, c) = (point(), point(), point());
         let centre = circumcentre(a, b, c);
-        if centre.is_some_and(|centre| centre.iter().zip(a).all(|(x, y)| (x - y).abs() < 4.0)) {
-            for (e, f) in [((a, b), (a, c)), ((b, a), (c, a)), ((b, c), (a, b)), ((c, b), (c, a))] {
-                let spot = Spot::Meeting(Line::Bisector(e.0, e.1), Line::Bisector(f.0, f.1));
-                assert_eq!(spot.rounded(5.0), centre);
-            }
+        for (e, f) in [((a, b), (a, c)), ((b, a), (c, a)), ((b, c), (a, b)), ((c, b), (c, a))] {
+            let spot = Spot::Meeting(Line::Bisector(e.0, e.1), Line::Bisector(f.0, f.1));
+            assert_eq!(spot.rounded(), centre);
         }
     }
 }

@@ -377,7 +377,8 @@ fn the_lattice_test_knows_multiples() {
 /// c with five of its size, all of size 1.
 #[test]
 fn the_bounds_of_lines_cover_their_formulas() {
-    use crate::line::{MEETING_BOUND, SIDE_BOUND, TURN_BOUND};
+    use crate::line::rounded::MEETING_BOUND;
+    use crate::line::{SIDE_BOUND, TURN_BOUND};
     let d = Bounded::difference(1.0);
     // A bisector: a difference times a sum of two differences, twice; of size 2 altogether.
     let half = Bounded::difference(0.5);
@@ -395,6 +396,21 @@ fn the_bounds_of_lines_cover_their_formulas() {
     let value = d.times(mixed).plus(d.times(mixed)).plus(c.times(turn));
     assert!(value.error <= SIDE_BOUND * 6.0 * (1.0 - 16.0 * U), "{} u", value.error / U / 6.0);
     assert!(value.error >= SIDE_BOUND * 6.0 * 0.7, "the bound is far too large: {} u", value.error / U / 6.0);
+}
+
+/// The terms of a circumcentre: twice an area, and the offset from a corner times twice of that.
+#[test]
+fn the_bounds_of_circumcentres_cover_their_formulas() {
+    use crate::circumcentre::{AREA_BOUND, TERMS_BOUND};
+    let d = Bounded::difference(1.0);
+    let area = d.times(d).plus(d.times(d));
+    let square = d.times(d).plus(d.times(d));
+    let terms = d.times(square).plus(d.times(square));
+    // The quotient is by twice the area, which halves the error of the terms, but not that of the area. Sizes and inverses are rounded
+    // too, and the area itself may be smaller by its own error, 2^-39 of it.
+    let room = 1.0 - 2f64.powi(-30);
+    assert!(terms.error / 2.0 <= TERMS_BOUND * U * terms.max * room, "{} u", terms.error / U / terms.max);
+    assert!(area.error <= AREA_BOUND * U * area.max * room, "{} u", area.error / U / area.max);
 }
 
 /// Lengths, diametral balls and lunes in three dimensions, relative to sums of magnitudes.

@@ -4,7 +4,8 @@
 //! Differences take 61 bits and a sign, lifts 125, minors 123; |n|^2 248, (h v - k u) 188 and n x q 186: degree six takes 375 bits.
 
 use super::Side;
-use super::fraction::{Number, length, normal, smallest};
+use super::fraction::{length, normal, smallest};
+use crate::ball::Number;
 use crate::exact::big;
 use crate::exact::big_int::BigInt;
 use crate::exact::power::{Rows, big_rows, rows};

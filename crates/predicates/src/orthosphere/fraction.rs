@@ -1,16 +1,7 @@
 //! The squared distance of the centre of the smallest orthogonal sphere from a corner, as a fraction: one formula for all kinds of
 //! numbers.
 
-/// A number that can be added, subtracted and multiplied.
-pub(super) trait Number: Clone {
-    fn plus(&self, other: &Self) -> Self;
-    fn minus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-
-    fn square(&self) -> Self {
-        self.times(self)
-    }
-}
+use crate::ball::Number;
 
 /// `numerator / (4 denominator)` is the squared distance of the centre from the last corner.
 pub(super) struct Fraction<T> {

@@ -2,10 +2,9 @@
 
 use delone_generators::Random;
 
-use super::ball::{ALLOWANCE, Ball};
 use super::filter::{CEILING, EDGE_BOUND, FLOOR, TRIANGLE_BOUND};
-use super::fraction::Number;
 use super::{RadiusScale, filter};
+use crate::ball::{ALLOWANCE, Ball, Number};
 use crate::exact::big;
 use crate::exact::big_int::BigInt;
 use crate::{Sign, Site};

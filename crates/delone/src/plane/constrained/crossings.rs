@@ -101,7 +101,7 @@ pub(super) fn line(graph: &Delaunay2, [v, w]: [VertexId; 2]) -> Line {
 /// Where two segments cross, rounded once.
 pub(super) fn place(graph: &Delaunay2, first: [VertexId; 2], second: [VertexId; 2]) -> [f64; 2] {
     let meeting = Spot::Meeting(line(graph, first), line(graph, second));
-    meeting.rounded(0.0).expect("between the ends of both")
+    meeting.rounded().expect("between the ends of both")
 }
 
 #[cfg(test)]

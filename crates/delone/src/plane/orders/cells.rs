@@ -11,8 +11,8 @@ use super::circle::Circle;
 use super::{OrderK2, OrderRegion2};
 use crate::ids::VertexId;
 use crate::plane::region::Region2;
+use crate::plane::voronoi::build::Builder;
 use crate::plane::voronoi::{Cells2, Ring};
-use crate::points::Bounds;
 
 /// Clipped regions of a diagram of some order: polygons, of several rings where what they are clipped to is not convex.
 #[derive(Clone, Debug, Default)]
@@ -31,16 +31,14 @@ impl OrderK2<'_> {
         };
         let far = [f64::INFINITY; 2];
         let centres = self.circles.iter().map(|circle| centre(circle).unwrap_or(far)).collect();
-        let mut cells = Cells2::empty(self.region_count(), self.region_count(), centres);
+        let mut builder = Builder::new(region, self.region_count(), self.region_count(), centres);
         for own in self.regions() {
-            let corners = || own.corners().iter().map(|&corner| corner as usize / 3);
-            // The smallest site on a circle comes first, so it is none at infinity.
-            let reach = Bounds::of(corners().map(|circle| point(self.circles[circle].on[0])));
-            cells.add(own.index(), corners(), Some(reach), region, || {
+            let corners = own.corners().iter().map(|&corner| corner as usize / 3);
+            builder.add(own.index(), corners, || {
                 own.sides().map(|(side, _)| Line::Bisector(point(side.lost), point(side.gained)))
             });
         }
-        OrderCells2 { cells }
+        OrderCells2 { cells: builder.finish() }
     }
 }
 

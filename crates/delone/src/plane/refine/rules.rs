@@ -36,7 +36,8 @@ pub(super) struct Rules<'a> {
     /// And for the sake of angles, before and for each one that was asked for by a size.
     for_angles: usize,
     keep: Keep,
-    longest: f64,
+    /// The square of the longest edge.
+    squared_longest: f64,
     /// By domain, those inside from 1 on; there is nothing at 0.
     areas: Vec<f64>,
     /// Whether there is any bound of sizes, and whether one is asked for each place.
@@ -83,7 +84,7 @@ impl<'a> Rules<'a> {
             most: wanted.max_vertices.map_or(before.room, |most| most.min(before.room)),
             for_angles: wanted.max_vertices.map_or_else(|| MANY.max(EACH * before.given), |_| before.room),
             keep: wanted.keep,
-            longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
+            squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),
             areas,
             has_fields,
@@ -99,7 +100,7 @@ impl<'a> Rules<'a> {
     #[inline]
     pub(super) fn is_large(&self, shape: &Shape, domain: usize) -> bool {
         self.has_sizes
-            && (shape.longest() > self.longest
+            && (shape.longest() > self.squared_longest
                 || shape.area() > self.areas[domain]
                 || (self.has_fields && self.is_larger_than_wanted(shape)))
     }
@@ -118,14 +119,14 @@ impl<'a> Rules<'a> {
         shape.area() > asked(self.area_at) || shape.longest() > size * size
     }
 
-    /// How long edges may be at a place of a domain, about. What is refused for being too small is far below.
+    /// How long edges may be at a place of a domain, about, in coordinate units. What is refused for being too small is far below.
     pub(super) fn size_at(&self, at: [f64; 2], domain: usize) -> f64 {
         if !self.has_sizes {
             return f64::INFINITY;
         }
         let asked = |field: Option<Field>| field.map_or(f64::INFINITY, |field| field(at)).max(0.0);
         let area = self.areas.get(domain).copied().unwrap_or(f64::INFINITY).min(asked(self.area_at));
-        self.longest.min(asked(self.size_at)).min(area.sqrt())
+        self.squared_longest.min(area).sqrt().min(asked(self.size_at))
     }
 
     /// Not if a bound was none, or somebody wants to stop, who is told the number of new vertices.

@@ -5,10 +5,10 @@
 
 pub(in crate::plane) mod clip;
 pub(in crate::plane) mod measure;
-mod sweep;
+pub(in crate::plane) mod sweep;
 pub(in crate::plane) mod tree;
 
-use delone_predicates::{Line, Spot};
+use delone_predicates::Line;
 
 use crate::error::{Error, RegionProblem};
 use crate::plane::Delaunay2;
@@ -162,9 +162,9 @@ impl Region2 {
 
     /// The polygon as far as it is near parts of the region's own box. `None` if these are all inside of it.
     pub(in crate::plane) fn around(&self, rings: &[Ring]) -> Option<Vec<Ring>> {
-        let corners = rings.iter().flatten().filter_map(|corner| self.round(&corner.spot));
+        let corners = rings.iter().flatten().filter_map(|corner| corner.spot.rounded());
         let Bounds { low, high } = Bounds::of(corners);
-        let [low, high] = enlarged(low, high, self.size()).unwrap_or([self.low, self.high]);
+        let [low, high] = enlarged(low, high).unwrap_or([self.low, self.high]);
         let node = self.tree.around_rings(rings, low, high);
         if node.full {
             return None;
@@ -186,43 +186,18 @@ impl Region2 {
         Some(part)
     }
 
-    /// No two points of it are further apart.
-    fn size(&self) -> f64 {
-        (self.high[0] - self.low[0]).hypot(self.high[1] - self.low[1])
-    }
-
     /// The region's own box as a ring.
     pub(in crate::plane) fn frame(&self) -> Ring {
         let ([x0, y0], [x1, y1]) = (self.low, self.high);
         sides(&[[x0, y0], [x1, y0], [x1, y1], [x0, y1]], 0)
     }
-
-    /// A corner of a clipped cell in coordinate units: it is inside of the region's own box, so it is not rounded out
-    /// of that. `None` never happens to a corner.
-    pub(in crate::plane) fn round(&self, spot: &Spot) -> Option<[f64; 2]> {
-        let ([x0, y0], [x1, y1]) = (self.low, self.high);
-        let [x, y] = spot.rounded(self.size())?;
-        Some([x.clamp(x0, x1), y.clamp(y0, y1)])
-    }
 }
 
-/// A box around rounded meetings and circumcentres, so enlarged that the exact ones are in it. `None` if it is too large for
-/// that.
-///
-/// Each is off by at most 2^-40 of its radius, or of the region, and a rounding of its coordinates; `size` is as large as
-/// that.
+/// A box around correctly rounded corners, so enlarged that the exact ones are in it. `None` if it is not finite.
 #[inline]
-pub(in crate::plane) fn enlarged(low: [f64; 2], high: [f64; 2], size: f64) -> Option<[[f64; 2]; 2]> {
-    let largest = low.iter().chain(&high).fold(0.0_f64, |max, x| max.max(x.abs()));
-    let margin = margin(size, largest);
-    margin.is_finite().then(|| [low.map(|x| x - margin), high.map(|x| x + margin)])
-}
-
-/// How far the exact place can be from a rounded one, by its radius and its largest coordinate, or more than these; and some more.
-#[inline]
-pub(in crate::plane) fn margin(size: f64, largest: f64) -> f64 {
-    const OF_SIZE: f64 = 1.0 / (1_u64 << 38) as f64;
-    OF_SIZE * size + 4.0 * f64::EPSILON * largest + f64::MIN_POSITIVE
+pub(in crate::plane) fn enlarged(low: [f64; 2], high: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+    let ends = [low.map(f64::next_down), high.map(f64::next_up)];
+    [low, high].iter().chain(&ends).flatten().all(|x| x.is_finite()).then_some(ends)
 }
 
 fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
@@ -309,34 +284,20 @@ mod tests {
     }
 
     #[test]
-    fn the_size_is_the_diagonal() {
-        let size = |low: [f64; 2], high: [f64; 2]| Region2::rectangle(low, high).expect("a rectangle").size();
-        assert_eq!(size([3.0, 4.0], [6.0, 8.0]), 5.0);
-        assert_eq!(size([-3.0, -4.0], [0.0, 8.0]), 3f64.hypot(12.0));
+    fn rectangles_without_area_are_refused() {
         let flat = |x: f64, y: f64| Region2::rectangle([0.0; 2], [x, y]).is_err();
         assert!(flat(1.0, 0.0) && flat(0.0, 1.0) && flat(-1.0, 1.0) && flat(1.0, -1.0) && !flat(1.0, 1.0));
     }
 
-    /// By all that rounding can do, and by little more: 2^-40 of the size, and a rounding of the coordinates.
+    /// By a step, which is more than rounding can do.
     #[test]
-    fn boxes_are_enlarged_by_roundings() {
-        let margins = |low: f64, high: f64, size: f64| {
-            let [[x, _], [_, y]] = enlarged([low, low], [high, high], size).expect("finite");
-            [low - x, y - high]
-        };
-        let two = |exponent: i32| 2f64.powi(exponent);
-        for (low, high, size, least, most) in [
-            (0.0, 1.0, two(50), two(10), two(14)),
-            (0.0, 0.0, two(-100), two(-140), two(-136)),
-            (two(60), two(60), 1.0, two(9), two(12)),
-            (-two(60), 0.0, 1.0, two(8), two(12)),
-            (0.0, 0.0, 0.0, f64::MIN_POSITIVE, 1e-300),
-        ] {
-            for margin in margins(low, high, size) {
-                assert!((least..=most).contains(&margin), "{low} {high} {size}: {margin:e}");
-            }
-        }
-        assert_eq!(enlarged([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 1.0), None);
-        assert_eq!(enlarged([0.0; 2], [1.0; 2], f64::INFINITY), None);
+    fn boxes_are_enlarged_by_a_step() {
+        let step = 2f64.powi(-52);
+        assert_eq!(
+            enlarged([1.0, 0.0], [1.0, 2.0]),
+            Some([[1.0 - step / 2.0, -f64::from_bits(1)], [1.0 + step, 2.0 + 2.0 * step]])
+        );
+        assert_eq!(enlarged([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), None);
+        assert_eq!(enlarged([0.0; 2], [f64::MAX, 1.0]), None);
     }
 }

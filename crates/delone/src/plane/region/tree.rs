@@ -53,7 +53,7 @@ impl Node {
         }
         // Where to cut is no decision about the polygon, so roughly is enough.
         let sides = rings.iter().flatten().filter(is_side);
-        let corners: Vec<[f64; 2]> = sides.filter_map(|corner| corner.spot.rounded(f64::INFINITY)).collect();
+        let corners: Vec<[f64; 2]> = sides.filter_map(|corner| corner.spot.rounded()).collect();
         let extent = |axis: usize| {
             let coordinates = corners.iter().map(|c| c[axis]);
             coordinates.clone().fold(f64::MIN, f64::max) - coordinates.fold(f64::MAX, f64::min)

@@ -18,8 +18,9 @@ use crate::plane::layer::kernel::Power;
 use crate::plane::region::clip;
 use crate::plane::region::tree::Relation;
 use crate::plane::region::{Region2, enlarged};
-use crate::plane::voronoi::cells::{Cells2, Cellular, cut_out};
+use crate::plane::voronoi::cells::Cells2;
 use crate::plane::voronoi::centres::Centres;
+use crate::plane::voronoi::clip::{Cellular, cut_out};
 use crate::points::Bounds;
 use crate::sorting;
 
@@ -123,9 +124,7 @@ impl<'a> Power2<'a> {
         let triangles = [e, layer.mesh.twin(e)].map(EdgeId::triangle);
         let [p, q] = triangles.map(|t| centres[t.index()]);
         let Bounds { low, high } = Bounds::of([p, q]);
-        let sites = triangles.into_iter().flat_map(|t| layer.mesh.places(t)).filter(|p| !p.is_ghost());
-        let all = Bounds::of(sites.map(|p| layer.points[p.index()]).chain([p, q]));
-        let [low, high] = enlarged(low, high, all.extent().iter().sum())?;
+        let [low, high] = enlarged(low, high)?;
         (region.relation(low, high) == Relation::Inside).then(|| (q[0] - p[0]).hypot(q[1] - p[1]))
     }
 }
@@ -136,7 +135,7 @@ fn clipped_borders(r: &Regular2, region: &Region2, place: Place) -> Vec<(Line, f
     let mut borders = Vec::new();
     for ring in &rings {
         for (corner, next) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-            if let (Some(p), Some(q)) = (region.round(&corner.spot), region.round(&next.spot)) {
+            if let (Some(p), Some(q)) = (corner.spot.rounded(), next.spot.rounded()) {
                 borders.push((corner.line, (q[0] - p[0]).hypot(q[1] - p[1])));
             }
         }

@@ -5,12 +5,11 @@
 //!
 //! Cost: O(n).
 
-use super::cells::{AHEAD, Cellular};
+use super::clip::{AHEAD, Cellular};
 use crate::ids::Place;
 use crate::mesh::triangles::HalfEdge;
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::Site;
-use crate::plane::region::margin;
 use crate::prefetch::{self, prefetch};
 
 /// By the index of the triangle.
@@ -38,9 +37,7 @@ impl Centres {
             let centre = sites.and_then(|[a, b, c]| K::centre(a, b, c));
             points.push(centre.unwrap_or([f64::INFINITY; 2]));
             if let Some(within) = within {
-                inside.push(
-                    sites.zip(centre).is_some_and(|(sites, centre)| is_inside::<K>(sites, centre, within)),
-                );
+                inside.push(centre.is_some_and(|centre| is_inside(centre, within)));
             }
         }
         Self { points, inside }
@@ -55,12 +52,9 @@ fn sites<K: Cellular>(layer: &Layer<K>, corners: &[HalfEdge]) -> Option<[Site<K>
     a.zip(b).zip(c).map(|((a, b), c)| [a, b, c])
 }
 
-/// Whether the exact centre is surely inside of a box, from the rounded one.
+/// Whether the exact centre is inside of a box, from the rounded one. Rounding keeps order: what is not beyond a number is not rounded
+/// beyond it, so what is rounded beyond it is.
 #[inline]
-fn is_inside<K: Cellular>(sites: [Site<K>; 3], [x, y]: [f64; 2], [low, high]: [[f64; 2]; 2]) -> bool {
-    let distance = |site: Site<K>| (x - site.0[0]).abs() + (y - site.0[1]).abs();
-    // All corners are as far from the centre, unless they have weights. Sums, because a maximum is a branch that nothing predicts.
-    let reach = if K::HIDES { sites.into_iter().map(distance).sum() } else { distance(sites[0]) };
-    let margin = margin(reach, x.abs() + y.abs());
-    low[0] <= x - margin && x + margin <= high[0] && low[1] <= y - margin && y + margin <= high[1]
+fn is_inside([x, y]: [f64; 2], [low, high]: [[f64; 2]; 2]) -> bool {
+    low[0] < x && x < high[0] && low[1] < y && y < high[1]
 }

@@ -4,13 +4,17 @@
 //! edges to Delaunay edges, Voronoi vertices (circumcentres) to triangles, so the diagram takes no memory and is always that of the
 //! triangulation as it is: after insertions, removals and motions too.
 //!
-//! Combinatorics are exact. Coordinates are rounded: see [`delone_predicates::circumcentre`].
+//! Combinatorics are exact. Coordinates are correctly rounded: see [`delone_predicates::circumcentre`].
 //!
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.
 
+pub(in crate::plane) mod build;
 pub(in crate::plane) mod cells;
 pub(in crate::plane) mod centres;
+pub(in crate::plane) mod clip;
+mod contract;
 mod relax;
+mod rings;
 
 pub use cells::{Cell2, Cells2, Ring};
 pub use relax::Relaxation2;

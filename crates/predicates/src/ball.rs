@@ -16,10 +16,19 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use crate::lanes::Lanes;
 
-use super::fraction::Number;
+/// A number that can be added, subtracted and multiplied.
+pub(crate) trait Number: Clone {
+    fn plus(&self, other: &Self) -> Self;
+    fn minus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+
+    fn square(&self) -> Self {
+        self.times(self)
+    }
+}
 
 /// One number, or several at once.
-pub(super) trait Lane:
+pub(crate) trait Lane:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     fn all(x: f64) -> Self;
@@ -51,22 +60,25 @@ impl Lane for Lanes {
 }
 
 /// 16 u^2.
-pub(super) const ALLOWANCE: f64 = 4.0 * f64::EPSILON * f64::EPSILON;
+pub(crate) const ALLOWANCE: f64 = 4.0 * f64::EPSILON * f64::EPSILON;
 const ENLARGED: f64 = 1.0 + 1.0 / (1_u64 << 40) as f64;
 /// 2^-1000.
 const UNDERFLOW: f64 = f64::from_bits(23 << 52);
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ball<L> {
-    pub(super) high: L,
-    pub(super) low: L,
-    pub(super) radius: L,
+pub(crate) struct Ball<L> {
+    pub(crate) high: L,
+    pub(crate) low: L,
+    pub(crate) radius: L,
 }
+
+/// Half of a unit in the last place of 1.
+pub(crate) const U: f64 = f64::EPSILON / 2.0;
 
 /// A sum and its error.
 #[inline]
-fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
+pub(crate) fn two_sum<L: Lane>(a: L, b: L) -> (L, L) {
     let sum = a + b;
     let of_b = sum - a;
     let of_a = sum - of_b;
@@ -83,7 +95,7 @@ fn split<L: Lane>(x: L) -> (L, L) {
 
 /// A product and its error.
 #[inline]
-fn two_product<L: Lane>(a: L, b: L) -> (L, L) {
+pub(crate) fn two_product<L: Lane>(a: L, b: L) -> (L, L) {
     let product = a * b;
     let ((a, x), (b, y)) = (split(a), split(b));
     (product, x * y - (((product - a * b) - x * b) - a * y))
@@ -92,14 +104,14 @@ fn two_product<L: Lane>(a: L, b: L) -> (L, L) {
 impl<L: Lane> Ball<L> {
     /// The difference of two numbers, without error.
     #[inline]
-    pub(super) fn difference(a: L, b: L) -> Self {
+    pub(crate) fn difference(a: L, b: L) -> Self {
         let (high, low) = two_sum(a, L::all(0.0) - b);
         Self { high, low, radius: L::all(0.0) }
     }
 
     /// Multiplied by a power of two.
     #[inline]
-    pub(super) fn scaled(self, factor: f64) -> Self {
+    pub(crate) fn scaled(self, factor: f64) -> Self {
         let factor = L::all(factor);
         let radius = self.radius * factor + L::all(UNDERFLOW);
         Self { high: self.high * factor, low: self.low * factor, radius }
@@ -136,7 +148,7 @@ impl<L: Lane> Number for Ball<L> {
 }
 
 impl<L: Lane> Ball<L> {
-    pub(super) fn exactly(high: L) -> Self {
+    pub(crate) fn exactly(high: L) -> Self {
         Self { high, low: L::all(0.0), radius: L::all(0.0) }
     }
 
@@ -146,7 +158,7 @@ impl<L: Lane> Ball<L> {
     /// are off by less than 32 u^2 of the quotient. And (n + x) / (d + y) is off from n / d by at most (x + q y) / (d - y). Where y is not
     /// small beside d, the radius is not beside q, so that nothing is known; and it is not a number where d is zero.
     #[inline]
-    pub(super) fn over(&self, other: &Self) -> Self {
+    pub(crate) fn over(&self, other: &Self) -> Self {
         let inverse = L::all(1.0) / other.high;
         let quotient = self.high * inverse;
         let product = other.times(&Self::exactly(quotient));
@@ -160,9 +172,25 @@ impl<L: Lane> Ball<L> {
 
     /// What the numbers in the ball may be rounded to: the least and the most.
     #[inline]
-    pub(super) fn bounds(&self) -> [L; 2] {
+    pub(crate) fn bounds(&self) -> [L; 2] {
         // The sums with the low part are rounded.
         let margin = self.radius * L::all(ENLARGED) + self.low.magnitude() * L::all(f64::EPSILON);
         [self.high + (self.low - margin), self.high + (self.low + margin)]
+    }
+}
+
+impl Ball<f64> {
+    /// The sum of two numbers, whose real one is off by at most a radius.
+    #[inline]
+    pub(crate) fn around_sum(a: f64, b: f64, radius: f64) -> Self {
+        let (high, low) = two_sum(a, b);
+        Self { high, low, radius }
+    }
+
+    /// What all numbers in the ball are rounded to, if that is one. No negative zero.
+    #[inline]
+    pub(crate) fn nearest(&self) -> Option<f64> {
+        let [least, most] = self.bounds();
+        (least == most).then_some(most + 0.0)
     }
 }

@@ -1,0 +1,256 @@
+//! All cells of a diagram, clipped to a region.
+//!
+//! Most cells lie inside of the region or outside, and their corners are circumcentres, each computed once. The others are
+//! cut out of the region: from the box around it by the bisectors with all neighbours, which needs no rays and no
+//! corners far away; then, if the region is no box, from the part of it that is near.
+//!
+//! Cost: O(n) for the cells inside, O(d (d + s)) for a cell with d neighbours where s sides of the region are near.
+
+use super::Voronoi2;
+use super::build::Builder;
+use super::cells::{Cell2, Cells2};
+use super::centres::Centres;
+use crate::plane::region::Region2;
+use crate::plane::region::clip::{self, clip};
+use delone_predicates::{Line, circumcentre, power_centre};
+
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::plane::layer::Layer;
+use crate::plane::layer::kernel::{Kernel, NearestSites, Power, Site};
+use crate::prefetch::{self, prefetch};
+
+/// How many triangles ahead memory is asked.
+pub(super) const AHEAD: usize = 16;
+
+impl Voronoi2<'_> {
+    /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region.
+    pub fn clip(self, region: &Region2) -> Cells2 {
+        self.clip_with(region, |_| {})
+    }
+
+    /// Clips all cells to a region, and tells now and then how many are done.
+    pub fn clip_with(self, region: &Region2, progress: impl FnMut(usize)) -> Cells2 {
+        let triangulation = self.triangulation;
+        Cells2::of(&triangulation.base, triangulation.points().len(), region, progress)
+    }
+
+    /// Clips all cells to a region, and hands out one after the other. They come in the order of the plane, not of the ids, and nothing is
+    /// kept of them: beside the circumcentres this takes no memory.
+    ///
+    /// ```
+    /// use delone::{Delaunay2, Region2};
+    ///
+    /// let d = Delaunay2::from_points(&[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]])?;
+    /// let mut area = 0.0;
+    /// d.voronoi().clip_each(&Region2::rectangle([0.0, 0.0], [4.0, 2.0])?, |_, cell| area += cell.area());
+    /// assert_eq!(area, 8.0);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn clip_each(self, region: &Region2, each: impl FnMut(VertexId, Cell2<'_>)) {
+        Cells2::each(&self.triangulation.base, region, each);
+    }
+
+    /// The cell of one vertex, clipped to a region, as rings: with the corners that [`Self::clip`] gives it. Empty for an id that is
+    /// no vertex.
+    ///
+    /// O(d^2) for a vertex with d neighbours that have as many. All cells are clipped where rounding has turned a ring near by over,
+    /// because then corners are moved that cells share.
+    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
+        let base = &self.triangulation.base;
+        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
+        let of_one = |place: Place| {
+            let mut builder = Builder::new(region, 1, 1, Vec::new());
+            builder.push_rings(&cut_out(base, region, place));
+            builder
+        };
+        let near = |place: &Place| {
+            base.mesh.spokes(*place).map(|e| base.mesh.head(e)).filter(|w| !w.is_ghost()).collect::<Vec<_>>()
+        };
+        let mut around: Vec<Place> = near(&place).iter().flat_map(near).chain([place]).collect();
+        around.sort_unstable();
+        around.dedup();
+        let rings = |cell: Cell2<'_>| cell.rings().map(|ring| ring.points().collect()).collect();
+        if around.iter().all(|&w| of_one(w).is_good()) {
+            rings(of_one(place).cells().all())
+        } else {
+            rings(self.clip(region).cell(site))
+        }
+    }
+}
+
+/// A kernel whose triangulations are dual to cells.
+pub(in crate::plane) trait Cellular: Kernel {
+    /// The border of the first site's cell towards the second: positive in the cell.
+    fn border(a: Site<Self>, b: Site<Self>) -> Line;
+
+    /// The corner of the cells of three sites.
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]>;
+}
+
+impl Cellular for NearestSites {
+    #[inline]
+    fn border(a: Site<Self>, b: Site<Self>) -> Line {
+        Line::Bisector(a.0, b.0)
+    }
+
+    #[inline]
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        circumcentre(a.0, b.0, c.0)
+    }
+}
+
+impl Cellular for Power {
+    fn border(a: Site<Self>, b: Site<Self>) -> Line {
+        Line::Radical(a, b)
+    }
+
+    fn centre(a: Site<Self>, b: Site<Self>, c: Site<Self>) -> Option<[f64; 2]> {
+        power_centre(a, b, c)
+    }
+}
+
+/// Clips the cells of all vertices of a layer, one after the other, and tells of each which of the rings is its first.
+fn clip_all<K: Cellular>(
+    layer: &Layer<K>,
+    inside: &[bool],
+    builder: &mut Builder<'_>,
+    mut take: impl FnMut(&mut Builder<'_>, VertexId, usize),
+) {
+    let mesh = &layer.mesh;
+    let mut add = |builder: &mut Builder<'_>, place: Place, e: EdgeId| {
+        let corners = || mesh.star_from(e).map(|e| e.triangle().index());
+        let first = builder.cells().starts.len() - 1;
+        if !builder.push_inside(corners(), inside) {
+            builder.push_cut(corners(), || borders(layer, place));
+        }
+        take(builder, mesh.name(place), first);
+    };
+    if let Some(place) = mesh.lone {
+        add(builder, place, EdgeId::NONE);
+        return;
+    }
+    // In the order of triangles, which lie in memory as in the plane: each vertex with the first of its edges.
+    let mut seen = vec![0_u64; layer.points.len().div_ceil(64)];
+    for t in (0..mesh.slot_count()).map(TriangleId::new) {
+        if prefetch::HELPS {
+            ask_ahead(layer, &builder.cells().vertices, t);
+        }
+        for e in [0, 1, 2].map(|k| t.edge(k)) {
+            let place = mesh.tail(e);
+            let (word, bit) = (place.index() / 64, 1 << (place.index() % 64));
+            if seen.get(word).is_some_and(|&word| word & bit == 0) {
+                seen[word] |= bit;
+                add(builder, place, e);
+            }
+        }
+    }
+}
+
+/// Asks memory for what the stars of the triangles to come are made of.
+#[inline]
+fn ask_ahead<K: Cellular>(layer: &Layer<K>, centres: &[[f64; 2]], t: TriangleId) {
+    let mesh = &layer.mesh;
+    // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
+    for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
+        prefetch(&mesh.edges, record.twin.index());
+    }
+    let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+    for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
+        prefetch(centres, record.twin.triangle().index());
+        for beyond in [record.twin.next(), record.twin.previous()] {
+            if let Some(record) = mesh.edges.get(beyond.index()) {
+                prefetch(&mesh.edges, record.twin.index());
+                prefetch(centres, record.twin.triangle().index());
+            }
+        }
+    }
+}
+
+impl Cells2 {
+    /// The cells of all vertices of a layer, clipped; `ids` were given.
+    pub(in crate::plane) fn of<K: Cellular>(
+        layer: &Layer<K>,
+        ids: usize,
+        region: &Region2,
+        mut progress: impl FnMut(usize),
+    ) -> Self {
+        let Centres { points, inside } = Centres::of(layer, region.as_box());
+        let mut builder = Builder::new(region, ids, layer.mesh.vertex_count(), points);
+        let mut done = 0;
+        clip_all(layer, &inside, &mut builder, |builder, site, first| {
+            builder.assign(site.index(), first);
+            done += 1;
+            if done % 65_536 == 0 {
+                progress(done);
+            }
+        });
+        builder.finish()
+    }
+
+    /// The cells of all vertices of a layer, clipped, one after the other. Each is looked at before the first is handed out; if a ring is
+    /// to be mended all are kept.
+    pub(in crate::plane) fn each<K: Cellular>(
+        layer: &Layer<K>,
+        region: &Region2,
+        mut each: impl FnMut(VertexId, Cell2<'_>),
+    ) {
+        let Centres { points, inside } = Centres::of(layer, region.as_box());
+        let mut builder = Builder::new(region, 0, 0, points);
+        clip_all(layer, &inside, &mut builder, |builder, _, _| builder.forget());
+        if builder.is_good() {
+            clip_all(layer, &inside, &mut builder, |builder, site, _| {
+                each(site, builder.cells().all());
+                builder.forget();
+            });
+            return;
+        }
+        let count = layer.mesh.vertex_count();
+        let mut builder = Builder::new(region, count, count, builder.into_centres());
+        let mut sites = Vec::with_capacity(count);
+        clip_all(layer, &inside, &mut builder, |builder, site, first| {
+            builder.assign(sites.len(), first);
+            sites.push(site);
+        });
+        let cells = builder.finish();
+        for (k, site) in sites.into_iter().enumerate() {
+            each(site, cells.cell(VertexId::new(k)));
+        }
+    }
+}
+
+/// A cell cut out of the region by its borders.
+pub(in crate::plane) fn cut_out<K: Cellular>(
+    layer: &Layer<K>,
+    region: &Region2,
+    place: Place,
+) -> Vec<clip::Ring> {
+    cut_by(region, borders(layer, place))
+}
+
+/// The borders of a cell, on all sides.
+fn borders<K: Cellular>(layer: &Layer<K>, place: Place) -> impl Iterator<Item = Line> + Clone {
+    let (mesh, site) = (&layer.mesh, layer.site(place));
+    let others = mesh.spokes(place).map(|e| mesh.head(e)).filter(|w| !w.is_ghost());
+    others.map(move |w| K::border(site, layer.site(w)))
+}
+
+/// What lines leave of a region.
+pub(super) fn cut_by(region: &Region2, lines: impl Iterator<Item = Line> + Clone) -> Vec<clip::Ring> {
+    let cut = |mut rings: Vec<clip::Ring>| {
+        for line in lines.clone() {
+            if rings.is_empty() {
+                break;
+            }
+            rings = clip(rings, line);
+        }
+        rings
+    };
+    let framed = cut(vec![region.frame()]);
+    if framed.is_empty() {
+        return framed;
+    }
+    match region.around(&framed) {
+        None => framed,
+        Some(part) => cut(part),
+    }
+}
