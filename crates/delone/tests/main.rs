@@ -9,6 +9,7 @@ mod constrained_oracle;
 mod costs;
 mod disk_edges;
 mod furthest;
+mod gradients;
 mod graphs;
 mod hints;
 mod hull;

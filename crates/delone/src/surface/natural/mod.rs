@@ -20,6 +20,7 @@ mod space;
 
 use std::cmp::Ordering;
 
+use super::real::{Real, minus};
 use crate::around::Around;
 use crate::ids::VertexId;
 use crate::triangulation::{Coordinates, Triangulation};
@@ -112,15 +113,15 @@ pub(super) fn normalize(weights: &mut [(VertexId, f64)]) -> bool {
 
 /// The dual of the edge between each two corners of a simplex over its length, up to a factor that is the same for all simplices of the
 /// dimension. NaN or infinite for what is flat to rounding.
-pub(super) fn duals(points: &[[f64; 3]]) -> [[f64; 4]; 4] {
-    let mut sums = [[0.0; 4]; 4];
-    let mut set = |i: usize, j: usize, dual: f64| (sums[i][j], sums[j][i]) = (dual, dual);
+pub(super) fn duals<R: Real>(points: &[[R; 3]]) -> [[R; 4]; 4] {
+    let mut sums = [[R::default(); 4]; 4];
+    let mut set = |i: usize, j: usize, dual: R| (sums[i][j], sums[j][i]) = (dual, dual);
     match *points {
         [a, b, c] => {
             let at = [a, b, c];
             for k in 0..3 {
                 let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                let [u, v] = [i, j].map(|i| [0, 1, 2].map(|axis| at[i][axis] - at[k][axis]));
+                let [u, v] = [i, j].map(|i| minus(at[i], at[k]));
                 set(i, j, (u[0] * v[0] + u[1] * v[1]) / (u[0] * v[1] - u[1] * v[0]));
             }
         }
