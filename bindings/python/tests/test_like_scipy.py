@@ -300,6 +300,21 @@ def test_furthest_sites_have_regions_as_in_scipy():
             assert np.isclose(far.max(), far[p])
 
 
+def test_regions_of_rounded_rings_end():
+    """Vertices of equal bits are one, so that a ring may come to a vertex twice: it is the star of its point, and no longer."""
+    for n in range(3, 60):
+        turns = np.arange(n) / n * 2 * np.pi
+        for centre in ((0.0, 0.0), (1.0, 0.0), (500000.0, 5200000.0)):
+            points = np.stack([np.cos(turns), np.sin(turns)], axis=1) + centre
+            for furthest in (False, True):
+                voronoi = delone.Voronoi(points, furthest_site=furthest)
+                degrees = np.bincount(voronoi.triangulation.simplices.ravel(), minlength=n)
+                for p, degree in enumerate(degrees):
+                    region = voronoi.regions[voronoi.point_region[p]] if degree else []
+                    assert len(region) <= degree + 1, (n, centre, furthest)
+                    assert all(a != b for a, b in pairwise(region))
+
+
 @pytest.mark.parametrize("furthest", [False, True])
 def test_regions_are_counter_clockwise(furthest):
     voronoi = delone.Voronoi(random_points(100, 2), furthest_site=furthest)

@@ -334,3 +334,39 @@ def test_the_order_of_queries_does_not_show(ndim):
         assert np.array_equal(f(queries), alone, equal_nan=True)
         assert np.array_equal(f(queries[order]), alone[order], equal_nan=True)
         assert (f.weights(queries[order]) != f.weights(queries)[order]).nnz == 0
+
+
+def everyday_terrains():
+    """What is surveyed, scanned and gridded: coordinates with few digits, turned, far from the origin; heights in whole metres."""
+    random = np.random.default_rng(1).random((400, 2))
+    lattice = np.stack(np.meshgrid(np.arange(16.0), np.arange(16.0)), axis=-1).reshape(-1, 2)
+    for far in ((0, 0), (500000, 5200000)):
+        for step in (0.1, 0.3, 1 / 3):
+            yield lattice * step + far
+        for degrees in (1, 17, 30, 45, 61):
+            sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+            yield lattice @ np.array([[cos, sin], [-sin, cos]]) + far
+        for digits in (2, 3):
+            yield np.round(random * 100 + far, digits)
+    yield np.floor(random * 60)
+
+
+def test_contours_are_valid_to_shapely():
+    shapely = pytest.importorskip("shapely")
+    for number, points in enumerate(everyday_terrains()):
+        tri = delone.Delaunay(points)
+        x, y = ((points - points.mean(axis=0)) / np.ptp(points, axis=0)).T
+        smooth = 10 + 8 * np.sin(7 * x) * np.cos(5 * y) + 3 * x
+        for heights, interval in ((smooth, 0.5), (np.floor(smooth), 1), (np.floor(smooth * 3), 2)):
+            bands = [shapely.geometry.shape(band) for band in delone.contours(tri, heights, interval=interval, bands=True)]
+            assert shapely.is_valid(bands).all() and shapely.coverage_is_valid(bands), number
+            hull = shapely.MultiPoint(points).convex_hull.area
+            assert abs(shapely.union_all(bands).area - hull) < 1e-9 * hull, number
+            found = delone.contours(tri, heights, interval=interval)
+            lines, levels = [shapely.LineString(line.points) for line in found], np.array([line.level for line in found])
+            assert shapely.is_simple(lines).all(), number
+            for predicate in ("crosses", "overlaps"):
+                one, other = shapely.STRtree(lines).query(lines, predicate=predicate)
+                # Lines of one level may touch, at a saddle.
+                wrong = levels[one] != levels[other] if predicate == "crosses" else one >= 0
+                assert not wrong.any(), (number, predicate)

@@ -79,8 +79,8 @@ class Voronoi:
         self.min_bound, self.max_bound = tri.min_bound, tri.max_bound
         self.furthest_site = tri.furthest_site
         centres = tri._centres() if tri.ndim == 2 else _circumcentres(tri.points[np.sort(tri.simplices, axis=1)])
-        self.vertices, which = _distinct(centres)
-        self.ridge_points, self._ridge_ends, self._ridge_starts = _ridges(tri, which)
+        self.vertices, self._which = _distinct(centres)
+        self.ridge_points, self._ridge_ends, self._ridge_starts = _ridges(tri, self._which)
         # Lists are made when they are asked for: they cost more than all the rest.
         for lists in ("ridge_vertices", "regions"):
             self.__dict__.pop(lists, None)
@@ -101,7 +101,7 @@ class Voronoi:
     @cached_property
     def regions(self) -> list[list[int]]:
         """The vertices of each region."""
-        regions = _regions(self._tri, self.ridge_points, self._ridge_ends, self._ridge_starts)
+        regions = _regions(self._tri, self._which, self.ridge_points, self._ridge_ends, self._ridge_starts)
         return [[], *regions] if self._has_empty else regions
 
     @property
@@ -211,11 +211,16 @@ def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], 
 
 
 def _regions(
-    tri: Delaunay, ridge_points: NDArray[np.int32], ridge_ends: NDArray[np.int64], ridge_starts: NDArray[np.int64] | None
+    tri: Delaunay,
+    which: NDArray[np.intp],
+    ridge_points: NDArray[np.int32],
+    ridge_ends: NDArray[np.int64],
+    ridge_starts: NDArray[np.int64] | None,
 ) -> list[list[int]]:
     """The vertices of the region of each point; none for duplicates."""
-    regions: list[list[int]] = [[] for _ in range(tri.npoints)]
-    if ridge_starts is not None and len(ridge_points):
+    if not len(ridge_points):
+        return [[] for _ in range(tri.npoints)]
+    if ridge_starts is not None:
         sites = np.repeat(ridge_points, np.diff(ridge_starts), axis=0).T.ravel()
         # Pairs as one number, which sorts faster; infinity is -1.
         most = int(ridge_ends.max()) + 2
@@ -224,19 +229,43 @@ def _regions(
         ends = np.searchsorted(both // most, np.arange(tri.npoints + 1)).tolist()
         found = (both % most - 1).tolist()
         return [found[a:b] for a, b in pairwise(ends)]
-    # Each ridge from the one side and from the other; then end to end.
-    follow: list[dict[int, int]] = [{} for _ in range(tri.npoints)]
-    for (p, q), (a, b) in zip(ridge_points.tolist(), ridge_ends.tolist(), strict=True):
-        follow[p][a] = b
-        follow[q][b] = a
-    for p, after in enumerate(follow):
-        if after:
-            first = -1 if -1 in after else next(iter(after))
-            ring, v = [first], after[first]
-            while v != first and v in after:
-                ring.append(v)
-                v = after[v]
-            if v != first:
-                ring.append(v)
-            regions[p] = ring
+    return _stars(tri, which)
+
+
+def _stars(tri: Delaunay, which: NDArray[np.intp]) -> list[list[int]]:
+    """In the plane: the vertices of the triangles around each point, counter-clockwise; infinity first where the star is open.
+
+    Who follows whom is said by neighbours alone. Vertices are rounded, and different ones may be equal: only runs of them are made one.
+    """
+    regions: list[list[int]] = [[] for _ in range(tri.npoints)]
+    # Corner k of triangle t is 3 t + k. After it counter-clockwise around its point comes the triangle across from corner k + 1.
+    beyond = tri.neighbors[:, [1, 2, 0]]
+    opposite = np.empty_like(beyond)
+    for k in range(3):
+        # Which corner of the triangle across has the same point.
+        same = tri.simplices[beyond[:, k]] == tri.simplices[:, k, None]
+        opposite[:, k] = same.argmax(axis=1)
+    after = np.where(beyond < 0, -1, 3 * beyond + opposite).ravel().tolist()
+    points = tri.simplices.ravel().tolist()
+    # An open star begins where nothing is clockwise.
+    is_first = (tri.neighbors[:, [2, 0, 1]] < 0).ravel()
+    starts = np.concatenate([np.flatnonzero(is_first), np.arange(len(points))]).tolist()
+    vertex = np.repeat(which, 3).tolist()
+    is_open = is_first.tolist()
+    for start in starts:
+        point = points[start]
+        if regions[point]:
+            continue
+        ring = [-1] if is_open[start] else []
+        corner = start
+        # No star has more triangles than there are.
+        for _ in range(len(tri.simplices)):
+            if not ring or ring[-1] != vertex[corner]:
+                ring.append(vertex[corner])
+            corner = after[corner]
+            if corner in (-1, start):
+                break
+        while len(ring) > 1 and ring[-1] == ring[0]:
+            ring.pop()
+        regions[point] = ring
     return regions

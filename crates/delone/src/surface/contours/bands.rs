@@ -3,7 +3,7 @@
 //! A band is on the left of the line at its lower level, on the right of that at its upper one, and on the left of the border of the
 //! triangles. So its rings are followed: along a line to the border, along the border to where the next line begins, until they close.
 //! Which rings belong to one polygon is known before anything is rounded: the parts of triangles in a band are joined across edges, and
-//! each set of joined parts is one polygon.
+//! each set of joined parts is one polygon. Seams, where a ridge or plain at a level has no area, are taken out, which joins more.
 //!
 //! Cost: O(t + k log k) for t triangles and k points.
 
@@ -11,6 +11,7 @@ use crate::sorting;
 use std::collections::BTreeMap;
 
 use super::ContourBand;
+use super::link::{Segment, cancel, link, segments};
 use super::loops::{compare, holds, simple, turns_left};
 use super::sheet::{Edge, Sheet};
 use super::trace::{Chain, Cut};
@@ -21,9 +22,12 @@ type Ring = Vec<[f64; 2]>;
 pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
     let chains = cut.chains();
     let mut walker = Walker::new(cut, &chains);
-    // For each band and each set of parts its rings.
-    let mut found: BTreeMap<(u32, usize), Vec<Ring>> = BTreeMap::new();
+    // For each band the sides of its rings, each with the set of parts that it belongs to.
+    let mut found: BTreeMap<u32, Vec<Segment>> = BTreeMap::new();
     let mut parts = Parts::new(cut);
+    let mut add = |band: u32, part: usize, ring: &[[f64; 2]]| {
+        found.entry(band).or_default().extend(segments(part as u32, ring, true));
+    };
     for (number, chain) in chains.iter().enumerate() {
         let level = chain.level as u32;
         for (band, upper) in [(level + 1, false), (level, true)] {
@@ -33,33 +37,28 @@ pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
                 (false, _) => walker.ring(number, band, upper),
             };
             if let Some(ring) = ring {
-                let part = parts.root(cut, chain.ends[0] / 3, band);
-                found.entry((band, part)).or_default().push(ring);
+                add(band, parts.root(cut, chain.ends[0] / 3, band), &ring);
             }
         }
     }
     for (edge, ring) in walker.rest() {
         let band = cut.band[cut.sheet.ends(edge)[0] as usize];
-        let part = parts.root(cut, edge / 3, band);
-        found.entry((band, part)).or_default().push(ring);
+        add(band, parts.root(cut, edge / 3, band), &ring);
     }
     let mut bands: Vec<ContourBand> = Vec::new();
-    let mut last = None;
-    for ((band, _), rings) in found {
-        if last != Some(band) {
-            let at = |level: Option<usize>, beyond| {
-                level.and_then(|k| cut.levels.get(k)).copied().unwrap_or(beyond)
-            };
-            let (lower, upper) = (
-                at((band as usize).checked_sub(1), f64::NEG_INFINITY),
-                at(Some(band as usize), f64::INFINITY),
-            );
-            bands.push(ContourBand { lower, upper, polygons: Vec::new() });
-            last = Some(band);
+    for (band, mut sides) in found {
+        // Parts that meet along a seam are one.
+        cancel(&mut sides, |i, j| parts.join(i as usize, j as usize));
+        let mut rings: BTreeMap<usize, Vec<Ring>> = BTreeMap::new();
+        for (part, ring, _) in link(sides) {
+            rings.entry(parts.find(part as usize)).or_default().push(ring);
         }
-        if let Some(open) = bands.last_mut() {
-            open.polygons.extend(polygons(rings));
-        }
+        let at =
+            |level: Option<usize>, beyond| level.and_then(|k| cut.levels.get(k)).copied().unwrap_or(beyond);
+        let (lower, upper) =
+            (at((band as usize).checked_sub(1), f64::NEG_INFINITY), at(Some(band as usize), f64::INFINITY));
+        let polygons = rings.into_values().flat_map(polygons).collect();
+        bands.push(ContourBand { lower, upper, polygons });
     }
     for band in &mut bands {
         sorting::by(&mut band.polygons, |a, b| compare(&a[0], &b[0]));
@@ -82,12 +81,6 @@ fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
     sorting::by(&mut holes, |a, b| compare(a, b));
     // The smallest that hold a hole come first: what is inside of another begins further on.
     sorting::by(&mut polygons, |a: &Vec<Ring>, b| compare(&b[0], &a[0]));
-    // A line along the border has nothing between the two: what is around it and its hole are the same ring.
-    holes.retain(|hole| {
-        let around: Ring = hole[..1].iter().chain(hole[1..].iter().rev()).copied().collect();
-        let same = polygons.binary_search_by(|polygon| compare(&around, &polygon[0]));
-        same.map(|at| polygons.remove(at)).is_err()
-    });
     for hole in holes {
         let strictly =
             |polygon: &Vec<Ring>| hole.iter().any(|q| !polygon[0].contains(q) && holds(&polygon[0], *q));
@@ -218,8 +211,7 @@ impl Parts {
             let [a, b] = cut.sheet.ends(e).map(|v| cut.band[v as usize]);
             for band in a.min(b)..=a.max(b) {
                 let [i, j] = [e / 3, other].map(|t| parts.root(cut, t, band));
-                // The first of a set stands for it.
-                parts.above[i.max(j)] = i.min(j) as u32;
+                parts.join(i, j);
             }
         }
         parts
@@ -227,7 +219,16 @@ impl Parts {
 
     /// What stands for the set of a part.
     fn root(&mut self, cut: &Cut<'_>, t: u32, band: u32) -> usize {
-        let mut part = (self.first[t as usize] + u64::from(band - cut.bands_of(t)[0])) as usize;
+        self.find((self.first[t as usize] + u64::from(band - cut.bands_of(t)[0])) as usize)
+    }
+
+    /// Makes the sets of two parts one, for which its first part stands.
+    fn join(&mut self, i: usize, j: usize) {
+        let (i, j) = (self.find(i), self.find(j));
+        self.above[i.max(j)] = i.min(j) as u32;
+    }
+
+    fn find(&mut self, mut part: usize) -> usize {
         while self.above[part] as usize != part {
             let next = self.above[part] as usize;
             self.above[part] = self.above[next];

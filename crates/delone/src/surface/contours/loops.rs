@@ -73,7 +73,8 @@ fn least_rotation(points: &mut [[f64; 2]]) {
     points.rotate_left(best.min(other));
 }
 
-fn order(p: [f64; 2], q: [f64; 2]) -> Ordering {
+/// The lexicographic order of points.
+pub(super) fn order(p: [f64; 2], q: [f64; 2]) -> Ordering {
     p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1]))
 }
 

@@ -8,10 +8,14 @@
 //! The rule moves vertices at a level up by less than anything, so what is drawn may touch itself there; it is taken apart at such
 //! points, and what has no area is dropped: a peak, a ridge, a plain at the level without anything below beside it.
 //!
+//! Triangles along the border that are thinner than what rounding may do to points, 2^-49 of their coordinates, are left out: between their
+//! sides lines of several heights would cross. There the border is the other two sides.
+//!
 //! Cost: O(t + k log k) for t triangles and k points, and 40 bytes a triangle.
 
 mod bands;
 mod levels;
+mod link;
 mod loops;
 mod sheet;
 #[cfg(test)]
@@ -122,14 +126,16 @@ impl Contours {
     pub fn lines(&self, levels: &Levels) -> Result<Vec<ContourLine>, Error> {
         let cut = trace::Cut::new(&self.sheet, &self.heights, levels.values())?;
         let mut lines = Vec::new();
-        for chain in cut.chains() {
-            let level = levels.values()[chain.level];
-            let parts = loops::simple(chain.points, chain.is_closed);
-            lines.extend(parts.into_iter().map(|(points, is_closed)| ContourLine {
-                level,
-                points,
-                is_closed,
-            }));
+        let mut chains = cut.chains();
+        sorting::by(&mut chains, |a, b| a.level.cmp(&b.level));
+        for of_level in chains.chunk_by(|a, b| a.level == b.level) {
+            let level = levels.values()[of_level[0].level];
+            let parts = of_level.iter().flat_map(|chain| link::segments(0, &chain.points, chain.is_closed));
+            let mut segments = parts.collect();
+            link::cancel(&mut segments, |_, _| ());
+            let parts = link::link(segments).into_iter();
+            let parts = parts.flat_map(|(_, points, is_closed)| loops::simple(points, is_closed));
+            lines.extend(parts.map(|(points, is_closed)| ContourLine { level, points, is_closed }));
         }
         sorting::by(&mut lines, |a, b| {
             a.level.total_cmp(&b.level).then_with(|| loops::compare(&a.points, &b.points))
@@ -137,7 +143,8 @@ impl Contours {
         Ok(lines)
     }
 
-    /// The areas below, between and above the levels, by height; those that are empty are left out. Together they are the triangles.
+    /// The areas below, between and above the levels, by height; those that are empty are left out. Together they are the triangles,
+    /// but for slivers of the border that are thinner than 2^-49 of their coordinates.
     ///
     /// # Errors
     /// As [`Self::lines`].

@@ -19,6 +19,46 @@ pub(super) struct Sheet {
     pub(super) points: Vec<[f64; 2]>,
 }
 
+/// Points on edges are rounded by at most 2^-50 of their largest coordinate, so between edges nearer to each other than twice that lines may be
+/// anywhere.
+const ROUNDING: f64 = 1.776_356_839_400_250_5e-15;
+
+/// Takes out triangles along the border whose sides are one line but for rounding, the longest on the border; those behind them, too.
+fn drop_slivers<T>(triangulation: &T, kept: &[T::Simplex], number: &mut [u32])
+where
+    T: Triangulation<Point = [f64; 2], Corners = [VertexId; 3]>,
+{
+    let mut pending = kept.to_vec();
+    while let Some(t) = pending.pop() {
+        if number[triangulation.index(t)] == NONE {
+            continue;
+        }
+        let beyond =
+            [0, 1, 2].map(|k| triangulation.across(t, k).filter(|&u| number[triangulation.index(u)] != NONE));
+        let corners = triangulation.corners(t).map(|v| triangulation.position(v).unwrap_or_default());
+        if beyond.iter().any(Option::is_none) && longest_of_flat(corners).is_some_and(|k| beyond[k].is_none())
+        {
+            number[triangulation.index(t)] = NONE;
+            pending.extend(beyond.into_iter().flatten());
+        }
+    }
+}
+
+/// The longest side, by the opposite corner, of a triangle whose corner there is no further away than rounding.
+fn longest_of_flat(corners: [[f64; 2]; 3]) -> Option<usize> {
+    let side = |k: usize| {
+        let [p, q] = [corners[(k + 1) % 3], corners[(k + 2) % 3]];
+        [q[0] - p[0], q[1] - p[1]]
+    };
+    let sides = [side(0), side(1), side(2)];
+    let lengths = sides.map(|[x, y]| x.hypot(y));
+    let longest = (0..3).max_by(|&i, &j| lengths[i].total_cmp(&lengths[j]))?;
+    let [[a, b], [c, d]] = [sides[(longest + 1) % 3], sides[(longest + 2) % 3]];
+    let size = corners.as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    let height = (a / lengths[longest] * d - b / lengths[longest] * c).abs();
+    (height <= ROUNDING * size).then_some(longest)
+}
+
 /// An edge of a triangle, as a number.
 pub(super) type Edge = u32;
 
@@ -31,8 +71,11 @@ impl Sheet {
     where
         T: Triangulation<Point = [f64; 2], Corners = [VertexId; 3]>,
     {
-        let kept: Vec<T::Simplex> = triangulation.simplices().filter(|&t| keep(t)).collect();
+        let mut kept: Vec<T::Simplex> = triangulation.simplices().filter(|&t| keep(t)).collect();
         let mut number = vec![NONE; triangulation.slot_count()];
+        kept.iter().for_each(|&t| number[triangulation.index(t)] = 0);
+        drop_slivers(triangulation, &kept, &mut number);
+        kept.retain(|&t| number[triangulation.index(t)] != NONE);
         for (n, &t) in kept.iter().enumerate() {
             number[triangulation.index(t)] = n as u32;
         }

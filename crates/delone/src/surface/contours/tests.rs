@@ -23,6 +23,18 @@ fn surfaces() -> Vec<(String, Vec<[f64; 2]>, Vec<f64>)> {
             }
         }
     }
+    // Lattices that are turned, with hulls of slivers an ulp wide.
+    for (degrees, offset) in [(1.0, 0.0), (17.0, 0.0), (30.0, 5e6), (45.0, 0.0), (61.0, 5e5)] {
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        let at = |i: u32| [f64::from(i % 12), f64::from(i / 12)];
+        let turn = |[x, y]: [f64; 2]| [offset + cos * x - sin * y, offset + sin * x + cos * y];
+        let height = |[x, y]: [f64; 2]| 4.0 + 4.0 * (0.7 * x).sin() * (0.5 * y).cos();
+        let points: Vec<_> = (0..144).map(|i| turn(at(i))).collect();
+        let smooth: Vec<_> = (0..144).map(|i| height(at(i))).collect();
+        let whole = smooth.iter().map(|z| z.floor()).collect();
+        all.push((format!("turned {degrees} smooth"), points.clone(), smooth));
+        all.push((format!("turned {degrees} whole"), points, whole));
+    }
     all
 }
 
@@ -127,6 +139,46 @@ fn a_rim_is_no_band() {
         (1.0, 1, 1),
         "{bands:?}"
     );
+}
+
+/// A ridge at a level between two slopes below it: the slopes are one area, without a seam.
+#[test]
+fn a_ridge_is_no_seam() {
+    let d = Delaunay2::from_points(&[[-2.0, 0.0], [2.0, 0.0], [0.0, -1.0], [0.0, 1.0]]).expect("finite");
+    let surface = Contours::new(&d, &[-1.0, -1.0, 0.0, 0.0]).expect("heights");
+    let at = Levels::given(&[0.0]).expect("a level");
+    let bands = surface.bands(&at).expect("bands");
+    let around = vec![vec![vec![[-2.0, 0.0], [0.0, -1.0], [2.0, 0.0], [0.0, 1.0]]]];
+    assert_eq!(bands, [ContourBand { lower: f64::NEG_INFINITY, upper: 0.0, polygons: around }]);
+    assert_eq!(surface.lines(&at).expect("lines"), []);
+}
+
+/// Sides of one band are there once, in one direction; sides of all bands do not cross, and no ring comes to a point twice.
+#[test]
+fn bands_have_no_seams_and_do_not_cross() {
+    for (name, points, heights) in surfaces() {
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let bands = Contours::new(&d, &heights).and_then(|c| c.bands(&levels())).expect("bands");
+        let mut all = Vec::new();
+        for band in &bands {
+            let mut own = Vec::new();
+            for ring in band.polygons.iter().flatten() {
+                let mut keys: Vec<_> = ring.iter().map(|p| p.map(f64::to_bits)).collect();
+                keys.sort_unstable();
+                keys.dedup();
+                assert_eq!(keys.len(), ring.len(), "{name}: a point twice");
+                own.extend((0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]));
+            }
+            let key = |[p, q]: [[f64; 2]; 2]| [p, q].map(|p| p.map(f64::to_bits));
+            let mut keys: Vec<_> = own.iter().flat_map(|&[p, q]| [key([p, q]), key([q, p])]).collect();
+            keys.sort_unstable();
+            assert!(keys.windows(2).all(|pair| pair[0] != pair[1]), "{name}: a seam");
+            all.extend(own);
+        }
+        for (i, &a) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|&b| !cross(a, b)), "{name}: bands cross");
+        }
+    }
 }
 
 fn check_bands(bands: &[ContourBand], name: &str) {
