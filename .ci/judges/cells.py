@@ -43,7 +43,9 @@ def regions(points):
         yield "order 3", ["--order", "3", "--box", box], around
     yield "weights", ["--weights", "weights.csv", "--box", box], around
     yield "relaxed", ["--relax", "3", "--box", box], around
-    if len(points) < 350 and len(np.unique(points, axis=0)) == len(points) and abs(np.log2(size.max())) < 300:
+    # Equal areas need room between the numbers, and squares of sizes.
+    has_room = size.max() > 1e6 * np.spacing(np.abs(high).max()) and abs(np.log2(size.max())) < 300
+    if len(points) < 350 and len(np.unique(points, axis=0)) == len(points) and has_room:
         yield "equal areas", ["--areas", "equal", "--box", box], around
 
 

@@ -98,17 +98,27 @@ impl Rings<'_> {
 
     fn run(&mut self, mut asked: BTreeSet<u32>) {
         for _ in 0..ROUNDS {
-            let bad = asked.iter().flat_map(|ring| &self.rings[ring]);
-            let bad = bad.filter(|part| !is_border(part.iter().map(|at| at.0)));
-            let (mut joins, mut inserts) = (BTreeSet::new(), BTreeSet::new());
-            for part in bad {
-                match self.wish(part) {
-                    Some(Wish::Join(side)) => joins.extend([side]),
-                    Some(Wish::Insert(at, side)) => inserts.extend([(at, side)]),
-                    None => (),
+            let (mut joins, mut inserts, mut waiting) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+            for ring in asked {
+                let parts = self.rings[&ring].iter();
+                for part in parts.filter(|part| !is_border(part.iter().map(|at| at.0))) {
+                    match self.wish(part) {
+                        Some(Wish::Join(side)) => joins.extend([side]),
+                        Some(Wish::Insert(at, side)) => {
+                            inserts.extend([(at, side)]);
+                            waiting.extend([ring]);
+                        }
+                        None => (),
+                    }
                 }
             }
-            asked = if joins.is_empty() { self.insert_all(&inserts) } else { self.join_all(&joins) };
+            // Corners that become one may spare the others.
+            asked = self.join_all(&joins);
+            if asked.is_empty() {
+                asked = self.insert_all(&inserts);
+            } else {
+                asked.append(&mut waiting);
+            }
             if asked.is_empty() {
                 return;
             }
@@ -235,5 +245,85 @@ fn replace(
             }
         }
         cells.sites[id] = [start, cells.starts.len() as u32 - 1 - start];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{mend, parts};
+    use crate::plane::region::Region2;
+    use crate::plane::voronoi::cells::Cells2;
+    use crate::plane::voronoi::rings::{At, is_border};
+
+    type Ring = Vec<[f64; 2]>;
+
+    /// Cells of one ring each, and all of which are mended.
+    fn mended(rings: &[Ring], region: &Region2) -> Vec<Vec<Ring>> {
+        let mut cells = Cells2 { starts: vec![0], ..Cells2::default() };
+        let mut bad = Vec::new();
+        for (i, ring) in rings.iter().enumerate() {
+            for &corner in ring {
+                cells.corners.push(cells.vertices.len() as u32);
+                cells.vertices.push(corner);
+            }
+            cells.starts.push(cells.corners.len() as u32);
+            cells.sites.push([i as u32, 1]);
+            if !is_border(ring.iter().copied()) {
+                bad.push(i as u32);
+            }
+        }
+        mend(&mut cells, &bad, &[], region);
+        let of = |i: usize| cells.cell(crate::VertexId::new(i));
+        (0..rings.len()).map(|i| of(i).rings().map(|ring| ring.points().collect()).collect()).collect()
+    }
+
+    fn unit() -> Region2 {
+        Region2::rectangle([0.0, 0.0], [2.0, 2.0]).expect("a rectangle")
+    }
+
+    /// A cell of some ulps that is turned over becomes a side of its neighbours.
+    #[test]
+    fn cells_of_a_rounding_become_a_side() {
+        let e = f64::EPSILON;
+        let [a, b, c] = [[1.0, 1.0], [1.0 + e, 1.0], [1.0, 1.0 + e]];
+        let rings = [
+            vec![a, c, b],
+            vec![[0.0, 0.0], [2.0, 0.0], b, a],
+            vec![[2.0, 0.0], [2.0, 2.0], c, b],
+            vec![[2.0, 2.0], [0.0, 2.0], [0.0, 0.0], a, c],
+        ];
+        let found = mended(&rings, &unit());
+        assert_eq!(found[0], Vec::<Ring>::new());
+        // Of the shortest sides that with the least ends was contracted, to the lesser end.
+        let rest =
+            [&rings[1], &vec![[2.0, 0.0], [2.0, 2.0], a, b], &vec![[2.0, 2.0], [0.0, 2.0], [0.0, 0.0], a]];
+        for (found, expected) in found[1..].iter().zip(rest) {
+            assert_eq!(found, std::slice::from_ref(expected));
+            assert!(is_border(expected.iter().copied()), "{expected:?}");
+        }
+    }
+
+    /// Where no side is short the corner that has crossed a side becomes one of it, for both cells.
+    #[test]
+    fn corners_become_corners_of_sides() {
+        let (p, q, far) = ([0.5, 0.5], [1.5, 0.5], [1.0, 1.5]);
+        // The corner of the thin cell is a step on the wrong side of the side that it shares with the upper one.
+        let crossed = [1.0, 0.5_f64.next_down()];
+        let found = mended(&[vec![p, q, crossed], vec![p, q, far]], &unit());
+        assert_eq!(found, [vec![], vec![vec![p, crossed, q, far]]]);
+        // Far from the side it is none of it.
+        let rings = [vec![p, q, [1.0, 0.25]], vec![p, q, far]];
+        assert_eq!(mended(&rings, &unit()), rings.map(|ring| vec![ring]));
+    }
+
+    #[test]
+    fn corners_of_the_region_stay_apart() {
+        let e = f64::EPSILON;
+        let corners = vec![[1.0, 1.0], [1.0 + e, 1.0], [1.0 + e, 2.0], [1.0, 2.0]];
+        let region = Region2::polygon(&[corners.clone()]).expect("a polygon");
+        let turned: Ring = vec![corners[0], corners[3], corners[1]];
+        let found = mended(&[turned], &region);
+        assert!(found[0].iter().all(|ring| ring.iter().all(|corner| corners.contains(corner))));
+        assert!(parts([At([0.0, 0.0])]).is_empty());
     }
 }

@@ -106,8 +106,11 @@ mod tests {
         let flat = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]];
         let spike = [[0.0, 0.0], [2.0, 0.0], [3.0, 0.0], [2.0, 0.0], [2.0, 2.0]];
         let star = [[0.0, 3.0], [-2.0, -2.0], [3.0, 1.0], [-3.0, 1.0], [2.0, -2.0]];
+        // A corner that touches a side.
+        let touching = [[0.0, 0.0], [2.0, 0.0], [0.0, 1.0], [2.0, 2.0], [0.0, 2.0]];
         let clockwise: Vec<[f64; 2]> = square.into_iter().rev().collect();
-        let cases: [(&[[f64; 2]], bool, bool); 10] = [
+        let cases: [(&[[f64; 2]], bool, bool); 11] = [
+            (&touching, false, false),
             (&square, true, true),
             (&dent, false, true),
             (&straight, false, true),
