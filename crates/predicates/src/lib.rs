@@ -53,6 +53,7 @@ mod plane;
 mod power;
 mod side_in_plane;
 mod sign;
+mod sphere_centre;
 #[cfg(test)]
 mod stages;
 mod within;
@@ -89,6 +90,7 @@ pub use power::{
 };
 pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
+pub use sphere_centre::circumcentre3;
 pub use within::{stays_within, stays_within3};
 
 /// A point of the plane: x, then y. Both finite.

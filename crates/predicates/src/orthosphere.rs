@@ -13,7 +13,7 @@
 
 mod exact;
 mod filter;
-mod fraction;
+pub(crate) mod fraction;
 #[cfg(test)]
 mod tests;
 

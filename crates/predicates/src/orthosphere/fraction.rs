@@ -48,7 +48,7 @@ pub(super) fn smallest<T: Number, const D: usize, const N: usize>(
 
 /// The squared length.
 #[inline]
-pub(super) fn length<T: Number>(u: &[T]) -> T {
+pub(crate) fn length<T: Number>(u: &[T]) -> T {
     let first = u[0].square();
     u[1..].iter().fold(first, |sum, x| sum.plus(&x.square()))
 }
@@ -60,6 +60,6 @@ pub(super) fn minor<T: Number>(u: &[T], v: &[T], i: usize, j: usize) -> T {
 
 /// The vector product.
 #[inline]
-pub(super) fn normal<T: Number>(u: &[T], v: &[T]) -> [T; 3] {
+pub(crate) fn normal<T: Number>(u: &[T], v: &[T]) -> [T; 3] {
     [minor(u, v, 1, 2), minor(u, v, 2, 0), minor(u, v, 0, 1)]
 }
