@@ -53,6 +53,7 @@ expected = sorted(sorted(map(tuple, triangle)) for triangle in corners.tolist())
 for source in ["points", "flat"]:
     for kind in ["ply", "obj", "stl", "vtu", "geojson", "wkt", "wkb", "svg", "png", "node", "ele", "off"]:
         run("triangulate", f"{source}.npy", "-o", f"{source}.{kind}")
+    run("triangulate", f"{source}.npy", "--wkt", "collection", "-o", f"{source}-whole.wkt")
     heights = points[:, 2] if source == "points" else np.zeros(len(points))
     for kind in ["ply", "obj", "vtu", "off"]:
         mesh = meshio.read(folder / f"{source}.{kind}")
@@ -77,13 +78,14 @@ for source in ["points", "flat"]:
         assert mesh.n_cells == len(triangles), f"pyvista: {kind}"
         print(f"pyvista reads {source}.{kind}")
     frame = geopandas.read_file(folder / f"{source}.geojson")
-    text, binary = (folder / f"{source}.{kind}" for kind in ["wkt", "wkb"])
-    collections = [shapely.from_wkt(text.read_text()), shapely.from_wkb(binary.read_bytes())]
-    for polygons in [frame.geometry, *(collection.geoms for collection in collections)]:
+    text, whole, binary = (folder / f"{source}{kind}" for kind in [".wkt", "-whole.wkt", ".wkb"])
+    collections = [shapely.from_wkt(whole.read_text()), shapely.from_wkb(binary.read_bytes())]
+    lines = geopandas.GeoSeries.from_wkt(text.read_text().splitlines())
+    for polygons in [frame.geometry, lines, *(collection.geoms for collection in collections)]:
         rings = [np.array(polygon.exterior.coords)[:3] for polygon in polygons]
         same(np.arange(3 * len(rings)).reshape(-1, 3), np.concatenate(rings), expected)
     assert all(collection.has_z == (source == "points") for collection in collections)
-    print(f"geopandas reads {source}.geojson, shapely {text.name} and {binary.name}")
+    print(f"geopandas reads {source}.geojson and {text.name}, shapely {whole.name} and {binary.name}")
     with Image.open(folder / f"{source}.png") as picture:
         picture.verify()
     print(f"Pillow reads {source}.png")
@@ -105,6 +107,23 @@ for name, hard in [("track", track), ("lattice", lattice)]:
     assert (mesh.face_normals[:, 2] > 0).all() and (mesh.area_faces > 0).all(), f"triangles of {name}.stl turn over"
     assert len(mesh.faces) > 0.9 * 2 * len(hard), f"{name}.stl lost triangles"
 print("trimesh: no triangle of STL turns over")
+run("triangulate", "lattice.npy", "--drop-slivers", 1e-9, "-o", "whole.ply", "-o", "whole.obj")
+for kind in ["ply", "obj"]:
+    mesh = trimesh.load(folder / f"whole.{kind}", process=False)
+    assert len(mesh.faces) == 2 * 24 * 24 and mesh.area_faces.min() > 0.4, f"slivers in whole.{kind}"
+# Shapes without an area are no blank sheets.
+run("generate", "ball", "-n", 50, "-o", "few.npy")
+run("alpha", "few.npy", "--dim", 3, "--alpha", 0, "-o", "points-3.png")
+run("alpha", "track.npy", "--alpha", 0, "-o", "points-2.png")
+for name in ["points-2.png", "points-3.png"]:
+    with Image.open(folder / name) as picture:
+        assert (np.asarray(picture.convert("L"))[:-80] < 128).sum() > 500, f"{name} is blank"
+# A bay of the hull so narrow that no number is in it, and shapely's areas of what is meshed.
+ring = [[0.1, 0.01], [0.2, 0.02], [0.3, 0.03], [1.2, -0.98], [0.1, 0.01]]
+narrow = shapely.Polygon(ring)
+(folder / "narrow.wkt").write_text(narrow.wkt)
+run("mesh", "narrow.wkt", "-o", "narrow.geojson")
+assert abs(geopandas.read_file(folder / "narrow.geojson").area.sum() - narrow.area) < 1e-12, "a mesh of another area"
 
 # Tetrahedra, hulls and cells.
 run("generate", "ball", "-n", 300, "-o", "ball.npy")

@@ -21,7 +21,7 @@ pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
     let all = args.output.iter().chain(&args.filtration).map(PathBuf::as_path).chain(stats_path);
     files::keep_apart(&inputs, all)?;
-    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &inputs)?)?;
     check(args, &outputs)?;
     let mut stats = Stats::start();
     if args.dim.is_space() {
@@ -63,10 +63,10 @@ fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure>
         }
     }
     for (path, format) in outputs {
-        use Format::{GeoJson, Npy, Obj, Ply, Png, Poly, Stl, Svg, Text, Vtu, Wkt};
+        use Format::{GeoJson, Npy, Obj, Ply, Png, Poly, Stl, Svg, Text, Vtu, Wkt, WktCollection};
         let holds = match format {
             Npy | Text | Ply | Obj | Stl | Vtu | Svg | Png => true,
-            GeoJson | Wkt | Poly => !args.dim.is_space(),
+            GeoJson | Wkt | WktCollection | Poly => !args.dim.is_space(),
             _ => !args.dim.is_space() && Patches::check(*format).is_ok(),
         };
         if !holds {
@@ -155,7 +155,10 @@ fn write_outline(
     quiet: bool,
 ) -> Result<(), Failure> {
     let _phase = Phase::start(quiet, "writing");
-    let is_polygon = |format: &Format| matches!(format, Format::GeoJson | Format::Wkt | Format::Poly);
+    let is_polygon = |format: &Format| {
+        use Format::{GeoJson, Poly, Wkt, WktCollection};
+        matches!(format, GeoJson | Wkt | WktCollection | Poly)
+    };
     if outputs.iter().any(|(_, format)| is_polygon(format)) {
         let graph = graph(alpha, value, &about);
         for (path, format) in outputs.iter().filter(|(_, format)| is_polygon(format)) {
@@ -223,12 +226,16 @@ fn write_surface(
         faces: surface.iter().map(|face| face.map(place).to_vec()).collect(),
         laid_open: Vec::new(),
     };
+    // A picture of a shape without a surface shows the points.
+    let points = Solid { points: alpha.positions().to_vec(), ..Solid::default() };
     for (path, format) in outputs {
+        let is_picture = matches!(format, Format::Png | Format::Svg);
+        let solid = if surface.is_empty() && is_picture { &points } else { &solid };
         if matches!(format, Format::Npy | Format::Text) {
             let rows: Vec<i64> = surface.as_flattened().iter().map(|v| v.index() as i64).collect();
             files::write(path, |out| write_indices(out, *format, 3, &rows))?;
         } else {
-            files::write_mesh(path, quiet, |out| write_solid(out, *format, &solid, options))?;
+            files::write_mesh(path, quiet, |out| write_solid(out, *format, solid, options))?;
         }
     }
     Ok(())

@@ -43,7 +43,8 @@ pub(crate) fn run(args: &GenerateArgs, quiet: bool) -> Result<(), Failure> {
         return Err(Failure::usage("--noise is a length", "as in --noise 0.5, in coordinate units"));
     }
     let mut stats = Stats::start();
-    let outputs = files::outputs(args.output.as_slice(), args.to, args.stats.as_deref(), &[])?;
+    let outputs =
+        args.wkt.of(files::outputs(args.output.as_slice(), args.to, args.stats.as_deref(), &[])?)?;
     if let Some(kind) = plane {
         make(|| noisy(kind.points(args.n, args.seed), args), &outputs, &mut stats, quiet)?;
     } else if let Some(kind) = space {
@@ -113,7 +114,7 @@ fn make_graph(
     };
     let _phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
-        if matches!(format, Format::Poly | Format::GeoJson | Format::Wkt) {
+        if matches!(format, Format::Poly | Format::GeoJson | Format::Wkt | Format::WktCollection) {
             files::write(path, |out| delone_io::write_graph(out, *format, &graph))?;
         } else {
             files::write(path, |out| delone_io::write_points(out, *format, &graph.cloud.xy))?;

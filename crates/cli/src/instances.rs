@@ -58,6 +58,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
         all_work.add(&work);
     }
     stats.set("algorithm", "hints");
+    stats.set("threads", 1);
     stats.set("visited_triangles", all_work.visited);
     stats.set("counters", work_done(&all_work));
     stats.set("gave_up", records.iter().any(|record| record["gave_up"] == json!(true)));
@@ -108,5 +109,6 @@ fn outputs(
     let paths: Vec<PathBuf> =
         inputs.iter().flat_map(|input| args.output.iter().map(|output| named(input, output))).collect();
     let read: Vec<&Path> = inputs.iter().copied().chain([centres]).collect();
-    Ok((files::outputs(&paths, args.to, args.input.stats.as_deref(), &read)?, args.output.len()))
+    let outputs = files::outputs(&paths, args.to, args.input.stats.as_deref(), &read)?;
+    Ok((args.wkt.of(outputs)?, args.output.len()))
 }

@@ -22,7 +22,6 @@ pub(crate) fn finish<R: Room>(
     stats: &mut Stats,
     quiet: bool,
 ) -> Result<(), Failure> {
-    stats.set("threads", 1);
     room::remark(d, quiet);
     if args.check {
         let _phase = Phase::start(quiet, "checking");
@@ -42,7 +41,7 @@ pub(crate) fn finish<R: Room>(
         stats.set("fingerprint", fingerprint);
         stats.phase("fingerprint");
     }
-    let trim = room::trim(d, args.max_edge, stats);
+    let trim = room::trim_border(d, &args.border(), stats, quiet);
     let mesh = room::mesh(d, points, about, trim.as_ref());
     let phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {

@@ -16,7 +16,7 @@ const NAMED: usize = 10;
 
 pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     let inputs: Vec<_> = args.input.iter().map(PathBuf::as_path).collect();
-    let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &inputs)?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.stats.as_deref(), &inputs)?)?;
     for (path, format) in &outputs {
         Patches::check(*format).map_err(|error| Failure::file(path, &error))?;
     }

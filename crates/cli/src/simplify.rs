@@ -4,7 +4,7 @@ use std::path::Path;
 
 use delone::Delaunay2;
 use delone::surface::{Thinned, Thinning};
-use delone_io::{Cloud, Graph, Raster, picture, write_mesh};
+use delone_io::{Border, Cloud, Graph, Raster, picture, write_mesh};
 
 use crate::args::{CrossingsName, GraphArgs, SimplifyArgs};
 use crate::constrained::{self, Constrained};
@@ -21,7 +21,7 @@ pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
     inputs.extend(args.segments.as_deref());
     let written = args.output.iter().chain(&args.kept).map(std::path::PathBuf::as_path);
     files::keep_apart(&inputs, written.chain(stats_path))?;
-    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &inputs)?)?;
     room::check_formats::<Delaunay2>(&outputs)?;
     let kept_format = args.kept.as_ref().map(|path| files::index_format(path, None)).transpose()?;
     let how = how(args)?;
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
         let fill = (constrained::usual(&args.input, &graph), false);
         let label = args.input.label();
         let c = Constrained::of(graph, CrossingsName::Refuse, fill, &label, &mut stats, quiet)?;
-        c.write(&outputs, args.max_edge, &options, &mut stats, quiet)?;
+        c.write(&outputs, &Border::long_edges(args.max_edge), &options, &mut stats, quiet)?;
     }
     stats.tell(quiet, Delaunay2::WORDS.simplex);
     stats.write(stats_path)

@@ -97,6 +97,8 @@ impl Stats {
             self.facts.entry(key).or_insert(Value::Null);
         }
         self.facts.entry("counters").or_insert(json!({}));
+        // What goes on one thread alone says so itself.
+        self.facts.entry("threads").or_insert(json!(rayon::current_num_threads()));
         for phase in ["read", "build", "write"] {
             self.seconds.entry(phase).or_insert(json!(0.0));
         }

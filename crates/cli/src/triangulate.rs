@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
-use crate::args::{AlgorithmName, TriangulateArgs};
+use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
 use crate::message::Failure;
 use crate::room::{self, Room};
 use crate::stats::Stats;
@@ -13,6 +13,9 @@ use crate::{constrained, files, instances, outcome, weighted};
 pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Failure> {
     if args.max_edge.is_some() && R::is_space() {
         return Err(Failure::usage("--max-edge is for the plane", "leave it or --dim 3 out"));
+    }
+    if args.drop_slivers.is_some() && R::is_space() {
+        return Err(Failure::usage("--drop-slivers is for the plane", "leave it or --dim 3 out"));
     }
     if args.fingerprint {
         refuse_beside_fingerprint::<R>(args)?;
@@ -52,7 +55,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
     }
     let plan = R::plan(args.algorithm, &args.strategy)?;
     let stats_path = args.input.stats.as_deref();
-    let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &args.input.paths())?)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
     let (points, about) = room::read::<R>(&args.input, quiet)?;
@@ -66,10 +69,12 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
     if let Some(locate) = plan.locate {
         stats.set("locate", name(&|| locate.to_possible_value()));
     }
-    outcome::finish(args, &outputs, &d, &points, &about, &mut stats, quiet)?;
-    if plan.name == AlgorithmName::DivideConquer {
-        stats.set("threads", rayon::current_num_threads());
+    // Of the insertions one by one, that of space along a curve alone is shared.
+    let is_shared = R::is_space() && plan.locate == Some(LocateName::Spatial);
+    if plan.name == AlgorithmName::Incremental && !is_shared {
+        stats.set("threads", 1);
     }
+    outcome::finish(args, &outputs, &d, &points, &about, &mut stats, quiet)?;
     stats.write(stats_path)
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use delone::{Regular, Triangulation};
-use delone_io::{Cloud, Format, picture, write_mesh};
+use delone_io::{Border, Cloud, Format, picture, write_mesh};
 
 use crate::args::{DrawArgs, InputArgs, TriangulateArgs, WeightArgs};
 use crate::files;
@@ -25,7 +25,7 @@ pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Resul
     let algorithm = R::plan_regular(&args.strategy)?;
     let stats_path = args.input.stats.as_deref();
     let inputs: Vec<&Path> = args.input.paths().into_iter().chain(args.weights.file()).collect();
-    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &inputs)?)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
     let r = Weighted::<R>::read_for(algorithm, &args.input, &args.weights, &mut stats, quiet)?;
@@ -43,7 +43,7 @@ pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Resul
     if let Some(locate) = args.strategy.locate.and_then(|locate| locate.to_possible_value()) {
         stats.set("locate", locate.get_name());
     }
-    r.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
+    r.write(&outputs, &args.border(), &picture::Options::default(), &mut stats, quiet)?;
     stats.tell(quiet, R::WORDS.simplex);
     stats.write(stats_path)
 }
@@ -57,7 +57,7 @@ pub(crate) fn draw<R: Room>(
 ) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
-    r.write(outputs, args.max_edge, options, &mut stats, quiet)?;
+    r.write(outputs, &Border::long_edges(args.max_edge), options, &mut stats, quiet)?;
     stats.tell(quiet, R::WORDS.simplex);
     stats.write(args.input.stats.as_deref())
 }
@@ -102,12 +102,12 @@ impl<R: Room> Weighted<R> {
     pub(crate) fn write(
         &self,
         outputs: &[(PathBuf, Format)],
-        max_edge: Option<f64>,
+        border: &Border,
         options: &picture::Options,
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<(), Failure> {
-        let trim = room::trim(&self.triangulation, max_edge, stats);
+        let trim = room::trim_border(&self.triangulation, border, stats, quiet);
         let mesh = room::mesh(&self.triangulation, &self.points, &self.about, trim.as_ref());
         let phase = Phase::start(quiet, "writing");
         for (path, format) in outputs {

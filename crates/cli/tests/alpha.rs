@@ -69,6 +69,34 @@ fn surfaces_are_closed_and_named_by_points() {
 }
 
 #[test]
+fn pictures_of_shapes_without_area_show_the_points() {
+    let place = Place::new();
+    place.file("p.csv", "0,0\n2,0\n0,2\n9,9\n");
+    place.file("q.csv", "0,0,0\n2,0,0\n0,2,0\n0,0,2\n");
+    place.file("line.csv", "0,0,0\n2,0,0\n3,0,0\n");
+    place.file("flat.csv", "0,0,0\n2,0,0\n0,2,0\n2,2,0\n");
+    let dots = |name: &str| {
+        let picture = std::fs::read_to_string(place.path(name)).expect("written");
+        picture.matches("<circle").count()
+    };
+    place.succeed("alpha p.csv --alpha 0.5 -o p.svg -o p.png -q");
+    assert_eq!(dots("p.svg"), 4);
+    // What is in no triangle is shown beside one.
+    place.succeed("alpha p.csv --alpha 2 -o p.svg -q");
+    assert_eq!(dots("p.svg"), 1);
+    place.succeed("alpha q.csv --dim 3 --alpha 0.5 -o q.svg -o q.png -q");
+    assert_eq!(dots("q.svg"), 4);
+    place.succeed("alpha q.csv --dim 3 --alpha 9 -o q2.svg -q");
+    assert_eq!(dots("q2.svg"), 0);
+    place.succeed("triangulate line.csv --dim 3 -o line.svg -o line.png -q");
+    place.succeed("hull flat.csv --dim 3 -o hull.svg -q");
+    assert_eq!((dots("line.svg"), dots("hull.svg")), (3, 4));
+    for name in ["p.png", "q.png", "line.png"] {
+        assert!(std::fs::metadata(place.path(name)).expect("written").len() > 1000, "{name}");
+    }
+}
+
+#[test]
 fn wrong_use_is_named() {
     let place = Place::new();
     place.file("p.csv", "0,0\n2,0\n0,2\n");

@@ -55,6 +55,43 @@ fn algorithms_write_the_same_triangles() {
 }
 
 #[test]
+fn statistics_tell_the_threads_there_were() {
+    let place = Place::new();
+    place.file("p.csv", "0,0,1\n4,0,2\n0,4,3\n5,5,5\n");
+    place.file("w.csv", "0\n1\n0\n0\n");
+    let json = || -> serde_json::Value {
+        let stats = std::fs::read_to_string(place.path("s.json")).expect("written");
+        serde_json::from_str(&stats).expect("JSON")
+    };
+    for command in [
+        "triangulate p.csv -o m.npy",
+        "triangulate p.csv --dim 3 -o m.npy",
+        "triangulate p.csv --weights w.csv -o m.npy",
+        "mesh p.csv -o m.npy",
+        "hull p.csv --dim 3 -o h.npy",
+        "alpha p.csv --dim 3 --optimal -o a.npy",
+        "voronoi p.csv -o v.geojson",
+        "tiles p.csv -o folder",
+    ] {
+        for threads in [1, 2] {
+            place.succeed(&format!("{command} -q --threads {threads} --stats s.json"));
+            assert_eq!(json()["threads"], threads, "{command}");
+            _ = std::fs::remove_dir_all(place.path("folder"));
+        }
+    }
+    // What inserts points one by one with a strategy of location has no use for a second one.
+    for command in [
+        "--algorithm incremental",
+        "--locate walk --dim 3",
+        "--algorithm incremental --locate history",
+        "--hints p.csv",
+    ] {
+        place.succeed(&format!("triangulate p.csv {command} -o m.npy -q --threads 2 --stats s.json"));
+        assert_eq!(json()["threads"], 1, "{command}");
+    }
+}
+
+#[test]
 fn standard_input_and_output() {
     let place = Place::new();
     let mut program = Command::new(env!("CARGO_BIN_EXE_delone"))

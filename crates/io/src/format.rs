@@ -52,8 +52,10 @@ pub enum Format {
     Pcd,
     /// GeoJSON.
     GeoJson,
-    /// Well-known text of geometries.
+    /// Well-known text of geometries, one a line.
     Wkt,
+    /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.
+    WktCollection,
     /// Well-known binary of geometries.
     Wkb,
     /// GeoTIFF rasters.
@@ -141,7 +143,9 @@ impl FromStr for Format {
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let name = NAMES.iter().find(|entry| entry.1 == *self).map_or("unnamed", |entry| entry.0);
+        // It is no name of its own for files.
+        let of = if *self == Self::WktCollection { Self::Wkt } else { *self };
+        let name = NAMES.iter().find(|entry| entry.1 == of).map_or("unnamed", |entry| entry.0);
         f.write_str(name)
     }
 }

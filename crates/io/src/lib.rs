@@ -55,7 +55,7 @@ pub use raster::{
     read_surface,
 };
 pub use solid::{Solid, write_solid};
-pub use trim::{Cut, Trim};
+pub use trim::{Border, Cut, Trim};
 
 use std::io::{BufRead, Seek};
 
@@ -106,7 +106,7 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
         Format::Off => off::read_points(source),
         Format::Stl => stl::read_points(source),
         Format::GeoJson => geojson::read(source),
-        Format::Wkt => wkt::read_points(source),
+        Format::Wkt | Format::WktCollection => wkt::read_points(source),
         Format::Wkb => wkb::read_points(source),
         Format::Vtu => vtk::read_xml(source),
         Format::Vtk => vtk::read_legacy(source),
@@ -221,7 +221,7 @@ pub fn read_graph(
         Format::Poly => poly::read(source, beside),
         Format::Node => triangle::read_graph(source),
         Format::GeoJson => geojson::read_graph(source),
-        Format::Wkt => wkt::read_graph(source),
+        Format::Wkt | Format::WktCollection => wkt::read_graph(source),
         Format::Wkb => wkb::read_graph(source),
         _ => read_points(source, format, options).map(Graph::of_points),
     }
@@ -297,7 +297,7 @@ trait Shape {
 pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f64; 2]>>, Error> {
     match format {
         Format::GeoJson => formats::geojson::read_rings(source),
-        Format::Wkt => formats::wkt::read_rings(source),
+        Format::Wkt | Format::WktCollection => formats::wkt::read_rings(source),
         Format::Wkb => formats::wkb::read_rings(source),
         _ => {
             Ok(vec![read_points(source, format, &ReadOptions { dimension: 2, ..ReadOptions::default() })?.xy])
@@ -356,7 +356,9 @@ pub fn write_points<const D: usize>(
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,
-        Format::Wkt => wkt::write_points(out, points)?,
+        Format::Wkt | Format::WktCollection => {
+            wkt::write_points(out, points, format == Format::WktCollection)?;
+        }
         Format::Wkb => wkb::write_points(out, points)?,
         _ => return Err(Error::NotPoints(format)),
     }
@@ -364,12 +366,15 @@ pub fn write_points<const D: usize>(
 }
 
 /// Writes a graph: as a `.poly` file with all attributes and markers, holes and regions; as GeoJSON or well-known text with its
-/// polygons, lines of all other segments, and points that no segment joins.
+/// polygons, lines of all other segments, and points that no segment joins: in text a geometry a line, or one collection
+/// ([`Format::WktCollection`]).
 pub fn write_graph(out: &mut dyn std::io::Write, format: Format, graph: &Graph) -> Result<(), Error> {
     match format {
         Format::Poly => Ok(formats::poly::write_graph(out, graph)?),
         Format::GeoJson => Ok(formats::graphs::write_geojson(out, graph)?),
-        Format::Wkt => Ok(formats::graphs::write_wkt(out, graph)?),
+        Format::Wkt | Format::WktCollection => {
+            Ok(formats::graphs::write_wkt(out, graph, format == Format::WktCollection)?)
+        }
         _ => Err(Error::NotAGraph(format)),
     }
 }

@@ -300,9 +300,30 @@ pub trait Drawable: Coordinates {
 impl Drawable for [f64; 2] {
     const FORMATS: &'static [Format] = &{
         use Format::{
-            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Off, Ply, Png, Poly, Stl, Svg, Vtu, Wkb, Wkt,
+            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Off, Ply, Png, Poly, Stl, Svg, Vtu, Wkb,
+            Wkt, WktCollection,
         };
-        [Npy, Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Ply, Obj, Off, Stl, GeoJson, Wkt, Wkb, Svg, Png]
+        [
+            Npy,
+            Node,
+            Ele,
+            Neigh,
+            Edge,
+            Poly,
+            Vtu,
+            Msh,
+            Inp,
+            Ply,
+            Obj,
+            Off,
+            Stl,
+            GeoJson,
+            Wkt,
+            WktCollection,
+            Wkb,
+            Svg,
+            Png,
+        ]
     };
 
     const SECOND_ORDER: &'static [Format] = &{
@@ -327,7 +348,7 @@ impl Drawable for [f64; 2] {
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
             Format::Poly => poly::write(out, mesh)?,
-            Format::Wkt => wkt::write(out, mesh)?,
+            Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,
             Format::Wkb => wkb::write(out, mesh)?,
             Format::Svg | Format::Png => picture::write(out, format, mesh, options)?,
             _ => return Err(Self::refusal(format)),
@@ -355,13 +376,19 @@ impl Drawable for [f64; 3] {
         options: &picture::Options,
     ) -> Result<Remark, Error> {
         Self::check(format)?;
-        write_solid(out, format, &mesh.solid(), options)
+        let mut solid = mesh.solid();
+        if solid.faces.is_empty() && matches!(format, Format::Png | Format::Svg) {
+            // A picture of points on a line shows them.
+            solid.points = mesh.triangulation.vertices().map(|v| mesh.point(v)).collect();
+        }
+        write_solid(out, format, &solid, options)
     }
 }
 
 /// Writes a triangulation, or draws it as the options say. Indices in the file are those of the input points (duplicates
 /// are written as points that no simplex uses), from 0 unless the format counts from 1. Of space, formats that hold
-/// triangles alone get the border, with the points on it. The formats of finite elements, `msh` and `inp`, leave out points that no
+/// triangles alone get the border, with the points on it. Well-known text has a polygon a line, or one collection of them
+/// ([`Format::WktCollection`]). The formats of finite elements, `msh` and `inp`, leave out points that no
 /// simplex uses, and have the border and the constraints too, in groups by marker.
 pub fn write_mesh<T: Triangulation<Point: Drawable>>(
     out: &mut dyn Write,

@@ -1,5 +1,6 @@
 //! The triangles of many polygons, each triangulated alone, as one mesh.
 
+use std::collections::HashSet;
 use std::io::Write;
 
 use crate::formats::{geojson, obj, ply, stl, vtu, wkb, wkt};
@@ -47,9 +48,9 @@ impl Shape for Patches {
 impl Patches {
     /// Refuses formats that hold no such triangles.
     pub fn check(format: Format) -> Result<(), Error> {
-        use Format::{GeoJson, Npy, Obj, Ply, Png, Stl, Svg, Text, Vtu, Wkb, Wkt};
+        use Format::{GeoJson, Npy, Obj, Ply, Png, Stl, Svg, Text, Vtu, Wkb, Wkt, WktCollection};
         match format {
-            Npy | Text | Ply | Obj | Stl | Vtu | GeoJson | Wkt | Wkb | Svg | Png => Ok(()),
+            Npy | Text | Ply | Obj | Stl | Vtu | GeoJson | Wkt | WktCollection | Wkb | Svg | Png => Ok(()),
             _ => Err(Error::NotPatches(format)),
         }
     }
@@ -63,15 +64,21 @@ impl Patches {
         })
     }
 
-    /// Each polygon in a colour of its own.
+    /// Each polygon in a colour of its own; points beside all triangles as dots.
     fn sketch(&self) -> Sketch {
         let corners = |triangle: &[usize; 3]| triangle.map(|i| self.points[i]);
         let patches = self.triangles.iter().zip(&self.polygons);
         let patches = patches.map(|(triangle, &polygon)| Mark::Patch(corners(triangle).to_vec(), polygon));
         let sides = self.triangles.iter().map(corners);
         let sides = sides.flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+        // A point that equals a corner is no dot.
+        let bits = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
+        let corner_bits: HashSet<_> =
+            self.triangles.as_flattened().iter().map(|&i| bits(self.points[i])).collect();
+        let is_shown = |p: &[f64; 2]| p.iter().all(|x| x.is_finite()) && !corner_bits.contains(&bits(*p));
+        let dots = self.points.iter().copied().filter(is_shown).map(|p| Mark::Dot(p, Tone::Plain));
         Sketch {
-            marks: patches.chain(sides.map(|side| Mark::Line(side, Tone::Plain))).collect(),
+            marks: patches.chain(sides.map(|side| Mark::Line(side, Tone::Plain))).chain(dots).collect(),
             ..Sketch::default()
         }
     }
@@ -95,7 +102,7 @@ pub fn write_patches(
         Format::Stl => return Ok(stl::write(out, patches)?),
         Format::Vtu => vtu::write(out, patches)?,
         Format::GeoJson => geojson::write_polygons(out, patches)?,
-        Format::Wkt => wkt::write(out, patches)?,
+        Format::Wkt | Format::WktCollection => wkt::write(out, patches, format == Format::WktCollection)?,
         Format::Wkb => wkb::write(out, patches)?,
         Format::Svg | Format::Png => write_sketch(out, format, &patches.sketch(), patches.window(), size)?,
         _ => return Err(Error::NotPatches(format)),

@@ -81,7 +81,7 @@ impl Shape for Solid {
     }
 }
 
-/// Writes a closed surface: its triangles, or a picture of it.
+/// Writes a closed surface: its triangles, or a picture of it, which shows the points where there are no faces.
 pub fn write_solid(
     out: &mut dyn Write,
     format: Format,

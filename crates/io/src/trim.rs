@@ -10,6 +10,16 @@ pub struct Trim {
     /// By the index of the simplex.
     left_out: Vec<bool>,
     count: usize,
+    slivers: usize,
+}
+
+/// What is left out along the border.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Border {
+    /// Simplices with a longer edge.
+    pub longest: Option<f64>,
+    /// Triangles whose height over their longest edge is smaller than this part of it.
+    pub slivers: Option<f64>,
 }
 
 /// A plane that takes away the simplices whose middle is beyond it.
@@ -21,23 +31,56 @@ pub struct Cut {
     pub offset: f64,
 }
 
+impl Border {
+    /// Long edges alone.
+    pub fn long_edges(longest: Option<f64>) -> Self {
+        Self { longest, slivers: None }
+    }
+}
+
 impl Trim {
     /// Leaves out simplices with an edge longer than `longest`, from the hull inwards: as long as they are next to
     /// nothing or to one that is left out. Long ones in the middle stay. Lengths are rounded. O(n).
     pub fn long_edges<T: Triangulation>(t: &T, longest: f64) -> Self {
+        Self::along_border(t, &Border::long_edges(Some(longest)), |_| true)
+    }
+
+    /// Leaves out simplices by a rule, from the hull inwards: as long as they are next to nothing or to one that is left out. Of
+    /// slivers only those go that may. O(n).
+    ///
+    /// ```
+    /// use delone::Delaunay2;
+    /// use delone_io::{Border, Trim};
+    ///
+    /// // Three squares, whose lower side is bent by a rounding error.
+    /// let points = [[0.0, 0.0], [1.0, 1e-16], [2.0, 0.0], [0.0, 1.0], [1.0, 1.0], [2.0, 1.0]];
+    /// let d = Delaunay2::from_points(&points)?;
+    /// let rule = Border { slivers: Some(1e-9), ..Border::default() };
+    /// let trim = Trim::along_border(&d, &rule, |_| true);
+    /// assert_eq!((d.triangle_count(), trim.slivers()), (5, 1));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn along_border<T: Triangulation>(
+        t: &T,
+        rule: &Border,
+        may_go_as_sliver: impl Fn(T::Simplex) -> bool,
+    ) -> Self {
         let facets = 0..=T::Point::COUNT;
-        let is_long = |s: T::Simplex| {
-            let corners = t.corners(s);
-            let ends: Vec<T::Point> = corners.as_ref().iter().filter_map(|&v| t.position(v)).collect();
-            let pairs = ends.iter().enumerate().flat_map(|(i, p)| ends[..i].iter().map(move |q| (p, q)));
-            pairs.into_iter().any(|(p, q)| distance(*p, *q) > longest)
-        };
         let at_border = |s: &T::Simplex| facets.clone().any(|k| t.across(*s, k).is_none());
         let mut waiting: VecDeque<T::Simplex> = t.simplices().filter(at_border).collect();
-        let mut trim = Self { left_out: vec![false; t.slot_count()], count: 0 };
+        let mut trim = Self::new(t);
         while let Some(s) = waiting.pop_front() {
-            if trim.keeps(t.index(s)) && is_long(s) {
+            if !trim.keeps(t.index(s)) {
+                continue;
+            }
+            let corners = t.corners(s);
+            let points: Vec<T::Point> = corners.as_ref().iter().filter_map(|&v| t.position(v)).collect();
+            let is_long = rule.longest.is_some_and(|longest| longest_side(&points) > longest);
+            let is_flat = || rule.slivers.is_some_and(|ratio| slenderness(&points) < ratio);
+            let is_sliver = !is_long && is_flat() && may_go_as_sliver(s);
+            if is_long || is_sliver {
                 trim.leave_out(t.index(s));
+                trim.slivers += usize::from(is_sliver);
                 waiting.extend(facets.clone().filter_map(|k| t.across(s, k)));
             }
         }
@@ -47,7 +90,7 @@ impl Trim {
     /// Leaves out what is beyond a plane.
     pub fn beyond<T: Triangulation>(t: &T, cut: &Cut) -> Self {
         let count = (T::Point::COUNT + 1) as f64;
-        let mut trim = Self { left_out: vec![false; t.slot_count()], count: 0 };
+        let mut trim = Self::new(t);
         let along =
             |p: T::Point| -> f64 { cut.normal.iter().zip(p.as_ref()).map(|(n, x)| n * x / count).sum() };
         for s in t.simplices() {
@@ -63,9 +106,13 @@ impl Trim {
 
     /// Leaves out the simplices that are not to stay, such as those outside of a domain.
     pub fn keeping<T: Triangulation>(t: &T, stays: impl Fn(T::Simplex) -> bool) -> Self {
-        let mut trim = Self { left_out: vec![false; t.slot_count()], count: 0 };
+        let mut trim = Self::new(t);
         t.simplices().filter(|&s| !stays(s)).for_each(|s| trim.leave_out(t.index(s)));
         trim
+    }
+
+    fn new(t: &impl Triangulation) -> Self {
+        Self { left_out: vec![false; t.slot_count()], count: 0, slivers: 0 }
     }
 
     fn leave_out(&mut self, index: usize) {
@@ -82,6 +129,27 @@ impl Trim {
     pub fn count(&self) -> usize {
         self.count
     }
+
+    /// How many of these are left out as slivers. What has an edge that is too long is none.
+    pub fn slivers(&self) -> usize {
+        self.slivers
+    }
+}
+
+/// The length of the longest side between some points.
+fn longest_side<P: Coordinates>(points: &[P]) -> f64 {
+    let pairs =
+        points.iter().enumerate().flat_map(|(i, p)| points[..i].iter().map(move |q| distance(*p, *q)));
+    pairs.fold(0.0, f64::max)
+}
+
+/// The height of a triangle of the plane over its longest side, as a part of that; of others nothing is known, which is no number.
+/// Coordinates are subtracted and multiplied once each, so it is off by 2^-50 at most.
+fn slenderness<P: Coordinates>(points: &[P]) -> f64 {
+    let [p, q, r] = points else { return f64::NAN };
+    let longest = longest_side(points);
+    let side = |q: &P, k: usize| (q.as_ref()[k] - p.as_ref()[k]) / longest;
+    (side(q, 0) * side(r, 1) - side(q, 1) * side(r, 0)).abs()
 }
 
 /// The distance of two points, rounded.
@@ -92,7 +160,7 @@ fn distance<P: Coordinates>(p: P, q: P) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cut, Trim};
+    use super::{Border, Cut, Trim};
     use crate::{Mesh, Shape};
     use delone::{Delaunay2, Delaunay3};
 
@@ -118,6 +186,39 @@ mod tests {
             .collect();
         let d = Delaunay2::from_points(&ring).expect("finite");
         assert_eq!(Trim::long_edges(&d, 2.0).count(), 0);
+    }
+
+    #[test]
+    fn slivers_go_from_the_border_inwards() {
+        // Along the border of a turned lattice points are on lines but for rounding.
+        let (sin, cos) = 0.3_f64.sin_cos();
+        let turned = |i: i32| {
+            let (x, y) = (f64::from(i % 20), f64::from(i / 20));
+            [x * cos - y * sin, x * sin + y * cos]
+        };
+        let points: Vec<[f64; 2]> = (0..400).map(turned).collect();
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let rule = |ratio| Border { slivers: Some(ratio), ..Border::default() };
+        let trim = Trim::along_border(&d, &rule(1e-9), |_| true);
+        let mesh = Mesh { trim: Some(&trim), ..Mesh::new(&d, &points) };
+        assert_eq!(mesh.simplex_count(), 2 * 19 * 19);
+        assert_eq!(trim.slivers(), d.triangle_count() - 2 * 19 * 19);
+        assert!(trim.slivers() > 0);
+        assert_eq!(Trim::along_border(&d, &rule(1e-9), |_| false).count(), 0);
+        assert_eq!(Trim::along_border(&d, &rule(0.0), |_| true).count(), 0);
+        // Every triangle is less than equilateral; at the ends of the range of numbers too.
+        for scale in [1.0, 1e-300, 1e300] {
+            let points: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x * scale)).collect();
+            let d = Delaunay2::from_points(&points).expect("finite");
+            assert_eq!(Trim::along_border(&d, &rule(0.9), |_| true).slivers(), d.triangle_count());
+            assert!(
+                Trim::along_border(&d, &rule(1e-9), |_| true).slivers() + 2 * 19 * 19 <= d.triangle_count()
+            );
+        }
+        // One in the middle stays.
+        let points = [[0.0, 0.0], [1.0, 1e-12], [2.0, 0.0], [1.0, 1.0], [1.0, -1.0]];
+        let d = Delaunay2::from_points(&points).expect("finite");
+        assert_eq!(Trim::along_border(&d, &rule(1e-9), |_| true).count(), 0);
     }
 
     #[test]

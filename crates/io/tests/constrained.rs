@@ -150,13 +150,14 @@ fn geometries_are_those_of_geojson() {
     let json = triangles(Format::GeoJson);
     assert_eq!((json.0.len(), json.2.len()), (48, 16));
     assert_eq!(triangles(Format::Wkt), json);
+    assert_eq!(triangles(Format::WktCollection), json);
     assert_eq!(triangles(Format::Wkb), json);
     // Heights, systems and points go there and back.
     let heights: Vec<f64> = scene.points.iter().map(|p| p[0] * 0.1).collect();
     let crs = delone_io::Crs::of_epsg(25_832);
     let mesh =
         Mesh { heights: Some(&heights), crs: Some(&crs), ..Mesh::new(&scene.triangulation, &scene.points) };
-    for format in [Format::Wkt, Format::Wkb] {
+    for format in [Format::Wkt, Format::WktCollection, Format::Wkb] {
         let mut bytes = Vec::new();
         write_mesh(&mut bytes, format, &mesh, &picture::Options::default()).expect("memory takes it");
         let cloud = read_points(source(&bytes), format, &ReadOptions::default()).expect("points");
@@ -177,7 +178,7 @@ fn geometries_are_those_of_geojson() {
         }
     }
     let none = Delaunay2::from_points::<[f64; 2]>(&[]).expect("nothing");
-    for format in [Format::Wkt, Format::Wkb] {
+    for format in [Format::Wkt, Format::WktCollection, Format::Wkb] {
         let mut bytes = Vec::new();
         write_mesh(&mut bytes, format, &Mesh::new(&none, &[]), &picture::Options::default())
             .expect("memory takes it");

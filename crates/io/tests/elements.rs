@@ -353,7 +353,7 @@ fn second_order_is_refused_before_anything_is_written() {
             Err(other) => panic!("{format}: {other}"),
         }
     }
-    assert_eq!(refused, 8);
+    assert_eq!(refused, 9);
     assert!(matches!(<[f64; 2]>::check_second_order(Format::Las), Err(Error::NotAMesh(Format::Las))));
     let points = Kind3::Ball.points(10, 3);
     let d = Delaunay3::from_points(&points).expect("finite");

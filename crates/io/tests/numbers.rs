@@ -121,7 +121,7 @@ pub(crate) fn in_all_formats(rows: &[[&str; 3]]) -> Vec<(&'static str, Format, S
         "]}}",
         ",",
     );
-    let text_lines = joined(rows, ",", r#"{"type":"Point","coordinates":["#, "]}\n", "").replace("\\n", "\n");
+    let text_lines = joined(rows, ",", r#"{"type":"Point","coordinates":["#, "]}\n", "");
     let wkt = joined(rows, " ", "(", ")", ", ");
     let tags: String = (1..=n).map(|i| format!("{i}\n")).collect();
     let corners = |count: usize| (0..count).map(|i| format!("f {0} {0} {0}\n", i + 1)).collect::<String>();
@@ -131,7 +131,7 @@ pub(crate) fn in_all_formats(rows: &[[&str; 3]]) -> Vec<(&'static str, Format, S
     };
     let facets: String = rows.iter().map(facet).collect();
     let ply = format!("element vertex {n}\nproperty double x\nproperty double y\nproperty double z\n");
-    let vtu = format!("<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">");
+    let vtu = "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">";
     let piece = format!("<Piece NumberOfPoints=\"{n}\" NumberOfCells=\"0\">");
     let pcd = "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\n";
     vec![

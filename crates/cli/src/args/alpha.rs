@@ -6,7 +6,7 @@ use clap::Args;
 use delone_io::Format;
 
 use super::shapes::CameraArgs;
-use super::{DimArgs, InputArgs, WeightArgs};
+use super::{DimArgs, InputArgs, WeightArgs, WktArgs};
 
 /// Alpha shapes.
 #[derive(Debug, Args)]
@@ -45,6 +45,8 @@ pub(crate) struct AlphaArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
     /// Write all faces with their values (npz csv).
     #[arg(long, value_name = "FILE")]
     pub(crate) filtration: Option<PathBuf>,

@@ -116,7 +116,7 @@ pub(crate) struct ReplayArgs {
     /// thousandth beyond, and at the end.
     #[arg(long)]
     pub(crate) check: bool,
-    /// Write what was counted and timed to a JSON file.
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
     #[command(flatten)]

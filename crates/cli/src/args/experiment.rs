@@ -42,7 +42,7 @@ pub(crate) struct ExperimentArgs {
     /// Seed of points and orders.
     #[arg(long, value_name = "S", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Write what was counted and timed to a JSON file.
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
 }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use delone_io::Format;
 
 use super::triangle::{Switches, table};
-use super::{GraphArgs, InputArgs, count};
+use super::{GraphArgs, InputArgs, WktArgs, count};
 
 /// Options that Triangle's switches say too.
 const SAID: [&str; 9] = [
@@ -35,6 +35,8 @@ pub(crate) struct MeshArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
     /// Triangle's switches, such as pq30a.1; without -o its files are written beside the input.
     #[arg(long, value_name = "SWITCHES", value_parser = Switches::parse, allow_hyphen_values = true, conflicts_with_all = SAID)]
     pub(crate) triangle: Option<Switches>,

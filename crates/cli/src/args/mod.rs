@@ -18,6 +18,7 @@ mod tiles;
 mod triangle;
 mod triangulate;
 mod weights;
+mod wkt;
 
 use std::path::{Path, PathBuf};
 
@@ -42,6 +43,7 @@ pub(crate) use tiles::{TilesArgs, WindowArgs};
 pub(crate) use triangle::{Switches, table as triangle_table};
 pub(crate) use triangulate::{AlgorithmName, HintOrderName, TriangulateArgs};
 pub(crate) use weights::WeightArgs;
+pub(crate) use wkt::WktArgs;
 
 /// Exact Delaunay triangulation: one point set, one triangulation.
 #[derive(Debug, Parser)]
@@ -152,7 +154,7 @@ pub(crate) struct InputArgs {
     /// Columns of text that are x, y and perhaps z: names or numbers from 1, separated by commas.
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
-    /// Write what was counted and timed to a JSON file.
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
 }
@@ -190,6 +192,14 @@ fn class(text: &str) -> Result<u8, String> {
         let names: Vec<&str> = LAS_CLASSES.iter().map(|class| class.0).collect();
         format!("a class is a number up to 255 or one of {}", names.join(", "))
     })
+}
+
+/// A part of a length.
+fn ratio(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|x: &f64| (0.0..=1.0).contains(x))
+        .ok_or_else(|| "it is no part: 0 to 1".to_owned())
 }
 
 /// A length in coordinate units.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use delone_io::Format;
 
-use super::{DimArgs, InputArgs, WeightArgs, count, length};
+use super::{DimArgs, InputArgs, WeightArgs, WktArgs, count, length};
 
 /// Make points.
 #[derive(Debug, Args)]
@@ -36,7 +36,9 @@ pub(crate) struct GenerateArgs {
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// Write what was counted and timed to a JSON file.
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
 }
@@ -137,4 +139,6 @@ pub(crate) struct ReduceArgs {
     /// File for the reduced points (with segments: poly geojson wkt).
     #[arg(long, short, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use delone_io::Format;
 
-use super::CrossingsName;
+use super::{CrossingsName, WktArgs};
 
 /// Triangulate polygons.
 #[derive(Debug, Args)]
@@ -32,6 +32,8 @@ pub(crate) struct PolygonsArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
     /// What is inside of a polygon.
     #[arg(long, value_name = "RULE", default_value = "even-odd")]
     pub(crate) fill: PolygonFill,
@@ -44,7 +46,7 @@ pub(crate) struct PolygonsArgs {
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,
-    /// Write what was counted and timed to a JSON file.
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use delone_io::Format;
 
-use super::{DuplicatesName, InputArgs, count, length};
+use super::{DuplicatesName, InputArgs, WktArgs, count, length};
 
 /// Contours.
 #[derive(Debug, Args)]
@@ -81,6 +81,8 @@ pub(crate) struct SimplifyArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
     /// How far from the triangles any point may be, in height.
     #[arg(long, value_name = "DZ", required_unless_present = "points", allow_negative_numbers = true)]
     pub(crate) max_error: Option<f64>,

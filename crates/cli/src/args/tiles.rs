@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use delone_io::Format;
 
-use super::{InputArgs, count};
+use super::{InputArgs, WktArgs, count};
 
 /// Triangulate more points than memory, in tiles.
 #[expect(clippy::struct_excessive_bools, reason = "each is an option")]
@@ -91,6 +91,8 @@ pub(crate) struct WindowArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
     /// The part, in coordinate units: least x and y, greatest x and y.
     #[arg(
         long = "box",
@@ -109,7 +111,7 @@ pub(crate) struct WindowArgs {
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,
-    /// Write what was counted and timed to a JSON file.
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
     #[arg(long, value_name = "FILE")]
     pub(crate) stats: Option<PathBuf>,
 }

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::Format;
+use delone_io::{Border, Format};
 
-use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, WktArgs, length};
 
 /// Triangulate points.
 #[derive(Debug, Args)]
@@ -42,6 +42,8 @@ pub(crate) struct TriangulateArgs {
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
     #[command(flatten)]
+    pub(crate) wkt: WktArgs,
+    #[command(flatten)]
     pub(crate) dim: DimArgs,
     /// Algorithm; the result is the same [default: divide-conquer in the plane, incremental in space].
     #[arg(long, value_name = "NAME")]
@@ -57,6 +59,10 @@ pub(crate) struct TriangulateArgs {
     /// gaps at the border of the data.
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     pub(crate) max_edge: Option<f64>,
+    /// In the plane, leave out triangles whose height over their longest edge is less than this part of it, from the hull inwards: such
+    /// as rounding makes along straight borders. 1e-9 takes these alone. Segments stay edges.
+    #[arg(long, value_name = "RATIO", value_parser = super::ratio)]
+    pub(crate) drop_slivers: Option<f64>,
     /// Print the fingerprint of the set of triangles: a number that depends on the coordinates of their corners alone, as delone
     /// tiles and delone check FOLDER have it.
     #[arg(long)]
@@ -70,6 +76,13 @@ pub(crate) struct TriangulateArgs {
     pub(crate) weights: WeightArgs,
     #[command(flatten)]
     pub(crate) strategy: StrategyArgs,
+}
+
+impl TriangulateArgs {
+    /// What is left out along the border.
+    pub(crate) fn border(&self) -> Border {
+        Border { longest: self.max_edge, slivers: self.drop_slivers }
+    }
 }
 
 /// Bulk algorithms.

@@ -8,7 +8,7 @@ use delone::{
     Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
     VertexId,
 };
-use delone_io::{Constraints, Format, Graph, Mesh, Trim, picture, write_mesh};
+use delone_io::{Border, Constraints, Format, Graph, Mesh, Trim, picture, write_mesh};
 
 use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
@@ -33,7 +33,7 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     let stats_path = args.input.stats.as_deref();
     let mut inputs = args.input.paths();
     inputs.extend(args.graph.segments.as_deref());
-    let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &inputs)?)?;
     room::check_formats::<delone::Delaunay2>(&outputs)?;
     let mut stats = Stats::start();
     let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
@@ -48,7 +48,7 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
         stats.phase("check");
         note(quiet, "checked: this is the canonical constrained Delaunay triangulation");
     }
-    c.write(&outputs, args.max_edge, &picture::Options::default(), &mut stats, quiet)?;
+    c.write(&outputs, &args.border(), &picture::Options::default(), &mut stats, quiet)?;
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(stats_path)
 }
@@ -62,7 +62,7 @@ pub(crate) fn draw(
 ) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
-    c.write(outputs, args.max_edge, options, &mut stats, quiet)?;
+    c.write(outputs, &Border::long_edges(args.max_edge), options, &mut stats, quiet)?;
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.input.stats.as_deref())
 }
@@ -184,16 +184,17 @@ impl Constrained {
     pub(crate) fn write(
         &self,
         outputs: &[(PathBuf, Format)],
-        longest: Option<f64>,
+        border: &Border,
         options: &picture::Options,
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<(), Failure> {
         let (c, graph) = (&self.triangulation, &self.graph);
-        let long = longest.map(|longest| Trim::long_edges(c, longest));
-        let stays = |t: TriangleId| {
-            self.inside.is_inside(t) && long.as_ref().is_none_or(|long| long.keeps(c.index(t)))
-        };
+        // Segments stay edges.
+        let may_go = |t: TriangleId| [0, 1, 2].into_iter().all(|k| !c.is_constraint(t.edge(k)));
+        let gone = Trim::along_border(c, border, may_go);
+        room::tell_slivers(&gone, border, stats, quiet);
+        let stays = |t: TriangleId| self.inside.is_inside(t) && gone.keeps(c.index(t));
         let trim = Trim::keeping(c, stays);
         stats.set("left_out", trim.count());
         let edges: Vec<[VertexId; 2]> = c.constraints().collect();

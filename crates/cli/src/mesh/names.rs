@@ -23,7 +23,7 @@ pub(super) type Target = (PathBuf, Content);
 
 /// The files that were named, kept apart from all others.
 pub(super) fn named(args: &MeshArgs, plan: &Plan, inputs: &[&Path]) -> Result<Vec<Target>, Failure> {
-    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), inputs)?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.input.stats.as_deref(), inputs)?)?;
     let mut targets = Vec::new();
     for (path, format) in outputs {
         let check = if plan.traits.second_order {

@@ -22,7 +22,7 @@ pub(super) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     let mut inputs = args.input.paths();
     inputs.extend(args.segments.as_deref());
     let stats_path = args.input.stats.as_deref();
-    let outputs = files::outputs(args.output.as_slice(), None, stats_path, &inputs)?;
+    let outputs = args.wkt.of(files::outputs(args.output.as_slice(), None, stats_path, &inputs)?)?;
     let mut stats = Stats::start();
     let Graph { cloud, segments, .. } = files::graph(&args.input, args.segments.as_deref(), quiet)?;
     stats.phase("read");
@@ -47,7 +47,9 @@ pub(super) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     let graph = Graph { segments, cloud: Cloud { xy: points, ..Cloud::default() }, ..Graph::default() };
     for (path, format) in &outputs {
         files::write(path, |out| match format {
-            Format::Poly | Format::GeoJson | Format::Wkt => delone_io::write_graph(out, *format, &graph),
+            Format::Poly | Format::GeoJson | Format::Wkt | Format::WktCollection => {
+                delone_io::write_graph(out, *format, &graph)
+            }
             _ => delone_io::write_points(out, *format, &graph.cloud.xy),
         })?;
     }

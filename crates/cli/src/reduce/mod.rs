@@ -26,8 +26,9 @@ pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     if args.segments.is_some() || (args.against.is_none() && constrained::is_meant(&args.input, &asked)) {
         return graph::run(args, quiet);
     }
+    let stats_path = args.input.stats.as_deref();
     let outputs =
-        files::outputs(args.output.as_slice(), None, args.input.stats.as_deref(), &args.input.paths())?;
+        args.wkt.of(files::outputs(args.output.as_slice(), None, stats_path, &args.input.paths())?)?;
     let mut stats = Stats::start();
     let points = files::points(&args.input, 2, quiet)?.xy;
     stats.phase("read");

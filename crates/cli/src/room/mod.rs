@@ -12,7 +12,7 @@ use delone::{
     Bounds, Change, Coordinates, Counters, Dimension, Error, Graph, Imprecise, Locate, Regular,
     Triangulation, Verdict, VertexId,
 };
-use delone_io::{Cloud, Drawable, Format, Mesh, Source, Trim};
+use delone_io::{Border, Cloud, Drawable, Format, Mesh, Source, Trim};
 
 use crate::args::{AlgorithmName, InputArgs, LocateName, StrategyArgs};
 use crate::files;
@@ -210,9 +210,32 @@ fn coordinates<T: Triangulation>(_: &T) -> usize {
 
 /// What is left out for its length.
 pub(crate) fn trim(d: &impl Triangulation, longest: Option<f64>, stats: &mut Stats) -> Option<Trim> {
-    let trim = Trim::long_edges(d, longest?);
+    trim_border(d, &Border::long_edges(longest), stats, true)
+}
+
+/// What is left out along the border.
+pub(crate) fn trim_border(
+    d: &impl Triangulation,
+    rule: &Border,
+    stats: &mut Stats,
+    quiet: bool,
+) -> Option<Trim> {
+    if rule.longest.is_none() && rule.slivers.is_none() {
+        return None;
+    }
+    let trim = Trim::along_border(d, rule, |_| true);
     stats.set("left_out", trim.count());
+    tell_slivers(&trim, rule, stats, quiet);
     Some(trim)
+}
+
+/// Tells of slivers, if these were to go.
+pub(crate) fn tell_slivers(trim: &Trim, rule: &Border, stats: &mut Stats, quiet: bool) {
+    if let Some(ratio) = rule.slivers {
+        stats.set("slivers", trim.slivers());
+        let count = trim.slivers();
+        note(quiet, format_args!("triangles of the border flatter than {ratio:?}: {count}, left out"));
+    }
 }
 
 /// What is written of a triangulation.

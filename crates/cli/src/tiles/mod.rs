@@ -347,7 +347,6 @@ fn tell(plan: &Manifest, stats: &mut Stats, quiet: bool) {
     stats.set("tiles", tiles);
     stats.set("joins", nodes.len() - tiles);
     stats.set("border", border);
-    stats.set("threads", rayon::current_num_threads());
     say(
         quiet,
         format_args!(

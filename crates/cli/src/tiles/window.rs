@@ -41,7 +41,7 @@ struct Part {
 
 pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
-    let outputs = files::outputs(&args.output, args.to, args.stats.as_deref(), &[])?;
+    let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.stats.as_deref(), &[])?)?;
     room::check_formats::<Delaunay2>(&outputs)?;
     let paths = outputs.iter().map(|(path, _)| path.as_path());
     super::keep_out(&args.folder, paths.chain(args.stats.as_deref()))?;

@@ -6,6 +6,7 @@
 use std::io::{self, Write};
 
 use super::geojson::write_system;
+use super::wkt::Geometries;
 use crate::Graph;
 
 /// The shapes of a graph, as indices of points.
@@ -129,34 +130,24 @@ pub(crate) fn write_geojson(out: &mut dyn Write, graph: &Graph) -> io::Result<()
     writeln!(out, "\n]}}")
 }
 
-/// Writes well-known text: a line for each polygon, one for all lines, one for all points that no segment joins.
-pub(crate) fn write_wkt(out: &mut dyn Write, graph: &Graph) -> io::Result<()> {
+/// Writes well-known text: a geometry for each polygon, one for all lines, one for all points that no segment joins.
+pub(crate) fn write_wkt(out: &mut dyn Write, graph: &Graph, in_collection: bool) -> io::Result<()> {
     let (pieces, writer) = (Pieces::of(graph), Writer { graph, style: TEXT });
-    let high = if graph.cloud.z.is_some() { " Z" } else { "" };
+    let mut geometries = Geometries::new(out, in_collection, graph.cloud.z.is_some());
     for polygon in &pieces.polygons {
-        write!(out, "POLYGON{high} ")?;
-        writer.chains(out, polygon)?;
-        writeln!(out)?;
+        writer.chains(geometries.begin("POLYGON")?, polygon)?;
     }
     if !pieces.lines.is_empty() {
-        write!(out, "MULTILINESTRING{high} ")?;
-        writer.chains(out, &pieces.lines)?;
-        writeln!(out)?;
+        writer.chains(geometries.begin("MULTILINESTRING")?, &pieces.lines)?;
     }
-    if !pieces.alone.is_empty() || graph.cloud.xy.is_empty() {
-        write!(out, "MULTIPOINT{high} ")?;
-        if pieces.alone.is_empty() {
-            write!(out, "EMPTY")?;
-        } else {
-            writer.list(out, &pieces.alone, |out, &i| {
-                write!(out, "(")?;
-                writer.position(out, i)?;
-                write!(out, ")")
-            })?;
-        }
-        writeln!(out)?;
+    if !pieces.alone.is_empty() {
+        writer.list(geometries.begin("MULTIPOINT")?, &pieces.alone, |out, &i| {
+            write!(out, "(")?;
+            writer.position(out, i)?;
+            write!(out, ")")
+        })?;
     }
-    Ok(())
+    geometries.end()
 }
 
 #[cfg(test)]
@@ -205,7 +196,7 @@ mod tests {
         let high =
             Graph { cloud: Cloud { z: Some((0..8).map(f64::from).collect()), ..sample().cloud }, ..sample() };
         for graph in [sample(), high, Graph::default()] {
-            for format in [Format::GeoJson, Format::Wkt, Format::Poly] {
+            for format in [Format::GeoJson, Format::Wkt, Format::WktCollection, Format::Poly] {
                 let mut file = Vec::new();
                 write_graph(&mut file, format, &graph).expect("written");
                 if graph.cloud.xy.is_empty() && format == Format::Poly {

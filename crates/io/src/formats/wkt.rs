@@ -239,37 +239,78 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Writes a collection of triangles.
-pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+/// Writes geometries, each in a line of its own, or as one collection. Where there is none it is an empty collection.
+pub(super) struct Geometries<'a> {
+    out: &'a mut dyn Write,
+    in_collection: bool,
+    sign: &'static str,
+    count: usize,
+}
+
+impl<'a> Geometries<'a> {
+    /// With heights or without.
+    pub(super) fn new(out: &'a mut dyn Write, in_collection: bool, high: bool) -> Self {
+        Self { out, in_collection, sign: if high { " Z" } else { "" }, count: 0 }
+    }
+
+    /// Begins a geometry, and gives what its coordinates are written to.
+    pub(super) fn begin(&mut self, kind: &str) -> io::Result<&mut dyn Write> {
+        match (self.in_collection, self.count) {
+            (true, 0) => writeln!(self.out, "{COLLECTION}{} (", self.sign)?,
+            (true, _) => writeln!(self.out, ",")?,
+            (false, 0) => {}
+            (false, _) => writeln!(self.out)?,
+        }
+        self.count += 1;
+        write!(self.out, "{kind}{} ", self.sign)?;
+        Ok(self.out)
+    }
+
+    pub(super) fn end(self) -> io::Result<()> {
+        match (self.in_collection, self.count) {
+            (_, 0) => writeln!(self.out, "{COLLECTION}{} EMPTY", self.sign),
+            (true, _) => writeln!(self.out, "\n)"),
+            (false, _) => writeln!(self.out),
+        }
+    }
+}
+
+/// Writes triangles.
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape, in_collection: bool) -> io::Result<()> {
     let positions: Vec<_> = shape.positions().collect();
     let high = shape.heights().is_some();
-    let (sign, mut count) = (if high { " Z" } else { "" }, 0);
-    write!(out, "{COLLECTION}{sign}")?;
+    let mut geometries = Geometries::new(out, in_collection, high);
     for triangle in shape.triangles() {
-        write!(out, "{}\nPOLYGON{sign} ((", if count == 0 { " (" } else { "," })?;
+        let out = geometries.begin("POLYGON")?;
         for (k, corner) in [0, 1, 2, 0].into_iter().enumerate() {
             let [x, y, z] = positions[triangle[corner]];
-            write!(out, "{}{x:?} {y:?}", if k == 0 { "" } else { ", " })?;
+            write!(out, "{}{x:?} {y:?}", if k == 0 { "((" } else { ", " })?;
             if high {
                 write!(out, " {z:?}")?;
             }
         }
         write!(out, "))")?;
-        count += 1;
     }
-    writeln!(out, "{}", if count == 0 { " EMPTY" } else { "\n)" })
+    geometries.end()
 }
 
-pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
-    write!(out, "MULTIPOINT{}", if D == 3 { " Z" } else { "" })?;
+/// Writes points as one geometry.
+pub(crate) fn write_points<const D: usize>(
+    out: &mut dyn Write,
+    points: &[[f64; D]],
+    in_collection: bool,
+) -> io::Result<()> {
+    let mut geometries = Geometries::new(out, in_collection, D == 3);
+    let out = geometries.begin("MULTIPOINT")?;
     for (i, p) in points.iter().enumerate() {
-        write!(out, "{}\n(", if i == 0 { " (" } else { "," })?;
+        write!(out, "{}", if i == 0 { "((" } else { ", (" })?;
         for (k, x) in p.iter().enumerate() {
             write!(out, "{}{x:?}", if k == 0 { "" } else { " " })?;
         }
         write!(out, ")")?;
     }
-    writeln!(out, "{}", if points.is_empty() { " EMPTY" } else { "\n)" })
+    write!(out, "{}", if points.is_empty() { "EMPTY" } else { ")" })?;
+    geometries.end()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::Options;
-use super::colour::{PAPER, Rgb, shade};
+use super::colour::{PAPER, POINT, Rgb, shade};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
@@ -70,7 +70,7 @@ struct Visible {
     colour: Rgb,
 }
 
-/// Draws a closed surface.
+/// Draws a closed surface; the points of one without faces.
 pub(crate) fn write(
     out: &mut dyn Write,
     format: Format,
@@ -92,9 +92,11 @@ pub(crate) fn write(
     let spacing = (room / faces.len().max(1) as f64).sqrt();
     let outline = (spacing > 5.0 || camera.wireframe).then(|| (spacing / 40.0).clamp(0.4, 1.4));
     let style = Style { outline, fill: !camera.wireframe, to_scale: half == 1.0 };
+    let points = if solid.faces.is_empty() { &turned[..] } else { &[] };
+    let dots: Vec<[f64; 2]> = points.iter().map(|&[x, y, _]| view.place([x, y])).collect();
     match format {
-        Format::Svg => Ok(svg(out, &faces, &view, &style)?),
-        _ => png(out, &faces, &view, &style),
+        Format::Svg => Ok(svg(out, (&faces, &dots), &view, &style)?),
+        _ => png(out, (&faces, &dots), &view, &style),
     }
 }
 
@@ -129,7 +131,13 @@ impl Visible {
     }
 }
 
-fn png(out: &mut dyn Write, faces: &[Visible], view: &View, style: &Style) -> Result<(), Error> {
+/// The radius of a dot, in pixels.
+const DOT: f64 = 3.0;
+
+/// What is drawn: faces, and dots.
+type Drawn<'a> = (&'a [Visible], &'a [[f64; 2]]);
+
+fn png(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) -> Result<(), Error> {
     let mut raster = Raster::new(view.width, view.height, PAPER);
     if style.outline.is_none() {
         for face in faces {
@@ -149,13 +157,14 @@ fn png(out: &mut dyn Write, faces: &[Visible], view: &View, style: &Style) -> Re
             canvas.lines(face.corners.iter().zip(next).map(|(&a, &b)| [a, b]), face.outline(), 255, width);
         }
     }
+    canvas.dots(dots.iter().copied(), DOT, POINT, 255);
     if style.to_scale {
         canvas.scale(view);
     }
     canvas.encode(out)
 }
 
-fn svg(out: &mut dyn Write, faces: &[Visible], view: &View, style: &Style) -> std::io::Result<()> {
+fn svg(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) -> std::io::Result<()> {
     super::svg::open(out, view)?;
     writeln!(out, r#"<g stroke-width="{:.2}" stroke-linejoin="round">"#, style.outline.unwrap_or(0.6))?;
     for face in faces {
@@ -166,6 +175,9 @@ fn svg(out: &mut dyn Write, faces: &[Visible], view: &View, style: &Style) -> st
             write!(out, "{}{x:.2} {y:.2}", if k == 0 { 'M' } else { 'L' })?;
         }
         writeln!(out, r#"Z"/>"#)?;
+    }
+    for [x, y] in dots {
+        writeln!(out, r#"<circle cx="{x:.2}" cy="{y:.2}" r="{DOT}" fill="{}"/>"#, hex(POINT))?;
     }
     writeln!(out, "</g>")?;
     if style.to_scale {
