@@ -27,16 +27,19 @@ pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
     if args.dim.is_space() {
         let camera = args.camera.camera()?;
         let options = picture::Options { size: args.camera.size, camera, ..picture::Options::default() };
-        let (alpha, _) = complexes(args, &mut stats, quiet, Delaunay3::alpha, delone::Regular3::alpha)?;
+        let (alpha, points, _) =
+            complexes(args, &mut stats, quiet, Delaunay3::alpha, delone::Regular3::alpha)?;
         let value = value(args, &alpha, &mut stats)?;
         let surface = value.map(|value| alpha.outline(value)).unwrap_or_default();
         stats.set("facets", surface.len());
         stats.phase("outline");
-        write_surface(&alpha, &surface, &outputs, &options, quiet)?;
+        write_surface(&alpha, &surface, points, &outputs, &options, quiet)?;
     } else {
-        let (alpha, about) = complexes(args, &mut stats, quiet, Delaunay2::alpha, delone::Regular2::alpha)?;
+        let (alpha, points, about) =
+            complexes(args, &mut stats, quiet, Delaunay2::alpha, delone::Regular2::alpha)?;
         let value = value(args, &alpha, &mut stats)?;
-        write_outline(&alpha, value.unwrap_or(f64::NAN), about, &outputs, args.camera.size, quiet)?;
+        let value = value.unwrap_or(f64::NAN);
+        write_outline(&alpha, value, (points, about), &outputs, args.camera.size, quiet)?;
     }
     stats.phase("write");
     let words = if args.dim.is_space() { Delaunay3::WORDS } else { Delaunay2::WORDS };
@@ -84,28 +87,28 @@ fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure>
     Ok(())
 }
 
-/// The complexes of the points, with weights or without, written if that is asked for.
+/// The complexes of the points, with weights or without, written if that is asked for; and the points, all of which have their places
+/// there, those that are no vertices too.
 fn complexes<R: Room, const D: usize>(
     args: &AlphaArgs,
     stats: &mut Stats,
     quiet: bool,
     plain: impl Fn(&R) -> Alpha<D>,
     weighted: impl Fn(&R::Regular) -> Alpha<D>,
-) -> Result<(Alpha<D>, Cloud), Failure> {
-    let (alpha, about) = if args.weights.given().is_some() {
+) -> Result<(Alpha<D>, Vec<R::Point>, Cloud), Failure> {
+    let (alpha, points, about) = if args.weights.given().is_some() {
         let sites = Weighted::<R>::read(&args.input, &args.weights, stats, quiet)?;
         let _phase = Phase::start(quiet, "growing");
-        (weighted(&sites.triangulation), sites.about)
+        (weighted(&sites.triangulation), sites.points, sites.about)
     } else {
         let (points, about) = room::read::<R>(&args.input, quiet)?;
         stats.phase("read");
         let d: R = room::build(&points, R::FASTEST, &args.input.label(), quiet)?;
-        drop(points);
         room::remark(&d, quiet);
         stats.phase("build");
         stats.triangulation(&d, d.counters());
         let _phase = Phase::start(quiet, "growing");
-        (plain(&d), about)
+        (plain(&d), points, about)
     };
     stats.phase("alpha");
     let all: usize = (0..4).map(|dimension| alpha.values(dimension).len()).sum();
@@ -115,7 +118,7 @@ fn complexes<R: Room, const D: usize>(
         let _phase = Phase::start(quiet, "writing");
         files::write(path, |out| write_filtration(out, format, &alpha))?;
     }
-    Ok((alpha, about))
+    Ok((alpha, points, about))
 }
 
 /// The squared radius that is asked for, if one is, with what is there.
@@ -149,7 +152,7 @@ fn value<const D: usize>(
 fn write_outline(
     alpha: &Alpha<2>,
     value: f64,
-    about: Cloud,
+    (points, about): (Vec<[f64; 2]>, Cloud),
     outputs: &[(PathBuf, Format)],
     size: u32,
     quiet: bool,
@@ -168,7 +171,7 @@ fn write_outline(
     if outputs.iter().any(|(_, format)| !is_polygon(format)) {
         let triangles = alpha.complex(value).triangles;
         let patches = Patches {
-            points: alpha.positions().to_vec(),
+            points,
             heights: about.z,
             triangles: triangles.iter().map(|t| counter_clockwise(alpha, *t).map(VertexId::index)).collect(),
             polygons: alpha.parts(value),
@@ -212,6 +215,7 @@ fn graph(alpha: &Alpha<2>, value: f64, about: &Cloud) -> Graph {
 fn write_surface(
     alpha: &Alpha<3>,
     surface: &[[VertexId; 3]],
+    points: Vec<[f64; 3]>,
     outputs: &[(PathBuf, Format)],
     options: &picture::Options,
     quiet: bool,
@@ -227,7 +231,7 @@ fn write_surface(
         laid_open: Vec::new(),
     };
     // A picture of a shape without a surface shows the points.
-    let points = Solid { points: alpha.positions().to_vec(), ..Solid::default() };
+    let points = Solid { points, ..Solid::default() };
     for (path, format) in outputs {
         let is_picture = matches!(format, Format::Png | Format::Svg);
         let solid = if surface.is_empty() && is_picture { &points } else { &solid };

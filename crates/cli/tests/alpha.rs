@@ -97,6 +97,23 @@ fn pictures_of_shapes_without_area_show_the_points() {
 }
 
 #[test]
+fn points_that_are_no_vertices_keep_their_places() {
+    let place = Place::new();
+    place.file("p.csv", "100,200\n102,200\n100,202\n100,200\n100.5,200.5\n");
+    place.file("w.csv", "0\n0\n0\n0\n-9\n");
+    for more in ["", "--weights w.csv"] {
+        for alpha in [0, 9] {
+            place.succeed(&format!("alpha p.csv {more} --alpha {alpha} -o a.obj -o a.svg -q"));
+            let obj = std::fs::read_to_string(place.path("a.obj")).expect("written");
+            assert!(obj.contains("v 100.0 200.0 0.0\nv 100.5 200.5 0.0\n"), "{more} {alpha}: {obj}");
+            // A picture of the points is square, one with the origin would be twice as high as wide.
+            let svg = std::fs::read_to_string(place.path("a.svg")).expect("written");
+            assert!(svg.contains(r#"viewBox="0 0 1600 1656""#), "{more} {alpha}: {svg}");
+        }
+    }
+}
+
+#[test]
 fn wrong_use_is_named() {
     let place = Place::new();
     place.file("p.csv", "0,0\n2,0\n0,2\n");
