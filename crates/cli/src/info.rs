@@ -63,7 +63,7 @@ pub(crate) fn run<R: Room>(args: &InfoArgs, quiet: bool) -> Result<(), Failure> 
         lengths.sort_unstable_by(f64::total_cmp);
         if let (Some(shortest), Some(longest)) = (lengths.first(), lengths.last()) {
             let median = lengths[lengths.len() / 2];
-            line("edge lengths", format!("{shortest:.6} to {longest:.6}, median {median:.6}"));
+            line("edge lengths", format!("{shortest:?} to {longest:?}, median {median:?}"));
         }
     }
     stats.phase("count");

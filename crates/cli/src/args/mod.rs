@@ -231,3 +231,48 @@ impl DimArgs {
         self.dim == 3
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::{Cli, Command};
+
+    /// Numbers whose nearest double is not found by a few digits: halves between two doubles and beside these, subnormal numbers.
+    const HARD: [(&str, f64); 6] = [
+        ("9007199254740993", 9_007_199_254_740_992.0),
+        (
+            "9007199254740993.0000000000000000000000000000000000000000000000000000000000000001",
+            9_007_199_254_740_994.0,
+        ),
+        ("0.98456000000000010001", 0.984_560_000_000_000_1),
+        ("2.4703282292062327208e-324", 0.0),
+        ("2.5e-324", 5e-324),
+        ("1.79769313486231580793728971405303415e308", f64::MAX),
+    ];
+
+    #[test]
+    fn options_are_the_nearest_doubles() {
+        for (text, nearest) in HARD {
+            let line = format!("delone window f -o m.ply --box {text},-{text},{text},0");
+            let Ok(Cli { command: Command::Window(args), .. }) = Cli::try_parse_from(line.split(' ')) else {
+                panic!("{line}");
+            };
+            let expected = [nearest, -nearest, nearest, 0.0].map(f64::to_bits);
+            assert_eq!(args.box_.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), expected, "{text}");
+            let line = format!("delone triangulate p -o m.ply --max-edge {text}");
+            let Ok(Cli { command: Command::Triangulate(args), .. }) = Cli::try_parse_from(line.split(' '))
+            else {
+                panic!("{line}");
+            };
+            assert_eq!(args.max_edge.map(f64::to_bits), Some(nearest.to_bits()), "{text}");
+            let line = format!("delone contours p -o l.geojson --levels {text},-{text}");
+            let Ok(Cli { command: Command::Contours(args), .. }) = Cli::try_parse_from(line.split(' '))
+            else {
+                panic!("{line}");
+            };
+            let expected = [nearest, -nearest].map(f64::to_bits);
+            assert_eq!(args.levels.iter().map(|x| x.to_bits()).collect::<Vec<_>>(), expected, "{text}");
+        }
+    }
+}
