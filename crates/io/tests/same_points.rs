@@ -1,5 +1,7 @@
 //! The same points make the same triangles, whatever format they come from.
 
+use std::io::Cursor;
+
 use delone::Delaunay2;
 use delone_generators::Kind3;
 use delone_io::{Format, ReadOptions, Solid, picture, read_points, write_points, write_solid};
@@ -7,9 +9,41 @@ use delone_io::{Format, ReadOptions, Solid, picture, read_points, write_points, 
 use crate::numbers::in_all_formats;
 use crate::scene::{least_first, source};
 
-/// Points whose coordinates have single precision, so that formats of both precisions hold them.
+/// Points on a fine lattice, so that formats of single precision hold them, and those of whole steps.
 fn points() -> Vec<[f64; 3]> {
-    Kind3::Cube.points(300, 7).into_iter().map(|p| p.map(|x| f64::from((1000.0 * x + 0.1) as f32))).collect()
+    Kind3::Cube.points(300, 7).into_iter().map(|p| p.map(|x| (x / STEP).round() * STEP - 0.5)).collect()
+}
+
+/// The step of the lattice.
+const STEP: f64 = 1.0 / (1 << 20) as f64;
+
+/// A scan of LAS, packed or not.
+fn in_steps(points: &[[f64; 3]], packed: bool) -> las::Result<Vec<u8>> {
+    let mut header = las::Builder::from((1, 2));
+    let step = las::Transform { scale: STEP, offset: -0.5 };
+    header.transforms = las::Vector { x: step, y: step, z: step };
+    header.point_format.is_compressed = packed;
+    let mut writer = las::Writer::new(Cursor::new(Vec::new()), header.into_header()?)?;
+    for &[x, y, z] in points {
+        writer.write_point(las::Point { x, y, z, ..las::Point::default() })?;
+    }
+    Ok(writer.into_inner()?.into_inner())
+}
+
+/// A scan of E57.
+fn in_scan(points: &[[f64; 3]]) -> e57::Result<Vec<u8>> {
+    use e57::{E57Writer, Record, RecordValue};
+    let mut file = Cursor::new(Vec::new());
+    let mut writer = E57Writer::new(&mut file, "file")?;
+    let fields = vec![Record::CARTESIAN_X_F64, Record::CARTESIAN_Y_F64, Record::CARTESIAN_Z_F64];
+    let mut scan = writer.add_pointcloud("scan", fields)?;
+    for p in points {
+        scan.add_point(p.iter().map(|&x| RecordValue::Double(x)).collect())?;
+    }
+    scan.finalize()?;
+    writer.finalize()?;
+    drop(writer);
+    Ok(file.into_inner())
 }
 
 /// Coordinates of 4 bytes each, one after the other.
@@ -47,6 +81,9 @@ fn in_binary_formats(points: &[[f64; 3]]) -> Vec<(&'static str, Format, Vec<u8>)
         ("vtk of single precision", Format::Vtk, with_head(&vtk, &single(points, f32::to_be_bytes))),
         ("pcd of single precision", Format::Pcd, with_head(&pcd, &little)),
         ("stl", Format::Stl, stl),
+        ("las", Format::Las, in_steps(points, false).expect("memory takes it")),
+        ("laz", Format::Las, in_steps(points, true).expect("memory takes it")),
+        ("e57", Format::E57, in_scan(points).expect("memory takes it")),
     ];
     for format in [Format::Npy, Format::Raw, Format::Ply, Format::Wkb] {
         let mut content = Vec::new();
