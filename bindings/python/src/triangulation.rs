@@ -74,16 +74,24 @@ impl Triangulation {
         either!(&self.core, state => state.arrays(py))
     }
 
-    /// The circumcentres of the finite triangles of the plane, each the nearest number to the exact one.
+    /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let Core::Plane(state) = &self.core else {
-            return Err(PyValueError::new_err("exact circumcentres are for the plane"));
-        };
-        let d = &state.triangulation;
-        let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
-        let centres: Vec<[f64; 2]> = py.detach(|| d.mesh().triangles().map(centre).collect());
-        let count = centres.len();
-        PyArray1::from_vec(py, centres.into_flattened()).reshape([count, 2])
+        fn rows<const D: usize>(py: Python<'_>, centres: Vec<[f64; D]>) -> PyResult<Bound<'_, PyArray2<f64>>> {
+            let count = centres.len();
+            PyArray1::from_vec(py, centres.into_flattened()).reshape([count, D])
+        }
+        match &self.core {
+            Core::Plane(state) => {
+                let d = &state.triangulation;
+                let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
+                rows(py, py.detach(|| d.mesh().triangles().map(centre).collect()))
+            }
+            Core::Space(state) => {
+                let d = &state.triangulation;
+                let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 3]);
+                rows(py, py.detach(|| d.tetrahedron_ids().map(centre).collect()))
+            }
+        }
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {

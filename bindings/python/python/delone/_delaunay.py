@@ -162,7 +162,7 @@ class Delaunay:
         return self._once("furthest", lambda: _delone.furthest(self._core))
 
     def _centres(self) -> NDArray[np.float64]:
-        """The circumcentres of triangles, each the nearest numbers to the exact one."""
+        """The circumcentres of simplices, each the nearest numbers to the exact one."""
         return self._farthest()[1] if self._furthest else self._core.centres()
 
     @property

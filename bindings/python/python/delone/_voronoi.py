@@ -36,7 +36,7 @@ class Voronoi:
     points : (n, ndim) array
         The points.
     vertices : (nvertex, ndim) array
-        The circumcentres of the triangulation's simplices, equal ones once.
+        The circumcentres of the triangulation's simplices, each coordinate the nearest number to the exact one; equal ones once.
     ridge_points : (nridge, 2) array
         The points that each ridge is between.
     ridge_vertices : list of lists
@@ -78,8 +78,7 @@ class Voronoi:
         self.ndim, self.npoints = tri.ndim, tri.npoints
         self.min_bound, self.max_bound = tri.min_bound, tri.max_bound
         self.furthest_site = tri.furthest_site
-        centres = tri._centres() if tri.ndim == 2 else _circumcentres(tri.points[np.sort(tri.simplices, axis=1)])
-        self.vertices, self._which = _distinct(centres)
+        self.vertices, self._which = _distinct(tri._centres())
         self.ridge_points, self._ridge_ends, self._ridge_starts = _ridges(tri, self._which)
         # Lists are made when they are asked for: they cost more than all the rest.
         for lists in ("ridge_vertices", "regions"):
@@ -175,20 +174,6 @@ def _distinct(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
     which = np.empty(len(rows), dtype=np.intp)
     which[order] = np.cumsum(is_new) - 1
     return in_order[is_new], which
-
-
-def _circumcentres(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Of tetrahedra, (m, 4, 3), by floating point; in the plane there are exact ones."""
-    sides = corners[:, 1:] - corners[:, :1]
-    with np.errstate(all="ignore"):
-        squares = (sides**2).sum(axis=2)
-        try:
-            offsets = np.linalg.solve(2.0 * sides, squares[:, :, None])[:, :, 0]
-        except np.linalg.LinAlgError:
-            flat = np.linalg.det(sides) == 0.0
-            offsets = np.full(sides.shape[:2], np.inf)
-            offsets[~flat] = np.linalg.solve(2.0 * sides[~flat], squares[~flat, :, None])[:, :, 0]
-    return np.asarray(corners[:, 0] + offsets)
 
 
 def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64] | None]:

@@ -284,8 +284,8 @@ impl Delaunay2 {
         twice(corners.map(|p| [p[0] * scale[0], p[1] * scale[1]])) / 2.0 / scale[0] / scale[1]
     }
 
-    /// The centre of the circle through the corners of a finite triangle, rounded (see
-    /// [`delone_predicates::circumcentre`]); `None` for a ghost, and where it is too far away for `f64`.
+    /// The centre of the circle through the corners of a finite triangle, correctly rounded (see
+    /// [`delone_predicates::circumcentre`]), in coordinate units. `None` for a ghost, and where it is too far away for `f64`. O(1).
     pub fn circumcentre(&self, t: TriangleId) -> Option<[f64; 2]> {
         if self.mesh().is_ghost(t) {
             return None;

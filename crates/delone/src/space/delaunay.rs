@@ -2,6 +2,8 @@
 
 use std::sync::OnceLock;
 
+use delone_predicates::circumcentre3;
+
 use super::construct;
 use super::layer::Layer;
 use super::locator::Locator;
@@ -193,6 +195,26 @@ impl Delaunay3 {
     /// The number of finite tetrahedra. O(n).
     pub fn tetrahedron_count(&self) -> usize {
         self.tetrahedron_ids().count()
+    }
+
+    /// The centre of the sphere through the corners of a finite tetrahedron, correctly rounded (see
+    /// [`delone_predicates::circumcentre3`]): a vertex of the Voronoi diagram, in coordinate units. `None` for a ghost, and where it is
+    /// too far away for `f64`. O(1).
+    ///
+    /// ```
+    /// use delone::Delaunay3;
+    /// // The corners of a box are on one sphere: all its tetrahedra have the same centre, to the bit.
+    /// let corners: Vec<[f64; 3]> = (0..8).map(|i| [0, 1, 2].map(|k| if i >> k & 1 == 0 { 0.1 } else { 0.3 })).collect();
+    /// let d = Delaunay3::from_points(&corners)?;
+    /// assert!(d.tetrahedron_ids().all(|t| d.circumcentre(t) == Some([0.2; 3])));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn circumcentre(&self, t: TetrahedronId) -> Option<[f64; 3]> {
+        if self.base.mesh.is_ghost(t) {
+            return None;
+        }
+        let [a, b, c, d] = self.base.mesh.corners(t).map(|v| self.point(v));
+        circumcentre3(a, b, c, d)
     }
 
     /// The finite facets, each from one of its two sides; of coplanar points the triangles.

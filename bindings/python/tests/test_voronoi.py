@@ -1,0 +1,102 @@
+"""Voronoi diagrams against fractions: every vertex is the nearest number to the exact centre, equal centres are one vertex."""
+
+from fractions import Fraction
+from itertools import product
+
+import delone
+import numpy as np
+import pytest
+
+
+def solved(rows, right):
+    """The solution of a system of fractions, None where there is not one."""
+    n = len(rows)
+    m = [[*map(Fraction, row), Fraction(x)] for row, x in zip(rows, right, strict=True)]
+    for k in range(n):
+        pivot = next((i for i in range(k, n) if m[i][k]), None)
+        if pivot is None:
+            return None
+        m[k], m[pivot] = m[pivot], m[k]
+        m[k] = [x / m[k][k] for x in m[k]]
+        for i in range(n):
+            if i != k:
+                m[i] = [x - m[i][k] * y for x, y in zip(m[i], m[k], strict=True)]
+    return [row[-1] for row in m]
+
+
+def centre(corners):
+    """The exact centre of the sphere through corners, rounded once."""
+    first, *others = [[Fraction(float(x)) for x in corner] for corner in corners]
+    rows = [[2 * (x - y) for x, y in zip(other, first, strict=True)] for other in others]
+    right = [sum(x * x for x in other) - sum(x * x for x in first) for other in others]
+    exact = solved(rows, right)
+    return None if exact is None else tuple(float(x) for x in exact)
+
+
+def cubic(n, a, offsets=((0, 0, 0),)):
+    cells = np.array(list(product(range(n), repeat=3)), dtype=float)
+    return np.vstack([a * (cells + np.array(offset) / 2) for offset in offsets])
+
+
+def fullerene():
+    """The corners of a truncated icosahedron, C60."""
+    golden = (1 + 5**0.5) / 2
+    corners = set()
+    for a, b, c in [(0, 1, 3 * golden), (1, 2 + golden, 2 * golden), (golden, 2, 2 * golden + 1)]:
+        for signs in product((1, -1), repeat=3):
+            x, y, z = (s * v for s, v in zip(signs, (a, b, c), strict=True))
+            corners |= {(x + 0.0, y + 0.0, z + 0.0), (y + 0.0, z + 0.0, x + 0.0), (z + 0.0, x + 0.0, y + 0.0)}
+    return np.array(sorted(corners))
+
+
+def icosahedron():
+    golden = (1 + 5**0.5) / 2
+    turns = [(0.0, s, t * golden) for s in (1, -1) for t in (1, -1)]
+    return np.array([p[k:] + p[:k] for p in turns for k in range(3)])
+
+
+def dodecahedron():
+    golden = (1 + 5**0.5) / 2
+    turns = [(0.0, s / golden, t * golden) for s in (1, -1) for t in (1, -1)]
+    return np.array([*product((1.0, -1.0), repeat=3), *(p[k:] + p[:k] for p in turns for k in range(3))])
+
+
+SETS = {
+    "uniform": np.random.default_rng(1).random((60, 3)),
+    "uniform far away": np.random.default_rng(2).random((60, 3)) + [500_000.0, 4_500_000.0, 300.0],
+    "fullerene": fullerene(),
+    "icosahedron": icosahedron(),
+    "dodecahedron": dodecahedron(),
+    "bcc of tenths": cubic(3, 0.1, ((0, 0, 0), (1, 1, 1))),
+    "fcc of 3.61": cubic(2, 3.61, ((0, 0, 0), (0, 1, 1), (1, 0, 1), (1, 1, 0))),
+    "rounded to a hundredth": np.round(np.random.default_rng(3).random((60, 3)), 2),
+    "plane": np.random.default_rng(4).random((80, 2)),
+    "plane, lattice of tenths": np.array(list(product(range(7), repeat=2))) * 0.1,
+}
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_vertices_are_exact_centres_rounded_once(name):
+    points = SETS[name]
+    diagram = delone.Voronoi(points)
+    expected = {centre(points[row]) for row in diagram.triangulation.simplices}
+    assert None not in expected
+    assert len(diagram.vertices) == len(expected)
+    assert {tuple(vertex) for vertex in diagram.vertices} == expected
+
+
+@pytest.mark.parametrize("a", [1.0, 0.1, 0.3, 2.87, 1 / 3])
+@pytest.mark.parametrize("low", [(0.0, 0.0, 0.0), (0.1, 0.7, 500_000.3)])
+def test_a_box_has_one_vertex(a, low):
+    corners = np.array(list(product((0.0, 1.0), repeat=3))) * [a, 2 * a, 3 * a] + low
+    # Its corners are exactly on one sphere, whatever was rounded.
+    diagram = delone.Voronoi(corners)
+    assert diagram.vertices.tolist() == [list(centre(corners[[0, 1, 2, 4]]))]
+    assert all(-1 in ridge for ridge in diagram.ridge_vertices)
+
+
+def test_cubes_have_cubes_as_regions():
+    diagram = delone.Voronoi(cubic(4, 1.0))
+    inner = [r for r in diagram.regions if r and -1 not in r]
+    assert len(inner) == 8 and all(len(region) == 8 for region in inner)
+    assert len(diagram.vertices) == 27
