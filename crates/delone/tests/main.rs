@@ -14,6 +14,7 @@ mod graphs;
 mod hints;
 mod hull;
 mod locate;
+mod metamorphic;
 mod neighbors;
 mod orders;
 mod papers;
