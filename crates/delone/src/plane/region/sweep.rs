@@ -175,7 +175,7 @@ impl Sweep<'_> {
 /// Whether neighbours on the line are apart but for corners.
 fn compare(below: Option<Side>, above: Option<Side>) -> Result<(), Error> {
     match below.zip(above) {
-        Some((p, q)) if are_in_conflict(&p, &q) => {
+        Some((p, q)) if are_in_conflict([p.low, p.high], [q.low, q.high]) => {
             let (ring, corner) = (p.ring, p.corner).max((q.ring, q.corner));
             Err(Error::Region { ring, corner, problem: RegionProblem::Crossing })
         }
@@ -183,16 +183,16 @@ fn compare(below: Option<Side>, above: Option<Side>) -> Result<(), Error> {
     }
 }
 
-/// Whether two sides share a point that is not a corner of both. Exact.
-fn are_in_conflict(a: &Side, b: &Side) -> bool {
-    let (p, q, s, t) = (a.low, a.high, b.low, b.high);
+/// Whether two segments share a point that is not an end of both, or are one. Exact.
+pub(in crate::plane) fn are_in_conflict([p, q]: [[f64; 2]; 2], [s, t]: [[f64; 2]; 2]) -> bool {
     let (at_s, at_t) = (orient2d(p, q, s), orient2d(p, q, t));
     let (at_p, at_q) = (orient2d(s, t, p), orient2d(s, t, q));
     let touches = (at_s.is_zero() && strictly_between(p, q, s))
         || (at_t.is_zero() && strictly_between(p, q, t))
         || (at_p.is_zero() && strictly_between(s, t, p))
         || (at_q.is_zero() && strictly_between(s, t, q));
-    touches || (p == s && q == t) || ((at_s * at_t).is_negative() && (at_p * at_q).is_negative())
+    let are_one = (p == s && q == t) || (p == t && q == s);
+    touches || are_one || ((at_s * at_t).is_negative() && (at_p * at_q).is_negative())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! Rounding may turn a ring over, or make it touch itself. Every ring is asked whether it still is the border of something
 //! (`rings.rs`); if one is not, corners are joined at the end until all are (`contract.rs`).
 //!
-//! Cost: O(k) for a ring of k corners, O(k log k) for one that is not convex.
+//! Cost: O(k) for a ring of k corners, O(r k) for one that is not convex and has r rounded corners.
 
 use delone_predicates::{Line, Spot};
 
@@ -25,6 +25,8 @@ pub(in crate::plane) struct Builder<'a> {
     border: Vec<[f64; 2]>,
     /// Rings that are no borders.
     bad: Vec<u32>,
+    /// Of the corners of a ring that was cut out, which are exact.
+    exact: Vec<bool>,
 }
 
 impl<'a> Builder<'a> {
@@ -40,7 +42,7 @@ impl<'a> Builder<'a> {
         let centres = vertices.len();
         let cells =
             Cells2 { sites: vec![[0, 0]; ids], starts, corners: Vec::with_capacity(6 * room), vertices };
-        Self { region, cells, centres, border: Vec::new(), bad: Vec::new() }
+        Self { region, cells, centres, border: Vec::new(), bad: Vec::new(), exact: Vec::new() }
     }
 
     /// The cells so far.
@@ -112,6 +114,7 @@ impl<'a> Builder<'a> {
     pub(super) fn push_rings(&mut self, rings: &[clip::Ring]) {
         for ring in rings {
             let start = self.cells.corners.len();
+            self.exact.clear();
             let mut last = [f64::NAN; 2];
             let mut is_side = ring.last().is_some_and(|corner| corner.side.is_some());
             for corner in ring {
@@ -123,12 +126,11 @@ impl<'a> Builder<'a> {
                 if at != last {
                     self.cells.corners.push(self.cells.vertices.len() as u32);
                     self.cells.vertices.push(at);
+                    self.exact.push(matches!(corner.spot, Spot::Point(_)));
                 }
                 last = at;
             }
-            // A border of the region, or some of its corners: nothing was rounded.
-            let is_exact = ring.iter().all(|corner| matches!(corner.spot, Spot::Point(_)));
-            self.close(start, last, is_exact);
+            self.close(start, last);
         }
     }
 
@@ -153,7 +155,8 @@ impl<'a> Builder<'a> {
         if self.cells.corners.len() == start {
             return false;
         }
-        self.close(start, last, false);
+        self.exact.clear();
+        self.close(start, last);
         true
     }
 
@@ -176,13 +179,14 @@ impl<'a> Builder<'a> {
             self.cells.corners.truncate(start);
             return relation == Some(Relation::Outside);
         }
-        self.close(start, last, false);
+        self.exact.clear();
+        self.close(start, last);
         true
     }
 
     /// Ends a ring, the last corner of which is given. Of a cell of two places nothing is left.
     #[inline]
-    fn close(&mut self, start: usize, last: [f64; 2], is_exact: bool) {
+    fn close(&mut self, start: usize, last: [f64; 2]) {
         let Cells2 { starts, corners, vertices, .. } = &mut self.cells;
         if corners.len() > start + 1 && vertices[corners[start] as usize] == last {
             corners.pop();
@@ -192,7 +196,9 @@ impl<'a> Builder<'a> {
             return;
         }
         let ring = corners[start..].iter().map(|&i| vertices[i as usize]);
-        if !(is_exact || rings::is_border(ring)) {
+        // A border of the region: nothing was rounded, and it may be that of a hole.
+        let is_border = self.exact.len() >= ring.len() && self.exact[..ring.len()].iter().all(|exact| *exact);
+        if !is_border && !rings::is_border(ring, |i| self.exact.get(i).is_some_and(|exact| *exact)) {
             self.bad.push(starts.len() as u32 - 1);
         }
         starts.push(corners.len() as u32);

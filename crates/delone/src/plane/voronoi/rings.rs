@@ -5,43 +5,21 @@
 //!
 //! All decisions are exact.
 
-use std::collections::BTreeMap;
-
 use delone_predicates::{lexicographic, orient2d};
 
-use crate::plane::region::sweep::nesting;
+use crate::plane::region::sweep::are_in_conflict;
 use crate::sorting;
 
-/// A corner, in lexicographic order.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct At(pub(super) [f64; 2]);
-
-impl Ord for At {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        lexicographic(self.0, other.0)
-    }
-}
-
-impl PartialOrd for At {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for At {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for At {}
-
-/// Whether a ring of at least three corners is simple and counter-clockwise.
+/// Whether a ring of at least three corners, of which some are known to be exact, is simple and counter-clockwise. The ring of exact
+/// corners that it stands for is simple.
 ///
-/// O(k) for a convex ring of k corners, which nearly all are, O(k log k) for others.
+/// O(k) for a convex ring of k corners, which nearly all are, O(r k) for others with r corners that are not exact.
 #[inline]
-pub(super) fn is_border(ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> bool {
-    is_convex(ring.clone()) || is_simple(ring.collect())
+pub(super) fn is_border(
+    ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone,
+    is_exact: impl Fn(usize) -> bool,
+) -> bool {
+    is_convex(ring.clone()) || is_simple(&ring.collect::<Vec<_>>(), &is_exact)
 }
 
 /// Whether a ring turns left at every corner, and goes around once.
@@ -65,26 +43,48 @@ fn is_convex(mut ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> bool 
     turns == 1
 }
 
+/// By its sides with an end that is not exact, each against all others.
 #[cold]
 #[inline(never)]
-fn is_simple(ring: Vec<[f64; 2]>) -> bool {
-    let mut sorted: Vec<At> = ring.iter().copied().map(At).collect();
-    sorting::by(&mut sorted, At::cmp);
-    let visits_twice = sorted.windows(2).any(|pair| pair[0] == pair[1]);
-    !visits_twice && nesting(&[ring]).is_ok_and(|nesting| nesting[0].is_counter_clockwise)
+fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> bool {
+    let count = ring.len();
+    let after = |i: usize| if i + 1 == count { 0 } else { i + 1 };
+    let side = |i: usize| [ring[i], ring[after(i)]];
+    let is_apart = |[p, q]: [[f64; 2]; 2], [s, t]: [[f64; 2]; 2]| {
+        let beyond = |k: usize| p[k].max(q[k]) < s[k].min(t[k]) || s[k].max(t[k]) < p[k].min(q[k]);
+        beyond(0) || beyond(1)
+    };
+    for i in (0..count).filter(|&i| !(is_exact(i) && is_exact(after(i)))) {
+        for j in (0..count).filter(|&j| j != i) {
+            // Corners are visited once.
+            if ring[j] == ring[i] || (!is_apart(side(i), side(j)) && are_in_conflict(side(i), side(j))) {
+                return false;
+            }
+        }
+    }
+    // A simple ring turns left at its least corner, or else right.
+    let least = (0..count).min_by(|&i, &j| lexicographic(ring[i], ring[j])).unwrap_or(0);
+    let before = if least == 0 { count - 1 } else { least - 1 };
+    orient2d(ring[before], ring[least], ring[after(least)]).is_positive()
 }
 
-/// The rings that a ring falls apart into where it visits a corner again; what has fewer than three corners is gone.
-pub(super) fn parts(ring: impl IntoIterator<Item = At>) -> Vec<Vec<At>> {
-    let (mut parts, mut open, mut position) = (Vec::new(), Vec::new(), BTreeMap::new());
-    for at in ring {
-        if let Some(&start) = position.get(&at) {
-            let part: Vec<At> = open.split_off(start);
-            position.retain(|_, i| *i < start);
-            parts.push(part);
+/// The rings that a ring falls apart into where it visits a corner again, by the indices of its corners; what has fewer than three corners
+/// is gone.
+pub(super) fn parts(ring: &[u32], vertices: &[[f64; 2]]) -> Vec<Vec<u32>> {
+    let at = |i: &u32| vertices[*i as usize];
+    let mut sorted = ring.to_vec();
+    sorting::by(&mut sorted, |i, j| lexicographic(at(i), at(j)));
+    let mut parts = Vec::new();
+    let mut open: Vec<u32> = Vec::new();
+    if sorted.windows(2).all(|pair| at(&pair[0]) != at(&pair[1])) {
+        open.extend(ring);
+    } else {
+        for corner in ring {
+            if let Some(start) = open.iter().position(|other| at(other) == at(corner)) {
+                parts.push(open.split_off(start));
+            }
+            open.push(*corner);
         }
-        position.insert(at, open.len());
-        open.push(at);
     }
     parts.push(open);
     parts.retain(|part| part.len() > 2);
@@ -93,7 +93,7 @@ pub(super) fn parts(ring: impl IntoIterator<Item = At>) -> Vec<Vec<At>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{At, is_border, is_convex, parts};
+    use super::{is_border, is_convex, parts};
 
     #[test]
     fn borders_are_simple_and_counter_clockwise() {
@@ -127,21 +127,27 @@ mod tests {
                 let mut turned = ring.to_vec();
                 turned.rotate_left(turn);
                 assert_eq!(is_convex(turned.iter().copied()), convex, "{turned:?}");
-                assert_eq!(is_border(turned.iter().copied()), border, "{turned:?}");
+                assert_eq!(is_border(turned.iter().copied(), |_| false), border, "{turned:?}");
             }
         }
     }
 
     #[test]
     fn rings_fall_apart_where_they_meet_themselves() {
-        let of = |ring: &[u8]| -> Vec<Vec<u8>> {
-            let parts = parts(ring.iter().map(|&k| At([f64::from(k), 0.0])));
-            parts.into_iter().map(|part| part.into_iter().map(|At([x, _])| x as u8).collect()).collect()
+        // Two vertices of each place.
+        let vertices: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i % 10), 0.0]).collect();
+        let of = |ring: &[u32]| {
+            let other: Vec<u32> = ring.iter().enumerate().map(|(k, i)| i + 10 * (k as u32 % 2)).collect();
+            let parts = parts(&other, &vertices);
+            parts
+                .into_iter()
+                .map(|part| part.into_iter().map(|i| i % 10).collect())
+                .collect::<Vec<Vec<u32>>>()
         };
         assert_eq!(of(&[1, 2, 3, 4]), [[1, 2, 3, 4]]);
         // A spike goes, and a side that is gone and come again.
         assert_eq!(of(&[1, 2, 3, 2, 4]), [[1, 2, 4]]);
-        assert_eq!(of(&[1, 2, 1, 2]), Vec::<Vec<u8>>::new());
+        assert_eq!(of(&[1, 2, 1, 2]), Vec::<Vec<u32>>::new());
         assert_eq!(of(&[1, 2, 2, 3, 3, 1]), [[1, 2, 3]]);
         assert_eq!(of(&[1, 2, 3, 1, 4, 5]), [[1, 2, 3], [1, 4, 5]]);
     }
