@@ -2,6 +2,7 @@
 
 mod alpha;
 mod architecture;
+mod borders;
 mod changes;
 mod conformance;
 mod constrained;

@@ -3,6 +3,7 @@
 //! Cost: location, O(1) expected where a point is near the one before; then O(1) for [`Interpolator::linear`], O(k log k) for k
 //! natural neighbours, which are six on average in the plane and fifteen in space.
 
+use super::border;
 use super::linear;
 use super::natural::{Cell, Measure, compare, three};
 use crate::around::{Around, Surround};
@@ -19,6 +20,9 @@ pub enum Outside {
     Nothing,
     /// The value of the nearest vertex.
     Nearest,
+    /// The value at the nearest point of the hull, so that values are continuous across it. Where points span less than the plane or space that of
+    /// the nearest vertex.
+    Hull,
 }
 
 /// How values come about.
@@ -33,7 +37,8 @@ enum Method {
 /// in the sense of Laplace or of Sibson, which are smooth but at the vertices.
 ///
 /// At a vertex there is its value. On the hull everything is linear, and outside there is nothing, unless [`Self::outside`] asks for
-/// it. Which vertices take part is exact; weights are rounded, are never negative and have the sum one; all methods but the nearest
+/// it. A point that was computed to be on the hull is mostly beside it, because its coordinates are rounded: what is outside by no more than 2^-48 of the
+/// largest coordinate has the value of the nearest point of the hull. Which vertices take part is exact; weights are rounded, are never negative and have the sum one; all methods but the nearest
 /// vertex reproduce linear functions. Where points span less than the plane or space, everything is linear on their line, or in their plane.
 ///
 /// It remembers where it was, so points should follow each other in space. It borrows the triangulation, so each thread can have one.
@@ -62,6 +67,8 @@ pub struct Interpolator<'t, T: Ask> {
     cell: Cell,
     corners: Vec<(VertexId, T::Point)>,
     weights: Vec<(VertexId, f64)>,
+    /// Where the weights are those of: the point, or the nearest one of the hull.
+    place: T::Point,
 }
 
 impl<T: Ask> Clone for Interpolator<'_, T> {
@@ -140,6 +147,7 @@ impl<'t, T: Ask> Interpolator<'t, T> {
             cell: Cell::default(),
             corners: Vec::new(),
             weights: Vec::new(),
+            place: T::Point::default(),
         }
     }
 
@@ -175,11 +183,13 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         let around = matches!(self.method, Method::Natural(_)).then_some(&mut self.around);
         let found = (self.find)(self.d, self.near, q, around)?;
         self.near = found.simplex.or(self.near);
-        if found.is_outside || (self.method == Method::Nearest && !found.face().is_empty()) {
-            if self.outside == Outside::Nearest || !found.is_outside {
-                let nearest = self.d.nearest_observed(q, &mut ())?;
-                self.weights.extend(nearest.map(|v| (v, 1.0)));
-            }
+        self.place = q;
+        if found.is_outside {
+            self.beyond(q)?;
+            return Ok(&self.weights);
+        }
+        if self.method == Method::Nearest && !found.face().is_empty() {
+            self.weights.extend(self.d.nearest_observed(q, &mut ())?.map(|v| (v, 1.0)));
             return Ok(&self.weights);
         }
         if let Method::Natural(measure) = self.method
@@ -194,6 +204,36 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         sorting::by(&mut self.corners, |a, b| compare(three(a.1), three(b.1)));
         linear::weigh(q, &self.corners, &mut self.weights);
         Ok(&self.weights)
+    }
+
+    /// The weights at a point outside, if there are any.
+    fn beyond(&mut self, q: T::Point) -> Result<(), Error> {
+        let facet = self.d.find(q)?;
+        self.corners.clear();
+        let point = |&v: &VertexId| (v, self.d.position(v).unwrap_or_default());
+        self.corners.extend(facet.face().iter().map(point));
+        // What is nearest must not depend on which corner comes first.
+        sorting::by(&mut self.corners, |a, b| compare(three(a.1), three(b.1)));
+        let points: Vec<T::Point> = self.corners.iter().map(|corner| corner.1).collect();
+        let on_hull = (!points.is_empty()).then(|| border::nearest(q, &points));
+        match on_hull.filter(|on_hull| on_hull.is_rounding || self.outside == Outside::Hull) {
+            Some(on_hull) if self.method != Method::Nearest => {
+                self.place = on_hull.point;
+                let corners = self.corners.iter().zip(on_hull.weights);
+                self.weights.extend(corners.map(|(corner, weight)| (corner.0, weight)).filter(|w| w.1 > 0.0));
+            }
+            on_hull if on_hull.is_some() || self.outside != Outside::Nothing => {
+                let from = on_hull.map_or(q, |on_hull| on_hull.point);
+                self.weights.extend(self.d.nearest_observed(from, &mut ())?.map(|v| (v, 1.0)));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// The weights asked for last, and where they are those of: the point itself, or outside the nearest one of the hull.
+    pub(super) fn found(&self) -> (T::Point, &[(VertexId, f64)]) {
+        (self.place, &self.weights)
     }
 
     /// The value at a point, of values by the index of their vertex; `None` outside.

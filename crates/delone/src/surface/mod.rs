@@ -13,6 +13,7 @@
 //!
 //! Which triangle a point is in and who its neighbours are is exact; values are rounded.
 
+mod border;
 mod bulk;
 mod contours;
 mod gradients;

@@ -66,7 +66,8 @@ impl<T: Surround> Interpolator<'_, T> {
         check_values(d, gradients.len(), 1)?;
         // Points on one line or plane have no gradients.
         let is_flat = d.simplices().next().is_none();
-        let weights = self.weights(q)?;
+        self.weights(q)?;
+        let (q, weights) = self.found();
         if weights.len() < 2 || is_flat {
             return Ok((!weights.is_empty()).then(|| blend(weights, |v| values[v])));
         }

@@ -1,0 +1,108 @@
+//! The nearest point of the hull to a point outside, as weights of the corners of the facet that it is on.
+//!
+//! Source: Ericson, "Real-time collision detection", 2005, section 5.1, for triangles. Cost: O(1).
+
+use super::natural::{apart, scale, three};
+use super::real::{dot, minus};
+use crate::triangulation::Coordinates;
+
+/// What is computed to be on the border is rounded, more than once if it was turned or converted: a point outside that is no further away than
+/// this part of the largest coordinate is on the border. 2^-48, the last sixteenth of what a number tells of 53 bits.
+const ROUNDING: f64 = 3.552_713_678_800_501e-15;
+
+/// The nearest point of a facet.
+pub(super) struct Nearest<P> {
+    /// The weights of its corners: not negative, with the sum one.
+    pub(super) weights: [f64; 3],
+    pub(super) point: P,
+    /// Whether the point outside is only there by rounding.
+    pub(super) is_rounding: bool,
+}
+
+/// The nearest point of an edge or a triangle.
+pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
+    let at: Vec<[f64; 3]> = corners.iter().map(|&p| three(p)).collect();
+    let from = three(q);
+    let size = at.iter().flat_map(|p| (0..3).map(|k| apart(p[k], from[k]))).fold(0.0, f64::max);
+    let [before, after] = scale(size);
+    let away = |p: &[f64; 3]| [0, 1, 2].map(|k| (p[k] * before - from[k] * before) * after);
+    let local: Vec<[f64; 3]> = at.iter().map(away).collect();
+    let weights = match local[..] {
+        [a, b] => on_edge(a, b),
+        [a, b, c] => on_triangle(a, b, c),
+        _ => [1.0, 0.0, 0.0],
+    };
+    let blend =
+        |points: &[[f64; 3]], k: usize| -> f64 { points.iter().zip(weights).map(|(p, w)| w * p[k]).sum() };
+    let miss = [0, 1, 2].map(|k| blend(&local, k));
+    let largest = at.iter().flatten().chain(&from).fold(0.0f64, |most, x| most.max(x.abs()));
+    let mut point = q;
+    for (k, x) in point.as_mut().iter_mut().enumerate() {
+        let ends = at.iter().map(|p| p[k]);
+        let [low, high] =
+            [ends.clone().fold(f64::INFINITY, f64::min), ends.fold(f64::NEG_INFINITY, f64::max)];
+        *x = blend(&at, k).clamp(low, high);
+    }
+    let is_rounding = dot(miss, miss).sqrt() <= largest * before * after * ROUNDING;
+    Nearest { weights, point, is_rounding }
+}
+
+/// Of an edge, seen from the point.
+fn on_edge(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    let along = minus(b, a);
+    let part = (-dot(a, along) / dot(along, along)).clamp(0.0, 1.0);
+    if part.is_nan() { [1.0, 0.0, 0.0] } else { [1.0 - part, part, 0.0] }
+}
+
+/// Of a triangle, seen from the point.
+fn on_triangle(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 3] {
+    let (u, v) = (minus(b, a), minus(c, a));
+    let [uu, uv, vv] = [dot(u, u), dot(u, v), dot(v, v)];
+    let [of_u, of_v] = [-dot(a, u), -dot(a, v)];
+    let whole = uu * vv - uv * uv;
+    let (s, t) = ((of_u * vv - of_v * uv) / whole, (of_v * uu - of_u * uv) / whole);
+    if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
+        return [1.0 - s - t, s, t];
+    }
+    // On a side then, or the triangle is flat to rounding.
+    let sides = [(0, on_edge(a, b)), (1, on_edge(b, c)), (2, on_edge(c, a))].map(|(k, [x, y, _])| match k {
+        0 => [x, y, 0.0],
+        1 => [0.0, x, y],
+        _ => [y, 0.0, x],
+    });
+    let distance = |weights: &[f64; 3]| {
+        let miss = [0, 1, 2].map(|k| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]);
+        dot(miss, miss)
+    };
+    sides.into_iter().min_by(|x, y| distance(x).total_cmp(&distance(y))).unwrap_or(sides[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn the_nearest_point_is_on_a_corner_a_side_or_inside() {
+        let edge = [[0.0, 0.0], [4.0, 0.0]];
+        for (q, expected) in
+            [([1.0, -2.0], [1.0, 0.0]), ([-1.0, -1.0], [0.0, 0.0]), ([9.0, -1.0], [4.0, 0.0])]
+        {
+            assert_eq!(nearest(q, &edge).point, expected);
+        }
+        let triangle = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+        for (q, expected) in [
+            ([1.0, 1.0, 3.0], [1.0, 1.0, 0.0]),
+            ([3.0, 3.0, 1.0], [2.0, 2.0, 0.0]),
+            ([-1.0, 2.0, 1.0], [0.0, 2.0, 0.0]),
+            ([2.0, -1.0, 1.0], [2.0, 0.0, 0.0]),
+            ([-1.0, -1.0, 5.0], [0.0, 0.0, 0.0]),
+        ] {
+            let found = nearest(q, &triangle);
+            assert_eq!((found.point, found.is_rounding), (expected, false));
+        }
+        assert!(nearest([1.0, -1e-17], &edge).is_rounding && nearest([1.0, -1e-14], &edge).is_rounding);
+        assert!(!nearest([1.0, -1e-13], &edge).is_rounding);
+        // As far as numbers go.
+        assert_eq!(nearest([1e307, -1e308], &[[-1e308, 0.0], [1e308, 0.0]]).point[1], 0.0);
+    }
+}
