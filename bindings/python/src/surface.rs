@@ -18,12 +18,12 @@ type Rows<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i32>>, Bound<'p
 /// Values at queries, a row for each, of values with a row for each point; NaN outside. With gradients, an array of them for each
 /// column, the surface is smooth.
 #[pyfunction]
-#[pyo3(signature = (triangulation, method, nearest, queries, values, gradients=None))]
+#[pyo3(signature = (triangulation, method, outside, queries, values, gradients=None))]
 pub fn interpolate<'py>(
     py: Python<'py>,
     triangulation: &Triangulation,
     method: &str,
-    nearest: bool,
+    outside: &str,
     queries: PyReadonlyArray2<'py, f64>,
     values: PyReadonlyArray2<'py, f64>,
     gradients: Option<PyReadonlyArray3<'py, f64>>,
@@ -31,8 +31,8 @@ pub fn interpolate<'py>(
     let (count, columns) = (queries.shape()[0], values.shape()[1]);
     room(count.saturating_mul(columns).saturating_mul(16), "values at so many points")?;
     let found = match &triangulation.core {
-        Core::Plane(state) => values_at(py, state, method, nearest, &queries, &values, gradients.as_ref()),
-        Core::Space(state) => values_at(py, state, method, nearest, &queries, &values, gradients.as_ref()),
+        Core::Plane(state) => values_at(py, state, method, outside, &queries, &values, gradients.as_ref()),
+        Core::Space(state) => values_at(py, state, method, outside, &queries, &values, gradients.as_ref()),
     }?;
     PyArray1::from_vec(py, found).reshape([count, columns])
 }
@@ -41,7 +41,7 @@ fn values_at<T: Surround + Sync>(
     py: Python<'_>,
     state: &State<T>,
     method: &str,
-    nearest: bool,
+    outside: &str,
     queries: &PyReadonlyArray2<'_, f64>,
     values: &PyReadonlyArray2<'_, f64>,
     slopes: Option<&PyReadonlyArray3<'_, f64>>,
@@ -49,7 +49,7 @@ fn values_at<T: Surround + Sync>(
 where
     for<'a> Interpolator<'a, T>: Clone + Send + Sync,
 {
-    let f = interpolator(&state.triangulation, method, nearest)?;
+    let f = interpolator(&state.triangulation, method, outside)?;
     let queries: Vec<T::Point> = coordinates(queries)?;
     let (columns, table) = (values.shape()[1], values.as_slice()?);
     let surface = match method {
@@ -99,13 +99,13 @@ pub fn interpolation_weights<'py>(
     py: Python<'py>,
     triangulation: &Triangulation,
     method: &str,
-    nearest: bool,
+    outside: &str,
     queries: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Rows<'py>> {
     room(queries.shape()[0].saturating_mul(256), "weights at so many points")?;
     let weights = match &triangulation.core {
-        Core::Plane(state) => weights_at(py, state, method, nearest, &queries),
-        Core::Space(state) => weights_at(py, state, method, nearest, &queries),
+        Core::Plane(state) => weights_at(py, state, method, outside, &queries),
+        Core::Space(state) => weights_at(py, state, method, outside, &queries),
     }?;
     Ok((
         PyArray1::from_iter(py, weights.starts.into_iter().map(|start| start as i64)),
@@ -118,13 +118,13 @@ fn weights_at<T: Surround + Sync>(
     py: Python<'_>,
     state: &State<T>,
     method: &str,
-    nearest: bool,
+    outside: &str,
     queries: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Weights>
 where
     for<'a> Interpolator<'a, T>: Clone + Send + Sync,
 {
-    let f = interpolator(&state.triangulation, method, nearest)?;
+    let f = interpolator(&state.triangulation, method, outside)?;
     let queries: Vec<T::Point> = coordinates(queries)?;
     state.asked(py, queries.len(), || {
         let near = Near::new(queries);
@@ -173,7 +173,7 @@ fn slopes<T: Surround>(
 }
 
 /// By the name that Python has for it.
-pub fn interpolator<'t, T: Surround>(d: &'t T, method: &str, nearest: bool) -> PyResult<Interpolator<'t, T>> {
+pub fn interpolator<'t, T: Surround>(d: &'t T, method: &str, outside: &str) -> PyResult<Interpolator<'t, T>> {
     let f = match method {
         "nearest" => Interpolator::nearest(d),
         "linear" => Interpolator::linear(d),
@@ -181,5 +181,11 @@ pub fn interpolator<'t, T: Surround>(d: &'t T, method: &str, nearest: bool) -> P
         "sibson" | "smooth" | "farin" => Interpolator::sibson(d),
         other => return Err(PyValueError::new_err(format!("there is no interpolation {other:?}"))),
     };
-    Ok(f.outside(if nearest { Outside::Nearest } else { Outside::Nothing }))
+    let outside = match outside {
+        "fill" => Outside::Nothing,
+        "nearest" => Outside::Nearest,
+        "hull" => Outside::Hull,
+        other => return Err(PyValueError::new_err(format!("there is nothing {other:?} outside"))),
+    };
+    Ok(f.outside(outside))
 }

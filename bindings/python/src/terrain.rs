@@ -86,7 +86,7 @@ pub fn paint<'py>(
         Sheet::Delaunay(triangulation) => {
             let state = plane(triangulation)?;
             let d = &state.triangulation;
-            let f = interpolator(d, method, false)?;
+            let f = interpolator(d, method, "fill")?;
             state.asked(py, columns * rows + heights.len(), || {
                 let keep = Keep { rows: state.rows(), mask, most };
                 let mut values = rasterize(d, heights, &grid, |s| keep.has(d, s))?;

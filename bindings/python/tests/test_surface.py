@@ -29,7 +29,7 @@ def test_natural_neighbours_have_planes_and_values(ndim, method):
     assert np.allclose(f(*queries.T), f(queries), equal_nan=True, rtol=0, atol=0)
     assert np.array_equal(f(points), plane(points))
     assert np.allclose(f.gradients(), np.arange(1.0, 1.0 + ndim), atol=1e-8)
-    assert f(queries.reshape(10, 100, ndim)).shape == (10, 100) and f(points[0]).shape == ()
+    assert f(queries.reshape(10, 100, ndim)).shape == (10, 100) and f(points[0]).shape == (1,)
 
 
 @pytest.mark.parametrize("ndim", [2, 3])
@@ -337,7 +337,7 @@ def test_the_order_of_queries_does_not_show(ndim):
 
 
 def everyday_terrains():
-    """What is surveyed, scanned and gridded: coordinates with few digits, turned, far from the origin; heights in whole metres."""
+    """What is surveyed, scanned and gridded: coordinates with few digits, turned, far from the origin."""
     random = np.random.default_rng(1).random((400, 2))
     lattice = np.stack(np.meshgrid(np.arange(16.0), np.arange(16.0)), axis=-1).reshape(-1, 2)
     for far in ((0, 0), (500000, 5200000)):
@@ -376,3 +376,57 @@ def test_contours_are_valid_to_shapely():
                 wrong = levels[one] != levels[other] if predicate == "crosses" else one >= 0
                 assert not wrong.any(), (number, predicate)
     assert refused <= 1
+
+
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_calls_are_those_of_scipy(ndim):
+    random = np.random.default_rng(3)
+    points, values = random_points(100, ndim), random.random((100, 2))
+    ours = delone.LinearNDInterpolator(tuple(points.T), values)
+    theirs = scipy.interpolate.LinearNDInterpolator(tuple(points.T), values)
+    shapes = [(), (1,), (2,), (3,), (5, 1), (1, 4), (2, 2), (ndim,), (2, 3, 1), (0,)]
+    for _ in range(300):
+        parts = [random.uniform(0.2, 0.8, shapes[random.integers(len(shapes))]) for _ in range(ndim)]
+        whole = random.uniform(0.2, 0.8, (*shapes[random.integers(len(shapes))], ndim))
+        pair = random.uniform(0.2, 0.8, ndim * 2)
+        calls = [
+            parts,
+            [tuple(parts)],
+            [whole],
+            [whole.tolist()],
+            [pair],
+            [list(pair)],
+            [tuple(pair[:ndim])],
+            [tuple(whole.tolist())],
+        ]
+        for arguments in calls:
+            if isinstance(arguments[0], list) and np.size(arguments[0]) == 0:
+                continue
+            try:
+                expected = theirs(*arguments)
+            except (ValueError, IndexError):
+                with pytest.raises(ValueError):
+                    ours(*arguments)
+                continue
+            found = ours(*arguments)
+            assert found.shape == expected.shape
+            assert np.allclose(found, expected, equal_nan=True, atol=1e-12)
+
+
+def test_values_on_the_border_and_beyond():
+    sin, cos = np.sin(0.3), np.cos(0.3)
+    points = np.array([(x, y) for x in range(6) for y in range(6)], float) @ np.array([[cos, sin], [-sin, cos]])
+    values = plane(points)
+    hull = delone.ConvexHull(points)
+    for method in METHODS:
+        f = delone.NaturalNeighborInterpolator(points, values, method)
+        beyond = delone.NaturalNeighborInterpolator(points, values, method, outside="hull")
+        for i, j in hull.simplices:
+            share = np.linspace(0, 1, 101)[:, None]
+            edge = points[i] + share * (points[j] - points[i])
+            assert np.allclose(f(edge), plane(edge), atol=1e-9)
+            away = edge[1:-1] + 1e-9 * (edge[1:-1] - points.mean(axis=0))
+            assert np.allclose(beyond(away), plane(edge[1:-1]), atol=1e-7)
+        assert np.isnan(f([[9.0, 9.0]])).all() and np.isfinite(beyond([[9.0, 9.0], [-50, 3]])).all()
+    weights = delone.LinearNDInterpolator([[0, 0], [4, 0], [0, 4]], [0, 1, 2], outside="hull").weights([[1.0, -7.0]])
+    assert weights.toarray().tolist() == [[0.75, 0.25, 0.0]]

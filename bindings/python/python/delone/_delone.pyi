@@ -194,13 +194,13 @@ def ridges(
 def interpolate(
     triangulation: Triangulation,
     method: str,
-    nearest: bool,
+    outside: str,
     queries: NDArray[np.float64],
     values: NDArray[np.float64],
     gradients: NDArray[np.float64] | None = None,
 ) -> NDArray[np.float64]: ...
 def interpolation_weights(
-    triangulation: Triangulation, method: str, nearest: bool, queries: NDArray[np.float64]
+    triangulation: Triangulation, method: str, outside: str, queries: NDArray[np.float64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.float64]]: ...
 def vertex_gradients(triangulation: Triangulation, values: NDArray[np.float64]) -> NDArray[np.float64]: ...
 def paint(

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._delaunay import Delaunay
-from ._points import as_choice, as_flag, as_numbers, as_points, as_queries
+from ._points import as_choice, as_coordinates, as_flag, as_points, as_queries
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -24,7 +24,7 @@ class _Interpolator:
     _method = "linear"
 
     def __init__(self, points: ArrayLike | Delaunay, values: ArrayLike, fill_value: complex, rescale: bool, outside: str) -> None:
-        self.outside = as_choice(outside, ("fill", "nearest"), "outside")
+        self.outside = as_choice(outside, ("fill", "nearest", "hull"), "outside")
         self._offset: NDArray[np.float64] | float = 0.0
         self._scale: NDArray[np.float64] | float = 1.0
         rescale = as_flag(rescale, "rescale")
@@ -35,7 +35,7 @@ class _Interpolator:
                 raise ValueError("values are interpolated on a triangulation of nearest sites, not of furthest ones")
             self.tri = points
         else:
-            given = as_points(points)
+            given = as_points(as_coordinates(points, "points"))
             if rescale and len(given):
                 self._offset = given.mean(axis=0)
                 size = np.ptp(given, axis=0)
@@ -51,20 +51,22 @@ class _Interpolator:
     def __call__(self, *xi: ArrayLike) -> NDArray[Any]:
         """Values at points: an array whose last axis has the coordinates, or an array for each coordinate.
 
-        Of shape (..., *values.shape[1:]). Points with a coordinate that is not finite are outside. All threads are used.
+        As in SciPy a tuple is one of coordinates, `f((x, y))` as `f(x, y)`, and they are broadcast; an array or list of one
+        axis is points one after the other. Of shape (..., *values.shape[1:]). Points with a coordinate that is not finite are
+        outside. All threads are used.
         """
         rows, shape = self._queries(xi)
         known = np.isfinite(rows).all(axis=1)
         every = bool(known.all())
         table = self._table()
         asked = rows if every else rows[known]
-        found = _delone.interpolate(self.tri._core, self._method, self.outside == "nearest", asked, table, self._slopes())
+        found = _delone.interpolate(self.tri._core, self._method, self.outside, asked, table, self._slopes())
         lost = np.array(~known)
         if not np.isnan(self.fill_value):
             # Values may be NaN too: outside are only those for which ones are.
             doubtful = np.flatnonzero(np.isnan(found).all(axis=1))
             ones = np.ones((self.tri.npoints, 1))
-            sure = _delone.interpolate(self.tri._core, "linear", self.outside == "nearest", asked[doubtful], ones)
+            sure = _delone.interpolate(self.tri._core, "linear", self.outside, asked[doubtful], ones)
             lost[np.flatnonzero(known)[doubtful[np.isnan(sure[:, 0])]]] = True
         if every:
             whole = found
@@ -83,9 +85,9 @@ class _Interpolator:
         places. Rows have the sum one; those of queries outside are empty, which gives 0. Smooth surfaces are no sums of values
         alone: with "smooth" and "farin" these are the weights of Sibson, which both begin with. All queries must be finite.
         """
-        at, _ = as_queries(queries, self.tri.ndim, "queries")
+        at, _ = as_queries(as_coordinates(queries, "queries"), self.tri.ndim, "queries")
         at = np.ascontiguousarray((at - self._offset) / self._scale)
-        starts, columns, values = _delone.interpolation_weights(self.tri._core, self._method, self.outside == "nearest", at)
+        starts, columns, values = _delone.interpolation_weights(self.tri._core, self._method, self.outside, at)
         try:
             from scipy.sparse import csr_array
         except ImportError as error:
@@ -107,14 +109,14 @@ class _Interpolator:
 
     def _queries(self, xi: tuple[ArrayLike, ...]) -> tuple[NDArray[np.float64], tuple[int, ...]]:
         ndim = self.tri.ndim
-        if len(xi) == 1:
-            at = _rounded(xi[0])
-        elif len(xi) == ndim:
-            at = np.stack(np.broadcast_arrays(*(_rounded(x) for x in xi)), axis=-1)
-        else:
-            raise ValueError(f"one array of points or {ndim} of coordinates, not {len(xi)}")
+        given = xi[0] if len(xi) == 1 else xi
+        at = as_coordinates(given, "xi")
+        if at.ndim == 1 and not isinstance(given, tuple) and len(at) % ndim == 0:
+            at = at.reshape(-1, ndim)
         if at.ndim == 0 or at.shape[-1] != ndim:
             raise ValueError(f"points must have {ndim} coordinates in their last axis; their shape is {at.shape}")
+        with np.errstate(all="ignore"):
+            at = at.astype(np.float64)
         rows = (at.reshape(-1, ndim) - self._offset) / self._scale
         return np.ascontiguousarray(rows), at.shape[:-1]
 
@@ -127,7 +129,7 @@ class LinearNDInterpolator(_Interpolator):
 
     Parameters
     ----------
-    points : array_like of shape (n, ndim), or Delaunay
+    points : array_like of shape (n, ndim), or a tuple of arrays of coordinates, or Delaunay
         The points, or their triangulation, which can be that of many interpolators.
     values : array_like of shape (n, ...)
         The values, real or complex. Of equal points the first one's count.
@@ -135,8 +137,9 @@ class LinearNDInterpolator(_Interpolator):
         What there is outside of the hull; NaN.
     rescale : bool
         Whether to bring all axes to the same size first.
-    outside : "fill" or "nearest"
-        Whether to take the value of the nearest point outside instead.
+    outside : "fill", "nearest" or "hull"
+        What there is outside: `fill_value`, the value of the nearest point, or the value at the nearest point of the hull.
+        Queries that are on the hull but for rounding, by 2**-48 of the largest coordinate, have the hull's value always.
 
     Examples
     --------
@@ -154,7 +157,7 @@ class LinearNDInterpolator(_Interpolator):
         values: ArrayLike,
         fill_value: complex = np.nan,
         rescale: bool = False,
-        outside: Literal["fill", "nearest"] = "fill",
+        outside: Literal["fill", "nearest", "hull"] = "fill",
     ) -> None:
         """Triangulates the points, unless they are."""
         super().__init__(points, values, fill_value, rescale, outside)
@@ -172,7 +175,7 @@ class NaturalNeighborInterpolator(_Interpolator):
 
     Parameters
     ----------
-    points : array_like of shape (n, ndim), or Delaunay
+    points : array_like of shape (n, ndim), or a tuple of arrays of coordinates, or Delaunay
         The points, or their triangulation, which can be that of many interpolators.
     values : array_like of shape (n, ...)
         The values, real or complex. Of equal points the first one's count.
@@ -185,8 +188,9 @@ class NaturalNeighborInterpolator(_Interpolator):
         What there is outside of the hull; NaN.
     rescale : bool
         Whether to bring all axes to the same size first.
-    outside : "fill" or "nearest"
-        Whether to take the value of the nearest point outside instead.
+    outside : "fill", "nearest" or "hull"
+        What there is outside: `fill_value`, the value of the nearest point, or the value at the nearest point of the hull.
+        Queries that are on the hull but for rounding, by 2**-48 of the largest coordinate, have the hull's value always.
     gradients : array_like of shape (n, ..., ndim), optional
         The derivatives of values along the axes, for "smooth" and "farin"; else they are estimated, as `gradients()` tells.
 
@@ -208,7 +212,7 @@ class NaturalNeighborInterpolator(_Interpolator):
         method: Literal["sibson", "laplace", "smooth", "farin"] = "sibson",
         fill_value: complex = np.nan,
         rescale: bool = False,
-        outside: Literal["fill", "nearest"] = "fill",
+        outside: Literal["fill", "nearest", "hull"] = "fill",
         *,
         gradients: ArrayLike | None = None,
     ) -> None:
@@ -269,8 +273,3 @@ def _as_values(values: ArrayLike, count: int) -> NDArray[Any]:
     if array.ndim == 0 or len(array) != count:
         raise ValueError(f"{count} points need as many values; they have the shape {array.shape}")
     return np.array(array, dtype=np.complex128 if array.dtype.kind == "c" else np.float64, order="C")
-
-
-def _rounded(xi: ArrayLike) -> NDArray[np.float64]:
-    with np.errstate(all="ignore"):
-        return as_numbers(xi, "xi").astype(np.float64)

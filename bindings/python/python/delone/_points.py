@@ -58,6 +58,16 @@ def as_points(points: ArrayLike, what: str = "points", columns: int | None = Non
     return result
 
 
+def as_coordinates(values: ArrayLike, what: str) -> NDArray[Any]:
+    """Points as SciPy's interpolators take them.
+
+    A tuple has an array for each coordinate, which are broadcast and become the last axis; all else is an array with that axis.
+    """
+    if isinstance(values, tuple):
+        return np.stack(np.broadcast_arrays(*(as_numbers(x, what) for x in values)), axis=-1) if values else np.empty(0)
+    return as_numbers(values, what)
+
+
 def as_queries(xi: ArrayLike, columns: int, what: str = "xi") -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """Queries as rows, and the shape that their answers have: that of `xi` without its last axis."""
     if np.asarray(xi).ndim == 0:

@@ -220,7 +220,7 @@ def _regions(
 def _stars(tri: Delaunay, which: NDArray[np.intp]) -> list[list[int]]:
     """In the plane: the vertices of the triangles around each point, counter-clockwise; infinity first where the star is open.
 
-    Who follows whom is said by neighbours alone. Vertices are rounded, and different ones may be equal: only runs of them are made one.
+    Neighbours alone say who follows whom. Vertices are rounded, so that different ones may be equal: runs of them are one.
     """
     regions: list[list[int]] = [[] for _ in range(tri.npoints)]
     # Corner k of triangle t is 3 t + k. After it counter-clockwise around its point comes the triangle across from corner k + 1.
