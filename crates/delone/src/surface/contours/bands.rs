@@ -11,7 +11,7 @@ use crate::sorting;
 use std::collections::BTreeMap;
 
 use super::ContourBand;
-use super::link::{Segment, cancel, link, segments};
+use super::link::{Path, mend};
 use super::loops::{compare, holds, simple, turns_left};
 use super::sheet::{Edge, Sheet};
 use super::trace::{Chain, Cut};
@@ -22,11 +22,11 @@ type Ring = Vec<[f64; 2]>;
 pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
     let chains = cut.chains();
     let mut walker = Walker::new(cut, &chains);
-    // For each band the sides of its rings, each with the set of parts that it belongs to.
-    let mut found: BTreeMap<u32, Vec<Segment>> = BTreeMap::new();
+    // For each band its rings, each with the set of parts that it belongs to.
+    let mut found: BTreeMap<u32, Vec<Path>> = BTreeMap::new();
     let mut parts = Parts::new(cut);
-    let mut add = |band: u32, part: usize, ring: &[[f64; 2]]| {
-        found.entry(band).or_default().extend(segments(part as u32, ring, true));
+    let mut add = |band: u32, part: usize, points: Ring| {
+        found.entry(band).or_default().push(Path { set: part as u32, points, is_closed: true });
     };
     for (number, chain) in chains.iter().enumerate() {
         let level = chain.level as u32;
@@ -37,21 +37,22 @@ pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
                 (false, _) => walker.ring(number, band, upper),
             };
             if let Some(ring) = ring {
-                add(band, parts.root(cut, chain.ends[0] / 3, band), &ring);
+                add(band, parts.root(cut, chain.ends[0] / 3, band), ring);
             }
         }
     }
     for (edge, ring) in walker.rest() {
         let band = cut.band[cut.sheet.ends(edge)[0] as usize];
-        add(band, parts.root(cut, edge / 3, band), &ring);
+        add(band, parts.root(cut, edge / 3, band), ring);
     }
     let mut bands: Vec<ContourBand> = Vec::new();
-    for (band, mut sides) in found {
+    for (band, paths) in found {
         // Parts that meet along a seam are one.
-        cancel(&mut sides, |i, j| parts.join(i as usize, j as usize));
+        let mended = mend(paths, |i, j| parts.join(i as usize, j as usize));
         let mut rings: BTreeMap<usize, Vec<Ring>> = BTreeMap::new();
-        for (part, ring, _) in link(sides) {
-            rings.entry(parts.find(part as usize)).or_default().push(ring);
+        for (path, is_touched) in mended {
+            let part = parts.find(path.set as usize);
+            rings.entry(part).or_default().extend(simple((path, is_touched)).into_iter().map(|ring| ring.0));
         }
         let at =
             |level: Option<usize>, beyond| level.and_then(|k| cut.levels.get(k)).copied().unwrap_or(beyond);
@@ -69,7 +70,6 @@ pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
 
 /// The polygons of the rings of one set of parts: one, unless it is held together by points alone.
 fn polygons(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
-    let rings = rings.into_iter().flat_map(|ring| simple(ring, true)).map(|part| part.0);
     let (mut polygons, mut holes) = (Vec::new(), Vec::new());
     for ring in rings {
         match turns_left(&ring) {

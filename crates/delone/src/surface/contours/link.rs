@@ -13,23 +13,59 @@ use delone_predicates::{Sign, orient2d};
 use super::loops::order;
 use crate::sorting;
 
-/// A segment, and to which of the caller's sets it belongs.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Segment {
+/// A line, to which of the caller's sets it belongs, and whether it is closed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Path {
     pub(super) set: u32,
-    pub(super) from: [f64; 2],
-    pub(super) to: [f64; 2],
+    pub(super) points: Vec<[f64; 2]>,
+    pub(super) is_closed: bool,
 }
 
-/// The segments of a line; those without a length are left out, and minus zero is zero.
-pub(super) fn segments(set: u32, points: &[[f64; 2]], is_closed: bool) -> impl Iterator<Item = Segment> + '_ {
+/// Lines without seams, each with whether it may come to a point twice; `meet` hears of sets whose lines cancel. Lines whose points nobody shares
+/// stay as they are.
+pub(super) fn mend(mut paths: Vec<Path>, meet: impl FnMut(u32, u32)) -> Vec<(Path, bool)> {
+    let mut places = Vec::with_capacity(paths.iter().map(|path| path.points.len()).sum());
+    for (number, path) in paths.iter_mut().enumerate() {
+        // Minus zero is zero, so that equal points have equal bits.
+        path.points.as_flattened_mut().iter_mut().for_each(|x| *x += 0.0);
+        places.extend(path.points.iter().map(|p| (p.map(f64::to_bits), number as u32)));
+    }
+    places.sort_unstable();
+    let mut is_touched = vec![false; paths.len()];
+    for pair in places.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        pair.iter().for_each(|place| is_touched[place.1 as usize] = true);
+    }
+    let mut touched = Vec::new();
+    let mut mended = Vec::new();
+    for (path, is_touched) in paths.into_iter().zip(is_touched) {
+        if is_touched {
+            touched.extend(segments(path.set, &path.points, path.is_closed));
+        } else {
+            mended.push((path, false));
+        }
+    }
+    cancel(&mut touched, meet);
+    mended.extend(link(touched).into_iter().map(|path| (path, true)));
+    mended
+}
+
+/// A segment, and to which of the caller's sets it belongs.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    set: u32,
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+/// The segments of a line; those without a length are left out.
+fn segments(set: u32, points: &[[f64; 2]], is_closed: bool) -> impl Iterator<Item = Segment> + '_ {
     let count = if is_closed { points.len() } else { points.len().saturating_sub(1) };
-    let at = move |i: usize| points[i % points.len()].map(|x| x + 0.0);
+    let at = move |i: usize| points[i % points.len()];
     (0..count).map(move |i| Segment { set, from: at(i), to: at(i + 1) }).filter(|s| s.from != s.to)
 }
 
 /// Takes out pairs of segments that go the same way forth and back; `meet` hears of their sets.
-pub(super) fn cancel(segments: &mut Vec<Segment>, mut meet: impl FnMut(u32, u32)) {
+fn cancel(segments: &mut Vec<Segment>, mut meet: impl FnMut(u32, u32)) {
     let ends = |s: &Segment| if order(s.from, s.to).is_lt() { (s.from, s.to) } else { (s.to, s.from) };
     let compare = |s: &Segment, t: &Segment| {
         let ((a, b), (c, d)) = (ends(s), ends(t));
@@ -49,7 +85,7 @@ pub(super) fn cancel(segments: &mut Vec<Segment>, mut meet: impl FnMut(u32, u32)
 }
 
 /// Lines of all segments, each with the set of its first one, and whether it is closed.
-pub(super) fn link(mut segments: Vec<Segment>) -> Vec<(u32, Vec<[f64; 2]>, bool)> {
+fn link(mut segments: Vec<Segment>) -> Vec<Path> {
     sorting::by(&mut segments, |s, t| order(s.from, t.from).then_with(|| order(s.to, t.to)));
     let mut entering: Vec<u32> = (0..segments.len() as u32).collect();
     let at = |i: u32| segments[i as usize];
@@ -92,7 +128,7 @@ pub(super) fn link(mut segments: Vec<Segment>) -> Vec<(u32, Vec<[f64; 2]>, bool)
             }
             i = next[i as usize];
         }
-        lines.push((segments[start].set, points, !is_first[start]));
+        lines.push(Path { set: segments[start].set, points, is_closed: !is_first[start] });
     }
     lines
 }
@@ -117,7 +153,7 @@ fn clockwise(p: [f64; 2], after: [f64; 2], a: [f64; 2], b: [f64; 2]) -> Ordering
 
 #[cfg(test)]
 mod tests {
-    use super::{cancel, clockwise, link, segments};
+    use super::{Path, cancel, clockwise, link, mend, segments};
 
     const A: [f64; 2] = [0.0, 0.0];
     const B: [f64; 2] = [2.0, 0.0];
@@ -134,11 +170,17 @@ mod tests {
         let mut met = Vec::new();
         cancel(&mut all, |s, t| met.push((s, t)));
         assert_eq!(met, [(0, 1)]);
-        assert_eq!(link(all), [(0, vec![A, B, E, F, C, D], true)]);
+        assert_eq!(link(all), [Path { set: 0, points: vec![A, B, E, F, C, D], is_closed: true }]);
         let mut all: Vec<_> =
             segments(0, &[A, B, C], false).chain(segments(1, &[F, C, B, E], false)).collect();
         cancel(&mut all, |_, _| ());
-        assert_eq!(link(all), [(0, vec![A, B, E], false), (1, vec![F, C], false)]);
+        let open = |set, points| Path { set, points, is_closed: false };
+        assert_eq!(link(all), [open(0, vec![A, B, E]), open(1, vec![F, C])]);
+        // What nobody shares stays.
+        let paths = vec![open(0, vec![A, B, C]), open(1, vec![F, C, B, E]), open(2, vec![D, [0.0, 9.0]])];
+        let mended = mend(paths, |_, _| ());
+        assert_eq!(mended[0], (open(2, vec![D, [0.0, 9.0]]), false));
+        assert_eq!(mended.len(), 3);
     }
 
     /// Two triangles at a point stay apart, one inside of another is found on the way around.

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 use delone_predicates::orient2d;
 
+use super::link::Path;
+
 /// Compares lists of points lexicographically.
 pub(super) fn compare(a: &[[f64; 2]], b: &[[f64; 2]]) -> Ordering {
     let points = a.iter().zip(b).map(|(p, q)| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
@@ -16,17 +18,11 @@ pub(super) fn compare(a: &[[f64; 2]], b: &[[f64; 2]]) -> Ordering {
 /// A line, and whether it is closed.
 pub(super) type Line = (Vec<[f64; 2]>, bool);
 
-/// The simple lines that a line is made of: closed ones of at least three points, which begin with their lexicographically least, and an
-/// open one of at least two. Their direction stays.
-pub(super) fn simple(mut points: Vec<[f64; 2]>, is_closed: bool) -> Vec<Line> {
-    // Minus zero is zero, so that equal points have equal bits.
-    points.as_flattened_mut().iter_mut().for_each(|x| *x += 0.0);
-    points.dedup();
-    while is_closed && points.len() > 1 && points.first() == points.last() {
-        points.pop();
-    }
+/// The simple lines that a line is made of, which may come to a point twice: closed ones of at least three points, which begin with their
+/// lexicographically least, and an open one of at least two. Their direction stays.
+pub(super) fn simple((Path { mut points, is_closed, .. }, may_touch): (Path, bool)) -> Vec<Line> {
     let mut parts = Vec::new();
-    if has_equal(&points) {
+    if may_touch && has_equal(&points) {
         if is_closed {
             least_rotation(&mut points);
         }
@@ -139,7 +135,11 @@ pub(super) fn holds(ring: &[[f64; 2]], q: [f64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{holds, simple, turns_left};
+    use super::{Line, Path, holds, turns_left};
+
+    fn simple(points: Vec<[f64; 2]>, is_closed: bool) -> Vec<Line> {
+        super::simple((Path { set: 0, points, is_closed }, true))
+    }
 
     const A: [f64; 2] = [0.0, 0.0];
     const B: [f64; 2] = [2.0, 0.0];
@@ -153,14 +153,13 @@ mod tests {
         assert_eq!(simple(vec![C, D, A, B], true), [(vec![A, B, C, D], true)]);
         // A spur out and back, a peak, a ridge.
         assert_eq!(simple(vec![A, B, E, B, C], true), [(vec![A, B, C], true)]);
-        assert_eq!(simple(vec![A, A, A], true), []);
         assert_eq!(simple(vec![A, B, E, B], true), []);
         assert_eq!(simple(vec![A, B, A], false), []);
         // Two rings at a point, and a line with a ring.
         let two = simple(vec![B, C, D, A, B, E, F], true);
         assert_eq!(two, [(vec![B, E, F], true), (vec![A, B, C, D], true)]);
         assert_eq!(simple(vec![A, B, E, F, B, C], false), [(vec![B, E, F], true), (vec![A, B, C], false)]);
-        assert_eq!(simple(vec![[0.0, -0.0], B, [0.0, 0.0]], false), []);
+        assert_eq!(simple(vec![A, B, A], true), []);
     }
 
     #[test]

@@ -128,13 +128,14 @@ impl Contours {
         let mut lines = Vec::new();
         let mut chains = cut.chains();
         sorting::by(&mut chains, |a, b| a.level.cmp(&b.level));
-        for of_level in chains.chunk_by(|a, b| a.level == b.level) {
+        for of_level in chains.chunk_by_mut(|a, b| a.level == b.level) {
             let level = levels.values()[of_level[0].level];
-            let parts = of_level.iter().flat_map(|chain| link::segments(0, &chain.points, chain.is_closed));
-            let mut segments = parts.collect();
-            link::cancel(&mut segments, |_, _| ());
-            let parts = link::link(segments).into_iter();
-            let parts = parts.flat_map(|(_, points, is_closed)| loops::simple(points, is_closed));
+            let paths = of_level.iter_mut().map(|chain| link::Path {
+                set: 0,
+                points: std::mem::take(&mut chain.points),
+                is_closed: chain.is_closed,
+            });
+            let parts = link::mend(paths.collect(), |_, _| ()).into_iter().flat_map(loops::simple);
             lines.extend(parts.map(|(points, is_closed)| ContourLine { level, points, is_closed }));
         }
         sorting::by(&mut lines, |a, b| {
