@@ -136,7 +136,7 @@ def test_what_is_refused():
     for match, *arguments in [
         ("method must be one of", points, values, "cubic"),
         ("50 points need as many", points, values[1:]),
-        ("masked", points, np.ma.masked_array(values)),
+        ("masked", points, np.ma.masked_array(values, values > 0.5)),
         ("masked", np.ma.masked_array(points), values),
         ("not finite", np.where(points > 0.9, np.nan, points), values),
         ("2 or 3 coordinates", random_points(50, 4), values),

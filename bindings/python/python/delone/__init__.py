@@ -27,7 +27,7 @@ from . import _delone, tiles, triangle
 from ._alpha import AlphaComplex
 from ._constrained import ConstrainedDelaunay
 from ._delaunay import Delaunay
-from ._errors import CrossingError
+from ._errors import CrossingError, QhullError
 from ._graphs import (
     beta_skeleton,
     euclidean_minimum_spanning_tree,
@@ -70,6 +70,7 @@ __all__ = [
     "OrderVoronoi",
     "PolygonTriangles",
     "PowerDiagram",
+    "QhullError",
     "RaggedTriangles",
     "RegularTriangulation",
     "Simplified",

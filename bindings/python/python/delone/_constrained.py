@@ -395,7 +395,7 @@ class ConstrainedDelaunay:
 
     def copy(self) -> ConstrainedDelaunay:
         """A triangulation of its own with the same points and segments."""
-        made = ConstrainedDelaunay.__new__(ConstrainedDelaunay)
+        made = type(self).__new__(type(self))
         made.__dict__.update(self.__dict__, _changes=list(self._changes))
         made._begin(self._core.copy())
         return made

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from copy import copy
+from copy import copy, deepcopy
 from itertools import chain, count
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
@@ -16,6 +17,10 @@ from ._points import as_count, as_flag, as_indices, as_points, as_queries
 from ._simplices import neighbors_of, transforms
 
 T = TypeVar("T")
+
+
+#: What a triangulation holds itself; all else is a subclass's.
+_OWN = frozenset(["_points", "_core", "_removed", "_is_closed", "_cache", "_options", "_furthest"])
 
 
 class Delaunay:
@@ -308,9 +313,15 @@ class Delaunay:
     def find_simplex(self, xi: ArrayLike, bruteforce: bool = False, tol: float | None = None) -> NDArray[np.int32]:
         """The simplices that hold points, with the shape of `xi` without its last axis; -1 outside of the hull.
 
-        Exact: a point on the border between simplices is in one of them. `bruteforce` and `tol` are for those who come
-        from SciPy, and have no effect.
+        Exact: a point on the border between simplices is in one of them; one with NaN or infinity is outside. `bruteforce` and
+        `tol` are for those who come from SciPy, and have no effect.
         """
+        given: NDArray[Any] = np.empty(0) if ma.is_masked(xi) else np.asarray(xi)
+        if given.dtype.kind == "f" and given.ndim and given.shape[-1] == self.ndim and not np.isfinite(given).all():
+            known = np.isfinite(given).all(axis=-1)
+            found = np.full(given.shape[:-1], -1, dtype=np.int32)
+            found[known] = self.find_simplex(given[known])
+            return found
         queries, shape = as_queries(xi, self.ndim)
         if self._furthest:
             return self._find_furthest(queries).reshape(shape)
@@ -388,9 +399,10 @@ class Delaunay:
 
     def copy(self) -> Delaunay:
         """A triangulation of its own with the same points."""
-        made = Delaunay._of(self._points, self._core.copy())
+        made = type(self).__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        made._begin(np.array(self._points, order="C"), self._core.copy())
         made._removed, made._is_closed = list(self._removed), self._is_closed
-        made._options, made._furthest = self._options, self._furthest
         return made
 
     def to_scipy(self) -> Any:
@@ -416,19 +428,24 @@ class Delaunay:
         return self.copy()
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Delaunay:
-        """See `copy`."""
-        return self.copy()
+        """See `copy`; what a subclass added is copied deeply."""
+        made = self.copy()
+        memo[id(self)] = made
+        made.__dict__.update({name: deepcopy(value, memo) for name, value in self.__dict__.items() if name not in _OWN})
+        return made
 
     def __getstate__(self) -> dict[str, Any]:
-        """Points and what was removed."""
+        """Points and what was removed, and what a subclass added."""
         state = {"points": np.array(self._points), "removed": list(self._removed), "options": self._options}
-        return {**state, "furthest": self._furthest, "closed": self._is_closed}
+        others = {name: value for name, value in self.__dict__.items() if name not in _OWN}
+        return {**state, "furthest": self._furthest, "closed": self._is_closed, "others": others}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Triangulates again: the triangulation is a function of the points."""
         self._options, self._furthest = state["options"], state["furthest"]
         self._begin(state["points"], _built(state["points"], state["removed"]))
         self._removed, self._is_closed = state["removed"], state["closed"]
+        self.__dict__.update(state.get("others", {}))
 
     def __repr__(self) -> str:
         """A line that says what there is."""

@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
+
+
+class QhullError(ValueError, RuntimeError):
+    """What SciPy raises as `scipy.spatial.QhullError`; where SciPy is loaded, it is one of these too."""
+
+
+def qhull_error(words: str) -> QhullError:
+    """An error that those catch who expect SciPy's."""
+    theirs = getattr(sys.modules.get("scipy.spatial"), "QhullError", None)
+    kind = QhullError if theirs is None else type("QhullError", (QhullError, theirs), {"__module__": __name__})
+    made: QhullError = kind(words)
+    return made
 
 
 class CrossingError(ValueError):

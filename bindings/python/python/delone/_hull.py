@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._errors import qhull_error
 from ._options import parse
-from ._points import as_flag, as_points
+from ._points import as_choice, as_flag, as_points
 from ._simplices import neighbors_of
+from ._span import facets_in_span, normals_in_span, sizes_in_span
 
 
 class ConvexHull:
-    """The convex hull of points in the plane or in space, exact. Points that span less have no facets.
+    """The convex hull of points in the plane or in space, exact. Points that span less have none; see `flat`.
 
     Parameters
     ----------
@@ -24,7 +27,12 @@ class ConvexHull:
         For those who come from SciPy; points can be added either way.
     qhull_options : str, optional
         For those who come from SciPy. `QGn` leaves out point n and marks in `good` the facets that it sees from outside,
-        `QG-n` those that it does not; `Qc` asks for `coplanar`. Those about rounding have no effect, others are a ValueError.
+        `QG-n` those that it does not; `Qc` asks for `coplanar`. Those about rounding have no effect, others are a QhullError,
+        which is a ValueError.
+    flat : "empty", "span" or "raise"
+        What points are that span less than the plane or space: nothing, the hull in their span, or a QhullError as in SciPy.
+        In a plane of space `simplices` are the edges around, `volume` is the area and `area` the perimeter; on a line they are
+        the two ends, the length and 2; of a single point there are none. Normals in `equations` are in the span.
 
     Attributes
     ----------
@@ -40,10 +48,18 @@ class ConvexHull:
         What `QGn` or `QG-n` asks for, decided exactly: a point in the plane of a facet does not see it. Else None.
     """
 
-    def __init__(self, points: ArrayLike, incremental: bool = False, qhull_options: str | None = None) -> None:
+    def __init__(
+        self,
+        points: ArrayLike,
+        incremental: bool = False,
+        qhull_options: str | None = None,
+        *,
+        flat: Literal["empty", "span", "raise"] = "empty",
+    ) -> None:
         """Finds the hull of points."""
         as_flag(incremental, "incremental")
         self._options = parse(qhull_options, "", is_hull=True)
+        self.flat = as_choice(flat, ("empty", "span", "raise"), "flat")
         self._is_closed = False
         self.points: NDArray[np.float64] = np.array(as_points(points), order="C")
         self.ndim = self.points.shape[1]
@@ -60,9 +76,11 @@ class ConvexHull:
         else:
             candidates = self._without_eye(np.arange(self.npoints) if candidates is None else candidates)
             self.simplices = candidates[_delone.convex_hull(self.points[candidates])].astype(np.int32)
+        if not len(self.simplices) and self.flat != "empty":
+            self._flatten()
         self.nsimplex = len(self.simplices)
         self.good: NDArray[np.bool_] | None = None
-        if eye is not None:
+        if eye is not None and self._has_body:
             is_seen = self._sides(self.points[eye : eye + 1])[0] > 0
             self.good = is_seen if self._options.seen else ~is_seen
         for name in ("vertices", "neighbors", "equations", "area", "volume", "coplanar"):
@@ -71,6 +89,9 @@ class ConvexHull:
     @cached_property
     def vertices(self) -> NDArray[np.int32]:
         """The corners."""
+        if not self._has_body:
+            single = np.zeros(1 if self.flat == "span" and self.npoints else 0, dtype=np.int32)
+            return self.simplices[:, 0] if self.nsimplex else single
         if self.ndim == 2:
             return self.simplices[:, 0]
         is_corner = np.zeros(self.npoints, dtype=bool)
@@ -80,7 +101,22 @@ class ConvexHull:
     @cached_property
     def neighbors(self) -> NDArray[np.int32]:
         """The facets across from each corner."""
+        if self.simplices.shape[1] == 1:
+            return np.array([[1], [0]], dtype=np.int32)
         return neighbors_of(self.simplices)
+
+    @property
+    def _has_body(self) -> bool:
+        """Whether it has facets of the full dimension."""
+        return self.nsimplex > 0 and self.simplices.shape[1] == self.ndim
+
+    def _flatten(self) -> None:
+        """The hull in the span of the points, or an error."""
+        if self.flat == "raise":
+            raise qhull_error(f"{self.npoints} points that span less than {self.ndim} dimensions have no hull")
+        if self._options.seen_from is not None:
+            raise ValueError('qhull_options: "QG" tells facets of bodies, and flat points have none')
+        self.simplices = facets_in_span(self.points)
 
     def _without_eye(self, candidates: NDArray[np.intp]) -> NDArray[np.intp]:
         eye = self._options.seen_from
@@ -124,7 +160,7 @@ class ConvexHull:
 
         Triangulates all points, and looks at all facets for each point found.
         """
-        if not (self._options.coplanar and self.nsimplex):
+        if not (self._options.coplanar and self._has_body):
             return np.empty((0, 3), dtype=np.int32)
         candidates = self._without_eye(np.arange(self.npoints))
         core = _delone.Triangulation(self.points[candidates])
@@ -148,6 +184,10 @@ class ConvexHull:
     @cached_property
     def equations(self) -> NDArray[np.float64]:
         """Normals of length 1 that point outside, and offsets: (nfacet, ndim + 1)."""
+        if not self._has_body and self.nsimplex:
+            normals = _unit(normals_in_span(_shrunk(self.points - self.points[0])[0], self.simplices))
+            offsets = -(normals * self.points[self.simplices[:, 0]]).sum(axis=1)
+            return np.concatenate([normals, offsets[:, None]], axis=1)
         corners, _ = self._scaled()
         if self.ndim == 2:
             along = corners[:, 1] - corners[:, 0]
@@ -162,6 +202,8 @@ class ConvexHull:
     @cached_property
     def area(self) -> float:
         """The area of the surface; in the plane the perimeter."""
+        if not self._has_body:
+            return self._flat_sizes()[0]
         corners, power = self._scaled()
         sides = corners[:, 1:] - corners[:, :1]
         if self.ndim == 2:
@@ -171,8 +213,20 @@ class ConvexHull:
     @cached_property
     def volume(self) -> float:
         """The volume inside; in the plane the area."""
+        if not self._has_body:
+            return self._flat_sizes()[1]
         corners, power = self._scaled()
         return float(_times(np.linalg.det(corners).sum() / (2 if self.ndim == 2 else 6), self.ndim * power))
+
+    def _flat_sizes(self) -> tuple[float, float]:
+        """Of the border and the inside of what has no body."""
+        if not self.nsimplex:
+            return 0.0, 0.0
+        points, power = _shrunk(self.points - self.points[0])
+        border, inside = sizes_in_span(points, self.simplices)
+        if self.simplices.shape[1] == 1:
+            return border, float(_times(inside, power))
+        return float(_times(border, power)), float(_times(inside, 2 * power))
 
     def __repr__(self) -> str:
         """A line that says what there is."""

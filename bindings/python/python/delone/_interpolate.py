@@ -109,7 +109,9 @@ class _Interpolator:
 
     def _queries(self, xi: tuple[ArrayLike, ...]) -> tuple[NDArray[np.float64], tuple[int, ...]]:
         ndim = self.tri.ndim
-        given = xi[0] if len(xi) == 1 else xi
+        if len(xi) not in (1, ndim):
+            raise ValueError(f"one array of points or {ndim} of coordinates, not {len(xi)}")
+        given: Any = xi[0] if len(xi) == 1 else xi
         at = as_coordinates(given, "xi")
         if at.ndim == 1 and not isinstance(given, tuple) and len(at) % ndim == 0:
             at = at.reshape(-1, ndim)
@@ -265,11 +267,12 @@ class NaturalNeighborInterpolator(_Interpolator):
 
 def _as_values(values: ArrayLike, count: int) -> NDArray[Any]:
     """A row for each of so many points, float64 or complex128."""
-    if ma.isMaskedArray(values):
+    if ma.is_masked(values):
         raise ValueError("values are a masked array: leave out the points that have none")
     array: NDArray[Any] = np.asarray(values)
     if array.dtype.kind not in "fiubc":
-        raise TypeError(f"values must be numbers, not {array.dtype}")
+        remedy = "; give them as float64 or complex128, as array.astype(float) does" if array.dtype.kind == "O" else ""
+        raise TypeError(f"values must be numbers, not {array.dtype}{remedy}")
     if array.ndim == 0 or len(array) != count:
         raise ValueError(f"{count} points need as many values; they have the shape {array.shape}")
     return np.array(array, dtype=np.complex128 if array.dtype.kind == "c" else np.float64, order="C")

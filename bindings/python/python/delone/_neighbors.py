@@ -63,9 +63,15 @@ class Neighbors:
         """In short."""
         return f"<delone.Neighbors: {len(self)} points, {self.ndim}D>"
 
-    def __reduce__(self) -> tuple[type[Neighbors], tuple[NDArray[np.float64]]]:
-        """Pickles the points; the tree is built again."""
-        return Neighbors, (self._points,)
+    def __getstate__(self) -> dict[str, Any]:
+        """The points, and what a subclass added; the tree is built again."""
+        return {name: value for name, value in self.__dict__.items() if name != "_core"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Builds the tree of the points."""
+        self.__dict__.update(state)
+        self._points.flags.writeable = False
+        self._core = _delone.Neighbors(self._points)
 
     def nearest(self, xi: ArrayLike) -> NDArray[np.int64]:
         """The nearest points, by their indices. -1 if there are none."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from ._errors import qhull_error
+
 #: What these ask for holds anyway, or they say what Qhull is to do where rounding misleads it.
 _HARMLESS = re.compile(r"Qbb|QbB|Qs|Qt|Qv|Qx|Q\d\d?|Pp|Po")
 
@@ -47,6 +49,6 @@ def parse(given: str | bytes | None, usual: str, is_hull: bool = False) -> Optio
             seen_from, seen = int(view[2]), not view[1]
         elif not (_HARMLESS.fullmatch(word) or word in ("Qz", "Qc") or re.fullmatch(r"QJ[\d.e-]*", word)):
             known = (reason for pattern, reason in _REFUSED if re.fullmatch(pattern, word))
-            raise ValueError(f"qhull_options: {word!r} is not supported: {next(known, 'no such option is known')}")
+            raise qhull_error(f"qhull_options: {word!r} is not supported: {next(known, 'no such option is known')}")
     joggled = any(word.startswith("QJ") for word in words)
     return Options("Qz" in words, "Qc" in words, joggled, seen_from, seen)

@@ -26,7 +26,8 @@ def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
         raise ValueError(f"{what} is a masked array: give what counts, for example array[~array.mask.any(axis=1)].data")
     array: NDArray[Any] = np.asarray(values)
     if array.dtype.kind not in "fiub":
-        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
+        remedy = "; give them as float64, as array.astype(float) does, without what is missing" if array.dtype.kind == "O" else ""
+        raise TypeError(f"{what} must hold real numbers, not {array.dtype}{remedy}")
     return array
 
 

@@ -130,7 +130,7 @@ class Voronoi:
 
     def __copy__(self) -> Voronoi:
         """A diagram of its own of the same points."""
-        made = Voronoi.__new__(Voronoi)
+        made = type(self).__new__(type(self))
         made.__dict__.update(self.__dict__, _tri=self._tri.copy())
         return made
 
