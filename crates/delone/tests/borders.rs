@@ -118,3 +118,26 @@ fn nearest_vertices_and_flat_sets() {
     assert_eq!(f.value([3.0, 4.0], &[1.0, 2.0]), Ok(Some(2.0)));
     assert_eq!(Interpolator::linear(&line).value([3.0, 4.0], &[1.0, 2.0]), Ok(None));
 }
+
+/// Many points at once have the values of one after the other, on the border, beside it and far away.
+#[test]
+fn many_points_around_the_border() {
+    let points = Kind::Circle.points(50, 3);
+    let d = Delaunay2::from_points(&points).expect("finite");
+    let heights: Vec<f64> = points.iter().map(|&p| linear(p)).collect();
+    let hull: Vec<[f64; 2]> = d.hull_vertices().map(|v| d.point(v)).collect();
+    let mut random = Random::new(4);
+    let at = |_| {
+        let i = random.below(hull.len());
+        let share = random.unit();
+        let q = blend(&[hull[i], hull[(i + 1) % hull.len()]], &[share, 1.0 - share]);
+        q.map(|x| if random.below(3) == 0 { x * (1.0 + random.unit()) } else { x })
+    };
+    let queries: Vec<[f64; 2]> = (0..2000).map(at).collect();
+    let mut f = Interpolator::linear(&d);
+    let together = f.many(&queries, &heights, 1).expect("finite");
+    for (&q, value) in queries.iter().zip(together) {
+        let alone = f.value(q, &heights).expect("finite").unwrap_or(f64::NAN);
+        assert_eq!(alone.to_bits(), value.to_bits(), "{q:?}");
+    }
+}

@@ -4,11 +4,36 @@
 
 use super::natural::{apart, scale, three};
 use super::real::{dot, minus};
-use crate::triangulation::Coordinates;
+use crate::triangulation::{Coordinates, Triangulation};
 
 /// What is computed to be on the border is rounded, more than once if it was turned or converted: a point outside that is no further away than
 /// this part of the largest coordinate is on the border. 2^-48, the last sixteenth of what a number tells of 53 bits.
 const ROUNDING: f64 = 3.552_713_678_800_501e-15;
+
+/// The least and the largest coordinates of the vertices of a hull; none without facets. Cost: O(h) for h facets.
+pub(super) fn corners_of_box<T: Triangulation>(d: &T) -> Option<[T::Point; 2]> {
+    let mut found: Option<[T::Point; 2]> = None;
+    for facet in d.hull_facets() {
+        for p in facet.as_ref().iter().filter_map(|&v| d.position(v)) {
+            let [low, high] = found.get_or_insert([p; 2]);
+            for (k, &x) in p.as_ref().iter().enumerate() {
+                low.as_mut()[k] = low.as_ref()[k].min(x);
+                high.as_mut()[k] = high.as_ref()[k].max(x);
+            }
+        }
+    }
+    found
+}
+
+/// Whether a point is outside of a box by more than rounding.
+pub(super) fn is_far<P: Coordinates>(q: P, [low, high]: [P; 2]) -> bool {
+    let all = [low, high, q];
+    let largest = all.iter().flat_map(|p| p.as_ref()).fold(0.0f64, |most, x| most.max(x.abs()));
+    // Twice as much, for the rounding of what is compared.
+    let margin = 2.0 * ROUNDING * largest;
+    (0..P::COUNT)
+        .any(|k| q.as_ref()[k] < low.as_ref()[k] - margin || q.as_ref()[k] > high.as_ref()[k] + margin)
+}
 
 /// The nearest point of a facet.
 pub(super) struct Nearest<P> {

@@ -94,8 +94,9 @@ impl<T: Surround> Interpolator<'_, T> {
         points: &[T::Point],
         work: impl Fn(&mut Self, T::Point, &mut Vec<R>) -> Result<(), Error> + Sync,
     ) -> Result<Vec<Vec<R>>, Error> {
+        let model = self.for_many(points.len());
         let part = |range: std::ops::Range<usize>| {
-            let mut own = self.clone();
+            let mut own = model.clone();
             let mut results = Vec::new();
             for index in range {
                 let q = points[index];

@@ -25,6 +25,9 @@ pub enum Outside {
     Hull,
 }
 
+/// From so many points on the box of the hull is looked for before the first: it takes as long as a few of them.
+const POINTS_FOR_A_BOX: usize = 1000;
+
 /// How values come about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
@@ -69,12 +72,15 @@ pub struct Interpolator<'t, T: Ask> {
     weights: Vec<(VertexId, f64)>,
     /// Where the weights are those of: the point, or the nearest one of the hull.
     place: T::Point,
+    /// The box of the hull, where many points are asked for: beyond it nothing is on the border.
+    surroundings: Option<[T::Point; 2]>,
 }
 
 impl<T: Ask> Clone for Interpolator<'_, T> {
     /// Another one for the same triangulation, which has been nowhere yet.
     fn clone(&self) -> Self {
-        Self { outside: self.outside, ..Self::new(self.d, self.method, self.find) }
+        let new = Self::new(self.d, self.method, self.find);
+        Self { outside: self.outside, surroundings: self.surroundings, ..new }
     }
 }
 
@@ -148,6 +154,7 @@ impl<'t, T: Ask> Interpolator<'t, T> {
             corners: Vec::new(),
             weights: Vec::new(),
             place: T::Point::default(),
+            surroundings: None,
         }
     }
 
@@ -206,8 +213,19 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         Ok(&self.weights)
     }
 
+    /// Another one, for so many points: if they are many the box of the hull tells most of what is outside.
+    pub(super) fn for_many(&self, points: usize) -> Self {
+        let is_worth_a_box = points >= POINTS_FOR_A_BOX && self.outside == Outside::Nothing;
+        let surroundings = if is_worth_a_box { border::corners_of_box(self.d) } else { None };
+        Self { surroundings, ..self.clone() }
+    }
+
     /// The weights at a point outside, if there are any.
     fn beyond(&mut self, q: T::Point) -> Result<(), Error> {
+        let is_far = self.surroundings.is_some_and(|corners| border::is_far(q, corners));
+        if self.outside == Outside::Nothing && is_far {
+            return Ok(());
+        }
         let facet = self.d.find(q)?;
         self.corners.clear();
         let point = |&v: &VertexId| (v, self.d.position(v).unwrap_or_default());
