@@ -40,7 +40,7 @@ fn plane() -> Vec<(String, Vec<[f64; 2]>)> {
         };
         all.push((format!("circle {n}"), (0..n).map(on_circle).collect()));
     }
-    let tenths = (0..400).map(|i| [(i % 20) as f64 * 0.1, (i / 20) as f64 * 0.3]).collect();
+    let tenths = (0..400).map(|i| [f64::from(i % 20) * 0.1, f64::from(i / 20) * 0.3]).collect();
     all.push(("tenths".into(), tenths));
     // Eight points: four on a side, of which two are an ulp off it, and four beyond.
     let side = |x: f64, off: f64| [x, x / 3.0 + off];

@@ -98,9 +98,8 @@ fn solve_normal(mut matrix: [[Double; 3]; 3], mut right: [Double; 3], axes: usiz
     for step in 0..axes {
         for i in step + 1..axes {
             let factor = matrix[i][step] / matrix[step][step];
-            for j in step..axes {
-                matrix[i][j] = matrix[i][j] - factor * matrix[step][j];
-            }
+            let taken = matrix[step].map(|x| factor * x);
+            (step..axes).for_each(|j| matrix[i][j] = matrix[i][j] - taken[j]);
             right[i] = right[i] - factor * right[step];
         }
     }
