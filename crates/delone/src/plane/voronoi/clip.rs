@@ -114,7 +114,7 @@ fn clip_all<K: Cellular>(
     layer: &Layer<K>,
     inside: &[bool],
     builder: &mut Builder<'_>,
-    mut take: impl FnMut(&mut Builder<'_>, VertexId, usize),
+    take: &mut dyn FnMut(&mut Builder<'_>, VertexId, usize),
 ) {
     let mesh = &layer.mesh;
     let mut add = |builder: &mut Builder<'_>, place: Place, e: EdgeId| {
@@ -177,7 +177,7 @@ impl Cells2 {
         let Centres { points, inside } = Centres::of(layer, region.as_box());
         let mut builder = Builder::new(region, ids, layer.mesh.vertex_count(), points);
         let mut done = 0;
-        clip_all(layer, &inside, &mut builder, |builder, site, first| {
+        clip_all(layer, &inside, &mut builder, &mut |builder, site, first| {
             builder.assign(site.index(), first);
             done += 1;
             if done % 65_536 == 0 {
@@ -196,9 +196,9 @@ impl Cells2 {
     ) {
         let Centres { points, inside } = Centres::of(layer, region.as_box());
         let mut builder = Builder::new(region, 0, 0, points);
-        clip_all(layer, &inside, &mut builder, |builder, _, _| builder.forget());
+        clip_all(layer, &inside, &mut builder, &mut |builder, _, _| builder.forget());
         if builder.is_good() {
-            clip_all(layer, &inside, &mut builder, |builder, site, _| {
+            clip_all(layer, &inside, &mut builder, &mut |builder, site, _| {
                 each(site, builder.cells().all());
                 builder.forget();
             });
@@ -207,7 +207,7 @@ impl Cells2 {
         let count = layer.mesh.vertex_count();
         let mut builder = Builder::new(region, count, count, builder.into_centres());
         let mut sites = Vec::with_capacity(count);
-        clip_all(layer, &inside, &mut builder, |builder, site, first| {
+        clip_all(layer, &inside, &mut builder, &mut |builder, site, first| {
             builder.assign(sites.len(), first);
             sites.push(site);
         });

@@ -12,7 +12,7 @@
 use delone_predicates::lexicographic;
 
 use super::cells::Cells2;
-use super::rings::{is_border, parts};
+use super::rings::{is_simple, parts};
 use crate::plane::region::Region2;
 use crate::sorting;
 
@@ -53,6 +53,7 @@ pub(super) fn mend(cells: &mut Cells2, bad: &[u32], border: &[Point], region: &R
     replace(cells, &changed);
 }
 
+#[inline(never)]
 fn contains(places: &[Point], p: Point) -> bool {
     places.binary_search_by(|q| lexicographic(*q, p)).is_ok()
 }
@@ -62,6 +63,7 @@ impl Mending<'_> {
         self.cells.vertices[vertex as usize]
     }
 
+    #[inline(never)]
     fn order(&self, v: u32, w: u32) -> std::cmp::Ordering {
         lexicographic(self.at(v), self.at(w))
     }
@@ -73,6 +75,7 @@ impl Mending<'_> {
     }
 
     /// What has become of a ring, if it changed.
+    #[inline(never)]
     fn found(&self, ring: u32) -> Result<usize, usize> {
         self.changed.binary_search_by_key(&ring, |changed| changed.0)
     }
@@ -110,7 +113,8 @@ impl Mending<'_> {
                 let Ok(i) = self.found(ring) else { continue };
                 for part in &self.changed[i].1 {
                     // Where corners became one even sides between exact corners are new.
-                    if is_border(part.iter().map(|&v| self.at(v)), |_| false) {
+                    let places: Vec<Point> = part.iter().map(|&v| self.at(v)).collect();
+                    if is_simple(&places, &|_| false) {
                         continue;
                     }
                     if let Some(side) = self.shortest(part) {
@@ -221,6 +225,7 @@ impl Mending<'_> {
     }
 
     /// The vertex that one has become.
+    #[inline(never)]
     fn moved(&self, to: &[Side], mut v: u32) -> u32 {
         while let Ok(i) = to.binary_search_by(|pair| self.order(pair[0], v)) {
             v = to[i][1];

@@ -43,10 +43,10 @@ fn is_convex(mut ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> bool 
     turns == 1
 }
 
-/// By its sides with an end that is not exact, each against all others.
+/// Whether a ring is simple and counter-clockwise: each side with an end that is not exact against all others.
 #[cold]
 #[inline(never)]
-fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> bool {
+pub(super) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> bool {
     let count = ring.len();
     let after = |i: usize| if i + 1 == count { 0 } else { i + 1 };
     let side = |i: usize| [ring[i], ring[after(i)]];
