@@ -26,7 +26,6 @@ mod ball;
 mod bundle;
 mod cell;
 mod centre;
-mod circumcentre;
 mod clear;
 pub mod counters;
 #[cfg(test)]
@@ -61,7 +60,6 @@ mod within;
 pub use bundle::{Ball, Bundle};
 pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
-pub use circumcentre::{circumcentre, power_centre};
 pub use clear::{keeps_clear, keeps_clear_of_sites};
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{
@@ -75,7 +73,7 @@ pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};
 pub use length::{Length, compare_lengths};
 pub use lexicographic::{lexicographic, lexicographic3, strictly_between};
-pub use line::{Line, Spot};
+pub use line::{Line, Spot, circumcentre, power_centre};
 pub use lune::{Lune, LunePlace, in_diametral_ball};
 pub use orient::orient2d;
 pub use orient3d::{are_collinear3, orient3d, orient3d_moved};

@@ -7,13 +7,15 @@
 //! A line is where a x + b y + c is zero; two lines meet at the cross product of their coefficients, and the third line
 //! there is the determinant of all three, over that of (a, b) of the first two. Degree four in the coordinates.
 
+pub(crate) mod centres;
 mod exact;
 pub(crate) mod rounded;
 
 use std::cmp::Ordering;
 
+pub use centres::{circumcentre, power_centre};
+
 use crate::ball::U;
-use crate::circumcentre::{circumcentre, power_centre};
 use crate::{Point2, Sign, Site, compare_distances, compare_powers, lexicographic, orient2d};
 
 /// A directed line, given by what is positive: on its left.

@@ -401,7 +401,7 @@ fn the_bounds_of_lines_cover_their_formulas() {
 /// The terms of a circumcentre: twice an area, and the offset from a corner times twice of that.
 #[test]
 fn the_bounds_of_circumcentres_cover_their_formulas() {
-    use crate::circumcentre::{AREA_BOUND, TERMS_BOUND};
+    use crate::line::centres::{AREA_BOUND, TERMS_BOUND};
     let d = Bounded::difference(1.0);
     let area = d.times(d).plus(d.times(d));
     let square = d.times(d).plus(d.times(d));

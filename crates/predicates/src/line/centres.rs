@@ -4,9 +4,9 @@
 //! Correctly rounded means: each coordinate is the nearest `f64` of the exact one. Rounding keeps order, so corners of a cell that are
 //! nearer to each other than a unit in the last place may become one, but seldom change places.
 
+use super::{Line, middle, rounded};
 use crate::ball::{Ball, U, two_product, two_sum};
-use crate::line::{middle, rounded};
-use crate::{Line, Point2, Site, exact};
+use crate::{Point2, Site, exact};
 
 /// Squares of lengths in this range have products of four factors that are normal numbers.
 const LEAST_SQUARE: f64 = 1e-70;
