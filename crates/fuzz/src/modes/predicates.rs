@@ -3,9 +3,9 @@
 use delone_generators::Random;
 use delone_predicates::{
     Filter, Filter3, Grid, Pencil, Plane, Sign, angle, are_collinear3, centre_direction, centre_side,
-    circumcentre, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
-    in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties, keeps_clear, lexicographic,
-    lexicographic3, orient2d, orient3d, orient3d_moved, strictly_between,
+    circumcentre, circumcentre3, compare_distances, compare_distances3, compare_with_radius,
+    compare_with_radius3, in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties, keeps_clear,
+    lexicographic, lexicographic3, orient2d, orient3d, orient3d_moved, strictly_between,
 };
 use num_bigint::BigInt;
 
@@ -179,7 +179,7 @@ fn in_plane(points: [[f64; 2]; 4], radius: f64, judge: &mut Judge) {
     centre([a, b, c], turn != 0, judge);
 }
 
-/// The circumcentre within its bound: 2^-40 of the radius, and a rounding of itself.
+/// The circumcentre is the nearest point of numbers.
 fn centre([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
     let found = circumcentre(a, b, c);
     judge.equal("circumcentre in another order", circumcentre(c, a, b), found);
@@ -189,25 +189,55 @@ fn centre([a, b, c]: [[f64; 2]; 3], is_triangle: bool, judge: &mut Judge) {
         }
         return;
     };
-    if !found.iter().all(|x| x.is_finite()) {
-        judge.equal("circumcentre", Some(found), None);
-        return;
-    }
-    let exact = integers(&[a, b, c, found]);
-    let [u, v, at] = [1, 2, 3].map(|i| minus(&exact[i], &exact[0]));
+    let points = [a, b, c];
+    let (exact, scale) = (integers(&points), scale(points.as_flattened()));
+    let [u, v] = [1, 2].map(|i| minus(&exact[i], &exact[0]));
     let (uu, vv) = (dot(&u, &u), dot(&v, &v));
     // The centre relative to a is this over twice the area.
     let centre = [&uu * &v[1] - &vv * &u[1], &vv * &u[0] - &uu * &v[0]];
     let area: BigInt = (&u[0] * &v[1] - &u[1] * &v[0]) * 2;
-    let error: BigInt = (0..2).map(|k| (&at[k] * &area - &centre[k]).pow(2)).sum();
-    let radius = dot(&centre, &centre);
-    let place: BigInt = (0..2).map(|k| (&exact[0][k] * &area + &centre[k]).pow(2)).sum();
-    // One unit in which the least number is 1 at least, for what is subnormal.
-    let least = (area.pow(2) * 2_u32) << (2 * (-1074 - scale([a, b, c, found].as_flattened()))).max(0);
-    // (x + y + z)^2 <= 3 (x^2 + y^2 + z^2).
-    let bound: BigInt = ((radius >> 80_u32) + (place >> 102_u32) + least) * 3;
-    if error > bound {
-        judge.equal("circumcentre", Some(found), None);
+    for k in 0..2 {
+        let is_right = is_nearest(&exact[0][k] * &area + &centre[k], area.clone(), scale, found[k]);
+        judge.equal("circumcentre is the nearest", is_right, true);
+    }
+}
+
+/// Whether a number is the nearest to a fraction in units of a power of two, of two at one distance the even one.
+fn is_nearest(mut numerator: BigInt, mut denominator: BigInt, scale: i32, found: f64) -> bool {
+    /// Half of the least number is one.
+    const UNIT: i32 = -1075;
+    if sign(&denominator) < 0 {
+        (numerator, denominator) = (-numerator, -denominator);
+    }
+    if !found.is_finite() {
+        return false;
+    }
+    let twice = (numerator << (scale - UNIT)) * 2_u32;
+    let whole = |x: f64| integer(x.clamp(f64::MIN, f64::MAX), UNIT);
+    let [least, most] =
+        [found.next_down(), found.next_up()].map(|other| (whole(found) + whole(other)) * &denominator);
+    let is_even = found.to_bits() & 1 == 0;
+    let is_within = least < twice && twice < most;
+    is_within || (is_even && (twice == least || twice == most)) || found.abs() == f64::MAX
+}
+
+/// The centre of the sphere through the first four points is the nearest point of numbers.
+fn centre_in_space(points: &[[f64; 3]; 5], exact: &[Vector], scale: i32, judge: &mut Judge) {
+    let [a, b, c, d, _] = *points;
+    let found = circumcentre3(a, b, c, d);
+    judge.equal("circumcentre3 in another order", circumcentre3(c, a, d, b), found);
+    let [u, v, w] = [1, 2, 3].map(|i| minus(&exact[i], &exact[0]));
+    let cross = |p: &Vector, q: &Vector| -> Vector {
+        [(1, 2), (2, 0), (0, 1)].iter().map(|&(i, j)| &p[i] * &q[j] - &p[j] * &q[i]).collect()
+    };
+    let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
+    let volume: BigInt = dot(&u, &vw) * 2;
+    let Some(found) = found else { return };
+    judge.equal("circumcentre3 of a plane", sign(&volume) != 0, true);
+    for k in 0..3 {
+        let offset = dot(&u, &u) * &vw[k] + dot(&v, &v) * &wu[k] + dot(&w, &w) * &uv[k];
+        let is_right = is_nearest(&exact[0][k] * &volume + offset, volume.clone(), scale, found[k]);
+        judge.equal("circumcentre3 is the nearest", is_right, true);
     }
 }
 
@@ -217,6 +247,7 @@ fn in_space(points: [[f64; 3]; 5], radius: f64, judge: &mut Judge) {
     let exact: Vec<Vector> = points.iter().map(|p| p.iter().map(|&x| integer(x, scale)).collect()).collect();
     let side = |i: usize, j: usize, k: usize, l: usize| orientation(&[i, j, k, l].map(|i| &exact[i]));
     let turn = side(0, 1, 2, 3);
+    centre_in_space(&points, &exact, scale, judge);
     judge.sign("orient3d", orient3d(a, b, c, d), turn);
     judge.equal("lexicographic3", lexicographic3(a, b), a.partial_cmp(&b).expect("finite"));
     let line = crate::oracle::exact::axes(&exact[..3]).len() < 2;

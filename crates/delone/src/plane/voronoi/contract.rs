@@ -26,6 +26,9 @@ type Point = [f64; 2];
 /// Vertices.
 type Side = [u32; 2];
 
+/// What becomes of a part of a ring; nothing if it stays.
+type Rewriting<'r> = dyn Fn(&Mending<'_>, &[u32]) -> Option<Vec<u32>> + 'r;
+
 /// Cells, and the rings that changed. Vertices with one place are one corner.
 struct Mending<'a> {
     cells: &'a Cells2,
@@ -91,7 +94,7 @@ impl Mending<'_> {
     }
 
     /// The corners of all parts of a ring mapped, if one of them is another then; adds the ring to those that changed.
-    fn rewrite(&mut self, asked: &mut Vec<u32>, new: &dyn Fn(&Self, &[u32]) -> Option<Vec<u32>>) {
+    fn rewrite(&mut self, asked: &mut Vec<u32>, new: &Rewriting<'_>) {
         for ring in 0..self.cells.starts.len() as u32 - 1 {
             let rewritten: Vec<(Option<Vec<u32>>, &[u32])> = match self.found(ring) {
                 Ok(i) => self.changed[i].1.iter().map(|part| (new(self, part), part.as_slice())).collect(),
@@ -354,7 +357,7 @@ mod tests {
     fn corners_of_the_region_stay_apart() {
         let e = f64::EPSILON;
         let corners = vec![[1.0, 1.0], [1.0 + e, 1.0], [1.0 + e, 2.0], [1.0, 2.0]];
-        let region = Region2::polygon(&[corners.clone()]).expect("a polygon");
+        let region = Region2::polygon(std::slice::from_ref(&corners)).expect("a polygon");
         let turned: Ring = vec![corners[0], corners[3], corners[1]];
         let found = mended(&[turned], &region);
         assert!(found[0].iter().all(|ring| ring.iter().all(|corner| corners.contains(corner))));
