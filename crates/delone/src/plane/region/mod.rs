@@ -5,7 +5,8 @@
 
 pub(in crate::plane) mod clip;
 pub(in crate::plane) mod measure;
-pub(in crate::plane) mod sweep;
+pub(in crate::plane) mod rings;
+mod sweep;
 pub(in crate::plane) mod tree;
 
 use delone_predicates::Line;
@@ -30,6 +31,9 @@ pub struct Region2 {
     /// All sides, ring by ring.
     sides: Vec<[[f64; 2]; 2]>,
     tree: Node,
+    /// Whether rings of a cell are its border. Those of a rectangle have one ring each, so that programs without other regions do not
+    /// contain the sweep.
+    are_border: fn(&[Vec<[f64; 2]>]) -> bool,
 }
 
 impl Region2 {
@@ -56,7 +60,14 @@ impl Region2 {
             return Err(problem(RegionProblem::Empty));
         }
         let tree = Node::whole(sides(&corners, 0));
-        Ok(Self { low: [x0, y0], high: [x1, y1], rings: vec![corners.to_vec()], sides: Vec::new(), tree })
+        Ok(Self {
+            low: [x0, y0],
+            high: [x1, y1],
+            rings: vec![corners.to_vec()],
+            sides: Vec::new(),
+            tree,
+            are_border: rings::are_border_each,
+        })
     }
 
     /// A polygon: rings of corners, each closed by its first corner, in any direction. A ring inside of another one
@@ -123,7 +134,7 @@ impl Region2 {
             let next = ring.iter().cycle().skip(1);
             all.extend(ring.iter().zip(next).map(|(&p, &q)| [p, q]));
         }
-        Ok(Self { low, high, rings, sides: all, tree: Node::new(numbered) })
+        Ok(Self { low, high, rings, sides: all, tree: Node::new(numbered), are_border: rings::are_border })
     }
 
     /// The area, in coordinate units squared; infinite if it is beyond the range of `f64`. O(m).
@@ -139,6 +150,11 @@ impl Region2 {
     /// The corners of the smallest rectangle around it, low and high.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         [self.low, self.high]
+    }
+
+    /// What tells whether several rings of a cell are its border.
+    pub(in crate::plane) fn are_border(&self) -> fn(&[Vec<[f64; 2]>]) -> bool {
+        self.are_border
     }
 
     /// Its low and its high corner, if it is a rectangle.

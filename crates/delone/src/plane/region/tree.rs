@@ -94,11 +94,11 @@ impl Node {
         node
     }
 
-    /// The smallest box of the tree that contains rings, which are inside of a box of numbers. Exact.
+    /// The smallest box of the tree that contains rings, which are inside of a box of numbers, with what touches them. Exact.
     pub(in crate::plane) fn around_rings(&self, rings: &[Ring], low: [f64; 2], high: [f64; 2]) -> &Self {
         let mut node = self.around(low, high);
         while let Some((axis, at, halves)) = &node.halves {
-            let within = |half: Line| rings.iter().flatten().all(|c| !half.side(&c.spot).is_negative());
+            let within = |half: Line| rings.iter().flatten().all(|c| half.side(&c.spot).is_positive());
             if within(Line::Below(*axis, *at)) {
                 node = &halves[0];
             } else if within(Line::Above(*axis, *at)) {

@@ -1,7 +1,7 @@
 //! Cells as they are made: rings of corners, each rounded and looked at as it comes.
 //!
 //! Rounding may turn a ring over, or make it touch itself. Every ring is asked whether it still is the border of something
-//! (`rings.rs`); if one is not, corners are joined at the end until all are (`contract.rs`).
+//! (`region/rings.rs`); if one is not, corners are joined at the end until all are (`contract.rs`).
 //!
 //! Cost: O(k) for a ring of k corners, O(r k) for one that is not convex and has r rounded corners.
 
@@ -9,9 +9,9 @@ use delone_predicates::{Line, Spot};
 
 use super::cells::Cells2;
 use super::clip::cut_by;
-use super::{contract, rings};
+use super::contract;
 use crate::plane::region::tree::Relation;
-use crate::plane::region::{Region2, clip, enlarged};
+use crate::plane::region::{Region2, clip, enlarged, rings};
 use crate::points::Bounds;
 
 /// See the module.
@@ -27,6 +27,16 @@ pub(in crate::plane) struct Builder<'a> {
     bad: Vec<u32>,
     /// Of the corners of a ring that was cut out, which are exact.
     exact: Vec<bool>,
+}
+
+/// What a ring has of the region.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// It is a border of it, or has some of its corners: nothing was rounded.
+    Exact,
+    /// It has a corner of it.
+    AtRegion,
+    Rounded,
 }
 
 impl<'a> Builder<'a> {
@@ -112,6 +122,7 @@ impl<'a> Builder<'a> {
 
     /// Rings of exact corners, without those of which nothing is left.
     pub(super) fn push_rings(&mut self, rings: &[clip::Ring]) {
+        let first = self.cells.starts.len() - 1;
         for ring in rings {
             let start = self.cells.corners.len();
             self.exact.clear();
@@ -130,7 +141,31 @@ impl<'a> Builder<'a> {
                 }
                 last = at;
             }
-            self.close(start, last);
+            let is_point = |corner: &clip::Corner| matches!(corner.spot, Spot::Point(_));
+            let kind = match () {
+                () if ring.iter().all(is_point) => Kind::Exact,
+                () if ring.iter().any(is_point) => Kind::AtRegion,
+                () => Kind::Rounded,
+            };
+            self.close(start, last, kind);
+        }
+        let count = self.cells.starts.len() - 1 - first;
+        if count > 1 && self.bad.last().is_none_or(|&last| (last as usize) < first) {
+            self.look_at_all(first);
+        }
+    }
+
+    /// Whether rings that each are good are those of a cell together. All are bad if not.
+    #[cold]
+    fn look_at_all(&mut self, first: usize) {
+        let cells = &self.cells;
+        let ring = |ends: &[u32]| {
+            cells.corners[ends[0] as usize..ends[1] as usize].iter().map(|&i| cells.vertices[i as usize])
+        };
+        let rings: Vec<Vec<[f64; 2]>> =
+            cells.starts[first..].windows(2).map(|ends| ring(ends).collect()).collect();
+        if !(self.region.are_border())(&rings) {
+            self.bad.extend(first as u32..self.cells.starts.len() as u32 - 1);
         }
     }
 
@@ -156,7 +191,7 @@ impl<'a> Builder<'a> {
             return false;
         }
         self.exact.clear();
-        self.close(start, last);
+        self.close(start, last, Kind::Rounded);
         true
     }
 
@@ -180,25 +215,29 @@ impl<'a> Builder<'a> {
             return relation == Some(Relation::Outside);
         }
         self.exact.clear();
-        self.close(start, last);
+        self.close(start, last, Kind::Rounded);
         true
     }
 
-    /// Ends a ring, the last corner of which is given. Of a cell of two places nothing is left.
+    /// Ends a ring, the last corner of which is given. Of a cell of two places nothing is left, unless a corner of the region is to be kept.
     #[inline]
-    fn close(&mut self, start: usize, last: [f64; 2]) {
+    fn close(&mut self, start: usize, last: [f64; 2], kind: Kind) {
         let Cells2 { starts, corners, vertices, .. } = &mut self.cells;
         if corners.len() > start + 1 && vertices[corners[start] as usize] == last {
             corners.pop();
         }
         if corners.len() <= start + 2 {
-            corners.truncate(start);
+            if kind == Kind::AtRegion && corners.len() == start + 2 {
+                self.bad.push(starts.len() as u32 - 1);
+                starts.push(corners.len() as u32);
+            } else {
+                corners.truncate(start);
+            }
             return;
         }
         let ring = corners[start..].iter().map(|&i| vertices[i as usize]);
-        // A border of the region: nothing was rounded, and it may be that of a hole.
-        let is_border = self.exact.len() >= ring.len() && self.exact[..ring.len()].iter().all(|exact| *exact);
-        if !is_border && !rings::is_border(ring, |i| self.exact.get(i).is_some_and(|exact| *exact)) {
+        let is_exact = |i: usize| self.exact.get(i).is_some_and(|exact| *exact);
+        if kind != Kind::Exact && !rings::is_border(ring, is_exact) {
             self.bad.push(starts.len() as u32 - 1);
         }
         starts.push(corners.len() as u32);

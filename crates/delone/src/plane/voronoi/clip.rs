@@ -11,8 +11,10 @@ use super::build::Builder;
 use super::cells::{Cell2, Cells2};
 use super::centres::Centres;
 use crate::plane::region::Region2;
-use crate::plane::region::clip::{self, clip};
-use delone_predicates::{Line, circumcentre, power_centre};
+use std::cmp::Ordering::{Greater, Less};
+
+use crate::plane::region::clip::{self, Corner, clip};
+use delone_predicates::{Line, Sign, Spot, circumcentre, power_centre};
 
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::plane::layer::Layer;
@@ -66,7 +68,9 @@ impl Voronoi2<'_> {
         let near = |place: &Place| {
             base.mesh.spokes(*place).map(|e| base.mesh.head(e)).filter(|w| !w.is_ghost()).collect::<Vec<_>>()
         };
-        let mut around: Vec<Place> = near(&place).iter().flat_map(near).chain([place]).collect();
+        let first = near(&place);
+        let mut around: Vec<Place> =
+            first.iter().flat_map(near).chain(first.iter().copied()).chain([place]).collect();
         around.sort_unstable();
         around.dedup();
         let rings = |cell: Cell2<'_>| cell.rings().map(|ring| ring.points().collect()).collect();
@@ -251,6 +255,124 @@ pub(super) fn cut_by(region: &Region2, lines: impl Iterator<Item = Line> + Clone
     }
     match region.around(&framed) {
         None => framed,
-        Some(part) => cut(part),
+        Some(part) => {
+            let spots = part.iter().flatten().map(|corner| corner.spot);
+            let corners: Vec<Spot> = spots.filter(|spot| matches!(spot, Spot::Point(_))).collect();
+            let mut rings = cut(part);
+            corners.iter().for_each(|corner| touch(&mut rings, corner, lines.clone()));
+            rings
+        }
+    }
+}
+
+/// Makes a corner of the region that is on a border of a cell, from whichever side it touches it, a corner there: the cell beyond has it
+/// too.
+fn touch(rings: &mut [clip::Ring], corner: &Spot, lines: impl Iterator<Item = Line> + Clone) {
+    let mut on = false;
+    for line in lines.clone() {
+        match line.side(corner) {
+            Sign::Negative => return,
+            Sign::Zero => on = true,
+            Sign::Positive => (),
+        }
+    }
+    for line in lines.filter(|line| on && line.side(corner).is_zero()) {
+        for ring in &mut *rings {
+            for i in (0..ring.len()).rev() {
+                let next = &ring[(i + 1) % ring.len()].spot;
+                let is_between = [(&ring[i].spot, corner), (corner, next)].map(|(p, q)| line.compare(p, q));
+                if ring[i].side.is_none()
+                    && ring[i].line == line
+                    && matches!(is_between, [Less, Less] | [Greater, Greater])
+                {
+                    ring.insert(i + 1, Corner { spot: *corner, ..ring[i] });
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use crate::plane::{Delaunay2, Region2};
+
+    type Ring = Vec<[f64; 2]>;
+
+    fn rectangle([x, y]: [f64; 2], [w, h]: [f64; 2]) -> Ring {
+        vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
+    }
+
+    /// All cells together and one by one; each side is that of another cell too, or the border of the region.
+    fn cells(sites: &[[f64; 2]], rings: &[Ring]) -> Vec<Vec<Ring>> {
+        let region = Region2::polygon(rings).expect("a region");
+        let d = Delaunay2::from_points(sites).expect("sites");
+        let together = d.voronoi().clip(&region);
+        let of = |v| together.rings(v).map(|ring| ring.points().collect()).collect::<Vec<Ring>>();
+        let all: Vec<Vec<Ring>> = d.vertices().map(of).collect();
+        let bits = |p: [f64; 2]| p.map(|x| (x + 0.0).to_bits());
+        let sides = |rings: &[Ring]| -> Vec<[[f64; 2]; 2]> {
+            rings
+                .iter()
+                .flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
+                .collect()
+        };
+        let every: BTreeSet<[[u64; 2]; 2]> =
+            all.iter().flat_map(|cell| sides(cell)).map(|side| side.map(bits)).collect();
+        for (v, cell) in d.vertices().zip(&all) {
+            assert_eq!(d.voronoi().cell(v, &region).concat().len(), cell.concat().len(), "{v:?} alone");
+            for [p, q] in sides(cell) {
+                let is_border = region.rings().any(|ring| {
+                    sides(&[ring.to_vec()]).iter().any(|[a, b]| {
+                        [p, q].iter().all(|p| delone_predicates::orient2d(*a, *b, *p).is_zero())
+                    })
+                });
+                assert!(is_border || every.contains(&[bits(q), bits(p)]), "{p:?} {q:?}: {all:?}");
+            }
+        }
+        for corner in region.rings().flatten() {
+            assert!(all.iter().flatten().flatten().any(|p| p == corner), "{corner:?} is missing: {all:?}");
+        }
+        all
+    }
+
+    /// A hole with a side or a corner on the border of two cells, from either side, and one that rounding makes touch it.
+    #[test]
+    fn holes_on_the_border_of_cells_have_corners_in_both() {
+        let frame = rectangle([-8.0; 2], [16.0; 2]);
+        for sites in [[[-2.0, 2.0], [2.0, 2.0]], [[2.0, 2.0], [-2.0, 2.0]]] {
+            for x in [-2.0, 0.0] {
+                let found = cells(&sites, &[frame.clone(), rectangle([x, -2.0], [2.0; 2])]);
+                assert_eq!(
+                    found.iter().flatten().flatten().filter(|p| p[0] == 0.0 && p[1] == -2.0).count(),
+                    2
+                );
+            }
+        }
+        // Touched in a corner, aslant.
+        cells(&[[-1.0, -1.0], [1.0, 1.0]], &[frame.clone(), rectangle([1.0, -1.0], [2.0; 2])]);
+        // Beside other holes the region is known by parts, which are divided where one has its side.
+        let more = [
+            rectangle([-4.0; 2], [2.0; 2]),
+            rectangle([-2.0; 2], [2.0; 2]),
+            rectangle([1.0, -5.0], [2.0; 2]),
+        ];
+        cells(&[[2.0, 2.0], [-2.0, 2.0]], &[&[frame.clone()][..], &more].concat());
+        // Beside the hole by less than can be told.
+        let near = [[-4.3e-78, -4.1e-115], [0.0, 7e-133]];
+        cells(&near, &[frame.clone(), rectangle([0.0; 2], [2.0; 2])]);
+        cells(&[[-f64::from_bits(1), 1.0], [0.0, 1.0]], &[frame, rectangle([0.0; 2], [2.0; 2])]);
+    }
+
+    /// Teeth end so near to the border of cells that what is beyond has no room.
+    #[test]
+    fn corners_of_the_region_stay() {
+        let comb: Ring =
+            [[0.0, -1.0], [4.0, -1.0], [4.0, 5.0], [3.0, 0.0], [2.0, 5.0], [1.0, 0.0], [0.0, 5.0]].into();
+        cells(&[[1.0, -1.0], [1.0, 1.0 + f64::EPSILON]], std::slice::from_ref(&comb));
+        cells(&[[1.0, -1.0], [1.0, 1.0 - f64::EPSILON]], &[comb]);
+        // The tip of a region beyond the border of cells.
+        cells(&[[3.0, 1.0], [1.0, 3.0 - 4.0 * f64::EPSILON]], &[vec![[0.0, 0.0], [8.0, 0.0], [4.0, 4.0]]]);
     }
 }

@@ -1,19 +1,22 @@
 //! Rings that rounding turned over are mended: corners that are nearly one become one, in all cells that have them.
 //!
-//! Of every bad ring the shortest side is contracted, if it is no longer than some units in the last place; then the rings that
+//! Of every bad ring the shortest side is contracted, if it is no longer than some units in the last place; then the cells that
 //! changed are asked again. Of two corners that become one the corner of the region stays, else the one on its border, else the
 //! lexicographically least; two corners of the region stay apart. A bad ring without a short side gets its nearest corner as a corner of
 //! the side that it has crossed. So what comes out depends on the rings alone, not on their order.
 //!
 //! It ends: each contraction takes a corner from the diagram, and each corner that a side gets divides a ring in two.
 //!
-//! Cost: a look at all corners for each round, of which there are few, and only where a ring is bad.
+//! Cost: a look at all corners for each round, of which there are few, and only where a ring is bad. Lists are sorted where sets would do,
+//! because this is in every program that clips cells, and hardly ever runs.
+
+use std::cmp::Ordering;
 
 use delone_predicates::lexicographic;
 
 use super::cells::Cells2;
-use super::rings::{is_simple, parts};
 use crate::plane::region::Region2;
+use crate::plane::region::rings::{is_border, is_simple};
 use crate::sorting;
 
 /// Sides are contracted, and corners put into sides, up to this length in units in the last place of a ring's largest coordinate. Of
@@ -23,37 +26,69 @@ const LONGEST_SIDE: f64 = 8.0;
 const ROUNDS: usize = 1000;
 
 type Point = [f64; 2];
-/// Vertices.
+/// The vertices of its ends; two vertices may be at one place.
 type Side = [u32; 2];
-
-/// What becomes of a part of a ring; nothing if it stays.
+/// The rings of a cell, as vertices.
+type Parts = Vec<Vec<u32>>;
+/// What becomes of a ring; nothing if it stays.
 type Rewriting<'r> = dyn Fn(&Mending<'_>, &[u32]) -> Option<Vec<u32>> + 'r;
 
-/// Cells, and the rings that changed. Vertices with one place are one corner.
+/// Cells, and those that changed.
 struct Mending<'a> {
     cells: &'a Cells2,
+    /// What tells whether several rings are all of a border.
+    are_border: fn(&[Vec<Point>]) -> bool,
     /// The places of the corners of the region, and of those on its border, sorted.
     region: Vec<Point>,
     border: Vec<Point>,
-    /// Rings by number, sorted, and what they fall apart into.
-    changed: Vec<(u32, Vec<Vec<u32>>)>,
+    /// Cells by id, sorted.
+    changed: Vec<(u32, Parts)>,
+    /// Sides that were gone and come again, with a corner of the region at one end.
+    spikes: Vec<Side>,
 }
 
-/// Mends the rings with these numbers, and what changes with them. `border` are corners on the border of the region.
+/// A corner that is near to a side, and how near.
+#[derive(Clone, Copy)]
+struct Near {
+    height: f64,
+    corner: u32,
+    side: Side,
+}
+
+/// Mends the cells of the rings with these numbers, and what changes with them. `border` are corners on the border of the region.
 pub(super) fn mend(cells: &mut Cells2, bad: &[u32], border: &[Point], region: &Region2) {
     let sorted = |mut places: Vec<Point>| {
         sorting::by(&mut places, |p, q| lexicographic(*p, *q));
         places
     };
-    let region = sorted(region.rings().flatten().copied().collect());
-    let mut mending = Mending { cells, region, border: sorted(border.to_vec()), changed: Vec::new() };
-    // Rings that visit a corner twice fall apart, and may be good then.
-    for &ring in bad {
-        mending.change(ring, vec![mending.ring(ring).to_vec()]);
+    let mut mending = Mending {
+        cells,
+        are_border: region.are_border(),
+        region: sorted(region.rings().flatten().copied().collect()),
+        border: sorted(border.to_vec()),
+        changed: Vec::new(),
+        spikes: Vec::new(),
+    };
+    let mut asked = Vec::new();
+    for (id, [first, count]) in mending.cells.sites.iter().enumerate() {
+        let from = bad.partition_point(|ring| ring < first);
+        if bad.get(from).is_some_and(|&ring| ring < first + count) {
+            // Rings that visit a corner twice fall apart, and may be good then.
+            let rings = mending.rings(id as u32).into_iter().map(<[u32]>::to_vec).collect();
+            mending.put(id as u32, rings);
+            asked.push(id as u32);
+        }
     }
-    mending.run(bad.to_vec());
-    let changed = mending.changed;
-    replace(cells, &changed);
+    mending.run(asked);
+    // Changed cells have their rings after all others.
+    for (id, parts) in mending.changed {
+        let start = cells.starts.len() as u32 - 1;
+        for part in parts {
+            cells.corners.extend(part);
+            cells.starts.push(cells.corners.len() as u32);
+        }
+        cells.sites[id as usize] = [start, cells.starts.len() as u32 - 1 - start];
+    }
 }
 
 #[inline(never)]
@@ -66,66 +101,112 @@ impl Mending<'_> {
         self.cells.vertices[vertex as usize]
     }
 
+    fn places(&self, ring: &[u32]) -> Vec<Point> {
+        ring.iter().map(|&v| self.at(v)).collect()
+    }
+
     #[inline(never)]
-    fn order(&self, v: u32, w: u32) -> std::cmp::Ordering {
+    fn order(&self, v: u32, w: u32) -> Ordering {
         lexicographic(self.at(v), self.at(w))
     }
 
-    /// The corners of a ring as it was.
-    fn ring(&self, ring: u32) -> &[u32] {
-        let [start, end] = [0, 1].map(|k| self.cells.starts[ring as usize + k] as usize);
-        &self.cells.corners[start..end]
+    fn compare_sides(&self, a: Side, b: Side) -> Ordering {
+        self.order(a[0], b[0]).then_with(|| self.order(a[1], b[1]))
     }
 
-    /// What has become of a ring, if it changed.
+    fn is_corner(&self, v: u32) -> bool {
+        contains(&self.region, self.at(v))
+    }
+
+    /// What has become of a cell, if it changed.
     #[inline(never)]
-    fn found(&self, ring: u32) -> Result<usize, usize> {
-        self.changed.binary_search_by_key(&ring, |changed| changed.0)
+    fn found(&self, id: u32) -> Result<usize, usize> {
+        self.changed.binary_search_by_key(&id, |changed| changed.0)
     }
 
-    /// Gives a ring other corners.
-    fn change(&mut self, ring: u32, new: Vec<Vec<u32>>) {
-        let mut all = Vec::new();
-        new.iter().for_each(|part| all.append(&mut parts(part, &self.cells.vertices)));
-        match self.found(ring) {
-            Ok(i) => self.changed[i].1 = all,
-            Err(i) => self.changed.insert(i, (ring, all)),
+    /// The rings of a cell as they are now.
+    fn rings(&self, id: u32) -> Vec<&[u32]> {
+        if let Ok(i) = self.found(id) {
+            return self.changed[i].1.iter().map(Vec::as_slice).collect();
         }
+        let [first, count] = self.cells.sites[id as usize].map(|n| n as usize);
+        let ends = self.cells.starts[first..].windows(2).take(count);
+        ends.map(|ends| &self.cells.corners[ends[0] as usize..ends[1] as usize]).collect()
     }
 
-    /// The corners of all parts of a ring mapped, if one of them is another then; adds the ring to those that changed.
-    fn rewrite(&mut self, asked: &mut Vec<u32>, new: &Rewriting<'_>) {
-        for ring in 0..self.cells.starts.len() as u32 - 1 {
-            let rewritten: Vec<(Option<Vec<u32>>, &[u32])> = match self.found(ring) {
-                Ok(i) => self.changed[i].1.iter().map(|part| (new(self, part), part.as_slice())).collect(),
-                Err(_) => vec![(new(self, self.ring(ring)), self.ring(ring))],
-            };
-            if rewritten.iter().any(|(new, _)| new.is_some()) {
-                let parts =
-                    rewritten.into_iter().map(|(new, old)| new.unwrap_or_else(|| old.to_vec())).collect();
-                self.change(ring, parts);
-                asked.push(ring);
+    /// Gives a cell rings, which fall apart into parts and grow together.
+    fn put(&mut self, id: u32, rings: Parts) {
+        let vertices = &self.cells.vertices;
+        let (mut spikes, mut all) = (Vec::new(), Parts::new());
+        rings.iter().for_each(|ring| all.append(&mut parts(ring, vertices, &mut spikes)));
+        while let Some([[i, at_i], [j, at_j]]) = self.seam(&all) {
+            let (mut ring, mut other) = (all.swap_remove(i.max(j)), all.swap_remove(i.min(j)));
+            let (of_ring, of_other) = if i > j { (at_i, at_j) } else { (at_j, at_i) };
+            ring.rotate_left(of_ring + 1);
+            other.rotate_left(of_other + 1);
+            ring.append(&mut other);
+            all.append(&mut parts(&ring, vertices, &mut spikes));
+        }
+        for [v, w] in spikes {
+            let side = if self.order(v, w).is_lt() { [v, w] } else { [w, v] };
+            if self.is_corner(v) != self.is_corner(w) && self.length(side) <= self.longest(&side) {
+                self.spikes.push(side);
             }
         }
+        match self.found(id) {
+            Ok(i) => self.changed[i].1 = all,
+            Err(i) => self.changed.insert(i, (id, all)),
+        }
+    }
+
+    /// Two rings with a side in common, one backwards, and where it begins in each.
+    fn seam(&self, rings: &Parts) -> Option<[[usize; 2]; 2]> {
+        if rings.len() < 2 {
+            return None;
+        }
+        let mut sides: Vec<(Side, bool, [usize; 2])> = Vec::new();
+        for (i, ring) in rings.iter().enumerate() {
+            for (k, &v) in ring.iter().enumerate() {
+                let w = ring[(k + 1) % ring.len()];
+                let is_forward = self.order(v, w).is_lt();
+                sides.push((if is_forward { [v, w] } else { [w, v] }, is_forward, [i, k]));
+            }
+        }
+        sorting::by(&mut sides, |a, b| {
+            self.compare_sides(a.0, b.0).then_with(|| (a.1, a.2).cmp(&(b.1, b.2)))
+        });
+        let is_seam = |pair: &&[(Side, bool, [usize; 2])]| {
+            let [a, b] = [&pair[0], &pair[1]];
+            self.compare_sides(a.0, b.0).is_eq() && a.1 != b.1 && a.2[0] != b.2[0]
+        };
+        sides.windows(2).find(is_seam).map(|pair| [pair[0].2, pair[1].2])
+    }
+
+    /// All rings rewritten; the cells that changed.
+    fn rewrite(&mut self, new: &Rewriting<'_>) -> Vec<u32> {
+        let mut asked = Vec::new();
+        for id in 0..self.cells.sites.len() as u32 {
+            let rings = self.rings(id);
+            let rewritten: Vec<Option<Vec<u32>>> = rings.iter().map(|ring| new(self, ring)).collect();
+            if rewritten.iter().any(Option::is_some) {
+                let both = rewritten.into_iter().zip(rings);
+                let all = both.map(|(new, old)| new.unwrap_or_else(|| old.to_vec())).collect();
+                self.put(id, all);
+                asked.push(id);
+            }
+        }
+        asked
     }
 
     fn run(&mut self, mut asked: Vec<u32>) {
         for _ in 0..ROUNDS {
-            let (mut joins, mut inserts, mut waiting) = (Vec::new(), Vec::new(), Vec::new());
-            for &ring in &asked {
-                let Ok(i) = self.found(ring) else { continue };
-                for part in &self.changed[i].1 {
-                    // Where corners became one even sides between exact corners are new.
-                    let places: Vec<Point> = part.iter().map(|&v| self.at(v)).collect();
-                    if is_simple(&places, &|_| false) {
-                        continue;
-                    }
-                    if let Some(side) = self.shortest(part) {
-                        joins.push(side);
-                    } else if let Some(insert) = self.nearest(part) {
-                        inserts.push(insert);
-                        waiting.push(ring);
-                    }
+            let mut joins = std::mem::take(&mut self.spikes);
+            let (mut inserts, mut waiting) = (Vec::new(), Vec::new());
+            for &id in &asked {
+                let before = inserts.len();
+                self.wishes(&self.rings(id), &mut joins, &mut inserts);
+                if inserts.len() > before {
+                    waiting.push(id);
                 }
             }
             // Corners that become one may spare the others.
@@ -134,6 +215,8 @@ impl Mending<'_> {
                 asked = self.insert_all(&inserts);
             } else {
                 asked.append(&mut waiting);
+                sorting::by(&mut asked, u32::cmp);
+                asked.dedup();
             }
             if asked.is_empty() {
                 return;
@@ -141,65 +224,110 @@ impl Mending<'_> {
         }
     }
 
-    /// What is some units in the last place of the largest coordinate.
-    fn longest(&self, part: &[u32]) -> f64 {
-        let largest = part.iter().flat_map(|&v| self.at(v)).fold(0.0_f64, |max, x| max.max(x.abs()));
+    /// What the rings of a cell ask for: sides to be contracted, and corners for sides. Nothing if they are its border.
+    fn wishes(&self, rings: &[&[u32]], joins: &mut Vec<Side>, inserts: &mut Vec<Near>) {
+        let places: Vec<Vec<Point>> = rings.iter().map(|ring| self.places(ring)).collect();
+        let is_good = match &places[..] {
+            [ring] => is_border(ring.iter().copied(), |_| false),
+            _ => (self.are_border)(&places),
+        };
+        if is_good {
+            return;
+        }
+        let is_one = rings.len() == 1;
+        let mut crossed = (0..rings.len()).filter(|&i| is_one || is_simple(&places[i], &|_| false).is_none());
+        let mut any = false;
+        for i in &mut crossed {
+            any = true;
+            self.wish(rings[i], joins, inserts);
+        }
+        if any {
+            return;
+        }
+        // Rings that each are good: one has crossed another one, or was turned over.
+        let mut best = None;
+        for (i, ring) in rings.iter().enumerate() {
+            for (_, other) in rings.iter().enumerate().filter(|(j, _)| *j != i) {
+                self.nearest(other, ring, self.longest(&rings.concat()), &mut best);
+            }
+        }
+        match best {
+            Some(near) => inserts.push(near),
+            None => rings.iter().for_each(|ring| self.wish(ring, joins, inserts)),
+        }
+    }
+
+    /// The shortest side, or else the corner nearest to a side.
+    fn wish(&self, ring: &[u32], joins: &mut Vec<Side>, inserts: &mut Vec<Near>) {
+        let longest = self.longest(ring);
+        if let Some(side) = self.shortest(ring, longest) {
+            joins.push(side);
+            return;
+        }
+        let mut best = None;
+        self.nearest(ring, ring, longest, &mut best);
+        inserts.extend(best);
+    }
+
+    /// The length up to which sides of such corners are contracted.
+    fn longest(&self, corners: &[u32]) -> f64 {
+        let largest = corners.iter().flat_map(|&v| self.at(v)).fold(0.0_f64, |max, x| max.max(x.abs()));
         LONGEST_SIDE * (largest.next_up() - largest)
     }
 
+    fn length(&self, side: Side) -> f64 {
+        let [p, q] = side.map(|v| self.at(v));
+        (p[0] - q[0]).abs().max((p[1] - q[1]).abs())
+    }
+
     /// The sides, each from its lesser end.
-    fn sides<'p>(&'p self, part: &'p [u32]) -> impl Iterator<Item = Side> + 'p {
-        let next = part.iter().cycle().skip(1);
-        part.iter().zip(next).map(|(&v, &w)| if self.order(v, w).is_lt() { [v, w] } else { [w, v] })
+    fn sides(&self, ring: &[u32]) -> Vec<Side> {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(&v, &w)| if self.order(v, w).is_lt() { [v, w] } else { [w, v] }).collect()
     }
 
     /// The shortest side that may be contracted; of several the lexicographically least.
-    fn shortest(&self, part: &[u32]) -> Option<Side> {
-        let mut best: Option<(f64, Side)> = None;
-        let longest = self.longest(part);
-        for side in self.sides(part) {
-            let [p, q] = side.map(|v| self.at(v));
-            let length = (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
-            let is_fixed = contains(&self.region, p) && contains(&self.region, q);
-            let is_better = best.is_none_or(|(least, other)| {
-                length < least || (length == least && self.compare_sides(side, other).is_lt())
+    fn shortest(&self, ring: &[u32], longest: f64) -> Option<Side> {
+        let mut best: Option<Side> = None;
+        for side in self.sides(ring) {
+            let is_better = best.is_none_or(|other| {
+                let order = self.length(side).total_cmp(&self.length(other));
+                order.then_with(|| self.compare_sides(side, other)).is_lt()
             });
-            if length <= longest && !is_fixed && is_better {
-                best = Some((length, side));
+            let is_fixed = side.iter().all(|&v| self.is_corner(v));
+            if self.length(side) <= longest && !is_fixed && is_better {
+                best = Some(side);
             }
         }
-        Some(best?.1)
+        best
     }
 
-    /// The corner that is nearest to a side, seen from which it is between the ends. Floating point chooses what is mended, no more.
-    fn nearest(&self, part: &[u32]) -> Option<(u32, Side)> {
-        let mut best: Option<(f64, u32, Side)> = None;
-        let longest = self.longest(part);
-        for side in self.sides(part) {
+    /// The corner that is nearest to a side of a ring, if it is between the ends along the axis on which these are furthest apart.
+    /// Floating point chooses what is mended first, no more.
+    fn nearest(&self, corners: &[u32], ring: &[u32], longest: f64, best: &mut Option<Near>) {
+        for side in self.sides(ring) {
             let [p, q] = side.map(|v| self.at(v));
             let u = [q[0] - p[0], q[1] - p[1]];
+            let axis = usize::from(u[0].abs() < u[1].abs());
+            let [from, to] = [p[axis].min(q[axis]), p[axis].max(q[axis])];
             let length = u[0].hypot(u[1]);
-            for &v in part.iter().filter(|v| !side.contains(v)) {
-                let w = [self.at(v)[0] - p[0], self.at(v)[1] - p[1]];
-                let along = (u[0] * w[0] + u[1] * w[1]) / length;
-                let height = ((u[0] * w[1] - u[1] * w[0]) / length).abs();
-                let is_better = best.is_none_or(|(least, other, of)| {
-                    let order = self.order(v, other).then_with(|| self.compare_sides(side, of));
-                    height < least || (height == least && order.is_lt())
+            for &corner in corners {
+                let at = self.at(corner);
+                let w = [at[0] - p[0], at[1] - p[1]];
+                let height = (u[0] / length * w[1] - u[1] / length * w[0]).abs();
+                let is_between = from < at[axis] && at[axis] < to;
+                let is_better = best.is_none_or(|best| {
+                    let order = height.total_cmp(&best.height).then_with(|| self.order(corner, best.corner));
+                    order.then_with(|| self.compare_sides(side, best.side)).is_lt()
                 });
-                if 0.0 < along && along < length && height <= longest && is_better {
-                    best = Some((height, v, side));
+                if is_between && height <= longest && is_better {
+                    *best = Some(Near { height, corner, side });
                 }
             }
         }
-        best.map(|(_, v, side)| (v, side))
     }
 
-    fn compare_sides(&self, a: Side, b: Side) -> std::cmp::Ordering {
-        self.order(a[0], b[0]).then_with(|| self.order(a[1], b[1]))
-    }
-
-    /// Makes the ends of sides one; the rings that changed.
+    /// Makes the ends of sides one; the cells that changed.
     fn join_all(&mut self, mut sides: Vec<Side>) -> Vec<u32> {
         sorting::by(&mut sides, |a, b| self.compare_sides(*a, *b));
         // Vertices that go, sorted by place, each with one that stays or goes too.
@@ -207,7 +335,7 @@ impl Mending<'_> {
         for side in sides {
             let [a, b] = side.map(|v| self.moved(&to, v));
             let [p, q] = [a, b].map(|v| self.at(v));
-            if p == q || (contains(&self.region, p) && contains(&self.region, q)) {
+            if p == q || (self.is_corner(a) && self.is_corner(b)) {
                 continue;
             }
             let rank = |p: Point| (!contains(&self.region, p), !contains(&self.border, p));
@@ -217,14 +345,13 @@ impl Mending<'_> {
                 to.insert(i, [goes, stays]);
             }
         }
-        let mut asked = Vec::new();
-        if !to.is_empty() {
-            self.rewrite(&mut asked, &|mending, part| {
-                let moved = |&v: &u32| mending.moved(&to, v);
-                part.iter().any(|v| moved(v) != *v).then(|| part.iter().map(moved).collect())
-            });
+        if to.is_empty() {
+            return Vec::new();
         }
-        asked
+        self.rewrite(&|mending, ring| {
+            let moved = |&v: &u32| mending.moved(&to, v);
+            ring.iter().any(|v| moved(v) != *v).then(|| ring.iter().map(moved).collect())
+        })
     }
 
     /// The vertex that one has become.
@@ -236,62 +363,63 @@ impl Mending<'_> {
         v
     }
 
-    /// Makes corners part of sides; the rings that changed.
-    fn insert_all(&mut self, inserts: &[(u32, Side)]) -> Vec<u32> {
+    /// Makes corners part of sides; the cells that changed.
+    fn insert_all(&mut self, inserts: &[Near]) -> Vec<u32> {
         let mut asked = Vec::new();
-        for &(corner, side) in inserts {
-            let ends = side.map(|v| self.at(v));
-            self.rewrite(&mut asked, &|mending, part| {
+        for near in inserts {
+            let ends = near.side.map(|v| self.at(v));
+            asked.append(&mut self.rewrite(&|mending, ring| {
                 let mut new = Vec::new();
-                for (&v, &w) in part.iter().zip(part.iter().cycle().skip(1)) {
+                for (&v, &w) in ring.iter().zip(ring.iter().cycle().skip(1)) {
                     new.push(v);
                     let [p, q] = [v, w].map(|v| mending.at(v));
                     if [p, q] == ends || [q, p] == ends {
-                        new.push(corner);
+                        new.push(near.corner);
                     }
                 }
-                (new.len() > part.len()).then_some(new)
-            });
+                (new.len() > ring.len()).then_some(new)
+            }));
         }
+        sorting::by(&mut asked, u32::cmp);
+        asked.dedup();
         asked
     }
 }
 
-/// Gives the cells of changed rings new ones, after all others.
-fn replace(cells: &mut Cells2, changed: &[(u32, Vec<Vec<u32>>)]) {
-    for id in 0..cells.sites.len() {
-        let [first, count] = cells.sites[id];
-        let from = changed.partition_point(|changed| changed.0 < first);
-        if changed.get(from).is_none_or(|changed| changed.0 >= first + count) {
-            continue;
-        }
-        let start = cells.starts.len() as u32 - 1;
-        for ring in first..first + count {
-            if let Ok(i) = changed.binary_search_by_key(&ring, |changed| changed.0) {
-                for part in &changed[i].1 {
-                    cells.corners.extend(part);
-                    cells.starts.push(cells.corners.len() as u32);
-                }
-            } else {
-                let [start, end] = [0, 1].map(|k| cells.starts[ring as usize + k] as usize);
-                cells.corners.extend_from_within(start..end);
-                cells.starts.push(cells.corners.len() as u32);
+/// The rings that a ring falls apart into where it visits a corner again, by the indices of its corners; what has fewer than three corners
+/// is gone, and of two corners noted among the spikes.
+fn parts(ring: &[u32], vertices: &[Point], spikes: &mut Vec<Side>) -> Vec<Vec<u32>> {
+    let at = |i: &u32| vertices[*i as usize];
+    let mut sorted = ring.to_vec();
+    sorting::by(&mut sorted, |i, j| lexicographic(at(i), at(j)));
+    let mut parts = Vec::new();
+    let mut open: Vec<u32> = Vec::new();
+    if sorted.windows(2).all(|pair| at(&pair[0]) != at(&pair[1])) {
+        open.extend(ring);
+    } else {
+        for corner in ring {
+            if let Some(start) = open.iter().position(|other| at(other) == at(corner)) {
+                parts.push(open.split_off(start));
             }
+            open.push(*corner);
         }
-        cells.sites[id] = [start, cells.starts.len() as u32 - 1 - start];
     }
+    parts.push(open);
+    spikes.extend(parts.iter().filter_map(|part| Side::try_from(&part[..]).ok()));
+    parts.retain(|part| part.len() > 2);
+    parts
 }
 
 #[cfg(test)]
 mod tests {
-    use super::mend;
+    use super::{mend, parts};
     use crate::plane::region::Region2;
     use crate::plane::voronoi::cells::Cells2;
 
     type Ring = Vec<[f64; 2]>;
 
     fn is_border(ring: &[[f64; 2]]) -> bool {
-        crate::plane::voronoi::rings::is_border(ring.iter().copied(), |_| false)
+        crate::plane::region::rings::is_border(ring.iter().copied(), |_| false)
     }
 
     /// Cells of one ring each, and all of which are mended.
@@ -361,5 +489,25 @@ mod tests {
         let turned: Ring = vec![corners[0], corners[3], corners[1]];
         let found = mended(&[turned], &region);
         assert!(found[0].iter().all(|ring| ring.iter().all(|corner| corners.contains(corner))));
+    }
+
+    #[test]
+    fn rings_fall_apart_where_they_meet_themselves() {
+        // Two vertices of each place.
+        let vertices: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i % 10), 0.0]).collect();
+        let of = |ring: &[u32]| {
+            let other: Vec<u32> = ring.iter().enumerate().map(|(k, i)| i + 10 * (k as u32 % 2)).collect();
+            let parts = parts(&other, &vertices, &mut Vec::new());
+            parts
+                .into_iter()
+                .map(|part| part.into_iter().map(|i| i % 10).collect())
+                .collect::<Vec<Vec<u32>>>()
+        };
+        assert_eq!(of(&[1, 2, 3, 4]), [[1, 2, 3, 4]]);
+        // A spike goes, and a side that is gone and come again.
+        assert_eq!(of(&[1, 2, 3, 2, 4]), [[1, 2, 4]]);
+        assert_eq!(of(&[1, 2, 1, 2]), Vec::<Vec<u32>>::new());
+        assert_eq!(of(&[1, 2, 2, 3, 3, 1]), [[1, 2, 3]]);
+        assert_eq!(of(&[1, 2, 3, 1, 4, 5]), [[1, 2, 3], [1, 4, 5]]);
     }
 }

@@ -14,7 +14,6 @@ pub(in crate::plane) mod centres;
 pub(in crate::plane) mod clip;
 mod contract;
 mod relax;
-mod rings;
 
 pub use cells::{Cell2, Cells2, Ring};
 pub use relax::Relaxation2;

@@ -7,7 +7,7 @@
 
 use delone_predicates::{lexicographic, orient2d};
 
-use crate::plane::region::sweep::are_in_conflict;
+use super::sweep::{Nesting, are_in_conflict, nesting};
 use crate::sorting;
 
 /// Whether a ring of at least three corners, of which some are known to be exact, is simple and counter-clockwise. The ring of exact
@@ -15,11 +15,11 @@ use crate::sorting;
 ///
 /// O(k) for a convex ring of k corners, which nearly all are, O(r k) for others with r corners that are not exact.
 #[inline]
-pub(super) fn is_border(
+pub(in crate::plane) fn is_border(
     ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone,
     is_exact: impl Fn(usize) -> bool,
 ) -> bool {
-    is_convex(ring.clone()) || is_simple(&ring.collect::<Vec<_>>(), &is_exact)
+    is_convex(ring.clone()) || is_simple(&ring.collect::<Vec<_>>(), &is_exact) == Some(true)
 }
 
 /// Whether a ring turns left at every corner, and goes around once.
@@ -43,10 +43,11 @@ fn is_convex(mut ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone) -> bool 
     turns == 1
 }
 
-/// Whether a ring is simple and counter-clockwise: each side with an end that is not exact against all others.
+/// Whether a ring of at least three corners touches itself nowhere, and then whether it is counter-clockwise: each side with an end that
+/// is not exact against all others.
 #[cold]
 #[inline(never)]
-pub(super) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> bool {
+pub(in crate::plane) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> Option<bool> {
     let count = ring.len();
     let after = |i: usize| if i + 1 == count { 0 } else { i + 1 };
     let side = |i: usize| [ring[i], ring[after(i)]];
@@ -58,42 +59,37 @@ pub(super) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) -> bool) -> 
         for j in (0..count).filter(|&j| j != i) {
             // Corners are visited once.
             if ring[j] == ring[i] || (!is_apart(side(i), side(j)) && are_in_conflict(side(i), side(j))) {
-                return false;
+                return None;
             }
         }
     }
     // A simple ring turns left at its least corner, or else right.
     let least = (0..count).min_by(|&i, &j| lexicographic(ring[i], ring[j])).unwrap_or(0);
     let before = if least == 0 { count - 1 } else { least - 1 };
-    orient2d(ring[before], ring[least], ring[after(least)]).is_positive()
+    Some(orient2d(ring[before], ring[least], ring[after(least)]).is_positive())
 }
 
-/// The rings that a ring falls apart into where it visits a corner again, by the indices of its corners; what has fewer than three corners
-/// is gone.
-pub(super) fn parts(ring: &[u32], vertices: &[[f64; 2]]) -> Vec<Vec<u32>> {
-    let at = |i: &u32| vertices[*i as usize];
+/// Whether rings of at least three corners each are the border of something, whatever they are to each other.
+pub(in crate::plane) fn are_border_each(rings: &[Vec<[f64; 2]>]) -> bool {
+    rings.iter().all(|ring| is_simple(ring, &|_| false) == Some(true))
+}
+
+/// Whether rings of at least three corners are all of the border of something on their left: they touch in corners at most, outer ones are
+/// counter-clockwise, holes clockwise. O(k log k) for k corners.
+pub(in crate::plane) fn are_border(rings: &[Vec<[f64; 2]>]) -> bool {
+    let is_right = |nesting: &Nesting| nesting.is_counter_clockwise == nesting.depth.is_multiple_of(2);
+    rings.iter().all(|ring| !visits_twice(ring)) && nesting(rings).is_ok_and(|all| all.iter().all(is_right))
+}
+
+fn visits_twice(ring: &[[f64; 2]]) -> bool {
     let mut sorted = ring.to_vec();
-    sorting::by(&mut sorted, |i, j| lexicographic(at(i), at(j)));
-    let mut parts = Vec::new();
-    let mut open: Vec<u32> = Vec::new();
-    if sorted.windows(2).all(|pair| at(&pair[0]) != at(&pair[1])) {
-        open.extend(ring);
-    } else {
-        for corner in ring {
-            if let Some(start) = open.iter().position(|other| at(other) == at(corner)) {
-                parts.push(open.split_off(start));
-            }
-            open.push(*corner);
-        }
-    }
-    parts.push(open);
-    parts.retain(|part| part.len() > 2);
-    parts
+    sorting::by(&mut sorted, |p, q| lexicographic(*p, *q));
+    sorted.windows(2).any(|pair| pair[0] == pair[1])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{is_border, is_convex, parts};
+    use super::{are_border, are_border_each, is_border, is_convex};
 
     #[test]
     fn borders_are_simple_and_counter_clockwise() {
@@ -133,22 +129,24 @@ mod tests {
     }
 
     #[test]
-    fn rings_fall_apart_where_they_meet_themselves() {
-        // Two vertices of each place.
-        let vertices: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i % 10), 0.0]).collect();
-        let of = |ring: &[u32]| {
-            let other: Vec<u32> = ring.iter().enumerate().map(|(k, i)| i + 10 * (k as u32 % 2)).collect();
-            let parts = parts(&other, &vertices);
-            parts
-                .into_iter()
-                .map(|part| part.into_iter().map(|i| i % 10).collect())
-                .collect::<Vec<Vec<u32>>>()
-        };
-        assert_eq!(of(&[1, 2, 3, 4]), [[1, 2, 3, 4]]);
-        // A spike goes, and a side that is gone and come again.
-        assert_eq!(of(&[1, 2, 3, 2, 4]), [[1, 2, 4]]);
-        assert_eq!(of(&[1, 2, 1, 2]), Vec::<Vec<u32>>::new());
-        assert_eq!(of(&[1, 2, 2, 3, 3, 1]), [[1, 2, 3]]);
-        assert_eq!(of(&[1, 2, 3, 1, 4, 5]), [[1, 2, 3], [1, 4, 5]]);
+    fn rings_together_touch_in_corners_at_most() {
+        let square =
+            |x: f64, y: f64, size: f64| vec![[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
+        let turned = |ring: Vec<[f64; 2]>| ring.into_iter().rev().collect::<Vec<_>>();
+        let outer = square(0.0, 0.0, 4.0);
+        for (others, expected) in [
+            (vec![square(5.0, 0.0, 1.0)], true),
+            (vec![square(4.0, 4.0, 1.0)], true),
+            (vec![square(3.0, 3.0, 2.0)], false),
+            (vec![square(1.0, 1.0, 1.0)], false),
+            (vec![turned(square(1.0, 1.0, 1.0))], true),
+            (vec![turned(square(1.0, 1.0, 2.0)), square(1.5, 1.5, 0.5)], true),
+            (vec![turned(square(5.0, 0.0, 1.0))], false),
+        ] {
+            let all: Vec<_> = std::iter::once(outer.clone()).chain(others).collect();
+            assert_eq!(are_border(&all), expected, "{all:?}");
+        }
+        assert!(are_border_each(&[outer.clone(), square(1.0, 1.0, 1.0)]));
+        assert!(!are_border_each(&[outer, turned(square(1.0, 1.0, 1.0))]));
     }
 }
