@@ -2,14 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use delone::{Delaunay2, Region2, VertexId};
+use delone::{Bounds, Cell2, Delaunay2, Region2, VertexId};
 use delone_generators::Random;
-use num_bigint::BigInt;
 
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, integer, once_in, pick};
-use crate::oracle::exact::{Vector, integers, is_inside, orientation, scale};
 use crate::oracle::hull::by_distance;
+use crate::oracle::rings::{Ring, crossing, even_odd, exact_area, from_side, is_proper, tile};
 
 /// How many points are asked whose they are.
 const SAMPLES: usize = 30;
@@ -53,6 +52,92 @@ fn rectangle(random: &mut Random, sites: &[[f64; 2]]) -> Item {
 
 fn square([x, y]: [f64; 2], [w, h]: [f64; 2]) -> Vec<[f64; 2]> {
     vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
+}
+
+/// Sites as they are measured and drawn: lattices of steps that are no binary numbers, rounded decimals, regular polygons, circles, turned
+/// lattices, sites some units in the last place apart; about the origin or far from it.
+fn everyday(random: &mut Random) -> Vec<[f64; 2]> {
+    let about =
+        pick(random, &[[0.0, 0.0], [500_000.0, 4_500_000.0], [100.3, 250.7], [7.4, 46.9], [-0.3, 0.1]]);
+    let step = pick(random, &[0.1, 0.3, 1.0 / 3.0, 0.05, 1.0, 1e-6, 2.5]);
+    let turn = pick(random, &[0.0, 0.0, 0.3, TAU / 8.0, TAU / 6.0]);
+    let turned = |[x, y]: [f64; 2]| [x * turn.cos() - y * turn.sin(), x * turn.sin() + y * turn.cos()];
+    let (kind, corners) = (random.below(7), 3 + random.below(30));
+    let count = 4 + random.below(36);
+    let one = |i: usize, random: &mut Random| match kind {
+        0 => turned([step * (i % 6) as f64, step * (i / 6) as f64]),
+        1 => turned([nasty::integer(random, 4) * step, nasty::integer(random, 4) * step]),
+        2 => turned([
+            step * ((i % 6) as f64 + 0.5 * (i / 6 % 2) as f64),
+            step * (i / 6) as f64 * 0.75_f64.sqrt(),
+        ]),
+        3 => [(); 2].map(|()| (random.between(0.0, 50.0) / step).round() * step),
+        // Polygons, each around the same middle.
+        4 => {
+            let (angle, radius) = (TAU * i as f64 / corners as f64 + turn, step * (1 + i / corners) as f64);
+            [radius * angle.cos(), radius * angle.sin()]
+        }
+        // One circle, anywhere on it.
+        5 => {
+            let angle = random.between(0.0, TAU);
+            [step * angle.cos(), step * angle.sin()]
+        }
+        _ => [nasty::integer(random, 2) * step; 2],
+    };
+    let mut sites: Vec<[f64; 2]> = (0..count).map(|i| one(i, random)).collect();
+    for p in &mut sites {
+        *p = [p[0] + about[0], p[1] + about[1]];
+        if kind == 6 || once_in(random, 20) {
+            *p = p.map(|x| nasty::nudged(random, x));
+        }
+    }
+    sites
+}
+
+/// Regions as large as the sites, about them: many sides, stars, holes, corners on what cells have.
+fn around(random: &mut Random, sites: &[[f64; 2]]) -> Vec<Item> {
+    let bounds = Bounds::of(sites.iter().copied());
+    let [middle, half] =
+        [1.0, -1.0].map(|sign| [0, 1].map(|k| bounds.high[k] / 2.0 + sign * bounds.low[k] / 2.0));
+    let size = half[0].max(half[1]) * pick(random, &[1.0, 1.25, 0.7, 0.31]);
+    let ring = |radius: f64, inner: f64, count: usize, turn: f64| {
+        let corner = |i: usize| {
+            let angle = TAU * i as f64 / count as f64 + turn;
+            let radius = if i.is_multiple_of(2) { radius } else { inner };
+            [middle[0] + radius * angle.cos(), middle[1] + radius * angle.sin()]
+        };
+        (0..count).map(corner).collect::<Vec<_>>()
+    };
+    let count = 3 + random.below(40);
+    let turn = pick(random, &[0.0, 0.1, TAU / 8.0]);
+    let mut rings = match random.below(4) {
+        0 => vec![ring(size, size, count, turn)],
+        1 => vec![ring(size, size * 0.4, 2 * count, turn)],
+        2 => vec![vec![
+            bounds.low,
+            [bounds.high[0], bounds.low[1]],
+            bounds.high,
+            [bounds.low[0], bounds.high[1]],
+        ]],
+        _ => {
+            let mut corners: Vec<[f64; 2]> =
+                (0..3 + random.below(12)).map(|_| corner(random, sites)).collect();
+            let angle = |p: &[f64; 2]| (p[1] - middle[1]).atan2(p[0] - middle[0]);
+            corners.sort_by(|p, q| angle(p).total_cmp(&angle(q)));
+            corners.dedup();
+            vec![corners]
+        }
+    };
+    match random.below(4) {
+        0 => rings.push(ring(size * 0.3, size * 0.3, 3 + random.below(9), turn)),
+        1 => rings.push((0..3).map(|_| corner(random, sites)).collect()),
+        2 => {
+            let at = corner(random, sites);
+            rings.push(square(at, [size * 0.1, size * 0.2]));
+        }
+        _ => {}
+    }
+    rings.into_iter().map(Item::Ring).collect()
 }
 
 /// A region's rings, proper or not: what is not is refused, and nothing more is asked.
@@ -129,7 +214,12 @@ impl Attack for Cells {
                 .map(|_| [random.between(-5.0, 5.0), random.between(-5.0, 5.0)])
                 .collect();
         }
-        let mut items = region(random, &sites);
+        let mut items = if once_in(random, 2) {
+            sites = everyday(random);
+            if once_in(random, 3) { vec![rectangle(random, &sites)] } else { around(random, &sites) }
+        } else {
+            region(random, &sites)
+        };
         items.extend(sites.into_iter().map(Item::Site));
         items
     }
@@ -166,64 +256,6 @@ impl Attack for Cells {
     }
 }
 
-/// Whether rings surely are a region: all corners are different, and no side meets another one beside its corners.
-fn is_proper(rings: &[Vec<[f64; 2]>]) -> bool {
-    let mut corners = rings.concat();
-    corners.sort_by(|p, q| p.partial_cmp(q).unwrap_or(std::cmp::Ordering::Equal));
-    !rings.is_empty()
-        && rings.iter().all(|ring| ring.len() > 2)
-        && corners.iter().flatten().all(|x| x.is_finite())
-        && corners.windows(2).all(|pair| pair[0] != pair[1])
-        && crossing(rings).is_ok()
-}
-
-/// No two sides of a region have more than corners in common.
-fn crossing(rings: &[Vec<[f64; 2]>]) -> Judgement {
-    let ends: Vec<[[f64; 2]; 2]> = rings
-        .iter()
-        .flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
-        .collect();
-    let exact: Vec<Vec<Vector>> = integers(ends.as_flattened()).chunks(2).map(<[Vector]>::to_vec).collect();
-    for (i, s) in exact.iter().enumerate() {
-        for (j, t) in exact[..i].iter().enumerate() {
-            let side = |s: &[Vector], p: &Vector| orientation(&[&s[0], &s[1], p]);
-            let cross = side(s, &t[0]) * side(s, &t[1]) < 0 && side(t, &s[0]) * side(t, &s[1]) < 0;
-            let touch = s.iter().any(|p| is_inside(t, p)) || t.iter().any(|p| is_inside(s, p));
-            if cross || touch || s == t {
-                return Err(format!("a region has the sides {:?} and {:?}", ends[i], ends[j]));
-            }
-        }
-    }
-    Ok(())
-}
-
-/// The area, exact until it is rounded at the end.
-fn exact_area(rings: &[Vec<[f64; 2]>]) -> f64 {
-    let scale = scale(rings.iter().flatten().flatten());
-    let twice: BigInt = rings
-        .iter()
-        .map(|ring| {
-            let exact = integers_at(ring, scale);
-            (0..exact.len())
-                .map(|i| {
-                    let (p, q) = (&exact[i], &exact[(i + 1) % exact.len()]);
-                    &p[0] * &q[1] - &p[1] * &q[0]
-                })
-                .sum::<BigInt>()
-        })
-        .sum();
-    // 62 bits are enough, and scaled in two steps nothing leaves the range on the way.
-    let spare = twice.bits().saturating_sub(62) as i32;
-    let digits = i64::try_from(twice >> spare.max(0)).unwrap_or(i64::MAX) as f64;
-    let exponent = 2 * scale + spare - 1;
-    let half = exponent / 2;
-    digits * 2_f64.powi(half) * 2_f64.powi(exponent - half)
-}
-
-fn integers_at(points: &[[f64; 2]], scale: i32) -> Vec<Vector> {
-    points.iter().map(|p| p.iter().map(|&x| crate::oracle::exact::integer(x, scale)).collect()).collect()
-}
-
 fn judge_cells(
     d: &Delaunay2,
     region: &Region2,
@@ -232,6 +264,21 @@ fn judge_cells(
     seed: u64,
 ) -> Judgement {
     let cells = d.voronoi().clip(region);
+    let of = |cell: Cell2<'_>| -> Vec<Ring> { cell.rings().map(|ring| ring.points().collect()).collect() };
+    let all: Vec<Vec<Ring>> = d.vertices().map(|v| of(cells.cell(v))).collect();
+    tile(&all, rings).map_err(|wrong| format!("clipped to {rings:?}: {wrong}"))?;
+    for (v, expected) in d.vertices().zip(&all) {
+        let alone = d.voronoi().cell(v, region);
+        if turned(&alone) != turned(expected) {
+            return Err(format!("the cell of {v:?} is {expected:?}, and alone {alone:?}"));
+        }
+    }
+    let mut one_by_one: Vec<(VertexId, Vec<Ring>)> = Vec::new();
+    d.voronoi().clip_each(region, |v, cell| one_by_one.push((v, of(cell))));
+    one_by_one.sort_by_key(|cell| cell.0);
+    if !one_by_one.iter().map(|(v, cell)| (*v, cell)).eq(d.vertices().zip(&all)) {
+        return Err(format!("cells are {all:?}, and one after the other {one_by_one:?}"));
+    }
     let [low, high] = region.bounds();
     let largest = low.iter().chain(&high).fold(0.0_f64, |largest, x| largest.max(x.abs()));
     let (width, height) = (high[0] - low[0], high[1] - low[1]);
@@ -271,6 +318,19 @@ fn judge_cells(
         return Err(format!("the areas of the cells add up to {sum} instead of {whole}"));
     }
     whose(d, &cells, rings, sites, (low, high), seed)
+}
+
+/// Rings as bits, each from its least corner on, and these in order.
+fn turned(rings: &[Ring]) -> Vec<Vec<[u64; 2]>> {
+    let from_least = |ring: &Ring| {
+        let mut corners: Vec<[u64; 2]> = ring.iter().map(|p| p.map(f64::to_bits)).collect();
+        let least = (0..corners.len()).min_by_key(|&i| corners[i]).unwrap_or(0);
+        corners.rotate_left(least);
+        corners
+    };
+    let mut all: Vec<_> = rings.iter().map(from_least).collect();
+    all.sort_unstable();
+    all
 }
 
 fn shoelace(ring: &[[f64; 2]]) -> f64 {
@@ -318,32 +378,11 @@ fn cells_of(cells: &delone::Cells2, site: usize) -> Vec<Vec<[f64; 2]>> {
     cells.rings(VertexId::new(site)).map(|ring| ring.points().collect()).collect()
 }
 
-/// Whether a ray to the right meets the rings an odd number of times, decided exactly.
-fn even_odd(rings: &[Vec<[f64; 2]>], q: [f64; 2]) -> bool {
-    let mut odd = false;
-    for ring in rings {
-        for (i, &a) in ring.iter().enumerate() {
-            let b = ring[(i + 1) % ring.len()];
-            if (a[1] <= q[1]) != (b[1] <= q[1]) {
-                let exact = integers(&[a, b, q]);
-                let left = orientation(&[&exact[0], &exact[1], &exact[2]]);
-                odd ^= (left > 0) == (b[1] > a[1]);
-            }
-        }
-    }
-    odd
-}
-
 /// The distance of a point from the nearest side, rounded.
 fn from_border(rings: &[Vec<[f64; 2]>], q: [f64; 2]) -> f64 {
-    let from_side = |a: [f64; 2], b: [f64; 2]| {
-        let (u, w) = ([b[0] - a[0], b[1] - a[1]], [q[0] - a[0], q[1] - a[1]]);
-        let uu = u[0] * u[0] + u[1] * u[1];
-        let t = if uu > 0.0 { ((u[0] * w[0] + u[1] * w[1]) / uu).clamp(0.0, 1.0) } else { 0.0 };
-        (w[0] - t * u[0]).hypot(w[1] - t * u[1])
-    };
-    let sides =
-        rings.iter().flat_map(|ring| (0..ring.len()).map(|i| from_side(ring[i], ring[(i + 1) % ring.len()])));
+    let sides = rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|i| from_side(ring[i], ring[(i + 1) % ring.len()], q)));
     sides.fold(f64::INFINITY, f64::min)
 }
 
@@ -361,30 +400,11 @@ fn from_bisectors(sites: &[[f64; 2]], nearest: usize, q: [f64; 2]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{crossing, even_odd, exact_area, from_border, is_proper};
+    use super::from_border;
 
     #[test]
-    fn areas_and_insides_of_rings() {
-        let outer = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-        let hole = vec![[1.0, 1.0], [1.0, 2.0], [2.0, 1.0]];
-        let rings = [outer.clone(), hole];
-        assert_eq!(exact_area(&rings), 15.5);
-        assert_eq!([[0.5, 0.5], [1.25, 1.25], [5.0, 0.5]].map(|q| even_odd(&rings, q)), [true, false, false]);
-        assert_eq!(from_border(&rings, [0.25, 0.5]), 0.25);
-        let large = outer.iter().map(|p| p.map(|x| x * 1e150)).collect();
-        assert!((exact_area(&[large]) / 1.6e301 - 1.0).abs() < 1e-15);
-    }
-
-    #[test]
-    fn sides_that_cross_or_touch_are_seen() {
+    fn distances_from_the_nearest_side() {
         let square = vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
-        let corner_to_corner = vec![[4.0, 4.0], [5.0, 4.0], [5.0, 5.0]];
-        let touching = vec![[4.0, 2.0], [5.0, 1.0], [5.0, 3.0]];
-        let bow_tie = vec![[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
-        assert!(crossing(&[square.clone(), corner_to_corner]).is_ok());
-        assert!(is_proper(std::slice::from_ref(&square)));
-        assert!(crossing(&[square, touching]).is_err());
-        assert!(crossing(std::slice::from_ref(&bow_tie)).is_err());
-        assert!(!is_proper(&[bow_tie]) && !is_proper(&[]));
+        assert_eq!(from_border(&[square], [0.25, 0.5]), 0.25);
     }
 }

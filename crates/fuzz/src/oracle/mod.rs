@@ -3,3 +3,4 @@
 pub(crate) mod delaunay;
 pub(crate) mod exact;
 pub(crate) mod hull;
+pub(crate) mod rings;
