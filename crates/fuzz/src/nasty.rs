@@ -220,6 +220,46 @@ pub(crate) fn points<const D: usize>(random: &mut Random, most: usize) -> Vec<[f
     points
 }
 
+/// Up to so many points as they are measured and drawn: lattices of steps that are no binary numbers, rounded decimals, regular polygons, circles, turned
+/// lattices, points some units in the last place apart; about the origin or far from it.
+pub(crate) fn everyday(random: &mut Random, most: usize) -> Vec<[f64; 2]> {
+    let about =
+        pick(random, &[[0.0, 0.0], [500_000.0, 4_500_000.0], [100.3, 250.7], [7.4, 46.9], [-0.3, 0.1]]);
+    let step = pick(random, &[0.1, 0.3, 1.0 / 3.0, 0.05, 1.0, 1e-6, 2.5]);
+    let turn = pick(random, &[0.0, 0.0, 0.3, TAU / 8.0, TAU / 6.0]);
+    let turned = |[x, y]: [f64; 2]| [x * turn.cos() - y * turn.sin(), x * turn.sin() + y * turn.cos()];
+    let (kind, corners) = (random.below(7), 3 + random.below(30));
+    let count = 4 + random.below(most - 3);
+    let one = |i: usize, random: &mut Random| match kind {
+        0 => turned([step * (i % 6) as f64, step * (i / 6) as f64]),
+        1 => turned([integer(random, 4) * step, integer(random, 4) * step]),
+        2 => turned([
+            step * ((i % 6) as f64 + 0.5 * (i / 6 % 2) as f64),
+            step * (i / 6) as f64 * 0.75_f64.sqrt(),
+        ]),
+        3 => [(); 2].map(|()| (random.between(0.0, 50.0) / step).round() * step),
+        // Polygons, each around the same middle.
+        4 => {
+            let (angle, radius) = (TAU * i as f64 / corners as f64 + turn, step * (1 + i / corners) as f64);
+            [radius * angle.cos(), radius * angle.sin()]
+        }
+        // One circle, anywhere on it.
+        5 => {
+            let angle = random.between(0.0, TAU);
+            [step * angle.cos(), step * angle.sin()]
+        }
+        _ => [integer(random, 2) * step; 2],
+    };
+    let mut points: Vec<[f64; 2]> = (0..count).map(|i| one(i, random)).collect();
+    for p in &mut points {
+        *p = [p[0] + about[0], p[1] + about[1]];
+        if kind == 6 || once_in(random, 20) {
+            *p = p.map(|x| nudged(random, x));
+        }
+    }
+    points
+}
+
 /// Now and then some coordinates are made alike, or zero of either sign.
 fn flattened<const D: usize>(random: &mut Random, points: &mut [[f64; D]]) {
     if once_in(random, 10) {

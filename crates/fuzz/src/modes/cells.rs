@@ -54,46 +54,6 @@ fn square([x, y]: [f64; 2], [w, h]: [f64; 2]) -> Vec<[f64; 2]> {
     vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]]
 }
 
-/// Sites as they are measured and drawn: lattices of steps that are no binary numbers, rounded decimals, regular polygons, circles, turned
-/// lattices, sites some units in the last place apart; about the origin or far from it.
-fn everyday(random: &mut Random) -> Vec<[f64; 2]> {
-    let about =
-        pick(random, &[[0.0, 0.0], [500_000.0, 4_500_000.0], [100.3, 250.7], [7.4, 46.9], [-0.3, 0.1]]);
-    let step = pick(random, &[0.1, 0.3, 1.0 / 3.0, 0.05, 1.0, 1e-6, 2.5]);
-    let turn = pick(random, &[0.0, 0.0, 0.3, TAU / 8.0, TAU / 6.0]);
-    let turned = |[x, y]: [f64; 2]| [x * turn.cos() - y * turn.sin(), x * turn.sin() + y * turn.cos()];
-    let (kind, corners) = (random.below(7), 3 + random.below(30));
-    let count = 4 + random.below(36);
-    let one = |i: usize, random: &mut Random| match kind {
-        0 => turned([step * (i % 6) as f64, step * (i / 6) as f64]),
-        1 => turned([nasty::integer(random, 4) * step, nasty::integer(random, 4) * step]),
-        2 => turned([
-            step * ((i % 6) as f64 + 0.5 * (i / 6 % 2) as f64),
-            step * (i / 6) as f64 * 0.75_f64.sqrt(),
-        ]),
-        3 => [(); 2].map(|()| (random.between(0.0, 50.0) / step).round() * step),
-        // Polygons, each around the same middle.
-        4 => {
-            let (angle, radius) = (TAU * i as f64 / corners as f64 + turn, step * (1 + i / corners) as f64);
-            [radius * angle.cos(), radius * angle.sin()]
-        }
-        // One circle, anywhere on it.
-        5 => {
-            let angle = random.between(0.0, TAU);
-            [step * angle.cos(), step * angle.sin()]
-        }
-        _ => [nasty::integer(random, 2) * step; 2],
-    };
-    let mut sites: Vec<[f64; 2]> = (0..count).map(|i| one(i, random)).collect();
-    for p in &mut sites {
-        *p = [p[0] + about[0], p[1] + about[1]];
-        if kind == 6 || once_in(random, 20) {
-            *p = p.map(|x| nasty::nudged(random, x));
-        }
-    }
-    sites
-}
-
 /// Regions as large as the sites, about them: many sides, stars, holes, corners on what cells have.
 fn around(random: &mut Random, sites: &[[f64; 2]]) -> Vec<Item> {
     let bounds = Bounds::of(sites.iter().copied());
@@ -215,7 +175,7 @@ impl Attack for Cells {
                 .collect();
         }
         let mut items = if once_in(random, 2) {
-            sites = everyday(random);
+            sites = nasty::everyday(random, 40);
             if once_in(random, 3) { vec![rectangle(random, &sites)] } else { around(random, &sites) }
         } else {
             region(random, &sites)

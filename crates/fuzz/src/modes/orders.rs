@@ -11,6 +11,7 @@ use delone_oracle::orders::{Circles, Diagram};
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, once_in};
 use crate::oracle::exact::{integers, squared};
+use crate::oracle::rings::{Ring, tile};
 
 /// Up to so many points all orders are judged and changes made; of more the first orders.
 const FEW: usize = 10;
@@ -29,6 +30,7 @@ impl Attack for Orders {
         match random.below(24) {
             0 => wheel(random),
             1 => nasty::points(random, 34),
+            2..8 => nasty::everyday(random, FEW),
             _ => nasty::points(random, FEW),
         }
     }
@@ -229,6 +231,10 @@ impl Truth {
         let [low, high] = self.rectangle;
         let Ok(region) = Region2::rectangle(low, high) else { return Ok(()) };
         let cells = order.cells(&region);
+        let of = |own| cells.rings(own).map(|ring| ring.points().collect()).collect::<Vec<Ring>>();
+        let border: Vec<Ring> = region.rings().map(<[_]>::to_vec).collect();
+        tile(&order.regions().map(of).collect::<Vec<_>>(), &border)
+            .map_err(|wrong| format!("clipped to {low:?}, {high:?}: {wrong}"))?;
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
         let diagonal = width.hypot(height);
         let largest = low.iter().chain(&high).fold(0.0_f64, |largest, x| largest.max(x.abs()));

@@ -1,11 +1,12 @@
 //! Points with weights: built in all ways, grown, reweighed and taken away, they are what the definition says at every step.
 
-use delone::{Regular, Regular2, Regular3, VertexId};
+use delone::{Bounds, Region2, Regular, Regular2, Regular3, VertexId};
 use delone_generators::Random;
 use delone_oracle::power::Lifted;
 
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, once_in};
+use crate::oracle::rings::{Ring, tile};
 
 /// A point and its weight.
 type Site<const D: usize> = ([f64; D], f64);
@@ -96,16 +97,36 @@ fn live<const D: usize, R: Regular<Point = [f64; D]>>(
     Ok(())
 }
 
+/// Power cells tile a rectangle.
+fn judge_cells(sites: &[Site<2>], seed: u64) -> Judgement {
+    let mut random = Random::new(seed);
+    let points: Vec<[f64; 2]> = sites.iter().map(|site| site.0).collect();
+    let corners = [(); 2].map(|()| nasty::query(&mut random, &points));
+    let around: &[[f64; 2]] = if once_in(&mut random, 2) { &points } else { &[] };
+    let bounds = Bounds::of(corners.iter().chain(around).copied());
+    let Ok(region) = Region2::rectangle(bounds.low, bounds.high) else { return Ok(()) };
+    let r = Regular2::from_sites(sites).map_err(|error| error.to_string())?;
+    if r.vertex_count() == 0 {
+        return Ok(());
+    }
+    let cells = r.power().clip(&region);
+    let of = |v| cells.rings(v).map(|ring| ring.points().collect()).collect::<Vec<Ring>>();
+    let border: Vec<Ring> = region.rings().map(<[_]>::to_vec).collect();
+    tile(&r.vertices().map(of).collect::<Vec<_>>(), &border)
+        .map_err(|wrong| format!("cells in {:?}, {:?}: {wrong}", bounds.low, bounds.high))
+}
+
 impl Attack for Planar {
     type Item = Site<2>;
 
     fn make(random: &mut Random) -> Vec<Site<2>> {
-        let points = nasty::points(random, 10);
+        let points = if once_in(random, 3) { nasty::everyday(random, 12) } else { nasty::points(random, 10) };
         nasty::weighted(random, points)
     }
 
     fn judge(sites: &[Site<2>], seed: u64) -> Judgement {
-        live::<2, Regular2>(sites, seed, &[("one by one", Regular2::with_seed)])
+        live::<2, Regular2>(sites, seed, &[("one by one", Regular2::with_seed)])?;
+        judge_cells(sites, seed)
     }
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use num_bigint::BigInt;
 
-use super::exact::{Vector, dot, integer, integers, is_inside, minus, orientation, scale, sign};
+use super::exact::{Vector, dot, integer, integers, minus, orientation, scale, sign};
 use crate::attack::Judgement;
 
 /// The corners of a closed line.
@@ -55,9 +55,16 @@ pub(crate) fn crossing(rings: &[Ring]) -> Judgement {
     };
     for (i, s) in exact.iter().enumerate() {
         for (j, t) in exact[..i].iter().enumerate().filter(|(j, _)| !is_beside(ends[i], ends[*j])) {
-            let side = |s: &[Vector], p: &Vector| orientation(&[&s[0], &s[1], p]);
-            let cross = side(s, &t[0]) * side(s, &t[1]) < 0 && side(t, &s[0]) * side(t, &s[1]) < 0;
-            let touch = s.iter().any(|p| is_inside(t, p)) || t.iter().any(|p| is_inside(s, p));
+            let side = |s: &[Vector], p: &Vector| {
+                let [a, b] = [&s[0], &s[1]];
+                let left = (&b[0] - &a[0]) * (&p[1] - &a[1]) - (&b[1] - &a[1]) * (&p[0] - &a[0]);
+                sign(&left)
+            };
+            let [of_s, of_t] = [(s, t), (t, s)].map(|(s, t)| [side(s, &t[0]), side(s, &t[1])]);
+            let cross = of_s[0] * of_s[1] < 0 && of_t[0] * of_t[1] < 0;
+            let is_between = |p: &Vector, s: &[Vector]| (&s[0] < p && p < &s[1]) || (&s[1] < p && p < &s[0]);
+            let touch = (0..2)
+                .any(|k| (of_s[k] == 0 && is_between(&t[k], s)) || (of_t[k] == 0 && is_between(&s[k], t)));
             let same = s == t || (s[0] == t[1] && s[1] == t[0]);
             if cross || touch || same {
                 return Err(format!("there are the sides {:?} and {:?}", ends[i], ends[j]));
