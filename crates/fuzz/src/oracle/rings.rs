@@ -264,7 +264,8 @@ mod tests {
         assert!(with(vec![]).contains("alone"));
         assert!(with(vec![cells[1][0].iter().rev().copied().collect()]).contains("sign -1"));
         assert!(
-            with(vec![vec![[1.0, 0.0], [4.0, 2.0], [4.0, 0.0], [1.0, 2.0]]]).contains("there are the sides")
+            with(vec![vec![[1.0, 0.0], [4.0, 0.0], [1.0, 0.5], [4.0, 2.0], [1.0, 1.0], [3.5, 0.0]]])
+                .contains("there are the sides")
         );
         assert!(with(vec![rectangle([1.0, 0.0], [2.0, 2.0])]).contains("alone"));
         assert!(with(cells[0].clone()).contains("two cells have the side"));
