@@ -12,7 +12,7 @@
 
 use std::cmp::Ordering;
 
-use delone_predicates::lexicographic;
+use delone_predicates::{lexicographic, orient2d};
 
 use super::cells::Cells2;
 use crate::plane::region::Region2;
@@ -94,6 +94,10 @@ pub(super) fn mend(cells: &mut Cells2, bad: &[u32], border: &[Point], region: &R
 #[inline(never)]
 fn contains(places: &[Point], p: Point) -> bool {
     places.binary_search_by(|q| lexicographic(*q, p)).is_ok()
+}
+
+fn pairs(corners: &[u32]) -> impl Iterator<Item = Side> {
+    (0..corners.len()).flat_map(move |i| (0..i).map(move |j| [corners[i], corners[j]]))
 }
 
 impl Mending<'_> {
@@ -251,22 +255,49 @@ impl Mending<'_> {
                 self.nearest(other, ring, self.longest(&rings.concat()), &mut best);
             }
         }
-        match best {
-            Some(near) => inserts.push(near),
-            None => rings.iter().for_each(|ring| self.wish(ring, joins, inserts)),
+        let all = rings.concat();
+        if let Some(near) = best {
+            inserts.push(near);
+        } else if let Some(side) = self.shortest(pairs(&all), self.longest(&all)) {
+            joins.push(side);
+        } else {
+            rings.iter().for_each(|ring| self.wish(ring, joins, inserts));
         }
     }
 
-    /// The shortest side, or else the corner nearest to a side.
+    /// The shortest side, or else the corner nearest to a side, or else the two nearest corners.
     fn wish(&self, ring: &[u32], joins: &mut Vec<Side>, inserts: &mut Vec<Near>) {
         let longest = self.longest(ring);
-        if let Some(side) = self.shortest(ring, longest) {
+        if let Some(near) = self.tip(ring) {
+            inserts.push(near);
+            return;
+        }
+        let next = ring.iter().cycle().skip(1);
+        let sides = ring.iter().zip(next).map(|(&v, &w)| [v, w]);
+        if let Some(side) = self.shortest(sides, longest) {
             joins.push(side);
             return;
         }
         let mut best = None;
         self.nearest(ring, ring, longest, &mut best);
-        inserts.extend(best);
+        if let Some(near) = best {
+            inserts.push(near);
+            return;
+        }
+        joins.extend(self.shortest(pairs(ring), longest));
+    }
+
+    /// A corner of the region alone on its side of the other two, in a ring that was turned over: it goes to the cell across.
+    fn tip(&self, ring: &[u32]) -> Option<Near> {
+        let [u, v, w] = *ring else { return None };
+        let [p, q, r] = [u, v, w].map(|v| self.at(v));
+        if !orient2d(p, q, r).is_negative() {
+            return None;
+        }
+        let tips = [[u, v, w], [v, w, u], [w, u, v]];
+        let only = |[a, b, c]: &[u32; 3]| self.is_corner(*a) && !self.is_corner(*b) && !self.is_corner(*c);
+        let [corner, b, c] = tips.into_iter().find(only)?;
+        Some(Near { height: 0.0, corner, side: if self.order(b, c).is_lt() { [b, c] } else { [c, b] } })
     }
 
     /// The length up to which sides of such corners are contracted.
@@ -286,16 +317,18 @@ impl Mending<'_> {
         ring.iter().zip(next).map(|(&v, &w)| if self.order(v, w).is_lt() { [v, w] } else { [w, v] }).collect()
     }
 
-    /// The shortest side that may be contracted; of several the lexicographically least.
-    fn shortest(&self, ring: &[u32], longest: f64) -> Option<Side> {
+    /// The shortest side that may be contracted, from its lesser end; of several the lexicographically least.
+    fn shortest(&self, sides: impl Iterator<Item = Side>, longest: f64) -> Option<Side> {
         let mut best: Option<Side> = None;
-        for side in self.sides(ring) {
+        for [v, w] in sides {
+            let side = if self.order(v, w).is_lt() { [v, w] } else { [w, v] };
             let is_better = best.is_none_or(|other| {
                 let order = self.length(side).total_cmp(&self.length(other));
                 order.then_with(|| self.compare_sides(side, other)).is_lt()
             });
             let is_fixed = side.iter().all(|&v| self.is_corner(v));
-            if self.length(side) <= longest && !is_fixed && is_better {
+            let is_side = self.order(v, w).is_ne();
+            if is_side && self.length(side) <= longest && !is_fixed && is_better {
                 best = Some(side);
             }
         }
