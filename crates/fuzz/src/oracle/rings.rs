@@ -145,6 +145,10 @@ fn border(rings: &[Ring]) -> Judgement {
 /// Cells that tile a region: each ring is a border, each side of a cell is that of one other, backwards, or on the border of the region, and
 /// the corners of a region that is nowhere narrow are corners of cells.
 pub(crate) fn tile(cells: &[Vec<Ring>], region: &[Ring]) -> Judgement {
+    // Where a region itself is as narrow as roundings there is no room to mend.
+    if !is_wide(region) {
+        return Ok(());
+    }
     for (i, rings) in cells.iter().enumerate() {
         border(rings).map_err(|wrong| format!("cell {i}: {wrong}: {rings:?}"))?;
     }
@@ -156,8 +160,8 @@ pub(crate) fn tile(cells: &[Vec<Ring>], region: &[Ring]) -> Judgement {
             return Err(format!("two cells have the side {side:?}"));
         }
     }
-    // Cells of some roundings may be lost, in narrow regions all.
-    let is_whole = is_wide(region) && cells.iter().all(|rings| !rings.is_empty());
+    // Cells of some roundings may be lost.
+    let is_whole = cells.iter().all(|rings| !rings.is_empty());
     for (i, rings) in cells.iter().enumerate().filter(|_| is_whole) {
         for [p, q] in sides(rings).filter(|[p, q]| !all.contains(&[bits(*q), bits(*p)])) {
             if !sides(region).any(|side| is_along(side, [p, q])) {
@@ -165,7 +169,7 @@ pub(crate) fn tile(cells: &[Vec<Ring>], region: &[Ring]) -> Judgement {
             }
         }
     }
-    if !is_wide(region) {
+    if !is_whole {
         return Ok(());
     }
     let corners: BTreeSet<[u64; 2]> = cells.iter().flatten().flatten().map(|p| bits(*p)).collect();

@@ -13,7 +13,7 @@ use crate::sorting;
 /// Whether a ring of at least three corners, of which some are known to be exact, is simple and counter-clockwise. The ring of exact
 /// corners that it stands for is simple.
 ///
-/// O(k) for a convex ring of k corners, which nearly all are, O(r k) for others with r corners that are not exact.
+/// O(k) for a convex ring of k corners, which nearly all are, O(k (r + log k)) for others with r corners that are not exact.
 #[inline]
 pub(in crate::plane) fn is_border(
     ring: impl ExactSizeIterator<Item = [f64; 2]> + Clone,
@@ -55,12 +55,12 @@ pub(in crate::plane) fn is_simple(ring: &[[f64; 2]], is_exact: &dyn Fn(usize) ->
         let beyond = |k: usize| p[k].max(q[k]) < s[k].min(t[k]) || s[k].max(t[k]) < p[k].min(q[k]);
         beyond(0) || beyond(1)
     };
+    if visits_twice(ring) {
+        return None;
+    }
     for i in (0..count).filter(|&i| !(is_exact(i) && is_exact(after(i)))) {
-        for j in (0..count).filter(|&j| j != i) {
-            // Corners are visited once.
-            if ring[j] == ring[i] || (!is_apart(side(i), side(j)) && are_in_conflict(side(i), side(j))) {
-                return None;
-            }
+        if (0..count).any(|j| j != i && !is_apart(side(i), side(j)) && are_in_conflict(side(i), side(j))) {
+            return None;
         }
     }
     // A simple ring turns left at its least corner, or else right.
@@ -81,7 +81,8 @@ pub(in crate::plane) fn are_border(rings: &[Vec<[f64; 2]>]) -> bool {
     rings.iter().all(|ring| !visits_twice(ring)) && nesting(rings).is_ok_and(|all| all.iter().all(is_right))
 }
 
-fn visits_twice(ring: &[[f64; 2]]) -> bool {
+/// Whether a ring has a corner twice. O(k log k).
+pub(in crate::plane) fn visits_twice(ring: &[[f64; 2]]) -> bool {
     let mut sorted = ring.to_vec();
     sorting::by(&mut sorted, |p, q| lexicographic(*p, *q));
     sorted.windows(2).any(|pair| pair[0] == pair[1])

@@ -237,7 +237,11 @@ impl<'a> Builder<'a> {
         }
         let ring = corners[start..].iter().map(|&i| vertices[i as usize]);
         let is_exact = |i: usize| self.exact.get(i).is_some_and(|exact| *exact);
-        if kind != Kind::Exact && !rings::is_border(ring, is_exact) {
+        let is_good = match kind {
+            Kind::Exact => !rings::visits_twice(&ring.collect::<Vec<_>>()),
+            _ => rings::is_border(ring, is_exact),
+        };
+        if !is_good {
             self.bad.push(starts.len() as u32 - 1);
         }
         starts.push(corners.len() as u32);
