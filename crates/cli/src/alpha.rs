@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use delone::{Alpha, Delaunay2, Delaunay3, VertexId};
+use delone::{Alpha, Delaunay2, Delaunay3, Manifold3, VertexId};
 use delone_io::{
     Cloud, Format, Graph, GraphRing, Patches, Solid, picture, write_filtration, write_graph, write_indices,
     write_patches, write_solid,
@@ -30,8 +30,8 @@ pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
         let (alpha, points, _) =
             complexes(args, &mut stats, quiet, Delaunay3::alpha, delone::Regular3::alpha)?;
         let value = value(args, &alpha, &mut stats)?;
-        let surface = value.map(|value| alpha.outline(value)).unwrap_or_default();
-        stats.set("facets", surface.len());
+        let surface = Surface::of(&alpha, value.unwrap_or(f64::NAN), args.manifold);
+        stats.set("facets", surface.faces.len());
         stats.phase("outline");
         write_surface(&alpha, &surface, points, &outputs, &options, quiet)?;
     } else {
@@ -51,6 +51,12 @@ pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
 fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
     if outputs.is_empty() && args.filtration.is_none() {
         return Err(Failure::usage("there is nothing to write", "name an output with -o or --filtration"));
+    }
+    if args.manifold && !args.dim.is_space() {
+        return Err(Failure::usage(
+            "outlines in the plane are no surfaces",
+            "leave --manifold out, or give --dim 3",
+        ));
     }
     let is_chosen = args.alpha.is_some() || args.radius.is_some() || args.optimal.is_some();
     if !outputs.is_empty() && !is_chosen {
@@ -211,32 +217,53 @@ fn graph(alpha: &Alpha<2>, value: f64, about: &Cloud) -> Graph {
     graph
 }
 
-/// The surface with its corners alone, or as indices of points.
+/// A surface with its corners alone.
+struct Surface {
+    corners: Vec<VertexId>,
+    /// As indices of corners.
+    faces: Vec<[usize; 3]>,
+}
+
+impl Surface {
+    /// Of a shape; with corners more than once, if sheets that touch are to be apart.
+    fn of(alpha: &Alpha<3>, value: f64, apart: bool) -> Self {
+        if apart {
+            let Manifold3 { vertices, triangles } = alpha.manifold(value);
+            return Self { corners: vertices, faces: triangles };
+        }
+        let outline = alpha.outline(value);
+        let mut corners: Vec<VertexId> = outline.as_flattened().to_vec();
+        corners.sort_unstable();
+        corners.dedup();
+        let place = |v: VertexId| corners.partition_point(|&corner| corner < v);
+        let faces = outline.iter().map(|face| face.map(place)).collect();
+        Self { corners, faces }
+    }
+}
+
+/// The surface, or as indices of points.
 fn write_surface(
     alpha: &Alpha<3>,
-    surface: &[[VertexId; 3]],
+    surface: &Surface,
     points: Vec<[f64; 3]>,
     outputs: &[(PathBuf, Format)],
     options: &picture::Options,
     quiet: bool,
 ) -> Result<(), Failure> {
     let _phase = Phase::start(quiet, "writing");
-    let mut corners: Vec<VertexId> = surface.as_flattened().to_vec();
-    corners.sort_unstable();
-    corners.dedup();
-    let place = |v: VertexId| corners.partition_point(|&corner| corner < v);
     let solid = Solid {
-        points: corners.iter().map(|&v| alpha.position(v)).collect(),
-        faces: surface.iter().map(|face| face.map(place).to_vec()).collect(),
+        points: surface.corners.iter().map(|&v| alpha.position(v)).collect(),
+        faces: surface.faces.iter().map(|face| face.to_vec()).collect(),
         laid_open: Vec::new(),
     };
     // A picture of a shape without a surface shows the points.
     let points = Solid { points, ..Solid::default() };
     for (path, format) in outputs {
         let is_picture = matches!(format, Format::Png | Format::Svg);
-        let solid = if surface.is_empty() && is_picture { &points } else { &solid };
+        let solid = if surface.faces.is_empty() && is_picture { &points } else { &solid };
         if matches!(format, Format::Npy | Format::Text) {
-            let rows: Vec<i64> = surface.as_flattened().iter().map(|v| v.index() as i64).collect();
+            let rows: Vec<i64> =
+                surface.faces.as_flattened().iter().map(|&i| surface.corners[i].index() as i64).collect();
             files::write(path, |out| write_indices(out, *format, 3, &rows))?;
         } else {
             files::write_mesh(path, quiet, |out| write_solid(out, *format, solid, options))?;

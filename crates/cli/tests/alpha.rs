@@ -127,3 +127,20 @@ fn wrong_use_is_named() {
     place.fail("alpha p.csv --optimal 0 -o a.geojson", 2, "0 parts");
     place.fail("alpha p.csv --filtration p.csv", 2, "overwrite");
 }
+
+#[test]
+fn surfaces_that_touch_themselves_come_apart() {
+    let place = Place::new();
+    place.file("p.csv", "0,0,-1\n0,0,1\n3,-1,0\n3,1,0\n-3,-1,0\n-3,1,0\n");
+    place.succeed("alpha p.csv --dim 3 --alpha 4 -o pinched.obj -o pinched.csv -q");
+    place.succeed("alpha p.csv --dim 3 --alpha 4 --manifold -o apart.obj -o apart.csv -q");
+    let count =
+        |name: &str, what: &str| place.read(name).lines().filter(|line| line.starts_with(what)).count();
+    assert_eq!(
+        ["pinched.obj", "apart.obj"].map(|name| (count(name, "v "), count(name, "f "))),
+        [(6, 8), (8, 8)]
+    );
+    // Indices of points are the same.
+    assert_eq!(read("pinched.csv"), read("apart.csv"));
+    place.fail("alpha p.csv --alpha 4 --manifold -o p.geojson", 2, "no surfaces");
+}

@@ -132,7 +132,7 @@ mod verdict;
 mod vertex_map;
 mod weight;
 
-pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, OutlinePart};
+pub use alpha::{Alpha, Alpha2, Alpha3, Complex, Face, Manifold3, OutlinePart};
 pub use around::{Around, Surround};
 pub use error::{BorderProblem, Error, RegionProblem};
 pub use graphs::Graph;

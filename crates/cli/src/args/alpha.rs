@@ -14,6 +14,7 @@ use super::{DimArgs, InputArgs, WeightArgs, WktArgs};
   delone alpha points.csv --radius 1.5 -o outline.geojson
   delone alpha points.csv --optimal -o outline.geojson -o shape.png
   delone alpha scan.ply --dim 3 --optimal 2 -o surface.stl
+  delone alpha scan.ply --dim 3 --radius 0.02 --manifold -o surface.ply
   delone alpha atoms.csv --dim 3 --columns x,y,z --radii r --alpha 0 -o surface.ply
   delone alpha points.npy --dim 3 --filtration filtration.npz
 
@@ -21,7 +22,9 @@ A face of the Delaunay triangulation has a value: the squared radius from which 
 radii too, balls have the squared radius `alpha` plus weight, so that --alpha 0 is the shape of the given balls. Values are correctly
 rounded. The shape is the triangles (in space the tetrahedra) of at most that value.
 In the plane geojson, wkt and poly hold its outline, polygons with holes; all other formats its triangles, with the part that each belongs
-to. In space files hold its closed surface, counter-clockwise seen from outside; npy and csv indices of input points.
+to. In space files hold its closed surface, counter-clockwise seen from outside; npy and csv indices of input points. Where parts of the shape
+touch in a vertex or along an edge the surface is pinched there, which programs call not watertight, not a manifold: with --manifold sheets
+that touch have vertices of their own, in ply, obj and vtu; whoever joins vertices at one place, as readers of stl have to, pinches it again.
 --filtration writes all faces with their values, corners by index: npz has for each dimension an array of corners and one of values in
 the same order (vertices, vertex_values, edges, edge_values, triangles, triangle_values, tetrahedra, tetrahedron_values), csv a
 face a line, value first, in the order of the filtration: by value, dimension, corners.
@@ -38,6 +41,9 @@ pub(crate) struct AlphaArgs {
     /// The least squared radius at which the shape has every point and at most so many parts [default: 1].
     #[arg(long, value_name = "PARTS", num_args = 0..=1, default_missing_value = "1", value_parser = super::count)]
     pub(crate) optimal: Option<usize>,
+    /// In space: give sheets of the surface that touch vertices of their own, so that every edge has two faces.
+    #[arg(long)]
+    pub(crate) manifold: bool,
     /// Output file (in the plane geojson wkt poly, and npy csv ply obj stl vtu wkb svg png; in space npy csv ply obj stl vtu svg png), or
     /// - for standard output; may be repeated.
     #[arg(long, short, value_name = "OUT")]

@@ -7,6 +7,7 @@ mod buckets;
 mod build;
 mod components;
 mod facing;
+mod manifold;
 mod outline;
 mod sites;
 mod surface;
@@ -14,6 +15,7 @@ mod surface;
 use crate::ids::VertexId;
 
 pub(crate) use build::build;
+pub use manifold::Manifold3;
 pub use outline::OutlinePart;
 
 /// The alpha complexes of a triangulation of the plane.

@@ -9,7 +9,7 @@ use crate::ids::VertexId;
 impl Alpha<3> {
     /// The border of the tetrahedra that are there at a squared radius: triangles, counter-clockwise seen from outside, each from its least
     /// vertex on, sorted. Every edge has as many of them in one direction as in the other, so they are closed surfaces; where parts touch
-    /// along an edge or in a vertex, surfaces do. Triangles, edges and vertices outside of all tetrahedra are no part of it. O(k log k) for
+    /// along an edge or in a vertex, surfaces do ([`Self::manifold`] has these apart). Triangles, edges and vertices outside of all tetrahedra are no part of it. O(k log k) for
     /// k tetrahedra, and O(n).
     ///
     /// ```
@@ -23,16 +23,33 @@ impl Alpha<3> {
     pub fn outline(&self, alpha: f64) -> Vec<[VertexId; 3]> {
         let tetrahedra = self.tetrahedra.until(alpha);
         let across = across(self.points.len(), tetrahedra);
-        let mut surface = Vec::new();
-        for (corners, beyond) in tetrahedra.iter().zip(&across) {
+        self.facets(tetrahedra, &across).into_iter().map(|facet| facet.corners).collect()
+    }
+
+    /// The facets of tetrahedra that have nothing across them, sorted.
+    pub(super) fn facets(&self, tetrahedra: &[[VertexId; 4]], across: &[[u32; 4]]) -> Vec<Facet> {
+        let mut facets = Vec::new();
+        for (i, (corners, beyond)) in tetrahedra.iter().zip(across).enumerate() {
             for k in (0..4).filter(|&k| beyond[k] == NONE) {
                 let [a, b, c] = std::array::from_fn(|i| corners[i + usize::from(i >= k)]);
                 let [p, q, r, s] = [a, b, c, corners[k]].map(|v| self.position(v));
                 // Counter-clockwise seen from outside is clockwise from the fourth corner.
-                surface.push(if orient3d(p, q, r, s).is_negative() { [a, b, c] } else { [a, c, b] });
+                let corners = if orient3d(p, q, r, s).is_negative() { [a, b, c] } else { [a, c, b] };
+                facets.push(Facet { corners, inside: i as u32, opposite: k });
             }
         }
-        surface.sort_unstable();
-        surface
+        facets.sort_unstable();
+        facets
     }
+}
+
+/// A facet of the border, by its corners.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Facet {
+    /// Counter-clockwise seen from outside, from the least one on.
+    pub(super) corners: [VertexId; 3],
+    /// The tetrahedron.
+    pub(super) inside: u32,
+    /// Which of its corners is opposite.
+    pub(super) opposite: usize,
 }
