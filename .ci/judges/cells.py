@@ -1,17 +1,15 @@
 #!/usr/bin/env python3
 """Judges clipped cells as GEOS does: every polygon valid, all together a coverage, their union the region, its corners kept.
 
-    .ci/judges/cells.py PROGRAM FOLDER [SET...]
+.ci/judges/cells.py PROGRAM FOLDER [SET...]
 """
 
 import json
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import shapely
 
+from judging import Judge
 from sets import planar
 
 
@@ -22,6 +20,7 @@ def regions(points):
     if not (size > 0).all():
         low, high = low - 1.0, high + 1.0
         size = high - low
+
     def text(*corners):
         return ",".join(repr(float(x)) for corner in corners for x in corner)
 
@@ -38,6 +37,14 @@ def regions(points):
     if hull.geom_type == "Polygon":
         yield "hull", ["--clip", "hull"], None
     yield "polygon", polygon, polygon
+    # A hole with two sides on the borders of a lattice's cells.
+    middle = points[len(points) // 2]
+    others = np.abs(points - middle).max(axis=1)
+    step = others[others > 0].min() / 2
+    hole = shapely.box(middle[0] - step, middle[1] - step / 2, middle[0] + step, middle[1] + step / 2)
+    if around.contains_properly(hole):
+        holed = shapely.Polygon(around.exterior, [hole.exterior])
+        yield "hole on borders", holed, holed
     if len(np.unique(points, axis=0)) > 4:
         yield "order 2", ["--order", "2", "--box", box], around
         yield "order 3", ["--order", "3", "--box", box], around
@@ -74,36 +81,26 @@ def judge(cells, region):
 
 
 def main():
-    program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
-    folder.mkdir(parents=True, exist_ok=True)
-    runs = bad = 0
-    for name, points in planar().items():
-        if sys.argv[3:] and name not in sys.argv[3:]:
-            continue
-        np.save(folder / "points.npy", points)
+    """Judges all kinds of diagrams of all sets."""
+    judged = Judge("cells")
+    for name, points in judged.chosen(planar()):
+        np.save(judged.folder / "points.npy", points)
         size = np.ptp(points, axis=0).max()
         weights = (0.1 * size) ** 2 * np.random.default_rng(3).random(len(points))
-        np.savetxt(folder / "weights.csv", weights, fmt="%.17g")
+        np.savetxt(judged.folder / "weights.csv", weights, fmt="%.17g")
         for kind, how, region in regions(points):
             if not isinstance(how, list):
-                (folder / "region.geojson").write_text(shapely.to_geojson(how))
+                (judged.folder / "region.geojson").write_text(shapely.to_geojson(how))
                 how = ["--clip", "region.geojson"]
-                region = shapely.from_geojson((folder / "region.geojson").read_text())
-            command = [program, "voronoi", "points.npy", "-q", "-o", "cells.geojson", *how]
-            done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-            runs += 1
-            if done.returncode:
-                faults = [done.stderr.strip().splitlines()[0]]
-            else:
-                features = json.loads((folder / "cells.geojson").read_text())["features"]
+                region = shapely.from_geojson((judged.folder / "region.geojson").read_text())
+            faults = judged.run("voronoi", "points.npy", "-o", "cells.geojson", *how)
+            if not faults:
+                features = json.loads((judged.folder / "cells.geojson").read_text())["features"]
                 found = [json.dumps(f["geometry"]) for f in features if f["geometry"]]
                 with np.errstate(all="ignore"):
                     faults = judge(shapely.from_geojson(found), region)
-            if faults:
-                bad += 1
-                print(f"{name}, {kind}: {'; '.join(faults)}")
-    print(f"cells: {runs} diagrams, {bad} with a fault")
-    sys.exit(bad > 0)
+            judged.told(f"{name}, {kind}", faults)
+    judged.end()
 
 
 if __name__ == "__main__":
