@@ -144,12 +144,41 @@ frame = geopandas.read_file(folder / "cells.geojson")
 low, high = points[:, :2].min(0), points[:, :2].max(0)
 assert frame.geometry.is_valid.all() and abs(frame.area.sum() / np.prod(high - low) - 1) < 1e-9
 
+# Cells whole, in pieces and gone, in every format of geometries: those of GeoJSON, bit for bit.
+middle, edge = (low + high) / 2, low + 0.8 * (high - low)
+notch = shapely.box(*low, *edge).difference(shapely.box(*middle, edge[0] + 1, middle[1] + 1))
+(folder / "notch.geojson").write_text(shapely.to_geojson(notch))
+for order, key in [([], "site"), (["--order", 2], "sites")]:
+    words = ["flat.npy", "--clip", "notch.geojson", *order]
+    run("voronoi", *words, "-o", "cells.geojson", "-o", "cells.csv", "-o", "cells.wkt", "-o", "cells.wkb")
+    run("voronoi", *words, "--wkt", "collection", "-o", "cells-whole.wkt")
+    shapes = [
+        shapely.from_geojson(json.dumps(feature["geometry"])) if feature["geometry"] else shapely.Polygon()
+        for feature in json.loads((folder / "cells.geojson").read_text())["features"]
+    ]
+    assert {shape.geom_type for shape in shapes} == {"Polygon", "MultiPolygon"} and any(shape.is_empty for shape in shapes)
+    table = geopandas.read_file(folder / "cells.csv")
+    about = geopandas.read_file(folder / "cells.geojson")
+    assert list(table.columns[:2]) == [key, "area"] and np.array_equal(table["area"].astype(float), about["area"])
+    # Lists are apart by spaces.
+    assert [str(sites).split() for sites in table[key]] == [str(sites).strip("[]").replace(",", " ").split() for sites in about[key]]
+    lines = shapely.from_wkt((folder / "cells.wkt").read_text().splitlines())
+    whole = shapely.from_wkt((folder / "cells-whole.wkt").read_text()).geoms
+    binary = shapely.from_wkb((folder / "cells.wkb").read_bytes()).geoms
+    column = shapely.from_wkt(pandas.read_csv(folder / "cells.csv").wkt)
+    for name, read in [("csv", table.geometry), ("csv by pandas", column), ("wkt", lines), ("collection", whole), ("wkb", binary)]:
+        assert np.array_equal(shapely.to_wkb(list(read)), shapely.to_wkb(shapes)), f"cells in {name}"
+    print(f"geopandas and shapely read cells, {key}")
+
 # The system of coordinates goes through.
 feature = json.loads((folder / "flat.geojson").read_text())
 feature["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
 (folder / "known.geojson").write_text(json.dumps(feature))
 run("triangulate", "known.geojson", "-o", "passed.geojson")
 assert geopandas.read_file(folder / "passed.geojson").crs.to_epsg() == 25832
+run("voronoi", "known.geojson", "-o", "passed.wkb", "-o", "passed-cells.geojson")
+assert shapely.get_srid(shapely.from_wkb((folder / "passed.wkb").read_bytes())) == 25832
+assert geopandas.read_file(folder / "passed-cells.geojson").crs.to_epsg() == 25832
 
 # Rasters: values, places and systems, and those that others write.
 np.savetxt(folder / "points.csv", points, delimiter=",", header="x,y,z", comments="")

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::{Delaunay2, Relaxation2};
-use delone_io::{Diagram, Format};
+use delone_io::Diagram;
 
 use crate::args::VoronoiArgs;
 use crate::clip::{is_polygon, polygon_region, region};
@@ -25,10 +25,10 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     inputs.extend(args.areas.as_deref().map(Path::new).filter(|path| path.exists()));
     let all: Vec<_> = args.output.iter().chain(&args.sites).cloned().collect();
     files::keep_apart(&inputs, all.iter().map(AsRef::as_ref).chain(args.input.stats.as_deref()))?;
-    let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
-    let cells = |format: &Format| matches!(format, Format::GeoJson | Format::Svg | Format::Png);
-    if let Some((path, format)) = outputs.iter().find(|(_, format)| !cells(format)) {
-        return Err(Failure::file(path, &delone_io::Error::NotCells(*format)));
+    let outputs =
+        args.wkt.of(files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?)?;
+    for (path, format) in &outputs {
+        delone_io::check_cells(*format).map_err(|error| Failure::file(path, &error))?;
     }
     let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
     if !args.bounds.is_empty() && args.clip != Path::new("box") {

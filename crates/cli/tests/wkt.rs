@@ -3,7 +3,7 @@
 use crate::place::Place;
 
 /// A command that writes `out.wkt`, and how many geometries it writes.
-const COMMANDS: [(&str, usize); 9] = [
+const COMMANDS: [(&str, usize); 12] = [
     ("triangulate p.csv", 2),
     ("triangulate p.csv --weights w.csv", 2),
     ("triangulate two.geojson", 2),
@@ -13,6 +13,9 @@ const COMMANDS: [(&str, usize); 9] = [
     ("simplify p.csv --max-error 0", 2),
     ("generate uniform -n 5", 1),
     ("window folder", 2),
+    ("voronoi p.csv", 4),
+    ("voronoi p.csv --weights w.csv", 4),
+    ("voronoi p.csv --order 2", 5),
 ];
 
 fn place() -> Place {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::{Cells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
-use crate::Crs;
+use crate::{Crs, Error, Format};
 
 /// Clipped cells, with the triangulation of their sites.
 #[derive(Debug)]
@@ -28,6 +28,25 @@ pub struct OrderDiagram<'a> {
     pub crs: Option<&'a Crs>,
 }
 
+/// Refuses formats that hold no cells: all but GeoJSON, well-known text and binary, CSV with a column of well-known text, SVG and PNG.
+///
+/// ```
+/// use delone_io::{Format, check_cells};
+///
+/// assert!(check_cells(Format::Wkt).is_ok());
+/// assert!(check_cells(Format::Npy).is_err());
+/// ```
+///
+/// # Errors
+/// [`Error::NotCells`].
+pub fn check_cells(format: Format) -> Result<(), Error> {
+    use Format::{GeoJson, Png, Svg, Text, Wkb, Wkt, WktCollection};
+    match format {
+        GeoJson | Wkt | WktCollection | Text | Wkb | Svg | Png => Ok(()),
+        _ => Err(Error::NotCells(format)),
+    }
+}
+
 /// What is written of any diagram: polygons that tile, with what they are of.
 pub(crate) trait Tiles {
     /// What knows one of them.
@@ -42,10 +61,13 @@ pub(crate) trait Tiles {
     /// The area of one.
     fn area(&self, tile: Self::Tile) -> f64;
 
-    /// Writes what one is of, as a property of GeoJSON.
-    fn write_property(&self, out: &mut dyn Write, tile: Self::Tile) -> io::Result<()>;
+    /// What the property is called that tells what one is of.
+    fn property(&self) -> &'static str;
 
-    /// The same for people.
+    /// Writes what one is of, as a value of JSON.
+    fn write_value(&self, out: &mut dyn Write, tile: Self::Tile) -> io::Result<()>;
+
+    /// The same in words, for people and for columns.
     fn title(&self, tile: Self::Tile) -> String;
 
     /// The sites, each with the tile that it is drawn on.
@@ -99,8 +121,12 @@ impl<T: Triangulation<Point = [f64; 2]>> Tiles for Diagram<'_, T> {
         self.cells.area(tile)
     }
 
-    fn write_property(&self, out: &mut dyn Write, tile: VertexId) -> io::Result<()> {
-        write!(out, "\"site\":{}", tile.index())
+    fn property(&self) -> &'static str {
+        "site"
+    }
+
+    fn write_value(&self, out: &mut dyn Write, tile: VertexId) -> io::Result<()> {
+        write!(out, "{}", tile.index())
     }
 
     fn title(&self, tile: VertexId) -> String {
@@ -131,8 +157,12 @@ impl<'a> Tiles for OrderDiagram<'a> {
         self.cells.area(tile)
     }
 
-    fn write_property(&self, out: &mut dyn Write, tile: OrderRegion2<'a>) -> io::Result<()> {
-        write!(out, "\"sites\":[{}]", joined(tile, ","))
+    fn property(&self) -> &'static str {
+        "sites"
+    }
+
+    fn write_value(&self, out: &mut dyn Write, tile: OrderRegion2<'a>) -> io::Result<()> {
+        write!(out, "[{}]", joined(tile, ","))
     }
 
     fn title(&self, tile: OrderRegion2<'a>) -> String {

@@ -184,7 +184,7 @@ impl Error {
             Self::NotInChunks(_) => "more points than memory are read from: npy las laz csv xyz txt tsv bin",
             Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off msh",
             Self::NotEdges(_) => "edges: npy csv geojson; in the plane also svg png",
-            Self::NotCells(_) => "cells: geojson svg png",
+            Self::NotCells(_) => "cells: geojson wkt wkb csv svg png",
             Self::NotPatches(_) => "triangles of polygons: npy csv ply obj stl vtu geojson wkt wkb svg png",
             Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele msh",
             Self::NotSecondOrder(_) => {

@@ -35,7 +35,7 @@ pub use cloud::Cloud;
 pub use columns::{Column, write_columns};
 pub use contours::{ContourMap, write_contours};
 pub use crs::Crs;
-pub use diagram::{Diagram, OrderDiagram};
+pub use diagram::{Diagram, OrderDiagram, check_cells};
 pub use error::Error;
 pub use filtration::write_filtration;
 pub use format::Format;
@@ -305,8 +305,28 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f6
     }
 }
 
-/// Writes Voronoi cells: as GeoJSON, one feature for each site with its input index and the area of its cell, or as a
-/// picture whose longer side has `size` pixels.
+/// Writes Voronoi cells, one for each site with its input index (`site`) and the area of its cell: as GeoJSON, or as CSV with the
+/// columns `site,area,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
+/// binary, one collection, without index and area; or as a picture whose longer side has `size` pixels.
+///
+/// The rings are the same in all of them, bit for bit. A cell that is empty has its place: no geometry in GeoJSON, an empty
+/// polygon in the other formats. An area beyond the range of numbers is null in GeoJSON and an empty field in CSV.
+///
+/// # Errors
+/// [`Error::NotCells`] for other formats ([`check_cells`]), and those of the output.
+///
+/// ```
+/// use delone::{Delaunay2, Region2};
+/// use delone_io::{Diagram, Format, write_diagram};
+///
+/// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0]])?;
+/// let cells = d.voronoi().clip(&Region2::rectangle([0.0, 0.0], [4.0, 1.0])?);
+/// let diagram = Diagram { triangulation: &d, cells: &cells, crs: None };
+/// let mut file = Vec::new();
+/// write_diagram(&mut file, Format::Text, &diagram, 800)?;
+/// assert!(String::from_utf8(file)?.starts_with("site,area,wkt\n0,2.0,\"POLYGON (("));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn write_diagram(
     out: &mut dyn std::io::Write,
     format: Format,
@@ -316,8 +336,11 @@ pub fn write_diagram(
     write_tiles(out, format, diagram, size)
 }
 
-/// Writes the regions of a diagram of higher order: as GeoJSON, one feature for each with the input indices of its sites and
-/// its area, or as a picture whose longer side has `size` pixels.
+/// Writes the regions of a diagram of higher order, each with the input indices of its sites (`sites`, in CSV apart by spaces) and its
+/// area, in the formats of [`write_diagram`].
+///
+/// # Errors
+/// [`Error::NotCells`] for other formats, and those of the output.
 pub fn write_orders(
     out: &mut dyn std::io::Write,
     format: Format,
@@ -335,6 +358,11 @@ fn write_tiles(
 ) -> Result<(), Error> {
     match format {
         Format::GeoJson => formats::geojson::write_cells(out, diagram)?,
+        Format::Wkt | Format::WktCollection => {
+            formats::cells::write_wkt(out, diagram, format == Format::WktCollection)?;
+        }
+        Format::Text => formats::cells::write_csv(out, diagram)?,
+        Format::Wkb => formats::cells::write_wkb(out, diagram)?,
         Format::Svg | Format::Png => picture::write_cells(out, format, diagram, size)?,
         _ => return Err(Error::NotCells(format)),
     }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use delone_io::Format;
 use delone_io::picture::Camera;
 
-use super::{DimArgs, GraphArgs, InputArgs, WeightArgs, length};
+use super::{DimArgs, GraphArgs, InputArgs, WeightArgs, WktArgs, length};
 use crate::message::Failure;
 
 /// Convex hull.
@@ -90,22 +90,26 @@ impl CameraArgs {
 #[command(after_help = "Examples:
   delone voronoi shops.csv -o cells.geojson -o cells.png
   delone voronoi shops.csv --clip border.geojson -o cells.geojson
+  delone voronoi shops.csv -o cells.csv -o cells.wkt -o cells.wkb
   delone generate uniform -n 500 -o - --to csv | delone voronoi - --from csv --box 0,0,1,1 --relax 30 -o even.svg
   delone voronoi shops.csv --order 3 -o three-nearest.geojson
   delone voronoi shops.csv --areas customers -o districts.geojson
 
 GeoJSON has a feature for each site with the properties `site`, the index of the input point, and `area`, null if it is
 beyond the range of numbers; a cell outside of the clip region has no geometry. Of equal points the first is the site. With --order it has a feature
-for each set of sites that are nearest somewhere, `sites` for `site`.")]
+for each set of sites that are nearest somewhere, `sites` for `site`. CSV has the same in the columns `site,area,wkt`: GIS find the geometry by
+the name `wkt`; several sites are apart by spaces. Well-known text and binary hold the geometries alone, empty ones too.")]
 pub(crate) struct VoronoiArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (geojson svg png), or - for standard output; may be repeated.
+    /// Output file (geojson wkt wkb csv svg png), or - for standard output; may be repeated.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
+    #[command(flatten)]
+    pub(crate) wkt: WktArgs,
     /// What to clip to: `box`, `hull` (the convex hull of the sites), or a file with polygons (geojson) or with the
     /// corners of one polygon (any format of points).
     #[arg(long, value_name = "REGION", default_value = "box")]

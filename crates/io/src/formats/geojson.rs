@@ -164,7 +164,8 @@ pub(crate) fn write_cells(out: &mut dyn Write, diagram: &impl Tiles) -> io::Resu
     write!(out, "\"features\":[")?;
     for (i, tile) in diagram.tiles().enumerate() {
         write!(out, "{}\n{{\"type\":\"Feature\",\"properties\":{{", if i == 0 { "" } else { "," })?;
-        diagram.write_property(out, tile)?;
+        write!(out, "\"{}\":", diagram.property())?;
+        diagram.write_value(out, tile)?;
         let area = diagram.area(tile);
         // Beyond the range it is infinite, which JSON has no number for.
         let area = if area.is_finite() { format!("{area:?}") } else { "null".to_owned() };

@@ -1,5 +1,6 @@
 //! The formats, one file each.
 
+pub(crate) mod cells;
 pub(crate) mod e57;
 pub(crate) mod edges;
 pub(crate) mod geojson;

@@ -186,19 +186,25 @@ impl Reader<'_> {
 /// Kinds of geometries; several points, lines or polygons are three further.
 const POINT: u32 = 1;
 const LINE: u32 = 2;
-const POLYGON: u32 = 3;
+pub(super) const POLYGON: u32 = 3;
 const MULTIPOINT: u32 = 4;
-const COLLECTION: u32 = 7;
+pub(super) const MULTIPOLYGON: u32 = 6;
+pub(super) const COLLECTION: u32 = 7;
 /// What EWKB adds to a kind: positions have heights, or measures; the number of the system follows.
 const WITH_HEIGHTS: u32 = 1 << 31;
 const WITH_MEASURES: u32 = 1 << 30;
 const WITH_SYSTEM: u32 = 1 << 29;
 
 /// The first bytes of a geometry, little endian.
-fn begin(out: &mut dyn Write, kind: u32, crs: Option<u32>) -> io::Result<()> {
+pub(super) fn begin(out: &mut dyn Write, kind: u32, crs: Option<u32>) -> io::Result<()> {
     out.write_all(&[1])?;
     out.write_all(&(kind | crs.map_or(0, |_| WITH_SYSTEM)).to_le_bytes())?;
     crs.map_or(Ok(()), |number| out.write_all(&number.to_le_bytes()))
+}
+
+/// How many parts, rings or positions follow.
+pub(super) fn write_count(out: &mut dyn Write, count: usize) -> io::Result<()> {
+    out.write_all(&(count as u32).to_le_bytes())
 }
 
 /// Writes a collection of triangles.
@@ -206,7 +212,7 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     let positions: Vec<_> = shape.positions().collect();
     let (width, high) = if shape.heights().is_some() { (3, WITH_HEIGHTS) } else { (2, 0) };
     begin(out, COLLECTION | high, shape.crs().and_then(|crs| crs.epsg))?;
-    out.write_all(&(shape.triangles().count() as u32).to_le_bytes())?;
+    write_count(out, shape.triangles().count())?;
     for triangle in shape.triangles() {
         begin(out, POLYGON | high, None)?;
         // One ring of four positions.
@@ -222,7 +228,7 @@ pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {
     let high = if D == 3 { WITH_HEIGHTS } else { 0 };
     begin(out, MULTIPOINT | high, None)?;
-    out.write_all(&(points.len() as u32).to_le_bytes())?;
+    write_count(out, points.len())?;
     for p in points {
         begin(out, POINT | high, None)?;
         p.iter().try_for_each(|x| out.write_all(&x.to_le_bytes()))?;
