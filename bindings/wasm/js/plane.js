@@ -196,10 +196,10 @@ export class Plane {
     return this.#given ? this.#given.map((i) => all[i]) : all;
   }
 
-  interpolate(values, queries, method, isNearest) {
+  interpolate(values, queries, method, outside) {
     this.engine.giveNumbers(this.#placed(values));
     this.engine.givePoints(queries);
-    this.call("interpolate", method, isNearest);
+    this.call("interpolate", method, outside);
     return this.engine.floats(0);
   }
 

@@ -7,8 +7,9 @@ use crate::tray;
 
 export! {
     /// Leaves values at the points on the tray, from a value for each point of the triangulation as numbers on it. `method`: 0 linear,
-    /// 1 natural neighbours by areas (Sibson), 2 by edges (Laplace). Outside of the hull NaN, or if `nearest` the nearest point's.
-    fn interpolate(plane: usize, method: u32, nearest: i32) -> i32 {
+    /// 1 natural neighbours by areas (Sibson), 2 by edges (Laplace). `outside` of the hull: 0 NaN, 1 the nearest
+    /// point's, 2 that at the nearest place of the hull.
+    fn interpolate(plane: usize, method: u32, outside: u32) -> i32 {
         let (queries, values) = (tray::points(), tray::numbers());
         planes::with(plane, |plane| {
             let d = &plane.triangulation;
@@ -17,7 +18,11 @@ export! {
                 1 => Interpolator::sibson(d),
                 _ => Interpolator::laplace(d),
             };
-            let f = f.outside(if nearest == 0 { Outside::Nothing } else { Outside::Nearest });
+            let f = f.outside(match outside {
+                0 => Outside::Nothing,
+                1 => Outside::Nearest,
+                _ => Outside::Hull,
+            });
             tray::leave_floats(0, f.many(&queries, &values, 1)?);
             Ok(0)
         })

@@ -122,7 +122,17 @@ test("values between points", () => {
     assert.ok(Number.isNaN(outside));
     const [at] = interpolate(d, values, [9, 9], {method, outside: "nearest"});
     assert.equal(at, values[d.find(9, 9)]);
+    // Beyond the middle of a side of the hull: what the side has there.
+    const [a, b] = [d.hull[0], d.hull[1]];
+    const [[ax, ay], [bx, by]] = [a, b].map((i) => [points[2 * i], points[2 * i + 1]]);
+    const beyond = (sign) => [(ax + bx) / 2 + sign * (by - ay), (ay + by) / 2 - sign * (bx - ax)];
+    const [own, other] = interpolate(d, values, [...beyond(9), ...beyond(-9)], {method, outside: "hull"});
+    const middle = plane((ax + bx) / 2, (ay + by) / 2);
+    assert.ok(Math.min(Math.abs(own - middle), Math.abs(other - middle)) < 1e-9);
+    const [inner] = interpolate(d, values, [0.5, 0.5], {method, outside: "hull"});
+    assert.equal(inner, inside);
   }
+  fails("range", undefined, () => interpolate(d, values, [0, 0], {outside: "far"}));
   fails("values", undefined, () => interpolate(d, [1, 2], [0, 0]));
   fails("range", undefined, () => interpolate(d, values, [0, 0], {method: "guess"}));
   fails("not-finite", 1, () => interpolate(d, values, [0, 0, NaN, 0]));

@@ -40,8 +40,8 @@ export class Power {
 
 export interface InterpolationOptions {
   method?: "linear" | "sibson" | "laplace";
-  /** Without it NaN outside of the hull. */
-  outside?: "nearest";
+  /** Without it NaN outside of the hull; the value of the nearest point, or that at the nearest place of the hull. */
+  outside?: "nearest" | "hull";
 }
 
 /** Values at points, from a value for each point of a triangulation. */

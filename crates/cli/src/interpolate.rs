@@ -175,6 +175,7 @@ fn values<R: Surround>(
     let by_method = by_method.outside(match args.outside {
         OutsideName::Nothing => Outside::Nothing,
         OutsideName::Nearest => Outside::Nearest,
+        OutsideName::Hull => Outside::Hull,
     });
     if !args.method.is_bent() {
         let rows: Vec<f64> =

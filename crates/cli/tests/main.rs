@@ -11,6 +11,7 @@ mod folder;
 mod graph;
 mod mesh;
 mod narrow;
+mod outside;
 mod place;
 mod program;
 mod segments;

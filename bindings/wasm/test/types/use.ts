@@ -32,7 +32,7 @@ const coords: Float64Array = Delaunator.from(cities, (p) => p.longitude, (p) => 
 const given: number[] = new Delaunator([0, 0, 1, 1]).coords;
 const ready: Promise<void> = init(fetch("delone.wasm"));
 const c: Constrained = Constrained.polygon([[[0, 0], [1, 0], [0, 1]]], {fill: "nonzero"});
-const values: Float64Array = interpolate(delaunay, [1, 2], c.points, {method: "sibson"});
+const values: Float64Array = interpolate(delaunay, [1, 2], c.points, {method: "sibson", outside: "hull"});
 contours(points, values, [1, 2])[0].level.toFixed();
 const ground: Float64Array = readLas(new ArrayBuffer(0), {classes: [2]}).heights;
 new DelaunayWorker().triangulate([0, 0], {transfer: true}).then(({triangles}) => triangles.length);

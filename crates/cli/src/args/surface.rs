@@ -121,7 +121,8 @@ pub(crate) struct DtmArgs {
   delone interpolate stations.csv --value temperature --grid 100 -o temperature.tif
   delone interpolate sites.csv --dim 3 --value grade --queries blocks.csv -o grades.csv
 
-Of several values the answers are columns. Outside of the hull of the points there is NaN, unless --outside nearest.
+Of several values the answers are columns. Outside of the hull of the points there is NaN, unless --outside says otherwise: `nearest` goes
+on with steps, `hull` without.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct InterpolateArgs {
     #[command(flatten)]
@@ -159,4 +160,6 @@ pub(crate) enum OutsideName {
     Nothing,
     /// The value of the nearest point.
     Nearest,
+    /// The value at the nearest place of the hull.
+    Hull,
 }
