@@ -76,7 +76,10 @@ impl Triangulation {
 
     /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        fn rows<const D: usize>(py: Python<'_>, centres: Vec<[f64; D]>) -> PyResult<Bound<'_, PyArray2<f64>>> {
+        fn rows<const D: usize>(
+            py: Python<'_>,
+            centres: Vec<[f64; D]>,
+        ) -> PyResult<Bound<'_, PyArray2<f64>>> {
             let count = centres.len();
             PyArray1::from_vec(py, centres.into_flattened()).reshape([count, D])
         }

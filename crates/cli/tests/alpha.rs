@@ -141,6 +141,6 @@ fn surfaces_that_touch_themselves_come_apart() {
         [(6, 8), (8, 8)]
     );
     // Indices of points are the same.
-    assert_eq!(read("pinched.csv"), read("apart.csv"));
+    assert_eq!(place.read("pinched.csv"), place.read("apart.csv"));
     place.fail("alpha p.csv --alpha 4 --manifold -o p.geojson", 2, "no surfaces");
 }

@@ -50,7 +50,7 @@ fn text(geometry: &Value) -> String {
 /// A geometry of well-known binary as text.
 fn binary_text(bytes: &mut &[u8]) -> String {
     fn number(bytes: &mut &[u8]) -> usize {
-        u32::from_le_bytes(*bytes.split_off(..4).expect("four bytes").as_array().expect("four")) as usize
+        u32::from_le_bytes(bytes.split_off(..4).expect("four bytes").try_into().expect("four")) as usize
     }
     fn list(bytes: &mut &[u8], mut item: impl FnMut(&mut &[u8]) -> String) -> String {
         let parts: Vec<String> = (0..number(bytes)).map(|_| item(bytes)).collect();
@@ -58,7 +58,7 @@ fn binary_text(bytes: &mut &[u8]) -> String {
     }
     fn rings(bytes: &mut &[u8]) -> String {
         let coordinate = |bytes: &mut &[u8]| {
-            f64::from_le_bytes(*bytes.split_off(..8).expect("eight bytes").as_array().expect("eight"))
+            f64::from_le_bytes(bytes.split_off(..8).expect("eight bytes").try_into().expect("eight"))
         };
         list(bytes, |bytes| list(bytes, |bytes| format!("{:?} {:?}", coordinate(bytes), coordinate(bytes))))
     }

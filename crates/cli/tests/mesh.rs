@@ -50,13 +50,9 @@ fn numbers(file: &str) -> Vec<Vec<f64>> {
     rows.filter(|row: &Vec<f64>| !row.is_empty()).collect()
 }
 
-fn read(place: &Place, name: &str) -> String {
-    std::fs::read_to_string(place.path(name)).expect(name)
-}
-
 fn mesh(place: &Place, stem: &str) -> Mesh {
     let (node, ele) =
-        (numbers(&read(place, &format!("{stem}.node"))), numbers(&read(place, &format!("{stem}.ele"))));
+        (numbers(&place.read(&format!("{stem}.node"))), numbers(&place.read(&format!("{stem}.ele"))));
     let (width, has_markers) = (node[0][2] as usize, node[0][3] == 1.0);
     assert_eq!(node[0][0] as usize, node.len() - 1, "the header counts the points");
     assert_eq!(ele[0][0] as usize, ele.len() - 1, "the header counts the triangles");
@@ -169,7 +165,7 @@ fn a_mesh_is_what_was_asked_for() {
         assert!((mesh.area() - 72.0).abs() < 1e-9, "{options}: {}", mesh.area());
         assert!(mesh.regions.iter().all(|&region| region == 7.0) && !mesh.regions.is_empty());
         let edges = mesh.edges();
-        let marked: Vec<Vec<f64>> = numbers(&read(&place, "m.edge"))[1..].to_vec();
+        let marked: Vec<Vec<f64>> = numbers(&place.read("m.edge"))[1..].to_vec();
         for (ends, marker) in SEGMENTS {
             let along = mesh.along(ends);
             assert_eq!(mesh.points[along[0]].map(|x| x.min(9.0)), [0, 1].map(|k| ends[0][k].min(ends[1][k])));
@@ -192,7 +188,7 @@ fn a_mesh_is_what_was_asked_for() {
         for (p, row) in mesh.points.iter().zip(&mesh.attributes) {
             assert!((row[0] - (2.0 * p[0] + p[1] + 5.0)).abs() < 1e-12, "{p:?} {row:?}");
         }
-        let stats: serde_json::Value = serde_json::from_str(&read(&place, "s.json")).expect("JSON");
+        let stats: serde_json::Value = serde_json::from_str(&place.read("s.json")).expect("JSON");
         let count = |key: &str| stats[key].as_u64().expect(key) as usize;
         assert_eq!((count("points"), count("simplices")), (mesh.points.len(), mesh.triangles.len()));
         assert_eq!(count("steiner_inside") + count("steiner_on_constraints") + 10, mesh.points.len());
@@ -216,7 +212,7 @@ fn a_mesh_is_what_was_asked_for() {
         assert!(stats["left"].as_object().expect("reasons").values().all(|count| *count == 0));
         // What was written is a graph whose constrained triangulation is the mesh.
         place.succeed("-q triangulate m.poly -o again.ele");
-        assert_eq!(numbers(&read(&place, "again.ele"))[0][0] as usize, mesh.triangles.len());
+        assert_eq!(numbers(&place.read("again.ele"))[0][0] as usize, mesh.triangles.len());
     }
 }
 
@@ -240,7 +236,7 @@ fn many_formats_are_read_and_written() {
         assert!((mesh.area() - 60.0).abs() < 1e-9, "{input}: {}", mesh.area());
         // Holes are written as seeds, so that the graph means the same.
         place.succeed("-q triangulate m.poly -o again.ele");
-        assert_eq!(numbers(&read(&place, "again.ele"))[0][0] as usize, mesh.triangles.len(), "{input}");
+        assert_eq!(numbers(&place.read("again.ele"))[0][0] as usize, mesh.triangles.len(), "{input}");
     }
     place.succeed(
         "-q mesh ring.wkt --min-angle 30 -o m.v.node -o m.v.edge -o m.neigh -o m.npy -o m.ply -o m.obj -o m.off -o m.stl -o m.vtu \
@@ -249,9 +245,9 @@ fn many_formats_are_read_and_written() {
     // Geomview's file has the points and the triangles.
     place.succeed("-q mesh m.off --refine m.off --min-angle 0 -o off.node -o off.ele");
     assert!((mesh(&place, "off").area() - 60.0).abs() < 1e-9);
-    assert!(read(&place, "m.svg").contains("<svg"));
+    assert!(place.read("m.svg").contains("<svg"));
     place.succeed("-q mesh ring.wkt --second-order -o six.node -o six.ele -o six.msh");
-    assert_eq!(numbers(&read(&place, "six.ele"))[0][1], 6.0);
+    assert_eq!(numbers(&place.read("six.ele"))[0][1], 6.0);
     place.fail("mesh ring.wkt --second-order -o six.ply", 2, "second order");
     place.fail("mesh ring.wkt -o m.las", 2, "las");
     let mut program = Command::new(env!("CARGO_BIN_EXE_delone"))
@@ -289,7 +285,7 @@ fn colours_of_angles_differ_from_others() {
     place.file("plan.poly", PLAN);
     place.succeed("-q mesh plan.poly -o a.svg --color angle -o a.png");
     place.succeed("-q mesh plan.poly -o b.svg -o b.png");
-    assert_ne!(read(&place, "a.svg"), read(&place, "b.svg"));
+    assert_ne!(place.read("a.svg"), place.read("b.svg"));
     assert_ne!(
         std::fs::read(place.path("a.png")).expect("a"),
         std::fs::read(place.path("b.png")).expect("b")
@@ -331,9 +327,9 @@ fn sizes_come_from_a_file() {
     assert!(longest(&self::mesh(&place, "m")) <= 0.5);
     // Of a file of Triangle the first attribute counts.
     place.file("one.node", "1 2 2 0\n1 100 100 0.5 7\n");
-    let one = read(&place, "m.node");
+    let one = place.read("m.node");
     place.succeed("-q mesh square.poly --size one.node -o m.node");
-    assert_eq!(read(&place, "m.node"), one);
+    assert_eq!(place.read("m.node"), one);
     for (bad, named) in [("0", "is 0"), ("-1", "is -1"), ("nan", "is NaN"), ("-inf", "is -inf")] {
         place.file("bad.csv", format!("0,0,1\n8,0,{bad}\n"));
         place.fail("mesh square.poly --size bad.csv -o m.vtu", 1, &format!("the size at point 1 {named}"));
@@ -411,7 +407,7 @@ fn what_cannot_be_is_said() {
     let warnings: Vec<&str> = told.lines().filter(|line| line.starts_with("warning: ")).collect();
     assert!(warnings.len() == 1 && warnings[0].contains("no more vertices allowed"), "{told}");
     assert!(mesh(&place, "m").points.len() <= 30);
-    let stats: serde_json::Value = serde_json::from_str(&read(&place, "s.json")).expect("JSON");
+    let stats: serde_json::Value = serde_json::from_str(&place.read("s.json")).expect("JSON");
     assert!(stats["left"]["budget"].as_u64().expect("a count") > 0);
     place.fail(
         "mesh plan.poly --min-angle 50 --max-vertices 20 --strict -o n.node",
@@ -460,7 +456,7 @@ fn hostile_files_are_named() {
     place.file("open.poly", "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n1 0\n1 1 2\n0\n");
     let told = text(&place.run("mesh open.poly -o m.ele").stderr);
     assert!(told.contains("nothing is inside"), "{told}");
-    assert_eq!(read(&place, "m.ele"), "0 3 0\n");
+    assert_eq!(place.read("m.ele"), "0 3 0\n");
     place.file("none.csv", "");
     place.succeed("-q mesh none.csv -o m.ele");
     place.file("line.csv", "0,0\n1,1\n2,2\n");

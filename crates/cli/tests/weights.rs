@@ -2,10 +2,6 @@
 
 use crate::place::{Place, text};
 
-fn read(place: &Place, name: &str) -> String {
-    std::fs::read_to_string(place.path(name)).expect("written")
-}
-
 /// Four disks around a fifth, which they hide; and around a sixth, which they do not.
 const DISKS: &str = "x,y,r,name\n0,0,3,a\n4,0,3,b\n4,4,3,c\n0,4,3,d\n2,2,0.5,e\n2,3,2,f\n";
 
@@ -17,7 +13,7 @@ fn weights_come_from_a_file_or_a_column() {
     place.file("weights.csv", "weight\n9\n9\n9\n9\n0.25\n4\n");
     let triangles = |what: &str| {
         place.succeed(&format!("-q triangulate disks.csv --columns x,y {what} --check -o t.ele"));
-        read(&place, "t.ele")
+        place.read("t.ele")
     };
     let expected = triangles("--radii r");
     for what in ["--radii 3", "--radii radii.txt", "--weights weights.csv"] {
@@ -31,7 +27,7 @@ fn weights_come_from_a_file_or_a_column() {
     assert!(corners(&triangles("")).contains(&"4".to_owned()));
     let told = place.run("triangulate disks.csv --columns x,y --radii r -o t.npy --stats s.json");
     assert!(text(&told.stderr).contains("1 site is hidden"));
-    assert!(read(&place, "s.json").contains("\"hidden\": 1"));
+    assert!(place.read("s.json").contains("\"hidden\": 1"));
 }
 
 #[test]
@@ -69,9 +65,9 @@ fn power_cells_are_written() {
     place.file("disks.csv", DISKS);
     place
         .succeed("-q voronoi disks.csv --columns x,y --radii r -o cells.geojson -o cells.svg --stats s.json");
-    let stats = read(&place, "s.json");
+    let stats = place.read("s.json");
     assert!(stats.contains("\"cells\": 5") && stats.contains("\"area\": 16.0"), "{stats}");
-    assert!(!read(&place, "cells.geojson").contains("\"site\":4,"));
+    assert!(!place.read("cells.geojson").contains("\"site\":4,"));
     place.succeed("-q voronoi disks.csv --columns x,y --radii r --clip hull -o c.svg");
     place.fail(
         "voronoi disks.csv --columns x,y --radii r --relax 2 -o d.svg",
@@ -95,7 +91,7 @@ fn sites_in_space_are_located_by_history() {
         let rest = stats.split_once(&format!("\"{key}\": ")).expect(key).1;
         rest.chars().take_while(char::is_ascii_digit).collect::<String>().parse().expect("a number")
     };
-    let [by_cavities, by_flips] = ["c.json", "f.json"].map(|name| read(&place, name));
+    let [by_cavities, by_flips] = ["c.json", "f.json"].map(|name| place.read(name));
     assert_eq!(number(&by_cavities, "simplices"), number(&by_flips, "simplices"));
     assert_eq!(number(&by_cavities, "hidden"), number(&by_flips, "hidden"));
     assert!(number(&by_flips, "hidden") > 100, "{by_flips}");
@@ -133,7 +129,7 @@ fn triangles_of_points_with_weights_are_judged() {
     place.succeed("-q triangulate disks.csv --columns x,y --radii r -o t.npy");
     let said = place.succeed("check disks.csv t.npy --columns x,y --radii r --stats s.json");
     assert!(said.starts_with("Regular, and the canonical triangulation"), "{said}");
-    assert!(read(&place, "s.json").contains("\"regular\": true"));
+    assert!(place.read("s.json").contains("\"regular\": true"));
     place.fail("check disks.csv t.npy --columns x,y", 1, "point 4 is not a corner");
     place.succeed("-q triangulate disks.csv --columns x,y -o plain.npy");
     place.fail("check disks.csv plain.npy --columns x,y --radii r", 1, "not regular: triangle");
@@ -157,10 +153,10 @@ fn cells_have_the_areas_that_were_asked_for() {
         .run("voronoi sites.csv --columns x,y --areas customers --box 0,0,1,1 -o c.geojson --stats s.json");
     assert!(text(&told.stderr).contains("steps"), "{}", text(&told.stderr));
     for area in ["\"area\":0.12", "\"area\":0.2", "\"area\":0.62"] {
-        assert!(read(&place, "c.geojson").contains(area), "{area}");
+        assert!(place.read("c.geojson").contains(area), "{area}");
     }
     place.succeed("-q voronoi sites.csv --columns x,y --areas equal --box 0,0,1,1 -o c.geojson");
-    assert_eq!(read(&place, "c.geojson").matches("\"area\":0.33333333").count(), 3);
+    assert_eq!(place.read("c.geojson").matches("\"area\":0.33333333").count(), 3);
     let fail = |what: &str, status, word: &str| {
         place.fail(&format!("voronoi sites.csv --columns x,y {what} -o d.svg"), status, word);
     };

@@ -22,6 +22,11 @@ impl Place {
         self.path(name)
     }
 
+    /// The text of a file in this folder.
+    pub(crate) fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).expect(name)
+    }
+
     /// Runs the program in this folder.
     pub(crate) fn run(&self, line: &str) -> Output {
         let mut command = Command::new(env!("CARGO_BIN_EXE_delone"));
