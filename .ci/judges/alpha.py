@@ -6,7 +6,6 @@
 
 import numpy as np
 import trimesh
-
 from judging import Judge
 from sets import solids
 

@@ -8,7 +8,6 @@ import json
 
 import numpy as np
 import shapely
-
 from judging import Judge
 from sets import planar
 

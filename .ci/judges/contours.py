@@ -9,7 +9,6 @@ import json
 
 import numpy as np
 import shapely
-
 from judging import Judge
 from sets import relief
 

@@ -9,7 +9,6 @@ from collections import Counter
 
 import numpy as np
 import shapely
-
 from judging import Judge, quiet_read
 from sets import polygons
 

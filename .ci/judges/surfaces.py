@@ -8,7 +8,6 @@ import geopandas
 import numpy as np
 import shapely
 import trimesh
-
 from judging import Judge, quiet_read
 from sets import relief
 

@@ -63,7 +63,7 @@ def dodecahedron():
 
 SETS = {
     "uniform": np.random.default_rng(1).random((60, 3)),
-    "uniform far away": np.random.default_rng(2).random((60, 3)) + [500_000.0, 4_500_000.0, 300.0],
+    "uniform far away": np.random.default_rng(2).random((60, 3)) + np.array([5e5, 4.5e6, 300.0]),
     "fullerene": fullerene(),
     "icosahedron": icosahedron(),
     "dodecahedron": dodecahedron(),
