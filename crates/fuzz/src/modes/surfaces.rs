@@ -260,6 +260,11 @@ fn judge_contours(
     moved: &[f64],
     random: &mut Random,
 ) -> Judgement {
+    // How thin a sliver of the hull is takes products of four coordinates.
+    let is_in_range = |x: &f64| *x == 0.0 || (1e-70..1e70).contains(&x.abs());
+    if !d.points().iter().flatten().all(is_in_range) {
+        return Ok(());
+    }
     let failed = |error: delone::Error| error.to_string();
     let (one, other) = (Contours::new(d, heights).map_err(failed)?, Contours::new(e, moved).map_err(failed)?);
     let Some([low, high]) = one.range() else { return Ok(()) };
