@@ -261,7 +261,7 @@ fn judge_contours(
     random: &mut Random,
 ) -> Judgement {
     // How thin a sliver of the hull is takes products of four coordinates.
-    let is_in_range = |x: &f64| *x == 0.0 || (1e-70..1e70).contains(&x.abs());
+    let is_in_range = |x: &f64| *x == 0.0 || (1e-3..1e6).contains(&x.abs());
     if !d.points().iter().flatten().all(is_in_range) {
         return Ok(());
     }

@@ -2,6 +2,8 @@
 //!
 //! Cost: O(t), 24 bytes a triangle.
 
+use delone_predicates::lexicographic;
+
 use crate::ids::VertexId;
 use crate::triangulation::Triangulation;
 
@@ -45,7 +47,11 @@ where
 }
 
 /// The longest side, by the opposite corner, of a triangle whose corner there is no further away than rounding.
-fn longest_of_flat(corners: [[f64; 2]; 3]) -> Option<usize> {
+fn longest_of_flat(unsorted: [[f64; 2]; 3]) -> Option<usize> {
+    // What is rounded must not depend on which corner comes first.
+    let mut order = [0, 1, 2];
+    order.sort_unstable_by(|&i, &j| lexicographic(unsorted[i], unsorted[j]));
+    let corners = order.map(|i| unsorted[i]);
     let side = |k: usize| {
         let [p, q] = [corners[(k + 1) % 3], corners[(k + 2) % 3]];
         [q[0] - p[0], q[1] - p[1]]
@@ -56,7 +62,7 @@ fn longest_of_flat(corners: [[f64; 2]; 3]) -> Option<usize> {
     let [[a, b], [c, d]] = [sides[(longest + 1) % 3], sides[(longest + 2) % 3]];
     let size = corners.as_flattened().iter().fold(0.0f64, |most, x| most.max(x.abs()));
     let height = (a / lengths[longest] * d - b / lengths[longest] * c).abs();
-    (height <= ROUNDING * size).then_some(longest)
+    (height <= ROUNDING * size).then_some(order[longest])
 }
 
 /// An edge of a triangle, as a number.
