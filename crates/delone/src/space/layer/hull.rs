@@ -5,9 +5,10 @@
 //!
 //! Cost: O(1) for each facet in between; where the nearest point of one is a corner, the facets there.
 
+use std::cmp::Ordering;
 use std::iter::successors;
 
-use delone_predicates::{angle3, orient3d, side_in_plane};
+use delone_predicates::{angle3, lexicographic3, orient3d, side_in_plane};
 
 use super::Layer;
 use super::kernel::Lift;
@@ -24,7 +25,7 @@ enum Face {
 
 impl<W: Lift> Layer<W> {
     /// Of the facets of the hull that a point is strictly beyond, given the ghost of one, that with the nearest point to it, as its ghost;
-    /// of several that have this point, the one with the smallest vertices.
+    /// of several that have this point, the one with the lexicographically least corners.
     pub(in crate::space) fn nearest_hull_facet<T: Tally>(
         &self,
         ghost: TetrahedronId,
@@ -90,12 +91,16 @@ impl<W: Lift> Layer<W> {
         successors(Some((first, (index(first) + 1) % 3)), turn).map(|(t, _)| t)
     }
 
-    /// The ghost of the facet with the smallest vertices.
+    /// The ghost of the facet with the lexicographically least corners.
     fn first(&self, ghosts: impl Iterator<Item = TetrahedronId>) -> Option<TetrahedronId> {
-        ghosts.min_by_key(|&t| {
-            let mut vertices = self.mesh.corners(t);
-            vertices.sort_unstable();
-            vertices
+        let sorted = |t: TetrahedronId| {
+            let mut corners = self.facet(t);
+            corners.sort_unstable_by(|&p, &q| lexicographic3(p, q));
+            corners
+        };
+        ghosts.min_by(|&t, &u| {
+            let pairs = sorted(t).into_iter().zip(sorted(u));
+            pairs.map(|(p, q)| lexicographic3(p, q)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
         })
     }
 }
