@@ -8,7 +8,7 @@ import json
 
 import numpy as np
 import shapely
-from judging import Judge
+from judging import Judge, uncovered
 from sets import planar
 
 
@@ -57,21 +57,8 @@ def regions(points):
 
 def judge(cells, region):
     """What is wrong with cells that are to cover a region, as words."""
-    faults = []
-    invalid = int((~shapely.is_valid(cells)).sum())
-    if invalid:
-        faults.append(f"{invalid} of {len(cells)} invalid")
-    if not shapely.coverage_is_valid(cells):
-        faults.append("no coverage")
-    try:
-        union = shapely.union_all(cells)
-    except shapely.GEOSException:
-        return [*faults, "union raises"]
+    faults = uncovered(cells, region)
     if region is not None:
-        low = np.array(region.bounds)
-        room = 1e-9 * region.area + 8 * np.spacing(np.abs(low).max()) * region.length
-        if not abs(union.area - region.area) <= room:
-            faults.append(f"union {union.area} of {region.area}")
         corners = {tuple(corner) for corner in shapely.get_coordinates(region)}
         missing = corners - {tuple(corner) for corner in shapely.get_coordinates(cells)}
         if missing:

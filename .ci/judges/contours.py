@@ -9,7 +9,7 @@ import json
 
 import numpy as np
 import shapely
-from judging import Judge
+from judging import Judge, uncovered
 from sets import relief
 
 
@@ -35,23 +35,6 @@ def judge_lines(keys, lines):
     return faults
 
 
-def judge_bands(bands, hull):
-    """A coverage with the area of the hull."""
-    faults = []
-    invalid = int((~shapely.is_valid(bands)).sum())
-    if invalid:
-        faults.append(f"{invalid} of {len(bands)} bands invalid")
-    if not shapely.coverage_is_valid(bands):
-        faults.append("bands are no coverage")
-    try:
-        union = shapely.union_all(bands)
-    except shapely.GEOSException:
-        return [*faults, "the union of bands raises"]
-    if not abs(union.area - hull.area) <= 1e-9 * hull.area + 8 * np.spacing(np.abs(hull.bounds).max()) * hull.length:
-        faults.append(f"bands cover {union.area} of {hull.area}")
-    return faults
-
-
 def main():
     """Judges all sets."""
     judge = Judge("contours")
@@ -65,7 +48,7 @@ def main():
             faults = judge.run("contours", "points.npy", "--interval", repr(float(step)), "-o", "out.geojson", *more)
             if not faults:
                 keys, found = read(judge.folder / "out.geojson")
-                faults = judge_bands(found, hull) if bands else judge_lines(keys, found)
+                faults = uncovered(found, hull) if bands else judge_lines(keys, found)
             judge.told(f"{name}, {how}, {'bands' if bands else 'lines'}", faults)
     judge.end()
 

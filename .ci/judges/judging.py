@@ -7,12 +7,33 @@ import sys
 from pathlib import Path
 
 import meshio
+import numpy as np
+import shapely
 
 
 def quiet_read(path):
     """A mesh as meshio reads it, which prints empty lines."""
     with contextlib.redirect_stdout(io.StringIO()):
         return meshio.read(path)
+
+
+def uncovered(polygons, region):
+    """What is wrong with polygons that are to cover a region, each valid and all together a coverage; any region if there is none."""
+    faults = []
+    invalid = int((~shapely.is_valid(polygons)).sum())
+    if invalid:
+        faults.append(f"{invalid} of {len(polygons)} invalid")
+    if not shapely.coverage_is_valid(polygons):
+        faults.append("no coverage")
+    try:
+        union = shapely.union_all(polygons)
+    except shapely.GEOSException:
+        return [*faults, "the union raises"]
+    if region is not None:
+        room = 1e-9 * region.area + 8 * np.spacing(np.abs(region.bounds).max()) * region.length
+        if not abs(union.area - region.area) <= room:
+            faults.append(f"the union has the area {union.area} of {region.area}")
+    return faults
 
 
 class Judge:
