@@ -18,7 +18,7 @@ def quiet_read(path):
 
 
 def uncovered(polygons, region):
-    """What is wrong with polygons that are to cover a region, each valid and all together a coverage; any region if there is none."""
+    """What is wrong with polygons that are to be a coverage, with the area of a region if there is one."""
     faults = []
     invalid = int((~shapely.is_valid(polygons)).sum())
     if invalid:
