@@ -64,6 +64,10 @@ fn wrong_parts_are_named() {
         "--drop-slivers is for the plane",
     );
     for ratio in ["-1", "2", "nan", "x"] {
-        place.fail(&format!("triangulate p.csv --drop-slivers={ratio} -o m.npy"), 2, "it is no part: 0 to 1");
+        place.fail(
+            &format!("triangulate p.csv --drop-slivers={ratio} -o m.npy"),
+            2,
+            "a ratio is from 0 to 1",
+        );
     }
 }

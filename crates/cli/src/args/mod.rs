@@ -199,7 +199,7 @@ fn ratio(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
         .filter(|x: &f64| (0.0..=1.0).contains(x))
-        .ok_or_else(|| "it is no part: 0 to 1".to_owned())
+        .ok_or_else(|| "a ratio is from 0 to 1".to_owned())
 }
 
 /// A length in coordinate units.

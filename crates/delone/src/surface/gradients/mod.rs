@@ -30,7 +30,7 @@ use wide::Wide;
 const GOOD_PIVOT: f64 = 0.003_906_25;
 
 /// A fit that makes more of the rounding of values is done again with others: 2^20. What is left of 53 bits is enough for nine digits.
-const LOUD: f64 = 1_048_576.0;
+const NOISE_LIMIT: f64 = 1_048_576.0;
 
 /// Squared lengths between 2^-900 and 2^900 have all their bits, and so have quotients of two of them.
 const SQUARES: std::ops::Range<f64> = 1.183_052_186_166_774_8e-271..8.452_712_498_170_644e270;
@@ -176,7 +176,7 @@ fn careful<T: Surround>(d: &T, v: VertexId, values: &[f64]) -> Option<[f64; 3]> 
     let mut star: Star<Double> = Vec::new();
     weigh(d, v, |w| rows.away(w), &mut star);
     let first = fit::fit(&rows.of(&star), axes);
-    if let Some(fit) = first.filter(|fit| fit.noise <= LOUD) {
+    if let Some(fit) = first.filter(|fit| fit.noise <= NOISE_LIMIT) {
         return Some(rows.slope(fit.slope));
     }
     let mut wide = Wide::new(star.iter().map(|neighbor| neighbor.0).collect());
@@ -185,7 +185,7 @@ fn careful<T: Surround>(d: &T, v: VertexId, values: &[f64]) -> Option<[f64; 3]> 
         star.clear();
         star.extend(wide.neighbors().iter().map(|&w| (w, Double::one())));
         if let Some(fit) = fit::fit(&rows.of(&star), axes) {
-            if fit.noise <= LOUD {
+            if fit.noise <= NOISE_LIMIT {
                 return Some(rows.slope(fit.slope));
             }
             best = best.filter(|best| best.noise <= fit.noise).or(Some(fit));
