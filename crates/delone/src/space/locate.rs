@@ -27,7 +27,7 @@ pub enum Location3 {
     /// On this vertex.
     Vertex(VertexId),
     /// Strictly outside of the convex hull: beyond this facet of it, seen from inside. It has the point of the hull that is nearest; of several
-    /// facets that have it and that the point is beyond, this is the one with the lexicographically least corners.
+    /// facets that have it and that the point is beyond, this is the one with the smallest vertices.
     Outside(FacetId),
     /// Outside of the hull of points that do not span space.
     LowerDimensional(Dimension),

@@ -20,6 +20,7 @@ pub mod verify;
 pub(crate) use construct::{InOrder3, in_order};
 pub use delaunay::{Algorithm3, Delaunay3};
 pub use imprecise::Hints3;
+pub(crate) use layer::{NearestFace, nearest_face};
 pub use locate::Location3;
 pub use moving::{Moving3, Step3};
 pub use regular::Regular3;

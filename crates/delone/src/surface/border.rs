@@ -4,6 +4,7 @@
 
 use super::natural::{apart, scale, three};
 use super::real::{dot, minus};
+use crate::space::{NearestFace, nearest_face};
 use crate::triangulation::{Coordinates, Triangulation};
 
 /// What is computed to be on the border is rounded, more than once if it was turned or converted: a point outside that is no further away than
@@ -44,7 +45,7 @@ pub(super) struct Nearest<P> {
     pub(super) is_rounding: bool,
 }
 
-/// The nearest point of an edge or a triangle.
+/// The nearest point of an edge or a triangle. Corners are sorted, so that those of a side are in the same order in both of its triangles.
 pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
     let at: Vec<[f64; 3]> = corners.iter().map(|&p| three(p)).collect();
     let from = three(q);
@@ -54,7 +55,17 @@ pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
     let local: Vec<[f64; 3]> = at.iter().map(away).collect();
     let weights = match local[..] {
         [a, b] => on_edge(a, b),
-        [a, b, c] => on_triangle(a, b, c),
+        // Facets that share the side or the corner have the same weights there.
+        [a, b, c] => match nearest_face([at[0], at[1], at[2]], from) {
+            NearestFace::Whole => on_triangle(a, b, c),
+            NearestFace::Side(k) => {
+                let [i, j] = [[1, 2], [0, 2], [0, 1]][k];
+                let mut weights = [0.0; 3];
+                [weights[i], weights[j], _] = on_edge(local[i], local[j]);
+                weights
+            }
+            NearestFace::Corner(k) => [0, 1, 2].map(|i| f64::from(u8::from(i == k))),
+        },
         _ => [1.0, 0.0, 0.0],
     };
     let blend =

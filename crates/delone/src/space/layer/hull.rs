@@ -5,10 +5,9 @@
 //!
 //! Cost: O(1) for each facet in between; where the nearest point of one is a corner, the facets there.
 
-use std::cmp::Ordering;
 use std::iter::successors;
 
-use delone_predicates::{angle3, lexicographic3, orient3d, side_in_plane};
+use delone_predicates::{angle3, orient3d, side_in_plane};
 
 use super::Layer;
 use super::kernel::Lift;
@@ -16,7 +15,7 @@ use crate::ids::{Place, TetrahedronId};
 use crate::tally::Tally;
 
 /// The face of a triangle that has its nearest point inside.
-enum Face {
+pub(crate) enum NearestFace {
     Whole,
     /// The side opposite to a corner.
     Side(usize),
@@ -25,7 +24,7 @@ enum Face {
 
 impl<W: Lift> Layer<W> {
     /// Of the facets of the hull that a point is strictly beyond, given the ghost of one, that with the nearest point to it, as its ghost;
-    /// of several that have this point, the one with the lexicographically least corners.
+    /// of several that have this point, the one with the smallest vertices.
     pub(in crate::space) fn nearest_hull_facet<T: Tally>(
         &self,
         ghost: TetrahedronId,
@@ -38,8 +37,8 @@ impl<W: Lift> Layer<W> {
             let cell = &self.mesh.cells[at.index()];
             let corners = self.facet(at);
             at = match nearest_face(corners, q) {
-                Face::Whole => return at,
-                Face::Side(k) => {
+                NearestFace::Whole => return at,
+                NearestFace::Side(k) => {
                     let across = cell.across[k];
                     let next = across.tetrahedron();
                     if !self.is_beyond(next, q) {
@@ -51,7 +50,7 @@ impl<W: Lift> Layer<W> {
                     }
                     next
                 }
-                Face::Corner(k) => {
+                NearestFace::Corner(k) => {
                     let (v, corner) = (cell.corners[k], corners[k]);
                     let is_nearer = |t: &TetrahedronId| {
                         let mut others = self.facet(*t).into_iter().filter(|&p| p != corner);
@@ -91,33 +90,30 @@ impl<W: Lift> Layer<W> {
         successors(Some((first, (index(first) + 1) % 3)), turn).map(|(t, _)| t)
     }
 
-    /// The ghost of the facet with the lexicographically least corners.
+    /// The ghost of the facet with the smallest vertices.
     fn first(&self, ghosts: impl Iterator<Item = TetrahedronId>) -> Option<TetrahedronId> {
-        let sorted = |t: TetrahedronId| {
-            let mut corners = self.facet(t);
-            corners.sort_unstable_by(|&p, &q| lexicographic3(p, q));
-            corners
-        };
-        ghosts.min_by(|&t, &u| {
-            let pairs = sorted(t).into_iter().zip(sorted(u));
-            pairs.map(|(p, q)| lexicographic3(p, q)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+        ghosts.min_by_key(|&t| {
+            let mut vertices = self.mesh.corners(t);
+            vertices.sort_unstable();
+            vertices
         })
     }
 }
 
-fn nearest_face(corners: [[f64; 3]; 3], q: [f64; 3]) -> Face {
+/// The face of a triangle that the nearest point to another one is on. Exact.
+pub(crate) fn nearest_face(corners: [[f64; 3]; 3], q: [f64; 3]) -> NearestFace {
     let next = |k: usize| corners[(k + 1) % 3];
     let previous = |k: usize| corners[(k + 2) % 3];
     let towards = |from, to| angle3(from, to, q).is_positive();
     let is_inside = [0, 1, 2].map(|k| side_in_plane(next(k), previous(k), corners[k], q).is_positive());
     if is_inside == [true; 3] {
-        return Face::Whole;
+        return NearestFace::Whole;
     }
     let is_beside =
         |k: &usize| !is_inside[*k] && towards(next(*k), previous(*k)) && towards(previous(*k), next(*k));
     if let Some(k) = (0..3).find(is_beside) {
-        return Face::Side(k);
+        return NearestFace::Side(k);
     }
     let is_past = |k: &usize| !towards(corners[*k], next(*k)) && !towards(corners[*k], previous(*k));
-    (0..3).find(is_past).map_or(Face::Whole, Face::Corner)
+    (0..3).find(is_past).map_or(NearestFace::Whole, NearestFace::Corner)
 }

@@ -13,6 +13,8 @@ pub(in crate::space) mod scaffold;
 pub(in crate::space) mod simplices;
 mod wrap;
 
+pub(crate) use hull::{NearestFace, nearest_face};
+
 use delone_predicates::{Filter3, Grid};
 
 use crate::ids::{Place, TetrahedronId};
