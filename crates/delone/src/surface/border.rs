@@ -46,30 +46,31 @@ pub(super) struct Nearest<P> {
 }
 
 /// The nearest point of an edge or a triangle. Corners are sorted, so that those of a side are in the same order in both of its triangles.
+///
+/// What a point is nearest to is exact: facets that share the side or the corner say the same, to the bit.
 pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
-    let at: Vec<[f64; 3]> = corners.iter().map(|&p| three(p)).collect();
     let from = three(q);
+    let active: &[usize] = match corners {
+        [_, _] => &[0, 1],
+        [a, b, c] => match nearest_face([*a, *b, *c].map(three), from) {
+            NearestFace::Whole => &[0, 1, 2],
+            NearestFace::Side(k) => [&[1, 2], &[0, 2], &[0, 1]][k],
+            NearestFace::Corner(k) => [&[0], &[1], &[2]][k],
+        },
+        _ => &[0],
+    };
+    let at: Vec<[f64; 3]> = active.iter().map(|&i| three(corners[i])).collect();
     let size = at.iter().flat_map(|p| (0..3).map(|k| apart(p[k], from[k]))).fold(0.0, f64::max);
     let [before, after] = scale(size);
     let away = |p: &[f64; 3]| [0, 1, 2].map(|k| (p[k] * before - from[k] * before) * after);
     let local: Vec<[f64; 3]> = at.iter().map(away).collect();
-    let weights = match local[..] {
+    let of_active = match local[..] {
         [a, b] => on_edge(a, b),
-        // Facets that share the side or the corner have the same weights there.
-        [a, b, c] => match nearest_face([at[0], at[1], at[2]], from) {
-            NearestFace::Whole => on_triangle(a, b, c),
-            NearestFace::Side(k) => {
-                let [i, j] = [[1, 2], [0, 2], [0, 1]][k];
-                let mut weights = [0.0; 3];
-                [weights[i], weights[j], _] = on_edge(local[i], local[j]);
-                weights
-            }
-            NearestFace::Corner(k) => [0, 1, 2].map(|i| f64::from(u8::from(i == k))),
-        },
+        [a, b, c] => on_triangle(a, b, c),
         _ => [1.0, 0.0, 0.0],
     };
     let blend =
-        |points: &[[f64; 3]], k: usize| -> f64 { points.iter().zip(weights).map(|(p, w)| w * p[k]).sum() };
+        |points: &[[f64; 3]], k: usize| -> f64 { points.iter().zip(of_active).map(|(p, w)| w * p[k]).sum() };
     let miss = [0, 1, 2].map(|k| blend(&local, k));
     let largest = at.iter().flatten().chain(&from).fold(0.0f64, |most, x| most.max(x.abs()));
     let mut point = q;
@@ -80,6 +81,8 @@ pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
         *x = blend(&at, k).clamp(low, high);
     }
     let is_rounding = dot(miss, miss).sqrt() <= largest * before * after * ROUNDING;
+    let mut weights = [0.0; 3];
+    active.iter().zip(of_active).for_each(|(&i, weight)| weights[i] = weight);
     Nearest { weights, point, is_rounding }
 }
 
