@@ -111,6 +111,7 @@ mod error;
 mod graphs;
 mod hull;
 mod ids;
+mod joining;
 mod locate;
 mod memory;
 pub mod mesh;
@@ -121,6 +122,7 @@ pub mod plane;
 mod points;
 mod prefetch;
 mod regular;
+mod sets;
 mod sorting;
 pub mod space;
 pub mod surface;
@@ -141,6 +143,7 @@ pub use ids::{
     Duplicate, EdgeId, FacetId, Inserted, MAX_POINTS, MAX_POINTS_IN_SPACE, TetrahedronId, TriangleId,
     VertexId,
 };
+pub use joining::{MERGE_AUTO, merged_vertices};
 pub use locate::{Footprint, Hierarchy, JumpAndWalk, Locate, Nearest, Walk};
 pub use mesh::{Dimension, Mesh2, Mesh3};
 pub use neighbors::{Neighbors, Neighbors2, Neighbors3};

@@ -6,43 +6,17 @@
 use super::facing::{NONE, across};
 use super::{Alpha, Faces};
 use crate::ids::VertexId;
+use crate::sets::Sets;
 
-/// Sets that are joined.
-pub(super) struct Sets(Vec<u32>);
-
-impl Sets {
-    /// Each item alone.
-    pub(super) fn new(count: usize) -> Self {
-        Self((0..count as u32).collect())
-    }
-
-    /// Simplices that are joined across sides.
-    pub(super) fn of<const N: usize>(across: &[[u32; N]]) -> Self {
-        let mut sets = Self::new(across.len());
-        for (i, beyond) in across.iter().enumerate() {
-            for &j in beyond.iter().filter(|&&j| j != NONE) {
-                sets.join(i as u32, j);
-            }
+/// Simplices that are joined across sides.
+pub(super) fn joined<const N: usize>(across: &[[u32; N]]) -> Sets {
+    let mut sets = Sets::new(across.len());
+    for (i, beyond) in across.iter().enumerate() {
+        for &j in beyond.iter().filter(|&&j| j != NONE) {
+            sets.join(i as u32, j);
         }
-        sets
     }
-
-    /// What names the set of an item: its least one.
-    pub(super) fn find(&mut self, mut i: u32) -> u32 {
-        while self.0[i as usize] != i {
-            let above = self.0[self.0[i as usize] as usize];
-            self.0[i as usize] = above;
-            i = above;
-        }
-        i
-    }
-
-    /// Joins two sets; false if they are one.
-    pub(super) fn join(&mut self, i: u32, j: u32) -> bool {
-        let (i, j) = (self.find(i), self.find(j));
-        self.0[i.max(j) as usize] = i.min(j);
-        i != j
-    }
+    sets
 }
 
 impl<const D: usize> Alpha<D> {
@@ -79,7 +53,7 @@ impl<const D: usize> Alpha<D> {
     }
 
     fn numbered<const N: usize>(&self, simplices: &[[VertexId; N]]) -> Vec<usize> {
-        let mut sets = Sets::of(&across(self.points.len(), simplices));
+        let mut sets = joined(&across(self.points.len(), simplices));
         let (mut numbers, mut count) = (Vec::with_capacity(simplices.len()), 0);
         for i in 0..simplices.len() {
             let least = sets.find(i as u32) as usize;

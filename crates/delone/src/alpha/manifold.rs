@@ -8,10 +8,10 @@
 //! Cost: O(k log k) for k tetrahedra and O(n), a few times where rings bite themselves.
 
 use super::Alpha;
-use super::components::Sets;
 use super::facing::{NONE, across};
 use super::surface::Facet;
 use crate::ids::VertexId;
+use crate::sets::Sets;
 
 /// A closed surface of triangles in which every edge has two triangles and every vertex one cycle of them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

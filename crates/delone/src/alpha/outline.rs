@@ -7,7 +7,7 @@
 use delone_predicates::{Sign, lexicographic, orient2d};
 
 use super::Alpha;
-use super::components::Sets;
+use super::components::joined;
 use super::facing::{NONE, across};
 use crate::ids::VertexId;
 
@@ -35,7 +35,7 @@ impl Alpha<2> {
     pub fn outline(&self, alpha: f64) -> Vec<OutlinePart> {
         let triangles = self.triangles.until(alpha);
         let across = across(self.points.len(), triangles);
-        let mut sets = Sets::of(&across);
+        let mut sets = joined(&across);
         let border = Border { alpha: self, triangles, across: &across };
         let mut seen = vec![[false; 3]; triangles.len()];
         let mut places = vec![NONE; self.points.len()];

@@ -11,6 +11,7 @@ use delone_predicates::{Length, compare_lengths};
 
 use crate::ids::Place;
 use crate::parallel;
+use crate::sets::Sets;
 
 /// No edge, and no part.
 const NONE: u32 = u32::MAX;
@@ -54,16 +55,16 @@ pub(super) fn edges<const D: usize>(points: &[[f64; D]], graph: Vec<[Place; 2]>)
                 }
             }
         }
-        let mut forest = Forest((0..parts as u32).collect());
+        let mut sets = Sets::new(parts);
         for &(i, _) in first.iter().filter(|&&(i, _)| i != NONE) {
             let link = links[i as usize];
-            if forest.join(link.parts) {
+            if sets.join(link.parts[0], link.parts[1]) {
                 tree.push(graph[link.edge as usize]);
             }
         }
         numbers = Numbers::of(parts);
         links.retain_mut(|link| {
-            let roots = link.parts.map(|part| forest.root(part));
+            let roots = link.parts.map(|part| sets.find(part));
             if roots[0] != roots[1] {
                 link.parts = roots.map(|root| numbers.of_next(root));
             }
@@ -97,27 +98,4 @@ impl Numbers {
 /// The ends of an edge, the lexicographically smaller first.
 fn in_order<const D: usize>([a, b]: [[f64; D]; 2]) -> [[f64; D]; 2] {
     if a <= b { [a, b] } else { [b, a] }
-}
-
-/// Disjoint sets, each a tree of links to its root. Paths are halved as they are walked.
-struct Forest(Vec<u32>);
-
-impl Forest {
-    fn root(&mut self, mut part: u32) -> u32 {
-        loop {
-            let above = self.0[part as usize];
-            if above == part {
-                return part;
-            }
-            self.0[part as usize] = self.0[above as usize];
-            part = above;
-        }
-    }
-
-    /// Makes one set of two, unless they are one.
-    fn join(&mut self, parts: [u32; 2]) -> bool {
-        let [a, b] = parts.map(|part| self.root(part));
-        self.0[a.max(b) as usize] = a.min(b);
-        a != b
-    }
 }

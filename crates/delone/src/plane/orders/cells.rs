@@ -9,6 +9,7 @@ use delone_predicates::{Line, circumcentre};
 
 use super::circle::Circle;
 use super::{OrderK2, OrderRegion2};
+use crate::error::Error;
 use crate::ids::VertexId;
 use crate::plane::region::Region2;
 use crate::plane::voronoi::build::Builder;
@@ -43,6 +44,11 @@ impl OrderK2<'_> {
 }
 
 impl OrderCells2 {
+    /// The regions with sides up to a length contracted; see [`Cells2::merged`].
+    pub fn merged(self, length: f64, region: &Region2) -> Result<Self, Error> {
+        Ok(Self { cells: self.cells.merged(length, region)? })
+    }
+
     /// The rings of a region: none if it is outside of what was clipped to, or has no area.
     pub fn rings(&self, region: OrderRegion2) -> impl Iterator<Item = Ring<'_>> + Clone {
         self.cells.rings(VertexId::new(region.index()))

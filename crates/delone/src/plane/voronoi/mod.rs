@@ -13,6 +13,7 @@ pub(in crate::plane) mod cells;
 pub(in crate::plane) mod centres;
 pub(in crate::plane) mod clip;
 mod contract;
+mod merge;
 mod relax;
 
 pub use cells::{Cell2, Cells2, Ring};
