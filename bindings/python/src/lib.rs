@@ -58,5 +58,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(hull::sides, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::clipped_cells, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::furthest, m)?)?;
+    m.add_function(wrap_pyfunction!(voronoi::merged_vertices, m)?)?;
+    m.add("MERGE_AUTO", delone::MERGE_AUTO)?;
     m.add_function(wrap_pyfunction!(voronoi::ridges, m)?)
 }

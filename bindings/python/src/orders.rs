@@ -93,9 +93,17 @@ impl Orders {
     }
 
     /// The regions, clipped to a polygon with holes.
-    fn cells<'py>(&self, py: Python<'py>, rings: Vec<PyReadonlyArray2<'py, f64>>) -> PyResult<Polygons<'py>> {
+    fn cells<'py>(
+        &self,
+        py: Python<'py>,
+        rings: Vec<PyReadonlyArray2<'py, f64>>,
+        merge: Option<f64>,
+    ) -> PyResult<Polygons<'py>> {
         let (corners, ring_starts, starts) = self.clipped(py, &rings, |order, region| {
-            let cells = order.cells(region);
+            let mut cells = order.cells(region);
+            if let Some(length) = merge {
+                cells = cells.merged(length, region)?;
+            }
             let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
             for own in order.regions() {
                 for ring in cells.rings(own) {
@@ -104,7 +112,7 @@ impl Orders {
                 }
                 starts.push(ring_starts.len() as i64 - 1);
             }
-            (corners, ring_starts, starts)
+            Ok((corners, ring_starts, starts))
         })?;
         let count = corners.len();
         let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
@@ -119,7 +127,7 @@ impl Orders {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let areas: Vec<f64> = self.clipped(py, &rings, |order, region| {
             let cells = order.cells(region);
-            order.regions().map(|own| cells.area(own)).collect()
+            Ok(order.regions().map(|own| cells.area(own)).collect())
         })?;
         Ok(PyArray1::from_vec(py, areas))
     }
@@ -143,13 +151,13 @@ impl Orders {
         &self,
         py: Python<'_>,
         rings: &[PyReadonlyArray2<'_, f64>],
-        make: impl Fn(&OrderK2, &Region2) -> T + Sync + Send,
+        make: impl Fn(&OrderK2, &Region2) -> Result<T, Error> + Sync + Send,
     ) -> PyResult<T> {
         let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
         let d = &self.state.triangulation;
         let clipped = detached(py, d.vertex_count() >= FEW, || {
             let region = Region2::polygon(&rings)?;
-            Ok::<T, Error>(make(&d.order(self.order)?, &region))
+            make(&d.order(self.order)?, &region)
         })?;
         clipped.map_err(python_error)
     }

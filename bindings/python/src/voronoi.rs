@@ -1,6 +1,6 @@
 //! Voronoi cells clipped to a region of the plane, and ridges in space.
 
-use delone::{Region2, VertexId};
+use delone::{Coordinates, Region2, VertexId};
 use delone_predicates::circumcentre;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -13,13 +13,15 @@ use crate::triangulation::{Core, Triangulation, coordinates};
 /// Corners, the starts of rings among them, and the starts of points among the rings.
 type Polygons<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>);
 
-/// The cells of so many points, clipped to a polygon with holes; empty for what is no vertex.
+/// The cells of so many points, clipped to a polygon with holes; empty for what is no vertex. Sides up to a length are contracted, if one is
+/// given.
 #[pyfunction]
 pub fn clipped_cells<'py>(
     py: Python<'py>,
     triangulation: PyRef<'py, Triangulation>,
     points: usize,
     rings: Vec<PyReadonlyArray2<'py, f64>>,
+    merge: Option<f64>,
 ) -> PyResult<Polygons<'py>> {
     let Core::Plane(state) = &triangulation.core else {
         return Err(PyValueError::new_err("cells are clipped in the plane"));
@@ -28,7 +30,10 @@ pub fn clipped_cells<'py>(
     let d = &state.triangulation;
     let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
         let region = Region2::polygon(&rings).map_err(python_error)?;
-        let cells = d.voronoi().clip(&region);
+        let mut cells = d.voronoi().clip(&region);
+        if let Some(length) = merge {
+            cells = cells.merged(length, &region).map_err(python_error)?;
+        }
         let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
         for v in (0..points).map(VertexId::new) {
             for ring in cells.rings(v) {
@@ -42,6 +47,33 @@ pub fn clipped_cells<'py>(
     let count = corners.len();
     let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
     Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
+}
+
+/// Which of the places each becomes if sides up to a length are contracted; equal ones become one.
+#[pyfunction]
+pub fn merged_vertices<'py>(
+    py: Python<'py>,
+    places: PyReadonlyArray2<'py, f64>,
+    sides: PyReadonlyArray2<'py, i64>,
+    length: f64,
+) -> PyResult<Bound<'py, PyArray1<i64>>> {
+    let (ends, _) = sides.as_slice()?.as_chunks::<2>();
+    let sides: Vec<[u32; 2]> = ends.iter().map(|ends| ends.map(|i| i as u32)).collect();
+    let merged = if places.shape()[1] == 2 {
+        merged_places(py, &coordinates::<2>(&places)?, &sides, length)
+    } else {
+        merged_places(py, &coordinates::<3>(&places)?, &sides, length)
+    }?;
+    Ok(PyArray1::from_vec(py, merged.into_iter().map(i64::from).collect()))
+}
+
+fn merged_places<P: Coordinates>(
+    py: Python<'_>,
+    places: &[P],
+    sides: &[[u32; 2]],
+    length: f64,
+) -> PyResult<Vec<u32>> {
+    detached(py, places.len() >= FEW, || delone::merged_vertices(places, sides, length))?.map_err(python_error)
 }
 
 /// Triangles, and the circumcentre of each.

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use delone::{Bounds, Delaunay2, Region2};
+use delone::{Bounds, Delaunay2, Error, MERGE_AUTO, Region2};
 
-use crate::args::VoronoiArgs;
+use crate::args::{Merge, VoronoiArgs};
 use crate::message::Failure;
+use crate::stats::Stats;
 
 /// Whether a file says what to clip to.
 pub(crate) fn is_polygon(args: &VoronoiArgs) -> bool {
@@ -18,6 +19,22 @@ pub(crate) fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Res
         let help = "clip to a polygon whose rings cross nowhere and touch each other only at corners of both";
         Failure::new(format!("{}: {error}", args.clip.display()), help)
     })
+}
+
+/// The length up to which sides of cells are contracted, if any are.
+pub(crate) fn merge(args: &VoronoiArgs, region: &Region2, stats: &mut Stats) -> Option<f64> {
+    let largest = || region.bounds().into_iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    let length = match args.merge? {
+        Merge::Auto => MERGE_AUTO * largest(),
+        Merge::Length(length) => length,
+    };
+    stats.set("merge", length);
+    Some(length)
+}
+
+/// Why sides of a length are not contracted.
+pub(crate) fn not_merged(error: Error) -> Failure {
+    Failure::usage(error, "give --merge a length that is not negative, or auto")
 }
 
 /// The box or the hull to clip to.

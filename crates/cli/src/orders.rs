@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use delone::{Delaunay2, Region2};
 use delone_io::{Crs, Format, OrderDiagram};
 
+use crate::clip::not_merged;
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
@@ -15,6 +16,8 @@ pub(crate) struct Clipped<'a> {
     pub(crate) order: usize,
     /// What it is clipped to.
     pub(crate) region: &'a Region2,
+    /// The length up to which sides are contracted.
+    pub(crate) merge: Option<f64>,
     /// What the coordinates mean.
     pub(crate) crs: Option<&'a Crs>,
     /// The longer side of pictures.
@@ -43,7 +46,11 @@ pub(crate) fn write(
     stats.phase("order");
     let cells = {
         let _phase = Phase::start(quiet, "clipping");
-        diagram.cells(wanted.region)
+        let cells = diagram.cells(wanted.region);
+        match wanted.merge {
+            Some(length) => cells.merged(length, wanted.region).map_err(not_merged)?,
+            None => cells,
+        }
     };
     stats.phase("clip");
     stats.triangulation(triangulation, triangulation.counters());

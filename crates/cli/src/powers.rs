@@ -6,7 +6,7 @@ use delone::{Delaunay2, Error, Region2, Regular2};
 use delone_io::{Diagram, Format};
 
 use crate::args::VoronoiArgs;
-use crate::clip::{is_polygon, polygon_region, region};
+use crate::clip::{is_polygon, merge, not_merged, polygon_region, region};
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::room::{self, Room};
@@ -41,7 +41,11 @@ pub(crate) fn run(
     let Weighted { triangulation: r, points, about } = sites;
     let cells = {
         let _phase = Phase::start(quiet, "clipping");
-        r.power().clip(&region)
+        let cells = r.power().clip(&region);
+        match merge(args, &region, &mut stats) {
+            Some(length) => cells.merged(length, &region).map_err(not_merged)?,
+            None => cells,
+        }
     };
     stats.phase("clip");
     stats.set("cells", r.vertices().filter(|&v| cells.rings(v).next().is_some()).count());

@@ -6,7 +6,7 @@ use delone::{Delaunay2, Relaxation2};
 use delone_io::Diagram;
 
 use crate::args::VoronoiArgs;
-use crate::clip::{is_polygon, polygon_region, region};
+use crate::clip::{is_polygon, merge, not_merged, polygon_region, region};
 use crate::files;
 use crate::message::Failure;
 use crate::orders;
@@ -48,7 +48,13 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.phase("build");
     let region = if polygon { polygon_region(args, &rings)? } else { region(args, &triangulation)? };
     if let Some(order) = args.order {
-        let picture = orders::Clipped { order, region: &region, crs: about.crs.as_ref(), size: args.size };
+        let picture = orders::Clipped {
+            order,
+            region: &region,
+            merge: merge(args, &region, &mut stats),
+            crs: about.crs.as_ref(),
+            size: args.size,
+        };
         orders::write(&picture, &triangulation, &outputs, &mut stats, quiet)?;
         if let (Some(path), Some(format)) = (&args.sites, sites_format) {
             files::write(path, |out| delone_io::write_points(out, format, triangulation.points()))?;
@@ -70,7 +76,11 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     }
     let cells = {
         let _phase = Phase::start(quiet, "clipping");
-        triangulation.voronoi().clip(&region)
+        let cells = triangulation.voronoi().clip(&region);
+        match merge(args, &region, &mut stats) {
+            Some(length) => cells.merged(length, &region).map_err(not_merged)?,
+            None => cells,
+        }
     };
     stats.phase("clip");
     stats.triangulation(&triangulation, triangulation.counters());

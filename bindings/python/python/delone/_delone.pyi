@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ._mesh import Wishes
 
 __all__ = [
+    "MERGE_AUTO",
     "Alpha",
     "Border",
     "Constrained",
@@ -29,6 +30,7 @@ __all__ = [
     "interpolate",
     "interpolation_weights",
     "join_borders",
+    "merged_vertices",
     "paint",
     "proximity_graph",
     "ridges",
@@ -38,6 +40,8 @@ __all__ = [
     "triangulate_tile",
     "vertex_gradients",
 ]
+
+MERGE_AUTO: float
 
 @final
 class Alpha:
@@ -116,7 +120,9 @@ class Orders:
     ]: ...
     def duplicates(self) -> NDArray[np.int32]: ...
     def locate(self, queries: NDArray[np.float64]) -> NDArray[np.int32]: ...
-    def cells(self, rings: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
+    def cells(
+        self, rings: list[NDArray[np.float64]], merge: float | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
     def areas(self, rings: list[NDArray[np.float64]]) -> NDArray[np.float64]: ...
 
 @final
@@ -185,8 +191,9 @@ def after_fork() -> None: ...
 def sides(facets: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.int8]: ...
 def convex_hull(points: NDArray[np.float64]) -> NDArray[np.int32]: ...
 def clipped_cells(
-    triangulation: Triangulation, points: int, rings: list[NDArray[np.float64]]
+    triangulation: Triangulation, points: int, rings: list[NDArray[np.float64]], merge: float | None
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
+def merged_vertices(places: NDArray[np.float64], sides: NDArray[np.int64], length: float) -> NDArray[np.int64]: ...
 def furthest(triangulation: Triangulation) -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...
 def ridges(
     simplices: NDArray[np.int32], neighbors: NDArray[np.int32], vertices: NDArray[np.int64]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._merge import as_merge, length_of
 from ._points import as_index, as_points, as_queries
 from ._voronoi import _pieces, _rings
 
@@ -92,13 +93,17 @@ class OrderVoronoi:
         queries, shape = as_queries(xi, 2)
         return self._core.locate(queries).reshape(shape)
 
-    def cells(self, region: ArrayLike | Sequence[ArrayLike] | None = None) -> list[list[NDArray[np.float64]]]:
+    def cells(
+        self, region: ArrayLike | Sequence[ArrayLike] | None = None, merge: float | str | None = None
+    ) -> list[list[NDArray[np.float64]]]:
         """All regions, clipped: for each its rings, counter-clockwise, holes clockwise; none for those outside.
 
         `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
         regions are clipped to the box of the points, a twentieth larger. The diagram is not kept but made again for this.
+        Sides up to the length `merge` are contracted, see `Voronoi`.
         """
-        return _pieces(*self._core.cells(self._border(region)))
+        rings = self._border(region)
+        return _pieces(*self._core.cells(rings, length_of(as_merge(merge), *rings)))
 
     def areas(self, region: ArrayLike | Sequence[ArrayLike] | None = None) -> NDArray[np.float64]:
         """The areas of the clipped regions; see `cells`."""

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._delaunay import Delaunay
+from ._merge import as_merge, length_of, merged_centres
 from ._options import parse
 from ._points import as_flag, as_numbers, as_points
 
@@ -30,6 +31,10 @@ class Voronoi:
     qhull_options : str, optional
         For those who come from SciPy, where "Qz" is usual unless `incremental`; see `regions`. Options that concern
         rounding have no effect, others are a ValueError.
+    merge : float or "auto", optional
+        Contracts sides of the diagram up to this length, in coordinate units: vertices that rounding of the points has parted are one again, as
+        on lattices of decimals, crystals and rotated grids. Slivers of the hull that are flat within the length have their vertex
+        infinitely far away. "auto" is 2^-40 of the largest coordinate. Without it the diagram is exact.
 
     Attributes
     ----------
@@ -55,8 +60,11 @@ class Voronoi:
         furthest_site: bool = False,
         incremental: bool = False,
         qhull_options: str | None = None,
+        *,
+        merge: float | str | None = None,
     ) -> None:
         """Makes the diagram of points."""
+        self._merge = as_merge(merge)
         usual = "" if as_flag(incremental, "incremental") else "Qz"
         self._has_empty = parse(qhull_options, usual).at_infinity
         self._tri = Delaunay(points, furthest_site, incremental, qhull_options)
@@ -78,7 +86,14 @@ class Voronoi:
         self.ndim, self.npoints = tri.ndim, tri.npoints
         self.min_bound, self.max_bound = tri.min_bound, tri.max_bound
         self.furthest_site = tri.furthest_site
-        self.vertices, self._which = _distinct(tri._centres())
+        length = length_of(self._merge, tri.points)
+        if length is None:
+            self.vertices, self._which = _distinct(tri._centres())
+        else:
+            centres, kept = merged_centres(tri, length)
+            self.vertices, which = _distinct(centres[kept])
+            self._which = np.full(len(centres), -1, dtype=np.intp)
+            self._which[kept] = which
         self.ridge_points, self._ridge_ends, self._ridge_starts = _ridges(tri, self._which)
         # Lists are made when they are asked for: they cost more than all the rest.
         for lists in ("ridge_vertices", "regions"):
@@ -118,14 +133,15 @@ class Voronoi:
         clockwise; none for duplicates.
 
         `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
-        cells are clipped to the box of the points, a twentieth larger.
+        cells are clipped to the box of the points, a twentieth larger. Sides are contracted as `merge` says, and the polygon's corners kept.
         """
         if self.ndim != 2 or self.furthest_site:
             raise NotImplementedError("cells are clipped in the plane, and not those of furthest sites")
         if region is None and not self.npoints:
             return []
         rings = _rings(region, self._tri.min_bound, self._tri.max_bound)
-        corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings)
+        length = length_of(self._merge, *rings)
+        corners, ring_starts, starts = _delone.clipped_cells(self._tri._core, self.npoints, rings, length)
         return _pieces(corners, ring_starts, starts)
 
     def __copy__(self) -> Voronoi:

@@ -117,6 +117,10 @@ pub(crate) struct VoronoiArgs {
     /// The box to clip to [default: the bounding box of the sites].
     #[arg(long = "box", value_name = "X0,Y0,X1,Y1", value_delimiter = ',', allow_hyphen_values = true)]
     pub(crate) bounds: Vec<f64>,
+    /// Contract sides of cells up to this length, in coordinate units: corners become one that rounding has parted. `auto` is 2^-40 of the
+    /// largest coordinate.
+    #[arg(long, value_name = "LENGTH|auto", value_parser = Merge::parse, allow_negative_numbers = true)]
+    pub(crate) merge: Option<Merge>,
     /// Where which K sites are the nearest: the diagram of order K, at most the number of sites.
     #[arg(long, value_name = "K", conflicts_with_all = ["relax", "tolerance", "weights", "radii"])]
     pub(crate) order: Option<usize>,
@@ -138,6 +142,24 @@ pub(crate) struct VoronoiArgs {
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,
+}
+
+/// The length up to which sides are contracted.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Merge {
+    /// That of rounding.
+    Auto,
+    /// In coordinate units.
+    Length(f64),
+}
+
+impl Merge {
+    fn parse(text: &str) -> Result<Self, String> {
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        length(text).map(Self::Length).map_err(|_| "a length, or `auto`, is expected".to_owned())
+    }
 }
 
 /// Draw points.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use delone::{Bounds, Cell2, Delaunay2, Region2, VertexId};
+use delone::{Bounds, Cell2, Delaunay2, MERGE_AUTO, Region2, VertexId};
 use delone_generators::Random;
 
 use crate::attack::{Attack, Judgement};
@@ -243,6 +243,12 @@ fn judge_cells(
     let largest = low.iter().chain(&high).fold(0.0_f64, |largest, x| largest.max(x.abs()));
     let (width, height) = (high[0] - low[0], high[1] - low[1]);
     let diagonal = width.hypot(height);
+    let length = pick(&mut Random::new(seed), &[0.0, MERGE_AUTO * largest, diagonal / 16.0, diagonal]);
+    if length.is_finite() {
+        let merged = cells.clone().merged(length, region).map_err(|error| error.to_string())?;
+        let all: Vec<Vec<Ring>> = d.vertices().map(|v| of(merged.cell(v))).collect();
+        tile(&all, rings).map_err(|wrong| format!("clipped to {rings:?}, merged by {length}: {wrong}"))?;
+    }
     for v in d.vertices() {
         for p in cells.rings(v).flat_map(|ring| ring.points()) {
             let slack = 1e-9 * diagonal;

@@ -23,7 +23,7 @@ const FURTHEST_FROM_BORDER: i64 = 2;
 const NARROW: f64 = 64.0;
 
 /// And where the sine of the angle at a corner is less.
-const LEAST_SINE: f64 = 1e-6;
+const LEAST_SINE: f64 = 1e-4;
 
 /// What of a side along an axis is nothing beside it: 2^-900.
 const LEAST_SHARE: f64 = f64::from_bits(123 << 52);

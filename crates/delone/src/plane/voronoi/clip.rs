@@ -51,35 +51,6 @@ impl Voronoi2<'_> {
     pub fn clip_each(self, region: &Region2, each: impl FnMut(VertexId, Cell2<'_>)) {
         Cells2::each(&self.triangulation.base, region, each);
     }
-
-    /// The cell of one vertex, clipped to a region, as rings: with the corners that [`Self::clip`] gives it. Empty for an id that is
-    /// no vertex.
-    ///
-    /// O(d^2) for a vertex with d neighbours that have as many. All cells are clipped where rounding has turned a ring near by over,
-    /// because then corners are moved that cells share.
-    pub fn cell(self, site: VertexId, region: &Region2) -> Vec<Vec<[f64; 2]>> {
-        let base = &self.triangulation.base;
-        let Some(place) = self.triangulation.mesh().place(site) else { return Vec::new() };
-        let of_one = |place: Place| {
-            let mut builder = Builder::new(region, 1, 1, Vec::new());
-            builder.push_rings(&cut_out(base, region, place));
-            builder
-        };
-        let near = |place: &Place| {
-            base.mesh.spokes(*place).map(|e| base.mesh.head(e)).filter(|w| !w.is_ghost()).collect::<Vec<_>>()
-        };
-        let first = near(&place);
-        let mut around: Vec<Place> =
-            first.iter().flat_map(near).chain(first.iter().copied()).chain([place]).collect();
-        around.sort_unstable();
-        around.dedup();
-        let rings = |cell: Cell2<'_>| cell.rings().map(|ring| ring.points().collect()).collect();
-        if around.iter().all(|&w| of_one(w).is_good()) {
-            rings(of_one(place).cells().all())
-        } else {
-            rings(self.clip(region).cell(site))
-        }
-    }
 }
 
 /// A kernel whose triangulations are dual to cells.

@@ -91,6 +91,12 @@ pub(super) fn mend(cells: &mut Cells2, bad: &[u32], border: &[Point], region: &R
     }
 }
 
+/// The length up to which sides of such corners are contracted.
+pub(super) fn longest_side(corners: &[Point]) -> f64 {
+    let largest = corners.iter().flatten().fold(0.0_f64, |max, x| max.max(x.abs()));
+    LONGEST_SIDE * (largest.next_up() - largest)
+}
+
 #[inline(never)]
 fn contains(places: &[Point], p: Point) -> bool {
     places.binary_search_by(|q| lexicographic(*q, p)).is_ok()
@@ -216,7 +222,7 @@ impl Mending<'_> {
             // Corners that become one may spare the others.
             asked = self.join_all(joins);
             if asked.is_empty() {
-                asked = self.insert_all(&inserts);
+                asked = self.insert_all(inserts);
             } else {
                 asked.append(&mut waiting);
                 sorting::by(&mut asked, u32::cmp);
@@ -302,8 +308,7 @@ impl Mending<'_> {
 
     /// The length up to which sides of such corners are contracted.
     fn longest(&self, corners: &[u32]) -> f64 {
-        let largest = corners.iter().flat_map(|&v| self.at(v)).fold(0.0_f64, |max, x| max.max(x.abs()));
-        LONGEST_SIDE * (largest.next_up() - largest)
+        longest_side(&self.places(corners))
     }
 
     fn length(&self, side: Side) -> f64 {
@@ -396,26 +401,23 @@ impl Mending<'_> {
         v
     }
 
-    /// Makes corners part of sides; the cells that changed.
-    fn insert_all(&mut self, inserts: &[Near]) -> Vec<u32> {
-        let mut asked = Vec::new();
-        for near in inserts {
-            let ends = near.side.map(|v| self.at(v));
-            asked.append(&mut self.rewrite(&|mending, ring| {
-                let mut new = Vec::new();
-                for (&v, &w) in ring.iter().zip(ring.iter().cycle().skip(1)) {
-                    new.push(v);
-                    let [p, q] = [v, w].map(|v| mending.at(v));
-                    if [p, q] == ends || [q, p] == ends {
-                        new.push(near.corner);
-                    }
-                }
-                (new.len() > ring.len()).then_some(new)
-            }));
-        }
-        sorting::by(&mut asked, u32::cmp);
-        asked.dedup();
-        asked
+    /// Makes corners part of sides, of several for a side the nearest; the cells that changed.
+    fn insert_all(&mut self, mut inserts: Vec<Near>) -> Vec<u32> {
+        sorting::by(&mut inserts, |a, b| {
+            let nearest = || a.height.total_cmp(&b.height).then_with(|| self.order(a.corner, b.corner));
+            self.compare_sides(a.side, b.side).then_with(nearest)
+        });
+        inserts.dedup_by(|a, b| self.compare_sides(a.side, b.side).is_eq());
+        self.rewrite(&|mending, ring| {
+            let mut new = Vec::new();
+            for (&v, &w) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+                new.push(v);
+                let side = if mending.order(v, w).is_lt() { [v, w] } else { [w, v] };
+                let found = inserts.binary_search_by(|near| mending.compare_sides(near.side, side));
+                new.extend(found.map(|i| inserts[i].corner));
+            }
+            (new.len() > ring.len()).then_some(new)
+        })
     }
 }
 

@@ -20,6 +20,10 @@ const CORNER: u8 = 0;
 const BORDER: u8 = 1;
 const INSIDE: u8 = 2;
 
+/// How far a corner on the border is from it at most, as a part of the largest coordinate: 2^-50, four units in the last place. Each
+/// coordinate was rounded once, and so was each of the side.
+const ON_BORDER: f64 = 8.881_784_197_001_252e-16;
+
 impl Cells2 {
     /// The cells with sides up to a length contracted, in coordinate units: corners that are nearer to each other along a side become
     /// one, in all cells. [`crate::MERGE_AUTO`] times the largest coordinate is a length of rounding.
@@ -52,7 +56,7 @@ impl Cells2 {
         on_border.flat_map(|(side, _)| side).for_each(|&v| ranks[v as usize] = BORDER);
         let mut corners: Vec<Point> = region.rings().flatten().copied().collect();
         sorting::by(&mut corners, |p, q| delone_predicates::lexicographic(*p, *q));
-        for (rank, p) in ranks.iter_mut().zip(&self.vertices).filter(|(rank, _)| **rank == BORDER) {
+        for (rank, p) in ranks.iter_mut().zip(&self.vertices) {
             if corners.binary_search_by(|q| delone_predicates::lexicographic(*q, *p)).is_ok() {
                 *rank = CORNER;
             }
@@ -65,7 +69,11 @@ impl Cells2 {
                 let is_along = is_border[side] || ranks.contains(&INSIDE);
                 is_along && ranks != [CORNER; 2] && !sides[side].iter().any(|&v| stays[v as usize])
             });
-            let bad: Vec<u32> = self.bad(&to, region).into_iter().filter(|&v| !stays[v as usize]).collect();
+            let mut bad = self.bad(&to, region);
+            let on_border = sides.iter().zip(&is_border).filter(|(_, is_border)| **is_border);
+            let border: Vec<[u32; 2]> = on_border.map(|(side, _)| *side).collect();
+            bad.extend(off_border(&border, &to, &self.vertices));
+            bad.retain(|&v| !stays[v as usize]);
             if bad.is_empty() {
                 self.rewrite(&to);
                 return Ok(self);
@@ -143,6 +151,34 @@ fn moved(ring: &[u32], to: &[u32]) -> Vec<u32> {
         moved.pop();
     }
     if moved.len() < 3 { Vec::new() } else { moved }
+}
+
+/// The corners on the border of the region that have moved and are off its border then: two of its sides had met there by rounding.
+fn off_border(border: &[[u32; 2]], to: &[u32], vertices: &[Point]) -> Vec<u32> {
+    let largest =
+        vertices.iter().flatten().filter(|x| x.is_finite()).fold(0.0_f64, |most, x| most.max(x.abs()));
+    let mut beside: Vec<[u32; 2]> = Vec::new();
+    for [v, w] in border.iter().map(|side| side.map(|v| to[v as usize])).filter(|[v, w]| v != w) {
+        beside.extend([[v, w], [w, v]]);
+    }
+    sorting::by_key(&mut beside, |pair| *pair);
+    let is_on = |v: u32| {
+        let from = beside.partition_point(|pair| pair[0] < to[v as usize]);
+        let mut sides = beside[from..].iter().take_while(|pair| pair[0] == to[v as usize]);
+        sides.any(|side| is_near(vertices[v as usize], side.map(|v| vertices[v as usize]), largest))
+    };
+    let is_moved = |v: &u32| to[*v as usize] != *v;
+    border.iter().flatten().copied().filter(is_moved).filter(|&v| !is_on(v)).collect()
+}
+
+/// Whether a place is on a side, but for rounding.
+fn is_near(at: Point, [p, q]: [Point; 2], largest: f64) -> bool {
+    let away = |r: Point| [0, 1].map(|k| r[k] / largest - p[k] / largest);
+    let ([x, y], [dx, dy]) = (away(at), away(q));
+    let square = dx * dx + dy * dy;
+    let part = ((x * dx + y * dy) / square).clamp(0.0, 1.0);
+    let miss = [x - part * dx, y - part * dy];
+    miss[0].abs().max(miss[1].abs()) <= ON_BORDER
 }
 
 /// Of sides, whether no cell has it the other way round.

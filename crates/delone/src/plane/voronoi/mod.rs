@@ -15,6 +15,7 @@ pub(in crate::plane) mod clip;
 mod contract;
 mod merge;
 mod relax;
+mod single;
 
 pub use cells::{Cell2, Cells2, Ring};
 pub use relax::Relaxation2;
