@@ -2,7 +2,7 @@
 
 use delone::{Coordinates, Region2, VertexId};
 use delone_predicates::circumcentre;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -60,9 +60,9 @@ pub fn merged_vertices<'py>(
     let (ends, _) = sides.as_slice()?.as_chunks::<2>();
     let sides: Vec<[u32; 2]> = ends.iter().map(|ends| ends.map(|i| i as u32)).collect();
     let merged = if places.shape()[1] == 2 {
-        merged_places(py, &coordinates::<2>(&places)?, &sides, length)
+        merged_places(py, &coordinates::<[f64; 2]>(&places)?, &sides, length)
     } else {
-        merged_places(py, &coordinates::<3>(&places)?, &sides, length)
+        merged_places(py, &coordinates::<[f64; 3]>(&places)?, &sides, length)
     }?;
     Ok(PyArray1::from_vec(py, merged.into_iter().map(i64::from).collect()))
 }
@@ -73,7 +73,8 @@ fn merged_places<P: Coordinates>(
     sides: &[[u32; 2]],
     length: f64,
 ) -> PyResult<Vec<u32>> {
-    detached(py, places.len() >= FEW, || delone::merged_vertices(places, sides, length))?.map_err(python_error)
+    detached(py, places.len() >= FEW, || delone::merged_vertices(places, sides, length))?
+        .map_err(python_error)
 }
 
 /// Triangles, and the circumcentre of each.

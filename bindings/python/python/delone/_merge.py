@@ -33,12 +33,12 @@ def length_of(merge: Merge, *arrays: NDArray[np.float64]) -> float | None:
 
 
 def merged_centres(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """For each simplex the vertex that its centre becomes, and whether there is one: it is infinitely far away for slivers of the hull
-    that are flat within the length."""
+    """For each simplex the vertex that its centre becomes, and whether there is one: it is infinitely far away for slivers of the
+    hull that are flat within the length."""
     rows = tri._centres()
-    kept = np.isfinite(rows).all(axis=1)
+    kept: NDArray[np.bool_] = np.isfinite(rows).all(axis=1)
     if not tri.furthest_site:
-        kept &= ~_slivers(tri, rows, length)
+        kept = kept & ~_slivers(tri, rows, length)
     number = np.cumsum(kept) - 1
     row, corner = np.nonzero(tri.neighbors > np.arange(len(rows))[:, None])
     sides = np.stack([row, tri.neighbors[row, corner]], axis=1)
