@@ -36,6 +36,8 @@ def regions(points):
     if hull.geom_type == "Polygon":
         yield "hull", ["--clip", "hull"], None
     yield "polygon", polygon, polygon
+    yield "merged", ["--merge", "auto", "--box", box], around
+    yield "merged far", ["--merge", repr(float(size.max() / 16)), "--box", text(near, far)], inner
     # A hole with two sides on the borders of a lattice's cells.
     middle = points[len(points) // 2]
     others = np.abs(points - middle).max(axis=1)

@@ -130,3 +130,39 @@ fn systems_and_ranges() {
     let table = place.succeed("voronoi huge.csv -o - --to csv -q");
     assert!(table.lines().skip(1).all(|line| line.contains(",,\"POLYGON ((")), "{table}");
 }
+
+/// Cells of a lattice of decimals, turned: four corners each, but for the border.
+#[test]
+fn sides_are_merged() {
+    let place = Place::new();
+    let mut rows = String::new();
+    for (i, j) in (0..64).map(|k| (f64::from(k % 8), f64::from(k / 8))) {
+        let (x, y) = (0.1 * i, 0.1 * j);
+        writeln!(rows, "{},{}", 7.3 + 0.6 * x - 0.8 * y, 46.9 + 0.8 * x + 0.6 * y).expect("text");
+    }
+    place.file("lattice.csv", &rows);
+    place.file("equal.csv", "0.5\n".repeat(64));
+    let whole = |text: &str| -> Vec<usize> {
+        let cells = text.lines().skip(1).map(|line| line.matches(", ").count());
+        cells.collect()
+    };
+    for how in ["", "--order 1", "--weights equal.csv"] {
+        let exact = whole(&place.succeed(&format!("voronoi lattice.csv -o - --to csv --clip hull -q {how}")));
+        assert!(exact.iter().any(|&sides| sides > 5), "{how}: {exact:?}");
+        for merge in ["auto", "1e-9"] {
+            let command = format!("voronoi lattice.csv -o - --to csv --clip hull -q {how} --merge {merge}");
+            let cells = whole(&place.succeed(&command));
+            assert!(cells.iter().filter(|&&sides| sides == 4).count() >= 36, "{command}: {cells:?}");
+        }
+    }
+    for wrong in ["-1", "much"] {
+        place.fail(
+            &format!("voronoi lattice.csv -o c.csv --merge {wrong}"),
+            2,
+            "a length, or `auto`, is expected",
+        );
+    }
+    place.fail("voronoi lattice.csv -o c.csv --merge inf", 2, "merge is inf; it must be a length");
+    place.succeed("voronoi lattice.csv -o c.csv --merge auto -q --stats s.json");
+    assert!(place.read("s.json").contains("\"merge\""));
+}

@@ -36,9 +36,8 @@ def merged_centres(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], N
     """For each simplex the vertex that its centre becomes, and whether there is one: it is infinitely far away for slivers of the
     hull that are flat within the length."""
     rows = tri._centres()
-    kept: NDArray[np.bool_] = np.isfinite(rows).all(axis=1)
-    if not tri.furthest_site:
-        kept = kept & ~_slivers(tri, rows, length)
+    gone = np.logical_or.reduce(~np.isfinite(rows), axis=1, dtype=bool)
+    kept = ~gone if tri.furthest_site else ~(gone | _slivers(tri, rows, length))
     number = np.cumsum(kept) - 1
     row, corner = np.nonzero(tri.neighbors > np.arange(len(rows))[:, None])
     sides = np.stack([row, tri.neighbors[row, corner]], axis=1)

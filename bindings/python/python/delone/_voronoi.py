@@ -33,8 +33,8 @@ class Voronoi:
         rounding have no effect, others are a ValueError.
     merge : float or "auto", optional
         Contracts sides of the diagram up to this length, in coordinate units: vertices that rounding of the points has parted are
-        one again, as on lattices of decimals, crystals and rotated grids. Slivers of the hull that are flat within the length have
-        their vertex infinitely far away. "auto" is 2^-40 of the largest coordinate. Without it the diagram is exact.
+        one again, as on lattices of decimals, crystals and rotated grids. Slivers of the hull that are flat within the length
+        have their vertex infinitely far away. "auto" is 2^-40 of the largest coordinate. Without it the diagram is exact.
 
     Attributes
     ----------
@@ -133,8 +133,8 @@ class Voronoi:
         clockwise; none for duplicates.
 
         `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
-        cells are clipped to the box of the points, a twentieth larger. Sides are contracted as `merge` says, and the corners of the
-        polygon kept.
+        cells are clipped to the box of the points, a twentieth larger. Sides are contracted as `merge` says, and the corners of
+        the polygon kept.
         """
         if self.ndim != 2 or self.furthest_site:
             raise NotImplementedError("cells are clipped in the plane, and not those of furthest sites")
