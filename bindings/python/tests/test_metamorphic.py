@@ -83,8 +83,8 @@ def furthest(g):
     return simplices(g, delone.Delaunay(g.points, furthest_site=True).simplices)
 
 
-def voronoi(g):
-    v = delone.Voronoi(g.points)
+def voronoi(g, merge=None):
+    v = delone.Voronoi(g.points, merge=merge)
     at = np.vstack([g.back(v.vertices), np.full(g.points.shape[1], np.inf)])
     sites = g.back(g.points)
     shapes = [row(p) for p in at[:-1]]
@@ -95,9 +95,17 @@ def voronoi(g):
     return shapes
 
 
-def cells(g):
-    v = delone.Voronoi(g.points).cells(window(g))
+def merged(g):
+    return voronoi(g, "auto") + voronoi(g, g.length(0.125))
+
+
+def cells(g, merge=None):
+    v = delone.Voronoi(g.points, merge=merge).cells(window(g))
     return [ring(g, r) for rings in v for r in rings]
+
+
+def merged_cells(g):
+    return cells(g, "auto") + cells(g, g.length(0.125))
 
 
 def hull(g):
@@ -208,8 +216,8 @@ def neighbors(g):
     return [row(*each) for each in zip(g.back(g.queries), g.back(distances), found, strict=True)]
 
 
-BOTH = [delaunay, voronoi, hull, regular, graphs, alpha, interpolators, neighbors]
-PLANE = [beta, furthest, cells, outline, orders, constrained, polygons, rasters, contours, simplified]
+BOTH = [delaunay, voronoi, merged, hull, regular, graphs, alpha, interpolators, neighbors]
+PLANE = [beta, furthest, cells, merged_cells, outline, orders, constrained, polygons, rasters, contours, simplified]
 MESHES = {
     "mesh by angle": meshed(min_angle=25),
     "mesh by edge": meshed(max_edge=(0.0625, 1)),

@@ -177,6 +177,11 @@ const PLANE: &[Operation<2>] = &[
         let clipped = d.voronoi().clip(&window(set));
         cells(d.vertices().map(|v| (d.point(v), clipped.cell(v))))
     }),
+    ("cells merged", |set| {
+        let (d, region) = (delaunay(set), window(set));
+        let merged = d.voronoi().clip(&region).merged(set.unit / 8.0, &region).expect("a length");
+        cells(d.vertices().map(|v| (d.point(v), merged.cell(v))))
+    }),
     ("cells alone", |set| {
         let (d, mut outcome) = (delaunay(set), Outcome::default());
         for v in d.vertices() {
