@@ -1,13 +1,17 @@
 //! Surfaces over points with heights: whose neighbour a place has, which cells have data, where contours run, what thinning leaves,
 //! each against its definition in integers; and the same bits whichever way the triangulation came about.
 
-use delone::surface::{Contours, Grid, Interpolator, Levels, Thinning, rasterize};
+use delone::surface::{ContourBand, ContourLine, Contours, Grid, Interpolator, Levels, Thinning, rasterize};
 use delone::{Bounds, Delaunay2, Delaunay3, Surround, VertexId};
 use delone_generators::Random;
 
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, once_in};
 use crate::oracle::exact::{Vector, integer, integers, orientation, scale};
+use crate::oracle::rings::{Ring, Side, are_apart, are_neighbours};
+
+/// Points and heights nearer to each other than this part of the largest leave contours no room: 2^-30. Rounding moves them by 2^-52.
+const ROOM: f64 = 9.313_225_746_154_785e-10;
 
 /// A point and its height.
 type Sample<const D: usize> = ([f64; D], f64);
@@ -22,7 +26,9 @@ impl Attack for Planar {
     type Item = Sample<2>;
 
     fn make(random: &mut Random) -> Vec<Sample<2>> {
-        with_heights(nasty::points(random, 20), random)
+        let points =
+            if once_in(random, 3) { nasty::everyday(random, 24) } else { nasty::points::<2>(random, 24) };
+        with_heights(points, random)
     }
 
     fn judge(samples: &[Sample<2>], seed: u64) -> Judgement {
@@ -281,6 +287,9 @@ fn judge_contours(
         return Err(format!("a contour leaves the points at {p:?}"));
     }
     let bands = one.bands(&levels).map_err(failed)?;
+    if has_room(d.points(), heights, levels.values()) {
+        judge_shapes(&lines, &bands)?;
+    }
     if bands != other.bands(&levels).map_err(failed)? {
         return Err(format!("bands depend on the order of the points: {bands:?}"));
     }
@@ -299,6 +308,35 @@ fn judge_contours(
         return Err(format!("bands have {of_bands} of {of_triangles}: {bands:?}"));
     }
     Ok(())
+}
+
+/// Whether points, and heights with levels, are apart by a part of the largest: contours between them are no roundings.
+fn has_room(points: &[[f64; 2]], heights: &[f64], levels: &[f64]) -> bool {
+    let mut all: Vec<f64> = heights.iter().chain(levels).map(|z| z + 0.0).collect();
+    all.sort_by(f64::total_cmp);
+    let range = all[all.len() - 1] / 2.0 - all[0] / 2.0;
+    let gaps = all.windows(2).map(|pair| pair[1] / 2.0 - pair[0] / 2.0);
+    let largest = points.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let near = |p: &[f64; 2], q: &[f64; 2]| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+    let apart = points.iter().flat_map(|p| points.iter().map(move |q| near(p, q)));
+    gaps.filter(|gap| *gap > 0.0).all(|gap| gap >= ROOM * range)
+        && apart.filter(|apart| *apart > 0.0).all(|apart| apart >= ROOM * largest)
+}
+
+/// Lines do not cross, and bands are polygons that share whole sides.
+fn judge_shapes(lines: &[ContourLine], bands: &[ContourBand]) -> Judgement {
+    let mut segments: Vec<Side> = Vec::new();
+    for line in lines {
+        let closing = line.is_closed.then(|| [line.points[line.points.len() - 1], line.points[0]]);
+        segments.extend(line.points.windows(2).map(|ends| [ends[0], ends[1]]).chain(closing));
+    }
+    // Lines of several heights may run together.
+    segments.iter_mut().for_each(|ends| ends.sort_by(|p, q| p.partial_cmp(q).expect("finite")));
+    segments.sort_by(|s, t| s.partial_cmp(t).expect("finite"));
+    segments.dedup();
+    are_apart(&segments).map_err(|wrong| format!("lines cross: {wrong}: {lines:?}"))?;
+    let polygons: Vec<Vec<Ring>> = bands.iter().flat_map(|band| band.polygons.clone()).collect();
+    are_neighbours(&polygons).map_err(|wrong| format!("bands: {wrong}: {bands:?}"))
 }
 
 /// No sample is further from the triangles of those that are left than was asked for.

@@ -13,7 +13,7 @@ use crate::attack::Judgement;
 pub(crate) type Ring = Vec<[f64; 2]>;
 
 /// A directed side.
-type Side = [[f64; 2]; 2];
+pub(crate) type Side = [[f64; 2]; 2];
 
 /// How far a corner on a slanted side of a region is from it at most, in units in the last place of the region's largest coordinate: each
 /// coordinate is rounded once, and one corner may stand for another beside it.
@@ -46,7 +46,28 @@ pub(crate) fn is_proper(rings: &[Vec<[f64; 2]>]) -> bool {
 
 /// No two sides have more than corners in common.
 pub(crate) fn crossing(rings: &[Ring]) -> Judgement {
-    let ends: Vec<Side> = sides(rings).collect();
+    are_apart(&sides(rings).collect::<Vec<_>>())
+}
+
+/// The sides of neighbours, which have them both, once.
+pub(crate) fn are_neighbours(polygons: &[Vec<Ring>]) -> Judgement {
+    for rings in polygons {
+        border(rings).map_err(|wrong| format!("{wrong}: {rings:?}"))?;
+    }
+    let once = |[p, q]: Side| if p < q { [p, q] } else { [q, p] };
+    let mut all: Vec<Side> = polygons.iter().flat_map(|rings| sides(rings)).collect();
+    all.sort_by(|s, t| s.partial_cmp(t).unwrap_or(std::cmp::Ordering::Equal));
+    if let Some(pair) = all.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(format!("two polygons have the side {:?}", pair[0]));
+    }
+    let mut all: Vec<Side> = all.into_iter().map(once).collect();
+    all.sort_by(|s, t| s.partial_cmp(t).unwrap_or(std::cmp::Ordering::Equal));
+    all.dedup();
+    are_apart(&all)
+}
+
+/// No two of different sides have more than ends in common.
+pub(crate) fn are_apart(ends: &[Side]) -> Judgement {
     let exact: Vec<Vec<Vector>> = integers(ends.as_flattened()).chunks(2).map(<[Vector]>::to_vec).collect();
     let is_beside = |s: Side, t: Side| {
         (0..2).any(|k| {
