@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use delone::{
-    Constrained2, Crossings, Error, Fill, Keep, Reason, Refined2, Refinement, RegionSeed2, Seeds2,
+    Constrained2, Crossings, Domains2, Error, Fill, Keep, Reason, Refined2, Refinement, RegionSeed2, Seeds2,
     TriangleId, Triangulation as _,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -121,13 +121,14 @@ impl Mesh {
             }
             None => None,
         };
-        Self::refined(py, built.map_err(python_error)?, given, areas, wishes)
+        Self::refined(py, (built.map_err(python_error)?, None), given, areas, wishes)
     }
 
-    /// Refines it again; a new one.
+    /// Refines what is inside again; a new one.
     fn again(&self, py: Python<'_>, wishes: Wishes<'_>) -> PyResult<Self> {
         let areas = wishes.areas(&self.made, &self.inside)?;
-        Self::refined(py, self.made.clone(), self.given, areas, wishes)
+        let inside = Some(self.refined.domains.clone());
+        Self::refined(py, (self.made.clone(), inside), self.given, areas, wishes)
     }
 
     /// The coordinates of all points.
@@ -209,10 +210,10 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// Refines what was built, under Python's lock only where Python is asked.
+    /// Refines what was built, under Python's lock only where Python is asked. What is inside is known, or wished.
     fn refined(
         py: Python<'_>,
-        made: Constrained2,
+        from: (Constrained2, Option<Domains2>),
         given: usize,
         areas: Option<Field>,
         wishes: Wishes<'_>,
@@ -223,7 +224,7 @@ impl Mesh {
                 let asked = Asked::new(function);
                 let areas = areas.unwrap_or(Field::Everywhere);
                 let at = |at| asked.length(at);
-                let done = plan.refine(made, given, Some(&at), &areas, &|| asked.has_failed());
+                let done = plan.refine(from, given, Some(&at), &areas, &|| asked.has_failed());
                 asked.end()?;
                 return Ok(done?);
             }
@@ -234,13 +235,13 @@ impl Mesh {
         let seen = Arc::clone(&is_wanted);
         let done = interruptible(py, LONG, move || {
             let lengths = match values {
-                Some(values) => Field::lengths(made.points()[..values.len()].to_vec(), values)?,
+                Some(values) => Field::lengths(from.0.points()[..values.len()].to_vec(), values)?,
                 None => Field::Everywhere,
             };
             let areas = areas.unwrap_or(Field::Everywhere);
             let length = |at| lengths.length(at);
             let stop = || !seen.load(Ordering::Relaxed);
-            plan.refine(made, given, lengths.is_asked().then_some(&length as _), &areas, &stop)
+            plan.refine(from, given, lengths.is_asked().then_some(&length as _), &areas, &stop)
         });
         // Whoever still works at it after an interruption need not go on.
         is_wanted.store(done.is_ok(), Ordering::Relaxed);
@@ -289,18 +290,18 @@ impl<'py> Wishes<'py> {
 impl Plan {
     fn refine(
         &self,
-        made: Constrained2,
+        (mut made, known): (Constrained2, Option<Domains2>),
         given: usize,
         length: Option<&dyn Fn([f64; 2]) -> f64>,
         areas: &Field,
         stop: &dyn Fn() -> bool,
     ) -> Result<Mesh, Failed> {
-        let mut made = made;
-        let fill = match self.fill.as_str() {
-            "even-odd" => Fill::EvenOdd,
-            "nonzero" => Fill::NonZero,
-            "seeds" => Fill::Seeds(&self.seeds),
-            _ => Fill::All,
+        let fill = match (&known, self.fill.as_str()) {
+            (Some(known), _) => Fill::Parts(known),
+            (None, "even-odd") => Fill::EvenOdd,
+            (None, "nonzero") => Fill::NonZero,
+            (None, "seeds") => Fill::Seeds(&self.seeds),
+            (None, _) => Fill::All,
         };
         self.make_room(&made, &fill)?;
         let area = |at| areas.area(at);

@@ -176,6 +176,25 @@ def test_refining_again():
         coarse.refine(max_areas=np.full(len(low), np.nan))
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_refining_again_starts_from_the_triangles_that_there_are(seed):
+    """Points on slanted borders are rounded; beside them nothing comes back, and small angles of segments are not cut again."""
+    random = np.random.default_rng(seed)
+    points, segments = random.random((120, 2)), random.integers(0, 120, (24, 2))
+    coarse = delone.mesh(points, segments, crossings="split", fill="all", min_angle=25)
+    for angle in (0, 10, 25):
+        same = coarse.refine(min_angle=angle)
+        assert (same.points == coarse.points).all() and same.area == pytest.approx(coarse.area)
+        assert {frozenset(t) for t in same.triangles.tolist()} == {frozenset(t) for t in coarse.triangles.tolist()}
+        assert same.report.smallest_angle == coarse.report.smallest_angle > 0
+    fine = coarse.refine(min_angle=25, max_area=coarse.area / 5000)
+    check(fine, points, segments)
+    assert fine.area == pytest.approx(coarse.area)
+    assert np.delete(fine.areas, fine.report.left).max() <= coarse.area / 5000
+    again = fine.refine(min_angle=25, max_area=coarse.area / 5000)
+    assert (again.points == fine.points).all()
+
+
 def test_what_is_kept():
     inner = [*UNIT, [0.4, 0.5], [0.6, 0.5]]
     segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5]]

@@ -167,6 +167,9 @@ pub enum Error {
         /// Where it is.
         place: &'static str,
     },
+    /// Parts of another triangulation, or of this one before it changed.
+    #[error("the parts are of another triangulation, or it has changed since")]
+    Parts,
     /// Location by history or by the Delaunay tree is for Delaunay triangulations.
     #[error("a triangulation with constraints cannot be located by history or by the Delaunay tree")]
     OnlyDelaunay,

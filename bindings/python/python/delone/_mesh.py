@@ -310,7 +310,8 @@ class Mesh:
         conforming: bool = False,
         smooth: int = 0,
     ) -> Mesh:
-        """A finer mesh of the same, which has all points of this one under the indices that they have.
+        """A finer mesh of the same triangles, which has all points of this one under the indices that they have. What is good
+        enough stays as it is.
 
         Parameters
         ----------

@@ -1,5 +1,6 @@
 //! Refinement: what it promises, judged by big integers; the same mesh whatever the order; an end whatever the input.
 
+mod again;
 mod bounds;
 mod ends;
 mod judge;

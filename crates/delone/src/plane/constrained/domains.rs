@@ -8,6 +8,7 @@
 //! triangle.
 
 use super::overlaps::{self, Weight};
+use super::refined::Origin;
 use super::{Constrained2, SegmentId};
 use crate::error::Error;
 use crate::ids::{EdgeId, TriangleId, VertexId};
@@ -30,6 +31,9 @@ pub enum Fill<'a> {
     /// What is left of the hull without holes, given by a point in each, and without what no constraint parts from the
     /// outside; as Triangle has it.
     Seeds(&'a Seeds2),
+    /// What these parts say, with their regions. They are parts of this triangulation as it is: a mesh that is refined again keeps what
+    /// it has, as its borders may have bent past seeds, or away from the hull; and where it could not be better, no vertex is added.
+    Parts(&'a Domains2),
 }
 
 /// Points in holes and regions.
@@ -69,14 +73,16 @@ pub struct Part2 {
 }
 
 /// The parts of a constrained triangulation at some time. Triangles of later changes are in none.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Domains2 {
     /// For each triangle its part; [`NONE`] for ghosts.
     pub(super) of: Vec<u32>,
     pub(super) parts: Vec<Part2>,
-    attributes: Vec<f64>,
+    pub(in crate::plane) regions: Vec<RegionSeed2>,
     /// Pairs of regions that claim one part; the first one has it.
     rivals: Vec<[usize; 2]>,
+    /// What is known of each vertex, by id, if the triangulation was refined.
+    pub(in crate::plane) origins: Vec<Origin>,
 }
 
 pub(super) const NONE: u32 = u32::MAX;
@@ -104,7 +110,7 @@ impl Domains2 {
 
     /// The attribute of the region that a triangle is in.
     pub fn attribute(&self, t: TriangleId) -> Option<f64> {
-        self.region(t).map(|region| self.attributes[region])
+        self.region(t).map(|region| self.regions[region].attribute)
     }
 
     /// Pairs of regions whose seeds are in one part. The first of each pair has it.
@@ -120,7 +126,8 @@ impl Constrained2 {
     /// The parts of the hull, and which of them are inside. All segments are borders.
     ///
     /// # Errors
-    /// [`Error::Seed`] for a seed on a constraint or outside of the hull, [`Error::Coordinate`] for one that is not finite.
+    /// [`Error::Seed`] for a seed on a constraint or outside of the hull, [`Error::Coordinate`] for one that is not finite,
+    /// [`Error::Parts`] for parts of another triangulation.
     pub fn domains(&self, fill: &Fill) -> Result<Domains2, Error> {
         self.domains_within(fill, |_| true)
     }
@@ -138,6 +145,8 @@ impl Constrained2 {
         let mut domains = self.parts();
         let count = domains.parts.len();
         match fill {
+            Fill::Parts(known) if self.is_parted_by(known) => return Ok((*known).clone()),
+            Fill::Parts(_) => return Err(Error::Parts),
             Fill::All => domains.parts.iter_mut().for_each(|part| part.is_inside = true),
             Fill::EvenOdd | Fill::NonZero => {
                 let weights = self.weights(is_border);
@@ -157,18 +166,44 @@ impl Constrained2 {
                 for (index, &at) in seeds.holes.iter().enumerate() {
                     outside[self.seeded(&domains, "hole", index, at)?] = true;
                 }
-                for (index, seed) in seeds.regions.iter().enumerate() {
-                    let part = self.seeded(&domains, "region", index, seed.at)?;
-                    match domains.parts[part].region {
-                        None => domains.parts[part].region = Some(index),
-                        Some(first) => domains.rivals.push([first, index]),
-                    }
-                }
-                domains.attributes = seeds.regions.iter().map(|seed| seed.attribute).collect();
+                self.claim(&mut domains, &seeds.regions)?;
                 domains.parts.iter_mut().zip(outside).for_each(|(part, outside)| part.is_inside = !outside);
             }
         }
         Ok(domains)
+    }
+
+    /// Gives parts to the regions whose seeds are in them, whatever says what is inside. Regions of before are forgotten.
+    ///
+    /// # Errors
+    /// As [`Self::domains`]; no part has a region then.
+    pub fn claim(&self, domains: &mut Domains2, regions: &[RegionSeed2]) -> Result<(), Error> {
+        domains.parts.iter_mut().for_each(|part| part.region = None);
+        domains.regions.clear();
+        domains.rivals.clear();
+        let parts =
+            regions.iter().enumerate().map(|(index, seed)| self.seeded(domains, "region", index, seed.at));
+        let parts: Vec<usize> = parts.collect::<Result<_, _>>()?;
+        for (index, part) in parts.into_iter().enumerate() {
+            match domains.parts[part].region {
+                None => domains.parts[part].region = Some(index),
+                Some(first) => domains.rivals.push([first, index]),
+            }
+        }
+        domains.regions = regions.to_vec();
+        Ok(())
+    }
+
+    /// Whether parts are of this triangulation as it is: constraints alone lie between two of them.
+    fn is_parted_by(&self, domains: &Domains2) -> bool {
+        let mesh = self.mesh();
+        let part = |t: TriangleId| domains.part(t);
+        let is_same = |e: EdgeId| {
+            let other = mesh.twin(e).triangle();
+            mesh.is_fixed(e) || mesh.is_ghost(other) || part(other) == part(e.triangle())
+        };
+        domains.of.len() == mesh.slot_count()
+            && mesh.triangles().all(|t| [0, 1, 2].into_iter().all(|k| is_same(t.edge(k))))
     }
 
     /// The part that a seed is in.

@@ -43,7 +43,7 @@ pub use change::SegmentEnds;
 pub use check::ConstrainedFlaw2;
 pub use domains::{Domains2, Fill, Part2, RegionSeed2, Seeds2};
 pub use polygons::{PolygonTriangles2, Polygons2};
-pub(in crate::plane) use refined::Before;
+pub(in crate::plane) use refined::{Before, Origin};
 pub use segments::{Covering2, SegmentId};
 
 use super::Delaunay2;

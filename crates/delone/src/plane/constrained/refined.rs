@@ -1,8 +1,8 @@
 //! What refinement needs of a constrained triangulation: its triangles put into domains, and afterwards names for new vertices
 //! and chains for segments that were split.
 //!
-//! While it is refined all is known by places. Segments need not be known then: each new vertex on a constraint knows the ends of
-//! the input edge that it is on.
+//! While it is refined all is known by places. Segments need not be known then: new vertices on a constraint have two constraint
+//! edges each, so these lead to the ends of the input edge that was split.
 
 use std::collections::BTreeMap;
 
@@ -15,6 +15,15 @@ use crate::error::Error;
 use crate::ids::{MAX_POINTS, Place, TriangleId, VertexId};
 use crate::plane::layer::Layer;
 use crate::sorting;
+
+/// What a refinement knows of a vertex, for the next one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::plane) struct Origin {
+    /// The ends of the constraint that it was put on; twice itself for a vertex that was there before, the ghost for a free one.
+    pub(in crate::plane) on: [VertexId; 2],
+    /// How near others may come, see `refine/mesher`.
+    pub(in crate::plane) scale: f64,
+}
 
 /// What is remembered while a triangulation is refined.
 #[derive(Debug)]
@@ -31,7 +40,7 @@ pub(in crate::plane) struct Before {
     pub(in crate::plane) room: usize,
 }
 
-/// The new vertices on an edge of the input: its ends, by increasing id, and whether all are exactly on it.
+/// The new vertices on an edge of the input: its ends, by increasing id, the vertices in between, and whether all are exactly on it.
 type Along = (Ends, Vec<VertexId>, bool);
 
 impl Constrained2 {
@@ -75,60 +84,63 @@ impl Constrained2 {
         &mut self.graph.base
     }
 
-    /// Gives new vertices their names, in their order, and segments their chains. `on` says of those on constraints between
-    /// which input vertices they are.
+    /// Gives new vertices their names, in their order, and segments their chains. Gives how many are free, and on constraints.
     pub(in crate::plane) fn end_refinement(
         &mut self,
         before: &Before,
         new: &[Place],
-        on: &[([Place; 2], Place)],
     ) -> Result<[usize; 2], Error> {
         self.graph.end_bulk(new)?;
-        let named = |&(ends, p): &([Place; 2], Place)| {
-            let mut ends = ends.map(|end| self.mesh().name(end));
-            ends.sort_unstable();
-            (ends, p)
-        };
-        let mut along: Vec<(Ends, Place)> = on.iter().map(named).collect();
-        along.sort_unstable();
-        let counts = [new.len() - along.len(), along.len()];
-        let along: Vec<Along> = along.chunk_by(|p, q| p.0 == q.0).map(|on| self.chain_on(on)).collect();
+        let along = self.chains_along(before, new);
+        let on: usize = along.iter().map(|along| along.1.len()).sum();
         self.has_chains |= !along.is_empty();
         self.bend(before, &along);
-        Ok(counts)
+        Ok([new.len() - on, on])
     }
 
-    /// The chain of new vertices on an edge of the input.
-    fn chain_on(&self, on: &[(Ends, Place)]) -> Along {
+    /// The chains of new vertices on edges of the input, by the ends of these.
+    fn chains_along(&self, before: &Before, new: &[Place]) -> Vec<Along> {
+        let mut is_met = vec![false; self.graph.base.points.len()];
+        let mut along = Vec::new();
+        for &p in new {
+            if !is_met[p.index()] && self.mesh().spokes(p).any(|e| self.mesh().is_fixed(e)) {
+                let found = self.chain_through(p, before.given);
+                let places = found.1.iter().filter_map(|&v| self.mesh().place(v));
+                places.for_each(|p| is_met[p.index()] = true);
+                along.push(found);
+            }
+        }
+        sorting::by_key(&mut along, |along| along.0);
+        along
+    }
+
+    /// The chain of new vertices that one of them is in.
+    fn chain_through(&self, some: Place, given: usize) -> Along {
         let mesh = self.mesh();
-        let (ends, some) = on[0];
-        let [first, last] = ends.map(|v| mesh.place(v).expect("a vertex"));
-        // From any of them to both ends. At the last one of each way the end of the input edge follows.
-        let way = |k: usize| {
-            let (mut chain, mut from, mut at) = (Vec::new(), Place::GHOST, some);
-            loop {
-                let mut next = mesh.spokes(at).filter(|&e| mesh.is_fixed(e)).map(|e| mesh.head(e));
-                let next = if at == some { next.nth(k) } else { next.find(|&w| w != from) };
-                match next {
-                    Some(next) if next != first && next != last => {
-                        chain.push(next);
-                        (from, at) = (at, next);
-                    }
-                    end => return (chain, end),
+        let fixed = |at: Place| mesh.spokes(at).filter(|&e| mesh.is_fixed(e)).map(|e| mesh.head(e));
+        // To one end, and back from there to the other one.
+        let way = |mut from: Place, mut at: Place| {
+            let mut chain = vec![mesh.name(at)];
+            while let Some(next) = fixed(at).find(|&next| next != from) {
+                (from, at) = (at, next);
+                chain.push(mesh.name(at));
+                if mesh.name(at).index() < given {
+                    break;
                 }
             }
+            (chain, from, at)
         };
-        let ((mut chain, end), (rest, _)) = (way(0), way(1));
-        chain.reverse();
-        chain.push(some);
-        chain.extend(rest);
-        if end != Some(first) {
+        let (_, last, end) = way(Place::GHOST, some);
+        let (mut chain, ..) = way(end, last);
+        chain.insert(0, mesh.name(end));
+        if chain.first() > chain.last() {
             chain.reverse();
         }
+        let ends = [chain[0], chain[chain.len() - 1]];
+        let inner = chain[1..chain.len() - 1].to_vec();
         let [a, b] = ends.map(|v| self.point(v));
-        let is_on = |p: &Place| orient2d(a, b, self.graph.base.points[p.index()]).is_zero();
-        let is_straight = chain.iter().all(is_on);
-        (ends, chain.into_iter().map(|p| mesh.name(p)).collect(), is_straight)
+        let is_straight = inner.iter().all(|&v| orient2d(a, b, self.point(v)).is_zero());
+        (ends, inner, is_straight)
     }
 
     /// Bends the segments that have new vertices beside their line.

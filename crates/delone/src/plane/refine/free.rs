@@ -136,7 +136,7 @@ impl Mesher<'_> {
         }
         let v = self.layer.place_for(Spot::Triangle(t), q);
         self.fill(v);
-        self.note_vertex(v, Known { on: [Place::GHOST; 2], scale });
+        self.note_vertex(v, Known::free(scale));
         self.for_sizes += usize::from(task.fault() == Fault::Size);
         self.look_around(v);
     }

@@ -14,7 +14,9 @@ use super::report::Reason;
 use super::rules::Rules;
 use super::shape::{Shape, squared, squared_obtuseness};
 use crate::error::Error;
-use crate::ids::{EdgeId, Place, TriangleId};
+use crate::ids::{EdgeId, Place, TriangleId, VertexId};
+use crate::mesh::Mesh2;
+use crate::plane::constrained::Origin;
 use crate::plane::layer::Layer;
 use crate::prefetch::prefetch;
 
@@ -26,13 +28,39 @@ const PART: f64 = 1.0 / 64.0;
 /// What is known of a vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
-    /// The ends of the input constraint that it lies on; twice itself for an input vertex, the ghost for a free one.
+    /// The ends of the input constraint that it lies on; twice itself for an input vertex, the ghost for a free one, and then
+    /// itself if it is one of an earlier refinement, which stays.
     pub(super) on: [Place; 2],
     /// See the module.
     pub(super) scale: f64,
 }
 
 impl Known {
+    /// Of a new vertex on no constraint.
+    pub(super) fn free(scale: f64) -> Self {
+        Self { on: [Place::GHOST; 2], scale }
+    }
+
+    /// Of a vertex as the last refinement left it, if all that it tells of is still there.
+    fn of(origin: &Origin, p: Place, mesh: &Mesh2) -> Option<Self> {
+        let scale = origin.scale;
+        if origin.on[0].is_ghost() {
+            return Some(Self { on: [Place::GHOST, p], scale });
+        }
+        let [a, b] = origin.on.map(|v| mesh.place(v));
+        Some(Self { on: [a?, b?], scale })
+    }
+
+    /// The same for the next refinement.
+    pub(super) fn origin(&self, mesh: &Mesh2) -> Origin {
+        let name = |p: Place| if p.is_ghost() { VertexId::GHOST } else { mesh.name(p) };
+        Origin { on: self.on.map(name), scale: self.scale }
+    }
+
+    pub(super) fn may_go(&self) -> bool {
+        self.on == [Place::GHOST; 2]
+    }
+
     pub(super) fn is_free(&self) -> bool {
         self.on[0].is_ghost()
     }
@@ -69,8 +97,8 @@ pub(super) struct Mesher<'a> {
 pub(super) struct Done {
     /// The new vertices that there are, in the order in which they came.
     pub(super) new: Vec<Place>,
-    /// Those on constraints, after the ends of the input constraint that each is on.
-    pub(super) on: Vec<([Place; 2], Place)>,
+    /// What is known of all, by place.
+    pub(super) known: Vec<Known>,
     /// Why triangles were left, by their corners from the shortest edge on.
     pub(super) left: Vec<([Place; 3], Reason)>,
     /// Why constraints were not split.
@@ -78,8 +106,8 @@ pub(super) struct Done {
 }
 
 impl<'a> Mesher<'a> {
-    /// For triangles in domains, all of whose borders are fixed.
-    pub(super) fn new(layer: &'a mut Layer, rules: &'a Rules<'a>, queue: Queue) -> Self {
+    /// For triangles in domains, all of whose borders are fixed. If they were refined before it is known where vertices come from.
+    pub(super) fn new(layer: &'a mut Layer, rules: &'a Rules<'a>, queue: Queue, origins: &[Origin]) -> Self {
         let scale = |p: Place| {
             let own = layer.points[p.index()];
             let others = layer.mesh.spokes(p).map(|e| layer.mesh.head(e)).filter(|w| !w.is_ghost());
@@ -87,7 +115,12 @@ impl<'a> Mesher<'a> {
         };
         let known = |i: usize| {
             let p = Place::new(i);
-            Known { on: [p; 2], scale: if layer.mesh.is_vertex(p) { scale(p) } else { 0.0 } }
+            if !layer.mesh.is_vertex(p) {
+                return Known { on: [p; 2], scale: 0.0 };
+            }
+            let origin = origins.get(layer.mesh.name(p).index());
+            let known = origin.and_then(|origin| Known::of(origin, p, &layer.mesh));
+            known.unwrap_or_else(|| Known { on: [p; 2], scale: scale(p) })
         };
         let known = (0..layer.points.len()).map(known).collect();
         Self {
@@ -137,11 +170,7 @@ impl<'a> Mesher<'a> {
 
     /// Gives back what memory the work has taken.
     pub(super) fn finish(self) -> Done {
-        let new = self.alive();
-        let on = |p: &Place| {
-            Some(self.known[p.index()]).filter(|known| !known.is_free()).map(|known| (known.on, *p))
-        };
-        Done { on: new.iter().filter_map(on).collect(), new, left: self.left, refused: self.refused }
+        Done { new: self.alive(), known: self.known, left: self.left, refused: self.refused }
     }
 
     /// The new vertices that there are, in the order in which they came.
@@ -331,8 +360,7 @@ impl<'a> Mesher<'a> {
     /// The point of a new vertex is at this place.
     pub(super) fn note_vertex(&mut self, place: Place, known: Known) {
         if self.known.len() <= place.index() {
-            let unused = Known { on: [Place::GHOST; 2], scale: 0.0 };
-            self.known.resize(place.index() + 1, unused);
+            self.known.resize(place.index() + 1, Known::free(0.0));
         }
         self.known[place.index()] = known;
         self.born.push(place);

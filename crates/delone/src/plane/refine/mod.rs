@@ -25,11 +25,11 @@ mod survey;
 
 pub use report::{Reason, RefinementReport2, Unrefined2};
 
-use super::constrained::{Constrained2, Domains2, Fill};
+use super::constrained::{Constrained2, Domains2, Fill, Origin};
 use crate::error::Error;
-use crate::ids::MAX_POINTS;
+use crate::ids::{MAX_POINTS, VertexId};
 use crate::points::survey as bounds;
-use mesher::Mesher;
+use mesher::{Done, Known, Mesher};
 use queue::Queue;
 use rules::{Field, Rules};
 
@@ -81,8 +81,8 @@ pub struct Refinement<'a> {
 #[non_exhaustive]
 pub struct Refined2 {
     /// The parts of the triangulation, and which are inside; valid as long as nothing changes. Where a border was rounded
-    /// inwards, what is between it and its old line, thinner than a unit in the last place, is in no part; asked anew,
-    /// [`Constrained2::domains`] knows nothing of that.
+    /// inwards, what is between it and its old line, thinner than a unit in the last place, is in no part; asked anew by another
+    /// rule, [`Constrained2::domains`] knows nothing of that. So a mesh that is refined again is filled by [`Fill::Parts`].
     pub domains: Domains2,
     /// What was done, and what could not be done.
     pub report: RefinementReport2,
@@ -107,6 +107,14 @@ impl Default for Refinement<'_> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// What the next refinement is to know of each vertex.
+fn origins(c: &Constrained2, done: &Done) -> Vec<Origin> {
+    let mesh = c.mesh();
+    let unknown = Known::free(0.0).origin(mesh);
+    let of = |i: usize| mesh.place(VertexId::new(i)).map_or(unknown, |p| done.known[p.index()].origin(mesh));
+    (0..c.points().len()).map(of).collect()
 }
 
 /// The largest smallest angle without a budget of vertices, in degrees.
@@ -212,33 +220,30 @@ impl<'a> Refinement<'a> {
     /// Cost: see the module.
     ///
     /// # Errors
-    /// [`Error::Parameter`] for bounds that are out of range, or ask for more triangles than there can be, [`Error::Seed`] as [`Constrained2::domains`]; nothing has changed
-    /// then. [`Error::Size`] if a bound that is asked for a place is not positive, [`Error::Stopped`]: the triangulation is a valid
-    /// one then, refined in part.
+    /// [`Error::Parameter`] for bounds that are out of range, or ask for more triangles than there can be, [`Error::Seed`] and
+    /// [`Error::Parts`] as [`Constrained2::domains`]; nothing has changed then. [`Error::Size`] if a bound that is asked for a place
+    /// is not positive, [`Error::Stopped`]: the triangulation is a valid one then, refined in part.
     pub fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
         self.check()?;
         let mut domains = c.domains(&self.fill)?;
         self.check_count(c, &domains)?;
         c.close(&domains)?;
-        let regions: Vec<Option<f64>> = match self.fill {
-            Fill::Seeds(seeds) => seeds.regions.iter().map(|seed| seed.max_area).collect(),
-            _ => Vec::new(),
-        };
         let before = c.begin_refinement(&mut domains);
-        let rules = Rules::new(self, &domains, &regions, &before);
+        let rules = Rules::new(self, &domains, &before);
         let layer = c.layer();
         let queue = Queue::new(&bounds(&layer.points).0);
-        let mut mesher = Mesher::new(layer, &rules, queue);
+        let mut mesher = Mesher::new(layer, &rules, queue, &domains.origins);
         let mut ran = mesher.run();
         if self.smoothing > 0 && ran.is_ok() {
             (0..self.smoothing).for_each(|_| mesher.smooth());
             ran = mesher.run();
         }
         let done = mesher.finish();
-        let added = c.end_refinement(&before, &done.new, &done.on)?;
+        let added = c.end_refinement(&before, &done.new)?;
         let report = survey::report(c.layer(), &rules, added, &done);
-        let domains = c.domains_of_tags(&before, domains);
+        let mut domains = c.domains_of_tags(&before, domains);
         ran?;
+        domains.origins = origins(c, &done);
         Ok(Refined2 { domains, report })
     }
 

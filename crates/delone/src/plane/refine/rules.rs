@@ -61,15 +61,10 @@ impl std::fmt::Debug for Rules<'_> {
 
 impl<'a> Rules<'a> {
     /// Of a refinement; regions may have largest areas of their own.
-    pub(super) fn new(
-        wanted: &Refinement<'a>,
-        domains: &Domains2,
-        regions: &[Option<f64>],
-        before: &Before,
-    ) -> Self {
+    pub(super) fn new(wanted: &Refinement<'a>, domains: &Domains2, before: &Before) -> Self {
         let angle = wanted.min_angle.to_radians();
         let general = wanted.max_area.unwrap_or(f64::INFINITY);
-        let area = |region: Option<usize>| region.and_then(|r| regions.get(r).copied().flatten());
+        let area = |region: Option<usize>| region.and_then(|r| domains.regions[r].max_area);
         let own = |&part: &usize| area(domains.parts()[part].region).map_or(general, |own| own.min(general));
         let areas = before.parts[..before.inside].iter().map(own);
         let lens = (2.0 * angle.max(NARROWEST.to_radians())).cos();

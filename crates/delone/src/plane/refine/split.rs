@@ -57,7 +57,7 @@ impl Mesher<'_> {
         [is_fixed(e.previous()) || is_fixed(f.next()), is_fixed(e.next()) || is_fixed(f.previous())]
     }
 
-    /// Removes the free vertices that a constraint sees inside of its diametral circle. Gives the constraint, whose triangles may
+    /// Removes the new free vertices that a constraint sees inside of its diametral circle. Gives the constraint, whose triangles may
     /// be others then.
     fn clear(&mut self, e: EdgeId) -> EdgeId {
         let mut side = e;
@@ -66,7 +66,7 @@ impl Mesher<'_> {
                 let mesh = &self.layer.mesh;
                 let tip = mesh.tip(side);
                 let ends = [mesh.tail(side), mesh.head(side)];
-                if tip.is_ghost() || !self.is_inside(side.triangle()) || !self.known[tip.index()].is_free() {
+                if tip.is_ghost() || !self.is_inside(side.triangle()) || !self.known[tip.index()].may_go() {
                     break;
                 }
                 let [a, b] = ends.map(|v| self.point(v));
@@ -235,7 +235,7 @@ impl Mesher<'_> {
     /// The input constraint that an edge with these ends is of.
     fn input_of(&self, ends: [Place; 2]) -> [Place; 2] {
         let known = ends.map(|v| self.known[v.index()]);
-        known.into_iter().find(|known| !known.is_input()).map_or(ends, |known| known.on)
+        known.into_iter().find(|known| !known.is_input() && !known.is_free()).map_or(ends, |known| known.on)
     }
 
     /// The scale of a new vertex on an input constraint; see `mesher`.
