@@ -71,9 +71,8 @@ pub(crate) fn draw(
 pub(crate) struct Constrained {
     pub(crate) triangulation: Constrained2,
     pub(crate) graph: Graph,
+    /// The parts of it, and which regions of the input they are.
     pub(crate) inside: Domains2,
-    /// What the regions of the input are, if there are some.
-    regions: Option<Domains2>,
     /// The height of every point, those added too.
     pub(crate) heights: Option<Vec<f64>>,
 }
@@ -110,8 +109,7 @@ impl Constrained {
         let phase = Phase::start(quiet, "triangulating");
         let triangulation =
             Constrained2::with_crossings(&graph.cloud.xy, &graph.segments, crossings).map_err(refused)?;
-        let (holes, regions) = (graph.holes.clone(), graph.regions.clone());
-        let seeds = Seeds2 { holes, regions, keep_concavities };
+        let seeds = Seeds2 { holes: graph.holes.clone(), regions: Vec::new(), keep_concavities };
         let is_border = |s: SegmentId| graph.is_border.get(s.index()).copied().unwrap_or(true);
         let fill = match fill {
             FillName::All => Fill::All,
@@ -119,12 +117,8 @@ impl Constrained {
             FillName::Nonzero => Fill::NonZero,
             FillName::Seeds => Fill::Seeds(&seeds),
         };
-        let inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
-        let regions = if graph.regions.is_empty() {
-            None
-        } else {
-            Some(triangulation.domains(&Fill::Seeds(&seeds)).map_err(refused)?)
-        };
+        let mut inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
+        triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
         drop(phase);
         stats.phase("build");
         let heights = graph.cloud.z.as_deref().map(|given| {
@@ -137,7 +131,7 @@ impl Constrained {
             }
             heights
         });
-        let c = Self { triangulation, graph, inside, regions, heights };
+        let c = Self { triangulation, graph, inside, heights };
         c.tell(stats, quiet);
         Ok(c)
     }
@@ -172,7 +166,7 @@ impl Constrained {
         stats.set("segments", self.graph.segments.len());
         stats.set("constraints", c.constraint_edges().count());
         stats.set("parts", self.inside.parts().len());
-        for [first, second] in self.regions.iter().flat_map(|regions| regions.rivals()) {
+        for [first, second] in self.inside.rivals() {
             note(
                 quiet,
                 format_args!("regions {first} and {second} are in one part, which region {first} has"),
@@ -206,10 +200,8 @@ impl Constrained {
             regions: &graph.regions,
         };
         let mut regions = vec![0.0; c.slot_count()];
-        if let Some(known) = &self.regions {
-            for t in c.triangle_ids() {
-                regions[c.index(t)] = known.attribute(t).unwrap_or_default();
-            }
+        for t in c.triangle_ids() {
+            regions[c.index(t)] = self.inside.attribute(t).unwrap_or_default();
         }
         let mesh = Mesh {
             heights: self.heights.as_deref(),
@@ -217,7 +209,7 @@ impl Constrained {
             base: graph.cloud.base,
             trim: (trim.count() > 0).then_some(&trim),
             constraints: Some(&constraints),
-            regions: self.regions.is_some().then_some(&regions[..]),
+            regions: (!graph.regions.is_empty()).then_some(&regions[..]),
             ..Mesh::new(c, c.points())
         };
         let phase = Phase::start(quiet, "writing");

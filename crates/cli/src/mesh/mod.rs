@@ -12,7 +12,7 @@ mod tell;
 
 use std::path::Path;
 
-use delone::{Constrained2, Error, Location2, Refined2, Seeds2, Triangulation, VertexId};
+use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Triangulation, VertexId};
 use delone_io::{
     Attributes, Constraints, Format, Graph, Mesh, picture, write_mesh, write_voronoi_edge, write_voronoi_node,
 };
@@ -27,7 +27,6 @@ use field::{Sizes, along, between};
 use kept::Kept;
 use names::{Content, Target};
 use plan::{Plan, Written};
-use seeds::Outside;
 use source::{Again, Material, Sources};
 
 pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
@@ -123,16 +122,16 @@ impl Made {
     ) -> Result<Self, Failure> {
         let Constrained { mut triangulation, mut graph, inside, heights, .. } = from;
         let regions = std::mem::take(&mut graph.regions);
-        // Seeds say for all rules what is inside, so that regions are known, and that files mean the same.
-        let outside = if fill == FillName::Seeds {
-            let holes = graph.holes.clone();
-            Outside::of_seeds(Seeds2 { holes, regions, keep_concavities: plan.traits.convex })
+        let seeds = if fill == FillName::Seeds {
+            Seeds2 { holes: graph.holes.clone(), regions, keep_concavities: plan.traits.convex }
         } else {
-            Outside::of_rule(&triangulation, &inside, (fill, regions), label, quiet)?
+            // Where everything is inside, so are bays.
+            let keep_concavities = fill == FillName::All;
+            Seeds2 { holes: seeds::holes(&triangulation, &inside, quiet), regions, keep_concavities }
         };
         let size = |p: [f64; 2]| sizes.map_or(f64::INFINITY, |sizes| sizes.at(p));
         let area = |p: [f64; 2]| again.as_ref().map_or(f64::INFINITY, |again| again.area(p));
-        let mut wanted = plan.refinement().fill(outside.fill());
+        let mut wanted = plan.refinement().fill(Fill::Parts(&inside));
         if sizes.is_some() {
             wanted = wanted.size(&size);
         }
@@ -160,7 +159,7 @@ impl Made {
             });
             Attributes { width, values: spread(width, &first) }
         });
-        Ok(Self { triangulation, refined, graph, seeds: outside.seeds, heights, attributes, again })
+        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again })
     }
 
     /// Writes all files.

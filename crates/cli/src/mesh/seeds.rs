@@ -1,75 +1,28 @@
-//! What is outside of a mesh, told by points: files of Triangle know no other way, and with it regions keep their attributes.
+//! What is outside of a mesh, told by points: files of Triangle know no other way.
 
-use std::path::Path;
-
-use delone::{Constrained2, Domains2, Fill, Location2, RegionSeed2, Seeds2};
+use delone::{Constrained2, Domains2, Fill, Location2, Seeds2};
 use delone_predicates::orient2d;
 
 use super::centroid;
-use crate::args::FillName;
-use crate::message::{Failure, note};
+use crate::message::note;
 
-/// Points that tell what is outside, and the rule itself where they cannot.
-pub(super) struct Outside {
-    pub(super) seeds: Seeds2,
-    rule: Option<Fill<'static>>,
-}
-
-impl Outside {
-    /// By the seeds of the input.
-    pub(super) fn of_seeds(seeds: Seeds2) -> Self {
-        Self { seeds, rule: None }
+/// A point in each hole that has one.
+///
+/// Bays of the hull that no constraint closes need none. A hole may be so narrow that no number is in it.
+pub(super) fn holes(c: &Constrained2, inside: &Domains2, quiet: bool) -> Vec<[f64; 2]> {
+    let open = c.domains(&Fill::Seeds(&Seeds2::default())).expect("there are no seeds");
+    let points = points(c, inside);
+    let outside = || (0..points.len()).filter(|&part| !inside.parts()[part].is_inside);
+    let narrow = outside().filter(|&part| points[part].is_none() && open.parts()[part].is_inside).count();
+    if narrow > 0 {
+        note(
+            quiet,
+            format_args!(
+                "holes so narrow that no point is in them, which .poly files do not tell of: {narrow}"
+            ),
+        );
     }
-
-    /// By what a rule says: a point in each part outside.
-    ///
-    /// Bays of the hull that no constraint closes need none. A hole may be so narrow that no number is in it; then the rule fills
-    /// the mesh, which has no regions.
-    pub(super) fn of_rule(
-        c: &Constrained2,
-        inside: &Domains2,
-        (name, regions): (FillName, Vec<RegionSeed2>),
-        label: &Path,
-        quiet: bool,
-    ) -> Result<Self, Failure> {
-        let refused = |error| Failure::graph(label, &error);
-        let points = points(c, inside);
-        let is_open = c.domains(&Fill::Seeds(&Seeds2::default())).map_err(refused)?;
-        let parts = || inside.parts().iter().enumerate().filter(|(_, part)| !part.is_inside);
-        let narrow: Vec<usize> = parts()
-            .map(|(i, _)| i)
-            .filter(|&i| points[i].is_none() && is_open.parts()[i].is_inside)
-            .collect();
-        let holes = parts().filter_map(|(i, _)| points[i]).collect();
-        // Where everything is inside, so are bays.
-        let keep_concavities = name == FillName::All;
-        let has_regions = !regions.is_empty();
-        let seeds = Seeds2 { holes, regions, keep_concavities };
-        if narrow.is_empty() {
-            return Ok(Self::of_seeds(seeds));
-        }
-        let rule = if name == FillName::Nonzero { Fill::NonZero } else { Fill::EvenOdd };
-        let by_rule = c.domains(&rule).map_err(refused)?;
-        let is_same = by_rule.parts().iter().zip(inside.parts()).all(|(a, b)| a.is_inside == b.is_inside);
-        if has_regions || !is_same {
-            let (holes, triangles) = (narrow.len(), inside.parts()[narrow[0]].triangles);
-            return Err(Failure::new(
-                format!(
-                    "{}: {holes} of the parts outside, one of {triangles} triangles, are so narrow that no point is in them",
-                    label.display()
-                ),
-                "leave regions and lines that are no borders out, or join the points there that are so near each other",
-            ));
-        }
-        let text = "holes so narrow that no point is in them, which .poly files do not tell of";
-        note(quiet, format_args!("{text}: {}", narrow.len()));
-        Ok(Self { seeds, rule: Some(rule) })
-    }
-
-    /// What says what is inside.
-    pub(super) fn fill(&self) -> Fill<'_> {
-        self.rule.unwrap_or(Fill::Seeds(&self.seeds))
-    }
+    outside().filter_map(|part| points[part]).collect()
 }
 
 /// A point in each part outside, where there is one that is found: the middle of the largest triangle that has it strictly inside, or
