@@ -104,6 +104,21 @@ fn seeds_are_not_asked_again() {
     assert!(bent > 10, "{bent} seeds are beside sides");
 }
 
+/// Borders on the hull that bend outwards have triangles beyond, which bays beside them see.
+#[test]
+fn borders_that_bend_outwards_are_no_trouble() {
+    let points = [[999.0, 1000.0], [1000.0, 1001.0], [1001.0, 999.0], [999.0, 1003.0]];
+    let segments = [[0, 1], [2, 1], [2, 0]];
+    for fill in [Fill::EvenOdd, Fill::NonZero] {
+        let mut c = Constrained2::from_parts(&points, &segments).expect("planar");
+        let how = Refinement::new().min_angle(25.0).max_area(0.02);
+        let first = how.fill(fill).run(&mut c).expect("refined");
+        let count = c.vertex_count();
+        let again = how.fill(Fill::Parts(&first.domains)).run(&mut c).expect("refined again");
+        assert_eq!((again.report.triangles, c.vertex_count()), (first.report.triangles, count));
+    }
+}
+
 #[test]
 fn parts_of_another_triangulation_are_refused() {
     let mut c = crossing(1);

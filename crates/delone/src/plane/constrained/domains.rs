@@ -194,13 +194,14 @@ impl Constrained2 {
         Ok(())
     }
 
-    /// Whether parts are of this triangulation as it is: constraints alone lie between two of them.
+    /// Whether parts are of this triangulation as it is: constraints alone are around what is inside. Beyond the hull of before a border
+    /// that bent may have triangles of no part beside those outside.
     fn is_parted_by(&self, domains: &Domains2) -> bool {
         let mesh = self.mesh();
-        let part = |t: TriangleId| domains.part(t);
+        let inside = |t: TriangleId| domains.part(t).filter(|&part| domains.parts[part].is_inside);
         let is_same = |e: EdgeId| {
             let other = mesh.twin(e).triangle();
-            mesh.is_fixed(e) || mesh.is_ghost(other) || part(other) == part(e.triangle())
+            mesh.is_fixed(e) || mesh.is_ghost(other) || inside(other) == inside(e.triangle())
         };
         domains.of.len() == mesh.slot_count()
             && mesh.triangles().all(|t| [0, 1, 2].into_iter().all(|k| is_same(t.edge(k))))

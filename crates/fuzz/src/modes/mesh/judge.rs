@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use delone::{Constrained2, EdgeId, Error, Keep, Reason, Refined2, TriangleId, VertexId};
+use delone::{Constrained2, EdgeId, Error, Fill, Keep, Reason, Refined2, TriangleId, VertexId};
 use delone_oracle::certificate::certify;
 use delone_oracle::exact::{angle, compare_lengths, is_angle_at_least};
 use num_bigint::BigInt;
@@ -14,11 +14,17 @@ use crate::oracle::exact::{Vector, determinant, dot, integers, minus};
 
 type Point = [f64; 2];
 
+/// For vertices on constraints the ends of these, as they were before the first refinement.
+pub(super) type Lines = BTreeMap<VertexId, [VertexId; 2]>;
+
 /// A refinement that is judged.
 pub(super) struct Case<'a> {
     pub(super) before: &'a Constrained2,
     pub(super) after: &'a Constrained2,
     pub(super) wish: &'a Wish,
+    pub(super) fill: Fill<'a>,
+    /// What is known of the vertices of before.
+    pub(super) lines: &'a Lines,
 }
 
 /// What is said of a mesh, as far as it must not depend on the order of the input: triangles inside, and those left with reasons.
@@ -108,8 +114,8 @@ fn has_angles([a, b, c]: [Point; 3], degrees: f64, slack: f64) -> bool {
 }
 
 impl Case<'_> {
-    /// Judges what was said, and what there is.
-    pub(super) fn judge(&self, answer: &Result<Refined2, Error>) -> Judgement {
+    /// Judges what was said, and what there is. Gives the lines of all vertices.
+    pub(super) fn judge(&self, answer: &Result<Refined2, Error>) -> Result<Lines, String> {
         is_valid(self.after)?;
         for v in self.before.vertices() {
             if !self.after.vertices().any(|w| w == v) || self.after.point(v) != self.before.point(v) {
@@ -117,22 +123,26 @@ impl Case<'_> {
             }
         }
         let along = self.chains()?;
+        let line = |ends: &[VertexId; 2]| *ends.iter().find_map(|end| self.lines.get(end)).unwrap_or(ends);
+        let mut lines: Lines = along.iter().map(|(&v, ends)| (v, line(ends))).collect();
+        lines.extend(self.lines);
         match answer {
-            Ok(refined) => self.judge_mesh(refined, &along),
-            Err(Error::Stopped) if self.wish.stop.is_some() => Ok(()),
-            Err(Error::Size { value, .. }) if self.wish.none_beyond.is_some() && value.is_nan() => Ok(()),
-            Err(Error::Seed { .. }) if self.before.domains(&self.wish.fill()).is_err() => {
-                let is_as_before =
-                    edges(self.before) == edges(self.after) && self.before.points() == self.after.points();
-                if is_as_before { Ok(()) } else { Err("a wrong seed, and yet a change".to_owned()) }
+            Ok(refined) => self.judge_mesh(refined, along.len(), &lines)?,
+            Err(Error::Stopped) if self.wish.stop.is_some() => {}
+            Err(Error::Size { value, .. }) if self.wish.none_beyond.is_some() && value.is_nan() => {}
+            Err(Error::Seed { .. }) if self.before.domains(&self.fill).is_err() => {
+                if edges(self.before) != edges(self.after) || self.before.points() != self.after.points() {
+                    return Err("a wrong seed, and yet a change".to_owned());
+                }
             }
-            Err(error) => Err(format!("error: {error}")),
+            Err(error) => return Err(format!("error: {error}")),
         }
+        Ok(lines)
     }
 
     /// Every segment is covered as before, by edges that lead from end to end of each edge of before, near to it. Gives for each
     /// new vertex on constraints the ends of the edge that it is on.
-    fn chains(&self) -> Result<BTreeMap<VertexId, [VertexId; 2]>, String> {
+    fn chains(&self) -> Result<Lines, String> {
         let (c, unit) = (self.after, unit(self.after));
         let constraints = edges(c);
         let sorted = |v: VertexId, w: VertexId| [v.min(w), v.max(w)];
@@ -186,15 +196,13 @@ impl Case<'_> {
         Ok(along)
     }
 
-    fn judge_mesh(&self, refined: &Refined2, along: &BTreeMap<VertexId, [VertexId; 2]>) -> Judgement {
+    fn judge_mesh(&self, refined: &Refined2, on: usize, lines: &Lines) -> Judgement {
         let (c, report, wish) = (self.after, &refined.report, self.wish);
         let added = c.vertex_count() - self.before.vertex_count();
-        if added > wish.most || [report.inside, report.on_constraints] != [added - along.len(), along.len()] {
+        if added > wish.most || [report.inside, report.on_constraints] != [added - on, on] {
             return Err(format!(
-                "{added} vertices, {} on constraints, not {} and {}",
-                along.len(),
-                report.inside,
-                report.on_constraints
+                "{added} vertices, {on} on constraints, not {} and {}",
+                report.inside, report.on_constraints
             ));
         }
         self.judge_kept(refined)?;
@@ -209,7 +217,7 @@ impl Case<'_> {
             return Err(format!("{t:?} is left, but not inside"));
         }
         for &t in &inside {
-            self.judge_triangle(refined, t, left.get(&t).copied(), added, along)
+            self.judge_triangle(refined, t, left.get(&t).copied(), added, lines)
                 .map_err(|what| format!("{:?}, {:?}: {what}", corners(c, t), left.get(&t)))?;
         }
         let measured: Vec<TriangleId> =
@@ -238,7 +246,7 @@ impl Case<'_> {
         }
         if self.wish.keep == Keep::Border {
             let (c, mesh) = (self.before, self.before.mesh());
-            let domains = c.domains(&self.wish.fill()).map_err(|error| error.to_string())?;
+            let domains = c.domains(&self.fill).map_err(|error| error.to_string())?;
             let is_between =
                 |e: EdgeId| domains.is_inside(e.triangle()) && domains.is_inside(mesh.twin(e).triangle());
             let ends = |e: EdgeId| {
@@ -256,7 +264,7 @@ impl Case<'_> {
     /// As much is inside as before, but for what a bend of borders makes.
     fn judge_area(&self, refined: &Refined2) -> Judgement {
         let c = self.after;
-        let domains = self.before.domains(&self.wish.fill()).map_err(|error| error.to_string())?;
+        let domains = self.before.domains(&self.fill).map_err(|error| error.to_string())?;
         let parts = |parts: &[delone::Part2]| {
             parts.iter().map(|part| (part.is_inside, part.winding, part.region)).collect::<Vec<_>>()
         };
@@ -296,7 +304,7 @@ impl Case<'_> {
         t: TriangleId,
         left: Option<Reason>,
         added: usize,
-        along: &BTreeMap<VertexId, [VertexId; 2]>,
+        lines: &Lines,
     ) -> Judgement {
         let (wish, points) = (self.wish, corners(self.after, t));
         let is_certainly = |slack: f64| {
@@ -311,7 +319,7 @@ impl Case<'_> {
             Some(_) if is_certainly(-ROUNDED) => Err("is left for nothing".to_owned()),
             Some(Reason::Budget) if added < wish.most => Err(format!("only {added} of {}", wish.most)),
             Some(Reason::Kept) if wish.keep == Keep::Nothing => Err("nothing is to be kept".to_owned()),
-            Some(Reason::InputAngle) if !self.is_forced(t, along) => Err("no angle of the input".to_owned()),
+            Some(Reason::InputAngle) if !self.is_forced(t, lines) => Err("no angle of the input".to_owned()),
             _ => Ok(()),
         }
     }
@@ -353,11 +361,11 @@ impl Case<'_> {
         })
     }
 
-    /// Whether a shortest edge joins new vertices on two constraints of before that meet.
-    fn is_forced(&self, t: TriangleId, along: &BTreeMap<VertexId, [VertexId; 2]>) -> bool {
+    /// Whether a shortest edge joins new vertices on two constraints that meet.
+    fn is_forced(&self, t: TriangleId, lines: &Lines) -> bool {
         let v = self.after.mesh().corners(t);
         [[v[0], v[1]], [v[1], v[2]], [v[2], v[0]]].into_iter().any(|[p, q]| {
-            let (Some(p), Some(q)) = (along.get(&p), along.get(&q)) else { return false };
+            let (Some(p), Some(q)) = (lines.get(&p), lines.get(&q)) else { return false };
             p != q && p.iter().any(|end| q.contains(end))
         })
     }

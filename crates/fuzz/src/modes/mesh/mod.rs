@@ -5,13 +5,13 @@ mod judge;
 mod shapes;
 mod wish;
 
-use delone::{Constrained2, Crossings, Error, Refined2, VertexId};
+use delone::{Constrained2, Crossings, Error, Fill, Reason, Refined2, VertexId};
 use delone_generators::Random;
 
 use super::graphs::{Item, constraints, parts, triangles};
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, once_in};
-use judge::Case;
+use judge::{Case, Lines};
 use wish::Wish;
 
 type Point = [f64; 2];
@@ -44,7 +44,7 @@ fn refined(
     let before = Constrained2::with_crossings(points, segments, Crossings::Split)
         .map_err(|error| format!("building: {error}"))?;
     let mut c = before.clone();
-    let answer = wish.run(&mut c);
+    let answer = wish.run(&mut c, wish.fill());
     Ok((before, c, answer))
 }
 
@@ -68,6 +68,34 @@ fn is_same(
             Err(format!("{:?}, then {:?}", one.as_ref().map(|_| "refined"), two.as_ref().map(|_| "refined")))
         }
     }
+}
+
+/// A mesh that has all that was asked for, but where angles of the input are small, stays as it is.
+fn good_stays(c: &Constrained2, refined: &Refined2, wish: &Wish) -> Judgement {
+    let report = &refined.report;
+    // With as many vertices as there may be, constraints are left too.
+    let is_whole = report.inside + report.on_constraints < wish.most;
+    if !is_whole || report.left.iter().any(|left| left.reason != Reason::InputAngle) {
+        return Ok(());
+    }
+    let easier = wish.easier();
+    let mut d = c.clone();
+    let again = easier.run(&mut d, Fill::Parts(&refined.domains)).map_err(|error| error.to_string())?;
+    if c.points() != d.points() {
+        return Err(format!("{:?} more, though all was good", &d.points()[c.points().len()..]));
+    }
+    if judge::said(c, refined).0 != judge::said(&d, &again).0 {
+        return Err("other triangles are inside, though all was good".to_owned());
+    }
+    Ok(())
+}
+
+/// What is inside is refined again, as it is.
+fn refine_again(c: &Constrained2, refined: &Refined2, wish: &Wish, lines: &Lines) -> Judgement {
+    let mut d = c.clone();
+    let fill = Fill::Parts(&refined.domains);
+    let answer = wish.run(&mut d, fill);
+    Case { before: c, after: &d, wish, fill, lines }.judge(&answer).map(|_| ())
 }
 
 /// Vertices come and go in what was refined, as in any other triangulation.
@@ -109,18 +137,25 @@ impl Attack for Mesh {
         let wish = Wish::random(&mut random, &points);
         let named = |what: String| format!("{wish:?}: {what}");
         let (before, mut c, answer) = refined(&points, &segments, &wish)?;
-        Case { before: &before, after: &c, wish: &wish }.judge(&answer).map_err(named)?;
+        let nothing = Lines::new();
+        let case = Case { before: &before, after: &c, wish: &wish, fill: wish.fill(), lines: &nothing };
+        let lines = case.judge(&answer).map_err(named)?;
         let (points_too, segments_too) = shuffled((&points, &segments), wish.may_turn(), &mut random);
         let (other_before, d, other) = refined(&points_too, &segments_too, &wish)?;
         is_same((&before, &c, &answer), (&other_before, &d, &other))
             .map_err(|what| named(format!("in another order: {what}")))?;
-        // The mesh is an input like others.
         let again = Wish::random(&mut random, &points);
+        if let Ok(refined) = &answer {
+            good_stays(&c, refined, &wish).map_err(named)?;
+            let more = again.clone().inside_of(&wish);
+            refine_again(&c, refined, &more, &lines)
+                .map_err(|what| named(format!("then what is inside by {more:?}: {what}")))?;
+        }
+        // The mesh is an input like others.
         let first = c.clone();
-        let answer = again.run(&mut c);
-        Case { before: &first, after: &c, wish: &again }
-            .judge(&answer)
-            .map_err(|what| named(format!("then {again:?}: {what}")))?;
+        let answer = again.run(&mut c, again.fill());
+        let case = Case { before: &first, after: &c, wish: &again, fill: again.fill(), lines: &nothing };
+        case.judge(&answer).map_err(|what| named(format!("then {again:?}: {what}")))?;
         change(&mut c, points.len(), &mut random)
             .map_err(|what| named(format!("then {again:?}: then {what}")))
     }

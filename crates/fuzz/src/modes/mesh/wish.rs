@@ -111,8 +111,18 @@ impl Wish {
         [own, self.max_area].into_iter().flatten().reduce(f64::min)
     }
 
+    /// The same for what another one has inside.
+    pub(super) fn inside_of(self, other: &Self) -> Self {
+        Self { fill: other.fill, seeds: other.seeds.clone(), ..self }
+    }
+
+    /// The same with an angle that is easier.
+    pub(super) fn easier(&self) -> Self {
+        Self { min_angle: 0.5 * self.min_angle, smooth: 0, stop: None, ..self.clone() }
+    }
+
     /// Does it.
-    pub(super) fn run(&self, c: &mut Constrained2) -> Result<Refined2, Error> {
+    pub(super) fn run(&self, c: &mut Constrained2, fill: Fill) -> Result<Refined2, Error> {
         let size = |p: Point| match (self.none_beyond, self.size) {
             (Some(x), _) if p[0] > x => f64::NAN,
             (_, Some(field)) => field.at(p),
@@ -128,7 +138,7 @@ impl Wish {
             .smooth(self.smooth)
             .max_vertices(self.most)
             .stop_if(&stop)
-            .fill(self.fill());
+            .fill(fill);
         if let Some(most) = self.max_area {
             how = how.max_area(most);
         }
