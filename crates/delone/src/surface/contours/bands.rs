@@ -7,8 +7,10 @@
 //!
 //! Cost: O(t + k log k) for t triangles and k points.
 
-use crate::sorting;
 use std::collections::BTreeMap;
+
+use crate::sets::Sets;
+use crate::sorting;
 
 use super::ContourBand;
 use super::link::{Path, mend};
@@ -25,8 +27,8 @@ pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
     // For each band its rings, each with the set of parts that it belongs to.
     let mut found: BTreeMap<u32, Vec<Path>> = BTreeMap::new();
     let mut parts = Parts::new(cut);
-    let mut add = |band: u32, part: usize, points: Ring| {
-        found.entry(band).or_default().push(Path { set: part as u32, points, is_closed: true });
+    let mut add = |band: u32, part: u32, points: Ring| {
+        found.entry(band).or_default().push(Path { set: part, points, is_closed: true });
     };
     for (number, chain) in chains.iter().enumerate() {
         let level = chain.level as u32;
@@ -48,10 +50,10 @@ pub(super) fn assemble(cut: &Cut<'_>) -> Vec<ContourBand> {
     let mut bands: Vec<ContourBand> = Vec::new();
     for (band, paths) in found {
         // Parts that meet along a seam are one.
-        let mended = mend(paths, |i, j| parts.join(i as usize, j as usize));
-        let mut rings: BTreeMap<usize, Vec<Ring>> = BTreeMap::new();
+        let mended = mend(paths, |i, j| _ = parts.sets.join(i, j));
+        let mut rings: BTreeMap<u32, Vec<Ring>> = BTreeMap::new();
         for (path, is_touched) in mended {
-            let part = parts.find(path.set as usize);
+            let part = parts.sets.find(path.set);
             rings.entry(part).or_default().extend(simple((path, is_touched)).into_iter().map(|ring| ring.0));
         }
         let at =
@@ -189,11 +191,11 @@ impl<'a> Walker<'a> {
     }
 }
 
-/// The parts of triangles in bands, joined across edges: disjoint sets with path halving.
+/// The parts of triangles in bands, joined across edges.
 struct Parts {
     /// For each triangle the number of its first part.
     first: Vec<u64>,
-    above: Vec<u32>,
+    sets: Sets,
 }
 
 impl Parts {
@@ -205,35 +207,20 @@ impl Parts {
             count += u64::from(high - low) + 1;
             first.push(count);
         }
-        let mut parts = Self { first, above: (0..count as u32).collect() };
+        let mut parts = Self { first, sets: Sets::new(count as usize) };
         for e in (0..cut.sheet.corners.len() as u32).flat_map(Sheet::edges) {
             let Some(other) = cut.sheet.beyond(e).filter(|&other| other > e / 3) else { continue };
             let [a, b] = cut.sheet.ends(e).map(|v| cut.band[v as usize]);
             for band in a.min(b)..=a.max(b) {
                 let [i, j] = [e / 3, other].map(|t| parts.root(cut, t, band));
-                parts.join(i, j);
+                parts.sets.join(i, j);
             }
         }
         parts
     }
 
     /// What stands for the set of a part.
-    fn root(&mut self, cut: &Cut<'_>, t: u32, band: u32) -> usize {
-        self.find((self.first[t as usize] + u64::from(band - cut.bands_of(t)[0])) as usize)
-    }
-
-    /// Makes the sets of two parts one, for which its first part stands.
-    fn join(&mut self, i: usize, j: usize) {
-        let (i, j) = (self.find(i), self.find(j));
-        self.above[i.max(j)] = i.min(j) as u32;
-    }
-
-    fn find(&mut self, mut part: usize) -> usize {
-        while self.above[part] as usize != part {
-            let next = self.above[part] as usize;
-            self.above[part] = self.above[next];
-            part = self.above[part] as usize;
-        }
-        part
+    fn root(&mut self, cut: &Cut<'_>, t: u32, band: u32) -> u32 {
+        self.sets.find((self.first[t as usize] + u64::from(band - cut.bands_of(t)[0])) as u32)
     }
 }

@@ -21,9 +21,9 @@ pub(super) struct Path {
     pub(super) is_closed: bool,
 }
 
-/// Lines without seams, each with whether it may come to a point twice; `meet` hears of sets whose lines cancel. Lines whose points nobody shares
-/// stay as they are.
-pub(super) fn mend(mut paths: Vec<Path>, meet: impl FnMut(u32, u32)) -> Vec<(Path, bool)> {
+/// Lines without seams, each with whether it may come to a point twice; `meet` hears of sets whose lines cancel, or are
+/// linked where rounding made them cross. Lines whose points nobody shares stay as they are.
+pub(super) fn mend(mut paths: Vec<Path>, mut meet: impl FnMut(u32, u32)) -> Vec<(Path, bool)> {
     let mut places = Vec::with_capacity(paths.iter().map(|path| path.points.len()).sum());
     for (number, path) in paths.iter_mut().enumerate() {
         // Minus zero is zero, so that equal points have equal bits.
@@ -44,8 +44,8 @@ pub(super) fn mend(mut paths: Vec<Path>, meet: impl FnMut(u32, u32)) -> Vec<(Pat
             mended.push((path, false));
         }
     }
-    cancel(&mut touched, meet);
-    mended.extend(link(touched).into_iter().map(|path| (path, true)));
+    cancel(&mut touched, &mut meet);
+    mended.extend(link(touched, meet).into_iter().map(|path| (path, true)));
     mended
 }
 
@@ -85,7 +85,7 @@ fn cancel(segments: &mut Vec<Segment>, mut meet: impl FnMut(u32, u32)) {
 }
 
 /// Lines of all segments, each with the set of its first one, and whether it is closed.
-fn link(mut segments: Vec<Segment>) -> Vec<Path> {
+fn link(mut segments: Vec<Segment>, mut meet: impl FnMut(u32, u32)) -> Vec<Path> {
     sorting::by(&mut segments, |s, t| order(s.from, t.from).then_with(|| order(s.to, t.to)));
     let mut entering: Vec<u32> = (0..segments.len() as u32).collect();
     let at = |i: u32| segments[i as usize];
@@ -107,6 +107,9 @@ fn link(mut segments: Vec<Segment>) -> Vec<Path> {
             let best = free.min_by(|&j, &k| clockwise(p, at(i).from, segments[j].to, segments[k].to));
             if let Some(j) = best {
                 next[i as usize] = j as u32;
+                if at(i).set != at(j as u32).set {
+                    meet(at(i).set, at(j as u32).set);
+                }
                 is_first[j] = false;
             }
         }
@@ -170,12 +173,12 @@ mod tests {
         let mut met = Vec::new();
         cancel(&mut all, |s, t| met.push((s, t)));
         assert_eq!(met, [(0, 1)]);
-        assert_eq!(link(all), [Path { set: 0, points: vec![A, B, E, F, C, D], is_closed: true }]);
+        assert_eq!(link(all, |_, _| ()), [Path { set: 0, points: vec![A, B, E, F, C, D], is_closed: true }]);
         let mut all: Vec<_> =
             segments(0, &[A, B, C], false).chain(segments(1, &[F, C, B, E], false)).collect();
         cancel(&mut all, |_, _| ());
         let open = |set, points| Path { set, points, is_closed: false };
-        assert_eq!(link(all), [open(0, vec![A, B, E]), open(1, vec![F, C])]);
+        assert_eq!(link(all, |_, _| ()), [open(0, vec![A, B, E]), open(1, vec![F, C])]);
         // What nobody shares stays.
         let paths = vec![open(0, vec![A, B, C]), open(1, vec![F, C, B, E]), open(2, vec![D, [0.0, 9.0]])];
         let mended = mend(paths, |_, _| ());
@@ -187,10 +190,10 @@ mod tests {
     #[test]
     fn lines_that_meet_do_not_cross() {
         let apart = segments(0, &[A, B, D], true).chain(segments(1, &[B, E, C], true)).collect();
-        assert_eq!(link(apart).len(), 2);
+        assert_eq!(link(apart, |_, _| ()).len(), 2);
         let hole = [B, [1.0, 0.5], [1.0, 0.25]];
         let inside = segments(0, &[A, B, D], true).chain(segments(0, &hole, true)).collect();
-        assert_eq!(link(inside).len(), 1);
+        assert_eq!(link(inside, |_, _| ()).len(), 1);
         assert!(clockwise(A, B, [1.0, -1.0], [-1.0, 0.0]).is_lt());
         assert!(clockwise(A, B, [-1.0, 1.0], [-1.0, 0.0]).is_gt());
         assert!(clockwise(A, B, E, [1.0, 1.0]).is_gt());
