@@ -99,12 +99,14 @@ impl<'a> Cut<'a> {
         }
         // Half of each number, where the difference would be beyond all numbers.
         let scale = if (high - low).is_finite() { 1.0 } else { 0.5 };
-        let part = (level * scale - low * scale) / (high * scale - low * scale);
+        let [from_low, from_high] = [level * scale - low * scale, high * scale - level * scale];
+        let part = from_low.abs().min(from_high.abs()) / (high * scale - low * scale).abs();
+        // From the end that is nearer: beside it nothing is lost.
+        let (near, far) = if from_low.abs() <= from_high.abs() { (p, q) } else { (q, p) };
         [0, 1].map(|k| {
-            let span = q[k] - p[k];
-            let between =
-                if span.is_finite() { p[k] + part * span } else { p[k] * (1.0 - part) + q[k] * part };
-            between.clamp(p[k].min(q[k]), p[k].max(q[k]))
+            let middle = near[k] / 2.0 + far[k] / 2.0;
+            let at = near[k] + 2.0 * part * (middle - near[k]);
+            at.clamp(near[k].min(middle), near[k].max(middle))
         })
     }
 
