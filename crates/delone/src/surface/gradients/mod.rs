@@ -35,6 +35,9 @@ const NOISE_LIMIT: f64 = 1_048_576.0;
 /// Squared lengths between 2^-900 and 2^900 have all their bits, and so have quotients of two of them.
 const SQUARES: std::ops::Range<f64> = 1.183_052_186_166_774_8e-271..8.452_712_498_170_644e270;
 
+/// The same between 2^-450 and 2^450 in space, where weights are made of fourth powers of lengths.
+const SQUARES_IN_SPACE: std::ops::Range<f64> = 3.439_552_567_074_349_4e-136..2.907_354_897_182_427_6e135;
+
 /// The gradients at all vertices, by the index of the vertex: values per unit of length along each axis. Zero for ids that are no
 /// vertices, along directions in which there are no neighbours, and where a number would leave the range of `f64`.
 ///
@@ -66,8 +69,31 @@ pub fn gradients<T: Surround>(d: &T, values: &[f64]) -> Result<Vec<T::Point>, Er
 type Star<R = f64> = Vec<(VertexId, R)>;
 
 fn at<T: Surround>(d: &T, v: VertexId, values: &[f64], star: &mut Star) -> T::Point {
-    let Some(p) = d.position(v).map(three) else { return T::Point::default() };
-    let place = |w: VertexId| three(d.position(w).unwrap_or_default());
+    let mut gradient = T::Point::default();
+    if d.position(v).is_none() {
+        return gradient;
+    }
+    let (mut is_in_range, mut quick) = quick_slope(d, v, values, 1.0, star);
+    if !is_in_range {
+        let unit = Rows::new(d, v, values).map_or(1.0, |rows| rows.length[0] * rows.length[1]);
+        (is_in_range, quick) = quick_slope(d, v, values, unit, star);
+    }
+    let slope = quick.filter(|_| is_in_range).or_else(|| careful(d, v, values)).unwrap_or_default();
+    gradient.as_mut().copy_from_slice(&slope[..T::Point::COUNT]);
+    gradient
+}
+
+/// The gradient, computed in places times a power of two: whether what they are multiplied to is in the range of numbers; and `None` where
+/// the fit is bad.
+fn quick_slope<T: Surround>(
+    d: &T,
+    v: VertexId,
+    values: &[f64],
+    unit: f64,
+    star: &mut Star,
+) -> (bool, Option<[f64; 3]>) {
+    let place = |w: VertexId| three(d.position(w).unwrap_or_default()).map(|x| x * unit);
+    let p = place(v);
     let size = weigh(d, v, place, star);
     let mut matrix = [[0.0; 4]; 3];
     let (mut least, mut most) = (f64::INFINITY, 0.0f64);
@@ -84,12 +110,9 @@ fn at<T: Surround>(d: &T, v: VertexId, values: &[f64], star: &mut Star) -> T::Po
             matrix[i][3] += part * rise;
         }
     }
-    let is_in_range = SQUARES.contains(&least) && SQUARES.contains(&most);
-    let quick = if is_in_range { solve(matrix, T::Point::COUNT, size * GOOD_PIVOT) } else { None };
-    let slope = quick.or_else(|| careful(d, v, values)).unwrap_or_default();
-    let mut gradient = T::Point::default();
-    gradient.as_mut().copy_from_slice(&slope[..T::Point::COUNT]);
-    gradient
+    let range = if T::Point::COUNT == 3 { SQUARES_IN_SPACE } else { SQUARES };
+    let slope = solve(matrix, T::Point::COUNT, size * GOOD_PIVOT);
+    (range.contains(&least) && range.contains(&most), slope.map(|slope| slope.map(|x| x * unit)))
 }
 
 /// The neighbours of a vertex, in the order of their points, with the weights of Laplace; with equal ones on the hull. What the weights are
