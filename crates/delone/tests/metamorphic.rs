@@ -129,8 +129,7 @@ fn cells<'a>(found: impl Iterator<Item = ([f64; 2], delone::Cell2<'a>)>) -> Outc
     let mut outcome = Outcome::default();
     for (site, cell) in found {
         cell.rings().for_each(|ring| outcome.ring(ring.points().collect()));
-        // Sums begin at the first corner of a ring, which is another one in another order: not to the bit.
-        outcome.measure(&[site], cell.rings().count() as f64, 0);
+        outcome.measure(&[site], cell.area(), 2);
     }
     outcome
 }
@@ -217,10 +216,8 @@ const PLANE: &[Operation<2>] = &[
         let region = Region2::rectangle([0.0, 0.0], [unit, unit]).expect("a rectangle");
         let mut outcome = Outcome::default();
         let relaxed = Relaxation2 { steps: 1, tolerance: 0.0 }.run(&delaunay(set), &region, |_, _| {});
-        // Centroids are sums from the first corner on: equal only where that is the same.
         relaxed.expect("a tolerance").into_iter().zip(&set.points).for_each(|(p, q)| {
-            let near = (p[0] - q[0]).hypot(p[1] - q[1]) / unit;
-            outcome.measure(&[*q], (near * 1e6).round(), 0);
+            p.into_iter().for_each(|x| outcome.measure(&[*q], x, 1));
         });
         outcome
     }),

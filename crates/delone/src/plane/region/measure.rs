@@ -8,11 +8,24 @@ const UP: f64 = f64::from_bits((1023 + 600) << 52);
 
 /// The area inside of rings, positive if they are counter-clockwise. Beyond the range of `f64` it is infinite,
 /// and never NaN.
-pub(in crate::plane) fn area<R: Iterator<Item = [f64; 2]>>(rings: impl Iterator<Item = R> + Clone) -> f64 {
-    let twice = |scale: f64| rings.clone().map(|ring| twice_area(ring, scale)).sum::<f64>();
+pub(in crate::plane) fn area<R: Iterator<Item = [f64; 2]> + Clone>(
+    rings: impl Iterator<Item = R> + Clone,
+) -> f64 {
+    let twice = |scale: f64| rings.clone().map(|ring| twice_area(from_least(ring), scale)).sum::<f64>();
     let plain = twice(1.0) / 2.0;
     // An overflow on the way is infinite or NaN at the end.
     if plain.is_finite() { plain } else { twice(DOWN) * UP * (UP / 2.0) }
+}
+
+/// The corners of a ring from the lexicographically least on, so that sums have the same bits wherever a ring begins.
+fn from_least<R: Iterator<Item = [f64; 2]> + Clone>(ring: R) -> impl Iterator<Item = [f64; 2]> + Clone {
+    let mut least = (0, [f64::INFINITY; 2]);
+    for (k, p) in ring.clone().enumerate() {
+        if p < least.1 {
+            least = (k, p);
+        }
+    }
+    ring.clone().skip(least.0).chain(ring.take(least.0))
 }
 
 /// Twice the area, in units of scaled coordinates. Taken from the first corner, so that far from the origin nothing is
@@ -30,9 +43,10 @@ fn twice_area(mut ring: impl Iterator<Item = [f64; 2]>, scale: f64) -> f64 {
 }
 
 /// The centre of mass. `None` if there is no area.
-pub(in crate::plane) fn centroid<R: Iterator<Item = [f64; 2]>>(
+pub(in crate::plane) fn centroid<R: Iterator<Item = [f64; 2]> + Clone>(
     rings: impl Iterator<Item = R> + Clone,
 ) -> Option<[f64; 2]> {
+    let rings = rings.map(from_least);
     let corners = || rings.clone().flatten();
     let [x, y] = corners().next()?;
     let moments = |[along, up]: [f64; 2]| {

@@ -82,32 +82,35 @@ impl Regular2 {
         if let Some(site) = now.areas.iter().position(|&area| area <= 0.0) {
             return Err(Error::NoCell { site });
         }
+        // All sums are in this order, which depends on the points alone; and neighbours in the plane are neighbours in memory.
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        sorting::by_key(&mut order, |&i| r.mesh().place(VertexId::new(i)));
+        let mut rank = vec![0_u32; points.len()];
+        order.iter().enumerate().for_each(|(k, &i)| rank[i] = k as u32);
         let largest = shares.iter().fold(0.0, |m: f64, &share| m.max(share));
-        let whole: f64 = shares.iter().map(|share| share / largest).sum();
+        let whole: f64 = order.iter().map(|&i| shares[i] / largest).sum();
         // In units of the region's area, whose square may be no number.
-        let wanted: Vec<f64> = shares.iter().map(|share| share / largest / whole).collect();
-        if let Some(index) = wanted.iter().position(|&wanted| wanted < f64::MIN_POSITIVE) {
-            return Err(Error::Area { index, value: wanted[index] });
+        let wanted: Vec<f64> = order.iter().map(|&i| shares[i] / largest / whole).collect();
+        if let Some(k) = wanted.iter().position(|&wanted| wanted < f64::MIN_POSITIVE) {
+            return Err(Error::Area { index: order[k], value: wanted[k] });
         }
         let smallest = |areas: &[f64]| areas.iter().fold(f64::INFINITY, |m, &area| m.min(area));
         let floor = (smallest(&now.areas) / unit).min(smallest(&wanted)) / 2.0;
         let missing = |now: &Jacobian2| -> Vec<f64> {
-            wanted.iter().zip(&now.areas).map(|(wanted, area)| wanted - area / unit).collect()
+            wanted.iter().zip(&order).map(|(wanted, &i)| wanted - now.areas[i] / unit).collect()
         };
-        // Neighbours in the plane are to be neighbours in memory.
-        let mut order: Vec<usize> = (0..points.len()).collect();
-        sorting::by_key(&mut order, |&i| r.mesh().place(VertexId::new(i)));
         let mut rest = missing(&now);
         let worst = |rest: &[f64]| {
             rest.iter().zip(&wanted).fold(0.0, |m: f64, (rest, wanted)| m.max(rest.abs() / wanted))
         };
         let mut steps = 0;
         while worst(&rest) > tolerance {
-            let step = solve(&now, &rest, &order);
+            let step = solve(&now, &rest, &rank);
             let mut share = 1.0;
             let mut halvings = 0;
             loop {
-                let other: Vec<f64> = weights.iter().zip(&step).map(|(w, s)| w + share * s * unit).collect();
+                let moved = |(w, &k): (&f64, &u32)| w + share * step[k as usize] * unit;
+                let other: Vec<f64> = weights.iter().zip(&rank).map(moved).collect();
                 if halvings == HALVINGS || other.iter().any(|w| !w.is_finite()) {
                     r.set_weights(&weights)?;
                     return Ok((r, Prescribed2 { steps, error: worst(&rest) }));
@@ -130,12 +133,13 @@ impl Regular2 {
 }
 
 /// The weights that would make up for what is missing, if areas were linear: conjugate gradients, each row by its diagonal, with
-/// sites in an order.
-fn solve(now: &Jacobian2, missing: &[f64], order: &[usize]) -> Vec<f64> {
+/// sites by their rank.
+fn solve(now: &Jacobian2, missing: &[f64], rank: &[u32]) -> Vec<f64> {
     let count = missing.len();
-    let mut rank = vec![0_u32; count];
-    order.iter().enumerate().for_each(|(k, &i)| rank[i] = k as u32);
-    let ranked = |&([v, w], value): &([VertexId; 2], f64)| ([v, w].map(|v| rank[v.index()]), value);
+    let ranked = |&([v, w], value): &([VertexId; 2], f64)| {
+        let [v, w] = [v, w].map(|v| rank[v.index()]);
+        ([v.min(w), v.max(w)], value)
+    };
     let mut derivatives: Vec<([u32; 2], f64)> = now.derivatives.iter().map(ranked).collect();
     sorting::by_key(&mut derivatives, |derivative| derivative.0);
     let mut diagonal = vec![0.0; count];
@@ -158,7 +162,7 @@ fn solve(now: &Jacobian2, missing: &[f64], order: &[usize]) -> Vec<f64> {
     let mut solution = vec![0.0; count];
     // What constants cannot make up for: areas and wishes sum to the same but for rounding.
     let mean = missing.iter().sum::<f64>() / count as f64;
-    let mut rest: Vec<f64> = order.iter().map(|&i| missing[i] - mean).collect();
+    let mut rest: Vec<f64> = missing.iter().map(|missing| missing - mean).collect();
     let goal = PRECISION * length(&rest);
     let mut direction = scaled(&rest);
     let mut energy = dot(&rest, &direction);
@@ -181,7 +185,7 @@ fn solve(now: &Jacobian2, missing: &[f64], order: &[usize]) -> Vec<f64> {
         let turn = energy / before;
         direction.iter_mut().zip(&next).for_each(|(d, n)| *d = n + turn * *d);
     }
-    rank.iter().map(|&k| solution[k as usize]).collect()
+    solution
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {
