@@ -29,9 +29,9 @@ pub(crate) struct QueryArgs {
   delone locate points.npy --queries queries.npy -o triangles.npy
   delone locate points.csv --queries queries.csv -o - --to csv --locate hierarchy --ratio 8 --phase3 exact
 
-Row i holds the vertices, counter-clockwise, of the triangle that contains query i; of one such triangle if the
-query is on an edge or a vertex; -1 -1 -1 if it is outside of the convex hull. With --dim 3 likewise of a tetrahedron,
-in positive order, with four columns.")]
+Row i holds the vertices, counter-clockwise, of the triangle that contains query i; if the query is on an edge or a
+vertex, of that with the lexicographically least corners; -1 -1 -1 if it is outside of the convex hull. With --dim 3
+likewise of a tetrahedron, in positive order, with four columns.")]
 pub(crate) struct LocateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
