@@ -17,7 +17,7 @@ use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
 
-pub(crate) use values::extended;
+pub(crate) use values::{along, clamped, extended, least};
 
 /// Whether a command is about segments: they were asked for, or files hold them.
 pub(crate) fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {

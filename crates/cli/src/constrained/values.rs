@@ -2,11 +2,16 @@
 //!
 //! O(1) for each vertex on a segment.
 
+use std::collections::BTreeMap;
+
 use delone::Constrained2;
+
+use crate::args::DuplicatesName;
+use crate::heights::Several;
 
 /// The values of all points, rows of `width` of them: those given for the first points, and for points that were added on
 /// segments what these have there, linear between the given points; where segments differ, the mean. How far they differ
-/// at most comes too. `free` says what other points have; of what it does not know, 0.
+/// from the first at most comes too. `free` says what other points have; of what it does not know, 0.
 pub(crate) fn extended(
     c: &Constrained2,
     width: usize,
@@ -16,7 +21,8 @@ pub(crate) fn extended(
     let known = given.len().checked_div(width).unwrap_or_default();
     let mut values = given.to_vec();
     values.resize(c.points().len() * width, 0.0);
-    let mut counts = vec![0_u32; c.points().len() - known];
+    let mut has_value = vec![false; c.points().len() - known];
+    let mut means: BTreeMap<usize, Several> = BTreeMap::new();
     let mut widest = 0.0_f64;
     for (s, _) in c.segments() {
         let chain = c.chain(s).unwrap_or_default();
@@ -24,30 +30,53 @@ pub(crate) fn extended(
         for piece in old.windows(2).filter(|piece| piece[1] > piece[0] + 1) {
             let [first, last] = [chain[piece[0]], chain[piece[1]]];
             let (p, q) = (c.point(first), c.point(last));
-            let axis = usize::from((q[1] - p[1]).abs() > (q[0] - p[0]).abs());
             for v in &chain[piece[0] + 1..piece[1]] {
-                let share = (c.point(*v)[axis] - p[axis]) / (q[axis] - p[axis]);
-                let count = &mut counts[v.index() - known];
+                let is_other = std::mem::replace(&mut has_value[v.index() - known], true);
                 for k in 0..width {
-                    let [from, to] = [first, last].map(|v| given[v.index() * width + k]);
-                    let value = from + share * (to - from);
-                    let sum = &mut values[v.index() * width + k];
-                    if *count > 0 {
-                        widest = widest.max((value - *sum / f64::from(*count)).abs());
+                    let ends = [first, last].map(|v| given[v.index() * width + k]);
+                    let (at, value) = (v.index() * width + k, along(c.point(*v), [p, q], ends));
+                    if is_other {
+                        widest = widest.max((value - values[at]).abs());
+                        let several = || Several::new(DuplicatesName::Mean, values[at]);
+                        means.entry(at).or_insert_with(several).add(value);
+                    } else {
+                        values[at] = value;
                     }
-                    *sum += value;
                 }
-                *count += 1;
             }
         }
     }
-    for (i, &count) in counts.iter().enumerate() {
-        let row = &mut values[(known + i) * width..(known + i + 1) * width];
-        if count > 0 {
-            row.iter_mut().for_each(|sum| *sum /= f64::from(count));
-        } else if let Some(found) = free(c.points()[known + i]) {
-            row.copy_from_slice(&found);
+    means.into_iter().for_each(|(at, several)| values[at] = several.height());
+    for (i, _) in has_value.iter().enumerate().filter(|(_, has_value)| !**has_value) {
+        if let Some(found) = free(c.points()[known + i]) {
+            values[(known + i) * width..(known + i + 1) * width].copy_from_slice(&found);
         }
     }
     (values, widest)
+}
+
+/// The linear function with these values at the ends of a segment, at a point on it; never beyond them. The same bits whichever end is
+/// first.
+pub(crate) fn along(p: [f64; 2], ends: [[f64; 2]; 2], values: [f64; 2]) -> f64 {
+    let first = least(&ends);
+    let [(a, of_a), (b, of_b)] = [first, 1 - first].map(|k| (ends[k], values[k]));
+    let values = [of_a, of_b];
+    let axis = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
+    let share = (p[axis] - a[axis]) / (b[axis] - a[axis]);
+    clamped(values[0] + share * (values[1] - values[0]), &values)
+}
+
+/// Where the lexicographically least of some points is.
+pub(crate) fn least(points: &[[f64; 2]]) -> usize {
+    (1..points.len()).fold(0, |least, k| if points[k] < points[least] { k } else { least })
+}
+
+/// A mean that rounding does not lead out; where it is none, because numbers are too large or too small, the least value.
+pub(crate) fn clamped(mean: f64, values: &[f64]) -> f64 {
+    if values.iter().any(|value| value.is_nan()) {
+        return f64::NAN;
+    }
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if mean.is_nan() { low } else { mean.clamp(low, high) }
 }

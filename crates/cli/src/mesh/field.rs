@@ -5,6 +5,7 @@ use std::path::Path;
 use delone::{Constrained2, Delaunay2, Location2, TriangleId, VertexId};
 use delone_io::ReadOptions;
 
+use crate::constrained::{along, clamped, least};
 use crate::files;
 use crate::message::Failure;
 
@@ -59,31 +60,19 @@ impl Sizes {
     }
 }
 
-/// The linear function with these values at the corners of a triangle, at a point inside; never beyond them.
-pub(super) fn between(p: [f64; 2], [a, b, c]: [[f64; 2]; 3], values: [f64; 3]) -> f64 {
+/// The linear function with these values at the corners of a triangle, at a point inside; never beyond them. The same bits whichever corner
+/// is first.
+pub(super) fn between(p: [f64; 2], corners: [[f64; 2]; 3], values: [f64; 3]) -> f64 {
+    let first = least(&corners);
+    let [(a, of_a), (b, of_b), (c, of_c)] =
+        [0, 1, 2].map(|k| (first + k) % 3).map(|k| (corners[k], values[k]));
+    let values = [of_a, of_b, of_c];
     let cross =
         |o: [f64; 2], u: [f64; 2], v: [f64; 2]| (u[0] - o[0]) * (v[1] - o[1]) - (u[1] - o[1]) * (v[0] - o[0]);
     let parts = [cross(p, b, c), cross(p, c, a), cross(p, a, b)].map(|part| part.max(0.0));
     let whole: f64 = parts.iter().sum();
     let mean = parts.iter().zip(values).map(|(part, value)| part / whole * value).sum::<f64>();
     clamped(mean, &values)
-}
-
-/// The same at a point of a segment.
-pub(super) fn along(p: [f64; 2], [a, b]: [[f64; 2]; 2], values: [f64; 2]) -> f64 {
-    let axis = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
-    let share = (p[axis] - a[axis]) / (b[axis] - a[axis]);
-    clamped(values[0] + share * (values[1] - values[0]), &values)
-}
-
-/// A mean that rounding does not lead out; where it is none, because numbers are too large or too small, the least value.
-fn clamped(mean: f64, values: &[f64]) -> f64 {
-    if values.iter().any(|value| value.is_nan()) {
-        return f64::NAN;
-    }
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if mean.is_nan() { low } else { mean.clamp(low, high) }
 }
 
 /// The triangles of a mesh that is refined again, to find which of them a place is in.

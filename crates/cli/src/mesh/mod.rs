@@ -18,12 +18,12 @@ use delone_io::{
 };
 
 use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
-use crate::constrained::{Constrained, extended};
+use crate::constrained::{Constrained, along, extended};
 use crate::files;
 use crate::message::{Failure, answer, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
-use field::{Sizes, along, between};
+use field::{Sizes, between};
 use kept::Kept;
 use names::{Content, Target};
 use plan::{Plan, Written};
