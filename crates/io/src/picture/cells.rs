@@ -4,7 +4,7 @@ use std::io::Write;
 
 use delone::Ring;
 
-use super::colour::{DENSITY, EDGE, PAPER, POINT, Rgb};
+use super::colour::{DENSITY, Density, EDGE, PAPER, POINT, Rgb};
 use super::png::Canvas;
 use super::raster::Raster;
 use super::svg::hex;
@@ -15,9 +15,7 @@ use crate::{Error, Format};
 /// What to draw, and how.
 struct Style {
     view: View,
-    /// Logarithms of the areas between which colours change.
-    low: f64,
-    high: f64,
+    density: Density,
     /// Typical distance of neighbours in pixels.
     spacing: f64,
 }
@@ -40,21 +38,18 @@ pub(crate) fn write(
 impl Style {
     fn of(diagram: &impl Tiles, size: u32) -> Self {
         let view = View::around(diagram.corners(), size);
-        let mut areas: Vec<f64> = diagram.present().map(|v| diagram.area(v).ln()).collect();
+        let mut areas: Vec<f64> = diagram.present().map(|v| diagram.area(v)).collect();
         areas.sort_by(f64::total_cmp);
         // A few outliers must not take all of the colours.
         let at = |share: f64| areas.get((areas.len() as f64 * share) as usize).copied().unwrap_or_default();
         let pixels = f64::from(view.width) * f64::from(view.height);
         let spacing = (pixels / areas.len().max(1) as f64).sqrt();
-        let (low, high) = (at(0.02), at(0.98));
-        // Even cells are to look even: all colours are a factor of four.
-        let widen = (4f64.ln() - (high - low)).max(0.0) / 2.0;
-        Self { view, low: low - widen, high: high + widen, spacing }
+        Self { view, density: Density::between(at(0.02), at(0.98)), spacing }
     }
 
     fn colour(&self, area: f64) -> Rgb {
         // Small cells are dense.
-        DENSITY.at(1.0 - (area.ln() - self.low) / (self.high - self.low))
+        DENSITY.at(self.density.of(area))
     }
 
     fn outlines(&self) -> bool {

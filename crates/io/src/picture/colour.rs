@@ -57,6 +57,34 @@ impl Ramp {
     }
 }
 
+/// How dense what has these areas is, by the logarithms of their ratios: so it is the same in all units.
+pub(super) struct Density {
+    low: f64,
+    /// The logarithms, over `low`, between which colours change.
+    range: [f64; 2],
+}
+
+impl Density {
+    /// Between two areas. Even areas are to look even, and those that differ by rounding alike: all colours are a factor of four.
+    pub(super) fn between(low: f64, high: f64) -> Self {
+        let low = low.max(f64::MIN_POSITIVE);
+        let span = ratio(high, low);
+        let widen = (4f64.ln() - span).max(0.0) / 2.0;
+        Self { low, range: [-widen, span + widen] }
+    }
+
+    /// From 0, sparse, to 1, dense.
+    pub(super) fn of(&self, area: f64) -> f64 {
+        let [from, to] = self.range;
+        (1.0 - (ratio(area, self.low) - from) / (to - from)).clamp(0.0, 1.0)
+    }
+}
+
+/// The logarithm of a ratio, whatever numbers there are.
+fn ratio(area: f64, low: f64) -> f64 {
+    (area / low).clamp(f64::MIN_POSITIVE, f64::MAX).ln()
+}
+
 /// From `a` to `b`.
 pub(super) fn mix(a: Rgb, b: Rgb, t: f64) -> Rgb {
     [0, 1, 2].map(|i| (f64::from(a[i]) * (1.0 - t) + f64::from(b[i]) * t).round() as u8)

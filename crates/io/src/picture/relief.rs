@@ -2,7 +2,7 @@
 
 use delone::Triangulation;
 
-use super::colour::{ANGLE, DENSITY, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
+use super::colour::{ANGLE, DENSITY, Density, HEIGHT, PAPER, Ramp, Rgb, mix, numbered, shade};
 use crate::{Mesh, Shape};
 
 /// The direction of the light: from the north-west, 45 degrees up.
@@ -11,11 +11,8 @@ const LIGHT: [f64; 3] = [-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2];
 /// The colours of a surface's triangles.
 pub(super) enum Paint<'a> {
     Relief(Relief<'a>),
-    /// By the logarithm of the area, between these two.
-    Density {
-        low: f64,
-        high: f64,
-    },
+    /// By the area.
+    Density(Density),
     /// By the number of the region of each triangle.
     Regions(Vec<usize>),
     /// By the smallest angle of each triangle, as a part of 60 degrees.
@@ -47,10 +44,10 @@ impl<'a> Paint<'a> {
     }
 
     fn density(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Self {
-        let areas = mesh.triangles().map(|triangle| area(triangle.map(|i| mesh.points[i])).ln());
-        let mut areas: Vec<f64> = areas.filter(|area| area.is_finite()).collect();
+        let areas = mesh.triangles().map(|triangle| area(triangle.map(|i| mesh.points[i])));
+        let mut areas: Vec<f64> = areas.filter(|area| *area > 0.0 && area.is_finite()).collect();
         let (low, high) = spread(&mut areas);
-        Self::Density { low, high }
+        Self::Density(Density::between(low, high))
     }
 
     /// Regions in the order of their values.
@@ -66,7 +63,7 @@ impl<'a> Paint<'a> {
     pub(super) fn ramp(&self) -> Option<&'static Ramp> {
         match self {
             Self::Relief(_) => Some(&HEIGHT),
-            Self::Density { .. } => Some(&DENSITY),
+            Self::Density(_) => Some(&DENSITY),
             Self::Regions(_) => None,
             Self::Angles(_) => Some(&ANGLE),
         }
@@ -79,7 +76,7 @@ impl<'a> Paint<'a> {
             Self::Regions(numbers) => [[numbers[i] as f64, 1.0]; 3],
             Self::Angles(shares) => [[shares[i], 1.0]; 3],
             Self::Relief(relief) => triangle.map(|i| [relief.value(i), relief.light[i]]),
-            Self::Density { low, high } => [[1.0 - fraction(area.ln(), *low, *high), 1.0]; 3],
+            Self::Density(density) => [[density.of(area), 1.0]; 3],
         }
     }
 
@@ -149,14 +146,28 @@ fn spread(values: &mut [f64]) -> (f64, f64) {
     (values[cut], values[values.len() - 1 - cut])
 }
 
+/// A power of two that makes the extent of points about one, so that fourth powers of it are numbers.
+fn unit(points: &[[f64; 3]]) -> f64 {
+    let extent = |k: usize| {
+        let finite = points.iter().map(|p| p[k]).filter(|x| x.is_finite());
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = finite.fold(none, |(low, high), x| (low.min(x), high.max(x)));
+        high / 2.0 - low / 2.0
+    };
+    let extent = extent(0).max(extent(1)).max(extent(2));
+    let exponent = ((extent.to_bits() >> 52) as i32 - 1023).clamp(-1000, 1000);
+    f64::from_bits(((1023 - exponent) as u64) << 52)
+}
+
 /// The light at each point, from the mean normal of its triangles. Flat land is exaggerated until its typical
 /// slope can be seen.
 fn light(mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>) -> Vec<f64> {
     let positions: Vec<_> = mesh.positions().collect();
+    let unit = unit(&positions);
     let mut normals = vec![[0.0_f64; 3]; positions.len()];
     for triangle in mesh.triangles() {
         let [a, b, c] = triangle.map(|i| positions[i]);
-        let (u, v) = ([b[0] - a[0], b[1] - a[1], b[2] - a[2]], [c[0] - a[0], c[1] - a[1], c[2] - a[2]]);
+        let [u, v] = [b, c].map(|p| [0, 1, 2].map(|k| (p[k] - a[k]) * unit));
         let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         for i in triangle {
             (0..3).for_each(|k| normals[i][k] += normal[k]);
