@@ -10,6 +10,7 @@ mod files;
 mod folder;
 mod graph;
 mod mesh;
+mod metamorphic;
 mod narrow;
 mod outside;
 mod place;
