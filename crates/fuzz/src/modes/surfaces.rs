@@ -8,10 +8,13 @@ use delone_generators::Random;
 use crate::attack::{Attack, Judgement};
 use crate::nasty::{self, once_in};
 use crate::oracle::exact::{Vector, integer, integers, orientation, scale};
-use crate::oracle::rings::{Ring, Side, are_apart, are_neighbours};
+use crate::oracle::rings::{Ring, Side, are_apart, are_neighbours, from_side};
 
-/// Points and heights nearer to each other than this part of the largest leave contours no room: 2^-30. Rounding moves them by 2^-52.
-const ROOM: f64 = 9.313_225_746_154_785e-10;
+/// Points and heights nearer to each other than this part of the largest leave contours no room: 2^-26. Rounding moves them by 2^-52.
+const ROOM: f64 = 1.490_116_119_384_765_6e-8;
+
+/// Nor do triangles whose height is a smaller part of their longest edge: 2^-16.
+const THIN: f64 = 1.525_878_906_25e-5;
 
 /// A point and its height.
 type Sample<const D: usize> = ([f64; D], f64);
@@ -287,7 +290,13 @@ fn judge_contours(
         return Err(format!("a contour leaves the points at {p:?}"));
     }
     let bands = one.bands(&levels).map_err(failed)?;
-    if has_room(d.points(), heights, levels.values()) {
+    let is_thin = |t: [VertexId; 3]| {
+        let [p, q, r] = t.map(|v| d.point(v));
+        [[p, q, r], [q, r, p], [r, p, q]]
+            .iter()
+            .any(|&[p, q, r]| from_side(p, q, r) < THIN * (q[0] - p[0]).hypot(q[1] - p[1]))
+    };
+    if has_room(d.points(), heights, levels.values()) && !d.triangles().any(is_thin) {
         judge_shapes(&lines, &bands)?;
     }
     if bands != other.bands(&levels).map_err(failed)? {

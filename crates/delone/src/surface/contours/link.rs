@@ -64,7 +64,7 @@ fn segments(set: u32, points: &[[f64; 2]], is_closed: bool) -> impl Iterator<Ite
     (0..count).map(move |i| Segment { set, from: at(i), to: at(i + 1) }).filter(|s| s.from != s.to)
 }
 
-/// Takes out pairs of segments that go the same way forth and back; `meet` hears of their sets.
+/// Takes out pairs of segments that go the same way forth and back; `meet` hears of the sets of all that lie on each other.
 fn cancel(segments: &mut Vec<Segment>, mut meet: impl FnMut(u32, u32)) {
     let ends = |s: &Segment| if order(s.from, s.to).is_lt() { (s.from, s.to) } else { (s.to, s.from) };
     let compare = |s: &Segment, t: &Segment| {
@@ -79,7 +79,10 @@ fn cancel(segments: &mut Vec<Segment>, mut meet: impl FnMut(u32, u32)) {
         let gone = forth.min(back);
         kept.extend_from_slice(&same[gone..forth]);
         kept.extend_from_slice(&same[forth + gone..]);
-        (0..gone).for_each(|k| meet(same[k].set, same[forth + k].set));
+        // Which of equal ones are gone is not to be seen.
+        same.windows(2)
+            .filter(|pair| pair[0].set != pair[1].set)
+            .for_each(|pair| meet(pair[0].set, pair[1].set));
     }
     *segments = kept;
 }
