@@ -143,11 +143,14 @@ impl Raster {
             let value = if is_plain { left.value + (x - left.x) * slope } else { left.mean(&right, x) };
             put(start.column + column, value.max(least).min(most));
         }
+        // Columns nearer to each other than numbers are at one place.
         if start.is_on_edge {
-            put(start.column, left.value);
+            let same = inside.iter().take_while(|&&x| x == inside[0]).count();
+            (start.column..start.column + same).for_each(|column| put(column, left.value));
         }
         if end.is_on_edge {
-            put(end.column - 1, right.value);
+            let same = inside.iter().rev().take_while(|&&x| x == inside[inside.len() - 1]).count();
+            (end.column - same..end.column).for_each(|column| put(column, right.value));
         }
     }
 }
