@@ -18,8 +18,8 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// From the corners in lexicographic order, so that it does not depend on theirs; `None` if its area is not above this part of the product
-    /// of two sides, or beyond what numbers can tell: slopes would amplify roundings.
+    /// From the corners in lexicographic order, so that it does not depend on theirs; `None` if its area is not above this part of the square
+    /// around its longest side, or beyond what numbers can tell: slopes would amplify roundings.
     #[inline]
     pub(super) fn new(corners: [[f64; 2]; 3], heights: [f64; 3], thinnest: f64) -> Option<Self> {
         let mut c = [(corners[0], heights[0]), (corners[1], heights[1]), (corners[2], heights[2])];
@@ -37,8 +37,8 @@ impl Plane {
         let [a, b] = [[q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]];
         let (u, v) = (zq - z, zr - z);
         let area = a[0] * b[1] - a[1] * b[0];
-        let size = (a[0].abs() + a[1].abs()) * (b[0].abs() + b[1].abs());
-        if !(area.abs() > thinnest * size && area.abs() > TINY) {
+        let long = (a[0].abs() + a[1].abs()).max(b[0].abs() + b[1].abs());
+        if !(area.abs() > thinnest * long * long && area.abs() > TINY) {
             return None;
         }
         let parts = [u * b[1] - v * a[1], v * a[0] - u * b[0]];
