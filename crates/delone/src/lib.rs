@@ -120,6 +120,7 @@ mod order;
 mod parallel;
 pub mod plane;
 mod points;
+mod powers;
 mod prefetch;
 mod regular;
 mod sets;

@@ -150,7 +150,7 @@ fn nasty_sets() {
     let mut sets: Vec<Vec<[f64; 2]>> = vec![
         lattice(1.0, 30),
         lattice(5e-324, 20),
-        lattice(2f64.powi(-1060), 20),
+        lattice(f64::from_bits(1 << 14), 20),
         lattice(2f64.powi(1000), 20),
         // A hexagonal lattice: six cocircular points everywhere, in integers.
         (0..600).map(|i| [f64::from(2 * (i % 25) + i / 25 % 2), f64::from(i / 25)]).collect(),

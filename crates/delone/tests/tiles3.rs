@@ -194,7 +194,7 @@ fn nasty_sets() {
         // All cospherical, in every cell.
         lattice(1.0, 7),
         lattice(5e-324, 6),
-        lattice(2f64.powi(-1060), 6),
+        lattice(f64::from_bits(1 << 14), 6),
         lattice(2f64.powi(1000), 6),
         // Centred cubes: cells of other shapes, integers.
         lattice(2.0, 5).into_iter().flat_map(|p| [p, p.map(|x| x + 1.0)]).collect(),

@@ -57,8 +57,8 @@ pub(crate) fn are_neighbours(polygons: &[Vec<Ring>]) -> Judgement {
     let once = |[p, q]: Side| if p < q { [p, q] } else { [q, p] };
     let mut all: Vec<Side> = polygons.iter().flat_map(|rings| sides(rings)).collect();
     all.sort_by(|s, t| s.partial_cmp(t).unwrap_or(std::cmp::Ordering::Equal));
-    if let Some(pair) = all.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(format!("two polygons have the side {:?}", pair[0]));
+    if let Some([side, ..]) = all.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(format!("two polygons have the side {side:?}"));
     }
     let mut all: Vec<Side> = all.into_iter().map(once).collect();
     all.sort_by(|s, t| s.partial_cmp(t).unwrap_or(std::cmp::Ordering::Equal));

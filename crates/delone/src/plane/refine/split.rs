@@ -16,6 +16,7 @@ use super::shape::{squared, squared_height};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
+use crate::powers::power_below;
 use crate::sorting;
 
 impl Mesher<'_> {
@@ -158,7 +159,7 @@ impl Mesher<'_> {
         }
         let third = (far - near) / 3.0;
         let (low, high) = (near + third, far - third);
-        let mut step = 2f64.powi(far.log2().ceil() as i32);
+        let mut step = power_below(far);
         while step > 0.0 && (high / step).floor() * step <= low {
             step *= 0.5;
         }
@@ -305,14 +306,8 @@ const NARROW: f64 = 0.0875;
 
 /// The power of two that splits a length most evenly.
 fn shell(length: f64) -> f64 {
-    let mut power = 2f64.powi(length.log2().floor() as i32);
-    while length > 3.0 * power {
-        power *= 2.0;
-    }
-    while length < 1.5 * power {
-        power *= 0.5;
-    }
-    power
+    let power = power_below(length);
+    if length < 1.5 * power { 0.5 * power } else { power }
 }
 
 /// The neighbours of a point among the numbers, in lexicographic order.
@@ -323,4 +318,21 @@ fn around(q: [f64; 2]) -> Vec<[f64; 2]> {
     others.retain(|&p| p != q);
     sorting::by(&mut others, |&p, &r| lexicographic(p, r));
     others
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shell;
+
+    /// Of all lengths, those below the least number with all its digits too.
+    #[test]
+    fn shells_part_lengths_evenly() {
+        for unit in [1.0, f64::MIN_POSITIVE, f64::from_bits(1 << 20), 2.0_f64.powi(1000)] {
+            for (length, expected) in
+                [(1.0, 0.5), (1.25, 0.5), (1.5, 1.0), (2.0, 1.0), (2.5, 1.0), (3.0, 2.0)]
+            {
+                assert_eq!(shell(length * unit), expected * unit, "{length} of {unit:e}");
+            }
+        }
+    }
 }

@@ -23,6 +23,7 @@ use std::cmp::Ordering;
 use super::real::{Real, minus};
 use crate::around::Around;
 use crate::ids::VertexId;
+use crate::powers::power_below;
 use crate::triangulation::{Coordinates, Triangulation};
 
 /// What is measured.
@@ -91,9 +92,9 @@ pub(super) fn scale(size: f64) -> [f64; 2] {
     let before = if size > 2f64.powi(1000) { 2f64.powi(-100) } else { 1.0 };
     let size = size * before;
     let after = if size > 2f64.powi(60) {
-        2f64.powi(-(size.log2() as i32))
+        1.0 / power_below(size)
     } else if size < 2f64.powi(-60) && size > 0.0 {
-        2f64.powi((-size.log2() as i32).min(1000))
+        (1.0 / power_below(size)).min(2f64.powi(1000))
     } else {
         1.0
     };
