@@ -2,6 +2,7 @@
 
 use delone::{Alpha2, Alpha3, Delaunay2, Delaunay3, Error, Regular2, Regular3, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
@@ -93,6 +94,20 @@ impl Alpha {
             Complexes::Space(complexes) => (indices(&complexes.outline(alpha)), Vec::new(), Vec::new()),
         });
         [corners, rings, parts].map(|array| PyArray1::from_vec(py, array))
+    }
+
+    /// In space, of the outline without pinches: the point of each vertex, and the corners of triangles among vertices.
+    fn manifold<'py>(&self, py: Python<'py>, alpha: f64) -> PyResult<[Bound<'py, PyArray1<i32>>; 2]> {
+        let Complexes::Space(complexes) = &self.0 else {
+            return Err(PyValueError::new_err("outlines in the plane have no pinches"));
+        };
+        let (vertices, corners) = py.detach(|| {
+            let surface = complexes.manifold(alpha);
+            let vertices: Vec<i32> = surface.vertices.iter().map(|v| v.index() as i32).collect();
+            let corners: Vec<i32> = surface.triangles.iter().flatten().map(|&i| i as i32).collect();
+            (vertices, corners)
+        });
+        Ok([vertices, corners].map(|array| PyArray1::from_vec(py, array)))
     }
 
     /// The component of each point, -1 for none.

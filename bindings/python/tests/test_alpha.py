@@ -101,3 +101,24 @@ def test_persistence_is_that_of_gudhi(ndim, weighted, make):
     for ours, other in zip(*diagrams, strict=True):
         assert len(ours) == len(other)
         assert np.allclose(ours[np.lexsort(ours.T)], other[np.lexsort(other.T)], rtol=1e-12, atol=1e-12)
+
+
+def test_manifolds_have_no_pinches():
+    points = np.random.default_rng(2).random((80, 3))
+    complexes = delone.AlphaComplex(points)
+    pinched = 0
+    for alpha in np.linspace(0.01, 0.06, 12):
+        outline = complexes.outline(alpha)
+        vertices, triangles = complexes.manifold(alpha)
+        assert np.array_equal(vertices[triangles], outline)
+
+        def sides(corners):
+            return np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+
+        forth, counts = np.unique(sides(triangles), axis=0, return_counts=True)
+        assert counts.max(initial=1) == 1
+        assert np.array_equal(forth, np.unique(sides(triangles)[:, ::-1], axis=0))
+        pinched += np.unique(sides(outline), axis=0, return_counts=True)[1].max(initial=1) > 1
+    assert pinched
+    with pytest.raises(ValueError, match="no pinches"):
+        delone.AlphaComplex(points[:, :2]).manifold(1.0)

@@ -95,6 +95,16 @@ class AlphaComplex:
         ends = np.cumsum(counts).tolist()
         return [rings[end - count : end] for end, count in zip(ends, counts.tolist(), strict=True)]
 
+    def manifold(self, alpha: float) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """The outline in space at a squared radius as a closed surface: where sheets of it touch along an edge or in a vertex, each
+        has a copy of it, so every edge has two triangles.
+
+        The point of each vertex, of shape (m,), and triangles as indices of vertices, of shape (count, 3), counter-clockwise seen
+        from outside. ValueError in the plane.
+        """
+        vertices, corners = self._core.manifold(float(alpha))
+        return vertices, corners.reshape(-1, 3)
+
     def components(self, alpha: float) -> NDArray[np.int32]:
         """For each point the number of its component at a squared radius, by their least points; -1 for points that are not
         there."""
