@@ -77,6 +77,7 @@ fn lines_are_simple_and_do_not_cross() {
             assert!(all[..i].iter().all(|&b| !cross(a, b)), "{name}: lines cross");
         }
         let hull: Vec<[f64; 2]> = d.hull_vertices().map(|v| d.point(v)).collect();
+        let largest = points.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         for line in &lines {
             let mut keys: Vec<_> = line.points.iter().map(|p| p.map(f64::to_bits)).collect();
             keys.sort_unstable();
@@ -90,7 +91,9 @@ fn lines_are_simple_and_do_not_cross() {
                 let near = |i: usize| {
                     let (p, q) = (hull[i], hull[(i + 1) % hull.len()]);
                     let away = (q[0] - p[0]) * (end[1] - p[1]) - (q[1] - p[1]) * (end[0] - p[0]);
-                    away.abs() <= 1e-9 * ((q[0] - p[0]).abs() + (q[1] - p[1]).abs())
+                    // Coordinates are rounded.
+                    let rounding = 2.0 * f64::EPSILON * largest;
+                    away.abs() <= rounding * ((q[0] - p[0]).abs() + (q[1] - p[1]).abs())
                 };
                 assert!((0..hull.len()).any(near), "{name}: a line ends inside");
             }

@@ -105,7 +105,12 @@ impl<'a> Cut<'a> {
         let (near, far) = if from_low.abs() <= from_high.abs() { (p, q) } else { (q, p) };
         [0, 1].map(|k| {
             let middle = near[k] / 2.0 + far[k] / 2.0;
-            let at = near[k] + 2.0 * part * (middle - near[k]);
+            let span = far[k] - near[k];
+            let at = if span.is_finite() {
+                near[k] + part * span
+            } else {
+                near[k] + 2.0 * part * (middle - near[k])
+            };
             at.clamp(near[k].min(middle), near[k].max(middle))
         })
     }
