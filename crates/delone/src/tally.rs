@@ -2,7 +2,7 @@
 
 /// Receives one call for each step of an operation.
 pub trait Tally {
-    /// A triangle was visited by a walk or a descent.
+    /// A triangle was visited by a walk or a descent; where all vertices are on one line, a vertex of it.
     fn visited(&mut self) {}
     /// A vertex was compared with others for its distance.
     fn compared(&mut self) {}
@@ -60,7 +60,7 @@ pub enum Phase {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Work {
-    /// Triangles visited by walks and descents.
+    /// Triangles visited by walks and descents, and vertices of a line.
     pub visited: u64,
     /// Vertices compared for their distance.
     pub compared: u64,

@@ -1,7 +1,7 @@
 //! Steps, counted: what a query and a change cost on every kind of points, by the default strategy. Counters are functions
 //! of the input, so that bounds can be asserted; each is about twice what is counted today.
 
-use delone::{Ask, Change, Delaunay2, VertexId, Work};
+use delone::{Ask, Change, Delaunay2, Hierarchy, Inserted, JumpAndWalk, Locate, VertexId, Walk, Work};
 use delone_generators::{Kind, Random};
 
 /// Sets between whose points triangles are long and thin, by name.
@@ -250,5 +250,61 @@ fn waiting_for_levels_costs_as_many_steps_as_there_are_vertices() {
         // The last walk may be across everything.
         let (cold, warm) = (ask(), ask());
         assert!(cold <= warm + 4 * n as u64, "{name}: {cold} and then {warm}");
+    }
+}
+
+/// Points of a line, in three orders.
+fn orders_of_a_line(n: usize) -> Vec<(&'static str, Vec<[f64; 2]>)> {
+    let along: Vec<[f64; 2]> = (0..n).map(|i| [i as f64, 3.0 * i as f64]).collect();
+    let mut mixed = along.clone();
+    let mut random = Random::new(5);
+    (1..n).rev().for_each(|i| mixed.swap(i, random.below(i + 1)));
+    let inwards = (0..n).map(|i| along[if i % 2 == 0 { i / 2 } else { n - 1 - i / 2 }]).collect();
+    let backwards = along.iter().rev().copied().collect();
+    vec![("along", along), ("backwards", backwards), ("mixed", mixed), ("inwards", inwards)]
+}
+
+/// Whatever strategy there is: the vertices of a line are in a tree.
+#[test]
+fn points_of_a_line_are_found_in_few_steps() {
+    let n = 20_000;
+    let strategies = [
+        Locate::Tree,
+        Locate::Walk(Walk::Visibility),
+        Locate::JumpAndWalk(JumpAndWalk::default()),
+        Locate::Hierarchy(Hierarchy::default()),
+        Locate::Hierarchy(Hierarchy::only_levels()),
+        Locate::DelaunayTree,
+    ];
+    for locate in strategies {
+        for (name, points) in orders_of_a_line(n) {
+            let mut d = Delaunay2::new();
+            d.set_strategy(locate).expect("in range");
+            let what = format!("{locate:?}, {name}");
+            let mut steps = Counts::default();
+            for &p in &points {
+                steps.add(counted(|work| _ = d.insert_observed(p, work).expect("finite")).visited);
+            }
+            // Each level of a hierarchy has a tree: three of them, and what is found in each is inserted above.
+            let most = if matches!(locate, Locate::Hierarchy(_)) { 90.0 } else { 40.0 };
+            steps.hold(&format!("{what}: vertices of an insertion"), most, 250);
+            let mut steps = Counts::default();
+            for p in &points[..2000] {
+                for q in [*p, p.map(|x| x + 0.25), [p[0] + 0.25, p[1] + 0.75]] {
+                    steps.add(counted(|work| _ = d.find_observed(q, work).expect("finite")).visited);
+                }
+            }
+            steps.hold(&format!("{what}: vertices of a query"), most, 250);
+            for i in (0..n).step_by(2) {
+                d.remove(VertexId::new(i)).expect("a vertex");
+            }
+            let mut steps = Counts::default();
+            for (i, p) in points.iter().enumerate().take(2000) {
+                let is_new = matches!(d.insert(*p).expect("finite"), Inserted::New(_));
+                assert_eq!(is_new, i % 2 == 0, "{what}");
+                steps.add(counted(|work| _ = d.find_observed(*p, work).expect("finite")).visited);
+            }
+            steps.hold(&format!("{what}: vertices of a query after removals"), most, 250);
+        }
     }
 }

@@ -93,15 +93,16 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
             clock: 0,
             below: FromLast::default(),
         };
-        tree.plant(ground, |_| true);
+        if ground.is_spanned() {
+            tree.plant(ground, |_| true);
+        }
         tree
     }
 
     /// Makes the tree of some vertices anew, in another random order each time: whoever removes vertices does not know which
     /// are the first.
     fn plant<G: Simplices<N, Point = P>>(&mut self, ground: &G, is_site: impl Fn(Place) -> bool) {
-        let is_spanned = ground.is_spanned();
-        let mut order: Vec<Place> = ground.inhabited().filter(|&v| is_spanned && is_site(v)).collect();
+        let mut order: Vec<Place> = ground.inhabited().filter(|&v| is_site(v)).collect();
         SplitMix(self.clock).shuffle(&mut order);
         self.grow(ground, &order);
     }
@@ -304,7 +305,11 @@ impl<G: Simplices<N>, const N: usize> Strategy<G> for DelaunayTree<G::Point, N> 
         self.below.inserted(ground, v, start, &mut ());
         let q = ground.point(v);
         if self.root.is_none() {
-            return self.plant(ground, |_| true);
+            // As long as the sites do not span the space each comes without a look at the others.
+            if ground.is_spanned() {
+                self.plant(ground, |_| true);
+            }
+            return;
         }
         let from = match start {
             Start::Hint(_, t) => Some(t),

@@ -32,7 +32,7 @@ pub(super) fn triangulate<T: Tally>(
                 // The first of equal points given is their vertex.
                 let (first, later) = (v.min(w), v.max(w));
                 if later == w {
-                    layer.mesh.rename(w, v);
+                    layer.rename(w, v);
                 }
                 duplicates.push(Duplicate { point: later.index(), vertex: first.same() });
                 first

@@ -1,12 +1,11 @@
 //! Insertion of a point, whatever the dimension so far.
 //!
-//! Cost: the walk, and the cavity (see `cavity`).
+//! Cost: the walk, and the cavity (see `cavity`); on a line O(log n) expected (see `line`).
 
 use delone_predicates::orient2d;
 
 use super::Layer;
 use super::kernel::{Kernel, Sites};
-use super::line::{self, OnLine};
 use super::walk::{walk, walk_within};
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::locate::Start;
@@ -37,7 +36,7 @@ impl<K: Kernel> Layer<K> {
     #[inline]
     pub(in crate::plane) fn spot<T: Tally>(&self, start: Start, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
         if !self.spanned {
-            return self.spot_below_plane(start, q);
+            return self.spot_below_plane(q, tally);
         }
         let goal = walk(self, start, q, tally);
         (self.spot_in(goal.triangle, q), goal.steps)
@@ -53,7 +52,7 @@ impl<K: Kernel> Layer<K> {
         tally: &mut T,
     ) -> Option<(Spot, usize)> {
         if !self.spanned {
-            return Some(self.spot_below_plane(start, q));
+            return Some(self.spot_below_plane(q, tally));
         }
         let from = if let Start::Hint(e, _) = start { e } else { self.mesh.ghost_edge };
         let goal = walk_within(self, from, q, most, tally);
@@ -70,7 +69,7 @@ impl<K: Kernel> Layer<K> {
         }
     }
 
-    fn spot_below_plane(&self, start: Start, q: [f64; 2]) -> (Spot, usize) {
+    fn spot_below_plane<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
         let mesh = &self.mesh;
         match mesh.lone {
             Some(v) if self.points[v.index()] == q => return (Spot::Vertex(v), 1),
@@ -80,23 +79,12 @@ impl<K: Kernel> Layer<K> {
         }
         let e = mesh.ghost_edge.next(); // along the line, the ghost on its left
         let [a, b] = [mesh.tail(e), mesh.head(e)].map(|w| self.points[w.index()]);
+        tally.orientation();
         let side = orient2d(a, b, q);
         if !side.is_zero() {
             return (Spot::BesideLine(if side.is_positive() { e } else { mesh.twin(e) }.triangle()), 1);
         }
-        let near = match start {
-            Start::At(e, _) | Start::Hint(e, _) if mesh.tail(e).is_ghost() => mesh.head(e),
-            Start::At(e, _) | Start::Hint(e, _) => mesh.tail(e),
-            Start::Vertex(v) => v,
-            Start::Anywhere => mesh.tail(e),
-        };
-        let (on_line, steps) = line::locate(mesh, &self.points, near, q);
-        let spot = match on_line {
-            OnLine::Vertex(w) => Spot::Vertex(w),
-            OnLine::Segment(e) => Spot::Segment(e),
-            OnLine::End(end) => Spot::End(end),
-        };
-        (spot, steps)
+        self.spot_on_line(q, tally)
     }
 
     /// Makes a point a vertex where it falls. If there is one already, that is the error.
@@ -134,14 +122,24 @@ impl<K: Kernel> Layer<K> {
                 self.mesh.lone = Some(v);
                 self.mesh.vertex_count = 1;
             }
-            Spot::BesidePoint => self.mesh.begin_line(v),
-            Spot::Segment(e) => self.mesh.split_segment(e, v),
-            Spot::End(end) => self.mesh.extend_line(end, v),
+            Spot::BesidePoint => {
+                self.mesh.begin_line(v);
+                self.line.take();
+            }
+            Spot::Segment(e) => {
+                self.mesh.split_segment(e, v);
+                self.join_line(v);
+            }
+            Spot::End(end) => {
+                self.mesh.extend_line(end, v);
+                self.join_line(v);
+            }
             // The ghosts on one side of the line are in conflict; joining the point to them makes the plane.
             Spot::BesideLine(triangle) | Spot::Triangle(triangle) => {
                 let sites = Sites { points: &self.points, weights: &self.weights };
                 self.cavity.insert::<K, T>(&mut self.mesh, sites, v, triangle, tally);
                 self.spanned = true;
+                self.line.take();
             }
         }
     }

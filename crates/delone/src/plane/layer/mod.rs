@@ -8,7 +8,7 @@ pub(in crate::plane) mod cavity;
 mod hull;
 pub(in crate::plane) mod insert;
 pub(in crate::plane) mod kernel;
-pub(in crate::plane) mod line;
+mod line;
 pub(in crate::plane) mod remove;
 mod search;
 mod simplices;
@@ -16,6 +16,7 @@ pub(in crate::plane) mod walk;
 
 use std::cmp::Ordering;
 use std::marker::PhantomData;
+use std::sync::OnceLock;
 
 use delone_predicates::{Sign, angle, compare_distances, orient2d};
 
@@ -31,6 +32,7 @@ use crate::tally::Tally;
 use crate::weight::Weight;
 use cavity::Cavity;
 use kernel::{Kernel, NearestSites, Site};
+use line::Line;
 use remove::Hole;
 
 /// See the module.
@@ -47,6 +49,8 @@ pub(in crate::plane) struct Layer<K: Kernel = NearestSites> {
     pub(in crate::plane) hole: Hole<K>,
     /// Known without a look at the mesh: most operations ask.
     pub(in crate::plane) spanned: bool,
+    /// The vertices in order, where all are on one line and somebody has searched it.
+    line: OnceLock<Line>,
     /// What decides conflicts.
     kernel: PhantomData<K>,
 }
@@ -79,6 +83,7 @@ impl<K: Kernel> Layer<K> {
             cavity: Cavity::default(),
             hole: Hole::default(),
             spanned,
+            line: OnceLock::new(),
             kernel: PhantomData,
         }
     }
@@ -91,6 +96,7 @@ impl<K: Kernel> Layer<K> {
         self.mesh.restart(self.points.len());
         self.free = Slots::default();
         self.spanned = false;
+        self.line.take();
     }
 
     /// What it takes, buffers not counted.
@@ -150,6 +156,7 @@ impl<K: Kernel> Layer<K> {
         let order = self.sort(room);
         let (moved, free) = self.mesh.lay_out(&order, room);
         self.free = free;
+        self.line.take();
         moved
     }
 

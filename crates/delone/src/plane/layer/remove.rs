@@ -49,11 +49,12 @@ impl<K: Kernel> Layer<K> {
     pub(in crate::plane) fn remove<T: Tally>(&mut self, v: Place, tally: &mut T) {
         if self.mesh.lone == Some(v) {
             self.mesh.lone = None;
+            self.line.take();
             self.mesh.vertex_count = 0;
         } else if self.spanned {
             self.remove_from_plane(v, tally);
         } else {
-            self.mesh.remove_from_line(v);
+            self.leave_line(v);
         }
         self.free_place(v);
     }

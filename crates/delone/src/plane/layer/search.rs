@@ -1,7 +1,7 @@
 //! The vertex nearest to a point, from a start near it: phases two and three of the Delaunay hierarchy, in the plane.
 //!
 //! Source: Devillers, "Improved incremental randomized Delaunay triangulation", SoCG 1998, §3 and §4.3.
-//! Cost: the walk, and O(1) expected on random points.
+//! Cost: the walk, and O(1) expected on random points; O(log n) expected on a line (see `line`).
 
 use std::cmp::Ordering;
 
@@ -13,6 +13,7 @@ use crate::locate::{Ground, Nearest, Start};
 use crate::tally::{Phase, Tally};
 
 /// Walks to `q`; then the nearest corner of the triangle found or, exactly, the nearest vertex. Returns that triangle too.
+/// While all vertices are on one line the nearest of them is found whichever is wanted.
 pub(in crate::plane) fn near<K: Kernel, T: Tally>(
     layer: &Layer<K>,
     start: Start,
@@ -20,6 +21,9 @@ pub(in crate::plane) fn near<K: Kernel, T: Tally>(
     nearest: Nearest,
     tally: &mut T,
 ) -> (Place, EdgeId) {
+    if !layer.spanned {
+        return layer.near_on_line(q, tally);
+    }
     let triangle = walk(layer, start, q, tally).triangle;
     tally.phase(Phase::Nearest);
     let is_outside = layer.mesh.is_ghost(triangle);

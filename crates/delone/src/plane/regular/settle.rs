@@ -55,7 +55,7 @@ impl Layer<Power> {
                 self.insert_at(v, Spot::Triangle(t), tally);
             }
             Spot::Vertex(w) => {
-                self.mesh.rename(w, v);
+                self.rename(w, v);
                 hidden.push(w);
             }
             spot => self.insert_at(v, spot, tally),
@@ -71,7 +71,7 @@ impl Layer<Power> {
     /// Takes the neighbours of a vertex away that it hides, while all are on one line.
     fn hide_along(&mut self, v: Place, hidden: &mut Vec<Place>) {
         while let Some(w) = self.hidden_neighbor(v) {
-            self.mesh.remove_from_line(w);
+            self.leave_line(w);
             self.mesh.incident[w.index()] = EdgeId::NONE;
             hidden.push(w);
         }
