@@ -308,3 +308,29 @@ fn points_of_a_line_are_found_in_few_steps() {
         }
     }
 }
+
+/// Samples of points that nearly all are on one line are on that line. They lead all the same.
+#[test]
+fn levels_on_a_line_lead_to_what_is_beside_it() {
+    let n = 16_000;
+    for (name, line) in orders_of_a_line(n) {
+        for options in [Hierarchy::default(), Hierarchy::only_levels()] {
+            let what = format!("{name}, {options:?}");
+            let apexes = [[0.0, 64_000.0], [8000.0, 64_000.0]];
+            let mut d = Delaunay2::from_points(&apexes).expect("finite");
+            d.set_strategy(Locate::Hierarchy(options)).expect("in range");
+            let mut visited = Counts::default();
+            for [x, _] in &line {
+                visited.add(counted(|work| _ = d.insert_observed([*x, 0.0], work).expect("finite")).visited);
+            }
+            visited.hold(&format!("{what}: triangles of an insertion"), 80.0, 500);
+            let mut visited = Counts::default();
+            let mut random = Random::new(3);
+            for _ in 0..2000 {
+                let q = [n as f64 * random.unit(), random.unit()];
+                visited.add(counted(|work| _ = d.find_observed(q, work).expect("finite")).visited);
+            }
+            visited.hold(&format!("{what}: triangles of a query"), 80.0, 300);
+        }
+    }
+}

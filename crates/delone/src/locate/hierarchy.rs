@@ -14,7 +14,8 @@
 //! Cost: O(ratio log n / log ratio) expected for any data (Theorem 6), the randomness being the sample's, if the query is a
 //! random one of the points and phase 3 is by circles. With the modified phase 3, the default here as in the paper's code, and
 //! with the one by angles, that is what is seen on all data but those made against them: on the set `hub` both are linear, the
-//! first as the appendix of the paper says. O(n ratio / (ratio - 1)) memory. Insertion and removal work on all levels of a vertex, O(1) of them expected. Choose it where
+//! first as the appendix of the paper says. A sample on one line, in the plane, is searched as a sorted line, in O(log n).
+//! O(n ratio / (ratio - 1)) memory. Insertion and removal work on all levels of a vertex, O(1) of them expected. Choose it where
 //! points come in adversarial order or many are removed.
 
 use super::{JumpAndWalk, Walk};

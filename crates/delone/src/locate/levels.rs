@@ -75,7 +75,7 @@ impl<L: Level> Levels<L> {
     /// The number of samples that a descent goes through.
     fn used(&self) -> usize {
         let is_used = |sample: &&Sample<L>| {
-            sample.ground.vertex_count() >= self.options.smallest_level && sample.ground.is_spanned()
+            sample.ground.vertex_count() >= self.options.smallest_level && sample.ground.leads()
         };
         self.samples.iter().take_while(is_used).count()
     }

@@ -103,6 +103,11 @@ pub(crate) trait Ground {
     /// Whether there are triangles, or tetrahedra.
     fn is_spanned(&self) -> bool;
 
+    /// Whether [`Self::near`] finds what is near quickly.
+    fn leads(&self) -> bool {
+        self.is_spanned()
+    }
+
     fn vertex_count(&self) -> usize;
 
     /// One more than the largest place.

@@ -186,6 +186,10 @@ impl<K: Kernel> Ground for Layer<K> {
         self.spanned
     }
 
+    fn leads(&self) -> bool {
+        self.mesh.vertex_count > 1
+    }
+
     fn vertex_count(&self) -> usize {
         self.mesh.vertex_count
     }
