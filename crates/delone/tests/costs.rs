@@ -334,3 +334,44 @@ fn levels_on_a_line_lead_to_what_is_beside_it() {
         }
     }
 }
+
+/// A wheel of uneven spokes, whose hub is a neighbour of all; a fan, whose hub is on the hull; and hubs that are neighbours.
+fn hubs(n: usize) -> Vec<(&'static str, Vec<[f64; 2]>)> {
+    let wheel = |from: f64, turn: f64, hub: [f64; 2]| {
+        let mut random = Random::new(11);
+        let spoke = move |i: usize| {
+            let (sin, cos) = (from + turn * i as f64 / n as f64).sin_cos();
+            let length = 1.0 + 1e-6 * random.unit();
+            [hub[0] + length * cos, hub[1] + length * sin]
+        };
+        (0..n).map(spoke).chain([hub])
+    };
+    let tau = std::f64::consts::TAU;
+    let pair = wheel(1.0, tau - 2.0, [0.0; 2]).chain(wheel(1.0 + tau / 2.0, tau - 2.0, [1.5, 0.0]));
+    vec![
+        ("wheel", wheel(0.0, tau, [0.0; 2]).collect()),
+        ("fan", wheel(0.1, 1.3, [0.0; 2]).collect()),
+        ("two wheels", pair.collect()),
+    ]
+}
+
+/// After the search in a history no star is walked around. (A Delaunay tree ends at any triangle in conflict with the query, which at a hub
+/// are many.)
+#[test]
+fn histories_end_where_the_query_is() {
+    for (name, points) in hubs(5000) {
+        for locate in [Locate::History, Locate::Stars] {
+            let mut d = Delaunay2::from_points(&points).expect("finite");
+            d.set_strategy(locate).expect("in range");
+            let mut random = Random::new(4);
+            let mut visited = Counts::default();
+            for round in 0..2000 {
+                let hub = points[points.len() - 1];
+                let near = [0, 1].map(|k| hub[k] + 0.5 * (random.unit() - 0.5));
+                let q = if round % 2 == 0 { near } else { between(&points, &mut random) };
+                visited.add(counted(|work| _ = d.find_observed(q, work).expect("finite")).visited);
+            }
+            visited.hold(&format!("{name}, {locate:?}: triangles of a query"), 90.0, 200);
+        }
+    }
+}

@@ -119,6 +119,11 @@ pub(crate) trait Ground {
     /// A hint at the vertex of a place, or [`Self::NOWHERE`].
     fn hint(&self, v: Place) -> Self::Hint;
 
+    /// A hint in the triangle, or tetrahedron, of some vertices, or on their hull edge; in space at one of them.
+    fn hint_at<T: Tally>(&self, corners: &[Place], _tally: &mut T) -> Self::Hint {
+        corners.first().map_or(Self::NOWHERE, |&v| self.hint(v))
+    }
+
     /// Whether a walk can start at a hint.
     fn is_alive(&self, hint: Self::Hint) -> bool;
 

@@ -22,7 +22,11 @@
 
 use delone_predicates::{Sign, in_circle, orient2d, strictly_between};
 
+#[cfg(feature = "histories")]
+use super::layer::Layer;
 use crate::ids::{EdgeId, Place, TriangleId};
+#[cfg(feature = "histories")]
+use crate::locate::Ground;
 use crate::locate::conflict_lists::Branch;
 use crate::locate::history::{Fork, Observer};
 use crate::mesh::Mesh2;
@@ -124,6 +128,39 @@ impl Flips {
                 if d < e { beside_nearer.is_positive() } else { beside_nearer.is_negative() }
             }
         }
+    }
+
+    /// An edge of a layer with the same vertices, at the triangle that contains a point here: the present triangle `t`. Where a corner
+    /// is a dummy it is on the hull. `places` are those of the points.
+    ///
+    /// The triangle is looked for around its corners, around all at once, so that this costs three times the smallest of their degrees.
+    /// At most 12 n / d triangles have three corners of degrees above d, because at most 6 n / d vertices have.
+    #[cfg(feature = "histories")]
+    pub(super) fn hint<T: Tally>(
+        &self,
+        layer: &Layer,
+        places: &[Place],
+        t: TriangleId,
+        q: [f64; 2],
+        tally: &mut T,
+    ) -> EdgeId {
+        let finite = |p: &Place| !is_dummy(*p);
+        let mut corners: Vec<Place> = self.corners(t).into_iter().filter(finite).collect();
+        if let [u] = corners[..] {
+            let mesh = &self.mesh;
+            let first = [0, 1, 2].map(|k| t.edge(k)).into_iter().find(|&e| mesh.tail(e) == u);
+            let beside = |turn: &dyn Fn(EdgeId) -> EdgeId| {
+                let spokes = std::iter::successors(first, |&e| Some(turn(e)));
+                spokes.take(DUMMIES + 1).map(|e| mesh.head(e)).find(finite)
+            };
+            // What is between dummies at a vertex of the hull is beyond one of the two edges there.
+            corners.extend(beside(&|e| mesh.spin(e)));
+            if corners.get(1).is_some_and(|&next| !self.side(u, next, q).is_negative()) {
+                corners[1] = beside(&|e| mesh.twin(e).next()).unwrap_or(u);
+            }
+        }
+        let place = |p: Place| places[p.index() - DUMMIES];
+        layer.hint_at(&corners.into_iter().map(place).collect::<Vec<_>>(), tally)
     }
 
     /// The corner of a triangle that is at a point: the vertex of an equal point.

@@ -10,7 +10,8 @@
 //!
 //! Cost: O(n) memory, six triangles a point of 8 bytes each, beside the present triangulation; a search of v versions with stars
 //! of d sites takes the sum of log d orientations. The paper leaves open whether v is O(log n) for each query; over random
-//! orders O(log n) on average, and O(log^2 n) orientations at most.
+//! orders O(log n) on average, and O(log^2 n) orientations at most. The triangle of
+//! the last star is looked up in the triangulation as `flips` says.
 
 use delone_predicates::Sign;
 
@@ -112,8 +113,8 @@ impl Stars {
             + size_of_val(&*self.places)
     }
 
-    /// The point whose star has the present triangle that contains `q`, and that triangle.
-    fn search<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Option<(usize, TriangleId)> {
+    /// The present triangle that contains `q`.
+    fn search<T: Tally>(&self, q: [f64; 2], tally: &mut T) -> Option<TriangleId> {
         let mut point = 0;
         if self.ranges.is_empty() {
             return None;
@@ -123,7 +124,7 @@ impl Stars {
             let number = self.sector(point, q, tally);
             let link = self.kept.links[number as usize];
             if self.kept.numbers.get(link as usize) == Some(&number) {
-                return Some((point, TriangleId::new(link as usize)));
+                return Some(TriangleId::new(link as usize));
             }
             point = link as usize;
         }
@@ -174,12 +175,10 @@ impl Stars {
 }
 
 impl Strategy<Layer> for Stars {
-    /// The walk starts at the site of the last star; the number is that of the triangle.
+    /// The walk starts in the triangle that the search ends at; the number is that triangle's.
     fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
         match self.search(q, tally) {
-            Some((point, t)) => {
-                Start::Hint(layer.mesh.incident[self.places[point].index()], t.index() as u32)
-            }
+            Some(t) => Start::Hint(self.flips.hint(layer, &self.places, t, q, tally), t.index() as u32),
             None => Start::Hint(EdgeId::NONE, 0),
         }
     }
@@ -188,7 +187,7 @@ impl Strategy<Layer> for Stars {
         let q = layer.point(v);
         let t = match start {
             Start::Hint(_, number) => TriangleId::new(number as usize),
-            _ => self.search(q, &mut ()).map_or(TriangleId::new(0), |(_, t)| t),
+            _ => self.search(q, &mut ()).unwrap_or(TriangleId::new(0)),
         };
         let point = self.places.len();
         self.flips.points.push(q);
@@ -227,7 +226,7 @@ mod tests {
                 let middles = points.windows(2).map(|p| [0, 1].map(|k| p[0][k] / 2.0 + p[1][k] / 2.0));
                 let queries = kind.points(40, 2).into_iter().chain(middles).chain(points.iter().copied());
                 for q in queries.chain([[1e300, 0.5], [-1e300, 1.0], [0.0, 1e300]]) {
-                    let (_, t) = stars.search(q, &mut ()).expect("there are sites");
+                    let t = stars.search(q, &mut ()).expect("there are sites");
                     for (flips, t) in [(&stars.flips, t), (&versions.flips, versions.trace(q, &mut ()))] {
                         let [a, b, c] = flips.corners(t);
                         let is_left = |[u, v]: [Place; 2]| !flips.side(u, v, q).is_negative();

@@ -6,9 +6,9 @@
 //!
 //! Cost: see `locate/history.rs`; nine triangles a point of 36 bytes each.
 
-use super::flips::{DUMMIES, Flips};
+use super::flips::Flips;
 use super::layer::Layer;
-use crate::ids::{EdgeId, Place, TriangleId};
+use crate::ids::{Place, TriangleId};
 use crate::locate::history::History;
 use crate::locate::{Ground, Start, Strategy};
 use crate::order::random::SplitMix;
@@ -56,12 +56,10 @@ impl Versions {
 }
 
 impl Strategy<Layer> for Versions {
-    /// The walk starts at a corner of the triangle of the last version; the number is that triangle's.
+    /// The walk starts in the triangle of the last version; the number is that triangle's.
     fn start<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> Start {
         let t = self.trace(q, tally);
-        let corners = self.flips.corners(t);
-        let place = corners.into_iter().find_map(|p| Some(self.places[p.index().checked_sub(DUMMIES)?]));
-        Start::Hint(place.map_or(EdgeId::NONE, |v| layer.mesh.incident[v.index()]), t.index() as u32)
+        Start::Hint(self.flips.hint(layer, &self.places, t, q, tally), t.index() as u32)
     }
 
     fn inserted<T: Tally>(&mut self, layer: &Layer, v: Place, start: Start, _: &mut T) {

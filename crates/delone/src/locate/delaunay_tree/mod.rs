@@ -11,7 +11,8 @@
 //! follow as they come. As long as the sites do not span the space there is no tree, and walks start at the last vertex.
 //!
 //! Cost in the plane, expected over random orders: O(n) memory, about 86 bytes a triangle, and O(log n) conflict tests a
-//! search. In space as many tetrahedra as ever were.
+//! search. Then the triangle is looked up around all of its corners at once, and a walk goes through triangles in conflict with the
+//! query, which are as many at most as its neighbours would be. In space as many tetrahedra as ever were.
 
 mod remove;
 
@@ -292,12 +293,14 @@ impl<const N: usize> Node<N> {
 }
 
 impl<G: Simplices<N>, const N: usize> Strategy<G> for DelaunayTree<G::Point, N> {
-    /// The walk starts at a corner of the node found; the number is that node's.
+    /// The walk starts in the triangle of the node found, in space at a corner of it; the number is that node's.
     fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint> {
         let Some(t) = self.search::<G, T>(q, tally) else { return self.below.start(ground, q, tally) };
-        let finite = || self.nodes[t as usize].corners.into_iter().find(|&s| s != GHOST);
-        let corner = self.corner_at(t, q).or_else(finite);
-        let hint = corner.map_or(G::NOWHERE, |s| ground.hint(self.sites[s as usize].place));
+        let place = |s: u32| self.sites[s as usize].place;
+        let finite = self.nodes[t as usize].corners.into_iter().filter(|&s| s != GHOST);
+        let corners: Vec<Place> =
+            self.corner_at(t, q).map_or_else(|| finite.map(place).collect(), |s| vec![place(s)]);
+        let hint = ground.hint_at(&corners, tally);
         Start::Hint(hint, t)
     }
 

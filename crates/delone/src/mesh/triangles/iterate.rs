@@ -43,15 +43,25 @@ impl Mesh2 {
     /// The edge from one place to another, if there is one: both stars are looked through at once, so that the smaller one
     /// decides what it costs.
     pub(crate) fn edge_between(&self, a: Place, b: Place) -> Option<EdgeId> {
-        let (mut from_a, mut from_b) = (self.spokes(a), self.spokes(b));
+        let e = self.edge_around([a, b], || {})?;
+        Some(if self.tail(e) == a { e } else { self.twin(e) })
+    }
+
+    /// An edge from one of some places to the next one, or from the last to the first, for places that are all joined so: the stars of
+    /// all are looked through at once. `step` hears of each triangle.
+    pub(crate) fn edge_around<const N: usize>(
+        &self,
+        corners: [Place; N],
+        mut step: impl FnMut(),
+    ) -> Option<EdgeId> {
+        let mut stars = corners.map(|v| self.spokes(v));
         loop {
-            let e = from_a.next()?;
-            if self.head(e) == b {
-                return Some(e);
-            }
-            let f = from_b.next()?;
-            if self.head(f) == a {
-                return Some(self.twin(f));
+            for (k, star) in stars.iter_mut().enumerate() {
+                step();
+                let e = star.next()?;
+                if self.head(e) == corners[(k + 1) % N] {
+                    return Some(e);
+                }
             }
         }
     }

@@ -207,6 +207,16 @@ impl<K: Kernel> Ground for Layer<K> {
         self.mesh.incident[v.index()]
     }
 
+    /// The smallest of the stars decides what it costs.
+    fn hint_at<T: Tally>(&self, corners: &[Place], tally: &mut T) -> EdgeId {
+        let edge = match *corners {
+            [a, b] if self.spanned => self.mesh.edge_around([a, b], || tally.visited()),
+            [a, b, c] if self.spanned => self.mesh.edge_around([a, b, c], || tally.visited()),
+            _ => None,
+        };
+        edge.or_else(|| Some(self.hint(*corners.first()?))).unwrap_or(EdgeId::NONE)
+    }
+
     #[inline]
     fn is_alive(&self, hint: EdgeId) -> bool {
         self.mesh.is_triangle(hint.triangle())
