@@ -375,3 +375,46 @@ fn histories_end_where_the_query_is() {
         }
     }
 }
+
+/// A corner that all others are joined to, far from an arc of them.
+#[test]
+fn the_furthest_vertex_is_found_in_few_comparisons_at_a_hub() {
+    let n = 16_384;
+    let mut points: Vec<[f64; 2]> = vec![[0.0, 10.0]];
+    points.extend((0..n).map(|i| {
+        let (sin, cos) = (2.0 * f64::from(i) / f64::from(n) - 1.0).sin_cos();
+        [sin, -cos]
+    }));
+    let furthest = Delaunay2::from_points(&points).expect("finite").furthest();
+    let at_hub = furthest.triangles().filter(|t| t.contains(&VertexId::new(0))).count();
+    assert!(at_hub > 8000, "{at_hub} triangles");
+    let mut random = Random::new(1);
+    let mut compared = Counts::default();
+    for round in 0..4000 {
+        let size = [1.0, 5.0, 100.0][round % 3];
+        let q = [0, 1].map(|_| size * (random.unit() - 0.5));
+        let q = if round % 2 == 0 { q } else { [q[0] / 10.0, q[1] - 5.0] };
+        compared.add(counted(|work| _ = furthest.furthest_observed(q, work).expect("finite")).compared);
+    }
+    compared.hold("comparisons of a query", 200.0, 400);
+}
+
+/// Nor are those compared one by one that are all as far away: the points of whole numbers on a circle.
+#[test]
+fn the_least_of_many_furthest_vertices_is_found_in_few_comparisons() {
+    let radius = 5 * 13 * 17 * 29_i32;
+    let squares = |x: i32| {
+        let y = f64::from(radius).powi(2) - f64::from(x).powi(2);
+        let y = y.sqrt();
+        (y.fract() == 0.0).then_some(y)
+    };
+    let on_circle = (-radius..=radius).filter_map(|x| Some([f64::from(x), squares(x)?]));
+    let points: Vec<[f64; 2]> = on_circle.flat_map(|[x, y]| [[x, y], [x, -y]]).collect();
+    let d = Delaunay2::from_points(&points).expect("finite");
+    let furthest = d.furthest();
+    assert!(furthest.corners().len() > 300);
+    let mut work = Work::default();
+    let found = furthest.furthest_observed([0.0, 0.0], &mut work).expect("finite").expect("there are points");
+    assert_eq!(d.point(found), [-f64::from(radius), 0.0]);
+    assert!(work.compared < 60, "{} comparisons", work.compared);
+}

@@ -9,12 +9,17 @@
 //! neighbour to neighbour through random samples of the corners, from coarse to fine, as in the Delaunay hierarchy:
 //! a vertex of a convex polytope that no neighbour excels is the best.
 //!
-//! Cost: O(h) expected after the hull of h corners is known; a query O(log h) expected.
+//! A neighbour that is further away is found by binary search. With r = q - v a neighbour v + a is as far from q as v is, or nearer,
+//! if 2 r.a / |a|^2 is 1 or more. Inverted at v, as a / |a|^2, the neighbours in their order are a convex chain that faces v. Along it
+//! the product with r falls to the least and rises from there; or, if q is on the other side of v, it is negative throughout.
+//!
+//! Cost: O(h) expected after the hull of h corners is known. A query O(log h) steps expected, each of them O(log d) comparisons at a
+//! corner with d neighbours, so O(log^2 h): each level is a random eighth of the one below, where seven corners on average are
+//! further away than the furthest of the sample, and each step goes to one of them.
 
-use std::cmp::Ordering;
-use std::collections::BTreeSet;
+use std::ops::Range;
 
-use delone_predicates::{angle, circumcentre, compare_distances, lexicographic};
+use delone_predicates::{Sign, angle, centre_side, circumcentre, compare_distances, lexicographic};
 
 use super::layer::Layer;
 use super::layer::insert::Spot;
@@ -27,6 +32,7 @@ use crate::locate::Start;
 use crate::mesh::Mesh2;
 use crate::order::random::SplitMix;
 use crate::points::{Position2, finite};
+use crate::tally::Tally;
 
 /// Corners of a level for each one of the next coarser.
 const RATIO: usize = 8;
@@ -59,6 +65,10 @@ struct Level {
     points: Vec<[f64; 2]>,
     /// Over the indices of the points; fewer than three have no triangles.
     mesh: Mesh2,
+    /// For each point where its neighbours begin, and at last their number.
+    starts: Vec<u32>,
+    /// Counter-clockwise around each point those it is joined to, from the next one along the hull to the one before.
+    around: Vec<u32>,
     /// For each point its index in the next finer level.
     finer: Vec<u32>,
 }
@@ -103,7 +113,10 @@ impl Level {
     fn new(points: Vec<[f64; 2]>, finer: Vec<u32>) -> Self {
         let n = points.len();
         if n < 3 {
-            return Self { points, mesh: Mesh2::empty(n), finer };
+            // Of two corners each is the other's only neighbour.
+            let (starts, around) =
+                if n == 2 { (vec![0, 1, 2], vec![1, 0]) } else { (vec![0; n + 1], vec![]) };
+            return Self { points, mesh: Mesh2::empty(n), starts, around, finer };
         }
         let mut order: Vec<usize> = (0..n).collect();
         SplitMix(n as u64).shuffle(&mut order);
@@ -129,29 +142,90 @@ impl Level {
                 layer.insert_at(Place::new(i), Spot::Triangle(beyond), &mut ());
             }
         }
-        Self { points: layer.points, mesh: layer.mesh, finer }
+        let (points, mesh) = (layer.points, layer.mesh);
+        let (mut starts, mut around) = (vec![0], Vec::with_capacity(4 * n));
+        for v in (0..n).map(Place::new) {
+            let to_ghost = mesh.spokes(v).find(|&e| mesh.head(e).is_ghost());
+            let joined = to_ghost.into_iter().flat_map(|e| mesh.star_from(e).skip(1));
+            around.extend(joined.map(|e| mesh.head(e).index() as u32));
+            starts.push(around.len() as u32);
+        }
+        Self { points, mesh, starts, around, finer }
+    }
+
+    fn neighbors(&self, at: usize) -> &[u32] {
+        &self.around[self.starts[at] as usize..self.starts[at + 1] as usize]
+    }
+
+    /// Where among the neighbours of a corner the first of those is that excel it most, seen from `q`.
+    fn best<T: Tally>(&self, at: usize, q: [f64; 2], tally: &mut T) -> usize {
+        let joined = self.neighbors(at);
+        first(0..joined.len().saturating_sub(1), |k| {
+            !self.rises(at, [joined[k], joined[k + 1]], q, tally).is_negative()
+        })
+    }
+
+    /// Whether the second of two neighbours in a row excels a corner less than the first.
+    fn rises<T: Tally>(&self, at: usize, pair: [u32; 2], q: [f64; 2], tally: &mut T) -> Sign {
+        tally.compared();
+        let [a, b] = pair.map(|w| self.points[w as usize]);
+        centre_side(self.points[at], a, b, q)
     }
 
     /// Climbs from a corner to one that no neighbour is further away than.
-    fn climb(&self, start: usize, q: [f64; 2]) -> usize {
+    fn climb<T: Tally>(&self, start: usize, q: [f64; 2], tally: &mut T) -> usize {
         let mut at = start;
-        loop {
-            let better =
-                |w: &usize| compare_distances(q, self.points[*w], self.points[at]) == Ordering::Greater;
-            match self.neighbors(at).find(better) {
-                Some(w) => at = w,
-                None => return at,
+        while let Some(&w) = self.neighbors(at).get(self.best(at, q, tally)) {
+            tally.compared();
+            if !compare_distances(q, self.points[w as usize], self.points[at]).is_gt() {
+                break;
             }
+            at = w as usize;
         }
+        at
     }
 
-    fn neighbors(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
-        let joined = self.mesh.spokes(Place::new(at)).map(|e| self.mesh.head(e));
-        let joined = joined.filter(|w| !w.is_ghost()).map(Place::index);
-        // Of two corners the other one.
-        let other = (self.points.len() == 2).then_some(1 - at.min(1));
-        joined.chain(other)
+    /// The neighbours that are as far away as a corner which none is further away than: they are in a row.
+    fn ties<T: Tally>(&self, at: usize, q: [f64; 2], tally: &mut T) -> &[u32] {
+        let joined = self.neighbors(at);
+        let begin = self.best(at, q, tally);
+        tally.compared();
+        let is_tie = |&w: &u32| compare_distances(q, self.points[w as usize], self.points[at]).is_eq();
+        if !joined.get(begin).is_some_and(is_tie) {
+            return &[];
+        }
+        let end = first(begin..joined.len() - 1, |k| {
+            !self.rises(at, [joined[k], joined[k + 1]], q, tally).is_zero()
+        });
+        &joined[begin..=end]
     }
+
+    /// The lexicographically smallest of the corners that are as far away as one which none is further away than. They are on one
+    /// circle around the query, and the largest of them, which the perturbation puts outside of the circles of the others, is a corner
+    /// of all triangles between them: it is joined to all, and each of the others to three of them at most.
+    fn least<T: Tally>(&self, at: usize, q: [f64; 2], tally: &mut T) -> usize {
+        let order = |i: usize, j: usize| lexicographic(self.points[i], self.points[j]);
+        let mut ties = self.ties(at, q, tally);
+        let mut largest = at;
+        if ties.len() <= 3 {
+            largest =
+                ties.iter().map(|&w| w as usize).fold(at, |i, j| if order(i, j).is_lt() { j } else { i });
+            ties = self.ties(largest, q, tally);
+        }
+        // From the largest around the hull they fall to the smallest, and rise.
+        let rises = |k: usize| order(ties[k] as usize, ties[k + 1] as usize).is_lt();
+        let least = first(0..ties.len().saturating_sub(1), rises);
+        ties.get(least).map_or(largest, |&w| w as usize)
+    }
+}
+
+/// The first index for which it is true, of those in a range for which it is false and then true; or else the end.
+fn first(mut range: Range<usize>, mut is_true: impl FnMut(usize) -> bool) -> usize {
+    while !range.is_empty() {
+        let middle = range.start.midpoint(range.end);
+        range = if is_true(middle) { range.start..middle } else { middle + 1..range.end };
+    }
+    range.start
 }
 
 impl Furthest2 {
@@ -189,29 +263,33 @@ impl Furthest2 {
     /// The vertex furthest from a point; of several at the same distance the lexicographically smallest. `None` if
     /// there is none. Exact.
     ///
-    /// O(log h) expected.
+    /// O(log^2 h) expected, whatever the points and the query.
     ///
     /// # Errors
     /// [`Error::Coordinate`] for NaN and infinities.
     pub fn furthest<P: Position2>(&self, q: P) -> Result<Option<VertexId>, Error> {
+        self.furthest_observed(q, &mut ())
+    }
+
+    /// The same; `tally` hears of each comparison.
+    ///
+    /// # Errors
+    /// As [`Self::furthest`].
+    pub fn furthest_observed<P: Position2, T: Tally>(
+        &self,
+        q: P,
+        tally: &mut T,
+    ) -> Result<Option<VertexId>, Error> {
         let q = finite(q.xy())?;
         if self.corners.is_empty() {
             return Ok(None);
         }
         let mut at = 0;
         for level in self.levels.iter().rev() {
-            at = level.climb(at, q);
+            at = level.climb(at, q, tally);
             at = level.finer.get(at).map_or(at, |&i| i as usize);
         }
-        // Corners at the same distance are on one circle around the query, and joined.
-        let level = &self.levels[0];
-        let as_far = |w: &usize| compare_distances(q, level.points[*w], level.points[at]).is_eq();
-        let (mut ties, mut pending) = (BTreeSet::from([at]), vec![at]);
-        while let Some(v) = pending.pop() {
-            pending.extend(level.neighbors(v).filter(as_far).filter(|&w| ties.insert(w)));
-        }
-        let least = ties.into_iter().min_by(|&i, &j| lexicographic(level.points[i], level.points[j]));
-        Ok(least.map(|i| self.corners[i]))
+        Ok(Some(self.corners[self.levels[0].least(at, q, tally)]))
     }
 
     /// The smallest circle that contains all points. `None` if there is none. Which points determine it is decided
