@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
 # Every number of docs/papers.md and docs/experiments.md: runs all experiments and leaves their tables and plots in a folder.
+# What is interrupted leaves the rows that it has, in NAME.part.csv. The counts of small sets are those of docs/results, as
+# .ci/counts shows.
 #
 #   docs/papers.sh                    the committed results (docs/results), an hour on two cores
 #   docs/papers.sh FOLDER small       the smallest sizes, a minute
@@ -82,6 +84,14 @@ if command -v valgrind > /dev/null; then
     done
 else
     echo "== cache misses: skipped, there is no valgrind"
+fi
+# The rivals of 1998, where there is a Python that has them.
+python=${PYTHON:-python3}
+if [ "$size" != small ] && "$python" -c "import numpy, scipy, triangle" 2> /dev/null; then
+    echo "== rivals of 1998"
+    "$python" compare/rivals_of_1998.py --delone "$delone" -o "$folder/rivals.csv" > /dev/null
+else
+    echo "== rivals of 1998: skipped, PYTHON has no triangle and scipy, or sets are small"
 fi
 # The pages show some of the plots; tables are kept.
 if [ "$folder" = docs/results ]; then

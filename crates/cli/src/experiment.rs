@@ -1,9 +1,14 @@
 //! `delone experiment`: the papers' experiments on this machine, with the papers' figures beside.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use delone::Delaunay3;
-use delone_experiments::{Error, Experiment, Options, Table};
+use delone_experiments::{Error, Experiment, Options, Table, Watch};
 
 use crate::args::ExperimentArgs;
 use crate::files;
@@ -36,6 +41,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         // What runs for hours should not find out in the end that it cannot be kept.
         tempfile::tempfile_in(folder).map_err(|error| cannot_write(folder, &error))?;
     }
+    let kept = args.output.as_deref().map(|folder| Arc::new(Kept::new(folder)));
     let mut stats = Stats::start();
     // What is compared works on one thread, as in the papers.
     let pool = |threads| {
@@ -51,6 +57,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
             seed: args.seed,
             model: &model,
             threads: &all,
+            watch: kept.clone().map(|kept| kept as Arc<dyn Watch>),
         };
         experiment.run(&options).map_err(|error| failure(experiment, &error, args))
     })?;
@@ -61,6 +68,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         for table in &findings.tables {
             write(folder, &table.name, "csv", &table.csv())?;
         }
+        kept.map_or(Ok(()), |kept| kept.remove()).map_err(|error| cannot_write(folder, &error))?;
         for plot in &findings.plots {
             let svg = plot.svg().map_err(|error| Failure::new(error, "please report this: it is a bug"))?;
             write(folder, &plot.name, "svg", &svg)?;
@@ -68,6 +76,58 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
     }
     stats.phase("write");
     stats.write(args.stats.as_deref())
+}
+
+/// Rows as they come, in files beside the tables: who interrupts an experiment has them.
+#[derive(Debug)]
+struct Kept {
+    folder: PathBuf,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// By the names of tables.
+    files: BTreeMap<String, File>,
+    /// The first thing that went wrong.
+    trouble: Option<io::Error>,
+}
+
+impl Kept {
+    fn new(folder: &Path) -> Self {
+        Self { folder: folder.to_owned(), state: Mutex::default() }
+    }
+
+    fn path(&self, table: &str) -> PathBuf {
+        self.folder.join(format!("{table}.part.csv"))
+    }
+
+    fn keep(&self, files: &mut BTreeMap<String, File>, table: &str, line: &str) -> io::Result<()> {
+        let file = match files.entry(table.to_owned()) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => new.insert(File::create(self.path(table))?),
+        };
+        file.write_all(line.as_bytes())
+    }
+
+    /// Removes the files, once the tables are whole.
+    fn remove(&self) -> io::Result<()> {
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        for (table, file) in std::mem::take(&mut state.files) {
+            drop(file);
+            std::fs::remove_file(self.path(&table))?;
+        }
+        state.trouble.take().map_or(Ok(()), Err)
+    }
+}
+
+impl Watch for Kept {
+    fn line(&self, table: &str, line: &str) {
+        let state = &mut *self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Err(error) = self.keep(&mut state.files, table, line) {
+            state.trouble.get_or_insert(error);
+        }
+    }
 }
 
 fn failure(experiment: &Experiment, error: &Error, args: &ExperimentArgs) -> Failure {
@@ -87,7 +147,7 @@ fn failure(experiment: &Experiment, error: &Error, args: &ExperimentArgs) -> Fai
     }
 }
 
-fn cannot_write(folder: &Path, error: &std::io::Error) -> Failure {
+fn cannot_write(folder: &Path, error: &io::Error) -> Failure {
     Failure::new(
         format!("cannot write into the folder {}: {error}", folder.display()),
         "check the name and the permissions",
@@ -95,7 +155,6 @@ fn cannot_write(folder: &Path, error: &std::io::Error) -> Failure {
 }
 
 fn write(folder: &Path, name: &str, extension: &str, content: &str) -> Result<(), Failure> {
-    use std::io::Write;
     let path = folder.join(format!("{name}.{extension}"));
     files::write(&path, |out| Ok(out.write_all(content.as_bytes())?))
 }

@@ -1,6 +1,8 @@
 //! What is in the program by its features: experiments, tables in Parquet. `folder.rs` has more of the second.
 
 use std::fs;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::place::Place;
 
@@ -35,6 +37,32 @@ fn experiments_leave_tables_and_plots() {
             &format!("is below {smallest}"),
         );
     }
+}
+
+/// Who interrupts an experiment has the rows that were there, and no table that looks whole.
+#[test]
+fn an_interrupted_experiment_leaves_its_rows() {
+    let place = Place::new();
+    let mut program = Command::new(env!("CARGO_BIN_EXE_delone"))
+        .current_dir(place.0.path())
+        .args(["experiment", "hull", "--largest", "300000", "-o", "out"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    let rows =
+        || fs::read_to_string(place.path("out/hull.part.csv")).map_or(0, |text| text.matches('\n').count());
+    let start = Instant::now();
+    while rows() < 3 && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    program.kill().expect("it still runs");
+    program.wait().expect("it has ended");
+    assert!(rows() >= 3, "{}", rows());
+    assert!(!place.path("out/hull.csv").exists());
+    // A whole run leaves tables alone.
+    place.succeed("experiment hull --largest 100 -o out");
+    assert!(place.path("out/hull.csv").exists() && !place.path("out/hull.part.csv").exists());
 }
 
 #[test]

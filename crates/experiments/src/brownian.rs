@@ -6,7 +6,7 @@ use delone::{Algorithm2, Delaunay2, Delaunay3, HintOrder, Hints2, Moving2, Movin
 use delone_generators::{Kind, Kind3, Random, moved};
 
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades, timed};
 
@@ -31,21 +31,29 @@ const MEAN_IN_BALL: f64 = 3.0 / 4.0;
 /// `delone experiment brownian`: points that move by up to one unit a step, four units apart; and what the automatic
 /// mover needs, by displacement.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let (largest, seed) = (options.largest, options.seed);
     let mut findings = Findings::default();
-    brownian(&mut findings, largest, seed)?;
-    by_displacement(&mut findings, largest, seed)?;
+    brownian(options, &mut findings)?;
+    by_displacement(options, &mut findings)?;
     Ok(findings)
 }
 
-fn brownian(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Error> {
-    let mut table = Table::new(
+fn brownian(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let seed = options.seed;
+    let mut table = options.table(
         "brownian",
         "Brownian motion: nanoseconds a point and step, and triangles visited",
-        &["points", "spatial sort", "visited", "hints of the last step", "visited", "automatic", "rebuilt"],
+        &[
+            "points",
+            "spatial sort: ns",
+            "spatial sort: visited",
+            "hints of the last step: ns",
+            "hints of the last step: visited",
+            "automatic: ns",
+            "rebuilt",
+        ],
     );
     let mut curves: [Vec<(f64, f64)>; 3] = Default::default();
-    for n in decades(1000, largest) {
+    for n in decades(1000, options.largest) {
         let side = 4.0 * (n as f64).sqrt();
         let mut random = Random::new(seed);
         let mut points: Vec<[f64; 2]> =
@@ -92,15 +100,18 @@ fn brownian(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Er
 }
 
 /// What the automatic mover needs in the plane and in space, beside a construction from nothing.
-fn by_displacement(findings: &mut Findings, largest: usize, seed: u64) -> Result<(), Error> {
-    let (n, m) = (largest.min(1_000_000), largest.min(1_000_000) / 5);
-    let heads = ["displacement", "nanoseconds", "from nothing", "ratio", "how"];
-    let title =
-        |what: &str, n: usize| format!("{n} points in {what} that move by a mean share of their spacing");
-    let mut plane = Table::new("moving", &title("a square", n), &heads);
-    let mut space = Table::new("moving-space", &title("a cube", m), &heads);
+fn by_displacement(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let seed = options.seed;
+    let heads = ["points", "displacement", "ns", "from nothing: ns", "ratio of ns", "how"];
+    let title = |what: &str| format!("Points in {what} that move by a mean share of their spacing");
+    let mut plane = options.table("moving", &title("a square"), &heads);
+    let mut space = options.table("moving-space", &title("a cube"), &heads);
     let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
-    for share in SHARES {
+    for (n, share) in options.ends(1_000, 1_000_000).flat_map(|n| SHARES.map(|share| (n, share))) {
+        let m = n / 5;
+        if share == SHARES[0] {
+            curves = Default::default();
+        }
         let mut random = Random::new(seed);
         let mut points = Kind::Uniform.points(n, seed);
         let mut moving = Moving2::from_points(&points)?;
@@ -112,7 +123,7 @@ fn by_displacement(findings: &mut Findings, largest: usize, seed: u64) -> Result
             black_box(d?.vertex_count());
             Ok((plane_step(step?, n), time, whole))
         })?;
-        plane.row(motion.cells(share));
+        plane.row(motion.cells(n, share));
         curves[0].push((share, motion.ratio()));
         let mut points = Kind3::Cube.points(m, seed);
         let mut moving = Moving3::from_points(&points)?;
@@ -124,7 +135,7 @@ fn by_displacement(findings: &mut Findings, largest: usize, seed: u64) -> Result
             black_box(d?.vertex_count());
             Ok((space_step(step?, m), time, whole))
         })?;
-        space.row(motion.cells(share));
+        space.row(motion.cells(m, share));
         curves[1].push((share, motion.ratio()));
     }
     let axes = ["mean displacement in spacings", "times as fast as from nothing"];
@@ -150,9 +161,9 @@ impl Motion {
         self.from_nothing / self.ns
     }
 
-    fn cells(&self, share: f64) -> [String; 5] {
+    fn cells(&self, n: usize, share: f64) -> [String; 6] {
         let how = self.how.clone();
-        [short(share), short(self.ns), short(self.from_nothing), short(self.ratio()), how]
+        [n.to_string(), short(share), short(self.ns), short(self.from_nothing), short(self.ratio()), how]
     }
 }
 

@@ -8,7 +8,7 @@ use delone::{Change, Delaunay2, VertexId, Work};
 use delone_generators::{Kind, Random};
 use delone_predicates::{in_circle, orient2d};
 
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options};
 
@@ -90,7 +90,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
         random.shuffle(&mut order);
         totals.add(observe(&points, &order, &mut steps)? as f64 / POINTS as f64);
     }
-    let mut table = Table::new(
+    let mut table = options.table(
         "conflicts",
         &format!("The equations of the lecture notes, means of {orders} random orders of {POINTS} points"),
         &[
@@ -126,7 +126,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
         ]);
     }
     let harmonic: f64 = (1..=POINTS).map(|r| (POINTS - r) as f64 / r as f64).sum();
-    let mut sums = Table::new(
+    let mut sums = options.table(
         "conflicts-total",
         "Sizes of the conflicts of all triangles that ever appear, a point",
         &["points", "measured", "bound 12 sum (n-r)/r"],

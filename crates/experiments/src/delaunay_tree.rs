@@ -4,14 +4,14 @@
 use delone::{Change, Delaunay2, Delaunay3, Locate, VertexId, Work};
 use delone_generators::{Kind, Kind3};
 
-use super::table::{Table, short};
+use super::table::Table;
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades};
 
 const QUERIES: usize = 2_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "delaunay-tree",
         "The Delaunay tree: what ever was, tests of a search, and both after half of the points were removed (expected over \
          random orders in the plane: O(n) triangles, O(log n) tests)",
@@ -77,8 +77,8 @@ fn row(
     trial: impl Fn(u64) -> Result<[f64; 5], Error>,
 ) -> Result<(), Error> {
     let mut trials: [Trials; 5] = Default::default();
-    for k in 0..options.trials as u64 {
-        for (trials, value) in trials.iter_mut().zip(trial(options.seed + k)?) {
+    for seed in options.seeds() {
+        for (trials, value) in trials.iter_mut().zip(trial(seed)?) {
             trials.add(value);
         }
     }
@@ -88,11 +88,11 @@ fn row(
         n.to_string(),
         all.to_string(),
         tests.to_string(),
-        short(tests.mean() / (n as f64).ln()),
+        tests.over((n as f64).ln()).to_string(),
         visited.to_string(),
         left.to_string(),
         tests_left.to_string(),
-        short(tests_left.mean() / (n as f64 / 2.0).ln()),
+        tests_left.over((n as f64 / 2.0).ln()).to_string(),
     ]);
     Ok(())
 }

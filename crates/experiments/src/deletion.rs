@@ -6,7 +6,6 @@
 use delone::{Ask, Change, Delaunay2, Hierarchy, Locate, Walk, Work};
 use delone_generators::{Kind, Random};
 
-use super::table::Table;
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades, timed};
 
@@ -14,7 +13,7 @@ use super::{Error, Findings, Options, decades, timed};
 const REMOVED: usize = 20_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "deletion",
         "A random vertex of a random set is removed (Devillers 1998, 5.1): in-circle tests, triangles, nanoseconds",
         &[
@@ -30,8 +29,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     );
     for n in decades(1_000, options.largest) {
         let mut trials: [Trials; 7] = Default::default();
-        for trial in 0..options.trials as u64 {
-            let seed = options.seed + trial;
+        for seed in options.seeds() {
             let hierarchy = |ratio| Locate::Hierarchy(Hierarchy { ratio, seed, ..Hierarchy::default() });
             let (plain, ns) = remove(n, Locate::Walk(Walk::Visibility), seed)?;
             let (low, low_ns) = remove(n, hierarchy(30.0), seed)?;

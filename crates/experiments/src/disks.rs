@@ -15,8 +15,8 @@ use super::{Error, Findings, Options, decades};
 
 /// The largest set of which neighbourhoods are counted.
 const COUNTED: usize = 100_000;
-/// The largest set of which instances are compared, and how many of them.
-const COMPARED: usize = 2000;
+/// Disks of which instances are compared, and how many of them.
+const COMPARED: usize = 1000;
 const INSTANCES: usize = 100;
 /// Radii of disks whose centres are at least two apart.
 const RADII: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
@@ -33,15 +33,14 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
 
 /// What the proof of Theorem 3 bounds, measured: all constants of the linear expected cost.
 fn claims(options: &Options<'_>) -> Result<Table, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "disks-claims",
         "Disjoint unit disks: disks whose D(p) holds an instance, degree of a hint, sum of degrees in D(p) (bounds 22, 36, 132)",
         &["points", "most in W(q)", "mean in W(q)", "degree of a hint", "sum of degrees"],
     );
     for n in decades(1000, options.largest.min(COUNTED)) {
         let [mut most, mut mean, mut degree, mut sum] = <[Trials; 4]>::default();
-        for trial in 0..options.trials as u64 {
-            let seed = options.seed + trial;
+        for seed in options.seeds() {
             let centres = Kind::Disks.points(n, seed);
             let instance = moved(&centres, 1.0, &mut Random::new(seed + 1000));
             let of_centres = Delaunay2::from_points(&centres)?;
@@ -85,20 +84,30 @@ fn visited_in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> R
 
 /// Unit disks and balls that grow until they overlap: the cost is O(k n) if k of them have a point in common.
 fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let (n, m) = (options.largest.min(100_000), options.largest.min(20_000));
-    let mut table = Table::new(
+    let mut table = options.table(
         "disks-overlap",
-        &format!("{n} disks and {m} balls, centres at least two apart: visited a point by the radius"),
-        &["radius", "disks over a centre, at most", "visited", "visited / k", "visited in space"],
+        "Disks and balls, centres at least two apart: visited a point by the radius",
+        &[
+            "disks",
+            "balls",
+            "radius",
+            "disks over a centre, at most",
+            "visited",
+            "visited / k",
+            "visited in space",
+        ],
     );
     let mut plot =
         Plot::new("disks-overlap", "Overlapping disks: cost of hints", ["radius", "visited a point"]);
     let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
-    for radius in RADII {
+    for (n, radius) in options.ends(1_000, 100_000).flat_map(|n| RADII.map(|radius| (n, radius))) {
+        let m = n.min(20_000);
+        if radius == RADII[0] {
+            curves = Default::default();
+        }
         let [mut in_plane, mut in_space] = <[Trials; 2]>::default();
         let mut most = 0;
-        for trial in 0..options.trials as u64 {
-            let seed = options.seed + trial;
+        for seed in options.seeds() {
             let mut random = Random::new(seed + 1000);
             let centres = Kind::Disks.points(n, seed);
             in_plane.add(visited(&centres, &moved(&centres, radius, &mut random), seed)?.0);
@@ -110,10 +119,12 @@ fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
             in_space.add(visited_in_space(&centres, &moved(&centres, radius, &mut random), seed)?);
         }
         table.row([
+            n.to_string(),
+            m.to_string(),
             short(radius),
             most.to_string(),
             in_plane.to_string(),
-            short(in_plane.mean() / most as f64),
+            in_plane.over(most as f64).to_string(),
             in_space.to_string(),
         ]);
         for (curve, trials) in curves.iter_mut().zip([&in_plane, &in_space]) {
@@ -131,7 +142,7 @@ fn overlaps(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
 /// Disjoint disks of very different radii: each reaches a random share of the way to the middle between its centre and
 /// the nearest other one. The paper leaves their analysis open.
 fn radii(options: &Options<'_>) -> Result<Table, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "disks-radii",
         "Disjoint disks of different radii: visited a point",
         &["centres", "points", "largest / smallest radius", "visited"],
@@ -140,8 +151,7 @@ fn radii(options: &Options<'_>) -> Result<Table, Error> {
         for n in decades(1000, options.largest.min(COUNTED)) {
             let mut counts = Trials::default();
             let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
-            for trial in 0..options.trials as u64 {
-                let seed = options.seed + trial;
+            for seed in options.seeds() {
                 let mut random = Random::new(seed + 1000);
                 let centres = kind.points(n, seed);
                 let d = Delaunay2::from_points(&centres)?;
@@ -165,7 +175,7 @@ fn radii(options: &Options<'_>) -> Result<Table, Error> {
 
 /// Disks whose radii fall by tenths and that overlap two by two: walks are quadratic, until they are given up.
 fn misled(options: &Options<'_>) -> Result<Table, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "disks-misled",
         "Nested disks that overlap two by two, hints in random order: visited a point, and whether hints were given up",
         &["points", "visited", "in n", "given up"],
@@ -175,12 +185,12 @@ fn misled(options: &Options<'_>) -> Result<Table, Error> {
         let instance = Kind::NestedInstance.points(n, 0);
         let mut counts = Trials::default();
         let mut given_up = 0;
-        for trial in 0..options.trials as u64 {
-            let (count, gave_up) = visited(&centres, &instance, options.seed + trial)?;
+        for seed in options.seeds() {
+            let (count, gave_up) = visited(&centres, &instance, seed)?;
             counts.add(count);
             given_up += usize::from(gave_up);
         }
-        let share = short(counts.mean() / n as f64);
+        let share = counts.over(n as f64).to_string();
         table.row([n.to_string(), counts.to_string(), share, format!("{given_up} of {}", options.trials)]);
     }
     Ok(table)
@@ -188,8 +198,8 @@ fn misled(options: &Options<'_>) -> Result<Table, Error> {
 
 /// Edges that every instance has, and that some instance has, beside those of random instances.
 fn edges(options: &Options<'_>) -> Result<Table, Error> {
-    let n = options.largest.min(COMPARED);
-    let mut table = Table::new(
+    let n = COMPARED;
+    let mut table = options.table(
         "disks-edges",
         &format!(
             "{n} disks, centres at least two apart: edges a point in every, all of 100, any of 100, and some instance"
@@ -198,8 +208,7 @@ fn edges(options: &Options<'_>) -> Result<Table, Error> {
     );
     for radius in [0.0, 0.0625, 0.125, 0.25, 0.5, 1.0] {
         let mut counts = <[Trials; 4]>::default();
-        for trial in 0..options.trials as u64 {
-            let seed = options.seed + trial;
+        for seed in options.seeds() {
             let centres = Kind::Disks.points(n, seed);
             let of_centres = Delaunay2::from_points(&centres)?;
             let edges = of_centres.disk_edges(radius)?;

@@ -6,7 +6,7 @@ use delone::{Delaunay2, Delaunay3};
 use delone_generators::{Kind, Kind3};
 
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::{Error, Findings, Options, timed};
 
 /// Small sets are built so often that this many points are built in all.
@@ -24,7 +24,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let on_many = ["uniform", "cube, in space"].map(|name| format!("{name}, {many}"));
     let heads = ["points", "uniform", &on_many[0], "clusters", "grid", "cube, in space", &on_many[1]];
     let title = "Nanoseconds a point for a construction";
-    let mut table = Table::new("growth", title, &heads);
+    let mut table = options.table("growth", title, &heads);
     let mut curves: Vec<Vec<(f64, f64)>> = vec![Vec::new(); names.len()];
     // The processor takes a while to come up to speed.
     let some = Kind::Uniform.points(POINTS / 3, seed);

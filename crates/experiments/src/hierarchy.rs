@@ -33,10 +33,10 @@ const PAPER: [(Kind, &str, [[f64; 4]; 3]); 5] = [
     (Kind::Circle, "circle", [[0.15, 0.13, 0.13, 0.14], [2.4, 2.6, 2.4, 2.4], [39.0, 44.0, 36.0, 36.0]]),
 ];
 
-/// A mode that is expected to take longer is not run, and called long as in the paper.
-const PATIENCE: f64 = 60.0;
-/// What takes longer is run once.
-const ONCE: f64 = 10.0;
+/// A mode that is expected to visit more triangles is not run, and called long as in the paper.
+const LONG: f64 = 1e10;
+/// What is expected to visit more is run once.
+const ONCE: f64 = 5e8;
 const WAYS: [&str; 8] =
     ["walk", "MSZ", "hierarchy", "hierarchy+MSZ", "tree", "history", "conflict lists", "divide&conquer"];
 /// Queries in space.
@@ -60,29 +60,33 @@ fn ways(seed: u64) -> [Algorithm2; WAYS.len()] {
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let heads = |extra: &[&'static str]| [&["set", "size"], &WAYS[..], extra].concat();
     let beside = ["paper walk", "paper MSZ", "paper hier.", "paper hier.+MSZ"];
-    let mut seconds = Table::new(
+    let mut seconds = options.table(
         "hierarchy-seconds",
         "Seconds to build, points in random order (paper: Devillers 1998, 5.5.2, Sun Ultra 1)",
         &heads(&beside),
     );
-    let mut visited = Table::new("hierarchy-visited", "Triangles visited per point", &heads(&[]));
+    let mut visited = options.table("hierarchy-visited", "Triangles visited per point", &heads(&[]));
     let mut findings = Findings::default();
     for (kind, name, paper) in PAPER {
         let title = format!("{name}: nanoseconds per point");
         let mut plot = Plot::new(&format!("hierarchy-{name}"), &title, ["points", "ns per point"]);
         let mut curves = vec![Vec::new(); WAYS.len()];
+        // Visits a point, by size.
+        let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); WAYS.len()];
         for (size, paper) in SIZES.into_iter().zip(paper).filter(|(size, _)| *size <= options.largest) {
             let mut cells = [(); 2].map(|()| vec![name.to_owned(), size.to_string()]);
-            for (way, curve) in curves.iter_mut().enumerate() {
-                // From one size to the next the time of a bad mode grows at most with the square.
-                let last = curve.last().map_or(0.0, |&(n, ns): &(f64, f64)| n * ns * 1e-9);
-                let skipped = curve.len() < SIZES.iter().filter(|&&s| s < size).count();
-                if skipped || last * 40.0 > PATIENCE {
+            for (way, (curve, counts)) in curves.iter_mut().zip(&mut counts).enumerate() {
+                // The visits of all points grow at most with the square of their number.
+                let square = (size as f64).powi(2);
+                let expected = counts.last().map_or(0.0, |&(n, visits)| visits / n as f64 * square);
+                if expected > LONG {
                     cells.iter_mut().for_each(|cells| cells.push("long".to_owned()));
                     continue;
                 }
-                let [times, visits] = build(kind, size, way, options)?;
+                let seeds = options.seeds().take(if expected > ONCE { 1 } else { options.trials });
+                let [times, visits] = build(kind, size, way, seeds)?;
                 curve.push((size as f64, times.mean() * 1e9 / size as f64));
+                counts.push((size, visits.mean()));
                 cells
                     .iter_mut()
                     .zip([times, visits])
@@ -103,18 +107,20 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
 }
 
 /// Seconds of a construction, and triangles visited a point, each time from other points in another order.
-fn build(kind: Kind, size: usize, way: usize, options: &Options<'_>) -> Result<[Trials; 2], Error> {
+fn build(
+    kind: Kind,
+    size: usize,
+    way: usize,
+    seeds: impl Iterator<Item = u64>,
+) -> Result<[Trials; 2], Error> {
     let mut trials: [Trials; 2] = Default::default();
-    for seed in (0..options.trials as u64).map(|trial| options.seed + trial) {
+    for seed in seeds {
         let mut points = kind.points(size, seed);
         Random::new(seed).shuffle(&mut points);
         let (d, time) = timed(|| Delaunay2::with_algorithm(&points, ways(seed)[way]));
         trials[0].add(time);
         if let Counters::Incremental(work) = d?.counters() {
             trials[1].add(work.visited as f64 / size as f64);
-        }
-        if time > ONCE {
-            break;
         }
     }
     Ok(trials)
@@ -125,10 +131,10 @@ fn in_space(options: &Options<'_>) -> Result<Table, Error> {
     let title =
         "Tetrahedra visited per query in a cube, and vertices compared by the hierarchy (Devillers 1998, 6)";
     let heads = ["points", "walk", "MSZ", "hierarchy", "hierarchy+MSZ", "compared", "ratio 8+MSZ"];
-    let mut table = Table::new("hierarchy-space", title, &heads);
+    let mut table = options.table("hierarchy-space", title, &heads);
     for n in sizes(1_000, options.largest.min(300_000)) {
         let mut trials: [Trials; 6] = Default::default();
-        for seed in (0..options.trials as u64).map(|trial| options.seed + trial) {
+        for seed in options.seeds() {
             let mut d = Delaunay3::from_points(&Kind3::Cube.points(n, seed))?;
             let queries = Kind3::Cube.points(QUERIES, seed + 1000);
             let mut visited = |hierarchy| -> Result<Work, Error> {

@@ -6,7 +6,7 @@ use delone_generators::{Kind, Random};
 
 use super::appear;
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, sizes};
 
@@ -15,14 +15,15 @@ const QUERIES: usize = 2_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
-    growth(options.largest, options.seed, &mut findings)?;
+    growth(options, &mut findings)?;
     unlucky(options, &mut findings)?;
     Ok(findings)
 }
 
 /// How the totals grow.
-fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let seed = options.seed;
+    let mut table = options.table(
         "history-growth",
         "Per point, uniform points in random order (bounds of the paper: 22 triangles, 65 edges)",
         &[
@@ -46,7 +47,7 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
         ["points", "per point"],
     );
     let mut curves = [const { Vec::new() }; 4];
-    for n in sizes(100, largest.min(200_000)) {
+    for n in sizes(100, options.largest.min(200_000)) {
         let points = Kind::Uniform.points(n, seed);
         let order: Vec<usize> = (0..n).collect(); // the generator's order is random
         let [triangles, edges] = appear::totals(&points, &order)?;
@@ -104,7 +105,7 @@ fn growth(largest: usize, seed: u64, findings: &mut Findings) -> Result<(), Erro
 /// The unlucky site of §3: n sites on a line in random order, one high above them before, one after; then a site in between,
 /// close to those two, is located.
 fn unlucky(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "history-unlucky",
         "Steps and tests to locate the unlucky site of §3 (the paper: a trace linear in n; by binary search in the versions not, \
          as it hopes)",
@@ -112,11 +113,11 @@ fn unlucky(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
             "points",
             "traced",
             "traced / n",
-            "with orientations",
+            "traced, with orientations",
             "stars searched",
-            "with orientations",
+            "stars, with orientations",
             "by circles",
-            "with tests",
+            "by circles, with tests",
         ],
     );
     for n in sizes(100, options.largest.min(10_000)) {

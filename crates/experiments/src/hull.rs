@@ -6,12 +6,12 @@
 use delone::{Counters, Hull3, HullHistory3};
 use delone_generators::{Kind3, Random};
 
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, sizes};
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "hull",
         "Facets that ever were, and what locating a point takes, by caps with a history of all that is seen and by flips with \
          a traced ray (the paper: O(n) facets, O(log n) steps a point)",
@@ -35,8 +35,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     {
         for n in sizes(100, options.largest.min(300_000)) {
             let mut trials: [Trials; 7] = Default::default();
-            for trial in 0..options.trials as u64 {
-                let seed = options.seed + trial;
+            for seed in options.seeds() {
                 let points = make(n, seed);
                 let history = HullHistory3::from_points(&points, seed)?;
                 let (_, flips) = Hull3::by_flips(&points, seed)?;
@@ -57,16 +56,16 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
             table.row([
                 set.to_owned(),
                 n.to_string(),
-                short(corners.mean()),
+                corners.to_string(),
                 caps.to_string(),
                 short(6.0 - 12.0 * harmonic / n as f64),
                 visited.to_string(),
-                short(visited.mean() / log),
-                short(asked.mean() / log),
+                visited.over(log).to_string(),
+                asked.over(log).to_string(),
                 flipped.to_string(),
                 traced.to_string(),
-                short(traced.mean() / log),
-                short(sides.mean() / log),
+                traced.over(log).to_string(),
+                sides.over(log).to_string(),
             ]);
         }
     }

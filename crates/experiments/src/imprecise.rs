@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use delone::{
-    Algorithm2, Algorithm3, Delaunay2, Delaunay3, Hierarchy, HintOrder, Hints2, Hints3, Imprecise, Locate,
-    Work,
+    Algorithm2, Algorithm3, Change, Delaunay2, Delaunay3, Hierarchy, HintOrder, Hints2, Hints3, Imprecise,
+    Locate, Walk, Work,
 };
 use delone_generators::{Kind, Kind3, Random, moved};
 
@@ -13,20 +13,43 @@ use super::table::{Table, short};
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades, timed};
 
-const METHODS: [&str; 5] =
-    ["hints, random order", "hints, spatial order", "spatial sort", "hierarchy", "divide and conquer"];
+/// The paper's hierarchy is the one of CGAL, which does not sample its highest level.
+const METHODS: [&str; 6] = [
+    "hints, random order",
+    "hints, spatial order",
+    "spatial sort",
+    "hierarchy",
+    "hierarchy and sample",
+    "divide and conquer",
+];
 
 /// How many of them walk.
-const WALKING: usize = 4;
+const WALKING: usize = 5;
 
-/// What the paper found for so many points: nanoseconds a point by the methods above (the last is Triangle), triangles
-/// visited, nanoseconds to preprocess, and instances that amortise it.
+/// The paper's spatial sort inserts along one curve and walks straight; ours deals points into rounds first, and crosses any edge
+/// that has the goal beyond it. What is in between shows which of both saves triangles.
+const STRAIGHT: [&str; 2] = ["one Hilbert curve, straight", "spatial sort, straight"];
+
+/// What the paper found for so many points: nanoseconds a point by the methods above without our sample (the last is Triangle),
+/// triangles visited, nanoseconds to preprocess, and instances that amortise it.
 struct Published {
     points: usize,
     ns: &'static [f64],
     visited: &'static [f64],
     preprocessing: f64,
     instances: f64,
+}
+
+impl Published {
+    /// The numbers of the methods above, of which there are so many.
+    fn by_methods(numbers: &[f64], methods: usize) -> impl Iterator<Item = f64> {
+        let of = |k: usize| match k {
+            0..4 => numbers.get(k),
+            4 => None,
+            _ => numbers.get(k - 1),
+        };
+        (0..methods).map(move |k| of(k).copied().unwrap_or(f64::NAN))
+    }
 }
 
 const fn published(points: usize, ns: &'static [f64], visited: &'static [f64], more: [f64; 2]) -> Published {
@@ -69,6 +92,8 @@ impl Cost {
 #[derive(Default)]
 struct Row {
     costs: [Cost; METHODS.len()],
+    /// Triangles visited in other orders, in the plane.
+    straight: [Trials; STRAIGHT.len()],
     preprocessing: Trials,
 }
 
@@ -83,7 +108,7 @@ fn trials(options: &Options<'_>, n: usize) -> std::ops::Range<u64> {
 /// `delone experiment imprecise`.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
-    let mut plane = Report::new("imprecise", "Disjoint unit disks", &METHODS, &PLANE);
+    let mut plane = Report::new(options, "imprecise", "Disjoint unit disks", &METHODS, &PLANE);
     for n in decades(1000, options.largest) {
         let mut row = Row::default();
         for trial in trials(options, n) {
@@ -96,7 +121,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     }
     plane.finish(&mut findings);
     let title = "Disjoint unit balls in space";
-    let mut space = Report::new("imprecise-space", title, &METHODS[..4], &SPACE);
+    let mut space = Report::new(options, "imprecise-space", title, &METHODS[..WALKING], &SPACE);
     for n in decades(1000, options.largest / 10) {
         let mut row = Row::default();
         for trial in trials(options, n) {
@@ -125,7 +150,8 @@ pub(crate) fn scan(options: &Options<'_>) -> Result<Findings, Error> {
         }
     }
     let mut findings = Findings::default();
-    let mut report = Report::new("scan", "Noisy samples of a scanned model", &METHODS[..4], &SCAN);
+    let mut report =
+        Report::new(options, "scan", "Noisy samples of a scanned model", &METHODS[..WALKING], &SCAN);
     let mut random = Random::new(seed);
     let most = model.len().min(largest);
     for n in decades(1000, most).take_while(|&n| n < most).chain([most]) {
@@ -163,40 +189,49 @@ struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    fn new(name: &'a str, title: &str, methods: &'a [&'a str], published: &'a [Published]) -> Self {
+    fn new(
+        options: &Options<'_>,
+        name: &'a str,
+        title: &str,
+        methods: &'a [&'a str],
+        published: &'a [Published],
+    ) -> Self {
         let heads = [&["points"], methods, &["preprocessing", "instances to amortise"]].concat();
         let times = format!("{title}: nanoseconds a point");
         let visits = format!("{title}: visited a point");
+        let in_plane = methods.len() > WALKING;
+        let straight: &[&str] = if in_plane { &STRAIGHT } else { &[] };
+        let walking = [&["points"], &methods[..WALKING], straight].concat();
         Self {
             title: title.to_owned(),
             name,
             methods,
             published,
-            times: Table::new(&format!("{name}-times"), &times, &heads),
-            visits: Table::new(
-                &format!("{name}-visited"),
-                &visits,
-                &[&["points"], &methods[..WALKING]].concat(),
-            ),
+            times: options.table(&format!("{name}-times"), &times, &heads),
+            visits: options.table(&format!("{name}-visited"), &visits, &walking),
             curves: vec![Vec::new(); methods.len()],
         }
     }
 
-    fn row(&mut self, n: usize, Row { costs, preprocessing }: Row) {
+    fn row(&mut self, n: usize, Row { costs, straight, preprocessing }: Row) {
         let costs = &costs[..self.methods.len()];
+        let in_plane = self.methods.len() > WALKING;
         let saved = costs[2].ns.mean() - costs[1].ns.mean();
         let instances = if saved > 0.0 { (preprocessing.mean() / saved).ceil() } else { f64::NAN };
         let times = costs.iter().map(|cost| cost.ns.to_string());
         let last = [preprocessing.to_string(), short(instances)];
         self.times.row(std::iter::once(n.to_string()).chain(times).chain(last));
-        let visits = costs.iter().take(WALKING);
-        self.visits.row(std::iter::once(n.to_string()).chain(visits.map(|cost| cost.visited.to_string())));
+        let visits =
+            costs.iter().take(WALKING).map(|cost| &cost.visited).chain(straight.iter().filter(|_| in_plane));
+        self.visits.row(std::iter::once(n.to_string()).chain(visits.map(ToString::to_string)));
         if let Some(found) = self.published.iter().find(|found| found.points == n) {
             let name = format!("{n} in 2011");
-            let missing = vec![f64::NAN; self.methods.len() - found.ns.len()];
-            let ns = [found.ns, &missing, &[found.preprocessing, found.instances]].concat();
-            self.times.row(std::iter::once(name.clone()).chain(ns.into_iter().map(short)));
-            self.visits.row(std::iter::once(name).chain(found.visited.iter().copied().map(short)));
+            let ns = Published::by_methods(found.ns, self.methods.len());
+            let ns = ns.chain([found.preprocessing, found.instances]);
+            self.times.row(std::iter::once(name.clone()).chain(ns.map(short)));
+            let visits = Published::by_methods(found.visited, WALKING);
+            let visits = visits.chain(in_plane.then_some([found.visited[2], f64::NAN]).into_iter().flatten());
+            self.visits.row(std::iter::once(name).chain(visits.map(short)));
         }
         for (curve, cost) in self.curves.iter_mut().zip(costs) {
             curve.push((n as f64, cost.ns.mean()));
@@ -214,23 +249,63 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What an instance costs by hints, once there is memory from a first one, in which visits are counted.
+/// What a first instance costs by hints, in new memory as by the other methods; visits are counted in a second one.
 fn by_hints<H>(
     n: usize,
     hints: &mut H,
     cost: &mut Cost,
     triangulate: impl Fn(&mut H, &mut Work) -> Result<(), delone::Error>,
 ) -> Result<(), Error> {
-    let mut work = Work::default();
-    triangulate(hints, &mut work)?;
     let (done, seconds) = timed(|| triangulate(hints, &mut Work::default()));
     done?;
+    let mut work = Work::default();
+    triangulate(hints, &mut work)?;
     cost.add(n, seconds, Some(work.visited));
     Ok(())
 }
 
-fn hierarchy(seed: u64) -> Locate {
-    Locate::Hierarchy(Hierarchy { seed, ..Hierarchy::default() })
+/// The hierarchy without a sample on top and with one.
+fn hierarchies(seed: u64) -> [Locate; 2] {
+    [Hierarchy::only_levels(), Hierarchy::default()]
+        .map(|hierarchy| Locate::Hierarchy(Hierarchy { seed, ..hierarchy }))
+}
+
+/// Triangles visited a point, each walk straight from the point before.
+fn straight(points: impl ExactSizeIterator<Item = [f64; 2]>) -> Result<f64, Error> {
+    let mut d = Delaunay2::with_strategy(Locate::Walk(Walk::Straight))?;
+    let n = points.len() as f64;
+    let mut work = Work::default();
+    points.into_iter().try_for_each(|p| d.insert_observed(p, &mut work).map(drop))?;
+    Ok(work.visited as f64 / n)
+}
+
+/// Points in the order of a Hilbert curve over their square.
+fn hilbert(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    const BITS: u32 = 16;
+    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    for &x in points.iter().flatten() {
+        (least, most) = (least.min(x), most.max(x));
+    }
+    let scale = f64::from((1_u32 << BITS) - 1) / (most - least);
+    let key = |p: &[f64; 2]| {
+        let [mut x, mut y] = p.map(|x| ((x - least) * scale) as u32);
+        let mut key = 0_u64;
+        for bit in (0..BITS).rev() {
+            let (right, up) = (x >> bit & 1, y >> bit & 1);
+            key = key << 2 | u64::from((3 * right) ^ up);
+            // The quarters at both ends of the curve are turned.
+            if up == 0 {
+                if right == 1 {
+                    (x, y) = (!x, !y);
+                }
+                std::mem::swap(&mut x, &mut y);
+            }
+        }
+        key
+    };
+    let mut sorted = points.to_vec();
+    sorted.sort_by_cached_key(key);
+    sorted
 }
 
 fn in_plane(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64, row: &mut Row) -> Result<(), Error> {
@@ -245,13 +320,16 @@ fn in_plane(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64, row: &mut Ro
             hints.triangulate_observed(instance, work).map(|d| _ = black_box(d.vertex_count()))
         })?;
     }
-    let located = Algorithm2::Located { locate: hierarchy(seed), seed };
+    let [levels, both] = hierarchies(seed).map(|locate| Algorithm2::Located { locate, seed });
     for (algorithm, cost) in
-        [Algorithm2::Incremental { seed }, located, Algorithm2::DivideAndConquer].into_iter().zip(direct)
+        [Algorithm2::Incremental { seed }, levels, both, Algorithm2::DivideAndConquer].into_iter().zip(direct)
     {
         let (d, seconds) = timed(|| Delaunay2::with_algorithm(instance, algorithm));
         cost.add(n, seconds, d?.counters().work().map(|work| work.visited));
     }
+    let spatial: Vec<usize> = Hints2::from_points(instance, HintOrder::Spatial { seed })?.order().collect();
+    row.straight[0].add(straight(hilbert(instance).into_iter())?);
+    row.straight[1].add(straight(spatial.iter().map(|&i| instance[i]))?);
     Ok(())
 }
 
@@ -267,8 +345,8 @@ fn in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64, row: &mut Ro
             hints.triangulate_observed(instance, work).map(|d| _ = black_box(d.vertex_count()))
         })?;
     }
-    let located = Algorithm3::Located { locate: hierarchy(seed), seed };
-    for (algorithm, cost) in [Algorithm3::Incremental { seed }, located].into_iter().zip(direct) {
+    let [levels, both] = hierarchies(seed).map(|locate| Algorithm3::Located { locate, seed });
+    for (algorithm, cost) in [Algorithm3::Incremental { seed }, levels, both].into_iter().zip(direct) {
         let (d, seconds) = timed(|| Delaunay3::with_algorithm(instance, algorithm));
         cost.add(n, seconds, d?.counters().work().map(|work| work.visited));
     }

@@ -8,7 +8,7 @@ use delone::{Ask, Change, Delaunay2, Delaunay3, JumpAndWalk, Locate, Work};
 use delone_generators::{Kind, Kind3, Random};
 
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, sizes, timed};
 
@@ -80,12 +80,6 @@ fn at_border(seed: u64) -> Vec<[f64; 2]> {
     along.iter().map(|q| at_side((q[0] - 0.1) / 0.8)).collect()
 }
 
-/// The seeds of the trials.
-fn seeds(options: &Options<'_>) -> impl Iterator<Item = u64> {
-    let first = options.seed;
-    (0..options.trials as u64).map(move |trial| first + trial)
-}
-
 /// The exponent of a power law through points: least squares on logarithms.
 fn exponent(points: &[(f64, f64)]) -> String {
     let logs: Vec<[f64; 2]> = points.iter().map(|&(x, y)| [x.ln(), y.ln()]).collect();
@@ -103,10 +97,10 @@ fn fixed(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let heads = ["points", "visited", "expected crossings", "visited, at the border", "paper"];
     let title =
         "Triangles visited from the nearest of 32 sampled vertices (Devroye, Mücke & Zhu 1998, remark 6)";
-    let mut table = Table::new("jump-and-walk-visited", title, &heads);
+    let mut table = options.table("jump-and-walk-visited", title, &heads);
     for (n, paper) in [(3_200, 36), (32_000, 50)] {
         let (mut visited, mut border) = (Trials::default(), Trials::default());
-        for seed in seeds(options) {
+        for seed in options.seeds() {
             let d = uniform(n, Some(32), seed)?;
             visited.add(measure(&d, &inside(seed))?.visited);
             border.add(measure(&d, &at_border(seed))?.visited);
@@ -125,42 +119,51 @@ fn fixed(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
 }
 
 fn by_sample(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let n = options.largest.min(100_000);
-    let mut table = Table::new(
+    let mut table = options.table(
         "jump-and-walk-sample",
-        &format!("Cost against the sample size m, {n} points (n^(1/3) is {:.0})", (n as f64).cbrt()),
-        &["m", "visited", "visited + m", "with replacement: visited", "ns per query"],
+        "Cost against the sample size m",
+        &["points", "m", "visited", "visited + m", "with replacement: visited", "ns per query"],
     );
-    let mut rows: Vec<(usize, [Trials; 4])> = (0..=24)
-        .filter(|power| *power != 1)
-        .map(|power| (2f64.powf(f64::from(power) / 2.0).round() as usize, Default::default()))
-        .take_while(|&(m, _)| m <= n)
-        .collect();
-    for seed in seeds(options) {
-        let (mut d, queries) = (uniform(n, None, seed)?, inside(seed));
-        for (m, trials) in &mut rows {
-            let mut costs = Vec::new();
-            let queries = &queries[..(DRAWN / *m).clamp(1_000, QUERIES)];
-            for with_replacement in [false, true] {
-                let options = JumpAndWalk { sample: Some(*m), seed, with_replacement, rho: 1.0 };
-                d.set_strategy(Locate::JumpAndWalk(options))?;
-                costs.push(measure(&d, queries)?);
+    let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
+    let mut shown = 0;
+    for n in options.ends(1_000, 100_000) {
+        (curves, shown) = (Default::default(), n);
+        let mut sets = Vec::new();
+        for seed in options.seeds() {
+            sets.push((uniform(n, None, seed)?, inside(seed), seed));
+        }
+        for power in (0..=24).filter(|power| *power != 1) {
+            let m = 2f64.powf(f64::from(power) / 2.0).round() as usize;
+            if m > n {
+                break;
             }
-            let [without, with] = [&costs[0], &costs[1]];
-            let values = [without.visited, without.visited + without.compared, with.visited, without.ns];
-            trials.iter_mut().zip(values).for_each(|(trial, value)| trial.add(value));
+            let mut trials: [Trials; 4] = Default::default();
+            for (d, queries, seed) in &mut sets {
+                let queries = &queries[..(DRAWN / m).clamp(1_000, QUERIES)];
+                let mut costs = Vec::new();
+                for with_replacement in [false, true] {
+                    let way = JumpAndWalk { sample: Some(m), seed: *seed, with_replacement, rho: 1.0 };
+                    d.set_strategy(Locate::JumpAndWalk(way))?;
+                    costs.push(measure(d, queries)?);
+                }
+                let [without, with] = [&costs[0], &costs[1]];
+                let values = [without.visited, without.visited + without.compared, with.visited, without.ns];
+                trials.iter_mut().zip(values).for_each(|(trial, value)| trial.add(value));
+            }
+            for (curve, trial) in curves.iter_mut().zip(&trials) {
+                curve.push((m as f64, trial.mean()));
+            }
+            table
+                .row([n.to_string(), m.to_string()].into_iter().chain(trials.map(|trial| trial.to_string())));
         }
     }
     let mut plot = Plot::new(
         "jump-and-walk-sample",
-        &format!("Jump-and-walk: cost against the sample size, {n} points"),
+        &format!("Jump-and-walk: cost against the sample size, {shown} points"),
         ["sampled vertices m", "triangles visited, or both"],
     );
-    for (k, name) in ["triangles visited", "visited + m"].into_iter().enumerate() {
-        plot.curve(name, rows.iter().map(|(m, trials)| (*m as f64, trials[k].mean())).collect::<Vec<_>>());
-    }
-    for (m, trials) in rows {
-        table.row([m.to_string()].into_iter().chain(trials.map(|trial| trial.to_string())));
+    for (name, curve) in ["triangles visited", "visited + m"].into_iter().zip(curves) {
+        plot.curve(name, curve);
     }
     findings.tables.push(table);
     findings.plots.push(plot);
@@ -169,7 +172,7 @@ fn by_sample(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
 
 /// The theorem, and remark 2.
 fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "jump-and-walk-growth",
         "Cost with m = n^(1/3); the last row is the exponent of n",
         &["points", "m", "visited", "visited + m", "in n^(1/3)", "visited, at the border", "ns per query"],
@@ -177,7 +180,7 @@ fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
     for n in sizes(1_000, options.largest) {
         let mut trials: [Trials; 6] = Default::default();
-        for seed in seeds(options) {
+        for seed in options.seeds() {
             let d = uniform(n, None, seed)?;
             let cost = measure(&d, &inside(seed))?;
             let border = measure(&d, &at_border(seed))?.visited;
@@ -218,7 +221,7 @@ fn densities(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
         (Kind::Circle, "circle"),
         (Kind::Ellipse2, "ellipse2"),
     ];
-    let mut table = Table::new(
+    let mut table = options.table(
         "jump-and-walk-densities",
         "Visited + m in units of n^(1/3), points and queries of other densities; the last row is the exponent of n",
         &["points", KINDS[0].1, KINDS[1].1, KINDS[2].1, KINDS[3].1, KINDS[4].1],
@@ -228,7 +231,7 @@ fn densities(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
         let mut cells = vec![n.to_string()];
         for ((kind, _), curve) in KINDS.into_iter().zip(&mut curves) {
             let mut trials = Trials::default();
-            for seed in seeds(options) {
+            for seed in options.seeds() {
                 let mut d = Delaunay2::from_points(&kind.points(n, seed))?;
                 d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }))?;
                 let cost = measure(&d, &kind.points(QUERIES / 4, seed + 1000))?;
@@ -254,7 +257,7 @@ fn densities(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
 
 /// Remarks 3 and 4: insertion one by one, and removal and insertion in turn.
 fn changes(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "jump-and-walk-changes",
         "A set in a square built point by point, then as many changes; visited + m, and seconds. The last row is the exponent of n",
         &["points", "to build", "in n^(4/3)", "seconds", "a change", "in n^(1/3)", "ns a change"],
@@ -262,7 +265,7 @@ fn changes(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
     let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
     for n in sizes(1_000, options.largest.min(LARGEST_SPECIAL)) {
         let mut trials: [Trials; 6] = Default::default();
-        for seed in seeds(options) {
+        for seed in options.seeds() {
             let points = Kind::Uniform.points(2 * n, seed);
             let (first, others) = points.split_at(n);
             let strategy = JumpAndWalk { seed, ..JumpAndWalk::default() };
@@ -301,7 +304,7 @@ fn changes(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
 
 /// Remark 7.
 fn space(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "jump-and-walk-space",
         "Points in a cube, m = n^(1/4); the last row is the exponent of n",
         &["points", "m", "visited", "visited + m", "in n^(1/4)", "ns per query"],
@@ -309,7 +312,7 @@ fn space(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let mut curve = Vec::new();
     for n in sizes(1_000, options.largest.min(LARGEST_SPECIAL)) {
         let mut trials: [Trials; 5] = Default::default();
-        for seed in seeds(options) {
+        for seed in options.seeds() {
             let mut d = Delaunay3::from_points(&Kind3::Cube.points(n, seed))?;
             d.set_strategy(Locate::JumpAndWalk(JumpAndWalk { seed, ..JumpAndWalk::default() }))?;
             let mut random = Random::new(seed + 1000);

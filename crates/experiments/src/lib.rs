@@ -27,12 +27,13 @@ mod table;
 mod trials;
 mod tuning;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use rayon::ThreadPool;
 
 pub use plot::Plot;
-pub use table::Table;
+pub use table::{Table, Watch};
 
 /// What an experiment found.
 #[derive(Debug, Default)]
@@ -80,7 +81,7 @@ pub enum Error {
 pub struct Options<'a> {
     /// The largest set.
     pub largest: usize,
-    /// How often each count or time is taken, from other points and other seeds; tables give mean and standard deviation.
+    /// How often each count or time is taken, from other points and other seeds; tables give mean and standard error.
     pub trials: usize,
     /// Seed of points and orders.
     pub seed: u64,
@@ -88,6 +89,26 @@ pub struct Options<'a> {
     pub model: &'a [[f64; 3]],
     /// All threads that may be used, by the one experiment that does.
     pub threads: &'a ThreadPool,
+    /// Who is told of each row as soon as it is there.
+    pub watch: Option<Arc<dyn Watch>>,
+}
+
+impl Options<'_> {
+    /// A table without a row.
+    fn table(&self, name: &str, title: &str, heads: &[&str]) -> Table {
+        Table::new(name, title, heads, self.watch.clone())
+    }
+
+    /// The seeds of the trials.
+    fn seeds(&self) -> std::ops::Range<u64> {
+        self.seed..self.seed + self.trials as u64
+    }
+
+    /// The smallest set, which is soon counted again, and the largest up to `most`.
+    fn ends(&self, smallest: usize, most: usize) -> impl Iterator<Item = usize> {
+        let largest = self.largest.min(most);
+        std::iter::once(smallest).chain((largest > smallest).then_some(largest))
+    }
 }
 
 type Run = fn(&Options<'_>) -> Result<Findings, Error>;

@@ -8,12 +8,14 @@ use delone_generators::{Kind, Random};
 
 use super::appear;
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, sizes};
 
 /// Random orders of which the variance is taken, at least.
 const ORDERS: usize = 100;
+/// Orders in which points are added, at least: of two rows they differ much.
+const ADDED: usize = 30;
 /// The largest set of which quadratically many triangles appear.
 const QUADRATIC: usize = 2_000;
 
@@ -34,7 +36,7 @@ fn two_rows(below: usize, above: usize) -> Vec<[f64; 2]> {
 
 /// Figure 1: all below, then all above from right to left.
 fn bad_order(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "order-bad",
         "Triangles that appear of m points below and m above: the order of Figure 1 and random orders",
         &["points 2m", "bad order", "in m^2", "random orders", "a point"],
@@ -42,8 +44,8 @@ fn bad_order(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
     let mut plot =
         Plot::new("order-bad", "Triangles that appear, two rows of points", ["points", "triangles"]);
     let mut curves: [Vec<(f64, f64)>; 2] = Default::default();
-    let mut random = Random::new(options.seed);
     for n in sizes(100, options.largest.min(QUADRATIC)) {
+        let mut random = Random::new(options.seed);
         let m = n / 2;
         let points = two_rows(m, m);
         let bad: Vec<usize> = (0..m).chain((m..2 * m).rev()).collect();
@@ -59,7 +61,7 @@ fn bad_order(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
             in_bad.to_string(),
             short(in_bad as f64 / (m * m) as f64),
             by_chance.to_string(),
-            short(by_chance.mean() / n as f64),
+            by_chance.over(n as f64).to_string(),
         ]);
         for (curve, y) in curves.iter_mut().zip([in_bad as f64, by_chance.mean()]) {
             curve.push((n as f64, y));
@@ -76,15 +78,15 @@ fn bad_order(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error
 /// How far the total strays from its mean, which the paper would like to know.
 fn variance(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let orders = ORDERS.max(options.trials);
-    let mut table = Table::new(
+    let mut table = options.table(
         "order-variance",
         &format!("Triangles that appear in {orders} random orders: mean, variance, most"),
         &["set", "points", "triangles", "variance / n", "most / mean"],
     );
-    let mut random = Random::new(options.seed);
     for kind in [Kind::Uniform, Kind::Ellipse2, Kind::Parabola] {
         for n in sizes(100, options.largest.min(3_000)) {
             let points = kind.points(n, options.seed);
+            let mut random = Random::new(options.seed);
             let mut order: Vec<usize> = (0..n).collect();
             let mut totals = Trials::default();
             for _ in 0..orders {
@@ -106,12 +108,15 @@ fn variance(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
 
 /// Theorem 2.6: n points in random order added to a triangulation of m.
 fn adding(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
-        "order-adding",
-        "Edges that appear when n points are added in random order to m; the bound is O(m log n + n) and tight",
-        &["m", "n", "two rows", "/ (m H(n) + n)", "uniform", "/ (m H(n) + n)"],
+    let orders = ADDED.max(options.trials);
+    let title = format!(
+        "Edges that appear when n points are added to m, in {orders} random orders; the bound is O(m log n + n) and tight"
     );
-    let mut random = Random::new(options.seed);
+    let mut table = options.table(
+        "order-adding",
+        &title,
+        &["m", "n", "two rows", "two rows / (m H(n) + n)", "uniform", "uniform / (m H(n) + n)"],
+    );
     for m in sizes(100, options.largest.min(1_000)) {
         for n in sizes(10, options.largest.min(1_000)) {
             let harmonic: f64 = (1..=n).map(|i| 1.0 / i as f64).sum();
@@ -119,13 +124,14 @@ fn adding(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             let mut cells = vec![m.to_string(), n.to_string()];
             for points in [two_rows(m, n), Kind::Uniform.points(m + n, options.seed)] {
                 let before = appear::totals(&points, &(0..m).collect::<Vec<_>>())?[1];
+                let mut random = Random::new(options.seed);
                 let mut added = Trials::default();
-                for _ in 0..options.trials {
+                for _ in 0..orders {
                     let mut order: Vec<usize> = (0..m + n).collect();
                     random.shuffle(&mut order[m..]);
                     added.add((appear::totals(&points, &order)?[1] - before) as f64);
                 }
-                cells.extend([added.to_string(), short(added.mean() / bound)]);
+                cells.extend([added.to_string(), added.over(bound).to_string()]);
             }
             table.row(cells);
         }
@@ -136,13 +142,13 @@ fn adding(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
 
 /// §3: numbers are sorted by triangulating (x, x^2), in random order and in sorted order.
 fn sorting(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "order-sorting",
         "Numbers sorted by the triangulation of (x, x^2): tests a number, beside Quicksort's 2 ln n",
         &["numbers", "visited, random order", "/ (2 ln n)", "visited, sorted order", "in n"],
     );
-    let mut random = Random::new(options.seed);
     for n in sizes(100, options.largest.min(100_000)) {
+        let mut random = Random::new(options.seed);
         let mut numbers: Vec<usize> = (0..n).collect();
         let mut by_chance = Trials::default();
         let mut sorted = None;
@@ -167,7 +173,7 @@ fn sorting(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
         table.row([
             n.to_string(),
             by_chance.to_string(),
-            short(by_chance.mean() / 2.0 / (n as f64).ln()),
+            by_chance.over(2.0 * (n as f64).ln()).to_string(),
             sorted.map_or("-".to_owned(), short),
             sorted.map_or("-".to_owned(), |visited| short(visited / n as f64)),
         ]);

@@ -8,7 +8,7 @@ use delone::{Delaunay2, OrderK2};
 use delone_generators::Kind;
 
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::{Error, Findings, Options, decades, timed};
 
 /// The orders shown.
@@ -19,7 +19,7 @@ const RUNS: usize = 3;
 
 /// `delone experiment order-k`: from a hundred points on.
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "order-k",
         "Voronoi diagrams of order k: sizes, pairs of sites in one region, time (§4.2, Lemma 4.3)",
         &[

@@ -9,7 +9,7 @@ use delone::{Delaunay2, Hierarchy, Locate, NearestSites2, Neighbors2, Work};
 use delone_generators::Kind;
 
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades, timed};
 
@@ -30,7 +30,7 @@ fn square(n: usize) -> f64 {
 }
 
 fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "radial-counts",
         "Radial triangles that ever were, and the work of a query for the nearest site (the paper: O(n) triangles, at most \
          4 H_n planes, O(log^2 n) comparisons)",
@@ -57,8 +57,7 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         let mut rows = Vec::new();
         for n in decades(100, options.largest) {
             let mut trials: [Trials; 5] = Default::default();
-            for trial in 0..options.trials as u64 {
-                let seed = options.seed + trial;
+            for seed in options.seeds() {
                 let sites = NearestSites2::from_points(&kind.points(n, seed), seed)?;
                 let mut work = Work::default();
                 for q in Kind::Uniform.points(QUERIES, seed + 1000) {
@@ -87,13 +86,13 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
                 n.to_string(),
                 size.to_string(),
                 planes.to_string(),
-                short(planes.mean() / (*n as f64).ln()),
+                planes.over((*n as f64).ln()).to_string(),
                 short(4.0 * harmonic),
                 compared.to_string(),
                 rays.to_string(),
                 work.to_string(),
-                short(work.mean() / square(*n)),
-                short(work.mean() / (c * square(*n))),
+                work.over(square(*n)).to_string(),
+                work.over(c * square(*n)).to_string(),
             ]);
         }
         let name = kind.name();
@@ -111,7 +110,7 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
 fn times(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let seed = options.seed;
     let queries = Kind::Uniform.points(QUERIES, seed + 1);
-    let mut table = Table::new(
+    let mut table = options.table(
         "radial-times",
         "Nanoseconds of a query for the nearest of n uniform sites",
         &["points", "radial", "hierarchy", "hint tree", "k-d tree"],

@@ -10,7 +10,6 @@ use std::f64::consts::PI;
 use delone::{Algorithm3, Delaunay3, Locate, Regular3, Triangulation, Work};
 use delone_generators::{Kind3, Random};
 
-use super::table::{Table, short};
 use super::trials::Trials;
 use super::{Error, Findings, Options, sizes};
 
@@ -27,7 +26,7 @@ const RADIUS: f64 = 2.0;
 const MOST_ON_LINES: usize = 1000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "history-space",
         "Per point, in random order: tetrahedra that ever were Delaunay (the paper: O(n) of them in all for a ball, O(n^2) on skew \
          lines, also with the point between them), and flips that trace each point through all",
@@ -55,8 +54,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     for (set, make, most) in sets {
         for n in sizes(100, options.largest.min(most)) {
             let mut trials: [Trials; 7] = Default::default();
-            for trial in 0..options.trials as u64 {
-                let seed = options.seed + trial;
+            for seed in options.seeds() {
                 let points = make(n, seed);
                 let ([hidden, end, ever], work) =
                     if set == WITH_WEIGHTS { weighted(&points, seed)? } else { plain(&points, seed)? };
@@ -68,12 +66,12 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
             table.row([
                 set.to_owned(),
                 n.to_string(),
-                short(hidden.mean()),
-                short(end.mean()),
+                hidden.to_string(),
+                end.to_string(),
                 ever.to_string(),
                 made.to_string(),
                 traced.to_string(),
-                short(traced.mean() / (n as f64).ln()),
+                traced.over((n as f64).ln()).to_string(),
                 orientations.to_string(),
                 tests.to_string(),
             ]);

@@ -1,6 +1,13 @@
 //! Tables, for people and for programs.
 
 use std::fmt;
+use std::sync::Arc;
+
+/// Who keeps what an experiment has found while it runs.
+pub trait Watch: fmt::Debug + Send + Sync {
+    /// A line of the table of that name, its heads first, as it stands in a file of comma-separated values.
+    fn line(&self, table: &str, line: &str);
+}
 
 /// Rows of text under a title.
 #[derive(Clone, Debug)]
@@ -10,16 +17,24 @@ pub struct Table {
     title: String,
     heads: Vec<String>,
     rows: Vec<Vec<String>>,
+    watch: Option<Arc<dyn Watch>>,
 }
 
 impl Table {
-    pub(crate) fn new(name: &str, title: &str, heads: &[&str]) -> Self {
-        let heads = heads.iter().map(ToString::to_string).collect();
-        Self { name: name.to_owned(), title: title.to_owned(), heads, rows: Vec::new() }
+    pub(crate) fn new(name: &str, title: &str, heads: &[&str], watch: Option<Arc<dyn Watch>>) -> Self {
+        let heads: Vec<String> = heads.iter().map(ToString::to_string).collect();
+        if let Some(watch) = &watch {
+            watch.line(name, &line(&heads));
+        }
+        Self { name: name.to_owned(), title: title.to_owned(), heads, rows: Vec::new(), watch }
     }
 
     pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        self.rows.push(cells.into_iter().collect());
+        let cells: Vec<String> = cells.into_iter().collect();
+        if let Some(watch) = &self.watch {
+            watch.line(&self.name, &line(&cells));
+        }
+        self.rows.push(cells);
     }
 
     /// Whether there is no row.
@@ -29,11 +44,13 @@ impl Table {
 
     /// The same, separated by commas: a line of heads, then the rows.
     pub fn csv(&self) -> String {
-        let lines = std::iter::once(&self.heads).chain(&self.rows);
-        lines
-            .map(|cells| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n")
-            .collect()
+        std::iter::once(&self.heads).chain(&self.rows).map(|cells| line(cells)).collect()
     }
+}
+
+/// A line of a file of comma-separated values.
+fn line(cells: &[String]) -> String {
+    cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// A field of a file of comma-separated values.
@@ -81,7 +98,7 @@ mod tests {
 
     #[test]
     fn commas_in_cells_are_quoted() {
-        let mut table = Table::new("t", "title", &["points", "hints, random order"]);
+        let mut table = Table::new("t", "title", &["points", "hints, random order"], None);
         table.row(["10".to_owned(), "3 \"or\" 4".to_owned()]);
         assert_eq!(table.csv(), "points,\"hints, random order\"\n10,\"3 \"\"or\"\" 4\"\n");
     }

@@ -17,8 +17,9 @@ const EXPERIMENT_EXAMPLES: &str = "Examples:
   delone experiment scan model.ply
   delone experiment growth --largest 10000000 -o results
 
-A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. Times are
-seconds on this machine and differ from run to run; counts depend on the seed alone.";
+A table goes to standard output; with -o, tables as CSV and plots as SVG go into that folder. While an
+experiment runs, its rows are there in NAME.part.csv. Times are seconds on this machine and differ from
+run to run; counts depend on the seed alone.";
 
 /// Repeat experiments.
 #[derive(Debug, Args)]
@@ -36,7 +37,7 @@ pub(crate) struct ExperimentArgs {
     /// The largest set.
     #[arg(long, value_name = "N", default_value = "500000", value_parser = count)]
     pub(crate) largest: usize,
-    /// How often each quantity is measured, from other points and in other orders; tables give mean and deviation.
+    /// How often each quantity is measured, from other points and in other orders; tables give mean and standard error.
     #[arg(long, value_name = "T", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) trials: u16,
     /// Seed of points and orders.

@@ -11,7 +11,7 @@ use delone_predicates::{in_circle, orient2d};
 use super::super::appear;
 use super::super::plot::Plot;
 use super::super::table::{Table, short};
-use super::super::{Error, Findings};
+use super::super::{Error, Findings, Options};
 use super::{ORDERS, in_orders};
 
 /// Points of the set that is simulated, and of the one whose scopes are only counted.
@@ -82,18 +82,18 @@ fn all(points: &[[f64; 2]]) -> Vec<([usize; 2], usize, f64)> {
         .collect()
 }
 
-pub(super) fn run(seed: u64, findings: &mut Findings) -> Result<(), Error> {
-    let points = Kind::Uniform.points(SIMULATED, seed);
+pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let points = Kind::Uniform.points(SIMULATED, options.seed);
     let edges = all(&points);
     let mut scope_of = vec![vec![0; SIMULATED]; SIMULATED];
     for &([x, y], scope, _) in &edges {
         (scope_of[x][y], scope_of[y][x]) = (scope, scope);
     }
     let mut appeared = [0_u64; SIMULATED];
-    in_orders(SIMULATED, seed, |order| {
+    in_orders(SIMULATED, options.seed, |order| {
         appear::edges(&points, order, |[x, y]| appeared[scope_of[x][y]] += 1)
     })?;
-    let mut table = Table::new(
+    let mut table = options.table(
         "scopes-edges",
         &format!(
             "How often an edge of symmetric scope w appears ({SIMULATED} points, {ORDERS} random orders; Lemma 2.4)"
@@ -130,21 +130,21 @@ pub(super) fn run(seed: u64, findings: &mut Findings) -> Result<(), Error> {
     {
         plot.curve(name, curve);
     }
-    findings.tables.extend([table, growth(seed), pairs(seed)]);
+    findings.tables.extend([table, growth(options), pairs(options)]);
     findings.plots.push(plot);
     Ok(())
 }
 
 /// How many edges have a scope of at most k, in units of n (k + 1).
-fn growth(seed: u64) -> Table {
-    let mut table = Table::new(
+fn growth(options: &Options<'_>) -> Table {
+    let mut table = options.table(
         "scopes-lemma-2-5",
         &format!(
             "Edges of symmetric scope at most k, {COUNTED} points; the analysis allows about 16 n (k+1) (Lemma 2.5)"
         ),
         &["k", "edges", "in units of n (k+1)", "bound"],
     );
-    let edges = all(&Kind::Uniform.points(COUNTED, seed));
+    let edges = all(&Kind::Uniform.points(COUNTED, options.seed));
     for k in [0, 1, 2, 4, 8, 16, 32, 59] {
         let total = edges.iter().filter(|(_, scope, _)| *scope <= k).count();
         let units = total as f64 / COUNTED as f64 / (k + 1) as f64;
@@ -154,16 +154,16 @@ fn growth(seed: u64) -> Table {
 }
 
 /// The fewest points in any circle through a pair, for the pair for which these are the most (§4.2).
-fn pairs(seed: u64) -> Table {
-    let mut table = Table::new(
+fn pairs(options: &Options<'_>) -> Table {
+    let mut table = options.table(
         "scopes-pair",
         "Some pair has a share of all points in every circle through it (§4.2)",
-        &["points", "uniform", "share", "log-normal", "share"],
+        &["points", "uniform", "uniform: share", "log-normal", "log-normal: share"],
     );
     for n in [15, 30, 60, COUNTED] {
         let mut cells = vec![n.to_string()];
         for kind in [Kind::Uniform, Kind::LogNormal] {
-            let points = kind.points(n, seed);
+            let points = kind.points(n, options.seed);
             let pairs = (0..n).flat_map(|x| (x + 1..n).map(move |y| (x, y)));
             let fewest = |(x, y): (usize, usize)| {
                 let sweep = sweep(&points, x, y);

@@ -16,8 +16,8 @@ const ORDERS: usize = 4_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
-    triangles::run(options.seed, &mut findings)?;
-    edges::run(options.seed, &mut findings)?;
+    triangles::run(options, &mut findings)?;
+    edges::run(options, &mut findings)?;
     space::run(options, &mut findings)?;
     Ok(findings)
 }

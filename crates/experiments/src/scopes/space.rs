@@ -18,17 +18,19 @@ use super::{ORDERS, first, in_orders};
 const SIMULATED: usize = 12;
 /// Points of which samples are triangulated for Theorem 4.7, at most.
 const SAMPLED: usize = 400;
+/// Orders in which they come, at least: when zeta comes decides almost all.
+const SAMPLED_ORDERS: usize = 30;
 
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    simulate(options.seed, findings)?;
+    simulate(options, findings)?;
     samples(options, findings)?;
-    findings.tables.push(triples(options.seed));
+    findings.tables.push(triples(options));
     Ok(())
 }
 
 /// How often tetrahedra of each scope appear.
-fn simulate(seed: u64, findings: &mut Findings) -> Result<(), Error> {
-    let points = Kind3::Cube.points(SIMULATED, seed);
+fn simulate(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let points = Kind3::Cube.points(SIMULATED, options.seed);
     let mut scope_of = BTreeMap::new();
     let mut count = [0_usize; SIMULATED];
     for a in 0..SIMULATED {
@@ -48,7 +50,7 @@ fn simulate(seed: u64, findings: &mut Findings) -> Result<(), Error> {
         }
     }
     let mut appeared = [0_u64; SIMULATED];
-    in_orders(SIMULATED, seed, |order| {
+    in_orders(SIMULATED, options.seed, |order| {
         appear::simplices::<Delaunay3>(&points, order, |corners, order| {
             appeared[scope_of[&appear::sorted(corners, order)]] += 1;
         })?;
@@ -58,7 +60,7 @@ fn simulate(seed: u64, findings: &mut Findings) -> Result<(), Error> {
         "How often a tetrahedron of scope k appears ({SIMULATED} points, {ORDERS} random orders; Lemma 4.4)"
     );
     let heads = ["k", "tetrahedra", "appeared", "24/((k+1)(k+2)(k+3)(k+4))", "of scope <= k, in n^2 (k+1)^2"];
-    let mut table = Table::new("scopes-tetrahedra", &title, &heads);
+    let mut table = options.table("scopes-tetrahedra", &title, &heads);
     let mut plot = Plot::new(
         "scopes-tetrahedra",
         "The probability that a tetrahedron of scope k appears",
@@ -90,7 +92,7 @@ fn skew_lines(n: usize) -> Vec<[f64; 3]> {
 
 /// What appears in all beside the final size and the sum of Theorem 4.7 over the sizes of samples.
 fn samples(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let mut table = Table::new(
+    let mut table = options.table(
         "scopes-samples",
         "Tetrahedra that ever appear, beside the final size and the sum of F(n/k)/k (Theorems 4.6 and 4.7)",
         &["set", "points", "in the end", "appeared", "appeared / end", "sum of F(n/k)/k", "appeared / sum"],
@@ -107,7 +109,7 @@ fn samples(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
             let mut order: Vec<usize> = (0..points.len()).collect();
             let mut appeared = Trials::default();
             let mut end = 0;
-            for _ in 0..options.trials {
+            for _ in 0..SAMPLED_ORDERS.max(options.trials) {
                 random.shuffle(&mut order);
                 let mut count = 0_u64;
                 end = appear::simplices::<Delaunay3>(&points, &order, |_, _| count += 1)?;
@@ -135,14 +137,14 @@ fn samples(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> 
 }
 
 /// The fewest points in any sphere through three, for the three for which these are the most.
-fn triples(seed: u64) -> Table {
-    let mut table = Table::new(
+fn triples(options: &Options<'_>) -> Table {
+    let mut table = options.table(
         "scopes-triple",
         "Some triple has a share of all points in every sphere through it (§4.3)",
         &["points", "cube", "share"],
     );
     for n in [10, 20, 30] {
-        let points = Kind3::Cube.points(n, seed);
+        let points = Kind3::Cube.points(n, options.seed);
         let mut most = 0;
         for a in 0..n {
             for b in a + 1..n {

@@ -9,16 +9,18 @@ use delone_predicates::{in_circle, orient2d};
 use super::super::appear;
 use super::super::plot::Plot;
 use super::super::table::{Table, short};
-use super::super::{Error, Findings};
+use super::super::{Error, Findings, Options};
 use super::{ORDERS, first, in_orders};
 
 /// Points of the set that is simulated, and of the one whose scopes are only counted.
 const SIMULATED: usize = 24;
 const COUNTED: usize = 90;
+/// How many triangles of Figure 2, of 14 points, have each scope.
+const FOURTEEN: [usize; 12] = [17, 32, 42, 44, 47, 44, 40, 33, 28, 18, 12, 7];
 
-pub(super) fn run(seed: u64, findings: &mut Findings) -> Result<(), Error> {
-    simulate(seed, findings)?;
-    findings.tables.push(growth(seed));
+pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    simulate(options, findings)?;
+    findings.tables.extend([growth(options), fourteen(options)]);
     Ok(())
 }
 
@@ -49,19 +51,19 @@ fn count(scopes: &BTreeMap<[usize; 3], usize>, points: usize) -> Vec<usize> {
 }
 
 /// How often triangles of each scope appear, and how many triangles and edges in all.
-fn simulate(seed: u64, findings: &mut Findings) -> Result<(), Error> {
-    let points = Kind::Uniform.points(SIMULATED, seed);
+fn simulate(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let points = Kind::Uniform.points(SIMULATED, options.seed);
     let scope_of = scopes(&points);
     let count = count(&scope_of, SIMULATED);
     let mut appeared = [0_u64; SIMULATED - 2];
     let mut edges = 0_u64;
-    in_orders(SIMULATED, seed, |order| {
+    in_orders(SIMULATED, options.seed, |order| {
         appear::simplices::<Delaunay2>(&points, order, |corners, order| {
             appeared[scope_of[&appear::sorted(corners, order)]] += 1;
         })?;
         appear::edges(&points, order, |_| edges += 1)
     })?;
-    let mut table = Table::new(
+    let mut table = options.table(
         "scopes-triangles",
         &format!(
             "How often a triangle of scope k appears ({SIMULATED} points, {ORDERS} random orders; Lemma 2.1)"
@@ -82,7 +84,7 @@ fn simulate(seed: u64, findings: &mut Findings) -> Result<(), Error> {
     }
     plot.curve("simulated", measured);
     plot.curve("6 / ((k+1)(k+2)(k+3))", expected);
-    let mut totals = Table::new(
+    let mut totals = options.table(
         "scopes-means",
         "What ever appears: simulated, computed from the scopes, and the bound of the analysis a point (Theorem 2.3)",
         &["", "simulated", "computed", "computed a point", "bound a point"],
@@ -99,15 +101,15 @@ fn simulate(seed: u64, findings: &mut Findings) -> Result<(), Error> {
 }
 
 /// How many triangles have a scope of at most k, in units of n (k + 1)^2.
-fn growth(seed: u64) -> Table {
-    let mut table = Table::new(
+fn growth(options: &Options<'_>) -> Table {
+    let mut table = options.table(
         "scopes-lemma-2-2",
         &format!(
             "Triangles of scope at most k, {COUNTED} points; the analysis allows about 3.6 n (k+1)^2 (Lemma 2.2)"
         ),
         &["k", "triangles", "in units of n (k+1)^2", "bound"],
     );
-    let count = count(&scopes(&Kind::Uniform.points(COUNTED, seed)), COUNTED);
+    let count = count(&scopes(&Kind::Uniform.points(COUNTED, options.seed)), COUNTED);
     let mut total = 0;
     for (k, triangles) in count.into_iter().enumerate() {
         total += triangles;
@@ -115,6 +117,21 @@ fn growth(seed: u64) -> Table {
             let units = total as f64 / COUNTED as f64 / ((k + 1) * (k + 1)) as f64;
             table.row([k.to_string(), total.to_string(), short(units), short(3.6)]);
         }
+    }
+    table
+}
+
+/// The two means of Figure 2, by the numbers of triangles of each scope that the paper gives.
+fn fourteen(options: &Options<'_>) -> Table {
+    let mut table = options.table(
+        "scopes-figure-2",
+        "What ever appears of the 14 points of Figure 2, computed from the paper's scopes (§2.2)",
+        &["", "computed", "paper"],
+    );
+    for ((what, paper), mean) in
+        [("triangles", "34.592"), ("edges", "44.559")].into_iter().zip(means(&FOURTEEN))
+    {
+        table.row([what.to_owned(), format!("{mean:.3}"), paper.to_owned()]);
     }
     table
 }
@@ -147,7 +164,7 @@ fn chosen(n: usize, k: usize, r: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{chosen, means};
+    use super::{FOURTEEN, chosen, means};
 
     #[test]
     fn means_of_a_triangle() {
@@ -162,7 +179,7 @@ mod tests {
     /// The paper's example of 14 points (§2.2): its numbers of triangles of each scope give its two means.
     #[test]
     fn knuths_fourteen_points() {
-        let [triangles, edges] = means(&[17, 32, 42, 44, 47, 44, 40, 33, 28, 18, 12, 7]);
+        let [triangles, edges] = means(&FOURTEEN);
         assert_eq!(format!("{triangles:.3} {edges:.3}"), "34.592 44.559");
     }
 }

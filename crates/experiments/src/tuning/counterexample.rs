@@ -11,7 +11,6 @@ use delone_generators::Kind;
 
 use super::count;
 use crate::plot::Plot;
-use crate::table::Table;
 use crate::trials::Trials;
 use crate::{Error, Findings, Options};
 
@@ -34,7 +33,7 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         "exact: phase 3",
         "in-circle: phase 3",
     ];
-    let mut table = Table::new("tuning-counterexample", title, &heads);
+    let mut table = options.table("tuning-counterexample", title, &heads);
     let mut plot =
         Plot::new("tuning-counterexample", "A hub misleads phase 3", ["points", "triangles visited"]);
     let variants = [

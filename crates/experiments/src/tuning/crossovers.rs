@@ -6,7 +6,8 @@ use delone_generators::Kind;
 use super::{count, uniform};
 use crate::phases::operations;
 use crate::plot::Plot;
-use crate::table::{Table, short};
+use crate::table::short;
+use crate::trials::Trials;
 use crate::{Error, Findings, Options};
 
 /// The paper's ratio in the figures.
@@ -67,20 +68,6 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         .map(|k| (10.0 * 1.4f64.powi(k)).round() as usize)
         .take_while(|&n| n <= options.largest)
         .collect();
-    let mut curves: Vec<Vec<(f64, f64)>> = vec![Vec::new(); ways.len()];
-    for &n in &sizes {
-        for (way, curve) in ways.iter().zip(&mut curves) {
-            let mut sum = 0.0;
-            for set in 0..SETS {
-                let seed = options.seed + 100 * set;
-                // One by one: a walk begins at the last of random points.
-                let (d, _) = uniform(n, Hierarchy { seed, ..way.2 }, seed)?;
-                let phases = count(&d, &Kind::Uniform.points(QUERIES, seed + 1))?;
-                sum += operations(&phases, QUERIES) / SETS as f64;
-            }
-            curve.push((n as f64, sum));
-        }
-    }
     let heads = [
         "points",
         "walk",
@@ -94,18 +81,29 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         "two levels: edges of 4.2",
     ];
     let title = "Operations of a query among few points (Devillers 1998, 4.5, Figure 4)";
-    let mut counted = Table::new("tuning-operations", title, &heads);
-    for (k, &n) in sizes.iter().enumerate() {
-        let both = ways.iter().zip(&curves).flat_map(|(way, curve)| {
-            let n = n as f64;
-            [curve[k].1, way.1(n, Edges::AsPrinted), way.1(n, Edges::AsDerived)]
-        });
-        counted.row([n.to_string()].into_iter().chain(both.map(short)));
+    let mut counted = options.table("tuning-operations", title, &heads);
+    let mut curves: Vec<Vec<(f64, f64)>> = vec![Vec::new(); ways.len()];
+    for &n in &sizes {
+        let mut cells = vec![n.to_string()];
+        for (way, curve) in ways.iter().zip(&mut curves) {
+            let mut trials = Trials::default();
+            for set in 0..SETS {
+                let seed = options.seed + 100 * set;
+                // One by one: a walk begins at the last of random points.
+                let (d, _) = uniform(n, Hierarchy { seed, ..way.2 }, seed)?;
+                let phases = count(&d, &Kind::Uniform.points(QUERIES, seed + 1))?;
+                trials.add(operations(&phases, QUERIES));
+            }
+            cells.push(trials.to_string());
+            cells.extend([Edges::AsPrinted, Edges::AsDerived].map(|edges| short(way.1(n as f64, edges))));
+            curve.push((n as f64, trials.mean()));
+        }
+        counted.row(cells);
     }
-    let mut table = Table::new(
+    let mut table = options.table(
         "tuning-crossovers",
         "From how many points on one way takes fewer operations than another (Devillers 1998, 4.5, Figure 4)",
-        &["better", "than", "paper", "its formulas", "with the edges of 4.2", "measured"],
+        &["better", "than", "paper", "its formulas", "with the edges of 4.2", "measured crossover"],
     );
     for (better, worse, paper) in [(1, 0, 40), (2, 0, 180), (2, 1, 600)] {
         let [printed, derived] = [Edges::AsPrinted, Edges::AsDerived].map(|edges| {

@@ -4,7 +4,6 @@ use delone::{Delaunay2, Hierarchy, Locate, Nearest};
 use delone_generators::{Kind, Random};
 
 use super::{QUERIES, count};
-use crate::table::Table;
 use crate::trials::Trials;
 use crate::{Error, Findings, Options};
 
@@ -17,11 +16,9 @@ const KINDS: [(Kind, &str); 4] = [
 
 /// Two levels; queries are random points of the set, left out of it.
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let n = options.largest.min(30_000);
-    let title = format!(
-        "The lowest level of a hierarchy over {n} points of any kind, and the bounds of the analysis (Devillers 1998, 3)"
-    );
+    let title = "The lowest level of a hierarchy over points of any kind, and the bounds of the analysis (Devillers 1998, 3)";
     let heads = [
+        "points",
         "set",
         "ratio",
         "degree of nearest",
@@ -31,18 +28,27 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         "triangles of phase 3",
         "Lemma 5",
     ];
-    let mut table = Table::new("tuning-lemmas", &title, &heads);
-    for (kind, name) in KINDS {
+    let mut table = options.table("tuning-lemmas", title, &heads);
+    for (n, (kind, name)) in options.ends(1_000, 30_000).flat_map(|n| KINDS.map(|set| (n, set))) {
         for ratio in [4.0, 30.0] {
             let mut trials: [Trials; 3] = Default::default();
-            for trial in 0..options.trials as u64 {
-                let seed = options.seed + trial;
+            for seed in options.seeds() {
                 measure(kind, n, ratio, seed)?.into_iter().zip(&mut trials).for_each(|(x, t)| t.add(x));
             }
             let [degree, crossed, searched] = trials.map(|t| t.to_string());
             let bounds = [36.0, 24.0 * ratio + 3.0, 36.0 * ratio].map(|bound| bound.to_string());
             let [first, third, fifth] = bounds;
-            table.row([name.to_owned(), ratio.to_string(), degree, first, crossed, third, searched, fifth]);
+            table.row([
+                n.to_string(),
+                name.to_owned(),
+                ratio.to_string(),
+                degree,
+                first,
+                crossed,
+                third,
+                searched,
+                fifth,
+            ]);
         }
     }
     findings.tables.push(table);

@@ -14,7 +14,7 @@ use delone_generators::Kind;
 
 use super::phases::{Phases, operations};
 use super::plot::Plot;
-use super::table::{Table, short};
+use super::table::short;
 use super::trials::Trials;
 use super::{Error, Findings, Options, timed};
 use crossovers::Edges;
@@ -63,11 +63,11 @@ fn uniform(n: usize, hierarchy: Hierarchy, seed: u64) -> Result<(Delaunay2, f64)
 
 /// §4.1 to §4.3: what each phase does on a level, beside what the paper expects.
 fn phases(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let n = options.largest.min(POINTS);
-    let mut table = Table::new(
+    let mut table = options.table(
         "tuning-phases",
-        &format!("A level of a hierarchy over {n} points in a square, by phase (Devillers 1998, 4.1 to 4.3)"),
+        "A level of a hierarchy over points in a square, by phase (Devillers 1998, 4.1 to 4.3)",
         &[
+            "points",
             "ratio",
             "phase 3",
             "turn: orientations",
@@ -80,13 +80,12 @@ fn phases(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             "phase 3: in-circle tests",
         ],
     );
-    for ratio in [8.0, 30.0] {
+    for (n, ratio) in options.ends(1_000, POINTS).flat_map(|n| [8.0, 30.0].map(|ratio| (n, ratio))) {
         for (name, nearest) in
             [("corner", Nearest::Corner), ("exact", Nearest::Exact), ("in-circle", Nearest::InCircle)]
         {
             let mut trials: [Trials; 5] = Default::default();
-            for trial in 0..options.trials as u64 {
-                let seed = options.seed + trial;
+            for seed in options.seeds() {
                 let hierarchy = Hierarchy { ratio, nearest, seed, ..Hierarchy::only_levels() };
                 let mut d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
                 d.set_strategy(Locate::Hierarchy(hierarchy))?;
@@ -111,6 +110,7 @@ fn phases(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             let crossed = short(2.0 * ratio.sqrt() / PI.sqrt());
             let paper = if nearest == Nearest::Corner { "0" } else { "below 8" };
             table.row([
+                n.to_string(),
                 ratio.to_string(),
                 name.to_owned(),
                 turn,
@@ -130,13 +130,11 @@ fn phases(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
 
 /// §4.4: operations, time and memory by the ratio.
 fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let n = options.largest.min(POINTS);
-    let mut table = Table::new(
+    let mut table = options.table(
         "tuning-ratio",
-        &format!(
-            "Cost of a query among {n} points in a square by the ratio between levels (Devillers 1998, 4.4)"
-        ),
+        "Cost of a query among points in a square by the ratio between levels (Devillers 1998, 4.4)",
         &[
+            "points",
             "ratio",
             "operations",
             "paper's formula",
@@ -151,10 +149,13 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         ],
     );
     let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
-    for ratio in RATIOS {
+    let mut shown = 0;
+    for (n, ratio) in options.ends(1_000, POINTS).flat_map(|n| RATIOS.map(|ratio| (n, ratio))) {
+        if ratio == RATIOS[0] {
+            (curves, shown) = (Default::default(), n);
+        }
         let mut trials: [Trials; 7] = Default::default();
-        for trial in 0..options.trials as u64 {
-            let seed = options.seed + trial;
+        for seed in options.seeds() {
             let queries = Kind::Uniform.points(QUERIES, seed + 1000);
             let each = |count: u64| count as f64 / QUERIES as f64;
             let hierarchy = Hierarchy { ratio, seed, ..Hierarchy::default() };
@@ -186,6 +187,7 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         let [count, visited, with_sample, visited_with, ns, insertion, memory] =
             trials.map(|t| t.to_string());
         table.row([
+            n.to_string(),
             ratio.to_string(),
             count,
             short(printed),
@@ -201,7 +203,7 @@ fn ratios(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     }
     let mut plot = Plot::new(
         "tuning-ratio",
-        &format!("Operations of a query among {n} points by the ratio between levels"),
+        &format!("Operations of a query among {shown} points by the ratio between levels"),
         ["ratio", "floating-point operations"],
     );
     let names = ["levels", "levels and sample", "the paper's formula", "the same with the edges of 4.2"];
