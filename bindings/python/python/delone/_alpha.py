@@ -96,8 +96,8 @@ class AlphaComplex:
         return [rings[end - count : end] for end, count in zip(ends, counts.tolist(), strict=True)]
 
     def manifold(self, alpha: float) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """The outline in space at a squared radius as a closed surface: where sheets of it touch along an edge or in a vertex, each
-        has a copy of it, so every edge has two triangles.
+        """The outline in space at a squared radius as a closed surface: where sheets of it touch along an edge or in a vertex,
+        each has a copy of it, so every edge has two triangles.
 
         The point of each vertex, of shape (m,), and triangles as indices of vertices, of shape (count, 3), counter-clockwise seen
         from outside. ValueError in the plane.
