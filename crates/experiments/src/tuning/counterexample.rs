@@ -21,7 +21,7 @@ const SEEDS: u64 = 4;
 
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let title = "Triangles visited a query among points on a spiral into a hub, by phase 3 (Devillers 1998, appendix); mean \
-                 and deviation over random samples";
+                 and standard error over random samples";
     let heads = [
         "ratio",
         "points",
