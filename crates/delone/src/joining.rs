@@ -23,7 +23,7 @@ pub const MERGE_AUTO: f64 = 9.094_947_017_729_282e-13;
 /// Which vertex of a diagram each vertex becomes, if sides up to a length are contracted.
 ///
 /// `places` are the vertices, in the plane or in space; `sides` their pairs as indices; the length is in coordinate units.
-/// Vertices at equal places become one, too. The answer has for each vertex the index of the one that it becomes. See
+/// Vertices at equal places become one, too; those that are not finite are near to none. The answer has for each vertex the index of the one that it becomes. See
 /// [`MERGE_AUTO`] for a length of rounding.
 ///
 /// Errors: a length that is negative or not finite ([`Error::Parameter`]), a side with an index of no vertex ([`Error::NoSuchPoint`]).
@@ -72,9 +72,10 @@ pub(crate) fn check(length: f64) -> Result<(), Error> {
     }
 }
 
-/// Compares by the first coordinate that differs.
+/// Compares by the first coordinate that differs; zeros are equal, and NaN has an order too, or no sort would end well.
 fn compare<P: Coordinates>(p: &P, q: &P) -> Ordering {
-    p.as_ref().partial_cmp(q.as_ref()).unwrap_or(Ordering::Equal) // None is NaN
+    let mut both = p.as_ref().iter().zip(q.as_ref());
+    both.find_map(|(x, y)| (x != y).then(|| x.total_cmp(y))).unwrap_or(Ordering::Equal)
 }
 
 /// Places by number: by rank, then lexicographically. Equal ones have one number.
@@ -206,6 +207,11 @@ mod tests {
         for length in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(matches!(merged_vertices(&[[0.0; 2]], &[], length), Err(Error::Parameter { .. })));
         }
+        // What is no place is near to none, and nothing panics.
+        let places: Vec<[f64; 2]> =
+            (0..200).map(|i| [[f64::NAN, 1.0, f64::INFINITY][i % 3], i as f64]).collect();
+        let sides: Vec<[u32; 2]> = (0..199).map(|i| [i, i + 1]).collect();
+        assert_eq!(merged_vertices(&places, &sides, 9.0), Ok((0..200).collect()));
         let wrong = merged_vertices(&[[0.0; 2]], &[[0, 0], [0, 1]], 1.0);
         assert_eq!(wrong, Err(Error::NoSuchPoint { segment: 1, index: 1, count: 1 }));
     }
