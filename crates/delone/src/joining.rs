@@ -59,8 +59,7 @@ pub fn merged_vertices<P: Coordinates>(
     }) {
         return Err(Error::NoSuchPoint { segment, index, count });
     }
-    let numbered = Numbered::of(places, &|_| 0);
-    Ok(numbered.joined(sides, length, &|_, _| true))
+    Ok(Numbered::of(places).joined(sides, length, &|_, _| true))
 }
 
 /// Whether a length is one.
@@ -85,17 +84,17 @@ pub(crate) struct Numbered<'a, P> {
     indices: Vec<u32>,
     /// By index.
     numbers: Vec<u32>,
-    rank: &'a dyn Fn(usize) -> u8,
+    /// By number.
+    ranks: Vec<u8>,
 }
 
 impl<'a, P: Coordinates> Numbered<'a, P> {
-    /// Of two places that become one that of lower rank stays, by index; equal places that are asked for have one index.
-    pub(crate) fn of(places: &'a [P], rank: &'a dyn Fn(usize) -> u8) -> Self {
+    /// All of one rank.
+    pub(crate) fn of(places: &'a [P]) -> Self {
         let mut indices: Vec<u32> = (0..places.len() as u32).collect();
         let at = |i: u32| &places[i as usize];
-        sorting::by(&mut indices, |&i, &j| {
-            rank(i as usize).cmp(&rank(j as usize)).then_with(|| compare(at(i), at(j)))
-        });
+        // This is most of the work.
+        indices.sort_by(|&i, &j| compare(at(i), at(j)));
         let mut numbers = vec![0; places.len()];
         let mut count = 0;
         for k in 0..indices.len() {
@@ -106,7 +105,27 @@ impl<'a, P: Coordinates> Numbered<'a, P> {
             numbers[indices[k] as usize] = count as u32 - 1;
         }
         indices.truncate(count);
-        Self { places, indices, numbers, rank }
+        Self { places, indices, numbers, ranks: vec![0; count] }
+    }
+
+    /// For each place the index of one that it equals, the same for all of them.
+    pub(crate) fn equal(&self) -> Vec<u32> {
+        self.numbers.iter().map(|&number| self.indices[number as usize]).collect()
+    }
+
+    /// The same places with ranks, given by index: of two that become one that of the lower rank stays.
+    pub(crate) fn ranked(self, rank: impl Fn(usize) -> u8) -> Self {
+        let ranks: Vec<u8> = self.indices.iter().map(|&i| rank(i as usize)).collect();
+        let mut order: Vec<u32> = (0..ranks.len() as u32).collect();
+        order.sort_by_key(|&number| ranks[number as usize]);
+        let mut new = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(number, &old)| new[old as usize] = number as u32);
+        Self {
+            places: self.places,
+            indices: order.iter().map(|&old| self.indices[old as usize]).collect(),
+            numbers: self.numbers.iter().map(|&old| new[old as usize]).collect(),
+            ranks: order.iter().map(|&old| ranks[old as usize]).collect(),
+        }
     }
 
     fn place(&self, number: u32) -> &P {
@@ -125,7 +144,7 @@ impl<'a, P: Coordinates> Numbered<'a, P> {
         let ends = |sets: &mut Sets, side: usize| {
             let [a, b] = sides[side].map(|i| sets.find(self.numbers[i as usize]));
             let part = part(self.place(a), self.place(b), length);
-            let ranks = [a, b].map(|number| (self.rank)(self.indices[number as usize] as usize));
+            let ranks = [a, b].map(|number| self.ranks[number as usize]);
             (a != b && part <= 1.0 && may(ranks, side)).then_some((part, [a.min(b), a.max(b)]))
         };
         loop {

@@ -47,7 +47,8 @@ impl Cells2 {
     pub fn merged(mut self, length: f64, region: &Region2) -> Result<Self, Error> {
         joining::check(length)?;
         // Of equal places one vertex.
-        let one = Numbered::of(&self.vertices, &|_| 0).joined(&[], 0.0, &|_, _| false);
+        let numbered = Numbered::of(&self.vertices);
+        let one = numbered.equal();
         self.corners.iter_mut().for_each(|v| *v = one[*v as usize]);
         let sides = self.sides();
         let is_border = borders(&sides);
@@ -61,8 +62,7 @@ impl Cells2 {
                 *rank = CORNER;
             }
         }
-        let rank = |v: usize| ranks[v];
-        let numbered = Numbered::of(&self.vertices, &rank);
+        let numbered = numbered.ranked(|v| ranks[v]);
         let mut stays = vec![false; self.vertices.len()];
         loop {
             let to = numbered.joined(&sides, length, &|ranks, side| {
@@ -183,17 +183,14 @@ fn is_near(at: Point, [p, q]: [Point; 2], largest: f64) -> bool {
 
 /// Of sides, whether no cell has it the other way round.
 fn borders(sides: &[[u32; 2]]) -> Vec<bool> {
-    let key = |i: u32| {
-        let [v, w] = sides[i as usize];
-        [v.min(w), v.max(w)]
-    };
-    let mut order: Vec<u32> = (0..sides.len() as u32).collect();
-    sorting::by_key(&mut order, |&i| key(i));
+    let ends = sides.iter().map(|&[v, w]| [v.min(w), v.max(w)]);
+    let mut order: Vec<([u32; 2], u32)> = ends.zip(0..).collect();
+    order.sort_unstable();
     let mut borders = vec![false; sides.len()];
-    for same in order.chunk_by(|&i, &j| key(i) == key(j)) {
-        let forwards = same.iter().filter(|&&i| sides[i as usize][0] < sides[i as usize][1]).count();
+    for same in order.chunk_by(|a, b| a.0 == b.0) {
+        let forwards = same.iter().filter(|&&(ends, i)| sides[i as usize] == ends).count();
         if 2 * forwards != same.len() {
-            same.iter().for_each(|&i| borders[i as usize] = true);
+            same.iter().for_each(|&(_, i)| borders[i as usize] = true);
         }
     }
     borders
