@@ -20,6 +20,11 @@ const CORNER: u8 = 0;
 const BORDER: u8 = 1;
 const INSIDE: u8 = 2;
 
+/// Where cells are as small as the length, rings go bad beside those that stay, round after round. After so many rounds their neighbours
+/// stay too, more of them each time, and after the last everything.
+const ALONE: usize = 4;
+const ROUNDS: usize = 12;
+
 /// How far a corner on the border is from it at most, as a part of the largest coordinate: 2^-50, four units in the last place. Each
 /// coordinate was rounded once, and so was each of the side.
 const ON_BORDER: f64 = 8.881_784_197_001_252e-16;
@@ -30,7 +35,7 @@ impl Cells2 {
     ///
     /// `region` is what the cells were clipped to. They still tile it, and all of its corners are kept, however near to each other they are.
     /// A cell without three corners is empty then. Short sides are left between corners of the region, between its borders, and
-    /// where a ring would cross itself or turn over without them.
+    /// where a ring would cross itself or turn over without them; if the length is that of cells, beside those too.
     ///
     /// Errors: a length that is negative or not finite. Cost: O(n log n) for n corners.
     ///
@@ -64,7 +69,7 @@ impl Cells2 {
         }
         let numbered = numbered.ranked(|v| ranks[v]);
         let mut stays = vec![false; self.vertices.len()];
-        loop {
+        for round in 0..=ROUNDS + 1 {
             let to = numbered.joined(&sides, length, &|ranks, side| {
                 let is_along = is_border[side] || ranks.contains(&INSIDE);
                 is_along && ranks != [CORNER; 2] && !sides[side].iter().any(|&v| stays[v as usize])
@@ -79,6 +84,24 @@ impl Cells2 {
                 return Ok(self);
             }
             bad.into_iter().for_each(|v| stays[v as usize] = true);
+            for _ in ALONE..round {
+                self.spread(&mut stays);
+            }
+            if round == ROUNDS {
+                stays.fill(true);
+            }
+        }
+        Ok(self)
+    }
+
+    /// All corners of cells of which one stays stay too.
+    fn spread(&self, stays: &mut [bool]) {
+        let before = stays.to_vec();
+        for &site in &self.sites {
+            let corners = || self.ranges(site).flat_map(|ring| &self.corners[ring]);
+            if corners().any(|&v| before[v as usize]) {
+                corners().for_each(|&v| stays[v as usize] = true);
+            }
         }
     }
 
