@@ -10,7 +10,9 @@
 //! (Devillers, "Delaunay triangulation of imprecise points", JoCG 2011, §5: Brownian motion). Every way leads to the
 //! canonical triangulation of the positions.
 //!
-//! Cost: O(n) tests, and O(d log d) for each hole of d tetrahedra; that of an instance with hints otherwise.
+//! Cost: O(n) tests, and O(d log d) for each hole of d tetrahedra as often as it is filled, an eighth of all tetrahedra at most; that of
+//! an instance with hints otherwise. After a repair that gave up, hints make the next steps, so that points which move far cost an
+//! instance with hints and a few hundredths.
 
 use super::check::check_winding;
 use super::layer::Layer;
@@ -23,9 +25,18 @@ use crate::order::HintOrder;
 use crate::points::{Position3, check_in_space};
 use crate::prefetch::prefetch;
 
-/// One tetrahedron in so many may be bad before hints are faster; one in so many may go.
-const BAD: usize = 7;
+/// One tetrahedron in so many may be bad: with a twelfth, repair takes as long as a construction (2,000 points, 100,000 points; one in
+/// seven: 1.5 times as long; one in twenty: hints take over where repair is 1.5 times as fast).
+const BAD: usize = 12;
+/// One tetrahedron in so many may go.
 const GONE: usize = 3;
+/// One tetrahedron in so many may be filled, counted each time that its hole is: holes that grow into each other are filled again and
+/// again (one in four: a step that gives up took 2.1 constructions of 100,000 points; one in sixteen: small steps give up).
+const FILLED: usize = 8;
+/// So many tetrahedra more, for sets of a few points.
+const SMALL_SET: usize = 16;
+/// Steps by hints after a repair that gave up, at most: one after the first, then twice as many and one more each time.
+const PAUSE: u32 = 31;
 /// How many tetrahedra ahead memory is asked.
 const AHEAD: usize = 12;
 /// Marks while holes are made: to go, and in the hole at hand.
@@ -68,6 +79,9 @@ pub struct Moving3 {
     bad: Vec<TetrahedronId>,
     /// Vertices that left their hole, each with a tetrahedron near where it was.
     lost: Vec<(Place, TetrahedronId)>,
+    /// Steps until repair is tried again, and how many these were after the last repair that gave up.
+    pause: u32,
+    last_pause: u32,
 }
 
 impl Moving3 {
@@ -78,7 +92,7 @@ impl Moving3 {
     pub fn from_points<P: Position3>(positions: &[P]) -> Result<Self, Error> {
         let mut hints = Hints3::from_points(positions, HintOrder::default())?;
         hints.triangulate(positions)?;
-        Ok(Self { hints, bad: Vec::new(), lost: Vec::new() })
+        Ok(Self { hints, bad: Vec::new(), lost: Vec::new(), pause: 0, last_pause: 0 })
     }
 
     /// The triangulation of the last positions. Vertex i is the i-th of them.
@@ -98,8 +112,15 @@ impl Moving3 {
             return Err(Error::Length { expected, found: positions.len() });
         }
         check_in_space(positions)?;
-        if let Some(step) = self.repair(positions) {
-            return Ok(step);
+        if self.pause == 0 {
+            if let Some(step) = self.repair(positions) {
+                self.last_pause = 0;
+                return Ok(step);
+            }
+            self.last_pause = (2 * self.last_pause + 1).min(PAUSE);
+            self.pause = self.last_pause;
+        } else {
+            self.pause -= 1;
         }
         self.hints.follow(positions)?;
         Ok(if self.hints.gave_up() { Step3::Rebuilt } else { Step3::Hinted })
@@ -120,7 +141,8 @@ impl Moving3 {
         let mut fill = layer.fill.take().unwrap_or_default();
         self.lost.clear();
         let mut mend = Mend {
-            room: layer.mesh.cells.len() / GONE + 64,
+            room: layer.mesh.cells.len() / GONE + SMALL_SET,
+            work: layer.mesh.cells.len() / FILLED + SMALL_SET,
             layer: &mut *layer,
             hole: &mut hole,
             fill: &mut fill,
@@ -149,7 +171,7 @@ impl Moving3 {
 /// Collects and marks the tetrahedra that are not in positive order, or in conflict with the apex of a neighbour. None if
 /// they are too many.
 fn find_bad(layer: &mut Layer, bad: &mut Vec<TetrahedronId>) -> Option<()> {
-    let most = layer.mesh.cells.len() / BAD + 64;
+    let most = layer.mesh.cells.len() / BAD + SMALL_SET;
     bad.clear();
     let mut mark = |layer: &mut Layer, t: TetrahedronId| {
         let mark = &mut layer.mesh.marks[t.index()];
@@ -212,6 +234,8 @@ struct Mend<'a> {
     lost: &'a mut Vec<(Place, TetrahedronId)>,
     /// So many tetrahedra may still go.
     room: usize,
+    /// So many may still be filled, each as often as its hole is filled anew.
+    work: usize,
 }
 
 impl Mend<'_> {
@@ -232,6 +256,7 @@ impl Mend<'_> {
     fn one(&mut self, seed: TetrahedronId) -> Option<()> {
         self.hole.cells.clear();
         self.take(seed)?;
+        self.pay()?;
         while let Some(more) = self.fill() {
             if more.is_empty() {
                 return None;
@@ -239,8 +264,15 @@ impl Mend<'_> {
             for t in more {
                 self.take(t)?;
             }
+            self.pay()?;
         }
         self.close()
+    }
+
+    /// Counts the filling of the hole at hand. None if there have been too many.
+    fn pay(&mut self) -> Option<()> {
+        self.work = self.work.checked_sub(self.hole.cells.len())?;
+        Some(())
     }
 
     /// Takes a tetrahedron and all bad ones that hang together with it into the hole. None if there is no more room. What

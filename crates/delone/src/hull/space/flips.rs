@@ -4,7 +4,8 @@
 //! hull by tells whether the point is outside, and is split in three then. Across each edge of the star of the new point, if
 //! the point sees what is there, the edge is flipped; or a corner with three facets, which the point has covered, is cut off
 //! (three facets give way to one). An edge whose flip would fold the hull waits until its neighbours have been flipped. No
-//! facet is forgotten: each points to the one, two or three that took its place, which the ray is traced through.
+//! facet is forgotten: each points to the one, two or three that took its place, which the ray is traced through. A facet on the way
+//! that has the point behind it ends the search: the point is inside.
 //!
 //! Source: Guibas, Knuth & Sharir, "Randomized incremental construction of Delaunay and Voronoi diagrams", Algorithmica 1992,
 //! §4.1. The paper makes the lower hull and the upper one, seen along parallel lines; lines from inside make both at once.
@@ -56,8 +57,7 @@ impl Hull3 {
         SplitMix(seed).shuffle(&mut order);
         work.created(4);
         for i in order {
-            let f = flips.trace(points[i], &mut work);
-            if flips.shell.sees(points[i], f) {
+            if let Some(f) = flips.trace(points[i], &mut work) {
                 flips.insert(i as u32, f, &mut work);
             }
         }
@@ -95,29 +95,39 @@ impl Flips {
         orient3d(self.centre, a, b, q)
     }
 
-    /// The facet by which the ray from the centre to a point leaves the hull.
-    fn trace<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> u32 {
+    /// The facet by which the ray from the centre to a point leaves the hull. None at the first facet, of those that ever were, that has
+    /// the point behind it: the hull has grown since.
+    fn trace<T: Tally>(&self, q: [f64; 3], tally: &mut T) -> Option<u32> {
         let corners = |f: u32| self.shell.facets[f as usize].corners;
-        let mut side = |a: u32, b: u32| {
+        let side = |tally: &mut T, a: u32, b: u32| {
             tally.orientation();
             self.side(a, b, q)
         };
         let holds = |f: &u32| {
             let [a, b, c] = corners(*f);
-            [[a, b], [b, c], [c, a]].into_iter().all(|[u, v]| !side(u, v).is_negative())
+            [[a, b], [b, c], [c, a]].into_iter().all(|[u, v]| !side(tally, u, v).is_negative())
         };
         let mut f = (0..4).find(holds).unwrap_or(0);
-        let mut steps = 1;
-        while !self.shell.facets[f as usize].alive {
+        loop {
+            tally.visited();
+            tally.orientation();
+            let (is_seen, [a, b, c]) = (self.shell.sees(q, f), corners(f));
+            if self.shell.facets[f as usize].alive {
+                return is_seen.then_some(f);
+            }
+            // A facet in a plane with the centre has nothing behind it.
+            if !is_seen && self.side(a, b, self.shell.points[c as usize]).is_positive() {
+                return None;
+            }
             let first = self.shell.facets[f as usize].head;
             f = match self.counts[f as usize] {
                 // Around the new point, which is their last corner.
                 3 => {
                     let ([a, b, p], c) = (corners(first), corners(first + 1)[1]);
                     let (a_b, b_c, c_a) = (first, first + 1, first + 2);
-                    if side(p, b).is_positive() {
-                        if side(p, c).is_negative() { b_c } else { c_a }
-                    } else if side(p, a).is_negative() {
+                    if side(tally, p, b).is_positive() {
+                        if side(tally, p, c).is_negative() { b_c } else { c_a }
+                    } else if side(tally, p, a).is_negative() {
                         c_a
                     } else {
                         a_b
@@ -126,14 +136,11 @@ impl Flips {
                 // On the two sides of the edge that the flip made.
                 2 => {
                     let [_, z, p] = corners(first);
-                    if side(z, p).is_negative() { first + 1 } else { first }
+                    if side(tally, z, p).is_negative() { first + 1 } else { first }
                 }
                 _ => first,
             };
-            steps += 1;
         }
-        (0..steps).for_each(|_| tally.visited());
-        f
     }
 
     /// Facets in the place of others.
