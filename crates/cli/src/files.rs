@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use delone_io::{Cloud, Format, Graph, Output, Raster, ReadOptions, Remark, Source, decompressed, followed};
 
 use crate::args::InputArgs;
+use crate::limits;
 use crate::message::{Failure, note};
 use crate::progress::Phase;
 
@@ -210,6 +211,7 @@ fn read_all(
         }
         let told = all.remarks.len() + cloud.remarks.len();
         all.join(cloud).map_err(failed)?;
+        limits::check_points(all.xy.len(), path)?;
         all.remarks[told..].iter().for_each(|remark| note(quiet, remark));
     }
     Ok(all)
@@ -276,6 +278,7 @@ pub(crate) fn graph_with_points(
         }
         let told = all.cloud.remarks.len() + graph.cloud.remarks.len();
         all.join(graph).map_err(failed)?;
+        limits::check_points(all.cloud.xy.len(), path)?;
         all.cloud.remarks[told..].iter().for_each(|remark| note(quiet, remark));
     }
     if let Some(path) = segments {

@@ -21,6 +21,7 @@ mod hull;
 mod info;
 mod instances;
 mod interpolate;
+mod limits;
 mod locate;
 mod memory;
 mod mesh;
@@ -68,6 +69,7 @@ fn main() -> ExitCode {
         Err(error) => return message::usage(&error),
     };
     let quiet = cli.quiet;
+    limits::start(cli.max_memory, cli.max_points);
     signals::clean_up();
     start_threads(cli.threads, quiet);
     let result = match cli.command {

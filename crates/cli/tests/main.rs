@@ -9,6 +9,7 @@ mod features;
 mod files;
 mod folder;
 mod graph;
+mod limits;
 mod mesh;
 mod metamorphic;
 mod narrow;

@@ -8,7 +8,10 @@ use crate::Format;
 pub enum Error {
     /// The operating system said no, or the file ended too early.
     #[error(transparent)]
-    Io(#[from] std::io::Error),
+    Io(std::io::Error),
+    /// Compressed content is more than 1,000 times as long as the file ([`crate::trust_compressed`]).
+    #[error("its compressed content is more than 1,000 times as long as the file")]
+    Expands,
     /// A line of a text format is wrong.
     #[error("line {line}: {}", clipped(what))]
     Line {
@@ -154,6 +157,13 @@ pub enum Error {
     },
 }
 
+impl From<std::io::Error> for Error {
+    fn from(error: std::io::Error) -> Self {
+        // Readers that decompress can only say it by way of an error of input.
+        error.downcast::<Self>().unwrap_or_else(Self::Io)
+    }
+}
+
 impl Error {
     pub(crate) fn content(what: impl Into<String>) -> Self {
         Self::Content(what.into())
@@ -163,6 +173,7 @@ impl Error {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Truncated(_) => "copy or download it again: it is shorter than it says",
+            Self::Expands => "if it is meant, allow memory with --max-memory SIZE, or decompress it first",
             Self::Io(_) => "check the name, the permissions and the room on the disk",
             Self::Line { .. } => "correct that line, or choose columns with --columns",
             Self::Content(_) => {

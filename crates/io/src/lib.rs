@@ -28,6 +28,7 @@ pub mod picture;
 mod raster;
 mod solid;
 mod trim;
+mod xml;
 
 pub use chunks::Take;
 pub use cloud::Cloud;
@@ -45,7 +46,7 @@ pub use formats::npy::{Element, write_array};
 pub use formats::poly::Beside;
 pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing};
-pub use input::decompressed;
+pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{Output, TemporaryFolder, followed, remove_unfinished};

@@ -56,6 +56,13 @@ pub(crate) struct Cli {
     /// the default constructions use them, in the plane and in space.
     #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) threads: Option<u16>,
+    /// Memory at most, in bytes or with K, M, G, T [default on Linux: as much as there is]. Compressed input may be of any length then;
+    /// without it, 1,000 times as long as its file.
+    #[arg(long, value_name = "SIZE", global = true, value_parser = tiles::size)]
+    pub(crate) max_memory: Option<u64>,
+    /// Points of the input at most.
+    #[arg(long, value_name = "N", global = true, value_parser = count)]
+    pub(crate) max_points: Option<usize>,
     #[command(subcommand)]
     pub(crate) command: Command,
 }

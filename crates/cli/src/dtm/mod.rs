@@ -33,6 +33,9 @@ use surface::{Kind, Surface};
 
 /// Rasters of more cells are refused.
 const MOST: f64 = 17_179_869_184.0;
+/// Cells for each point that are made without being asked for. Evenly spread points have one, n of them in a strip that is L times as long
+/// as wide sqrt(L / n); a few points far from the others have any number.
+const CELLS_A_POINT: f64 = 1000.0;
 /// Bytes of a cell of the row that is made, at the most.
 const ROW: f64 = 64.0;
 /// Cells that are made at a time, where nobody limits memory.
@@ -268,8 +271,12 @@ impl Job<'_> {
     fn grid(&self, bounds: &Bounds<2>, count: f64) -> Result<Grid, Failure> {
         let size = [0, 1].map(|k| bounds.high[k] - bounds.low[k]);
         let cell = self.args.cell.unwrap_or_else(|| round((size[0] * size[1] / count.max(1.0)).sqrt()));
-        let refuse =
-            |what: String| Failure::new(format!("{}: {what}", self.label.display()), "choose another --cell");
+        let refuse = |what: String| {
+            Failure::new(
+                format!("{}: {what}", self.label.display()),
+                "name a --cell, or leave out points that are far away",
+            )
+        };
         let grid = Grid::aligned(bounds, cell).map_err(|error| refuse(error.to_string()))?;
         if grid.cells() > MOST {
             return Err(refuse(format!(
@@ -277,6 +284,12 @@ impl Job<'_> {
                 grid.cells(),
                 grid.columns(),
                 grid.rows()
+            )));
+        }
+        if self.args.cell.is_none() && grid.cells() > CELLS_A_POINT * count {
+            return Err(refuse(format!(
+                "cells of {cell} would be {:e} for {count} points, of which some are far from the others",
+                grid.cells()
             )));
         }
         if cell > size[0].max(size[1]) {

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::manifest;
 use crate::args::TilesArgs;
 use crate::files;
+use crate::limits;
 use crate::message::{Failure, note};
 
 /// Points that are read at a time.
@@ -69,7 +70,8 @@ impl<'a> Input<'a> {
                             let what = format!("{}: it has no heights", path.display());
                             Err(Failure::new(what, "give files with heights: x, y and z"))
                         }
-                        _ => take(path, first, points, heights.filter(|_| self.args.heights)),
+                        _ => limits::check_points(first as usize + points.len(), path)
+                            .and_then(|()| take(path, first, points, heights.filter(|_| self.args.heights))),
                     };
                     first += points.len() as u64;
                     outcome.map_err(|failure| {

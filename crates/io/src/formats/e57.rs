@@ -2,12 +2,14 @@
 
 use e57::{CartesianCoordinate, E57Reader};
 
-use crate::{Cloud, Error, Source, guard};
+use crate::{Cloud, Error, Source, guard, xml};
 
 /// Reads the valid points.
-pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
+pub(crate) fn read(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
     let broken = |error: e57::Error| Error::content(format!("E57: {error}"));
     guard::decode("E57", || {
+        xml::check(&E57Reader::raw_xml(&mut source).map_err(broken)?)?;
+        source.rewind()?;
         let mut reader = E57Reader::new(source).map_err(broken)?;
         let mut cloud = Cloud::with_capacity(0, true);
         let mut invalid = 0_usize;

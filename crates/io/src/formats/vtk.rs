@@ -5,11 +5,12 @@ use std::io::Read;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
 use super::numbers::Number;
 use crate::error::excerpt;
-use crate::{Cloud, Error, Source};
+use crate::input::{Bounded, most_inflated};
+use crate::{Cloud, Error, Source, xml};
 
 fn broken(what: impl std::fmt::Display) -> Error {
     Error::content(format!("VTK: {what}"))
@@ -105,7 +106,7 @@ pub(crate) fn read_xml(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
     };
     let text = std::str::from_utf8(text).map_err(|_| broken("it is not text"))?;
     let whole = if appended.is_some() { format!("{text}</VTKFile>") } else { text.to_owned() };
-    let document = Document::parse(&whole).map_err(broken)?;
+    let document = xml::parse(&whole)?;
     let file = File::of(document.root_element(), appended)?;
     let mut cloud = Cloud::with_capacity(0, true);
     let pieces = document.descendants().filter(|node| node.has_tag_name("Points"));
@@ -230,12 +231,16 @@ impl<'a> File<'a> {
     /// Decompresses block after block.
     fn blocks(&self, lengths: &[u8], mut content: &[u8]) -> Result<Vec<u8>, Error> {
         let mut out = Vec::new();
+        let packed = content.len() as u64;
         for k in 0..self.number(lengths, 0)? {
             let length = self.number(lengths, 3 + k)?;
             let block = content.get(..length).ok_or_else(ended)?;
-            ZlibDecoder::new(block)
-                .read_to_end(&mut out)
-                .map_err(|_| broken("a compressed block is damaged"))?;
+            let left = most_inflated(packed).saturating_sub(out.len() as u64);
+            let inflated = Bounded::to(left, ZlibDecoder::new(block)).read_to_end(&mut out);
+            inflated.map_err(|error| match error.into() {
+                Error::Io(_) => broken("a compressed block is damaged"),
+                other => other,
+            })?;
             content = &content[length..];
         }
         Ok(out)

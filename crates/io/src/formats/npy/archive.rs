@@ -7,6 +7,7 @@ use flate2::Crc;
 use flate2::bufread::DeflateDecoder;
 
 use crate::Error;
+use crate::input::{Bounded, most_inflated};
 
 /// The last record and the longest comment after it.
 const LONGEST_END: u64 = 22 + 0xffff;
@@ -84,10 +85,14 @@ impl Entry {
             0 => packed,
             8 => {
                 let mut content = Vec::new();
-                DeflateDecoder::new(&packed[..]).take(self.size).read_to_end(&mut content).map_err(
-                    |error| match error.kind() {
-                        io::ErrorKind::OutOfMemory => Error::Io(error),
-                        _ => broken("a file is not deflated as it should be"),
+                let inflated = DeflateDecoder::new(&packed[..]).take(self.size);
+                Bounded::to(most_inflated(self.packed), inflated).read_to_end(&mut content).map_err(
+                    |error| {
+                        let is_memory = error.kind() == io::ErrorKind::OutOfMemory;
+                        match error.into() {
+                            Error::Io(_) if !is_memory => broken("a file is not deflated as it should be"),
+                            other => other,
+                        }
                     },
                 )?;
                 content

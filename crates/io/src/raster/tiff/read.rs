@@ -13,7 +13,7 @@ use super::{place, tag};
 use crate::crs::keys::{decode, is_point};
 use crate::error::excerpt;
 use crate::raster::Raster;
-use crate::{Error, Source, guard};
+use crate::{Error, Source, guard, xml};
 
 /// What a byte of LZW, the best of the compressions, can stand for at most.
 const BYTES_A_BYTE: u64 = 2048;
@@ -159,7 +159,7 @@ impl Meaning {
         };
         let nodata = if text.is_empty() { None } else { Some(number()?) };
         let mut meaning = Self { nodata, scale: 1.0, offset: 0.0 };
-        let Ok(document) = roxmltree::Document::parse(about.trim_matches('\0')) else { return Ok(meaning) };
+        let Ok(document) = xml::parse(about.trim_matches('\0')) else { return Ok(meaning) };
         for item in document.descendants().filter(|node| node.has_tag_name("Item")) {
             let is_first = item.attribute("sample").is_none_or(|sample| sample == "0");
             let value =
