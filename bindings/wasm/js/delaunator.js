@@ -10,7 +10,7 @@ export class Delaunator {
   static from(points, ...rest) {
     const options = takeOptions(rest);
     const [getX = pointX, getY = pointY] = rest;
-    return new Delaunator(flattened(points, (p) => getX(p), (p) => getY(p)), options);
+    return new Delaunator(flattened(points, (p) => getX(p), (p) => getY(p), undefined, false), options);
   }
 
   /** Of a flat array of coordinates, which is kept and not copied. */

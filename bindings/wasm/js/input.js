@@ -13,6 +13,15 @@ function checkLength(length, what) {
   return length;
 }
 
+/** The length of what has elements, checked: what only says that it is long would block for a minute, with nothing in it. */
+function lengthOf(values, what) {
+  const length = checkLength(values.length, what);
+  if (length && !(0 in Object(values)) && !(length - 1 in Object(values))) {
+    throw new DeloneError("input", `there are no elements, though the length is ${length}`);
+  }
+  return length;
+}
+
 /** As a number. What is missing is not zero, which `Number` says of `null`, of empty text and of empty arrays. */
 export function number(value) {
   if (typeof value === "number") return value;
@@ -30,7 +39,7 @@ const isArray = (value) => value != null && typeof value === "object" && "length
 /** Numbers in a row, from an array or what is like one; what is missing is NaN. */
 export function numbers(values, what) {
   if (!isArray(values)) throw new DeloneError("input", `${what} are an array of numbers`);
-  return Float64Array.from({length: checkLength(values.length, 1)}, (_, i) => number(values[i]));
+  return Float64Array.from({length: lengthOf(values, 1)}, (_, i) => number(values[i]));
 }
 
 /** Four numbers: least and largest x and y by turns, the larger ones not below. */
@@ -73,7 +82,7 @@ function checkAttached(array) {
 /** A flat array of coordinates, checked. What is a typed array already stays itself. */
 export function flatCoordinates(coords) {
   if (coords == null || typeof coords !== "object") throw new DeloneError("input", "Expected coords to contain numbers: there is no array.");
-  const length = checkLength(coords.length, 2);
+  const length = lengthOf(coords, 2);
   if (coords instanceof Float64Array) return length ? coords : checkAttached(coords);
   const flat = new Float64Array(length);
   for (let i = 0; i < length; ++i) {
@@ -85,12 +94,15 @@ export function flatCoordinates(coords) {
   return flat;
 }
 
-/** Points of any kind as a flat array, by functions that give their coordinates. `x` and `y` are called as d3 does. */
-export function flattened(points, x, y, that) {
+/**
+ * Points of any kind as a flat array, by functions that give their coordinates. `x` and `y` are called as d3 does; those of the caller
+ * may make a point of its index alone (`isByIndex`).
+ */
+export function flattened(points, x, y, that, isByIndex = x !== pointX) {
   if (points == null) throw new DeloneError("input", "there are no points");
   for (const f of [x, y]) if (typeof f !== "function") throw new DeloneError("input", "coordinates are told by functions");
   if ("length" in Object(points)) {
-    const length = checkLength(points.length, 1);
+    const length = isByIndex ? checkLength(points.length, 1) : lengthOf(points, 1);
     const flat = new Float64Array(2 * length);
     for (let i = 0; i < length; ++i) {
       const p = points[i];

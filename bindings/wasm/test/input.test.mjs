@@ -32,6 +32,8 @@ const bad = [
   ["a broken length", "length", undefined, {length: 2.5}],
   ["no length", "length", undefined, {}],
   ["too long", "too-many-points", undefined, {length: 2 ** 40}],
+  ["a length alone", "input", undefined, {length: 1e9}],
+  ["holes alone", "input", undefined, new Array(1e9)],
   ["nothing", "input", undefined, undefined],
   ["null itself", "input", undefined, null],
   ["a number", "input", undefined, 7],
@@ -51,6 +53,7 @@ test("refused: points that are none", () => {
     fails("not-finite", 2, () => Class.from([{x: 0, y: 0}, {x: 1, y: 1}, {x: 2}], (p) => p.x, (p) => p.y));
     fails("input", undefined, () => Class.from(null));
     fails("too-many-points", undefined, () => Class.from({length: 2 ** 33}));
+    fails("input", undefined, () => Class.from({length: 5e8}));
   }
   fails("input", undefined, () => Delaunay.from({}));
 });
