@@ -1,5 +1,7 @@
 //! A constrained triangulation, by its arrays, its changes and its queries.
 
+use std::sync::RwLockReadGuard;
+
 use delone::{
     Ask, Constrained2, Crossings, Fill, Inserted, RegionSeed2, Seeds2, SegmentEnds, SegmentId, TriangleId,
     Triangulation as _, VertexId,
@@ -12,6 +14,7 @@ use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
 use crate::pool::{FEW, detached, is_many, shared};
+use crate::shared::Shared;
 use crate::triangulation::{Rows, State, coordinates, table};
 
 /// Bytes that a segment takes, the input apart.
@@ -20,8 +23,11 @@ pub const SEGMENT: usize = 60;
 const SIGHTS: usize = 256;
 
 /// See `_delone.pyi`.
-#[pyclass(module = "delone._delone")]
-pub struct Constrained {
+#[pyclass(module = "delone._delone", frozen)]
+pub struct Constrained(Shared<Made>);
+
+/// What is shared.
+pub struct Made {
     pub state: State<Constrained2>,
     /// Segment ids given so far.
     segment_ids: usize,
@@ -55,27 +61,31 @@ impl Constrained {
         let size = work(points.len(), segments.len(), split);
         let how = if split { Crossings::Split } else { Crossings::Refuse };
         let built = interruptible(py, size, move || Constrained2::with_crossings(&points, &segments, how))?;
-        Ok(Self { state: State::of(built.map_err(python_error)?), segment_ids })
+        Ok(Self(Shared::new(Made { state: State::of(built.map_err(python_error)?), segment_ids })))
     }
 
     /// The coordinates of the points from an index on.
     fn points_from<'py>(&self, py: Python<'py>, first: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let points = self.made().points().get(first..).unwrap_or_default();
+        let this = self.0.read(py)?;
+        let points = this.made().points().get(first..).unwrap_or_default();
         PyArray1::from_slice(py, points.as_flattened()).reshape([points.len(), 2])
     }
 
     #[getter]
-    fn point_count(&self) -> usize {
-        self.made().points().len()
+    fn point_count(&self, py: Python<'_>) -> PyResult<usize> {
+        let this = self.0.read(py)?;
+        Ok(this.made().points().len())
     }
 
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        self.state.arrays(py)
+        let this = self.0.read(py)?;
+        this.state.arrays(py)
     }
 
     /// Whether the edge across from each corner is a constraint, a row for each triangle.
     fn sides<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        let c = self.made();
+        let this = self.0.read(py)?;
+        let c = this.made();
         let of = |t: TriangleId| [1, 2, 0].map(|k| c.is_constraint(t.edge(k)));
         let sides: Vec<bool> = py.detach(|| c.triangle_ids().flat_map(of).collect());
         let count = sides.len() / 3;
@@ -83,45 +93,53 @@ impl Constrained {
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        self.state.hull(py)
+        let this = self.0.read(py)?;
+        this.state.hull(py)
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        self.state.edges(py)
+        let this = self.0.read(py)?;
+        this.state.edges(py)
     }
 
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        self.state.duplicates(py)
+        let this = self.0.read(py)?;
+        this.state.duplicates(py)
     }
 
     #[getter]
-    fn vertex_count(&self) -> usize {
-        self.state.vertex_count()
+    fn vertex_count(&self, py: Python<'_>) -> PyResult<usize> {
+        let this = self.0.read(py)?;
+        Ok(this.state.vertex_count())
     }
 
     #[getter]
-    fn span(&self) -> i32 {
-        self.state.span()
+    fn span(&self, py: Python<'_>) -> PyResult<i32> {
+        let this = self.0.read(py)?;
+        Ok(this.state.span())
     }
 
     /// The constraint edges, the lesser end first.
     fn constraints<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let edges: Vec<[VertexId; 2]> = py.detach(|| self.made().constraints().collect());
+        let this = self.0.read(py)?;
+        let edges: Vec<[VertexId; 2]> = py.detach(|| this.made().constraints().collect());
         table(py, 2, edges.into_iter())
     }
 
     /// The ends of all segments ever given, by id; -1 for those that are not there.
     fn segments<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let mut ends = vec![[-1; 2]; self.segment_ids];
-        for (s, both) in self.made().segments() {
+        let this = self.0.read(py)?;
+        let mut ends = vec![[-1; 2]; this.segment_ids];
+        for (s, both) in this.made().segments() {
             ends[s.index()] = both.map(|v| v.index() as i32);
         }
-        PyArray1::from_vec(py, ends.into_flattened()).reshape([self.segment_ids, 2])
+        PyArray1::from_vec(py, ends.into_flattened()).reshape([this.segment_ids, 2])
     }
 
-    fn report(&self) -> Report {
-        let report = self.made().report();
-        vec![
+    fn report(&self, py: Python<'_>) -> PyResult<Report> {
+        let this = self.0.read(py)?;
+        let report = this.made().report();
+        Ok(vec![
             ("zero_length", report.zero_length),
             ("repeated", report.repeated),
             ("overlapping", report.overlapping),
@@ -129,12 +147,13 @@ impl Constrained {
             ("crossings", report.crossings),
             ("added_points", report.added_points),
             ("rounds", report.rounds),
-        ]
+        ])
     }
 
     /// The vertices along a segment.
     fn chain<'py>(&self, py: Python<'py>, segment: usize) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let found = self.made().chain(SegmentId::new(segment));
+        let this = self.0.read(py)?;
+        let found = this.made().chain(SegmentId::new(segment));
         let found = found.ok_or_else(|| python_error(delone::Error::NoSuchSegment { segment }))?;
         Ok(PyArray1::from_iter(py, found.into_iter().map(|v| v.index() as i64)))
     }
@@ -148,8 +167,9 @@ impl Constrained {
         regions: PyReadonlyArray2<'py, f64>,
         keep_concavities: bool,
     ) -> PyResult<Parts<'py>> {
+        let this = self.0.read(py)?;
         let (holes, regions): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (coordinates(&holes)?, coordinates(&regions)?);
-        let c = self.made();
+        let c = this.made();
         let (of, domains) = py.detach(|| {
             let seed = |at| RegionSeed2 { at, attribute: 0.0, max_area: None };
             let regions = regions.into_iter().map(seed).collect();
@@ -186,9 +206,10 @@ impl Constrained {
         queries: PyReadonlyArray2<'py, f64>,
         names: PyReadonlyArray1<'py, i32>,
     ) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        let this = self.0.read(py)?;
         let (queries, names): (Vec<[f64; 2]>, _) = (coordinates(&queries)?, names.as_slice()?);
-        let c = self.made();
-        let rows = py.detach(|| self.state.rows());
+        let c = this.made();
+        let rows = py.detach(|| this.state.rows());
         let name =
             |t: TriangleId| usize::try_from(rows[t.index()]).ok().and_then(|row| names.get(row).copied());
         let counts = |t: TriangleId| name(t).filter(|&name| name >= 0);
@@ -205,7 +226,7 @@ impl Constrained {
             };
             Ok(counts(t).or_else(beside).unwrap_or(-1))
         };
-        Ok(PyArray1::from_vec(py, self.state.answers(py, &queries, answer)?))
+        Ok(PyArray1::from_vec(py, this.state.answers(py, &queries, answer)?))
     }
 
     fn nearest<'py>(
@@ -213,7 +234,8 @@ impl Constrained {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        Ok(PyArray1::from_vec(py, self.state.nearest(py, coordinates(&queries)?)?))
+        let this = self.0.read(py)?;
+        Ok(PyArray1::from_vec(py, this.state.nearest(py, coordinates(&queries)?)?))
     }
 
     fn k_nearest<'py>(
@@ -222,8 +244,9 @@ impl Constrained {
         queries: PyReadonlyArray2<'py, f64>,
         k: usize,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        let this = self.0.read(py)?;
         let count = queries.shape()[0];
-        PyArray1::from_vec(py, self.state.k_nearest(py, coordinates(&queries)?, k)?).reshape([count, k])
+        PyArray1::from_vec(py, this.state.k_nearest(py, coordinates(&queries)?, k)?).reshape([count, k])
     }
 
     /// For each pair of vertices the first constraint between them; -1 for none.
@@ -232,8 +255,9 @@ impl Constrained {
         py: Python<'py>,
         lines: PyReadonlyArray2<'py, i64>,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
+        let this = self.0.read(py)?;
         let lines = pairs(&lines)?;
-        let c = self.made();
+        let c = this.made();
         let first = |&[a, b]: &[i64; 2]| {
             let met = c.first_constraint(vertex(a)?, vertex(b)?).map_err(python_error)?;
             let ends = met.map(|e| [c.mesh().origin(e), c.mesh().destination(e)]);
@@ -246,18 +270,19 @@ impl Constrained {
 
     /// Inserts points one after the other, all or none; the vertex of each.
     fn insert<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let mut this = self.0.write(py)?;
         let points: Vec<[f64; 2]> = coordinates(&points)?;
         TRIANGULATION.check(2, points.len())?;
-        let (count, most) = (self.made().points().len() + points.len(), delone::MAX_POINTS);
+        let (count, most) = (this.made().points().len() + points.len(), delone::MAX_POINTS);
         if count > most {
             return Err(python_error(delone::Error::TooManyPoints { count, most }));
         }
-        let is_long = self.state.change(points.len());
-        let c = &mut self.state.triangulation;
+        let is_long = this.state.change(points.len());
+        let c = &mut this.state.triangulation;
         let insert = |p| match c.insert(p)? {
             Inserted::New(v) | Inserted::Existing(v) => Ok(v.index() as i64),
         };
@@ -266,7 +291,8 @@ impl Constrained {
         Ok(PyArray1::from_vec(py, vertices.map_err(python_error)?))
     }
 
-    fn remove(&mut self, py: Python<'_>, point: i64, ends: &str) -> PyResult<()> {
+    fn remove(&self, py: Python<'_>, point: i64, ends: &str) -> PyResult<()> {
+        let mut this = self.0.write(py)?;
         let ends = match ends {
             "refuse" => SegmentEnds::Refuse,
             "join" => SegmentEnds::Join,
@@ -274,31 +300,42 @@ impl Constrained {
             other => return Err(PyValueError::new_err(format!("no such choice of ends: {other}"))),
         };
         let v = vertex(point)?;
-        self.changed(py, |c| c.remove_with(v, ends))
+        this.changed(py, |c| c.remove_with(v, ends))
     }
 
-    fn insert_segment(&mut self, py: Python<'_>, a: i64, b: i64) -> PyResult<usize> {
+    fn insert_segment(&self, py: Python<'_>, a: i64, b: i64) -> PyResult<usize> {
+        let mut this = self.0.write(py)?;
         let (a, b) = (vertex(a)?, vertex(b)?);
-        let id = self.changed(py, |c| c.insert_segment(a, b))?.index();
-        self.segment_ids = self.segment_ids.max(id + 1);
+        let id = this.changed(py, |c| c.insert_segment(a, b))?.index();
+        this.segment_ids = this.segment_ids.max(id + 1);
         Ok(id)
     }
 
-    fn remove_segment(&mut self, py: Python<'_>, segment: usize) -> PyResult<()> {
-        self.changed(py, |c| c.remove_segment(SegmentId::new(segment)))
+    fn remove_segment(&self, py: Python<'_>, segment: usize) -> PyResult<()> {
+        let mut this = self.0.write(py)?;
+        this.changed(py, |c| c.remove_segment(SegmentId::new(segment)))
     }
 
     fn check(&self, py: Python<'_>) -> PyResult<()> {
-        let checked = detached(py, self.made().vertex_count() >= FEW / 2, || self.made().check())?;
+        let this = self.0.read(py)?;
+        let checked = detached(py, this.made().vertex_count() >= FEW / 2, || this.made().check())?;
         checked.map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
     }
 
-    fn copy(&self) -> Self {
-        Self { state: State::of(self.made().clone()), segment_ids: self.segment_ids }
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let this = self.0.read(py)?;
+        let copied = Made { state: State::of(this.made().clone()), segment_ids: this.segment_ids };
+        Ok(Self(Shared::new(copied)))
     }
 }
 
 impl Constrained {
+    pub fn read(&self, py: Python<'_>) -> PyResult<RwLockReadGuard<'_, Made>> {
+        self.0.read(py)
+    }
+}
+
+impl Made {
     pub fn made(&self) -> &Constrained2 {
         &self.state.triangulation
     }

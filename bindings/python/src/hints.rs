@@ -9,6 +9,7 @@ use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::{HINTS, TRIANGULATION};
 use crate::pool::{FEW, detached};
+use crate::shared::Shared;
 use crate::triangulation::{Core, State, Triangulation, coordinates};
 
 enum Either {
@@ -17,8 +18,8 @@ enum Either {
 }
 
 /// See `_delone.pyi`.
-#[pyclass(module = "delone._delone")]
-pub struct Hints(Either);
+#[pyclass(module = "delone._delone", frozen)]
+pub struct Hints(Shared<Either>);
 
 /// The points of what hints make.
 type Point<H> = <<H as Imprecise>::Triangulation as delone::Triangulation>::Point;
@@ -37,19 +38,19 @@ fn preprocess<H: Imprecise + 'static>(
 impl Hints {
     #[new]
     fn new(py: Python<'_>, centres: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
-        Ok(Self(match centres.shape()[1] {
+        Ok(Self(Shared::new(match centres.shape()[1] {
             2 => Either::Plane(preprocess(py, &centres)?),
             3 => Either::Space(preprocess(py, &centres)?),
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
-        }))
+        })))
     }
 
-    fn triangulate(&mut self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Triangulation> {
-        let core = match &mut self.0 {
+    fn triangulate(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Triangulation> {
+        let core = match &mut *self.0.write(py)? {
             Either::Plane(hints) => Core::Plane(State::of(instance(py, &mut **hints, &points)?)),
             Either::Space(hints) => Core::Space(State::of(instance(py, &mut **hints, &points)?)),
         };
-        Ok(Triangulation { core })
+        Ok(Triangulation { core: Shared::new(core) })
     }
 }
 

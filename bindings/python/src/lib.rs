@@ -19,6 +19,7 @@ mod orders;
 mod polygons;
 mod pool;
 mod regular;
+mod shared;
 mod sizes;
 mod surface;
 mod terrain;

@@ -116,7 +116,7 @@ impl Mesh {
         let built = interruptible(py, size, move || Constrained2::with_crossings(&points, &segments, how))?;
         let areas = match &wishes.of {
             Some(old) => {
-                let old = old.try_borrow()?;
+                let old = old.get().read(py)?;
                 wishes.areas(old.made(), &old.made().triangle_ids().collect::<Vec<_>>())?
             }
             None => None,

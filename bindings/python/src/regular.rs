@@ -9,6 +9,7 @@ use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
 use crate::pool::{FEW, detached};
+use crate::shared::Shared;
 use crate::triangulation::{Rows, State, coordinates};
 
 enum Core {
@@ -17,9 +18,9 @@ enum Core {
 }
 
 /// See `_delone.pyi`.
-#[pyclass(module = "delone._delone")]
+#[pyclass(module = "delone._delone", frozen)]
 pub struct Regular {
-    core: Core,
+    core: Shared<Core>,
 }
 
 /// The same for either dimension.
@@ -65,42 +66,41 @@ impl Regular {
             }
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
         };
-        Ok(Self { core })
+        Ok(Self { core: Shared::new(core) })
     }
 
     /// Corners and neighbours of the finite simplices.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        either!(&self.core, state => state.arrays(py))
+        either!(&*self.core.read(py)?, state => state.arrays(py))
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&self.core, state => state.hull(py))
+        either!(&*self.core.read(py)?, state => state.hull(py))
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&self.core, state => state.edges(py))
+        either!(&*self.core.read(py)?, state => state.edges(py))
     }
 
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&self.core, state => state.duplicates(py))
+        either!(&*self.core.read(py)?, state => state.duplicates(py))
     }
 
     #[getter]
-    fn vertex_count(&self) -> usize {
-        either!(&self.core, state => state.vertex_count())
+    fn vertex_count(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(either!(&*self.core.read(py)?, state => state.vertex_count()))
     }
 
     /// The indices of sites that others hide.
-    fn hidden<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        let hidden: Vec<i32> =
-            either!(&self.core, state => state.triangulation.hidden().map(|v| v.index() as i32).collect());
-        PyArray1::from_vec(py, hidden)
+    fn hidden<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i32>>> {
+        let hidden: Vec<i32> = either!(&*self.core.read(py)?, state => state.triangulation.hidden().map(|v| v.index() as i32).collect());
+        Ok(PyArray1::from_vec(py, hidden))
     }
 
     /// Gives all sites other weights.
-    fn set_weights(&mut self, py: Python<'_>, weights: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+    fn set_weights(&self, py: Python<'_>, weights: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
         let weights = weights.as_slice()?;
-        either!(&mut self.core, state => {
+        either!(&mut *self.core.write(py)?, state => {
             let is_long = state.change(weights.len());
             detached(py, is_long, || state.triangulation.set_weights(weights))?.map_err(python_error)?;
         });
@@ -110,13 +110,14 @@ impl Regular {
     /// Takes the weights for which the cells in a polygon with holes have prescribed areas, in proportion: these weights, and by how
     /// much of itself an area is wrong at most.
     fn adjust_weights<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         areas: PyReadonlyArray1<'_, f64>,
         rings: Vec<PyReadonlyArray2<'py, f64>>,
         tolerance: f64,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, f64)> {
-        let Core::Plane(state) = &mut self.core else {
+        let mut core = self.core.write(py)?;
+        let Core::Plane(state) = &mut *core else {
             return Err(PyValueError::new_err("power cells are clipped in the plane"));
         };
         let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
@@ -142,7 +143,7 @@ impl Regular {
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let index = |v: Option<VertexId>| v.map_or(-1, |v| v.index() as i64);
-        let found = match &self.core {
+        let found = match &*self.core.read(py)? {
             Core::Plane(state) => {
                 let queries: Vec<[f64; 2]> = coordinates(&queries)?;
                 let nearest = |q| state.triangulation.nearest(q).map(index);
@@ -164,7 +165,8 @@ impl Regular {
         sites: usize,
         rings: Vec<PyReadonlyArray2<'py, f64>>,
     ) -> PyResult<Integrals<'py>> {
-        let Core::Plane(state) = &self.core else {
+        let core = self.core.read(py)?;
+        let Core::Plane(state) = &*core else {
             return Err(PyValueError::new_err("power cells are clipped in the plane"));
         };
         let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;

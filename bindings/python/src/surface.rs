@@ -30,7 +30,7 @@ pub fn interpolate<'py>(
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let (count, columns) = (queries.shape()[0], values.shape()[1]);
     room(count.saturating_mul(columns).saturating_mul(16), "values at so many points")?;
-    let found = match &triangulation.core {
+    let found = match &*triangulation.core.read(py)? {
         Core::Plane(state) => values_at(py, state, method, outside, &queries, &values, gradients.as_ref()),
         Core::Space(state) => values_at(py, state, method, outside, &queries, &values, gradients.as_ref()),
     }?;
@@ -103,7 +103,7 @@ pub fn interpolation_weights<'py>(
     queries: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Rows<'py>> {
     room(queries.shape()[0].saturating_mul(256), "weights at so many points")?;
-    let weights = match &triangulation.core {
+    let weights = match &*triangulation.core.read(py)? {
         Core::Plane(state) => weights_at(py, state, method, outside, &queries),
         Core::Space(state) => weights_at(py, state, method, outside, &queries),
     }?;
@@ -147,7 +147,7 @@ pub fn vertex_gradients<'py>(
     triangulation: &Triangulation,
     values: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let (found, dimension) = match &triangulation.core {
+    let (found, dimension) = match &*triangulation.core.read(py)? {
         Core::Plane(state) => (slopes(py, state, &values)?, 2),
         Core::Space(state) => (slopes(py, state, &values)?, 3),
     };

@@ -84,7 +84,8 @@ pub fn paint<'py>(
     let most = max_edge.unwrap_or(f64::INFINITY);
     let values = match &sheet {
         Sheet::Delaunay(triangulation) => {
-            let state = plane(triangulation)?;
+            let core = triangulation.core.read(py)?;
+            let state = plane(&core)?;
             let d = &state.triangulation;
             let f = interpolator(d, method, "fill")?;
             state.asked(py, columns * rows + heights.len(), || {
@@ -96,7 +97,9 @@ pub fn paint<'py>(
                 Ok(values)
             })?
         }
-        Sheet::Constrained(triangulation) => linear(py, &triangulation.state, heights, &grid, mask, most)?,
+        Sheet::Constrained(triangulation) => {
+            linear(py, &triangulation.read(py)?.state, heights, &grid, mask, most)?
+        }
     };
     let xs = PyArray1::from_iter(py, (0..columns).map(|k| grid.x(k)));
     let ys = PyArray1::from_iter(py, (0..rows).map(|k| grid.y(k)));
@@ -119,8 +122,8 @@ fn linear<T: Ask<Point = [f64; 2]> + Sync>(
     })
 }
 
-fn plane(triangulation: &Triangulation) -> PyResult<&State<delone::Delaunay2>> {
-    match &triangulation.core {
+fn plane(core: &Core) -> PyResult<&State<delone::Delaunay2>> {
+    match core {
         Core::Plane(state) => Ok(state),
         Core::Space(_) => Err(PyValueError::new_err("heights are at points of the plane, not of space")),
     }
@@ -159,7 +162,8 @@ fn traced<R: Send>(
     };
     match sheet {
         Sheet::Delaunay(triangulation) => {
-            let state = plane(triangulation)?;
+            let core = triangulation.core.read(py)?;
+            let state = plane(&core)?;
             let d = &state.triangulation;
             state.asked(py, heights.len(), || {
                 let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
@@ -167,7 +171,8 @@ fn traced<R: Send>(
             })
         }
         Sheet::Constrained(triangulation) => {
-            let state = &triangulation.state;
+            let shared = triangulation.read(py)?;
+            let state = &shared.state;
             let c = &state.triangulation;
             state.asked(py, heights.len(), || {
                 let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };

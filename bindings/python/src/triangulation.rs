@@ -16,6 +16,7 @@ use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::{TRIANGULATION, room_for_neighbors};
 use crate::pool::{FEW, detached, generation, is_many, shared};
+use crate::shared::Shared;
 
 /// Queries that one task answers.
 const QUERIES: usize = 1024;
@@ -42,9 +43,9 @@ pub enum Core {
 }
 
 /// See `_delone.pyi`.
-#[pyclass(module = "delone._delone")]
+#[pyclass(module = "delone._delone", frozen)]
 pub struct Triangulation {
-    pub core: Core,
+    pub core: Shared<Core>,
 }
 
 /// The same for either dimension.
@@ -66,12 +67,12 @@ impl Triangulation {
             3 => Core::Space(State::build(py, coordinates(&points)?)?),
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
         };
-        Ok(Self { core })
+        Ok(Self { core: Shared::new(core) })
     }
 
     /// Corners and neighbours of the finite simplices.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        either!(&self.core, state => state.arrays(py))
+        either!(&*self.core.read(py)?, state => state.arrays(py))
     }
 
     /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
@@ -83,7 +84,7 @@ impl Triangulation {
             let count = centres.len();
             PyArray1::from_vec(py, centres.into_flattened()).reshape([count, D])
         }
-        match &self.core {
+        match &*self.core.read(py)? {
             Core::Plane(state) => {
                 let d = &state.triangulation;
                 let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
@@ -98,38 +99,38 @@ impl Triangulation {
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&self.core, state => state.hull(py))
+        either!(&*self.core.read(py)?, state => state.hull(py))
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&self.core, state => state.edges(py))
+        either!(&*self.core.read(py)?, state => state.edges(py))
     }
 
     /// Points that are no vertices because they equal one, each with this.
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&self.core, state => state.duplicates(py))
+        either!(&*self.core.read(py)?, state => state.duplicates(py))
     }
 
     #[getter]
-    fn vertex_count(&self) -> usize {
-        either!(&self.core, state => state.vertex_count())
+    fn vertex_count(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(either!(&*self.core.read(py)?, state => state.vertex_count()))
     }
 
     #[getter]
-    fn span(&self) -> i32 {
-        either!(&self.core, state => state.span())
+    fn span(&self, py: Python<'_>) -> PyResult<i32> {
+        Ok(either!(&*self.core.read(py)?, state => state.span()))
     }
 
-    fn extend(&mut self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        either!(&mut self.core, state => state.extend(py, coordinates(&points)?))
+    fn extend(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
+        either!(&mut *self.core.write(py)?, state => state.extend(py, coordinates(&points)?))
     }
 
-    fn remove(&mut self, py: Python<'_>, vertices: Vec<i64>) -> PyResult<()> {
-        either!(&mut self.core, state => state.remove(py, &vertices))
+    fn remove(&self, py: Python<'_>, vertices: Vec<i64>) -> PyResult<()> {
+        either!(&mut *self.core.write(py)?, state => state.remove(py, &vertices))
     }
 
-    fn is_vertex(&self, index: usize) -> bool {
-        either!(&self.core, state => state.is_vertex(VertexId::new(index)))
+    fn is_vertex(&self, py: Python<'_>, index: usize) -> PyResult<bool> {
+        Ok(either!(&*self.core.read(py)?, state => state.is_vertex(VertexId::new(index))))
     }
 
     /// The rows of simplices that hold points; -1 outside.
@@ -138,7 +139,7 @@ impl Triangulation {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        either!(&self.core, state => state.find(py, coordinates(&queries)?))
+        either!(&*self.core.read(py)?, state => state.find(py, coordinates(&queries)?))
     }
 
     /// The nearest vertices; -1 if there is none.
@@ -147,7 +148,7 @@ impl Triangulation {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let found = either!(&self.core, state => state.nearest(py, coordinates(&queries)?))?;
+        let found = either!(&*self.core.read(py)?, state => state.nearest(py, coordinates(&queries)?))?;
         Ok(PyArray1::from_vec(py, found))
     }
 
@@ -159,16 +160,16 @@ impl Triangulation {
         k: usize,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
         let count = queries.shape()[0];
-        let found = either!(&self.core, state => state.k_nearest(py, coordinates(&queries)?, k))?;
+        let found = either!(&*self.core.read(py)?, state => state.k_nearest(py, coordinates(&queries)?, k))?;
         PyArray1::from_vec(py, found).reshape([count, k])
     }
 
-    fn copy(&self) -> Self {
-        let core = match &self.core {
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let core = match &*self.core.read(py)? {
             Core::Plane(state) => Core::Plane(State::of(state.triangulation.clone())),
             Core::Space(state) => Core::Space(State::of(state.triangulation.clone())),
         };
-        Self { core }
+        Ok(Self { core: Shared::new(core) })
     }
 }
 

@@ -23,7 +23,8 @@ pub fn clipped_cells<'py>(
     rings: Vec<PyReadonlyArray2<'py, f64>>,
     merge: Option<f64>,
 ) -> PyResult<Polygons<'py>> {
-    let Core::Plane(state) = &triangulation.core else {
+    let core = triangulation.core.read(py)?;
+    let Core::Plane(state) = &*core else {
         return Err(PyValueError::new_err("cells are clipped in the plane"));
     };
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
@@ -83,7 +84,8 @@ type Triangles<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray2<f64>>);
 /// The triangles of furthest sites, counter-clockwise, and the circumcentre of each, the nearest number to the exact one.
 #[pyfunction]
 pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) -> PyResult<Triangles<'py>> {
-    let Core::Plane(state) = &triangulation.core else {
+    let core = triangulation.core.read(py)?;
+    let Core::Plane(state) = &*core else {
         return Err(PyValueError::new_err("furthest sites are for the plane"));
     };
     let d = &state.triangulation;

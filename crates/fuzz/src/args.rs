@@ -89,6 +89,8 @@ pub(crate) enum Mode {
     ReadMeshes,
     /// Readers: E57 scans.
     ReadE57,
+    /// The program on mutated files, with little memory, killed now and then.
+    Program,
     /// All of these.
     All,
     /// A wrong answer on purpose, which tests of the supervision need.
@@ -113,7 +115,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 23] = [
+    pub(crate) const REAL: [Self; 24] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
@@ -137,6 +139,7 @@ impl Mode {
         Self::ReadPly,
         Self::ReadMeshes,
         Self::ReadE57,
+        Self::Program,
     ];
 
     /// As it is written on the command line.

@@ -8,7 +8,7 @@ use crate::args::Mode;
 use crate::attack::{Attack, Judgement};
 use crate::modes::{
     alphas, broken, cells, files, graph_lives, graphs, hulls, lives, mesh, mixtures, motion, orders, plane,
-    predicates, proximity, space, surfaces, tiles, weights,
+    predicates, program, proximity, space, surfaces, tiles, weights,
 };
 
 /// An input of some attack.
@@ -95,6 +95,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::ReadPly, _) => made::<files::Files<{ files::PLY }>>(seed),
         (Mode::ReadMeshes, _) => made::<files::Files<{ files::MESHES }>>(seed),
         (Mode::ReadE57, _) => made::<files::Files<{ files::E57 }>>(seed),
+        (Mode::Program, _) => made::<program::Program>(seed),
         (Mode::BrokenAnswer, _) => made::<broken::Answer>(seed),
         (Mode::BrokenPanic, _) => made::<broken::Panic>(seed),
         (Mode::BrokenHang, _) => made::<broken::Hang>(seed),

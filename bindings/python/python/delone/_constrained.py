@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._errors import restores
 from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries, as_segments
 
 T = TypeVar("T")
@@ -412,6 +413,7 @@ class ConstrainedDelaunay:
         """What was given at the beginning, and the changes since."""
         return {name: value for name, value in self.__dict__.items() if name not in ("_core", "_cache")}
 
+    @restores
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Triangulates again, and changes it as it was changed."""
         self.__dict__.update(state)

@@ -12,6 +12,7 @@ from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._errors import restores
 from ._options import parse
 from ._points import as_count, as_flag, as_indices, as_points, as_queries
 from ._simplices import neighbors_of, transforms
@@ -440,10 +441,12 @@ class Delaunay:
         others = {name: value for name, value in self.__dict__.items() if name not in _OWN}
         return {**state, "furthest": self._furthest, "closed": self._is_closed, "others": others}
 
+    @restores
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Triangulates again: the triangulation is a function of the points."""
         self._options, self._furthest = state["options"], state["furthest"]
-        self._begin(state["points"], _built(state["points"], state["removed"]))
+        points = as_points(state["points"], "points")
+        self._begin(points, _built(points, state["removed"]))
         self._removed, self._is_closed = state["removed"], state["closed"]
         self.__dict__.update(state.get("others", {}))
 

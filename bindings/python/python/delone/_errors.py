@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import wraps
+from pickle import UnpicklingError
 from typing import Any
 
 
@@ -16,6 +19,19 @@ def qhull_error(words: str) -> QhullError:
     kind = QhullError if theirs is None else type("QhullError", (QhullError, theirs), {"__module__": __name__})
     made: QhullError = kind(words)
     return made
+
+
+def restores(restore: Callable[[Any, Any], None]) -> Callable[[Any, Any], None]:
+    """Of a `__setstate__`: a damaged state is an `UnpicklingError`, whatever is wrong with it."""
+
+    @wraps(restore)
+    def restored(self: Any, state: Any) -> None:
+        try:
+            restore(self, state)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+            raise UnpicklingError(f"the state of a {type(self).__name__} is damaged: {error!r}") from error
+
+    return restored
 
 
 class CrossingError(ValueError):

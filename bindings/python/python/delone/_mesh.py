@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._errors import restores
 from ._points import as_choice, as_flag, as_index, as_numbers, as_points, as_segments
 
 T = TypeVar("T")
@@ -190,15 +191,19 @@ class Mesh:
     @classmethod
     def _make(cls, origin: tuple[Any, ...] | Mesh, wishes: Wishes, attributes: NDArray[np.float64]) -> Mesh:
         made = cls.__new__(cls)
-        made.__setstate__((origin, wishes, attributes))
+        made._restore((origin, wishes, attributes))
         return made
 
     def __getstate__(self) -> tuple[Any, ...]:
         """What was given."""
         return self._recipe
 
+    @restores
     def __setstate__(self, state: tuple[Any, ...]) -> None:
-        """Makes it, again if need be."""
+        """Makes it again."""
+        self._restore(state)
+
+    def _restore(self, state: tuple[Any, ...]) -> None:
         self._recipe, self._cache = state, {}
         origin, wishes, _ = state
         if isinstance(origin, Mesh):

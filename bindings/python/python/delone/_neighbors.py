@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._errors import restores
 from ._points import as_count, as_points, as_queries
 
 
@@ -67,9 +68,11 @@ class Neighbors:
         """The points, and what a subclass added; the tree is built again."""
         return {name: value for name, value in self.__dict__.items() if name != "_core"}
 
+    @restores
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Builds the tree of the points."""
         self.__dict__.update(state)
+        self._points = as_points(self._points, "points")
         self._points.flags.writeable = False
         self._core = _delone.Neighbors(self._points)
 

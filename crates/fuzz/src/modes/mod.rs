@@ -15,6 +15,7 @@ pub(crate) mod motion;
 pub(crate) mod orders;
 pub(crate) mod plane;
 pub(crate) mod predicates;
+pub(crate) mod program;
 pub(crate) mod proximity;
 pub(crate) mod queries;
 pub(crate) mod space;

@@ -10,7 +10,7 @@ use std::io::Cursor;
 use delone_generators::Random;
 use delone_io::{Cloud, Format, Graph, ReadOptions, Source, decompressed};
 
-use self::mutation::Mutation;
+pub(crate) use self::mutation::{Mutation, some};
 use crate::attack::{Attack, Judgement};
 
 /// Groups of formats that are attacked together.
@@ -21,6 +21,8 @@ pub(crate) const LAS: usize = 3;
 pub(crate) const PLY: usize = 4;
 pub(crate) const MESHES: usize = 5;
 pub(crate) const E57: usize = 6;
+/// How many there are.
+pub(crate) const GROUPS: usize = 7;
 
 /// Memory that a reader may take: for its buffers and threads, and for each byte of the file.
 const ROOM: u64 = 256 << 20;
@@ -36,17 +38,23 @@ impl<const GROUP: usize> Attack for Files<GROUP> {
     type Item = Mutation;
 
     fn make(random: &mut Random) -> Vec<Mutation> {
-        mutation::some(random)
+        some(random)
     }
 
     fn judge(mutations: &[Mutation], seed: u64) -> Judgement {
-        let seeds = corpus::of(GROUP);
-        let (format, mut bytes) = seeds[Random::new(seed).below(seeds.len())].clone();
-        let others = seeds.iter().map(|(_, other)| other.as_slice()).collect::<Vec<_>>();
-        mutations.iter().for_each(|mutation| mutation.apply(&mut bytes, &others));
+        let (format, bytes) = mutated(GROUP, mutations, seed);
         let room = ROOM + ROOM_A_BYTE * bytes.len() as u64;
         within(room, || read(format, &bytes)).map_err(|what| format!("{format}: {what}"))
     }
+}
+
+/// A file of a group, changed.
+pub(crate) fn mutated(group: usize, mutations: &[Mutation], seed: u64) -> (Format, Vec<u8>) {
+    let seeds = corpus::of(group);
+    let (format, mut bytes) = seeds[Random::new(seed).below(seeds.len())].clone();
+    let others = seeds.iter().map(|(_, other)| other.as_slice()).collect::<Vec<_>>();
+    mutations.iter().for_each(|mutation| mutation.apply(&mut bytes, &others));
+    (format, bytes)
 }
 
 /// Reads a file in all ways that its format has.

@@ -86,7 +86,7 @@ const TEXTS: [&str; 34] = [
 ];
 
 /// A few changes.
-pub(super) fn some(random: &mut Random) -> Vec<Mutation> {
+pub(crate) fn some(random: &mut Random) -> Vec<Mutation> {
     let most = one_of(random, &[1, 2, 4, 12]);
     let count = 1 + random.below(most);
     (0..count).map(|_| one(random)).collect()
