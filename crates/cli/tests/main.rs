@@ -21,6 +21,7 @@ mod space;
 mod strategies;
 mod surface;
 mod switches;
+mod threads;
 mod tiles;
 mod weights;
 mod window;

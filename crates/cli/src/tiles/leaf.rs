@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use delone::tiles::{Cuts, Node, Tile};
 use delone_io::write_array;
+use rayon::ThreadPool;
 
 use super::buckets::{self, Content};
 use super::manifest::place;
@@ -45,20 +46,24 @@ pub(super) fn all(
     };
     let workers = workers.min(open.len());
     let share = (rayon::current_num_threads() / workers.max(1)).max(1);
-    if workers <= 1 {
-        work();
-    } else {
-        // Work of one pool would be taken over by those who wait in another tile: each worker has a pool of its own.
-        std::thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(|| match rayon::ThreadPoolBuilder::new().num_threads(share).build() {
-                    Ok(pool) => pool.install(work),
-                    Err(_) => work(),
-                });
-            }
+    // Work of one pool would be taken over by those who wait in another tile: each worker has a pool of its own.
+    let pool = |_| rayon::ThreadPoolBuilder::new().num_threads(share).build().ok();
+    let pools: Vec<ThreadPool> =
+        if workers > 1 { (0..workers).map_while(pool).collect() } else { Vec::new() };
+    on_each(&pools, &work);
+    // Where there are no such threads, this one works.
+    work();
+    failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// Does the same work in all of these pools at once, and waits for its end.
+fn on_each(pools: &[ThreadPool], work: &(impl Fn() + Sync)) {
+    if let Some((first, others)) = pools.split_first() {
+        first.in_place_scope(|scope| {
+            scope.spawn(|_| work());
+            on_each(others, work);
         });
     }
-    failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
 /// Triangulates one tile, and removes its bucket in the end.
