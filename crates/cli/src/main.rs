@@ -108,8 +108,11 @@ fn main() -> ExitCode {
         Command::Completions { shell } => about::completions(shell),
         Command::Man { output } => about::man(output.as_deref(), quiet),
     };
-    match result {
+    match result.and_then(|()| files::publish()) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => {
+            delone_io::remove_unfinished();
+            failure.report()
+        }
     }
 }

@@ -19,6 +19,7 @@ pub(crate) fn clean_up() {
     let watch = move || {
         let Ok(mut signals) = signals.recv() else { return };
         for signal in signals.forever() {
+            delone_io::wait_for_names();
             delone_io::remove_unfinished();
             _ = emulate_default_handler(signal);
         }

@@ -9,12 +9,16 @@ mod features;
 mod files;
 mod folder;
 mod graph;
+mod inputs;
 mod mesh;
 mod metamorphic;
 mod narrow;
+#[cfg(unix)]
+mod outputs;
 mod outside;
 mod place;
 mod program;
+mod resume;
 mod segments;
 mod slivers;
 mod space;

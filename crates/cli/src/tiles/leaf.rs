@@ -8,7 +8,7 @@ use delone::tiles::{Cuts, Node, Tile};
 use delone_io::write_array;
 use rayon::ThreadPool;
 
-use super::buckets::{self, Content};
+use super::buckets::{self, Content, Filled};
 use super::manifest::place;
 use super::node::Done;
 use super::sums::Sums;
@@ -21,7 +21,7 @@ use crate::progress::Phase;
 pub(super) fn all(
     folder: &Path,
     cuts: &Cuts,
-    open: &[(Node, u64)],
+    open: &[(Node, Filled)],
     (has_heights, rule): (bool, DuplicatesName),
     workers: usize,
     quiet: bool,
@@ -29,11 +29,11 @@ pub(super) fn all(
     let phase = Phase::count(quiet, "triangulating tiles", open.len() as u64);
     let (next, stop, failure) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
     let work = || {
-        while let Some(&(node, count)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some(&(node, filled)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
             if stop.load(Ordering::Relaxed) {
                 return;
             }
-            match one(folder, cuts, (node, count), (has_heights, rule)) {
+            match one(folder, cuts, (node, filled), (has_heights, rule)) {
                 Ok(()) => phase.advance(),
                 Err(error) => {
                     stop.store(true, Ordering::Relaxed);
@@ -70,10 +70,10 @@ fn on_each(pools: &[ThreadPool], work: &(impl Fn() + Sync)) {
 fn one(
     folder: &Path,
     cuts: &Cuts,
-    (node, count): (Node, u64),
+    (node, filled): (Node, Filled),
     (has_heights, rule): (bool, DuplicatesName),
 ) -> Result<(), Failure> {
-    let Content { points, mut heights, ids } = buckets::read(folder, node, count, has_heights)?;
+    let Content { points, mut heights, ids } = buckets::read(folder, node, filled, has_heights)?;
     let bucket = buckets::bucket(folder, node);
     let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Failure::points(&bucket, &error))?;
     drop(points);
