@@ -6,6 +6,7 @@ mod animate;
 mod args;
 mod check;
 mod clip;
+mod closed;
 mod constrained;
 mod contours;
 mod draw;

@@ -114,3 +114,29 @@ fn left_overs_of_killed_runs_go() {
     place.succeed("-q generate uniform -n 10 -o q.npy");
     assert_eq!(hidden(), [""; 0]);
 }
+
+#[test]
+fn closed_standard_output_is_an_error() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 100 -o p.npy");
+    for line in [
+        "delone -q triangulate p.npy -o - --to off >&-",
+        "delone -q generate uniform -n 10 -o - --to csv >&-",
+        "delone info p.npy >&-",
+        "delone version >&-",
+        "delone --help >&-",
+    ] {
+        let output = shell(&place, line);
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{line}: {told}");
+        assert!(told.starts_with("error: ") && told.lines().count() == 2, "{line}: {told}");
+    }
+    for line in [
+        "delone -q triangulate p.npy -o m.npy >&-",
+        "delone -q triangulate p.npy -o - --to off >/dev/null",
+        "delone -q triangulate p.npy -o - --to off 1<>/dev/null",
+        "delone -q triangulate p.npy -o /dev/null --to off",
+    ] {
+        assert!(shell(&place, line).status.success(), "{line}");
+    }
+}

@@ -10,6 +10,7 @@ use std::sync::{Mutex, PoisonError};
 use delone_io::{Format, Output, Source, decompressed, followed, has_points_beside};
 
 use super::{is_special, is_standard};
+use crate::closed;
 use crate::message::Failure;
 
 /// The files that this program has opened to read.
@@ -134,11 +135,21 @@ fn place(path: &Path) -> Option<PathBuf> {
 
 /// Whether an output can be written, asked before there is work to lose. Nothing is left behind.
 fn check_output(path: &Path) -> Result<(), Failure> {
+    check_open(path)?;
     // A pipe may be opened once.
     if is_standard(path) || is_special(path) && !path.is_dir() {
         return Ok(());
     }
     Output::create(path).map(drop).map_err(|error| super::cannot_write(path, error.into()))
+}
+
+/// Refuses standard output where it is closed.
+pub(super) fn check_open(path: &Path) -> Result<(), Failure> {
+    let names = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+    if names.iter().any(|name| path == Path::new(name)) {
+        return closed::check().map_err(|error| super::cannot_write(path, error.into()));
+    }
+    Ok(())
 }
 
 /// What `-` stands for.

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use delone_io::{Finished, Output, Remark, give_names};
 
-use super::apart::refuse_read;
+use super::apart::{check_open, refuse_read};
 use super::{is_special, is_standard};
 use crate::message::{Failure, note};
 
@@ -21,6 +21,7 @@ pub(crate) fn publish() -> Result<(), Failure> {
 
 /// Begins an output that is no input.
 pub(crate) fn create(path: &Path) -> Result<Output, Failure> {
+    check_open(path)?;
     refuse_read(path)?;
     Output::create(path).map_err(|error| cannot_write(path, error.into()))
 }
