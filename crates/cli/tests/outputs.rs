@@ -90,21 +90,26 @@ fn left_overs_of_killed_runs_go() {
     let place = Place::new();
     place.succeed("-q generate uniform -n 200000 -o p.npy");
     let hidden = || names(&place).into_iter().filter(|name| name.starts_with(".delone-")).collect::<Vec<_>>();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_delone"))
-        .current_dir(place.path(""))
-        .args(["-q", "triangulate", "p.npy", "-o", "m.geojson", "-o", "n.geojson"])
-        .spawn()
-        .expect("the program starts");
-    // Its half file is there for as long as it writes; the first ones are of the check whether it may.
+    // Its half file is there for as long as it writes; before, there is one for a moment that shows whether it may.
     let has_half = || {
         let inside = |name: &String| fs::read_dir(place.path(name)).into_iter().flatten().flatten().count();
-        hidden().iter().map(inside).sum::<usize>() == 1 && hidden().len() == 1
+        hidden().len() == 1 && hidden().iter().map(inside).sum::<usize>() == 1
     };
-    while !has_half() && child.try_wait().expect("asked").is_none() {
-        std::thread::yield_now();
-    }
-    child.kill().expect("killed");
-    child.wait().expect("ended");
+    let was_killed = |_| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_delone"))
+            .current_dir(place.path(""))
+            .args(["-q", "triangulate", "p.npy", "-o", "m.geojson", "-o", "n.geojson"])
+            .spawn()
+            .expect("the program starts");
+        while !has_half() && child.try_wait().expect("asked").is_none() {
+            std::thread::yield_now();
+        }
+        child.kill().expect("killed");
+        child.wait().expect("ended");
+        !hidden().is_empty()
+    };
+    assert!((0..50).any(was_killed), "a kill leaves something");
+    assert!(!place.path("m.geojson").exists());
     fs::create_dir(place.path(".delone-held")).expect("made");
     let held = fs::File::open(place.path(".delone-held")).expect("there");
     held.try_lock().expect("free");
