@@ -264,7 +264,7 @@ impl Constrained {
             Ok(ends.map_or([-1; 2], |ends| ends.map(|v| v.index() as i64)))
         };
         let found: PyResult<Vec<[i64; 2]>> =
-            detached(py, is_many(lines, SIGHTS), || shared(lines, SIGHTS, first))?;
+            detached(py, is_many(lines, SIGHTS), || shared(lines, SIGHTS, first));
         PyArray1::from_vec(py, found?.into_flattened()).reshape([lines.len(), 2])
     }
 
@@ -287,7 +287,7 @@ impl Constrained {
             Inserted::New(v) | Inserted::Existing(v) => Ok(v.index() as i64),
         };
         let vertices =
-            detached(py, is_long, || points.into_iter().map(insert).collect::<Result<Vec<_>, _>>())?;
+            detached(py, is_long, || points.into_iter().map(insert).collect::<Result<Vec<_>, _>>());
         Ok(PyArray1::from_vec(py, vertices.map_err(python_error)?))
     }
 
@@ -318,7 +318,7 @@ impl Constrained {
 
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         let this = self.0.read(py)?;
-        let checked = detached(py, this.made().vertex_count() >= FEW / 2, || this.made().check())?;
+        let checked = detached(py, this.made().vertex_count() >= FEW / 2, || this.made().check());
         checked.map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
     }
 
@@ -347,7 +347,7 @@ impl Made {
         change: impl FnOnce(&mut Constrained2) -> Result<A, delone::Error> + Send,
     ) -> PyResult<A> {
         let is_long = self.state.change(1);
-        detached(py, is_long, || change(&mut self.state.triangulation))?.map_err(python_error)
+        detached(py, is_long, || change(&mut self.state.triangulation)).map_err(python_error)
     }
 }
 

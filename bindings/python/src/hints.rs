@@ -61,6 +61,6 @@ fn instance<H: Imprecise>(
 ) -> PyResult<H::Triangulation> {
     let points: Vec<Point<H>> = coordinates(points)?;
     TRIANGULATION.check(Point::<H>::COUNT, points.len())?;
-    let made = detached(py, points.len() >= FEW, || hints.triangulate(&points).cloned())?;
+    let made = detached(py, points.len() >= FEW, || hints.triangulate(&points).cloned());
     made.map_err(python_error)
 }

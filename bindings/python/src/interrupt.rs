@@ -7,13 +7,13 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::pool::{FEW, generation, pool};
+use crate::pool::{FEW, alone, generation, pool};
 
 /// How often to look for signals.
 const PAUSE: Duration = Duration::from_millis(50);
 
 /// Does work on so many points without Python's lock. On Ctrl-C the exception is raised within moments; the work goes on
-/// in the background until its result is dropped.
+/// in the background until its result is dropped. Where the system gives no thread, it is done here, and ends before that.
 pub fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     points: usize,
@@ -22,8 +22,11 @@ pub fn interruptible<T: Send + 'static>(
     if points < FEW {
         return Ok(py.detach(work));
     }
+    let Some(pool) = py.detach(pool) else {
+        return Ok(py.detach(|| alone(work)));
+    };
     let (sender, receiver) = sync_channel(1);
-    py.detach(pool)?.spawn(move || {
+    pool.spawn(move || {
         // Nobody is there any more after an interruption.
         _ = sender.send(work());
     });

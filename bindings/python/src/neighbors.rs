@@ -135,6 +135,5 @@ fn answers<Q: Copy + Sync, A: Send>(
     queries: &[Q],
     answer: impl Fn(Q) -> Result<A, Error> + Sync + Send,
 ) -> PyResult<Vec<A>> {
-    detached(py, is_many(queries, QUERIES), || shared(queries, QUERIES, |&q| answer(q)))?
-        .map_err(python_error)
+    detached(py, is_many(queries, QUERIES), || shared(queries, QUERIES, |&q| answer(q))).map_err(python_error)
 }

@@ -158,7 +158,7 @@ impl Orders {
         let clipped = detached(py, d.vertex_count() >= FEW, || {
             let region = Region2::polygon(&rings)?;
             make(&d.order(self.order)?, &region)
-        })?;
+        });
         clipped.map_err(python_error)
     }
 }

@@ -5,10 +5,11 @@
 //! to the next one (`_delone.after_fork`, which `os.register_at_fork` calls). What it leaves behind is never looked at again:
 //! to drop it would be to wait for threads that do not exist, and it may be locked by one of them.
 
+use std::cell::OnceCell;
+use std::num::NonZero;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -42,18 +43,46 @@ fn slot() -> &'static Slot {
     (0..generation()).fold(&FIRST, |slot, _| slot.next.get_or_init(|| Box::new(Slot::new())))
 }
 
-/// The pool of this process, made at the first need, of as many threads as `RAYON_NUM_THREADS` says or there are cores.
-pub fn pool() -> PyResult<&'static ThreadPool> {
+/// The pool of this process, made at the first need; none where the system gives no thread.
+pub fn pool() -> Option<&'static ThreadPool> {
     let slot = slot();
     if let Some(pool) = slot.pool.get() {
-        return Ok(pool);
+        return Some(pool);
     }
-    let named = ThreadPoolBuilder::new().thread_name(|k| format!("delone-{k}"));
-    // Work that panics has no result, which its waiter reports; the process goes on.
-    let made = named.panic_handler(drop).build();
-    let made = made.map_err(|error| PyRuntimeError::new_err(format!("no threads to be had: {error}")))?;
+    let made = made_of(threads(), |count| {
+        let named = ThreadPoolBuilder::new().num_threads(count).thread_name(|k| format!("delone-{k}"));
+        // Work that panics has no result, which its waiter reports; the process goes on.
+        named.panic_handler(drop).build().ok()
+    })?;
     // Of two that are made at once one goes again.
-    Ok(slot.pool.get_or_init(|| made))
+    Some(slot.pool.get_or_init(|| made))
+}
+
+/// As many threads as `RAYON_NUM_THREADS` says, or there are cores. Many more than these would only wait for each other.
+fn threads() -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|text| text.parse().ok());
+    asked.filter(|&asked| asked > 0).unwrap_or(cores).min((4 * cores).max(16))
+}
+
+/// A pool of so many threads, or of half as many, and so on: of what the system gives.
+fn made_of<P>(most: usize, make: impl FnMut(usize) -> Option<P>) -> Option<P> {
+    std::iter::successors(Some(most), |&count| (count > 1).then_some(count / 2)).find_map(make)
+}
+
+thread_local! {
+    /// The pool of a thread that is all of it.
+    static ALONE: OnceCell<Option<ThreadPool>> = const { OnceCell::new() };
+}
+
+/// Does work on the thread that asks for it, also what the library shares among threads.
+pub fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    // A thread of another pool stays there.
+    let make = || ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().ok();
+    ALONE.with(|alone| match alone.get_or_init(make) {
+        Some(pool) => pool.install(work),
+        None => work(),
+    })
 }
 
 /// To be called in the child of a fork, which has one thread.
@@ -65,8 +94,12 @@ pub fn after_fork() {
 }
 
 /// Does work without Python's lock, if it is long on all threads.
-pub fn detached<T: Send>(py: Python<'_>, is_long: bool, work: impl FnOnce() -> T + Send) -> PyResult<T> {
-    py.detach(|| if is_long { Ok(pool()?.install(work)) } else { Ok(work()) })
+pub fn detached<T: Send>(py: Python<'_>, is_long: bool, work: impl FnOnce() -> T + Send) -> T {
+    py.detach(|| match if is_long { pool() } else { None } {
+        Some(pool) => pool.install(work),
+        None if is_long => alone(work),
+        None => work(),
+    })
 }
 
 /// Whether so many items are worth the threads, if a task takes as many.

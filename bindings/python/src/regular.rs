@@ -102,7 +102,7 @@ impl Regular {
         let weights = weights.as_slice()?;
         either!(&mut *self.core.write(py)?, state => {
             let is_long = state.change(weights.len());
-            detached(py, is_long, || state.triangulation.set_weights(weights))?.map_err(python_error)?;
+            detached(py, is_long, || state.triangulation.set_weights(weights)).map_err(python_error)?;
         });
         Ok(())
     }
@@ -180,7 +180,7 @@ impl Regular {
                 all().map(|v| cells.centroid(v).unwrap_or([f64::NAN; 2])).collect();
             let moment = |v| r.site(v).map_or(0.0, |(p, _)| cells.second_moment(v, p));
             Ok::<_, PyErr>((jacobian, centroids, all().map(moment).collect::<Vec<f64>>()))
-        })??;
+        })?;
         let pairs: Vec<i32> =
             jacobian.derivatives.iter().flat_map(|(ends, _)| ends.map(|v| v.index() as i32)).collect();
         let values: Vec<f64> = jacobian.derivatives.iter().map(|&(_, value)| value).collect();

@@ -248,7 +248,7 @@ pub fn join_borders(
     let borders: Vec<Border> = borders.iter().map(|border| border.get().0.clone()).collect();
     let count = borders.iter().map(|border| border.points.len()).sum();
     TRIANGULATION.check(2, count)?;
-    let made = detached(py, true, move || join(&borders, &region(sides)))?;
+    let made = detached(py, true, move || join(&borders, &region(sides)));
     let seam = made.map_err(python_error)?;
     let triangles = table(py, seam.triangles.as_flattened().to_vec(), 3)?;
     Ok((triangles, PyFingerprint(seam.fingerprint), PyBorder(seam.border)))

@@ -297,7 +297,7 @@ impl<T: Ask> State<T> {
         }
         // The first question makes what finds answers, which is worth threads, and others may have to make it better.
         let few = if is_first { FEW } else { MANY };
-        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, answer)?;
+        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, answer);
         self.is_asked.fetch_or(!is_nothing, Ordering::Release);
         found.map_err(python_error)
     }
@@ -337,7 +337,7 @@ impl<T: Change + 'static> State<T> {
     fn extend(&mut self, py: Python<'_>, points: Vec<T::Point>) -> PyResult<()> {
         TRIANGULATION.check(T::Point::COUNT, points.len())?;
         let is_long = self.change(points.len());
-        detached(py, is_long, || self.triangulation.extend(&points, 0))?.map(drop).map_err(python_error)
+        detached(py, is_long, || self.triangulation.extend(&points, 0)).map(drop).map_err(python_error)
     }
 
     /// All or none.
@@ -357,7 +357,7 @@ impl<T: Change + 'static> State<T> {
         let is_long = self.change(wanted.len());
         detached(py, is_long, || {
             wanted.into_iter().try_for_each(|v| self.triangulation.remove_observed(v, &mut ()))
-        })?
+        })
         .map_err(python_error)
     }
 }

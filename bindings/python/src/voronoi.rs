@@ -44,7 +44,7 @@ pub fn clipped_cells<'py>(
             starts.push(ring_starts.len() as i64 - 1);
         }
         Ok::<_, PyErr>((corners, ring_starts, starts))
-    })??;
+    })?;
     let count = corners.len();
     let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
     Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
@@ -74,8 +74,7 @@ fn merged_places<P: Coordinates>(
     sides: &[[u32; 2]],
     length: f64,
 ) -> PyResult<Vec<u32>> {
-    detached(py, places.len() >= FEW, || delone::merged_vertices(places, sides, length))?
-        .map_err(python_error)
+    detached(py, places.len() >= FEW, || delone::merged_vertices(places, sides, length)).map_err(python_error)
 }
 
 /// Triangles, and the circumcentre of each.
@@ -95,7 +94,7 @@ pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) 
         let centre = |[a, b, c]: [[f64; 2]; 3]| circumcentre(a, b, c).unwrap_or([f64::INFINITY; 2]);
         let centres = triangles.iter().flat_map(|triangle| centre(triangle.map(|v| d.point(v))));
         (corners, centres.collect::<Vec<f64>>())
-    })?;
+    });
     let count = corners.len() / 3;
     let corners = PyArray1::from_vec(py, corners).reshape([count, 3])?;
     Ok((corners, PyArray1::from_vec(py, centres).reshape([count, 2])?))

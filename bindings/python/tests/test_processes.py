@@ -236,6 +236,47 @@ def test_there_are_as_many_threads_as_asked_for(run):
     assert answers["1"][3] == answers["3"][3]
 
 
+def test_the_variable_is_limited(run):
+    program = """
+        import os
+        import delone
+        from work import points
+        delone.Delaunay(points(50_000, 2))
+        print(len(os.listdir("/proc/self/task")))
+    """
+    if not os.path.exists("/proc/self/task"):
+        pytest.skip("nothing tells the number of threads here")
+    # This one, and whatever numpy has.
+    assert int(run(program, RAYON_NUM_THREADS="4000")[0]) <= max(16, 4 * os.cpu_count()) + 8
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="a limit of Linux")
+def test_no_thread_to_be_had(run):
+    program = """
+        import os
+        import resource
+        import threading
+        import work
+        if os.environ["ALONE"] == "1":
+            # What is imported late may be where another user finds nothing.
+            work.work(100)
+            if os.getuid() == 0:
+                # No limit holds root.
+                os.setgroups([])
+                os.setgid(65534)
+                os.setuid(65534)
+            resource.setrlimit(resource.RLIMIT_NPROC, (1, 1))
+            try:
+                threading.Thread(target=int).start()
+            except RuntimeError:
+                print("alone")
+        print(work.work(20_000), work.work(20_000))
+        print(len(os.listdir("/proc/self/task")))
+    """
+    first, second, _ = run(program, ALONE="0")
+    assert run(program, ALONE="1") == ["alone", first, second, "1"]
+
+
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="no /proc here")
 @pytest.mark.parametrize("what", ["Delaunay", "ConvexHull", "Hints", "add_points", "ConstrainedDelaunay"])
 @pytest.mark.parametrize("ndim", [2, 3])

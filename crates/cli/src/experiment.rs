@@ -35,7 +35,7 @@ pub(crate) fn run(args: &ExperimentArgs, quiet: bool) -> Result<(), Failure> {
         }
         None => Vec::new(),
     };
-    files::keep_apart(&[], args.stats.as_deref())?;
+    files::keep_apart(args.model.as_deref().as_slice(), args.stats.as_deref())?;
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))?;
         // What runs for hours should not find out in the end that it cannot be kept.
@@ -105,7 +105,12 @@ impl Kept {
     fn keep(&self, files: &mut BTreeMap<String, File>, table: &str, line: &str) -> io::Result<()> {
         let file = match files.entry(table.to_owned()) {
             Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(new) => new.insert(File::create(self.path(table))?),
+            Entry::Vacant(new) => {
+                let path = self.path(table);
+                // One that a run left which was stopped; nothing is followed.
+                _ = std::fs::remove_file(&path);
+                new.insert(File::create_new(path)?)
+            }
         };
         file.write_all(line.as_bytes())
     }
@@ -156,5 +161,5 @@ fn cannot_write(folder: &Path, error: &io::Error) -> Failure {
 
 fn write(folder: &Path, name: &str, extension: &str, content: &str) -> Result<(), Failure> {
     let path = folder.join(format!("{name}.{extension}"));
-    files::write(&path, |out| Ok(out.write_all(content.as_bytes())?))
+    files::write_own(&path, |out| Ok(out.write_all(content.as_bytes())?))
 }

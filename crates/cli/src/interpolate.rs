@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::{Grid, Interpolator, Outside, gradients};
 use delone::{Delaunay2, Delaunay3, Error, Surround};
-use delone_io::{Cloud, Format, Output, RasterInfo, RasterWriter, Sample, write_array};
+use delone_io::{Cloud, Format, RasterInfo, RasterWriter, Sample, write_array};
 
 use crate::args::{InterpolateArgs, MethodName, OutsideName};
 use crate::files;
@@ -202,10 +202,11 @@ fn write_raster(
     values: &[f64],
 ) -> Result<(), Failure> {
     let info = RasterInfo { grid: *grid, crs: about.crs.clone(), nodata: None, sample: Sample::default() };
+    let output = files::create(path)?;
     let write = || -> Result<(), delone_io::Error> {
-        let mut writer = RasterWriter::create(Output::create(path)?, format, &info)?;
+        let mut writer = RasterWriter::create(output, format, &info)?;
         writer.write_rows(values)?;
-        Ok(writer.finish()?.commit()?)
+        files::finish(writer.finish()?)
     };
     write().map_err(|error| files::cannot_write(path, error))
 }

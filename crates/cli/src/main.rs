@@ -6,6 +6,7 @@ mod animate;
 mod args;
 mod check;
 mod clip;
+mod closed;
 mod constrained;
 mod contours;
 mod draw;
@@ -39,12 +40,12 @@ mod room;
 mod signals;
 mod simplify;
 mod stats;
+mod threads;
 mod tiles;
 mod triangulate;
 mod voronoi;
 mod weighted;
 
-use std::num::NonZero;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -71,7 +72,7 @@ fn main() -> ExitCode {
     let quiet = cli.quiet;
     limits::start(cli.max_memory, cli.max_points);
     signals::clean_up();
-    start_threads(cli.threads, quiet);
+    threads::start(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
         Command::Tiles(args) => tiles::run(&args, quiet),
@@ -110,28 +111,11 @@ fn main() -> ExitCode {
         Command::Completions { shell } => about::completions(shell),
         Command::Man { output } => about::man(output.as_deref(), quiet),
     };
-    match result {
+    match result.and_then(|()| files::publish()) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
-    }
-}
-
-/// From how many points on threads share the work: this program has no other use for them.
-const SHARED_FROM: usize = 1 << 13;
-
-/// Starts the threads that work. Many more than there are cores would only wait for each other.
-fn start_threads(asked: Option<u16>, quiet: bool) {
-    delone::share_work_from(SHARED_FROM);
-    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let most = (4 * cores).max(16);
-    let mut threads = asked.map_or(0, usize::from);
-    if threads > most {
-        message::note(quiet, format_args!("{most} threads are used, not {threads}: there are {cores} cores"));
-        threads = most;
-    }
-    let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads);
-    // Where the system gives no threads, this one does the work.
-    if pool(threads).build_global().is_err() {
-        _ = pool(1).use_current_thread().build_global();
+        Err(failure) => {
+            delone_io::remove_unfinished();
+            failure.report()
+        }
     }
 }

@@ -7,6 +7,8 @@ use std::process::ExitCode;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
+use crate::closed;
+
 /// Why a command did not do its work.
 #[derive(Debug)]
 pub(crate) struct Failure {
@@ -121,7 +123,7 @@ fn one_line(text: &str) -> String {
 /// Prints help and version where they were asked for, and a usage error in one line otherwise.
 pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        return match error.print() {
+        return match closed::check().and_then(|()| error.print()) {
             Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => unanswered(&error).report(),
             _ => ExitCode::SUCCESS,
         };
@@ -175,7 +177,7 @@ fn unanswered(error: &std::io::Error) -> Failure {
 /// Prints a command's answer on standard output. A reader that has seen enough (`| head`) is no failure.
 pub(crate) fn answer(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match closed::check().and_then(|()| out.write_all(text.as_bytes())).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(unanswered(&error)),
         _ => Ok(()),
     }

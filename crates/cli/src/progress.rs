@@ -10,6 +10,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// How long a phase may take in silence.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// How often the bar moves that nothing else moves.
+const TICK: Duration = Duration::from_millis(100);
+
 /// One phase of the work. The bar appears after a second and goes away with the phase.
 pub(crate) struct Phase {
     bar: ProgressBar,
@@ -61,15 +64,19 @@ impl Phase {
         bar.set_message(what);
         let (done, wait) = mpsc::channel();
         let shown = bar.clone();
-        let waiter = std::thread::spawn(move || {
-            if wait.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
+        let watch = move || {
+            let goes_on = |time| wait.recv_timeout(time) == Err(mpsc::RecvTimeoutError::Timeout);
+            if goes_on(PATIENCE) {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
-                shown.enable_steady_tick(Duration::from_millis(100));
-                _ = wait.recv();
+                while goes_on(TICK) {
+                    shown.tick();
+                }
                 shown.finish_and_clear();
             }
-        });
-        Self { bar, done: Some((done, waiter)) }
+        };
+        // Without a thread for it there is no bar.
+        let waiter = std::thread::Builder::new().spawn(watch).ok();
+        Self { bar, done: waiter.map(|waiter| (done, waiter)) }
     }
 
     /// A reader that moves the bar.

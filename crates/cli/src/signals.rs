@@ -3,7 +3,7 @@
 /// Removes temporary files when the program is told to end, and lets it end as that signal does.
 #[cfg(unix)]
 pub(crate) fn clean_up() {
-    use std::sync::Arc;
+    use std::sync::{Arc, mpsc};
 
     use signal_hook::consts::{SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGXFSZ};
     use signal_hook::iterator::Signals;
@@ -15,15 +15,21 @@ pub(crate) fn clean_up() {
     let ignored = ignored();
     let is_wanted = |signal: &i32| ignored >> (signal - 1) & 1 == 0;
     let wanted = [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU].into_iter().filter(is_wanted);
-    let Ok(mut signals) = Signals::new(wanted) else { return };
+    let (sender, signals) = mpsc::channel::<Signals>();
     let watch = move || {
+        let Ok(mut signals) = signals.recv() else { return };
         for signal in signals.forever() {
+            delone_io::wait_for_names();
             delone_io::remove_unfinished();
             _ = emulate_default_handler(signal);
         }
     };
-    // Without a thread for it, signals end the program as before.
-    _ = std::thread::Builder::new().name("signals".to_owned()).spawn(watch);
+    // Without a thread for it nothing is caught, and signals end the program as before.
+    if std::thread::Builder::new().name("signals".to_owned()).spawn(watch).is_ok()
+        && let Ok(signals) = Signals::new(wanted)
+    {
+        _ = sender.send(signals);
+    }
 }
 
 /// The signals that whoever started the program had ignored, a bit each, as Linux tells; elsewhere hangups are left alone.

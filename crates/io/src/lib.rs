@@ -43,17 +43,20 @@ pub use format::Format;
 pub use formats::edges::{Edges, write_edges};
 pub use formats::las::LAS_CLASSES;
 pub use formats::npy::{Element, write_array};
-pub use formats::poly::Beside;
+pub use formats::poly::{Beside, has_points_beside};
 pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing};
 pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
-pub use output::{Output, TemporaryFolder, followed, remove_unfinished};
+pub use output::{
+    Finished, Output, TemporaryFolder, followed, give_names, remove_unfinished, sync_file, sync_folder,
+    wait_for_names,
+};
 pub use patches::{Patches, write_patches};
 pub use raster::{
-    ASC_NODATA, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster, read_raster,
-    read_surface,
+    ASC_NODATA, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
+    beside_raster_name, read_raster, read_surface,
 };
 pub use solid::{Solid, write_solid};
 pub use trim::{Border, Cut, Trim};

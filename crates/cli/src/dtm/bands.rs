@@ -42,7 +42,7 @@ pub(super) fn write(
     let mut sheets = Vec::new();
     for (path, format) in outputs {
         let failed = |error| files::cannot_write(path, error);
-        let output = Output::create(path).map_err(|error| failed(error.into()))?;
+        let output = files::create(path)?;
         sheets.push(match format {
             Format::Png => {
                 Sheet::Shade(ShadeWriter::create(output, &about.grid, Light::default()).map_err(failed)?)
@@ -78,7 +78,7 @@ pub(super) fn write(
         done.push(output.map_err(|error| files::cannot_write(path, error))?);
     }
     for (output, (path, format)) in done.into_iter().zip(outputs) {
-        output.commit().map_err(|error| files::cannot_write(path, error.into()))?;
+        files::finish(output).map_err(|error| files::cannot_write(path, error))?;
         if let Some((beside, text)) = beside_raster(path, *format, about.crs.as_ref()) {
             files::write(&beside, |out| Ok(std::io::Write::write_all(out, text.as_bytes())?))?;
         }

@@ -91,7 +91,7 @@ fn name(class: u8) -> String {
 /// A folder for tiles beside the first output that is a file; it goes with the work.
 pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TemporaryFolder, Failure> {
     let folder = outputs.iter().map(|output| folder_of(&output.0)).next().unwrap_or(Path::new("."));
-    TemporaryFolder::create(folder, ".delone-tiles-").map_err(|error| {
+    TemporaryFolder::create(folder).map_err(|error| {
         let what = format!("cannot make a folder for tiles in {}: {error}", folder.display());
         Failure::new(what, "check the permissions and the room on the disk")
     })

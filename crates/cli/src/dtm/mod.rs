@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
 use delone::{Bounds, Delaunay2};
-use delone_io::{Cloud, ContourMap, Crs, Format, write_contours};
+use delone_io::{Cloud, ContourMap, Crs, Format, beside_raster_name, write_contours};
 
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
@@ -42,12 +42,13 @@ const ROW: f64 = 64.0;
 const AT_ONCE: usize = 1 << 24;
 
 pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
-    let mut inputs = args.input.paths();
+    let input = inputs::resolve(args)?;
+    let mut inputs = input.paths();
     inputs.extend(args.breaklines.iter().chain(&args.flat).chain(&args.clip).map(PathBuf::as_path));
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     check(args, &outputs)?;
-    let input = inputs::resolve(args)?;
+    keep_besides_apart(&outputs, &inputs, stats_path)?;
     let clip = args.clip.as_deref().map(|path| Clip::read(path, quiet)).transpose()?;
     let mut stats = Stats::start();
     let mut job = Job { args, outputs: &outputs, clip, label: input.label(), quiet };
@@ -80,6 +81,18 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
         }
     }
     stats.write(stats_path)
+}
+
+/// Refuses files beside rasters that would go over others, even if they turn out not to be needed.
+fn keep_besides_apart(
+    outputs: &[(PathBuf, Format)],
+    inputs: &[&Path],
+    stats_path: Option<&Path>,
+) -> Result<(), Failure> {
+    let besides: Vec<PathBuf> =
+        outputs.iter().filter_map(|(path, format)| beside_raster_name(path, *format)).collect();
+    let named = outputs.iter().map(|output| output.0.as_path()).chain(stats_path);
+    files::keep_names_apart(inputs, named.chain(besides.iter().map(PathBuf::as_path)))
 }
 
 fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use delone::plane::verify::verify;
 use delone::{Algorithm2, Delaunay2};
-use delone_io::Format;
+use delone_io::{Format, TemporaryFolder};
 
 use crate::args::{GraphArgs, ReduceArgs};
 use crate::message::{Failure, answer, note};
@@ -33,7 +33,8 @@ pub(crate) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     let points = files::points(&args.input, 2, quiet)?.xy;
     stats.phase("read");
     stats.set("points", points.len());
-    let folder = tempfile::tempdir().map_err(|error| Failure::new(error, "check the temporary folder"))?;
+    let folder = TemporaryFolder::create(&std::env::temp_dir());
+    let folder = folder.map_err(|error| Failure::new(error, "check the temporary folder"))?;
     let reason = |points: &Points| match &args.against {
         Some(command) => failure_of_command(command, points, folder.path()),
         None => Ok(failure_of_delone(points)),
@@ -133,7 +134,7 @@ fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Result<O
     const NO_PROGRAM: [Option<i32>; 2] = [Some(127), Some(126)];
     let (input, output) = (folder.join("points.npy"), folder.join("triangles.npy"));
     _ = std::fs::remove_file(&output);
-    files::write(&input, |out| delone_io::write_points(out, Format::Npy, points))?;
+    files::write_own(&input, |out| delone_io::write_points(out, Format::Npy, points))?;
     let not_run = |why: String| {
         Failure::new(format!("the command {command:?} cannot be run: {why}"), "check the name of the program")
     };

@@ -4,15 +4,19 @@
 //! input, so of equal points the first is met first. No file stays open: there may be more tiles than files may be.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
+use std::hash::Hasher;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use delone::tiles::{Cuts, Node};
+use delone_io::sync_file;
 use rayon::prelude::*;
+use twox_hash::XxHash3_64;
 
 use super::input::hashed;
 use super::manifest::place;
+use super::own;
 use crate::args::DuplicatesName;
 use crate::heights::Several;
 use crate::message::Failure;
@@ -20,6 +24,13 @@ use crate::message::Failure;
 /// Where the bucket of a tile is.
 pub(super) fn bucket(folder: &Path, node: Node) -> PathBuf {
     place(folder, "bucket", node, "bin")
+}
+
+/// What was put into a bucket: so many points, whose bytes have this hash.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Filled {
+    pub(super) points: u64,
+    pub(super) sum: u64,
 }
 
 /// What a bucket holds.
@@ -49,6 +60,7 @@ pub(super) struct Buckets<'a> {
     tiles: Vec<Node>,
     waiting: Vec<Vec<u8>>,
     counts: Vec<u64>,
+    hashers: Vec<XxHash3_64>,
 }
 
 impl<'a> Buckets<'a> {
@@ -83,6 +95,7 @@ impl<'a> Buckets<'a> {
             tiles,
             waiting: vec![Vec::new(); count],
             counts: vec![0; count],
+            hashers: vec![XxHash3_64::new(); count],
         })
     }
 
@@ -121,19 +134,23 @@ impl<'a> Buckets<'a> {
 
     fn write(&mut self, tile: usize) -> Result<(), Failure> {
         let path = bucket(self.folder, self.tiles[tile]);
-        let append =
-            || OpenOptions::new().append(true).create(true).open(&path)?.write_all(&self.waiting[tile]);
+        let append = || own::append(&path)?.write_all(&self.waiting[tile]);
         append().map_err(|error| unwritten(&path, &error))?;
+        self.hashers[tile].write(&self.waiting[tile]);
         self.waiting[tile].clear();
         Ok(())
     }
 
-    /// Writes what is left, and tells how many points each tile has.
-    pub(super) fn finish(mut self) -> Result<BTreeMap<Node, u64>, Failure> {
+    /// Writes what is left, to the disk, and tells what each tile has.
+    pub(super) fn finish(mut self) -> Result<BTreeMap<Node, Filled>, Failure> {
         for tile in 0..self.tiles.len() {
             self.write(tile)?;
+            let path = bucket(self.folder, self.tiles[tile]);
+            sync_file(&path).map_err(|error| unwritten(&path, &error))?;
         }
-        Ok(self.tiles.into_iter().zip(self.counts).collect())
+        let filled = self.counts.into_iter().zip(self.hashers);
+        let filled = filled.map(|(points, hasher)| Filled { points, sum: hasher.finish() });
+        Ok(self.tiles.into_iter().zip(filled).collect())
     }
 }
 
@@ -159,7 +176,7 @@ pub(super) fn check(folder: &Path, node: Node, count: u64, has_heights: bool) ->
 /// A bucket that should have so many points.
 fn open(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<File, Failure> {
     let path = bucket(folder, node);
-    let file = File::open(&path)
+    let file = own::open(&path)
         .map_err(|error| lost(&path, format_args!("the bucket of a tile cannot be read: {error}")))?;
     let length = file.metadata().map_err(|error| lost(&path, error))?.len();
     let expected = count.saturating_mul(width(has_heights) as u64);
@@ -177,9 +194,9 @@ fn lost(path: &Path, what: impl std::fmt::Display) -> Failure {
 }
 
 /// Reads a bucket that should have so many points.
-pub(super) fn read(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<Content, Failure> {
-    let mut content = Content::default();
-    each(folder, node, count, has_heights, &mut |mut part| {
+pub(super) fn read(folder: &Path, node: Node, filled: Filled, has_heights: bool) -> Result<Content, Failure> {
+    let (mut content, count) = (Content::default(), filled.points);
+    each(folder, node, filled, has_heights, &mut |mut part| {
         if content.points.is_empty() {
             // It is as long, but a file may have a length that nobody wrote.
             let heights = if has_heights { count as usize } else { 0 };
@@ -199,21 +216,26 @@ pub(super) fn read(folder: &Path, node: Node, count: u64, has_heights: bool) -> 
 }
 
 /// Reads a bucket piece by piece.
+///
+/// # Errors
+/// It is not what was written; all of it was taken by then.
 fn each(
     folder: &Path,
     node: Node,
-    count: u64,
+    filled: Filled,
     has_heights: bool,
     take: &mut dyn FnMut(Content) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let width = width(has_heights);
-    let mut source = BufReader::with_capacity(1 << 16, open(folder, node, count, has_heights)?);
+    let mut source = BufReader::with_capacity(1 << 16, open(folder, node, filled.points, has_heights)?);
+    let mut hasher = XxHash3_64::new();
     let mut bytes = vec![0; width << 14];
-    let mut rest = count as usize;
+    let mut rest = filled.points as usize;
     while rest > 0 {
         let now = rest.min(1 << 14);
         let bytes = &mut bytes[..now * width];
         source.read_exact(bytes).map_err(|error| lost(&bucket(folder, node), error))?;
+        hasher.write(bytes);
         let mut part = Content::default();
         for record in bytes.chunks_exact(width) {
             let (words, _) = record.as_chunks::<8>();
@@ -227,6 +249,9 @@ fn each(
         take(part)?;
         rest -= now;
     }
+    if hasher.finish() != filled.sum {
+        return Err(lost(&bucket(folder, node), "it is not what was written"));
+    }
     Ok(())
 }
 
@@ -235,42 +260,48 @@ fn each(
 pub(super) fn cut_again(
     folder: &Path,
     cuts: &mut Cuts,
-    counts: &mut BTreeMap<Node, u64>,
+    buckets: &mut BTreeMap<Node, Filled>,
     (has_heights, rule): (bool, DuplicatesName),
     most: u64,
     buffer: usize,
 ) -> Result<u64, Failure> {
     let mut left_out = 0;
-    while let Some((&node, &count)) = counts.iter().find(|&(_, &count)| count > most) {
+    while let Some((&node, &filled)) = buckets.iter().find(|&(_, filled)| filled.points > most) {
+        let count = filled.points;
         let tiles = count.div_ceil((most * 4 / 5).max(1)) as usize;
-        let sample = sample_of(folder, node, count, has_heights)?;
+        let sample = sample_of(folder, node, filled, has_heights)?;
         let is_cut =
             cuts.cut(node, &sample, tiles.max(2)).map_err(|error| Failure::points(folder, &error))?;
         let old = bucket(folder, node);
-        counts.remove(&node);
+        buckets.remove(&node);
         if is_cut {
             let mut parts = Buckets::new(folder, cuts, node, has_heights, buffer)?;
-            each(folder, node, count, has_heights, &mut |part| {
+            each(folder, node, filled, has_heights, &mut |part| {
                 parts.put(&part.points, &part.heights, &part.ids)
             })?;
-            counts.extend(parts.finish()?);
+            buckets.extend(parts.finish()?);
             fs::remove_file(&old).map_err(|error| unwritten(&old, &error))?;
         } else {
             let height = if has_heights {
-                height_of_all(folder, node, count, rule)?.map(Several::height)
+                height_of_all(folder, node, filled, rule)?.map(Several::height)
             } else {
                 None
             };
             let shorten = || {
-                let mut file = OpenOptions::new().write(true).open(&old)?;
+                let mut file = own::change(&old)?;
                 if let Some(height) = height {
                     file.seek(SeekFrom::Start(HEIGHT))?;
                     file.write_all(&height.to_le_bytes())?;
                 }
-                file.set_len(width(has_heights) as u64)
+                file.set_len(width(has_heights) as u64)?;
+                sync_file(&old)?;
+                let mut bytes = Vec::new();
+                file.rewind()?;
+                file.read_to_end(&mut bytes)?;
+                Ok(XxHash3_64::oneshot(&bytes))
             };
-            shorten().map_err(|error| unwritten(&old, &error))?;
-            counts.insert(node, 1);
+            let sum = shorten().map_err(|error| unwritten(&old, &error))?;
+            buckets.insert(node, Filled { points: 1, sum });
             left_out += count - 1;
         }
     }
@@ -281,11 +312,11 @@ pub(super) fn cut_again(
 fn height_of_all(
     folder: &Path,
     node: Node,
-    count: u64,
+    filled: Filled,
     rule: DuplicatesName,
 ) -> Result<Option<Several>, Failure> {
     let mut all: Option<Several> = None;
-    each(folder, node, count, true, &mut |part| {
+    each(folder, node, filled, true, &mut |part| {
         for height in part.heights {
             match &mut all {
                 Some(several) => several.add(height),
@@ -298,13 +329,13 @@ fn height_of_all(
 }
 
 /// Some points of a bucket; two that differ among them, if there are any.
-fn sample_of(folder: &Path, node: Node, count: u64, has_heights: bool) -> Result<Vec<[f64; 2]>, Failure> {
+fn sample_of(folder: &Path, node: Node, filled: Filled, has_heights: bool) -> Result<Vec<[f64; 2]>, Failure> {
     /// Enough to cut into a few tiles.
     const SOME: u64 = 1 << 14;
-    let step = count.div_ceil(SOME);
+    let step = filled.points.div_ceil(SOME);
     let mut sample: Vec<[f64; 2]> = Vec::new();
     let mut other = None;
-    each(folder, node, count, has_heights, &mut |part| {
+    each(folder, node, filled, has_heights, &mut |part| {
         for (&p, &id) in part.points.iter().zip(&part.ids) {
             let first = *sample.first().unwrap_or(&p);
             if sample.is_empty() || hashed(id).is_multiple_of(step) {

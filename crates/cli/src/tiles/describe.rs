@@ -4,14 +4,12 @@ use std::path::Path;
 
 use super::manifest::{self, Manifest};
 use super::node::Done;
-use crate::files;
 use crate::message::{Failure, answer};
 use crate::stats::Stats;
 
 /// Tells what is known of a folder.
 pub(crate) fn describe(folder: &Path, stats_path: Option<&Path>) -> Result<(), Failure> {
-    super::keep_out(folder, stats_path)?;
-    files::keep_apart(&[], stats_path)?;
+    super::keep_apart(folder, stats_path)?;
     let mut stats = Stats::start();
     let plan = Manifest::read(folder)?.ok_or_else(|| manifest::no_tiles(folder))?;
     let tiles = plan.cuts.tiles();

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use delone::tiles::{Cuts, Node, Tile};
 use delone_io::write_array;
+use rayon::ThreadPool;
 
-use super::buckets::{self, Content};
+use super::buckets::{self, Content, Filled};
 use super::manifest::place;
 use super::node::Done;
 use super::sums::Sums;
@@ -20,7 +21,7 @@ use crate::progress::Phase;
 pub(super) fn all(
     folder: &Path,
     cuts: &Cuts,
-    open: &[(Node, u64)],
+    open: &[(Node, Filled)],
     (has_heights, rule): (bool, DuplicatesName),
     workers: usize,
     quiet: bool,
@@ -28,11 +29,11 @@ pub(super) fn all(
     let phase = Phase::count(quiet, "triangulating tiles", open.len() as u64);
     let (next, stop, failure) = (AtomicUsize::new(0), AtomicBool::new(false), Mutex::new(None));
     let work = || {
-        while let Some(&(node, count)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
+        while let Some(&(node, filled)) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
             if stop.load(Ordering::Relaxed) {
                 return;
             }
-            match one(folder, cuts, (node, count), (has_heights, rule)) {
+            match one(folder, cuts, (node, filled), (has_heights, rule)) {
                 Ok(()) => phase.advance(),
                 Err(error) => {
                     stop.store(true, Ordering::Relaxed);
@@ -45,30 +46,34 @@ pub(super) fn all(
     };
     let workers = workers.min(open.len());
     let share = (rayon::current_num_threads() / workers.max(1)).max(1);
-    if workers <= 1 {
-        work();
-    } else {
-        // Work of one pool would be taken over by those who wait in another tile: each worker has a pool of its own.
-        std::thread::scope(|scope| {
-            for _ in 0..workers {
-                scope.spawn(|| match rayon::ThreadPoolBuilder::new().num_threads(share).build() {
-                    Ok(pool) => pool.install(work),
-                    Err(_) => work(),
-                });
-            }
+    // Work of one pool would be taken over by those who wait in another tile: each worker has a pool of its own.
+    let pool = |_| rayon::ThreadPoolBuilder::new().num_threads(share).build().ok();
+    let pools: Vec<ThreadPool> =
+        if workers > 1 { (0..workers).map_while(pool).collect() } else { Vec::new() };
+    on_each(&pools, &work);
+    // Where there are no such threads, this one works.
+    work();
+    failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).map_or(Ok(()), Err)
+}
+
+/// Does the same work in all of these pools at once, and waits for its end.
+fn on_each(pools: &[ThreadPool], work: &(impl Fn() + Sync)) {
+    if let Some((first, others)) = pools.split_first() {
+        first.in_place_scope(|scope| {
+            scope.spawn(|_| work());
+            on_each(others, work);
         });
     }
-    failure.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
 /// Triangulates one tile, and removes its bucket in the end.
 fn one(
     folder: &Path,
     cuts: &Cuts,
-    (node, count): (Node, u64),
+    (node, filled): (Node, Filled),
     (has_heights, rule): (bool, DuplicatesName),
 ) -> Result<(), Failure> {
-    let Content { points, mut heights, ids } = buckets::read(folder, node, count, has_heights)?;
+    let Content { points, mut heights, ids } = buckets::read(folder, node, filled, has_heights)?;
     let bucket = buckets::bucket(folder, node);
     let tile = Tile::new(&points, &cuts.region(node)).map_err(|error| Failure::points(&bucket, &error))?;
     drop(points);

@@ -9,9 +9,12 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use delone::tiles::{Cut, Cuts, Fingerprint, Node};
+use delone_io::sync_folder;
 use serde_json::{Value, json};
 
+use super::buckets::Filled;
 use super::node::Done;
+use super::own;
 use super::sums::Written;
 use crate::files;
 use crate::message::Failure;
@@ -32,8 +35,8 @@ pub(crate) struct Manifest {
     pub(super) count: u64,
     pub(super) has_heights: bool,
     pub(super) cuts: Cuts,
-    /// For each tile the number of its points, once all are in their buckets.
-    pub(super) buckets: Option<BTreeMap<Node, u64>>,
+    /// What each tile's bucket has, once all points are in theirs.
+    pub(super) buckets: Option<BTreeMap<Node, Filled>>,
     /// Points that were left out because they equal the only one of their tile.
     pub(super) left_out: u64,
     /// What came out, once all is done.
@@ -131,8 +134,10 @@ impl Manifest {
             "cuts": self.cuts.cuts().into_iter().map(cut).collect::<Vec<_>>(),
         });
         if let Some(buckets) = &self.buckets {
-            let counts = buckets.iter().map(|(node, count)| json!([node.number(), count]));
-            all["buckets"] = counts.collect();
+            let entry = |(node, filled): (&Node, &Filled)| {
+                json!([node.number(), filled.points, format!("{:016x}", filled.sum)])
+            };
+            all["buckets"] = buckets.iter().map(entry).collect();
         }
         if let Some(outcome) = &self.outcome {
             all["triangles"] = json!(outcome.triangles());
@@ -143,13 +148,17 @@ impl Manifest {
             all["nodes"] = json!(outcome.nodes);
         }
         let text = format!("{all:#}\n");
-        files::write(&folder.join(NAME), |out| Ok(out.write_all(text.as_bytes())?))
+        // What it says is on the disk before it, and it is when this returns.
+        let sync = || sync_folder(folder).map_err(|error| files::cannot_write(folder, error.into()));
+        sync()?;
+        files::write_own(&folder.join(NAME), |out| Ok(out.write_all(text.as_bytes())?))?;
+        sync()
     }
 
     /// Reads that of a folder, if there is one.
     pub(crate) fn read(folder: &Path) -> Result<Option<Self>, Failure> {
         let path = folder.join(NAME);
-        let text = match std::fs::read_to_string(&path) {
+        let text = match own::open(&path).and_then(std::io::read_to_string) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::file(&path, &error.into())),
@@ -189,10 +198,14 @@ impl Manifest {
             Ok(cuts) => cuts,
             Err(error) => return Some(Err(error)),
         };
-        let buckets: Option<BTreeMap<Node, u64>> = match &all["buckets"] {
+        let buckets: Option<BTreeMap<Node, Filled>> = match &all["buckets"] {
             Value::Null => None,
             counts => {
-                let entry = |entry: &Value| Some((node(&entry[0])?, entry[1].as_u64()?));
+                // Those of a folder that is done are gone, and older ones have no hash.
+                let sum = |sum: &Value| u64::from_str_radix(sum.as_str().unwrap_or("0"), 16).ok();
+                let filled =
+                    |entry: &Value| Some(Filled { points: entry[1].as_u64()?, sum: sum(&entry[2])? });
+                let entry = |entry: &Value| Some((node(&entry[0])?, filled(entry)?));
                 Some(counts.as_array()?.iter().map(entry).collect::<Option<_>>()?)
             }
         };
@@ -212,7 +225,7 @@ impl Manifest {
         };
         let (count, left_out) = (all["count"].as_u64()?, all["left_out"].as_u64()?);
         if let Some(buckets) = &buckets {
-            let sum = buckets.values().try_fold(left_out, |sum, &points| sum.checked_add(points));
+            let sum = buckets.values().try_fold(left_out, |sum, filled| sum.checked_add(filled.points));
             (sum == Some(count)).then_some(())?;
         }
         if let Some(outcome) = &outcome {

@@ -13,19 +13,21 @@ mod leaf;
 mod manifest;
 mod neighbors;
 mod node;
+mod own;
 mod seams;
 mod shards;
 mod sums;
 #[cfg(feature = "parquet")]
 mod tables;
+mod trust;
 mod verdict;
 mod window;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use delone::tiles::{Cuts, Fingerprint, Node};
-use delone_io::{Cloud, followed};
+use delone_io::{Cloud, TemporaryFolder, followed, sync_folder};
 
 pub(crate) use describe::describe;
 pub(crate) use held::{Corner, Held};
@@ -59,10 +61,11 @@ pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let _lock = lock(folder)?;
     let begun = begin(folder, args.resume)?;
-    keep_out(folder, args.input.stats.as_deref())?;
+    keep_out(folder, args.input.paths().into_iter().chain(args.input.stats.as_deref()))?;
     let mut plan = match begun {
         Some(plan) => {
             check_input(&plan, &input, folder)?;
+            trust::check(folder, &plan, quiet)?;
             plan
         }
         None => survey(folder, &input, &budget, quiet)?.0,
@@ -111,6 +114,9 @@ fn add(
 /// Keeps other runs out of a folder, where its file system can: two would write the same buckets. It ends with the process.
 fn lock(folder: &Path) -> Result<Option<fs::File>, Failure> {
     _ = fs::create_dir_all(folder);
+    if !folder.is_dir() {
+        return Ok(None);
+    }
     let Ok(file) = fs::File::open(folder) else { return Ok(None) };
     match file.try_lock() {
         Err(fs::TryLockError::WouldBlock) => {
@@ -121,8 +127,8 @@ fn lock(folder: &Path) -> Result<Option<fs::File>, Failure> {
     }
 }
 
-/// Refuses outputs in a folder of tiles: they might be files of it.
-fn keep_out<'a>(folder: &Path, outputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+/// Refuses other files in a folder of tiles: they might be files of it, or become some.
+fn keep_out<'a>(folder: &Path, others: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
     let place = |folder: &Path| {
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         folder.canonicalize().ok()
@@ -132,13 +138,22 @@ fn keep_out<'a>(folder: &Path, outputs: impl IntoIterator<Item = &'a Path>) -> R
         let path = followed(path).unwrap_or_else(|_| path.to_path_buf());
         here.is_some() && path.parent().and_then(place) == here && path != Path::new("-")
     };
-    match outputs.into_iter().find(inside) {
+    match others.into_iter().find(inside) {
         Some(path) => {
             let what = format!("{} is in the folder of the tiles", path.display());
-            Err(Failure::usage(what, "name an output somewhere else"))
+            Err(Failure::usage(what, "name a file somewhere else"))
         }
         None => Ok(()),
     }
+}
+
+/// Refuses outputs in a folder of tiles that is read, or that are files of it by other names, or cannot be written.
+fn keep_apart<'a>(folder: &Path, outputs: impl IntoIterator<Item = &'a Path>) -> Result<(), Failure> {
+    let outputs: Vec<&Path> = outputs.into_iter().collect();
+    keep_out(folder, outputs.iter().copied())?;
+    let own: Vec<_> =
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    files::keep_apart(&own.iter().map(PathBuf::as_path).collect::<Vec<_>>(), outputs)
 }
 
 /// Makes the folder, or finds what is in it.
@@ -148,16 +163,14 @@ fn begin(folder: &Path, resume: bool) -> Result<Option<Manifest>, Failure> {
         Failure::new(format!("{}: {error}", folder.display()), help)
     };
     fs::create_dir_all(folder).map_err(failed)?;
-    let mut is_empty = true;
-    for entry in fs::read_dir(folder).map_err(failed)? {
-        let entry = entry.map_err(failed)?;
-        if resume && entry.file_name().to_string_lossy().starts_with(".delone-") {
-            // Half a file of a run that was killed.
-            _ = fs::remove_file(entry.path());
-        } else {
-            is_empty = false;
-        }
+    // Its own name too, where the folder that it is in may be read.
+    let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
+    _ = sync_folder(parent.unwrap_or(Path::new(".")));
+    if resume {
+        // What a run that was killed had half written goes.
+        _ = TemporaryFolder::create(folder);
     }
+    let is_empty = fs::read_dir(folder).map_err(failed)?.next().is_none();
     if is_empty {
         return Ok(None);
     }
@@ -221,8 +234,9 @@ fn distribute(
     (budget, rule): (&Budget, DuplicatesName),
     quiet: bool,
 ) -> Result<(), Failure> {
-    // Those of a run that was stopped while it filled them.
+    // Those of a run that was stopped while it filled them; of none of its tiles it can be known what it was made of.
     buckets::remove_all(folder);
+    node::remove_all(folder);
     let has_heights = plan.has_heights;
     let buffer = budget.buffer(plan.cuts.tiles().len());
     let mut buckets = Buckets::new(folder, &plan.cuts, Node::ROOT, has_heights, buffer)?;
@@ -260,16 +274,18 @@ fn triangulate(
     quiet: bool,
 ) -> Result<(), Failure> {
     let mut open = Vec::new();
-    for (&node, &count) in plan.buckets.iter().flatten() {
+    for (&node, &filled) in plan.buckets.iter().flatten() {
         if let Some(done) = Done::find(folder, node)? {
-            done.check_points(folder, count)?;
+            done.check_points(folder, filled.points)?;
         } else {
-            buckets::check(folder, node, count, plan.has_heights)?;
-            open.push((node, count));
+            buckets::check(folder, node, filled.points, plan.has_heights)?;
+            open.push((node, filled));
         }
     }
-    let Some(&(largest, count)) = open.iter().max_by_key(|&&(_, count)| count) else { return Ok(()) };
-    let workers = budget.workers(count, &buckets::bucket(folder, largest))?;
+    let Some(&(largest, filled)) = open.iter().max_by_key(|&&(_, filled)| filled.points) else {
+        return Ok(());
+    };
+    let workers = budget.workers(filled.points, &buckets::bucket(folder, largest))?;
     leaf::all(folder, &plan.cuts, &open, (plan.has_heights, rule), workers, quiet)
 }
 
@@ -286,7 +302,7 @@ fn finish(folder: &Path, plan: &mut Manifest, budget: &Budget, quiet: bool) -> R
         waiting.extend(cuts.halves(node).into_iter().flatten().rev());
         let Some(done) = Done::find(folder, node)? else { continue };
         let of_bucket = plan.buckets.as_ref().and_then(|buckets| buckets.get(&node));
-        done.check_points(folder, of_bucket.copied().unwrap_or(0))?;
+        done.check_points(folder, of_bucket.map_or(0, |filled| filled.points))?;
         fingerprint += done.fingerprint;
         vertices += done.vertices;
         duplicates += done.duplicates;

@@ -2,14 +2,18 @@
 //!
 //! A node is done when this file has its name, because it is written last.
 
-use std::fs::File;
+use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 
-use delone::tiles::{Border, Fingerprint, Node};
+use delone::tiles::{Border, Cuts, Fingerprint, Node};
+use delone_io::sync_folder;
 use serde_json::{Value, json};
+use twox_hash::XxHash3_64;
 
 use super::manifest::place;
+use super::own;
+use super::shards::wrong;
 use super::sums::Sums;
 use crate::files;
 use crate::message::Failure;
@@ -28,6 +32,9 @@ pub(super) struct Done {
     /// The hashes of its files.
     pub(super) sums: Sums,
 }
+
+/// What the hash of the border itself is called, XXH3 of 64 bits as those of other files.
+const SUM: &str = "sum";
 
 fn path(folder: &Path, node: Node) -> PathBuf {
     place(folder, "border", node, "bin")
@@ -84,25 +91,42 @@ impl Done {
         Err(damaged(&path(folder, self.node), what))
     }
 
-    /// Writes it with its border: the node is done then.
+    /// Whether its files are as they were written, and all that it must have are among them.
+    pub(super) fn check_files(&self, folder: &Path, cuts: &Cuts) -> Result<(), Failure> {
+        let kinds: &[&str] =
+            if cuts.is_tile(self.node) { &["points", "ids", "triangles"] } else { &["seam"] };
+        let files = kinds.iter().map(|kind| place(folder, kind, self.node, "npy"));
+        if let Some(path) = files.into_iter().find(|path| !self.sums.has(path)) {
+            return Err(wrong(&path, "tiles.json has no hash of it"));
+        }
+        self.sums.check(folder)
+    }
+
+    /// Writes it with its border: the node is done then. Its files are on the disk before, and this one after.
     pub(super) fn write(&self, folder: &Path, border: &Border) -> Result<(), Failure> {
-        files::write(&path(folder, self.node), |out| {
-            writeln!(out, "{}", self.describe())?;
-            Ok(out.write_all(&border.to_bytes())?)
-        })
+        let sync = || sync_folder(folder).map_err(|error| files::cannot_write(folder, error.into()));
+        sync()?;
+        let bytes = border.to_bytes();
+        let mut head = self.describe();
+        head[SUM] = json!(format!("{:016x}", XxHash3_64::oneshot(&bytes)));
+        files::write_own(&path(folder, self.node), |out| {
+            writeln!(out, "{head}")?;
+            Ok(out.write_all(&bytes)?)
+        })?;
+        sync()
     }
 
     /// What is known of a node, if it is done.
     pub(super) fn find(folder: &Path, node: Node) -> Result<Option<Self>, Failure> {
         let path = path(folder, node);
-        let file = match File::open(&path) {
+        let file = match own::open(&path) {
             Ok(file) => file,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Failure::file(&path, &error.into())),
         };
         let failed = |error: std::io::Error| Failure::file(&path, &error.into());
         let length = file.metadata().map_err(failed)?.len();
-        let done = Self::head(&path, &mut BufReader::new(file))?;
+        let (done, _) = Self::head(&path, &mut BufReader::new(file))?;
         if done.node != node {
             return Err(damaged(&path, format_args!("it is of node {}", done.node.number())));
         }
@@ -113,12 +137,15 @@ impl Done {
         Ok(Some(done))
     }
 
-    fn head(path: &Path, source: &mut impl BufRead) -> Result<Self, Failure> {
+    /// It, and the hash of its border.
+    fn head(path: &Path, source: &mut impl BufRead) -> Result<(Self, u64), Failure> {
         let mut line = Vec::new();
         let read = source.take(1 << 12).read_until(b'\n', &mut line);
         read.map_err(|error| Failure::file(path, &error.into()))?;
         let value = serde_json::from_slice(&line).unwrap_or(Value::Null);
-        Self::parse(&value).ok_or_else(|| damaged(path, "it does not begin with what a node has"))
+        let sum = value[SUM].as_str().and_then(|sum| u64::from_str_radix(sum, 16).ok());
+        let head = Self::parse(&value).zip(sum);
+        head.ok_or_else(|| damaged(path, "it does not begin with what a node has"))
     }
 }
 
@@ -126,14 +153,26 @@ impl Done {
 pub(super) fn border(folder: &Path, node: Node) -> Result<Border, Failure> {
     let path = path(folder, node);
     let failed = |error: std::io::Error| Failure::file(&path, &error.into());
-    let mut source = BufReader::new(File::open(&path).map_err(failed)?);
-    Done::head(&path, &mut source)?;
+    let mut source = BufReader::new(own::open(&path).map_err(failed)?);
+    let (_, sum) = Done::head(&path, &mut source)?;
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes).map_err(failed)?;
+    if XxHash3_64::oneshot(&bytes) != sum {
+        return Err(damaged(&path, "the border is not what was written"));
+    }
     Border::from_bytes(&bytes).map_err(|problem| damaged(&path, problem))
+}
+
+/// Removes all borders of a folder: nothing is done.
+pub(super) fn remove_all(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if entry.file_name().to_string_lossy().starts_with("border-") {
+            _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// Forgets the border of a node: all is done.
 pub(super) fn forget(folder: &Path, node: Node) {
-    _ = std::fs::remove_file(path(folder, node));
+    _ = fs::remove_file(path(folder, node));
 }

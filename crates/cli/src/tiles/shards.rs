@@ -1,7 +1,6 @@
 //! The shards of a folder that is done, read by whoever checks them or makes something of them.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -9,6 +8,7 @@ use delone::tiles::{Cuts, Node};
 use delone_io::{Cloud, Format, ReadOptions, Source};
 
 use super::manifest::place;
+use super::own;
 use crate::message::Failure;
 
 const HELP: &str = "files of the folder were changed or lost: start again in another folder";
@@ -62,6 +62,6 @@ fn read<T>(
     path: &Path,
     content: impl Fn(Box<dyn Source>) -> Result<T, delone_io::Error>,
 ) -> Result<T, Failure> {
-    let open = || content(Box::new(BufReader::new(File::open(path)?)));
+    let open = || content(Box::new(BufReader::new(own::open(path)?)));
     open().map_err(|error| wrong(path, error))
 }

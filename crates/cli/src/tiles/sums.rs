@@ -6,7 +6,7 @@
 //! Cost: some ten gigabytes a second.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::hash::Hasher;
 use std::io::{self, Read, Write};
 use std::path::Path;
@@ -16,6 +16,7 @@ use delone_io::Output;
 use serde_json::{Map, Value};
 use twox_hash::XxHash3_64;
 
+use super::own;
 use super::shards::wrong;
 use crate::files;
 use crate::message::Failure;
@@ -56,7 +57,7 @@ impl Sums {
         path: &Path,
         content: impl FnOnce(&mut Summed) -> Result<(), delone_io::Error>,
     ) -> Result<(), Failure> {
-        let sum = files::write(path, |out| {
+        let sum = files::write_own(path, |out| {
             let mut summed = Summed { out, hasher: XxHash3_64::new() };
             content(&mut summed)?;
             Ok(summed.hasher.finish())
@@ -94,22 +95,28 @@ impl Sums {
 
     /// Whether all of them are as they were written.
     pub(super) fn check(&self, folder: &Path) -> Result<(), Failure> {
-        for (name, &expected) in &self.0 {
-            let path = folder.join(name);
-            let found = of_file(&path).map_err(|error| wrong(&path, error))?;
-            if found != expected {
-                let what = format!(
-                    "it is not what was written: its hash is {found:016x}, and tiles.json has {expected:016x}"
-                );
-                return Err(wrong(&path, what));
-            }
-        }
-        Ok(())
+        self.0.iter().try_for_each(|(name, &sum)| check(&folder.join(name), sum))
+    }
+
+    /// Whether one of them is as it was written.
+    pub(super) fn check_file(&self, path: &Path) -> Result<(), Failure> {
+        let sum = self.0.get(&name(path)).ok_or_else(|| wrong(path, "tiles.json has no hash of it"))?;
+        check(path, *sum)
     }
 }
 
+fn check(path: &Path, expected: u64) -> Result<(), Failure> {
+    let found = of_file(path).map_err(|error| wrong(path, error))?;
+    if found == expected {
+        return Ok(());
+    }
+    let what =
+        format!("it is not what was written: its hash is {found:016x}, and {expected:016x} was written");
+    Err(wrong(path, what))
+}
+
 fn of_file(path: &Path) -> io::Result<u64> {
-    let (mut file, mut hasher) = (File::open(path)?, XxHash3_64::new());
+    let (mut file, mut hasher) = (own::open(path)?, XxHash3_64::new());
     let mut bytes = vec![0; 1 << 18];
     loop {
         match file.read(&mut bytes) {

@@ -20,7 +20,6 @@ use super::manifest::{self, Manifest, place};
 use super::node::Done;
 use super::shards::{self, wrong};
 use super::sums::{self, Sums};
-use crate::files;
 use crate::message::{Failure, answer};
 use crate::progress::Phase;
 use crate::stats::Stats;
@@ -46,8 +45,7 @@ impl Edge {
 /// Judges a folder.
 pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
-    super::keep_out(folder, stats_path)?;
-    files::keep_apart(&[], stats_path)?;
+    super::keep_apart(folder, stats_path)?;
     let (plan, outcome) = manifest::finished(folder)?;
     let nodes: Vec<Done> = outcome.nodes.iter().filter_map(Done::parse).collect();
     let wrong = |what: String| wrong(folder, what);
@@ -70,12 +68,12 @@ pub(crate) fn check(folder: &Path, stats_path: Option<&Path>, quiet: bool) -> Re
     };
     for tile in &tiles {
         judge.tile(tile)?;
-        judge.content(tile, &["points", "ids", "triangles"])?;
+        tile.check_files(folder, &plan.cuts)?;
         phase.advance();
     }
     for seam in &seams {
         judge.seam(seam)?;
-        judge.content(seam, &["seam"])?;
+        seam.check_files(folder, &plan.cuts)?;
         phase.advance();
     }
     drop(phase);
@@ -187,15 +185,6 @@ impl Judge<'_> {
             apex: name(apex),
         }));
         Ok(())
-    }
-
-    /// Whether the files of a node are as they were written, these among them.
-    fn content(&self, done: &Done, kinds: &[&str]) -> Result<(), Failure> {
-        let files = kinds.iter().map(|kind| place(self.folder, kind, done.node, "npy"));
-        if let Some(path) = files.into_iter().find(|path| !done.sums.has(path)) {
-            return Err(wrong(&path, "tiles.json has no hash of it"));
-        }
-        done.sums.check(self.folder)
     }
 
     /// Judges the triangles of a seam, whose edges wait for those of others.

@@ -7,7 +7,7 @@
 //! Cost: reading the tiles and seams concerned, one at a time, and the triangulation of what is shown.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use delone::tiles::{Node, Region};
 use delone::{Delaunay2, TriangleId, Triangulation as _};
@@ -16,6 +16,7 @@ use delone_io::{Mesh, Trim, picture, write_mesh};
 use super::manifest::{self, Manifest, place};
 use super::node::Done;
 use super::shards::{self, wrong};
+use super::sums::Sums;
 use crate::args::WindowArgs;
 use crate::files;
 use crate::message::{Failure, say};
@@ -44,15 +45,17 @@ pub(crate) fn run(args: &WindowArgs, quiet: bool) -> Result<(), Failure> {
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.stats.as_deref(), &[])?)?;
     room::check_formats::<Delaunay2>(&outputs)?;
     let paths = outputs.iter().map(|(path, _)| path.as_path());
-    super::keep_out(&args.folder, paths.chain(args.stats.as_deref()))?;
+    super::keep_apart(&args.folder, paths.chain(args.stats.as_deref()))?;
     let (plan, outcome) = manifest::finished(&args.folder)?;
+    let known: BTreeMap<Node, Sums> =
+        outcome.nodes.iter().filter_map(Done::parse).map(|done| (done.node, done.sums)).collect();
     let nodes: Vec<Node> = outcome.nodes.iter().filter_map(Done::parse).map(|done| done.node).collect();
     let window = window(args)?;
     if args.box_.is_empty() && args.points.is_none() && outcome.triangles() > MANY {
         let what = format!("{} has {} triangles", args.folder.display(), grouped(outcome.triangles()));
         return Err(Failure::usage(what, "choose a part with --box, or an overview with --points"));
     }
-    let of_window = Reader { folder: &args.folder, plan: &plan, window, quiet };
+    let of_window = Reader { folder: &args.folder, plan: &plan, known, window, quiet };
     let part = match args.points {
         Some(points) => of_window.overview(&nodes, (outcome.vertices / points.get()).max(1) as usize)?,
         None => of_window.part(&nodes)?,
@@ -108,6 +111,8 @@ fn window(args: &WindowArgs) -> Result<Region, Failure> {
 struct Reader<'a> {
     folder: &'a Path,
     plan: &'a Manifest,
+    /// The hashes of the files of each node.
+    known: BTreeMap<Node, Sums>,
     window: Region,
     quiet: bool,
 }
@@ -120,7 +125,7 @@ impl Reader<'_> {
         let phase = Phase::count(self.quiet, "reading", nodes.len() as u64);
         for &node in nodes.iter().filter(|&&node| self.plan.cuts.is_tile(node) && self.meets(node)) {
             let points = self.points(node)?;
-            let path = place(self.folder, "triangles", node, "npy");
+            let path = self.checked("triangles", node)?;
             for t in shards::triangles(&path)? {
                 let Some(corners) = corners(&points, t) else { return Err(wrong(&path, FOREIGN)) };
                 if self.shows(corners.map(|corner| corner.0)) {
@@ -130,7 +135,7 @@ impl Reader<'_> {
             phase.advance();
         }
         for &node in nodes.iter().filter(|&&node| !self.plan.cuts.is_tile(node)) {
-            let path = place(self.folder, "seam", node, "npy");
+            let path = self.checked("seam", node)?;
             seams.extend(shards::triangles(&path)?);
             phase.advance();
         }
@@ -160,9 +165,17 @@ impl Reader<'_> {
 
     /// The points of a tile, with heights or zeros.
     fn points(&self, node: Node) -> Result<Vec<([f64; 2], f64)>, Failure> {
+        self.checked("points", node)?;
         let cloud = shards::points(self.folder, node)?;
         let heights = cloud.z.unwrap_or_else(|| vec![0.0; cloud.xy.len()]);
         Ok(cloud.xy.into_iter().zip(heights).collect())
+    }
+
+    /// Where a file of a node is, if it is what was written.
+    fn checked(&self, kind: &str, node: Node) -> Result<PathBuf, Failure> {
+        let path = place(self.folder, kind, node, "npy");
+        self.known.get(&node).map_or(Ok(()), |sums| sums.check_file(&path))?;
+        Ok(path)
     }
 
     /// Whether the region of a node meets the window.

@@ -260,12 +260,16 @@ pub(crate) fn write_simplices(
     if count < BUFFER || rayon::current_num_threads() == 1 {
         return std::iter::from_fn(block).try_for_each(|block| out.write_all(&block));
     }
-    std::thread::scope(|scope| {
+    let lent = &mut block;
+    let by_two = std::thread::scope(|scope| {
         let (ready, blocks) = sync_channel::<Vec<u8>>(4);
         // A writer that fails hangs up.
-        scope.spawn(move || std::iter::from_fn(&mut block).all(|block| ready.send(block).is_ok()));
-        blocks.iter().try_for_each(|block| out.write_all(&block))
-    })
+        let make = move || std::iter::from_fn(lent).all(|block| ready.send(block).is_ok());
+        let other = std::thread::Builder::new().spawn_scoped(scope, make);
+        other.is_ok().then(|| blocks.iter().try_for_each(|block| out.write_all(&block)))
+    });
+    // Where there is no second thread, this one does all.
+    by_two.unwrap_or_else(|| std::iter::from_fn(block).try_for_each(|block| out.write_all(&block)))
 }
 
 pub(crate) fn write_points<const D: usize>(out: &mut dyn Write, points: &[[f64; D]]) -> io::Result<()> {

@@ -39,6 +39,14 @@ pub(crate) fn read(source: Box<dyn Source>, beside: Option<Beside>) -> Result<Gr
     }
 }
 
+/// Whether the points of a file are in the `.node` file beside it: its first number, which counts them, is 0.
+pub fn has_points_beside(source: Box<dyn Source>) -> Result<bool, Error> {
+    let mut lines = Lines::new(source);
+    let line = lines.next()?;
+    let word = line.as_ref().and_then(|line| line.text.split_whitespace().next());
+    Ok(word.and_then(|word| word.parse().ok()) == Some(0))
+}
+
 /// Reads the points alone.
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     let nodes = Nodes::read(&mut Lines::new(source), false)?;

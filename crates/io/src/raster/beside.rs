@@ -22,19 +22,30 @@ use crate::{Crs, Format};
 /// assert!(text.contains("PROJCS[&quot;ours&quot;"));
 /// ```
 pub fn beside_raster(path: &Path, format: Format, crs: Option<&Crs>) -> Option<(PathBuf, String)> {
-    let crs = crs?;
+    let (crs, beside) = (crs?, beside_raster_name(path, format)?);
+    let text = match format {
+        Format::Tiff if encode(Some(crs)).are_complete => return None,
+        Format::Tiff => {
+            let definition = crs.wkt.clone().or_else(|| Some(format!("EPSG:{}", crs.epsg?)))?;
+            format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", escaped(&definition))
+        }
+        _ => format!("{}\n", crs.wkt.as_ref()?),
+    };
+    Some((beside, text))
+}
+
+/// The file that [`beside_raster`] may name; `None` for formats that have none.
+pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
     if path == Path::new("-") {
         return None;
     }
     match format {
-        Format::Tiff if !encode(Some(crs)).are_complete => {
+        Format::Tiff => {
             let mut name = path.file_name()?.to_owned();
             name.push(".aux.xml");
-            let definition = crs.wkt.clone().or_else(|| Some(format!("EPSG:{}", crs.epsg?)))?;
-            let text = format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", escaped(&definition));
-            Some((path.with_file_name(name), text))
+            Some(path.with_file_name(name))
         }
-        Format::Asc => Some((path.with_extension("prj"), format!("{}\n", crs.wkt.as_ref()?))),
+        Format::Asc => Some(path.with_extension("prj")),
         _ => None,
     }
 }

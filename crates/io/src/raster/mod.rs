@@ -16,7 +16,7 @@ use delone::surface::Grid;
 use crate::{Cloud, Crs, Error, Format, ReadOptions, Source, read_points};
 
 pub use asc::ASC_NODATA;
-pub use beside::beside_raster;
+pub use beside::{beside_raster, beside_raster_name};
 pub use shade::{Light, ShadeWriter};
 
 /// The numbers that a GeoTIFF is written with. Text is written with as many digits as these need, and arrays of NumPy with 64 bits.

@@ -1,82 +1,27 @@
-//! Whole files or none: output under a temporary name, renamed when complete.
+//! Whole files or none: output under a temporary name (`staging.rs`), renamed when complete (`naming.rs`).
 //!
 //! What is no file (a device, a pipe) is written straight; a name that points elsewhere is followed; a file keeps its
 //! mode and its owner, and, if it has several names, all of them.
 
+mod naming;
+mod staging;
+
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Stderr, Stdout, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
-use std::time::Duration;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use tempfile::{NamedTempFile, TempDir, TempPath};
 
 use crate::format::is_gzip;
 
+pub use naming::{Finished, give_names, wait_for_names};
+pub use staging::{TemporaryFolder, remove_unfinished};
+
+use naming::{How, Staged};
+
 /// Bytes that are gathered before they are written.
 const BUFFER: usize = 1 << 16;
-
-/// Temporary files and folders that exist.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Removes all temporary files and folders of this process, which is about to be ended by a signal.
-pub fn remove_unfinished() {
-    /// Threads go on meanwhile, and may write into a folder that is being emptied.
-    const TRIES: usize = 10;
-    if let Some(mut paths) = lock_soon(&UNFINISHED) {
-        for path in paths.drain(..) {
-            let is_gone = fs::remove_file(&path).is_ok();
-            _ = is_gone || (0..TRIES).any(|_| fs::remove_dir_all(&path).is_ok());
-        }
-    }
-}
-
-/// Locks what another thread mostly holds for no longer than it takes to make a file; but whoever holds it may be the one that was stopped.
-fn lock_soon<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
-    const TRIES: usize = 200;
-    (0..TRIES).find_map(|_| match mutex.try_lock() {
-        Ok(guard) => Some(guard),
-        Err(TryLockError::Poisoned(error)) => Some(error.into_inner()),
-        Err(TryLockError::WouldBlock) => {
-            std::thread::sleep(Duration::from_millis(5));
-            None
-        }
-    })
-}
-
-/// A folder for work, which goes with all that is in it when this is dropped, or by [`remove_unfinished`].
-#[derive(Debug)]
-pub struct TemporaryFolder(TempDir);
-
-impl TemporaryFolder {
-    /// Makes it in another folder, with a name that begins so.
-    pub fn create(within: &Path, prefix: &str) -> io::Result<Self> {
-        // Known before a signal can come between.
-        let mut paths = unfinished();
-        let folder = tempfile::Builder::new().prefix(prefix).tempdir_in(within)?;
-        paths.push(folder.path().to_owned());
-        Ok(Self(folder))
-    }
-
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        self.0.path()
-    }
-}
-
-impl Drop for TemporaryFolder {
-    fn drop(&mut self) {
-        // Forgotten when it is gone: a signal in between still finds it.
-        _ = fs::remove_dir_all(self.0.path());
-        unfinished().retain(|known| known != self.0.path());
-    }
-}
 
 /// An output file being written, or standard output for `-`; compressed if its name ends in `.gz`. Dropped before
 /// [`Output::commit`], it leaves nothing behind.
@@ -105,22 +50,9 @@ enum Sink {
 enum Place {
     /// It was written straight.
     Straight,
-    /// It gets this name, and the mode and owner of the file that has it.
-    Rename { from: Temporary, to: PathBuf, before: Option<Metadata> },
-    /// It is copied into the file of this name.
-    Copy { from: Temporary, to: File },
-}
-
-/// A temporary file, and that it is known to [`remove_unfinished`].
-#[derive(Debug)]
-struct Temporary(Option<TempPath>);
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        if let Some(path) = self.0.take() {
-            unfinished().retain(|known| known != &*path);
-        }
-    }
+    Staged(Staged),
+    /// The same, and it is on the disk before it has its name.
+    Durable(Staged),
 }
 
 impl Output {
@@ -135,39 +67,81 @@ impl Output {
         Ok(Self { writer, place })
     }
 
+    /// Begins a file of a folder that is this program's own. Whatever has its name is replaced, and nothing is followed, opened or waited
+    /// for. Its bytes are on the disk before it has the name, unless the folder goes with the work.
+    pub fn create_own(path: &Path) -> io::Result<Self> {
+        let (file, staged) = stage(path, folder_of(path), How::Rename(None))?;
+        let place = if staging::is_temporary(path) { Place::Staged(staged) } else { Place::Durable(staged) };
+        Ok(Self { writer: Writer::Plain(Sink::File(BufWriter::with_capacity(BUFFER, file))), place })
+    }
+
     /// Ends the file and gives it its name.
     pub fn commit(self) -> io::Result<()> {
+        give_names(vec![self.finish()?]).map_err(|(_, error)| error)
+    }
+
+    /// Ends the file, which is to get its name together with others.
+    pub fn finish(self) -> io::Result<Finished> {
         let sink = match self.writer {
             Writer::Plain(sink) => sink,
             Writer::Gzip(encoder) => encoder.finish()?,
         };
         let file = match sink {
-            Sink::Stdout(mut stdout) => return stdout.flush(),
-            Sink::Stderr(mut stderr) => return stderr.flush(),
+            Sink::Stdout(mut stdout) => {
+                stdout.flush()?;
+                return Ok(Finished(None));
+            }
+            Sink::Stderr(mut stderr) => {
+                stderr.flush()?;
+                return Ok(Finished(None));
+            }
             Sink::File(file) => file.into_inner().map_err(io::IntoInnerError::into_error)?,
         };
-        match self.place {
-            Place::Straight => Ok(()),
-            Place::Rename { mut from, to, before } => {
-                let keeps = before.is_none_or(|before| take_after(&file, &before).is_ok());
-                drop(file);
-                if !keeps {
-                    // Only its owner can make another file look like it.
-                    let old = OpenOptions::new().write(true).open(&to)?;
-                    return copy(&from, old);
-                }
-                let Some(path) = from.0.take() else { return Ok(()) };
-                let known = path.to_path_buf();
-                let renamed = path.persist(&to).map_err(|error| error.error);
-                unfinished().retain(|path| path != &known);
-                renamed
+        let mut staged = match self.place {
+            Place::Straight => return Ok(Finished(None)),
+            Place::Staged(staged) => staged,
+            Place::Durable(staged) => {
+                file.sync_data()?;
+                staged
             }
-            Place::Copy { from, to } => {
-                drop(file);
-                copy(&from, to)
-            }
+        };
+        if let How::Rename(Some(before)) = &staged.how
+            && take_after(&file, before).is_err()
+        {
+            // Only its owner can make another file look like it.
+            staged.how = How::Copy;
         }
+        Ok(Finished(Some(staged)))
     }
+}
+
+/// Waits until a file is on the disk; not one that goes with the work.
+pub fn sync_file(path: &Path) -> io::Result<()> {
+    if staging::is_temporary(path) { Ok(()) } else { OpenOptions::new().append(true).open(path)?.sync_data() }
+}
+
+/// Waits until the names of a folder are on the disk; not of one that goes with the work, nor where folders cannot be asked to.
+pub fn sync_folder(folder: &Path) -> io::Result<()> {
+    if staging::is_temporary(folder) {
+        return Ok(());
+    }
+    match File::open(folder).and_then(|folder| folder.sync_all()) {
+        Err(error) if !cfg!(unix) || error.kind() == io::ErrorKind::InvalidInput => Ok(()),
+        outcome => outcome,
+    }
+}
+
+/// The folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A file in a temporary folder in another one, on its way to a name.
+fn stage(to: &Path, within: &Path, how: How) -> io::Result<(File, Staged)> {
+    let stage = TemporaryFolder::shared(within)?;
+    let from = stage.new_name();
+    let file = OpenOptions::new().read(true).write(true).create_new(true).open(&from)?;
+    Ok((file, Staged { stage, from, to: to.to_owned(), how }))
 }
 
 /// Where an output goes, and how it gets there.
@@ -203,26 +177,18 @@ fn open(path: &Path) -> io::Result<(Sink, Place)> {
         _ => {}
     }
     // Whether it may be written is asked now, not when all work is done.
-    let old = before.as_ref().map(|_| OpenOptions::new().write(true).open(&path)).transpose()?;
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let beside = temporary(folder);
-    let (file, from, old) = match (beside, old) {
-        (Ok((file, from)), Some(old)) if before.as_ref().is_some_and(has_many_names) => {
-            (file, from, Some(old))
-        }
-        (Ok((file, from)), _) => (file, from, None),
+    if before.is_some() {
+        OpenOptions::new().write(true).open(&path)?;
+    }
+    let is_copied = before.as_ref().is_some_and(has_many_names);
+    let is_there = before.is_some();
+    let how = if is_copied { How::Copy } else { How::Rename(before) };
+    let (file, staged) = match stage(&path, folder_of(&path), how) {
         // The file may be written, its folder not.
-        (Err(_), Some(old)) => {
-            let (file, from) = temporary(&std::env::temp_dir())?;
-            (file, from, Some(old))
-        }
-        (Err(error), None) => return Err(error),
+        Err(_) if is_there => stage(&path, &std::env::temp_dir(), How::Copy)?,
+        staged => staged?,
     };
-    let place = match old {
-        Some(to) => Place::Copy { from, to },
-        None => Place::Rename { from, to: path, before },
-    };
-    Ok((Sink::File(BufWriter::with_capacity(BUFFER, file)), place))
+    Ok((Sink::File(BufWriter::with_capacity(BUFFER, file)), Place::Staged(staged)))
 }
 
 /// Whether a path is a descriptor, whose link is not the name of a file: /dev/fd/3, /proc/self/fd/3.
@@ -248,31 +214,6 @@ pub fn followed(path: &Path) -> io::Result<PathBuf> {
         }
     }
     Err(io::Error::other("too many links"))
-}
-
-fn temporary(folder: &Path) -> io::Result<(File, Temporary)> {
-    let mut name = tempfile::Builder::new();
-    name.prefix(".delone-").suffix(".tmp");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file: the process's mask decides.
-        name.permissions(fs::Permissions::from_mode(0o666));
-    }
-    // Known before a signal can come between.
-    let mut paths = unfinished();
-    let (file, path) = NamedTempFile::into_parts(name.tempfile_in(folder)?);
-    paths.push(path.to_path_buf());
-    Ok((file, Temporary(Some(path))))
-}
-
-fn copy(from: &Temporary, mut to: File) -> io::Result<()> {
-    if let Some(path) = &from.0 {
-        let mut source = File::open(path)?;
-        to.set_len(0)?;
-        io::copy(&mut source, &mut to)?;
-    }
-    Ok(())
 }
 
 /// Gives a file the mode and the owner of another.
@@ -340,7 +281,7 @@ impl Write for Output {
 impl Seek for Output {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         match (&mut self.writer, &self.place) {
-            (Writer::Plain(Sink::File(file)), Place::Rename { .. } | Place::Copy { .. }) => file.seek(to),
+            (Writer::Plain(Sink::File(file)), Place::Staged(_) | Place::Durable(_)) => file.seek(to),
             _ => {
                 Err(io::Error::new(io::ErrorKind::NotSeekable, "it is written from its beginning to its end"))
             }
@@ -350,12 +291,10 @@ impl Seek for Output {
 
 #[cfg(test)]
 mod tests {
-    use super::{Output, lock_soon};
+    use super::Output;
     use std::fs;
     use std::io::{Seek, SeekFrom, Write};
     use std::path::Path;
-    use std::sync::{Mutex, mpsc};
-    use std::time::Duration;
 
     fn write(path: &Path, content: &[u8]) {
         let mut output = Output::create(path).expect("writable");
@@ -428,6 +367,26 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 5);
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn own_files_replace_what_has_their_name() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let place = |name: &str| folder.path().join(name);
+        fs::write(place("victim"), "precious").expect("room");
+        symlink(place("victim"), place("link")).expect("linked");
+        fs::hard_link(place("victim"), place("second")).expect("linked");
+        assert!(std::process::Command::new("mkfifo").arg(place("pipe")).status().expect("mkfifo").success());
+        for name in ["link", "second", "pipe", "new"] {
+            let mut output = Output::create_own(&place(name)).expect("writable");
+            output.write_all(b"own").expect("written");
+            output.commit().expect("renamed");
+            assert!(place(name).symlink_metadata().expect("there").is_file(), "{name}");
+            assert_eq!(fs::read(place(name)).expect("readable"), b"own");
+        }
+        assert_eq!(fs::read(place("victim")).expect("readable"), b"precious");
+    }
+
     #[test]
     fn a_name_may_ask_for_compression() {
         use std::io::Read;
@@ -438,23 +397,5 @@ mod tests {
         let bytes = fs::read(&path).expect("readable");
         flate2::read::GzDecoder::new(&bytes[..]).read_to_string(&mut text).expect("gzip");
         assert_eq!(text, "0,1\n");
-    }
-
-    #[test]
-    fn a_lock_that_another_thread_holds_is_waited_for() {
-        let mutex = Mutex::new(1);
-        let (ready, wait) = mpsc::channel();
-        std::thread::scope(|scope| {
-            scope.spawn(|| {
-                let _held = mutex.lock();
-                _ = ready.send(());
-                std::thread::sleep(Duration::from_millis(30));
-            });
-            assert!(wait.recv().is_ok());
-            assert!(lock_soon(&mutex).is_some());
-        });
-        // One that is never given back ends the patience.
-        let _held = mutex.lock();
-        assert!(lock_soon(&mutex).is_none());
     }
 }

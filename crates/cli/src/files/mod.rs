@@ -1,10 +1,15 @@
 //! Files as the commands use them: names checked first, points read, outputs written whole.
 
-use std::fs::File;
-use std::io::{BufReader, Cursor, ErrorKind, Read};
+mod apart;
+mod write;
+
+use std::io::{BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, Graph, Output, Raster, ReadOptions, Remark, Source, decompressed, followed};
+use delone_io::{Cloud, Format, Graph, Raster, ReadOptions, Source, decompressed};
+
+pub(crate) use apart::{keep_apart, keep_names_apart};
+pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
 
 use crate::args::InputArgs;
 use crate::limits;
@@ -41,74 +46,9 @@ fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Refuses a command that would write over a file it reads, write a file twice, or where it cannot write.
-pub(crate) fn keep_apart<'a>(
-    inputs: &[&'a Path],
-    outputs: impl IntoIterator<Item = &'a Path>,
-) -> Result<(), Failure> {
-    let place = |path: &Path| {
-        let path = &followed(path).unwrap_or_else(|_| path.to_owned());
-        // The file may not exist yet, its folder should.
-        let name = path.file_name().filter(|_| !is_standard(path))?;
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        path.canonicalize().ok().or_else(|| Some(folder.canonicalize().ok()?.join(name)))
-    };
-    let mut places: Vec<PathBuf> = inputs.iter().filter_map(|path| place(path)).collect();
-    let mut files: Vec<_> = inputs.iter().filter_map(|path| identity(or(path, "/dev/stdin"))).collect();
-    for path in outputs {
-        // Another name of the same file is noticed too, and where standard input and output are files.
-        let file = identity(or(path, "/dev/stdout"));
-        let known = file.as_ref().is_some_and(|file| files.contains(file));
-        files.extend(file);
-        let here = place(path);
-        let taken = here.as_ref().is_some_and(|here| places.contains(here) && !is_special(path));
-        if known || taken {
-            return Err(Failure::usage(
-                format!("{} would overwrite another file of this command", path.display()),
-                "choose another name for the output",
-            ));
-        }
-        places.extend(here);
-        check_output(path)?;
-    }
-    Ok(())
-}
-
-/// Whether an output can be written, asked before there is work to lose. Nothing is left behind.
-fn check_output(path: &Path) -> Result<(), Failure> {
-    // A pipe may be opened once.
-    if is_standard(path) || is_special(path) && !path.is_dir() {
-        return Ok(());
-    }
-    Output::create(path).map(drop).map_err(|error| unwritten(path, &error))
-}
-
-fn unwritten(path: &Path, error: &std::io::Error) -> Failure {
-    let help = "check the name, the permissions and the room on the disk";
-    Failure::new(format!("cannot write {}: {error}", path.display()), help)
-}
-
-/// What `-` stands for.
-fn or<'a>(path: &'a Path, standard: &'a str) -> &'a Path {
-    if is_standard(path) { Path::new(standard) } else { path }
-}
-
 /// Whether a path is there but no file: a device or a pipe, which may be named twice.
 fn is_special(path: &Path) -> bool {
     path.metadata().is_ok_and(|about| !about.is_file())
-}
-
-/// What is the same for all names of a file.
-#[cfg(unix)]
-fn identity(path: &Path) -> Option<(u64, u64)> {
-    use std::os::unix::fs::MetadataExt;
-    let about = path.metadata().ok().filter(std::fs::Metadata::is_file)?;
-    Some((about.dev(), about.ino()))
-}
-
-#[cfg(not(unix))]
-fn identity(path: &Path) -> Option<PathBuf> {
-    path.canonicalize().ok()
 }
 
 /// Outputs with their formats, kept apart from the inputs, from each other and from the statistics.
@@ -156,7 +96,7 @@ fn open_raw(path: &Path, what: &'static str, quiet: bool) -> Result<(Box<dyn Sou
         std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
         return Ok((Box::new(Cursor::new(bytes)), phase));
     }
-    let mut file = File::open(path).map_err(failed)?;
+    let mut file = apart::open(path).map_err(failed)?;
     let about = file.metadata().map_err(failed)?;
     if about.is_dir() {
         return Err(Failure::new(format!("{} is a folder", path.display()), "name a file in it"));
@@ -268,9 +208,9 @@ pub(crate) fn graph_with_points(
             let named = |error: std::io::Error| {
                 std::io::Error::new(error.kind(), format!("its points in {}: {error}", beside.display()))
             };
-            let file = File::open(&beside).map_err(named)?;
+            let points = apart::source(&beside).map_err(named)?;
             besides.push(beside);
-            Ok(Box::new(BufReader::new(file)) as Box<dyn Source>)
+            Ok(points)
         };
         let graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
         for remark in &graph.cloud.remarks {
@@ -386,50 +326,4 @@ pub(crate) fn simplices<T>(
     let format = format(path, None, "the extension")?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     read(source, format).map_err(|error| Failure::file(path, &error))
-}
-
-/// Writes a mesh, and says what a user should know of it.
-pub(crate) fn write_mesh(
-    path: &Path,
-    quiet: bool,
-    content: impl FnOnce(&mut Output) -> Result<Remark, delone_io::Error>,
-) -> Result<(), Failure> {
-    if let Some(remark) = write(path, content)? {
-        note(quiet, format_args!("{}: {remark}", path.display()));
-    }
-    Ok(())
-}
-
-/// Writes a file whole, or leaves what was there. What the writer returns is there unless nobody reads on.
-pub(crate) fn write<T: Default>(
-    path: &Path,
-    content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
-) -> Result<T, Failure> {
-    let attempt = || {
-        let mut output = Output::create(path)?;
-        let outcome = content(&mut output)?;
-        output.commit()?;
-        Ok(outcome)
-    };
-    let outcome = match attempt() {
-        // A reader that has seen enough (`| head`) is no failure.
-        Err(delone_io::Error::Io(error))
-            if error.kind() == ErrorKind::BrokenPipe && (is_standard(path) || is_special(path)) =>
-        {
-            Ok(T::default())
-        }
-        outcome => outcome,
-    };
-    outcome.map_err(|error| cannot_write(path, error))
-}
-
-/// What is wrong with an output.
-pub(crate) fn cannot_write(path: &Path, error: delone_io::Error) -> Failure {
-    match error {
-        delone_io::Error::Io(error) => Failure::new(
-            format!("cannot write {}: {error}", path.display()),
-            "check the name, the permissions and the room on the disk",
-        ),
-        other => Failure::file(path, &other),
-    }
 }

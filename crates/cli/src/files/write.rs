@@ -1,0 +1,95 @@
+//! Outputs: each is written under a temporary name, and all of a command get their names in the end, or none.
+
+use std::io::ErrorKind;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use delone_io::{Finished, Output, Remark, give_names};
+
+use super::apart::{check_open, refuse_read};
+use super::{is_special, is_standard};
+use crate::message::{Failure, note};
+
+/// What is written and has no name yet.
+static FINISHED: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
+
+/// Gives all outputs of the command their names.
+pub(crate) fn publish() -> Result<(), Failure> {
+    let finished = std::mem::take(&mut *FINISHED.lock().unwrap_or_else(PoisonError::into_inner));
+    give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))
+}
+
+/// Begins an output that is no input.
+pub(crate) fn create(path: &Path) -> Result<Output, Failure> {
+    check_open(path)?;
+    refuse_read(path)?;
+    Output::create(path).map_err(|error| cannot_write(path, error.into()))
+}
+
+/// Ends an output, which gets its name with all others.
+pub(crate) fn finish(output: Output) -> Result<(), delone_io::Error> {
+    let finished = output.finish()?;
+    FINISHED.lock().unwrap_or_else(PoisonError::into_inner).push(finished);
+    Ok(())
+}
+
+/// Writes a mesh, and says what a user should know of it.
+pub(crate) fn write_mesh(
+    path: &Path,
+    quiet: bool,
+    content: impl FnOnce(&mut Output) -> Result<Remark, delone_io::Error>,
+) -> Result<(), Failure> {
+    if let Some(remark) = write(path, content)? {
+        note(quiet, format_args!("{}: {remark}", path.display()));
+    }
+    Ok(())
+}
+
+/// Writes a file whole, or leaves what was there. What the writer returns is there unless nobody reads on.
+pub(crate) fn write<T: Default>(
+    path: &Path,
+    content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
+) -> Result<T, Failure> {
+    let mut output = create(path)?;
+    let attempt = || {
+        let outcome = content(&mut output)?;
+        finish(output)?;
+        Ok(outcome)
+    };
+    let outcome = match attempt() {
+        // A reader that has seen enough (`| head`) is no failure.
+        Err(delone_io::Error::Io(error))
+            if error.kind() == ErrorKind::BrokenPipe && (is_standard(path) || is_special(path)) =>
+        {
+            Ok(T::default())
+        }
+        outcome => outcome,
+    };
+    outcome.map_err(|error| cannot_write(path, error))
+}
+
+/// Writes a file of a folder that is this program's own, which has its name at once.
+pub(crate) fn write_own<T>(
+    path: &Path,
+    content: impl FnOnce(&mut Output) -> Result<T, delone_io::Error>,
+) -> Result<T, Failure> {
+    refuse_read(path)?;
+    let attempt = || {
+        let mut output = Output::create_own(path)?;
+        let outcome = content(&mut output)?;
+        output.commit()?;
+        Ok(outcome)
+    };
+    attempt().map_err(|error| cannot_write(path, error))
+}
+
+/// What is wrong with an output.
+pub(crate) fn cannot_write(path: &Path, error: delone_io::Error) -> Failure {
+    match error {
+        delone_io::Error::Io(error) => Failure::new(
+            format!("cannot write {}: {error}", path.display()),
+            "check the name, the permissions and the room on the disk",
+        ),
+        other => Failure::file(path, &other),
+    }
+}

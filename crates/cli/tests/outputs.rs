@@ -1,0 +1,147 @@
+//! Outputs appear together or not at all, and what was there before survives whatever fails.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use crate::place::{Place, text};
+
+/// Runs a line of a shell in the folder; `delone` is the program.
+fn shell(place: &Place, line: &str) -> std::process::Output {
+    let line = line.replace("delone", env!("CARGO_BIN_EXE_delone"));
+    let mut shell = Command::new("sh");
+    shell.current_dir(place.path("")).args(["-c", &line]).stdin(Stdio::null()).output().expect("a shell")
+}
+
+fn names(place: &Place) -> Vec<String> {
+    let entries = fs::read_dir(place.path("")).expect("readable");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("there").file_name().into_string().expect("UTF-8")).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn of_several_outputs_all_appear_or_none() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 5000 -o p.npy");
+    place.file("old.off", "old");
+    // Room for the first two, and not for the last one.
+    let line =
+        "ulimit -f 1000; delone -q triangulate p.npy -o new.node -o old.off -o m.geojson --stats s.json";
+    let output = shell(&place, line);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).starts_with("error: cannot write m.geojson"), "{}", text(&output.stderr));
+    assert_eq!(names(&place), ["old.off", "p.npy"]);
+    assert_eq!(place.read("old.off"), "old");
+    place.succeed("-q triangulate p.npy -o new.node -o old.off -o m.geojson --stats s.json");
+    assert_eq!(names(&place), ["m.geojson", "new.node", "old.off", "p.npy", "s.json"]);
+    assert!(place.read("old.off").starts_with("OFF"));
+}
+
+#[test]
+fn a_file_with_several_names_survives() {
+    use std::os::unix::fs::MetadataExt;
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 5000 -o p.npy");
+    place.file("one.geojson", "old");
+    fs::hard_link(place.path("one.geojson"), place.path("two.geojson")).expect("linked");
+    let output = shell(&place, "ulimit -f 100; delone -q triangulate p.npy -o one.geojson");
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_eq!((place.read("one.geojson"), place.read("two.geojson")), ("old".into(), "old".into()));
+    place.succeed("-q triangulate p.npy -o one.geojson");
+    assert!(place.read("two.geojson").starts_with('{'));
+    assert_eq!(fs::metadata(place.path("two.geojson")).expect("there").nlink(), 2);
+    assert_eq!(names(&place), ["one.geojson", "p.npy", "two.geojson"]);
+}
+
+/// A file that may be written in a folder that may not.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_in_a_folder_that_may_not_be_written_survives() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 5000 -o p.npy");
+    fs::create_dir(place.path("closed")).expect("room");
+    place.file("closed/one.geojson", "old");
+    let allow = |name: &str, mode: u32| {
+        fs::set_permissions(place.path(name), fs::Permissions::from_mode(mode)).expect("ours");
+    };
+    allow("closed/one.geojson", 0o666);
+    allow("closed", 0o555);
+    let output = place.run_as_other("ulimit -f 100", "-q triangulate p.npy -o closed/one.geojson");
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_eq!(place.read("closed/one.geojson"), "old");
+    let output = place.run_as_other("true", "-q triangulate p.npy -o closed/new.geojson");
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let output = place.run_as_other("true", "-q triangulate p.npy -o closed/one.geojson");
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(place.read("closed/one.geojson").starts_with('{'));
+    assert_eq!(
+        fs::metadata(place.path("closed/one.geojson")).expect("there").permissions().mode() & 0o777,
+        0o666
+    );
+    allow("closed", 0o755);
+    assert_eq!(fs::read_dir(place.path("closed")).expect("readable").count(), 1);
+}
+
+/// What a killed run leaves goes with the next one in that folder, and what a run that still works has stays.
+#[test]
+fn left_overs_of_killed_runs_go() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 200000 -o p.npy");
+    let hidden = || names(&place).into_iter().filter(|name| name.starts_with(".delone-")).collect::<Vec<_>>();
+    // Its half file is there for as long as it writes; before, there is one for a moment that shows whether it may.
+    let has_half = || {
+        let inside = |name: &String| fs::read_dir(place.path(name)).into_iter().flatten().flatten().count();
+        hidden().len() == 1 && hidden().iter().map(inside).sum::<usize>() == 1
+    };
+    let was_killed = |_| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_delone"))
+            .current_dir(place.path(""))
+            .args(["-q", "triangulate", "p.npy", "-o", "m.geojson", "-o", "n.geojson"])
+            .spawn()
+            .expect("the program starts");
+        while !has_half() && child.try_wait().expect("asked").is_none() {
+            std::thread::yield_now();
+        }
+        child.kill().expect("killed");
+        child.wait().expect("ended");
+        !hidden().is_empty()
+    };
+    assert!((0..50).any(was_killed), "a kill leaves something");
+    assert!(!place.path("m.geojson").exists());
+    fs::create_dir(place.path(".delone-held")).expect("made");
+    let held = fs::File::open(place.path(".delone-held")).expect("there");
+    held.try_lock().expect("free");
+    place.succeed("-q generate uniform -n 10 -o q.npy");
+    assert_eq!(hidden(), [".delone-held"]);
+    drop(held);
+    place.succeed("-q generate uniform -n 10 -o q.npy");
+    assert_eq!(hidden(), [""; 0]);
+}
+
+#[test]
+fn closed_standard_output_is_an_error() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 100 -o p.npy");
+    for line in [
+        "delone -q triangulate p.npy -o - --to off >&-",
+        "delone -q generate uniform -n 10 -o - --to csv >&-",
+        "delone info p.npy >&-",
+        "delone version >&-",
+        "delone --help >&-",
+    ] {
+        let output = shell(&place, line);
+        let told = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{line}: {told}");
+        assert!(told.starts_with("error: ") && told.lines().count() == 2, "{line}: {told}");
+    }
+    for line in [
+        "delone -q triangulate p.npy -o m.npy >&-",
+        "delone -q triangulate p.npy -o - --to off >/dev/null",
+        "delone -q triangulate p.npy -o - --to off 1<>/dev/null",
+        "delone -q triangulate p.npy -o /dev/null --to off",
+    ] {
+        assert!(shell(&place, line).status.success(), "{line}");
+    }
+}
