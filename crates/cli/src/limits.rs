@@ -1,4 +1,4 @@
-//! What a run may take: memory, as much as there is when it begins or as the user says; and points.
+//! What a run may take: memory, as much as there is when it begins or as the user says; points and bytes of output, as the user says.
 
 use std::fs;
 use std::path::Path;
@@ -11,13 +11,14 @@ use crate::stats::grouped;
 /// Points that the input may have.
 static MOST_POINTS: AtomicUsize = AtomicUsize::new(usize::MAX);
 
-/// Sets the limits, of bytes and of points.
-pub(crate) fn start(memory: Option<u64>, points: Option<usize>) {
+/// Sets the limits: bytes of memory, points, bytes of outputs.
+pub(crate) fn start(memory: Option<u64>, points: Option<usize>, output: Option<u64>) {
     if let Some(bytes) = memory.or_else(available) {
         memory::limit(bytes, memory.is_some());
     }
     // Who says how much memory there is says so of what is inflated too.
     delone_io::trust_compressed(memory.is_some());
+    output.into_iter().for_each(delone_io::limit_output);
     MOST_POINTS.store(points.unwrap_or(usize::MAX), Ordering::Relaxed);
 }
 

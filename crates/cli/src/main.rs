@@ -70,7 +70,7 @@ fn main() -> ExitCode {
         Err(error) => return message::usage(&error),
     };
     let quiet = cli.quiet;
-    limits::start(cli.max_memory, cli.max_points);
+    limits::start(cli.max_memory, cli.max_points, cli.max_output);
     signals::clean_up();
     threads::start(cli.threads, quiet);
     let result = match cli.command {

@@ -16,8 +16,8 @@ fn bomb() -> Vec<u8> {
     header.push(b'\n');
     let mut file = GzEncoder::new(Vec::new(), Compression::best());
     file.write_all(&header).expect("memory");
-    let zeros = [0; 1 << 16];
-    (0..80_000_000 / zeros.len() + 1).for_each(|_| file.write_all(&zeros).expect("memory"));
+    let zeros = vec![0; 1 << 20];
+    (0..=80_000_000 / zeros.len()).for_each(|_| file.write_all(&zeros).expect("memory"));
     file.finish().expect("memory")
 }
 
@@ -76,6 +76,19 @@ fn points_are_limited() {
     place.fail("-q --max-points 1500 triangulate p.csv p.csv -o u.npy", 1, what);
     let tiles = place.run("-q --max-points 999 tiles p.csv -o folder");
     assert_eq!(tiles.status.code(), Some(1));
+}
+
+#[test]
+fn output_is_limited() {
+    let place = Place::new();
+    place.succeed("-q generate uniform -n 2000 -o p.npy");
+    let what = "more is written than the limit of output allows";
+    for outputs in ["-o t.ply", "-o t.npy -o t.ply -o t.vtu", "-o t.ply.gz", "-o - --to ply"] {
+        place.fail(&format!("-q --max-output 20K triangulate p.npy {outputs}"), 1, what);
+    }
+    place.fail("-q --max-output 20K voronoi p.npy -o c.geojson", 1, what);
+    place.fail("-q --max-output 20K draw p.npy -o d.svg", 1, what);
+    place.succeed("-q --max-output 2M triangulate p.npy -o t.npy -o t.ply -o t.vtu");
 }
 
 #[test]

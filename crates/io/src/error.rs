@@ -12,6 +12,9 @@ pub enum Error {
     /// Compressed content is more than 1,000 times as long as the file ([`crate::trust_compressed`]).
     #[error("its compressed content is more than 1,000 times as long as the file")]
     Expands,
+    /// More is written than [`crate::limit_output`] allows.
+    #[error("more is written than the limit of output allows")]
+    TooMuchOutput,
     /// A line of a text format is wrong.
     #[error("line {line}: {}", clipped(what))]
     Line {
@@ -173,6 +176,7 @@ impl Error {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Truncated(_) => "copy or download it again: it is shorter than it says",
+            Self::TooMuchOutput => "allow more with --max-output SIZE",
             Self::Expands => "if it is meant, allow memory with --max-memory SIZE, or decompress it first",
             Self::Io(_) => "check the name, the permissions and the room on the disk",
             Self::Line { .. } => "correct that line, or choose columns with --columns",

@@ -50,8 +50,8 @@ pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{
-    Finished, Output, TemporaryFolder, followed, give_names, remove_unfinished, sync_file, sync_folder,
-    wait_for_names,
+    Finished, Output, TemporaryFolder, followed, give_names, limit_output, remove_unfinished, sync_file,
+    sync_folder, wait_for_names,
 };
 pub use patches::{Patches, write_patches};
 pub use raster::{

@@ -60,6 +60,9 @@ pub(crate) struct Cli {
     /// without it, 1,000 times as long as its file.
     #[arg(long, value_name = "SIZE", global = true, value_parser = tiles::size)]
     pub(crate) max_memory: Option<u64>,
+    /// Bytes of all outputs at most, as for --max-memory.
+    #[arg(long, value_name = "SIZE", global = true, value_parser = tiles::size)]
+    pub(crate) max_output: Option<u64>,
     /// Points of the input at most.
     #[arg(long, value_name = "N", global = true, value_parser = count)]
     pub(crate) max_points: Option<usize>,

@@ -3,6 +3,7 @@
 //! What is no file (a device, a pipe) is written straight; a name that points elsewhere is followed; a file keeps its
 //! mode and its owner, and, if it has several names, all of them.
 
+mod limit;
 mod naming;
 mod staging;
 
@@ -15,9 +16,11 @@ use flate2::write::GzEncoder;
 
 use crate::format::is_gzip;
 
+pub use limit::limit_output;
 pub use naming::{Finished, give_names, wait_for_names};
 pub use staging::{TemporaryFolder, remove_unfinished};
 
+use limit::Counted;
 use naming::{How, Staged};
 
 /// Bytes that are gathered before they are written.
@@ -40,9 +43,9 @@ enum Writer {
 
 #[derive(Debug)]
 enum Sink {
-    File(BufWriter<File>),
-    Stdout(BufWriter<Stdout>),
-    Stderr(BufWriter<Stderr>),
+    File(BufWriter<Counted<File>>),
+    Stdout(BufWriter<Counted<Stdout>>),
+    Stderr(BufWriter<Counted<Stderr>>),
 }
 
 /// What becomes of the file in the end.
@@ -72,7 +75,7 @@ impl Output {
     pub fn create_own(path: &Path) -> io::Result<Self> {
         let (file, staged) = stage(path, folder_of(path), How::Rename(None))?;
         let place = if staging::is_temporary(path) { Place::Staged(staged) } else { Place::Durable(staged) };
-        Ok(Self { writer: Writer::Plain(Sink::File(BufWriter::with_capacity(BUFFER, file))), place })
+        Ok(Self { writer: Writer::Plain(Sink::File(BufWriter::with_capacity(BUFFER, Counted(file)))), place })
     }
 
     /// Ends the file and gives it its name.
@@ -95,7 +98,7 @@ impl Output {
                 stderr.flush()?;
                 return Ok(Finished(None));
             }
-            Sink::File(file) => file.into_inner().map_err(io::IntoInnerError::into_error)?,
+            Sink::File(file) => file.into_inner().map_err(io::IntoInnerError::into_error)?.0,
         };
         let mut staged = match self.place {
             Place::Straight => return Ok(Finished(None)),
@@ -148,12 +151,12 @@ fn stage(to: &Path, within: &Path, how: How) -> io::Result<(File, Staged)> {
 fn open(path: &Path) -> io::Result<(Sink, Place)> {
     let is = |names: [&str; 3]| names.iter().any(|name| path == Path::new(name));
     if path == Path::new("-") || is(["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"]) {
-        return Ok((Sink::Stdout(BufWriter::with_capacity(BUFFER, io::stdout())), Place::Straight));
+        return Ok((Sink::Stdout(BufWriter::with_capacity(BUFFER, Counted(io::stdout()))), Place::Straight));
     }
     if is(["/dev/stderr", "/dev/fd/2", "/proc/self/fd/2"]) {
-        return Ok((Sink::Stderr(BufWriter::with_capacity(BUFFER, io::stderr())), Place::Straight));
+        return Ok((Sink::Stderr(BufWriter::with_capacity(BUFFER, Counted(io::stderr()))), Place::Straight));
     }
-    let straight = |file| (Sink::File(BufWriter::with_capacity(BUFFER, file)), Place::Straight);
+    let straight = |file| (Sink::File(BufWriter::with_capacity(BUFFER, Counted(file))), Place::Straight);
     let path = followed(path)?;
     if is_descriptor(&path) {
         // A descriptor of a file that others write to is written to at its end.
@@ -188,7 +191,7 @@ fn open(path: &Path) -> io::Result<(Sink, Place)> {
         Err(_) if is_there => stage(&path, &std::env::temp_dir(), How::Copy)?,
         staged => staged?,
     };
-    Ok((Sink::File(BufWriter::with_capacity(BUFFER, file)), Place::Staged(staged)))
+    Ok((Sink::File(BufWriter::with_capacity(BUFFER, Counted(file))), Place::Staged(staged)))
 }
 
 /// Whether a path is a descriptor, whose link is not the name of a file: /dev/fd/3, /proc/self/fd/3.
