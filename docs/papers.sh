@@ -85,11 +85,13 @@ if command -v valgrind > /dev/null; then
 else
     echo "== cache misses: skipped, there is no valgrind"
 fi
-# The rivals of 1998, where there is a Python that has them.
+# The rivals of 1998 and Triangle on the disks of 2011, where there is a Python that has them.
 python=${PYTHON:-python3}
 if [ "$size" != small ] && "$python" -c "import numpy, scipy, triangle" 2> /dev/null; then
     echo "== rivals of 1998"
     "$python" compare/rivals_of_1998.py --delone "$delone" -o "$folder/rivals.csv" > /dev/null
+    "$python" compare/rivals_of_1998.py --delone "$delone" --sets disks --noise 1 --sizes 1000,10000,100000,1000000 \
+        --nanoseconds -o "$folder/rivals-disks.csv" > /dev/null
 else
     echo "== rivals of 1998: skipped, PYTHON has no triangle and scipy, or sets are small"
 fi

@@ -1,6 +1,6 @@
 //! Furthest sites against their definitions, by brute force over exact arithmetic.
 
-use delone::{Delaunay2, VertexId, VoronoiEdge2};
+use delone::{Delaunay2, Hull3, VertexId, VoronoiEdge2};
 use delone_generators::Kind;
 use delone_oracle::exact;
 
@@ -47,6 +47,49 @@ fn circles_contain_all_points() {
                     assert!(exact::in_circle(a, b, c, p) >= 0, "{kind:?} {n} {triangle:?} {p:?}");
                 }
             }
+        }
+    }
+}
+
+/// Guibas, Knuth & Sharir 1992, §4.1: of the points lifted to a paraboloid the upper hull. Chew's algorithm knows nothing of it.
+#[test]
+fn the_furthest_triangulation_is_the_upper_hull_of_the_lifted_points() {
+    for kind in [
+        Kind::Uniform,
+        Kind::Grid,
+        Kind::Clusters,
+        Kind::Circle,
+        Kind::Ellipse,
+        Kind::Ellipse2,
+        Kind::Parabola,
+    ] {
+        // Integers whose squares are exact.
+        let raw = kind.points(400, 2);
+        let low = [0, 1].map(|k| raw.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min));
+        let spans = [0, 1].map(|k| raw.iter().map(|p| p[k] - low[k]).fold(0.0, f64::max));
+        let scale = f64::from(1 << 20) / spans[0].max(spans[1]);
+        let points: Vec<[f64; 2]> =
+            raw.iter().map(|p| [0, 1].map(|k| ((p[k] - low[k]) * scale).round())).collect();
+        let lifted: Vec<[f64; 3]> = points.iter().map(|&[x, y]| [x, y, x * x + y * y]).collect();
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let furthest = d.furthest();
+        let hull = Hull3::from_points(&lifted).expect("finite");
+        assert_eq!(hull.upper(&lifted).count(), furthest.triangles().count(), "{kind:?}");
+        // Sites on one circle are one face; every triangle is in one, with all points below it.
+        let mut of_corner = vec![Vec::new(); points.len()];
+        for (f, face) in hull.faces().enumerate() {
+            face.iter().for_each(|&v| of_corner[v].push(f));
+        }
+        for triangle in furthest.triangles() {
+            // Of equal points the hull may know another one.
+            let corners = triangle.map(|v| {
+                let is_same = |&i: &usize| points[i] == d.point(v);
+                hull.corners().iter().copied().find(is_same).expect("a corner of the hull")
+            });
+            let [a, b, c] = corners.map(|i| &of_corner[i]);
+            assert!(a.iter().any(|f| b.contains(f) && c.contains(f)), "{kind:?} {triangle:?}");
+            let [a, b, c] = corners.map(|i| lifted[i]);
+            assert!(lifted.iter().all(|&p| exact::orient3d(a, b, c, p) <= 0), "{kind:?} {triangle:?}");
         }
     }
 }

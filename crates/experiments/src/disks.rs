@@ -1,12 +1,13 @@
 //! `delone experiment disks`: what the analysis of hints counts, and disks beyond its assumptions.
 //!
-//! Source: Devillers 2011: Lemma 1 and the claims of Theorem 3 (§4), disks that overlap (§6.1), disks of different radii
+//! Source: Devillers 2011: Lemmas 1 and 2 and the claims of Theorem 3 (§4), disks that overlap (§6.1), disks of different radii
 //! (§6.2), balls in space (§6.3); what is the same in all instances, the strong and the weak problem (§1).
 
 use std::collections::BTreeMap;
 
 use delone::{Delaunay2, Error as Refusal, HintOrder, Hints2, Hints3, Imprecise, VertexId, Work};
 use delone_generators::{Kind, Kind3, Random, in_ball, moved};
+use delone_predicates::{Sign, orient2d};
 
 use super::plot::Plot;
 use super::table::{Table, short};
@@ -23,7 +24,7 @@ const RADII: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
-    findings.tables.push(claims(options)?);
+    findings.tables.extend([claims(options)?, crossed(options)?]);
     overlaps(options, &mut findings)?;
     findings.tables.push(radii(options)?);
     findings.tables.push(misled(options)?);
@@ -65,6 +66,52 @@ fn claims(options: &Options<'_>) -> Result<Table, Error> {
         table.row([n.to_string()].into_iter().chain([most, mean, degree, sum].map(|t| t.to_string())));
     }
     Ok(table)
+}
+
+/// Lemma 2: with a point in the triangulation, an edge across the segment to its hint has an end in D(p), which encloses both
+/// disks.
+/// Unit disks that are disjoint hardly ever leave such an edge; the proof asks for no more than D(p), so the others overlap.
+fn crossed(options: &Options<'_>) -> Result<Table, Error> {
+    let mut table = options.table(
+        "disks-crossed",
+        "Disks, centres at least two apart: edges between a point and its hint before it comes and after, a point, and those after \
+         it without an end in D(p), in all (Lemma 2: none)",
+        &["points", "radius", "crossed before", "crossed after", "without an end in D(p)"],
+    );
+    for (n, reach) in [300, COMPARED].into_iter().flat_map(|n| [1.0, 4.0, 16.0].map(|reach| (n, reach))) {
+        let mut counts: [Trials; 2] = Default::default();
+        let mut without = 0_u64;
+        for seed in options.seeds() {
+            let centres = Kind::Disks.points(n, seed);
+            let instance = moved(&centres, reach, &mut Random::new(seed + 1000));
+            let hints = Hints2::from_points(&centres, HintOrder::Random { seed })?;
+            let mut d = Delaunay2::new();
+            let mut totals = [0_u32; 2];
+            for (i, j) in hints.order().zip(hints.hints()) {
+                let (p, x) = (instance[i], instance[j]);
+                totals[0] += across(&d, p, x).count() as u32;
+                d.insert(p)?;
+                let [centre, other] = [centres[i], centres[j]];
+                let radius = (centre[0] - other[0]).hypot(centre[1] - other[1]) + reach;
+                let is_in = |q: [f64; 2]| (q[0] - centre[0]).hypot(q[1] - centre[1]) <= radius;
+                for [a, b] in across(&d, p, x) {
+                    totals[1] += 1;
+                    without += u64::from(!is_in(a) && !is_in(b));
+                }
+            }
+            counts.iter_mut().zip(totals).for_each(|(count, total)| count.add(f64::from(total) / n as f64));
+        }
+        let [before, after] = counts.map(|count| count.to_string());
+        table.row([n.to_string(), short(reach), before, after, without.to_string()]);
+    }
+    Ok(table)
+}
+
+/// The edges that cross a segment.
+fn across(d: &Delaunay2, p: [f64; 2], q: [f64; 2]) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
+    let parts = |u, v, [a, b]: [[f64; 2]; 2]| orient2d(u, v, a) * orient2d(u, v, b) == Sign::Negative;
+    let edges = d.edges().map(|edge| edge.map(|v| d.point(v)));
+    edges.filter(move |&[a, b]| parts(p, q, [a, b]) && parts(a, b, [p, q]))
 }
 
 /// Triangles visited a point by hints in random order.

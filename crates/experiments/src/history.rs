@@ -12,6 +12,14 @@ use super::{Error, Findings, Options, sizes};
 
 /// Queries in each size.
 const QUERIES: usize = 2_000;
+/// The theorems are of any set. Points on curves need exact arithmetic, so that their sets are smaller.
+const KINDS: [(Kind, usize); 5] = [
+    (Kind::Uniform, 200_000),
+    (Kind::Ellipse2, 10_000),
+    (Kind::Ellipse, 10_000),
+    (Kind::Parabola, 10_000),
+    (Kind::Circle, 10_000),
+];
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
@@ -25,8 +33,9 @@ fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let seed = options.seed;
     let mut table = options.table(
         "history-growth",
-        "Per point, uniform points in random order (bounds of the paper: 22 triangles, 65 edges)",
+        "Per point, in random order (bounds of the paper: 22 triangles, 65 edges)",
         &[
+            "set",
             "points",
             "triangles",
             "edges",
@@ -44,12 +53,16 @@ fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let mut plot = Plot::new(
         "history-growth",
         "Randomized incremental construction: work per point",
-        ["points", "per point"],
+        ["uniform points", "per point"],
     );
     let mut curves = [const { Vec::new() }; 4];
-    for n in sizes(100, options.largest.min(200_000)) {
-        let points = Kind::Uniform.points(n, seed);
-        let order: Vec<usize> = (0..n).collect(); // the generator's order is random
+    let sets = KINDS
+        .into_iter()
+        .flat_map(|(kind, most)| sizes(100, options.largest.min(most)).map(move |n| (kind, n)));
+    for (kind, n) in sets {
+        let points = kind.points(n, seed);
+        let mut order: Vec<usize> = (0..n).collect();
+        Random::new(seed).shuffle(&mut order);
         let [triangles, edges] = appear::totals(&points, &order)?;
         let history =
             Delaunay2::with_algorithm(&points, Algorithm2::Located { locate: Locate::History, seed })?;
@@ -60,7 +73,7 @@ fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             d.set_strategy(Locate::Stars)?;
             let mut work = Work::default();
             // Queries, not sites: what is located is as far from what is there.
-            let queries = Kind::Uniform.points(QUERIES, seed + 1);
+            let queries = kind.points(QUERIES, seed + 1);
             queries.iter().try_for_each(|&q| d.find_observed(q, &mut work).map(drop))?;
             [work.visited, work.orientations].map(|total| total as f64 / QUERIES as f64)
         };
@@ -74,6 +87,7 @@ fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         let harmonic: f64 = (1..=n).map(|i| 1.0 / i as f64).sum();
         let versions = history.footprint().versions as u64;
         table.row([
+            kind.name().to_owned(),
             n.to_string(),
             short(per(triangles)),
             short(per(edges)),
@@ -87,7 +101,8 @@ fn growth(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
             short(per(moved) / log),
             short(12.0 * (harmonic - 1.0)),
         ]);
-        for (curve, total) in curves.iter_mut().zip([triangles, versions, traced, moved]) {
+        let shown = curves.iter_mut().filter(|_| kind == Kind::Uniform);
+        for (curve, total) in shown.zip([triangles, versions, traced, moved]) {
             curve.push((n as f64, per(total)));
         }
     }

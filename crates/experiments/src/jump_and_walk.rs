@@ -1,11 +1,14 @@
 //! `delone experiment jump-and-walk`: the theorem of Devroye, Mücke & Zhu 1998 and its remarks, in figures.
 //!
-//! Triangles visited from the nearest of 32 vertices (remark 6), the sample size of least cost and the growth of that cost
-//! (the theorem); other densities (remark 1), queries near the border (remark 2), changes and constructions (remarks 3 and 4),
-//! space (remark 7).
+//! Edges crossed by segments (the lemma); triangles visited from the nearest of 32 vertices (remark 6), the sample size of least
+//! cost and the growth of that cost (the theorem); other densities (remark 1), queries near the border (remark 2), changes and
+//! constructions (remarks 3 and 4), space (remark 7).
+
+use std::f64::consts::PI;
 
 use delone::{Ask, Change, Delaunay2, Delaunay3, JumpAndWalk, Locate, Work};
 use delone_generators::{Kind, Kind3, Random};
+use delone_predicates::{Sign, orient2d};
 
 use super::plot::Plot;
 use super::table::short;
@@ -13,6 +16,11 @@ use super::trials::Trials;
 use super::{Error, Findings, Options, sizes, timed};
 
 const QUERIES: usize = 20_000;
+/// Segments of each length, in sides of the square. They end 3 sqrt(ln n / n) from the border or further, as the lemma asks.
+const SEGMENTS: usize = 200;
+/// The largest set of which all edges are tested.
+const CROSSED: usize = 100_000;
+const LENGTHS: [f64; 3] = [0.05, 0.1, 0.2];
 /// Vertices drawn by all queries of a large sample, or little more.
 const DRAWN: usize = 2_000_000;
 /// The largest set in space, and the largest of curves, where walks are long.
@@ -20,6 +28,7 @@ const LARGEST_SPECIAL: usize = 300_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
+    segments(options, &mut findings)?;
     fixed(options, &mut findings)?;
     by_sample(options, &mut findings)?;
     growth(options, &mut findings)?;
@@ -89,6 +98,42 @@ fn exponent(points: &[(f64, f64)]) -> String {
         .iter()
         .fold([0.0, 0.0], |[over, under], p| [over + (p[0] - x) * (p[1] - y), under + (p[0] - x).powi(2)]);
     short(over / under)
+}
+
+/// The lemma: a fixed segment away from the border crosses c3 + c4 L sqrt(n) edges. Of random points c4 is 64 / (3 pi^2) = 2.16,
+/// from the mean length of an edge. All edges are tested, so that nothing of a walk is counted.
+fn segments(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let title = "Edges that a segment of length L crosses among points in a square (Devroye, Mücke & Zhu 1998, the lemma; theory: 2.16)";
+    let mut table =
+        options.table("jump-and-walk-segments", title, &["points", "L", "edges crossed", "/ (L sqrt n)"]);
+    for n in sizes(1_000, options.largest.min(CROSSED)) {
+        let mut trials: [Trials; LENGTHS.len()] = Default::default();
+        for seed in options.seeds() {
+            let d = Delaunay2::from_points(&Kind::Uniform.points(n, seed))?;
+            let edges: Vec<[[f64; 2]; 2]> = d.edges().map(|edge| edge.map(|v| d.point(v))).collect();
+            let mut random = Random::new(seed + 1000);
+            for (&length, trials) in LENGTHS.iter().zip(&mut trials) {
+                let mut crossed = 0;
+                for _ in 0..SEGMENTS {
+                    let middle = [(); 2].map(|()| random.between(0.45, 0.55));
+                    let angle = random.between(0.0, PI);
+                    let half = [angle.cos(), angle.sin()].map(|x| x * length / 2.0);
+                    let [p, q] = [-1.0, 1.0].map(|side| [0, 1].map(|k| middle[k] + side * half[k]));
+                    let parts =
+                        |u, v, [a, b]: [[f64; 2]; 2]| orient2d(u, v, a) * orient2d(u, v, b) == Sign::Negative;
+                    let is_crossed = |&&[a, b]: &&[[f64; 2]; 2]| parts(p, q, [a, b]) && parts(a, b, [p, q]);
+                    crossed += edges.iter().filter(is_crossed).count();
+                }
+                trials.add(crossed as f64 / SEGMENTS as f64);
+            }
+        }
+        for (length, trials) in LENGTHS.into_iter().zip(trials) {
+            let per_length = trials.over(length * (n as f64).sqrt()).to_string();
+            table.row([n.to_string(), length.to_string(), trials.to_string(), per_length]);
+        }
+    }
+    findings.tables.push(table);
+    Ok(())
 }
 
 /// Remark 6. A segment crosses 2.16 sqrt(n) edges per unit of length (Bose & Devroye), and the nearest of m vertices is at

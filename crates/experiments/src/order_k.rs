@@ -1,5 +1,5 @@
-//! Voronoi diagrams of higher order: how large they are, how many pairs of sites share a region (Lemma 4.3), how many regions are
-//! unbounded (k-sets), and what an order takes.
+//! Voronoi diagrams of higher order: how large they are, how large all up to an order are, how many pairs of sites share a
+//! region (Lemma 4.3 and the remark on it), how many regions are unbounded (k-sets), and what an order takes.
 
 use std::collections::BTreeSet;
 use std::hint::black_box;
@@ -29,6 +29,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
             "regions / n",
             "2k - 1 - (k^2 - 1 + k-sets below) / n",
             "circles / n",
+            "circles of all orders <= k / (n k^2)",
             "k-sets",
             "pairs / (n k)",
             "us / n",
@@ -41,8 +42,8 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
         for n in decades(100, options.largest) {
             let d = Delaunay2::from_points(&kind.points(n, options.seed))?;
             let count = d.vertex_count() as f64;
-            // Of all orders below.
-            let mut unbounded = 0;
+            // Of all orders below, and up to this one.
+            let (mut unbounded, mut total) = (0, 0);
             for k in 1..=ORDERS[ORDERS.len() - 1] {
                 let (order, mut seconds) = timed(|| d.order(k));
                 let order = order?;
@@ -52,12 +53,15 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
                 let expected = (2 * k - 1) as f64 - (k * k - 1 + unbounded) as f64 / count;
                 let sets = order.regions().filter(|region| !region.is_bounded()).count();
                 unbounded += sets;
+                let circles = order.circles().count();
+                total += circles;
                 let Some(shown) = ORDERS.iter().position(|&shown| shown == k) else { continue };
                 let pairs = pairs(&order) as f64 / count / k as f64;
                 let cells = [
                     order.region_count() as f64 / count,
                     expected,
-                    order.circles().count() as f64 / count,
+                    circles as f64 / count,
+                    total as f64 / count / (k * k) as f64,
                     sets as f64,
                     pairs,
                     seconds * 1e6 / count,

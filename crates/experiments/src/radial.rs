@@ -1,12 +1,13 @@
 //! Nearest sites by the history of radial triangles: Guibas, Knuth & Sharir 1992, §5.
 //!
-//! Theorem 5.2: O(n) triangles; 5.4: O(log n) planes a query, at most 4 H_n by its proof, and O(log^2 n) comparisons. The
-//! law c ln^2 n is fitted to the sizes up to [`FITTED`]; what larger ones take beside it shows whether it holds.
+//! Theorem 5.2: O(n) triangles; 5.3: O(n log n) to build; 5.4: O(log n) planes a query, at most 4 H_n by its proof, and
+//! O(log^2 n) comparisons. The law c ln^2 n is fitted to the sizes up to [`FITTED`]; what larger ones take beside it shows whether
+//! it holds.
 
 use std::hint::black_box;
 
 use delone::{Delaunay2, Hierarchy, Locate, NearestSites2, Neighbors2, Work};
-use delone_generators::Kind;
+use delone_generators::{Kind, Random, in_ball};
 
 use super::plot::Plot;
 use super::table::short;
@@ -16,11 +17,38 @@ use super::{Error, Findings, Options, decades, timed};
 const QUERIES: usize = 20_000;
 /// The law is fitted to sizes up to this one.
 const FITTED: usize = 10_000;
-const KINDS: [Kind; 2] = [Kind::Uniform, Kind::Ellipse2];
+/// So many points from a seed.
+type Make = fn(usize, u64) -> Vec<[f64; 2]>;
+/// Sets, and queries among them.
+const SETS: [(&str, Make, Make); 3] = [
+    ("uniform", uniform, uniform),
+    ("ellipse2", |n, seed| Kind::Ellipse2.points(n, seed), uniform),
+    ("hub", hub, near_hub),
+];
+/// The largest set of which each site is asked for before it is added.
+const ADDED: usize = 100_000;
+
+fn uniform(n: usize, seed: u64) -> Vec<[f64; 2]> {
+    Kind::Uniform.points(n, seed)
+}
+
+/// Sites on a circle, and one in its middle that has all others for neighbours: here a plane is not searched in O(1).
+fn hub(n: usize, seed: u64) -> Vec<[f64; 2]> {
+    let mut points = Kind::UnitCircle.points(n - 1, seed);
+    points.push([0.0, 0.0]);
+    points
+}
+
+/// In the cell of the hub.
+fn near_hub(n: usize, seed: u64) -> Vec<[f64; 2]> {
+    let mut random = Random::new(seed);
+    (0..n).map(|_| in_ball(&mut random).map(|x: f64| 0.4 * x)).collect()
+}
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
     counts(options, &mut findings)?;
+    building(options, &mut findings)?;
     times(options, &mut findings)?;
     Ok(findings)
 }
@@ -53,14 +81,14 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         "Nearest sites by radial triangles: work of a query",
         ["sites n", "mean of 20,000 queries"],
     );
-    for kind in KINDS {
+    for (name, points, queries) in SETS {
         let mut rows = Vec::new();
         for n in decades(100, options.largest) {
             let mut trials: [Trials; 5] = Default::default();
             for seed in options.seeds() {
-                let sites = NearestSites2::from_points(&kind.points(n, seed), seed)?;
+                let sites = NearestSites2::from_points(&points(n, seed), seed)?;
                 let mut work = Work::default();
-                for q in Kind::Uniform.points(QUERIES, seed + 1000) {
+                for q in queries(QUERIES, seed + 1000) {
                     sites.nearest_observed(q, &mut work)?;
                 }
                 let [planes, compared, rays] = [work.visited, work.compared, work.orientations]
@@ -82,7 +110,7 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
         for (n, [size, planes, compared, rays, work]) in &rows {
             let harmonic: f64 = (1..=*n).map(|i| 1.0 / i as f64).sum();
             table.row([
-                kind.name().to_owned(),
+                name.to_owned(),
                 n.to_string(),
                 size.to_string(),
                 planes.to_string(),
@@ -95,7 +123,6 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
                 work.over(c * square(*n)).to_string(),
             ]);
         }
-        let name = kind.name();
         let means = |k: usize| rows.iter().map(move |(n, trials)| (*n as f64, trials[k].mean()));
         plot.curve(&format!("{name}: planes visited"), means(1));
         plot.curve(&format!("{name}: comparisons and rays"), means(4));
@@ -104,6 +131,37 @@ fn counts(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     }
     findings.tables.push(table);
     findings.plots.push(plot);
+    Ok(())
+}
+
+/// Theorem 5.3: a new site is a random one, and the nearest before it has O(1) neighbours on average, so its search in each of
+/// O(log n) planes takes O(1).
+fn building(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let title = "Sites added in random order to the history of radial triangles: comparisons and rays to locate one (O(log n))";
+    let heads = ["set", "points", "planes", "comparisons", "rays", "tests", "tests / ln n"];
+    let mut table = options.table("radial-building", title, &heads);
+    for (name, points, _) in SETS {
+        for n in decades(100, options.largest.min(ADDED)) {
+            let mut trials: [Trials; 4] = Default::default();
+            for seed in options.seeds() {
+                let mut points = points(n, seed);
+                Random::new(seed).shuffle(&mut points);
+                let mut sites = NearestSites2::new();
+                let mut work = Work::default();
+                for p in points {
+                    sites.nearest_observed(p, &mut work)?;
+                    sites.insert(p)?;
+                }
+                let counts =
+                    [work.visited, work.compared, work.orientations, work.compared + work.orientations];
+                trials.iter_mut().zip(counts).for_each(|(trial, count)| trial.add(count as f64 / n as f64));
+            }
+            let per_log = trials[3].over((n as f64).ln()).to_string();
+            let cells = trials.map(|trial| trial.to_string()).into_iter().chain([per_log]);
+            table.row([name.to_owned(), n.to_string()].into_iter().chain(cells));
+        }
+    }
+    findings.tables.push(table);
     Ok(())
 }
 

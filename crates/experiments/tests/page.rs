@@ -132,6 +132,36 @@ fn no_number_of_ours_is_typed() {
     assert!(typed.is_empty(), "{}", typed.join("\n"));
 }
 
+/// Every row with a number of ours, or a claim, names a test; what no test can assert says what it is.
+#[test]
+fn every_row_is_held() {
+    const NO_COUNT: [&str; 3] = ["time", "cachegrind", "picture"];
+    let mut columns = None;
+    let mut held = 0;
+    for line in page(PAGES[0]).lines() {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let place = |head: &str| cells.iter().position(|cell| *cell == head);
+        if !line.starts_with('|') {
+            columns = None;
+        } else if let (Some(ours), Some(test)) = (place("ours"), place("test")) {
+            columns = Some((ours, test));
+        } else if let Some((ours, test)) = columns
+            && cells[ours] != "---"
+        {
+            held += 1;
+            assert!(!cells[ours].is_empty(), "{line}");
+            assert!(cells[test].contains(".rs::") || NO_COUNT.contains(&cells[test]), "{line}");
+            // A count is no time.
+            let of_times = ["seconds", "ns\"", "-times", "rivals", "to build: ns a point"];
+            assert!(
+                cells[test] != "time" || of_times.iter().any(|times| cells[ours].contains(times)),
+                "{line}"
+            );
+        }
+    }
+    assert!(held > 100, "the page has rows");
+}
+
 /// What stands in backticks.
 fn quoted(page: &str) -> BTreeSet<&str> {
     page.split('`').skip(1).step_by(2).collect()

@@ -17,20 +17,27 @@ use super::{ORDERS, in_orders};
 /// Points of the set that is simulated, and of the one whose scopes are only counted.
 const SIMULATED: usize = 28;
 const COUNTED: usize = 120;
+/// Points of the sets on curves, where nearly all circles are decided by exact arithmetic.
+const ON_CURVES: usize = 60;
 
 /// The probability that one of two given points comes last of the two and before k others: a_k of the paper.
-fn a(k: usize) -> f64 {
+pub(super) fn a(k: usize) -> f64 {
     2.0 / ((k + 1) * (k + 2)) as f64
 }
 
 /// The same with a third one before: b_k.
-fn b(k: usize) -> f64 {
+pub(super) fn b(k: usize) -> f64 {
     a(k) - a(k + 1)
 }
 
-/// The sides on which the circles through x and y meet the other points, in the order of the sweep: true for a point on the
+/// The weight of a square of the grid of zig-zag paths, by the sum k of its coordinates.
+fn c(k: usize) -> f64 {
+    b(k) - b(k + 1)
+}
+
+/// The other points in the order in which the circles through x and y meet them, with their sides: true for a point on the
 /// left, which leaves; false for one on the right, which enters.
-fn sweep(points: &[[f64; 2]], x: usize, y: usize) -> Vec<bool> {
+pub(super) fn swept(points: &[[f64; 2]], x: usize, y: usize) -> Vec<(usize, bool)> {
     let (px, py) = (points[x], points[y]);
     let is_left = |&q: &usize| orient2d(px, py, points[q]).is_positive();
     let mut others: Vec<usize> = (0..points.len()).filter(|q| ![x, y].contains(q)).collect();
@@ -43,7 +50,12 @@ fn sweep(points: &[[f64; 2]], x: usize, y: usize) -> Vec<bool> {
         let is_inside = in_circle(u, v, points[*p], points[*q]).is_positive();
         if is_inside == is_left(q) { Ordering::Less } else { Ordering::Greater }
     });
-    others.iter().map(is_left).collect()
+    others.into_iter().map(|q| (q, is_left(&q))).collect()
+}
+
+/// The sides alone.
+fn sweep(points: &[[f64; 2]], x: usize, y: usize) -> Vec<bool> {
+    swept(points, x, y).into_iter().map(|(_, is_left)| is_left).collect()
 }
 
 /// The symmetric scope of an edge, and the probability that it appears, from its sweep (equation (4) of §2.2).
@@ -68,6 +80,23 @@ fn scope_and_probability(sweep: &[bool]) -> (usize, f64) {
     }
     let probability = a(steps.len()) + steps.iter().rev().enumerate().map(|(k, x)| b(x + k)).sum::<f64>();
     (scope, probability)
+}
+
+/// The same probability by the remark after formula (4): a(l) + a(r) - a(l + r), and the weights of all squares above the path.
+fn by_squares(sweep: &[bool]) -> f64 {
+    let left = sweep.iter().filter(|is_left| **is_left).count();
+    let right = sweep.len() - left;
+    // The row of the last step down is the lowest.
+    let (mut entered, mut row, mut above) = (0, left, 0.0);
+    for &is_left in sweep {
+        if is_left {
+            row -= 1;
+            above += (entered..right).map(|column| c(column + row)).sum::<f64>();
+        } else {
+            entered += 1;
+        }
+    }
+    a(left) + a(right) - a(left + right) + above
 }
 
 /// Scope and probability of all edges.
@@ -98,7 +127,15 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         &format!(
             "How often an edge of symmetric scope w appears ({SIMULATED} points, {ORDERS} random orders; Lemma 2.4)"
         ),
-        &["w", "edges", "appeared", "by zig-zag paths", "at most 2 a(w) - a(2w)", "at least a(2w)"],
+        &[
+            "w",
+            "edges",
+            "appeared",
+            "by zig-zag paths",
+            "by squares above them",
+            "at most 2 a(w) - a(2w)",
+            "at least a(2w)",
+        ],
     );
     let mut plot = Plot::new(
         "scopes-edges",
@@ -106,25 +143,30 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         ["w + 1", "probability"],
     );
     let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
-    let mut sums = [0.0; 2];
+    let mut sums = [0.0; 3];
     for (w, &appeared) in appeared.iter().enumerate() {
-        let of_scope: Vec<f64> =
-            edges.iter().filter(|(_, scope, _)| *scope == w).map(|(.., probability)| *probability).collect();
+        let of_scope: Vec<_> = edges.iter().filter(|(_, scope, _)| *scope == w).collect();
         if of_scope.is_empty() {
             continue;
         }
         let total = of_scope.len() as f64;
         let simulated = appeared as f64 / ORDERS as f64;
-        let computed: f64 = of_scope.iter().sum();
-        sums = [sums[0] + simulated, sums[1] + computed];
-        let row = [simulated / total, computed / total, 2.0 * a(w) - a(2 * w), a(2 * w)];
-        table.row([vec![w.to_string(), of_scope.len().to_string()], row.map(short).to_vec()].concat());
-        for (curve, value) in curves.iter_mut().zip(row) {
+        let computed: f64 = of_scope.iter().map(|(.., probability)| probability).sum();
+        let by_squares: f64 = of_scope.iter().map(|([x, y], ..)| by_squares(&sweep(&points, *x, *y))).sum();
+        sums = [sums[0] + simulated, sums[1] + computed, sums[2] + by_squares];
+        let bounds = [2.0 * a(w) - a(2 * w), a(2 * w)];
+        let row = [simulated, computed, by_squares].map(|sum| short(sum / total));
+        let cells =
+            [vec![w.to_string(), of_scope.len().to_string()], row.to_vec(), bounds.map(short).to_vec()];
+        table.row(cells.concat());
+        let shown = [simulated / total, computed / total, bounds[0], bounds[1]];
+        for (curve, value) in curves.iter_mut().zip(shown) {
             curve.push((w as f64 + 1.0, value));
         }
     }
-    let [simulated, computed] = sums.map(short);
-    table.row(["all", &edges.len().to_string(), &simulated, &computed, "-", "-"].map(str::to_owned));
+    let [simulated, computed, by_squares] = sums.map(short);
+    let sums = ["all", &edges.len().to_string(), &simulated, &computed, &by_squares, "-", "-"];
+    table.row(sums.map(str::to_owned));
     for (name, curve) in
         ["simulated", "by zig-zag paths", "upper bound", "lower bound"].into_iter().zip(curves)
     {
@@ -139,16 +181,23 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
 fn growth(options: &Options<'_>) -> Table {
     let mut table = options.table(
         "scopes-lemma-2-5",
-        &format!(
-            "Edges of symmetric scope at most k, {COUNTED} points; the analysis allows about 16 n (k+1) (Lemma 2.5)"
-        ),
-        &["k", "edges", "in units of n (k+1)", "bound"],
+        "Edges of symmetric scope at most k; the analysis allows about 16 n (k+1) (Lemma 2.5)",
+        &["set", "points", "k", "edges", "in units of n (k+1)", "bound"],
     );
-    let edges = all(&Kind::Uniform.points(COUNTED, options.seed));
-    for k in [0, 1, 2, 4, 8, 16, 32, 59] {
-        let total = edges.iter().filter(|(_, scope, _)| *scope <= k).count();
-        let units = total as f64 / COUNTED as f64 / (k + 1) as f64;
-        table.row([k.to_string(), total.to_string(), short(units), short(16.0)]);
+    let sets = [
+        (Kind::Uniform, COUNTED),
+        (Kind::Ellipse, ON_CURVES),
+        (Kind::Parabola, ON_CURVES),
+        (Kind::Circle, ON_CURVES),
+    ];
+    for (kind, n) in sets {
+        let edges = all(&kind.points(n, options.seed));
+        for k in [0, 1, 2, 4, 8, 16, 32, 59].into_iter().filter(|&k| k < n / 2) {
+            let total = edges.iter().filter(|(_, scope, _)| *scope <= k).count();
+            let units = total as f64 / n as f64 / (k + 1) as f64;
+            let names = [kind.name().to_owned(), n.to_string(), k.to_string(), total.to_string()];
+            table.row(names.into_iter().chain([short(units), short(16.0)]));
+        }
     }
     table
 }
@@ -185,7 +234,7 @@ fn pairs(options: &Options<'_>) -> Table {
 
 #[cfg(test)]
 mod tests {
-    use super::{scope_and_probability, sweep};
+    use super::{by_squares, scope_and_probability, sweep};
 
     /// The paper's order of the points around its edge N-B: L G A C E H J D M I K F, with A E J K F on the left.
     #[test]
@@ -196,6 +245,7 @@ mod tests {
         let b = |k: usize| 4.0 / ((k + 1) * (k + 2) * (k + 3)) as f64;
         let expected = b(7) + b(8) + b(6) + b(6) + b(6) + 2.0 / 42.0;
         assert!((probability - expected).abs() < 1e-12, "{probability} {expected}");
+        assert!((by_squares(&sweep) - expected).abs() < 1e-12, "{expected}");
     }
 
     #[test]

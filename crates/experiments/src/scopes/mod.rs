@@ -1,9 +1,11 @@
 //! `delone experiment scopes`: which triangles, edges and tetrahedra ever appear, by how many points are in their circles.
 //!
-//! Source: Guibas, Knuth & Sharir 1992, §2.1, §2.2 and §4.3. On small sets all scopes are counted by exact decisions, what
+//! Source: Guibas, Knuth & Sharir 1992, §2.1 to §2.3, §4.2 and §4.3. On small sets all scopes are counted by exact decisions, what
 //! appears is simulated in random orders, and both stand beside the lemmas.
 
+mod adding;
 mod edges;
+mod planes;
 mod space;
 mod triangles;
 
@@ -18,6 +20,8 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
     triangles::run(options, &mut findings)?;
     edges::run(options, &mut findings)?;
+    adding::run(options, &mut findings)?;
+    planes::run(options, &mut findings);
     space::run(options, &mut findings)?;
     Ok(findings)
 }

@@ -2,10 +2,11 @@
 //! the triple that all spheres fear (Guibas, Knuth & Sharir 1992, §4.3).
 
 use std::collections::BTreeMap;
+use std::f64::consts::E;
 
 use delone::{Change, Delaunay3, Triangulation};
 use delone_generators::{Kind3, Random};
-use delone_predicates::{in_sphere, orient3d};
+use delone_predicates::{Sign, in_sphere, orient3d};
 
 use super::super::appear;
 use super::super::plot::Plot;
@@ -16,6 +17,9 @@ use super::{ORDERS, first, in_orders};
 
 /// Points of the set that is simulated.
 const SIMULATED: usize = 12;
+/// Points of the sets whose scopes are only counted. A sample of r = n / (k + 1) of them has r^2 / 2 tetrahedra at most, which
+/// makes e / 2 of n^2 (k + 1)^2 by the argument of Lemma 2.5.
+const COUNTED: [usize; 2] = [16, 32];
 /// Points of which samples are triangulated for Theorem 4.7, at most.
 const SAMPLED: usize = 400;
 /// Orders in which they come, at least: when zeta comes decides almost all.
@@ -23,32 +27,62 @@ const SAMPLED_ORDERS: usize = 30;
 
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     simulate(options, findings)?;
+    findings.tables.push(growth(options));
     samples(options, findings)?;
     findings.tables.push(triples(options));
     Ok(())
 }
 
-/// How often tetrahedra of each scope appear.
-fn simulate(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
-    let points = Kind3::Cube.points(SIMULATED, options.seed);
-    let mut scope_of = BTreeMap::new();
-    let mut count = [0_usize; SIMULATED];
-    for a in 0..SIMULATED {
-        for b in a + 1..SIMULATED {
-            for c in b + 1..SIMULATED {
-                for d in c + 1..SIMULATED {
+/// The scope of each tetrahedron that is not flat: how many points are inside of its sphere.
+fn scopes(points: &[[f64; 3]]) -> BTreeMap<[usize; 4], usize> {
+    let n = points.len();
+    let mut scopes = BTreeMap::new();
+    for a in 0..n {
+        for b in a + 1..n {
+            for c in b + 1..n {
+                for d in c + 1..n {
                     let [p, q, r, s] = [a, b, c, d].map(|i| points[i]);
                     let turn = orient3d(p, q, r, s);
+                    if turn == Sign::Zero {
+                        continue;
+                    }
                     let is_inside = |&i: &usize| {
                         ![a, b, c, d].contains(&i) && (in_sphere(p, q, r, s, points[i]) * turn).is_positive()
                     };
-                    let scope = (0..SIMULATED).filter(is_inside).count();
-                    scope_of.insert([a, b, c, d], scope);
-                    count[scope] += 1;
+                    scopes.insert([a, b, c, d], (0..n).filter(is_inside).count());
                 }
             }
         }
     }
+    scopes
+}
+
+/// How many tetrahedra have a scope of at most k, in units of n^2 (k + 1)^2: Lemma 4.5.
+fn growth(options: &Options<'_>) -> Table {
+    let title =
+        "Tetrahedra of scope at most k, O(n^2 (k+1)^2) (Lemma 4.5); the constant is that of its proof";
+    let heads = ["set", "points", "k", "tetrahedra", "in n^2 (k+1)^2", "by the proof"];
+    let mut table = options.table("scopes-lemma-4-5", title, &heads);
+    for n in COUNTED {
+        for (set, points) in [("cube", Kind3::Cube.points(n, options.seed)), ("skew lines", skew_lines(n))] {
+            let scopes = scopes(&points);
+            for k in [0, 1, 2, 4, 8] {
+                let total = scopes.values().filter(|&&scope| scope <= k).count();
+                let units = total as f64 / (n * (k + 1)).pow(2) as f64;
+                let names = [set.to_owned(), n.to_string(), k.to_string(), total.to_string()];
+                table.row(names.into_iter().chain([short(units), short(E / 2.0)]));
+            }
+        }
+    }
+    table
+}
+
+/// How often tetrahedra of each scope appear.
+fn simulate(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
+    let points = Kind3::Cube.points(SIMULATED, options.seed);
+    let scope_of = scopes(&points);
+    let mut count = [0_usize; SIMULATED];
+    scope_of.values().for_each(|&scope| count[scope] += 1);
     let mut appeared = [0_u64; SIMULATED];
     in_orders(SIMULATED, options.seed, |order| {
         appear::simplices::<Delaunay3>(&points, order, |corners, order| {
@@ -59,19 +93,17 @@ fn simulate(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
     let title = format!(
         "How often a tetrahedron of scope k appears ({SIMULATED} points, {ORDERS} random orders; Lemma 4.4)"
     );
-    let heads = ["k", "tetrahedra", "appeared", "24/((k+1)(k+2)(k+3)(k+4))", "of scope <= k, in n^2 (k+1)^2"];
+    let heads = ["k", "tetrahedra", "appeared", "24/((k+1)(k+2)(k+3)(k+4))"];
     let mut table = options.table("scopes-tetrahedra", &title, &heads);
     let mut plot = Plot::new(
         "scopes-tetrahedra",
         "The probability that a tetrahedron of scope k appears",
         ["k + 1", "probability"],
     );
-    let (mut measured, mut expected, mut total) = (Vec::new(), Vec::new(), 0);
+    let (mut measured, mut expected) = (Vec::new(), Vec::new());
     for (k, &tetrahedra) in count.iter().enumerate().filter(|(_, tetrahedra)| **tetrahedra > 0) {
         let share = appeared[k] as f64 / (tetrahedra * ORDERS) as f64;
-        total += tetrahedra;
-        let units = total as f64 / (SIMULATED * (k + 1)).pow(2) as f64;
-        table.row([k.to_string(), tetrahedra.to_string(), short(share), short(first(4, k)), short(units)]);
+        table.row([k.to_string(), tetrahedra.to_string(), short(share), short(first(4, k))]);
         measured.push((k as f64 + 1.0, share));
         expected.push((k as f64 + 1.0, first(4, k)));
     }

@@ -3,16 +3,12 @@
 use delone::{Delaunay2, Hierarchy, Locate, Nearest};
 use delone_generators::{Kind, Random};
 
-use super::{QUERIES, count};
+use super::{QUERIES, SETS, count};
 use crate::trials::Trials;
 use crate::{Error, Findings, Options};
 
-const KINDS: [(Kind, &str); 4] = [
-    (Kind::Uniform, "random"),
-    (Kind::Clusters, "clusters"),
-    (Kind::Ellipse2, "ellipse2"),
-    (Kind::Parabola, "parabola"),
-];
+/// Points in clusters, besides the five sets.
+const CLUSTERS: (Kind, &str) = (Kind::Clusters, "clusters");
 
 /// Two levels; queries are random points of the set, left out of it.
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
@@ -29,7 +25,8 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
         "Lemma 5",
     ];
     let mut table = options.table("tuning-lemmas", title, &heads);
-    for (n, (kind, name)) in options.ends(1_000, 30_000).flat_map(|n| KINDS.map(|set| (n, set))) {
+    let sets = || SETS.into_iter().chain([CLUSTERS]);
+    for (n, (kind, name)) in options.ends(1_000, 30_000).flat_map(|n| sets().map(move |set| (n, set))) {
         for ratio in [4.0, 30.0] {
             let mut trials: [Trials; 3] = Default::default();
             for seed in options.seeds() {

@@ -5,7 +5,9 @@
 
 mod counterexample;
 mod crossovers;
+mod disks;
 mod lemmas;
+mod theorem;
 
 use std::f64::consts::PI;
 
@@ -20,6 +22,14 @@ use super::{Error, Findings, Options, timed};
 use crossovers::Edges;
 
 const QUERIES: usize = 10_000;
+/// The five sets of §5.5.1, for which bounds hold as for any.
+const SETS: [(Kind, &str); 5] = [
+    (Kind::Uniform, "random"),
+    (Kind::Ellipse2, "ellipse2"),
+    (Kind::Ellipse, "ellipse"),
+    (Kind::Parabola, "parabola"),
+    (Kind::Circle, "circle"),
+];
 const RATIOS: [f64; 8] = [2.0, 4.0, 8.0, 18.0, 30.0, 40.0, 60.0, 90.0];
 /// The set of the figures that the paper's formulas are compared with.
 const POINTS: usize = 300_000;
@@ -27,6 +37,8 @@ const POINTS: usize = 300_000;
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     let mut findings = Findings::default();
     lemmas::run(options, &mut findings)?;
+    disks::run(options, &mut findings)?;
+    theorem::run(options, &mut findings)?;
     phases(options, &mut findings)?;
     ratios(options, &mut findings)?;
     crossovers::run(options, &mut findings)?;

@@ -10,9 +10,11 @@
 //! Source: Guibas, Knuth & Sharir, "Randomized incremental construction of Delaunay and Voronoi diagrams",
 //! Algorithmica 1992, §5, with the pointers of the first remark after Theorem 5.4.
 //!
-//! Cost: O(n log^2 n) expected to build (sites are located by the structure itself), O(n) expected size; O(log^2 n)
-//! expected for a query, whatever the sites, if they came in random order. A query on the border of two cells looks at all
-//! neighbours of its site. Choose it for its bound; `Delaunay2::nearest` is faster on data of this world, and can forget.
+//! Cost: O(n log n) expected to build, O(n) expected size (Theorems 5.3 and 5.2): sites are located by the structure itself, and a
+//! new site is a random one, so that the site of a plane that is searched has 36 neighbours at most on average (Devillers 1998,
+//! Lemma 1). O(log^2 n) expected for a query, whatever the sites, if they came in random order. A query on the border of two cells
+//! looks at all neighbours of its site. Choose it for its bound; `Delaunay2::nearest` is faster on data of this world, and can
+//! forget.
 
 mod grow;
 mod planes;
