@@ -5,8 +5,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::memory;
-use crate::message::Failure;
-use crate::stats::grouped;
+use crate::message::{Failure, grouped};
 
 /// Points that the input may have.
 static MOST_POINTS: AtomicUsize = AtomicUsize::new(usize::MAX);

@@ -182,3 +182,11 @@ pub(crate) fn answer(text: &str) -> Result<(), Failure> {
         _ => Ok(()),
     }
 }
+
+/// A number in groups of three digits.
+pub(crate) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let groups: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
+    groups.join(",")
+}

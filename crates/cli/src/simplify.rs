@@ -10,10 +10,10 @@ use crate::args::{CrossingsName, GraphArgs, SimplifyArgs};
 use crate::constrained::{self, Constrained};
 use crate::files;
 use crate::heights::settle_equal;
-use crate::message::{Failure, say};
+use crate::message::{Failure, grouped, say};
 use crate::progress::Phase;
 use crate::room::{self, Room};
-use crate::stats::{Stats, grouped};
+use crate::stats::Stats;
 
 pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();

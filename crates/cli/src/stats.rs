@@ -8,7 +8,7 @@ use delone::{Coordinates, Counters, Dimension, Triangulation, Work};
 use serde_json::{Map, Value, json};
 
 use crate::files;
-use crate::message::{Failure, say};
+use crate::message::{Failure, grouped, say};
 
 /// Collects numbers while a command works.
 pub(crate) struct Stats {
@@ -114,14 +114,6 @@ fn hull<T: Triangulation>(d: &T) -> usize {
         Dimension::Empty | Dimension::Point | Dimension::Line if T::Point::COUNT == 2 => d.vertex_count(),
         _ => d.hull_facets().count(),
     }
-}
-
-/// A number in groups of three digits.
-pub(crate) fn grouped(n: u64) -> String {
-    let digits = n.to_string();
-    let groups: Vec<&str> =
-        digits.as_bytes().rchunks(3).rev().filter_map(|group| str::from_utf8(group).ok()).collect();
-    groups.join(",")
 }
 
 /// Work by name.

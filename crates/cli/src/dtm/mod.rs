@@ -21,10 +21,10 @@ use delone_io::{Cloud, ContourMap, Crs, Format, beside_raster_name, write_contou
 
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
-use crate::message::{Failure, say, warn};
+use crate::message::{Failure, grouped, say, warn};
 use crate::progress::Phase;
 use crate::room;
-use crate::stats::{Stats, grouped};
+use crate::stats::Stats;
 use crate::tiles::Held;
 use bands::About;
 use clip::Clip;

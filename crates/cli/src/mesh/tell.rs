@@ -3,8 +3,8 @@
 use delone::{Reason, RefinementReport2};
 use serde_json::{Map, Value, json};
 
-use crate::message::{say, warn};
-use crate::stats::{Stats, grouped};
+use crate::message::{grouped, say, warn};
+use crate::stats::Stats;
 
 /// Characters of the longest bar.
 const LONGEST: usize = 50;

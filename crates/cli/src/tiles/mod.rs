@@ -44,9 +44,9 @@ use sums::Written;
 
 use crate::args::{DuplicatesName, TilesArgs};
 use crate::files;
-use crate::message::{Failure, note, say};
+use crate::message::{Failure, grouped, note, say};
 use crate::progress::Phase;
-use crate::stats::{Stats, grouped};
+use crate::stats::Stats;
 
 pub(crate) fn run(args: &TilesArgs, quiet: bool) -> Result<(), Failure> {
     #[cfg(not(feature = "parquet"))]

@@ -19,10 +19,10 @@ use super::shards::{self, wrong};
 use super::sums::Sums;
 use crate::args::WindowArgs;
 use crate::files;
-use crate::message::{Failure, say};
+use crate::message::{Failure, grouped, say};
 use crate::progress::Phase;
 use crate::room;
-use crate::stats::{Stats, grouped};
+use crate::stats::Stats;
 
 /// More triangles are not made one mesh without a box.
 const MANY: u64 = 20_000_000;

@@ -9,8 +9,6 @@
 //!
 //! Cost: a few tests for each triangle at the band; once for each vertex that is an end, its degree.
 
-use std::collections::BTreeSet;
-
 use delone_predicates::{orient2d, segment_rounds_to};
 
 use super::trace::Ground;
@@ -23,6 +21,9 @@ pub(super) struct Bands<'a> {
     ground: Ground<'a>,
     /// For each place how far the edges around it are away, at least, if that was asked.
     clear: Vec<Option<f64>>,
+    /// For each triangle the last segment, counted from 1, that it was seen for.
+    seen: Vec<u32>,
+    segment: u32,
     /// How many triangles have been looked at, which tests bound.
     looked: usize,
 }
@@ -30,7 +31,14 @@ pub(super) struct Bands<'a> {
 impl<'a> Bands<'a> {
     pub(super) fn new(graph: &'a Delaunay2) -> Self {
         let ground = Ground { mesh: graph.mesh(), points: &graph.base.points };
-        Self { graph, ground, clear: vec![None; graph.base.points.len()], looked: 0 }
+        Self {
+            graph,
+            ground,
+            clear: vec![None; graph.base.points.len()],
+            seen: vec![0; graph.mesh().slot_count()],
+            segment: 0,
+            looked: 0,
+        }
     }
 
     /// The wanted vertices in the box of a segment, ends apart, that points of it are rounded to.
@@ -54,7 +62,8 @@ impl<'a> Bands<'a> {
         let met = along.into_iter().chain(across);
         let mut pending: Vec<TriangleId> =
             met.flat_map(|e| [e.triangle(), mesh.twin(e).triangle()]).collect();
-        let mut seen: BTreeSet<TriangleId> = pending.iter().copied().collect();
+        self.segment += 1;
+        pending.retain(|&t| self.is_new(t));
         let band = Band::around([a, b].map(|v| ground.point(v)));
         let clear = [a, b].map(|v| self.clear_of_edges(v));
         let turns_away = |v: Place, w: Place| {
@@ -70,12 +79,12 @@ impl<'a> Bands<'a> {
                 let next = mesh.twin(e).triangle();
                 if !v.is_ghost()
                     && !w.is_ghost()
-                    && !seen.contains(&next)
+                    && self.seen[next.index()] != self.segment
                     && !turns_away(v, w)
                     && !turns_away(w, v)
                     && band.may_meet(ground.point(v), ground.point(w))
                 {
-                    seen.insert(next);
+                    self.seen[next.index()] = self.segment;
                     pending.push(next);
                 }
             }
@@ -91,6 +100,11 @@ impl<'a> Bands<'a> {
                 && segment_rounds_to(band.ends[0], band.ends[1], point)
         };
         corners.into_iter().map(|v| mesh.name(v)).filter(is_touched).collect()
+    }
+
+    /// Whether a triangle has not been seen for the segment at hand; it is now.
+    fn is_new(&mut self, t: TriangleId) -> bool {
+        std::mem::replace(&mut self.seen[t.index()], self.segment) != self.segment
     }
 
     /// A bound of the distance of a vertex from the edges across its triangles, from below. No other vertex is nearer.
@@ -176,7 +190,26 @@ impl Band {
         let apart = |k: usize| {
             v[k].max(w[k]) < self.low[k] - self.width[k] || v[k].min(w[k]) > self.high[k] + self.width[k]
         };
-        !apart(0) && !apart(1) && self.may_part(self.ends, [v, w]) && self.may_part([v, w], self.ends)
+        let may_part = |line, points| !self.is_clear(line, points) && self.may_part(line, points);
+        !apart(0) && !apart(1) && may_part(self.ends, [v, w]) && may_part([v, w], self.ends)
+    }
+
+    /// Whether two points are surely on one side of a line, with all that is as near to them as the band is wide. Moved by the width a point
+    /// changes the cross product by no more than the spans of both, multiplied.
+    fn is_clear(&self, [a, b]: [[f64; 2]; 2], points: [[f64; 2]; 2]) -> bool {
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let [side, other] = points.map(|p| {
+            let d = [p[0] - a[0], p[1] - a[1]];
+            let size = span(d) * span(along);
+            let cross = along[0] * d[1] - along[1] * d[0];
+            let is_told = size > TINY && size.is_finite();
+            if is_told && cross.abs() > 2.0 * span(self.width) * span(along) + SMALL * size {
+                cross
+            } else {
+                0.0
+            }
+        });
+        side * other.signum() > 0.0 && other != 0.0
     }
 
     /// Whether a line may have points on both of its sides, or on it, or surroundings of one that are: as wide as the band.

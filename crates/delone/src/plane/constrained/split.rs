@@ -116,21 +116,21 @@ fn round(graph: &Delaunay2, edges: &[Ends], met: &Met, points: &mut Vec<[f64; 2]
     places.iter().map(vertex_at).collect()
 }
 
-/// What lies on the edges of a round: an edge, a vertex inside of it, in the order from its lesser end, and whether it is off the
-/// line.
+/// What lies on the edges of a round: an edge, and a vertex inside of it, in the order from its lesser end.
 struct On<'a> {
+    graph: &'a Delaunay2,
     edges: &'a [Ends],
-    on: Vec<(u32, VertexId, bool)>,
+    inner: Vec<(u32, VertexId)>,
 }
 
 impl<'a> On<'a> {
     /// The vertices strictly inside of edges.
-    fn exactly(graph: &Delaunay2, edges: &'a [Ends], met: &Met) -> Self {
+    fn exactly(graph: &'a Delaunay2, edges: &'a [Ends], met: &Met) -> Self {
         let on = met.through.clone();
         Self::sorted(graph, edges, on)
     }
 
-    fn new(graph: &Delaunay2, edges: &'a [Ends], met: &Met, rounded: &[VertexId]) -> Self {
+    fn new(graph: &'a Delaunay2, edges: &'a [Ends], met: &Met, rounded: &[VertexId]) -> Self {
         let mut on: Vec<(u32, VertexId)> = Vec::new();
         let mut crosses = vec![false; edges.len()];
         for (c, &v) in met.crossings.iter().zip(rounded) {
@@ -139,6 +139,9 @@ impl<'a> On<'a> {
                 on.push((e, v));
             }
         }
+        // That a segment goes through the cells of its own crossings is known.
+        on.sort_unstable();
+        let own = on.clone();
         let mut hot = rounded.to_vec();
         hot.sort_unstable();
         let mut places: Vec<[f64; 2]> = hot.iter().map(|&v| graph.point(v)).collect();
@@ -153,13 +156,14 @@ impl<'a> On<'a> {
         let looked_at = edges.iter().enumerate().filter(|&(e, &ends)| crosses[e] || is_near(ends));
         let mut bands = Bands::new(graph);
         for (e, &ends) in looked_at {
-            let is_wanted = |v: &VertexId| crosses[e] || hot.binary_search(v).is_ok();
+            let is_own = |v: &VertexId| own.binary_search(&(e as u32, *v)).is_ok();
+            let is_wanted = |v: &VertexId| !is_own(v) && (crosses[e] || hot.binary_search(v).is_ok());
             on.extend(bands.touched(ends, is_wanted).into_iter().map(|v| (e as u32, v)));
         }
         Self::sorted(graph, edges, on)
     }
 
-    fn sorted(graph: &Delaunay2, edges: &'a [Ends], mut on: Vec<(u32, VertexId)>) -> Self {
+    fn sorted(graph: &'a Delaunay2, edges: &'a [Ends], mut on: Vec<(u32, VertexId)>) -> Self {
         on.retain(|&(e, v)| !edges[e as usize].contains(&v));
         let along = |e: u32, v: VertexId, w: VertexId| {
             let [a, b] = edges[e as usize].map(|v| graph.point(v));
@@ -178,11 +182,13 @@ impl<'a> On<'a> {
         };
         sorting::by(&mut on, |p, q| p.0.cmp(&q.0).then_with(|| along(p.0, p.1, q.1)));
         on.dedup();
-        let is_off = |e: u32, v: VertexId| {
-            let [a, b] = edges[e as usize].map(|v| graph.point(v));
-            !orient2d(a, b, graph.point(v)).is_zero()
-        };
-        Self { edges, on: on.into_iter().map(|(e, v)| (e, v, is_off(e, v))).collect() }
+        Self { graph, edges, inner: on }
+    }
+
+    /// Whether a vertex is off the line of its edge.
+    fn is_off(&self, (e, v): (u32, VertexId)) -> bool {
+        let [a, b] = self.edges[e as usize].map(|v| self.graph.point(v));
+        !orient2d(a, b, self.graph.point(v)).is_zero()
     }
 
     /// Replaces each link of a chain. Returns whether it bends anywhere.
@@ -192,10 +198,10 @@ impl<'a> On<'a> {
         for link in chain.windows(2) {
             let ends = [link[0], link[1]];
             if let Ok(e) = self.edges.binary_search(&sorted(ends)) {
-                let start = self.on.partition_point(|on| (on.0 as usize) < e);
-                let end = self.on.partition_point(|on| (on.0 as usize) <= e);
-                let inner = &self.on[start..end];
-                is_bent |= inner.iter().any(|on| on.2);
+                let start = self.inner.partition_point(|on| (on.0 as usize) < e);
+                let end = self.inner.partition_point(|on| (on.0 as usize) <= e);
+                let inner = &self.inner[start..end];
+                is_bent = is_bent || inner.iter().any(|&on| self.is_off(on));
                 if ends[0] < ends[1] {
                     longer.extend(inner.iter().map(|on| on.1));
                 } else {
