@@ -75,10 +75,13 @@ def test_copies_of_subclasses_are_subclasses(name):
 
 def test_numbers_of_other_kinds():
     points = np.random.default_rng(3).random((20, 2))
+    assert np.array_equal(delone.Delaunay(points.astype(object)).points, points)
     with pytest.raises(TypeError, match="astype"):
-        delone.Delaunay(points.astype(object))
+        delone.Delaunay(np.where(points > 0.9, None, points))
     f = delone.LinearNDInterpolator(points, np.ma.array(points[:, 0]))
-    assert np.isclose(f(0.5, 0.5), 0.5)
+    assert np.isclose(f(0.5, 0.5), 0.5) and np.array_equal(f.points, points)
+    # As SciPy's griddata calls it.
+    assert f(0.5, 0.5) == f((0.5, 0.5), simplex_tolerance=1.0)
     queries = [[[np.nan, 0.5], [0.5, 0.5]], [[np.inf, 0.5], [9, 9]]]
     found = delone.Delaunay(points).find_simplex(queries)
     assert (found >= 0).tolist() == [[False, True], [False, False]]

@@ -345,7 +345,7 @@ def test_the_empty_region_is_where_scipy_has_one():
 @pytest.mark.parametrize("name", CLASSES)
 def test_options_of_qhull(name):
     make, points = getattr(delone, name), random_points(10, 2)
-    for good in ["", "Qbb Qc", "Qt Q12 Pp", b"Qx Qs", None, "QJ", "QJ1e-9 Pp", "Qz", "Q0"]:
+    for good in ["", "Qbb Qc", "Qt Q12 Pp", b"Qx Qs", None, "QJ", "QJ1e-9 Pp", "Qz", "Q0", "QJ i", "Qt i", "o Fv", "s p Tv Pg"]:
         make(points, qhull_options=good)
     for bad, message in [
         ("Qbb bananas", "'bananas' is not supported: no such option"),

@@ -157,7 +157,7 @@ WRONG = {
     "a point of text": (["ab", "cd"], TypeError, "real numbers"),
     "None among points": ([[0, 0], None, [1, 1]], (TypeError, ValueError), "real numbers|inhomogeneous"),
     "None among rings": ([SQUARE, None], TypeError, "real numbers"),
-    "masked": (np.ma.masked_array(SQUARE, mask=False), ValueError, "masked"),
+    "masked": (np.ma.masked_array(SQUARE, mask=[[True, False]] * len(SQUARE)), ValueError, "masked"),
     "complex": (np.zeros((3, 2), dtype=complex), TypeError, "complex"),
     "point": ({"type": "Point", "coordinates": [0, 0]}, TypeError, "a Point has no inside"),
     "line": ({"type": "LineString", "coordinates": SQUARE}, TypeError, "a LineString has no inside"),

@@ -137,7 +137,7 @@ def test_what_is_refused():
         ("method must be one of", points, values, "cubic"),
         ("50 points need as many", points, values[1:]),
         ("masked", points, np.ma.masked_array(values, values > 0.5)),
-        ("masked", np.ma.masked_array(points), values),
+        ("masked", np.ma.masked_array(points, points > 0.5), values),
         ("not finite", np.where(points > 0.9, np.nan, points), values),
         ("2 or 3 coordinates", random_points(50, 4), values),
         ("for points, not", delone.Delaunay(points), values, "sibson", np.nan, True),
@@ -235,7 +235,7 @@ def test_rasters_that_are_refused():
     for match, at, heights in [
         ("point 3 has the height nan", points, np.where(z == 3, np.nan, z)),
         (r"shape \(50,\)", points, z[1:]),
-        ("masked", points, np.ma.masked_array(z)),
+        ("masked", points, np.ma.masked_array(z, z > 3)),
         ("no points", np.empty((0, 2)), []),
         ("2 coordinates", random_points(50, 3), z),
         ("of the plane", delone.Delaunay(random_points(50, 3)), z),

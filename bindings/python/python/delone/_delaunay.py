@@ -141,9 +141,9 @@ class Delaunay:
         return self._furthest
 
     @property
-    def good(self) -> NDArray[np.bool_]:
-        """True for each simplex; for those who come from SciPy."""
-        return np.ones(self.nsimplex, dtype=bool)
+    def good(self) -> NDArray[np.int32]:
+        """1 for each simplex; for those who come from SciPy."""
+        return np.ones(self.nsimplex, dtype=np.int32)
 
     @property
     def min_bound(self) -> NDArray[np.float64]:

@@ -48,13 +48,20 @@ class _Interpolator:
             raise TypeError(f"fill_value must be a number of {self.values.dtype}, not {fill_value!r}")
         self.fill_value = fill_value
 
-    def __call__(self, *xi: ArrayLike) -> NDArray[Any]:
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points of the triangulation; with `rescale` the scaled ones, as in SciPy."""
+        return self.tri.points
+
+    def __call__(self, *xi: ArrayLike, simplex_tolerance: float = 1.0) -> NDArray[Any]:
         """Values at points: an array whose last axis has the coordinates, or an array for each coordinate.
 
         As in SciPy a tuple is one of coordinates, `f((x, y))` as `f(x, y)`, and they are broadcast; an array or list of one
         axis is points one after the other. Of shape (..., *values.shape[1:]). Points with a coordinate that is not finite are
-        outside. All threads are used.
+        outside. All threads are used. `simplex_tolerance` is for those who come from SciPy, and has no effect: which simplex holds
+        a point is decided exactly.
         """
+        _ = float(simplex_tolerance)
         rows, shape = self._queries(xi)
         known = np.isfinite(rows).all(axis=1)
         every = bool(known.all())

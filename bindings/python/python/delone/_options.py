@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from ._errors import qhull_error
 
-#: What these ask for holds anyway, or they say what Qhull is to do where rounding misleads it.
-_HARMLESS = re.compile(r"Qbb|QbB|Qs|Qt|Qv|Qx|Q\d\d?|Pp|Po")
+#: What these ask for holds anyway, or they say what Qhull is to do where rounding misleads it, or what its program prints.
+_HARMLESS = re.compile(r"Qbb|QbB|Qs|Qt|Qv|Qx|Q\d\d?|Pp|Po|Pg|[finops]|F[A-Za-z]|T[acfsvz]")
 
 _REFUSED = [
     (r"Qu", "give furthest_site=True instead"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Iterable
+from numbers import Integral, Real
 from typing import Any
 
 import numpy as np
@@ -20,15 +21,35 @@ class ShapeError(ValueError, IndexError):
 def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
     """An array of real numbers of any shape.
 
-    Raises TypeError for what holds no real numbers, ValueError for masked arrays and for rows of several lengths.
+    Arrays of objects are taken if all are real numbers, as columns of a DataFrame may be, and masked arrays if nothing is masked.
+
+    Raises TypeError for what holds no real numbers, ValueError for masked values and for rows of several lengths.
     """
-    if ma.isMaskedArray(values):
+    if ma.is_masked(values):
         raise ValueError(f"{what} is a masked array: give what counts, for example array[~array.mask.any(axis=1)].data")
     array: NDArray[Any] = np.asarray(values)
+    if array.dtype.kind == "O":
+        array = _unboxed(array, what)
     if array.dtype.kind not in "fiub":
-        remedy = "; give them as float64, as array.astype(float) does, without what is missing" if array.dtype.kind == "O" else ""
-        raise TypeError(f"{what} must hold real numbers, not {array.dtype}{remedy}")
+        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
     return array
+
+
+def _unboxed(array: NDArray[Any], what: str) -> NDArray[Any]:
+    """Numbers that are objects of Python: integers as int64, others as float64, which must hold them exactly."""
+    every = array.ravel().tolist()
+    if not all(isinstance(x, (Real, np.bool_)) for x in every):
+        remedy = "give them as float64, as array.astype(float) does, without what is missing"
+        raise TypeError(f"{what} must hold real numbers, not object; {remedy}")
+    try:
+        if every and all(isinstance(x, Integral) for x in every):
+            return np.array(every, dtype=np.int64).reshape(array.shape)
+        result = np.array([float(x) for x in every])
+    except OverflowError as error:
+        raise ValueError(f"{what} holds numbers beyond the range of float64, or integers beyond that of int64") from error
+    if any(x != y and x == x for x, y in zip(every, result.tolist(), strict=True)):
+        raise ValueError(f"{what} holds numbers that float64 does not hold exactly; round them with astype(numpy.float64)")
+    return result.reshape(array.shape)
 
 
 def as_points(points: ArrayLike, what: str = "points", columns: int | None = None) -> NDArray[np.float64]:
