@@ -58,8 +58,8 @@ class _Interpolator:
 
         As in SciPy a tuple is one of coordinates, `f((x, y))` as `f(x, y)`, and they are broadcast; an array or list of one
         axis is points one after the other. Of shape (..., *values.shape[1:]). Points with a coordinate that is not finite are
-        outside. All threads are used. `simplex_tolerance` is for those who come from SciPy, and has no effect: which simplex holds
-        a point is decided exactly.
+        outside. All threads are used. `simplex_tolerance` is for those who come from SciPy, and has no effect: which simplex
+        holds a point is decided exactly.
         """
         _ = float(simplex_tolerance)
         rows, shape = self._queries(xi)
