@@ -5,7 +5,7 @@ use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{in_pieces, interruptible};
 use crate::memory::{NEIGHBORS, room_for_neighbors};
 use crate::pool::{detached, is_many, shared};
 use crate::triangulation::coordinates;
@@ -135,5 +135,7 @@ fn answers<Q: Copy + Sync, A: Send>(
     queries: &[Q],
     answer: impl Fn(Q) -> Result<A, Error> + Sync + Send,
 ) -> PyResult<Vec<A>> {
-    detached(py, is_many(queries, QUERIES), || shared(queries, QUERIES, |&q| answer(q))).map_err(python_error)
+    in_pieces(py, queries, |piece| {
+        detached(py, is_many(piece, QUERIES), || shared(piece, QUERIES, |&q| answer(q))).map_err(python_error)
+    })
 }

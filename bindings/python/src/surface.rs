@@ -8,8 +8,10 @@ use numpy::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::interrupt::in_pieces;
 use crate::memory::room;
 use crate::near::Near;
+use crate::pool::{FEW, detached};
 use crate::triangulation::{Core, State, Triangulation, coordinates};
 
 /// Where rows begin and the last one ends, columns, and weights.
@@ -56,10 +58,11 @@ where
         "smooth" => Interpolator::<T>::smooth,
         "farin" => Interpolator::<T>::farin,
         _ => {
-            return state.asked(py, queries.len(), || {
-                let near = Near::new(queries);
-                Ok(near.back(f.many(&near.queries, table, columns)?, columns))
-            });
+            let near = detached(py, queries.len() >= FEW, || Near::new(queries));
+            let found = in_pieces(py, &near.queries, |piece| {
+                state.asked(py, piece.len(), || f.many(piece, table, columns))
+            })?;
+            return Ok(py.detach(|| near.back(found, columns)));
         }
     };
     let slopes = slopes.ok_or_else(|| PyValueError::new_err("a smooth surface needs gradients"))?;
@@ -78,19 +81,19 @@ where
             slopes.len()
         )));
     }
-    state.asked(py, queries.len(), || {
-        let near = Near::new(queries);
-        let mut result = vec![f64::NAN; near.queries.len() * columns];
-        for column in 0..columns {
-            let own: Vec<f64> = table.iter().skip(column).step_by(columns).copied().collect();
-            let slopes = &slopes[column * points..][..points];
-            let found = f.many_bent(&near.queries, |f, q| surface(f, q, &own, slopes))?;
-            for (row, value) in result.chunks_exact_mut(columns).zip(found) {
-                row[column] = value;
-            }
+    let near = detached(py, queries.len() >= FEW, || Near::new(queries));
+    let mut result = vec![f64::NAN; near.queries.len() * columns];
+    for column in 0..columns {
+        let own: Vec<f64> = table.iter().skip(column).step_by(columns).copied().collect();
+        let slopes = &slopes[column * points..][..points];
+        let found = in_pieces(py, &near.queries, |piece| {
+            state.asked(py, piece.len(), || f.many_bent(piece, |f, q| surface(f, q, &own, slopes)))
+        })?;
+        for (row, value) in result.chunks_exact_mut(columns).zip(found) {
+            row[column] = value;
         }
-        Ok(near.back(result, columns))
-    })
+    }
+    Ok(py.detach(|| near.back(result, columns)))
 }
 
 /// The weights of points at queries, compressed rows; empty ones outside.

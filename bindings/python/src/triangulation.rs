@@ -13,7 +13,7 @@ use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{in_pieces, interruptible};
 use crate::memory::{TRIANGULATION, room_for_neighbors};
 use crate::pool::{FEW, detached, generation, is_many, shared};
 use crate::shared::Shared;
@@ -262,8 +262,10 @@ impl<T: Ask> State<T> {
         queries: &[T::Point],
         answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
     ) -> PyResult<Vec<A>> {
-        self.asking(py, is_many(queries, QUERIES), queries.is_empty(), || {
-            shared(queries, QUERIES, |&q| answer(q))
+        in_pieces(py, queries, |piece| {
+            self.asking(py, is_many(piece, QUERIES), piece.is_empty(), || {
+                shared(piece, QUERIES, |&q| answer(q))
+            })
         })
     }
 

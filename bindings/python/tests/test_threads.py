@@ -1,7 +1,10 @@
 """Threads that ask and change one object, and states that were damaged on the way."""
 
+import os
 import pickle
+import signal
 import threading
+import time
 
 import delone
 import numpy as np
@@ -72,6 +75,45 @@ def test_a_constrained_triangulation_and_weights_are_changed_while_others_ask():
 
     together(ask, ask, change)
     assert len(c.segments) == 20
+
+
+LONG = {
+    "find_simplex": lambda p, n: delone.Delaunay(p).find_simplex(again(p, 40 * n)),
+    "k_nearest": lambda p, n: delone.Delaunay(p).k_nearest(again(p, n // 8), 300),
+    "neighbors": lambda p, n: delone.Neighbors(p).k_nearest(again(p, n), 300),
+    "natural neighbours": lambda p, n: delone.NaturalNeighborInterpolator(p, p[:, 0])(again(p, 4 * n)),
+    "smooth": lambda p, n: delone.NaturalNeighborInterpolator(p, p[:, 0], method="smooth")(again(p, 2 * n)),
+}
+
+
+def again(points, count):
+    """So many queries, a little off the points."""
+    return np.resize(0.999 * points, (count, 2))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals are sent otherwise")
+@pytest.mark.parametrize("name", LONG)
+def test_many_queries_end_at_an_interruption(name):
+    points = np.random.default_rng(4).random((N, 2))
+    n = 1000
+    took = 0.0
+    while took < 2.0:
+        n *= 2
+        began = time.perf_counter()
+        LONG[name](points, n)
+        took = time.perf_counter() - began
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+    began = time.perf_counter()
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            LONG[name](points, 4 * n)
+        # It would have been eight seconds.
+        assert time.perf_counter() - began < 2 * took
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
 
 
 MADE = {
