@@ -4,10 +4,14 @@
 //! A row is named by its first cells, separated by `; `. `BLESS=1 cargo test -p delone-experiments --test page` writes the
 //! numbers of new results into the pages.
 
+#[path = "claims/csv.rs"]
+mod csv;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use csv::fields;
 use delone_experiments::EXPERIMENTS;
 
 const PAGES: [&str; 2] = ["papers.md", "experiments.md"];
@@ -24,19 +28,6 @@ fn page(name: &str) -> String {
 fn table(name: &str) -> Result<Vec<Vec<String>>, String> {
     let text = fs::read_to_string(root().join("docs/results").join(name));
     Ok(text.map_err(|_| format!("there is no {name}"))?.lines().map(fields).collect())
-}
-
-fn fields(line: &str) -> Vec<String> {
-    let mut fields = vec![String::new()];
-    let mut is_quoted = false;
-    for c in line.chars() {
-        match c {
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => fields.push(String::new()),
-            _ => fields.last_mut().expect("a field").push(c),
-        }
-    }
-    fields
 }
 
 /// A number of a page: where it is in the text, and where it comes from.

@@ -76,7 +76,10 @@ struct Stream(Bounded<MultiGzDecoder<Box<dyn Source>>>);
 
 impl Read for Stream {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        self.0.read(buffer)
+        let ended = || io::Error::other(Error::Truncated("inside of its compressed content".to_owned()));
+        self.0
+            .read(buffer)
+            .map_err(|error| if error.kind() == io::ErrorKind::UnexpectedEof { ended() } else { error })
     }
 }
 
@@ -110,6 +113,9 @@ mod tests {
         };
         assert_eq!(read(packed(HARMLESS)).map_err(|error: Error| error.to_string()), Ok(HARMLESS));
         assert!(matches!(read(packed(2 * HARMLESS)), Err(Error::Expands)));
+        let mut cut = packed(HARMLESS);
+        cut.truncate(30_000);
+        assert!(matches!(read(cut), Err(Error::Truncated(_))));
         let most = most_inflated(100_000);
         assert_eq!(most, 100_000 * EXPANSION);
         let zeros = |length: u64| std::io::repeat(0).take(length);

@@ -54,7 +54,7 @@ pub enum Step3 {
         /// Vertices inserted again.
         reinserted: usize,
     },
-    /// All points were located from their hints, which are new now.
+    /// All points were located from their hints, which are new now; also in the steps after a repair that gave up, 31 at most.
     Hinted,
     /// By a construction from nothing: hints misled.
     Rebuilt,

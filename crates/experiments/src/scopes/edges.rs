@@ -12,7 +12,7 @@ use super::super::appear;
 use super::super::plot::Plot;
 use super::super::table::{Table, short};
 use super::super::{Error, Findings, Options};
-use super::{ORDERS, in_orders};
+use super::{ORDERS, in_orders, sets};
 
 /// Points of the set that is simulated, and of the one whose scopes are only counted.
 const SIMULATED: usize = 28;
@@ -184,13 +184,7 @@ fn growth(options: &Options<'_>) -> Table {
         "Edges of symmetric scope at most k; the analysis allows about 16 n (k+1) (Lemma 2.5)",
         &["set", "points", "k", "edges", "in units of n (k+1)", "bound"],
     );
-    let sets = [
-        (Kind::Uniform, COUNTED),
-        (Kind::Ellipse, ON_CURVES),
-        (Kind::Parabola, ON_CURVES),
-        (Kind::Circle, ON_CURVES),
-    ];
-    for (kind, n) in sets {
+    for (kind, n) in sets(COUNTED, ON_CURVES) {
         let edges = all(&kind.points(n, options.seed));
         for k in [0, 1, 2, 4, 8, 16, 32, 59].into_iter().filter(|&k| k < n / 2) {
             let total = edges.iter().filter(|(_, scope, _)| *scope <= k).count();

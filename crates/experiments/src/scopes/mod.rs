@@ -9,7 +9,7 @@ mod planes;
 mod space;
 mod triangles;
 
-use delone_generators::Random;
+use delone_generators::{Kind, Random};
 
 use super::{Error, Findings, Options};
 
@@ -24,6 +24,12 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     planes::run(options, &mut findings);
     space::run(options, &mut findings)?;
     Ok(findings)
+}
+
+/// The sets whose scopes are counted: evenly spread points, and points on curves.
+fn sets(even: usize, on_curves: usize) -> [(Kind, usize); 4] {
+    let curves = [Kind::Ellipse, Kind::Parabola, Kind::Circle].map(|kind| (kind, on_curves));
+    [(Kind::Uniform, even), curves[0], curves[1], curves[2]]
 }
 
 /// Does something in each of many random orders of so many points.

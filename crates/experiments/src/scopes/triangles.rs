@@ -10,7 +10,7 @@ use super::super::appear;
 use super::super::plot::Plot;
 use super::super::table::{Table, short};
 use super::super::{Error, Findings, Options};
-use super::{ORDERS, first, in_orders};
+use super::{ORDERS, first, in_orders, sets};
 
 /// Points of the set that is simulated, and of the one whose scopes are only counted.
 const SIMULATED: usize = 24;
@@ -109,13 +109,7 @@ fn growth(options: &Options<'_>) -> Table {
         "Triangles of scope at most k; the analysis allows about 3.6 n (k+1)^2 (Lemma 2.2)",
         &["set", "points", "k", "triangles", "in units of n (k+1)^2", "bound"],
     );
-    let sets = [
-        (Kind::Uniform, COUNTED),
-        (Kind::Ellipse, ON_CURVES),
-        (Kind::Parabola, ON_CURVES),
-        (Kind::Circle, ON_CURVES),
-    ];
-    for (kind, n) in sets {
+    for (kind, n) in sets(COUNTED, ON_CURVES) {
         let count = count(&scopes(&kind.points(n, options.seed)), n);
         let mut total = 0;
         for (k, triangles) in count.into_iter().enumerate() {

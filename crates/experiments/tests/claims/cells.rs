@@ -2,6 +2,8 @@
 
 use delone_experiments::{Experiment, Findings, Options};
 
+use crate::csv::fields;
+
 /// A table by its heads and cells.
 pub(super) struct Cells {
     heads: Vec<String>,
@@ -68,20 +70,6 @@ impl Cells {
         let holds = |(value, bound): (&f64, &f64)| *value > 0.0 && value <= bound;
         assert!(values.iter().zip(&bounds).all(holds), "{head}: {values:?}, {bound}: {bounds:?}");
     }
-}
-
-/// The cells of a line.
-fn fields(line: &str) -> Vec<String> {
-    let mut fields = vec![String::new()];
-    let mut is_quoted = false;
-    for c in line.chars() {
-        match c {
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted => fields.push(String::new()),
-            _ => fields.last_mut().expect("a field").push(c),
-        }
-    }
-    fields
 }
 
 /// An experiment up to a size, twice from other points.

@@ -4,6 +4,7 @@
 //! and is asserted at each size of the table.
 
 mod cells;
+mod csv;
 mod hierarchy;
 mod hints;
 mod jump_and_walk;
