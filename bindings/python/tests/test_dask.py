@@ -84,10 +84,19 @@ def test_a_worker_that_dies_is_no_loss(tmp_path):
         assert (tmp_path / "killed").exists() and len(tile.points) > 0
 
 
-@pytest.mark.parametrize("wrong", [np.eye(4, 2).astype(object), np.eye(4, 2) + 1j, np.eye(4, 2).astype(str)])
+WORDS = np.array([["a", 0], [1, 0], [0, 1], [0, 0]], dtype=object)
+
+
+@pytest.mark.parametrize("wrong", [WORDS, np.eye(4, 2) + 1j, np.eye(4, 2).astype(str)])
 def test_arrays_of_no_numbers_are_refused_as_in_memory(wrong):
     with pytest.raises(TypeError, match="real numbers"):
         delone.dask.triangulate(da.from_array(wrong, chunks=(2, 2)), tiles=2)
+
+
+def test_objects_that_are_numbers_are_taken_as_in_memory():
+    points = RANDOM.random((500, 2))
+    made = delone.dask.triangulate(da.from_array(points.astype(object), chunks=(100, 2)), tiles=2)
+    assert made.fingerprint.compute() == expected(points)
 
 
 def test_integers_that_are_no_floats_are_refused_as_in_memory():
