@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use delone::{Bounds, Delaunay2, Error, MERGE_AUTO, Region2};
+use delone::{Bounds, Delaunay2, Error, Region2};
 
-use crate::args::{Merge, VoronoiArgs};
+use crate::args::VoronoiArgs;
 use crate::message::Failure;
 use crate::stats::Stats;
 
@@ -23,11 +23,7 @@ pub(crate) fn polygon_region(args: &VoronoiArgs, rings: &[Vec<[f64; 2]>]) -> Res
 
 /// The length up to which sides of cells are contracted, if any are.
 pub(crate) fn merge(args: &VoronoiArgs, region: &Region2, stats: &mut Stats) -> Option<f64> {
-    let largest = || region.bounds().into_iter().flatten().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    let length = match args.merge? {
-        Merge::Auto => MERGE_AUTO * largest(),
-        Merge::Length(length) => length,
-    };
+    let length = args.merge?.of(region.bounds().into_iter().flatten());
     stats.set("merge", length);
     Some(length)
 }

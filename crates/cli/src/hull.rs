@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use delone::{Delaunay2, Delaunay3, Dimension, Hull2, Hull3, HullHistory3};
+use delone::{Delaunay2, Delaunay3, Dimension, Error, Hull2, Hull3, HullHistory3};
 use delone_io::{Format, Solid, picture};
 
 use crate::args::{HullAlgorithm, HullArgs};
@@ -43,6 +43,21 @@ fn is_list(format: Format) -> bool {
     matches!(format, Format::Npy | Format::Text)
 }
 
+/// The length up to which corners are left out, if any are.
+fn merge<const D: usize>(args: &HullArgs, points: &[[f64; D]], stats: &mut Stats) -> Option<f64> {
+    let length = args.merge?.of(points.iter().flatten().copied());
+    stats.set("merge", length);
+    Some(length)
+}
+
+/// Why corners within a length are not left out.
+fn not_merged(args: &HullArgs, error: &Error) -> Failure {
+    Failure::new(
+        format!("{}: {error}", args.input.label().display()),
+        "give a smaller --merge, or leave it out",
+    )
+}
+
 fn plane(
     args: &HullArgs,
     outputs: &[(PathBuf, Format)],
@@ -60,6 +75,10 @@ fn plane(
     stats.set("points", points.len());
     let phase = Phase::start(quiet, "building");
     let hull = Hull2::from_points(&points).map_err(|error| Failure::points(&args.input.label(), &error))?;
+    let hull = match merge(args, &points, stats) {
+        Some(length) => hull.merged(&points, length).map_err(|error| not_merged(args, &error))?,
+        None => hull,
+    };
     drop(phase);
     stats.phase("build");
     stats.set("hull", hull.corners().len());
@@ -105,6 +124,10 @@ fn space(
         }),
     }
     .map_err(|error| Failure::points(&args.input.label(), &error))?;
+    let hull = match merge(args, &points, stats) {
+        Some(length) => hull.merged(&points, length).map_err(|error| not_merged(args, &error))?,
+        None => hull,
+    };
     drop(phase);
     stats.phase("build");
     let span = format!("{:?}", hull.dimension()).to_lowercase();

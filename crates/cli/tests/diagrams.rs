@@ -113,6 +113,32 @@ fn voronoi_says_what_is_wrong() {
     place.succeed("voronoi line.csv -o x.svg --box 0,-1,1,1 -q");
 }
 
+/// Points of a grid that is turned are corners by rounding alone.
+#[test]
+fn hulls_are_merged_within_rounding() {
+    let place = Place::new();
+    let (s, c) = (0.5, 0.75_f64.sqrt());
+    let at = |i: usize| [i % 4, i / 4 % 4, i / 16].map(|k| k as f64);
+    let turned =
+        |[x, y, z]: [f64; 3]| [c * x - s * y, c * (s * x + c * y) - s * z, s * (s * x + c * y) + c * z];
+    let row = |p: [f64; 3]| p.map(|x| format!("{x}")).join(",");
+    let grid: Vec<[f64; 3]> = (0..64).map(|i| turned(at(i))).collect();
+    place.file("grid.csv", grid.iter().map(|&p| row(p)).collect::<Vec<_>>().join("\n"));
+    let corners = |how: &str| {
+        place.succeed(&format!("hull grid.csv --dim 3 -o h.obj -o h.npy --stats s.json -q {how}"));
+        let stats = std::fs::read(place.path("s.json")).expect("stats");
+        let stats: Value = serde_json::from_slice(&stats).expect("JSON");
+        ["hull", "faces", "simplices"].map(|name| stats[name].as_u64().expect("a number"))
+    };
+    assert!(corners("")[0] > 8);
+    assert_eq!(corners("--merge auto"), [8, 6, 12]);
+    assert_eq!(corners("--merge 1e-9 --algorithm flips"), [8, 6, 12]);
+    assert_eq!(rows(&place.succeed("hull grid.csv -o - --to csv -q --merge auto")).len(), 6);
+    place.fail("hull grid.csv --dim 3 -o h.npy --merge 9", 1, "less than the thickness of the hull");
+    place.fail("hull grid.csv -o h.npy --merge 99", 1, "less than the width of the hull");
+    place.fail("hull grid.csv -o h.npy --merge=-1", 2, "a length");
+}
+
 #[test]
 fn hulls_and_furthest_points() {
     let place = Place::new();

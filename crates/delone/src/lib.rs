@@ -108,6 +108,7 @@ mod alpha;
 mod around;
 mod duplicates;
 mod error;
+mod foot;
 mod graphs;
 mod hull;
 mod ids;

@@ -14,6 +14,7 @@ mod gradients;
 mod graphs;
 mod hints;
 mod hull;
+mod hull_merged;
 mod locate;
 mod metamorphic;
 mod neighbors;

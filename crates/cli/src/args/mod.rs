@@ -36,7 +36,7 @@ pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
 pub(crate) use relief::{ContoursArgs, SimplifyArgs};
-pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Merge, Show, VoronoiArgs};
+pub(crate) use shapes::{AnimateArgs, Choice, DrawArgs, HullAlgorithm, HullArgs, Show, VoronoiArgs};
 pub(crate) use strategy::{LocateName, StrategyArgs};
 pub(crate) use surface::{DtmArgs, DuplicatesName, InterpolateArgs, MethodName, OutsideName};
 pub(crate) use tiles::{TilesArgs, WindowArgs};

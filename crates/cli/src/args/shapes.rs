@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use delone::MERGE_AUTO;
 use delone_io::Format;
 use delone_io::picture::Camera;
 
@@ -16,6 +17,7 @@ use crate::message::Failure;
   delone hull points.csv -o - --to csv
   delone hull model.ply --dim 3 -o facets.npy -o hull.stl -o hull.png
   delone hull tile.laz --dim 3 --view 200,30 -o hull.svg
+  delone hull turned-part.stl --dim 3 --merge auto -o hull.obj
 
 npy and csv hold indices of input points. In the plane: the corners, counter-clockwise from the lexicographically
 smallest. In space: a facet a row, counter-clockwise seen from outside; flat faces are cut into triangles. No corner is
@@ -38,6 +40,10 @@ pub(crate) struct HullArgs {
     /// Seed of the random order of `history` and `flips` [default: 0].
     #[arg(long, value_name = "S")]
     pub(crate) seed: Option<u64>,
+    /// Leave out corners within this distance of the hull of the others, in coordinate units, and join faces in one plane within it: those that
+    /// rounding has made. `auto` is 2^-40 of the largest coordinate.
+    #[arg(long, value_name = "LENGTH|auto", value_parser = Merge::parse, allow_negative_numbers = true)]
+    pub(crate) merge: Option<Merge>,
     #[command(flatten)]
     pub(crate) camera: CameraArgs,
 }
@@ -154,6 +160,14 @@ pub(crate) enum Merge {
 }
 
 impl Merge {
+    /// The length, if these are the coordinates.
+    pub(crate) fn of(self, coordinates: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            Self::Auto => MERGE_AUTO * coordinates.fold(0.0_f64, |largest, x| largest.max(x.abs())),
+            Self::Length(length) => length,
+        }
+    }
+
     fn parse(text: &str) -> Result<Self, String> {
         if text == "auto" {
             return Ok(Self::Auto);

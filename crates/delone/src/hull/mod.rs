@@ -1,5 +1,6 @@
 //! Convex hulls without a triangulation, in the plane and in space.
 
+mod merge;
 pub(crate) mod plane;
 mod space;
 

@@ -7,6 +7,7 @@
 
 use delone_predicates::{lexicographic, orient2d};
 
+use super::merge;
 use crate::error::Error;
 use crate::mesh::Dimension;
 use crate::points::{Position2, check_finite};
@@ -35,6 +36,35 @@ impl Hull2 {
         let points = P::all(points);
         check_finite(points.iter().copied())?;
         Ok(Self { corners: corners(&points) })
+    }
+
+    /// The hull without corners that only rounding has made: those within a length of the hull of the others, the nearest first, are left
+    /// out, if all that were left out stay within the length of what is left. `points` are those of the hull, and `length` is in
+    /// coordinate units: [`crate::MERGE_AUTO`] times the largest coordinate is a length of rounding.
+    ///
+    /// O(n log n) for n corners, times a few rounds.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a length that is negative, not finite, or not below the width of the hull, which would be flat then.
+    ///
+    /// ```
+    /// use delone::Hull2;
+    ///
+    /// let points = [[0.0, 0.0], [1.0, -1e-16], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    /// let hull = Hull2::from_points(&points)?;
+    /// assert_eq!(hull.corners().len(), 5);
+    /// assert_eq!(hull.merged(&points, 1e-12)?.corners(), [0, 2, 3, 4]);
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn merged<P: Position2>(&self, points: &[P], length: f64) -> Result<Self, Error> {
+        crate::joining::check(length)?;
+        if self.dimension() < Dimension::Plane || length == 0.0 {
+            return Ok(self.clone());
+        }
+        let corners = merge::left(&P::all(points), &self.corners, length);
+        let range = "less than the width of the hull, which is flat within this";
+        let corners = corners.ok_or(Error::Parameter { name: "merge", value: length, range })?;
+        Ok(Self { corners })
     }
 
     /// What the points span: a hull of less than the plane has no facets.

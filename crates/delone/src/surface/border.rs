@@ -3,7 +3,7 @@
 //! Source: Ericson, "Real-time collision detection", 2005, section 5.1, for triangles. Cost: O(1).
 
 use super::natural::{apart, scale, three};
-use super::real::{dot, minus};
+use crate::foot::{dot, on_edge, on_triangle};
 use crate::space::{NearestFace, nearest_face};
 use crate::triangulation::{Coordinates, Triangulation};
 
@@ -86,39 +86,10 @@ pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
     Nearest { weights, point, is_rounding }
 }
 
-/// Of an edge, seen from the point.
-fn on_edge(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    let along = minus(b, a);
-    let part = (-dot(a, along) / dot(along, along)).clamp(0.0, 1.0);
-    if part.is_nan() { [1.0, 0.0, 0.0] } else { [1.0 - part, part, 0.0] }
-}
-
-/// Of a triangle, seen from the point.
-fn on_triangle(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> [f64; 3] {
-    let (u, v) = (minus(b, a), minus(c, a));
-    let [uu, uv, vv] = [dot(u, u), dot(u, v), dot(v, v)];
-    let [of_u, of_v] = [-dot(a, u), -dot(a, v)];
-    let whole = uu * vv - uv * uv;
-    let (s, t) = ((of_u * vv - of_v * uv) / whole, (of_v * uu - of_u * uv) / whole);
-    if s >= 0.0 && t >= 0.0 && s + t <= 1.0 {
-        return [1.0 - s - t, s, t];
-    }
-    // On a side then, or the triangle is flat to rounding.
-    let sides = [(0, on_edge(a, b)), (1, on_edge(b, c)), (2, on_edge(c, a))].map(|(k, [x, y, _])| match k {
-        0 => [x, y, 0.0],
-        1 => [0.0, x, y],
-        _ => [y, 0.0, x],
-    });
-    let distance = |weights: &[f64; 3]| {
-        let miss = [0, 1, 2].map(|k| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k]);
-        dot(miss, miss)
-    };
-    sides.into_iter().min_by(|x, y| distance(x).total_cmp(&distance(y))).unwrap_or(sides[0])
-}
-
 #[cfg(test)]
 mod tests {
     use super::nearest;
+    use crate::foot::distance;
 
     #[test]
     fn the_nearest_point_is_on_a_corner_a_side_or_inside() {
@@ -138,6 +109,8 @@ mod tests {
         ] {
             let found = nearest(q, &triangle);
             assert_eq!((found.point, found.is_rounding), (expected, false));
+            let [x, y, z] = [0, 1, 2].map(|k| q[k] - expected[k]);
+            assert!((distance(q, triangle) - (x * x + y * y + z * z).sqrt()).abs() < 1e-15);
         }
         assert!(nearest([1.0, -1e-17], &edge).is_rounding && nearest([1.0, -1e-14], &edge).is_rounding);
         assert!(!nearest([1.0, -1e-13], &edge).is_rounding);

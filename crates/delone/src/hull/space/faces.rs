@@ -43,27 +43,42 @@ impl Faces {
                 faces.starts.push(faces.corners.len());
             }
         }
-        faces.corners.iter_mut().for_each(|i| *i = name(*i));
-        faces.sorted()
+        faces.renamed(name).0
+    }
+
+    /// Given corners, face after face.
+    pub(super) fn rows<'a>(rows: impl Iterator<Item = &'a [usize]>) -> Self {
+        let mut faces = Self::none();
+        for row in rows {
+            faces.corners.extend_from_slice(row);
+            faces.starts.push(faces.corners.len());
+        }
+        faces
     }
 
     pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &[usize]> {
         self.starts.windows(2).map(|ends| &self.corners[ends[0]..ends[1]])
     }
 
-    fn sorted(self) -> Self {
+    /// The face of an index.
+    pub(super) fn get(&self, face: usize) -> &[usize] {
+        &self.corners[self.starts[face]..self.starts[face + 1]]
+    }
+
+    /// The same faces with other names of points, sorted; and for each of these the index that it had.
+    pub(super) fn renamed(mut self, name: impl Fn(usize) -> usize) -> (Self, Vec<u32>) {
+        self.corners.iter_mut().for_each(|i| *i = name(*i));
         let mut order: Vec<(u64, u32)> =
             self.iter().map(|face| (face[0] as u64) << 32 | face[1] as u64).zip(0..).collect();
         // No other face leaves a corner along the same edge.
         order.sort_unstable();
         let mut sorted = Self { corners: Vec::with_capacity(self.corners.len()), starts: vec![0] };
         sorted.starts.reserve(order.len());
-        for (_, face) in order {
-            let ends = &self.starts[face as usize..][..2];
-            sorted.corners.extend_from_slice(&self.corners[ends[0]..ends[1]]);
+        for &(_, face) in &order {
+            sorted.corners.extend_from_slice(self.get(face as usize));
             sorted.starts.push(sorted.corners.len());
         }
-        sorted
+        (sorted, order.into_iter().map(|(_, face)| face).collect())
     }
 }
 

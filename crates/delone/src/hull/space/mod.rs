@@ -5,11 +5,16 @@
 //! flips (`flips.rs`). The first two cap a
 //! shell of triangles (`shell.rs`), the third one flips its edges, by exact decisions; `faces.rs` joins coplanar triangles in the end, so that the
 //! result is a function of the set.
+//!
+//! A reader may ask for a hull without what rounding has made of it: corners within a length of the hull of the others are left out
+//! (`merge.rs`), and faces in one plane within it are joined (`join.rs`).
 
 mod columns;
 mod faces;
 mod flips;
 mod history;
+mod join;
+mod merge;
 mod prune;
 mod quickhull;
 mod shell;
@@ -46,6 +51,16 @@ pub struct Hull3 {
     span: Dimension,
     corners: Vec<usize>,
     faces: Faces,
+    /// Faces that are joined; none in an exact hull.
+    joined: Option<Joined>,
+}
+
+/// Faces joined to polygons that are flat within a length.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Joined {
+    polygons: Faces,
+    /// For each face its polygon.
+    of: Vec<u32>,
 }
 
 impl Hull3 {
@@ -77,10 +92,12 @@ impl Hull3 {
     fn named(points: &[[f64; 3]], name: impl Fn(usize) -> usize) -> Self {
         let named = |corners: Vec<usize>| corners.into_iter().map(&name).collect::<Vec<_>>();
         match Start::of(points) {
-            Start::Lower(span, corners) => Self { span, corners: named(corners), faces: Faces::none() },
+            Start::Lower(span, corners) => {
+                Self { span, corners: named(corners), faces: Faces::none(), joined: None }
+            }
             Start::Flat(corners) => {
                 let corners = named(corners);
-                Self { span: Dimension::Plane, faces: Faces::one(corners.clone()), corners }
+                Self { span: Dimension::Plane, faces: Faces::one(corners.clone()), corners, joined: None }
             }
             Start::Tetrahedron(_) => Self::solid(quickhull::faces(points, name)),
         }
@@ -91,7 +108,44 @@ impl Hull3 {
         let mut corners = faces.corners.clone();
         corners.sort_unstable();
         corners.dedup();
-        Self { span: Dimension::Space, corners, faces }
+        Self { span: Dimension::Space, corners, faces, joined: None }
+    }
+
+    /// The hull without corners and edges that only rounding has made: points of a turned grid are corners no more, and the faces of a
+    /// turned part are whole. `points` are those of the hull, and `length` is in coordinate units: [`crate::MERGE_AUTO`] times the
+    /// largest coordinate is a length of rounding.
+    ///
+    /// A corner within the length of the hull of the others is left out, the nearest one first, if all that were left out stay within
+    /// the length of what is left. The hull of what is left is exact; of its faces those become one polygon whose corners are all
+    /// within the length of the plane of the largest, if they have one ring around. [`Hull3::faces`] has these polygons, which are flat
+    /// within the length, and [`Hull3::facets`] triangles of the exact hull.
+    ///
+    /// O(n log n) for n corners, times a few rounds.
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] for a length that is negative, not finite, or not below the thickness of the hull, which would be flat
+    /// then.
+    ///
+    /// ```
+    /// use delone::{Hull3, MERGE_AUTO};
+    ///
+    /// // A grid of 27 points, turned by 30 degrees around two axes.
+    /// let (s, c) = (0.5, 0.75_f64.sqrt());
+    /// let turned = |[x, y, z]: [f64; 3]| {
+    ///     let [x, y] = [c * x - s * y, s * x + c * y];
+    ///     [x, c * y - s * z, s * y + c * z]
+    /// };
+    /// let grid: Vec<[f64; 3]> =
+    ///     (0..27).map(|i| turned([i % 3, i / 3 % 3, i / 9].map(f64::from))).collect();
+    /// let hull = Hull3::from_points(&grid)?;
+    /// assert!(hull.corners().len() > 8);
+    /// let hull = hull.merged(&grid, 3.0 * MERGE_AUTO)?;
+    /// assert_eq!((hull.corners().len(), hull.faces().len(), hull.facets().count()), (8, 6, 12));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn merged<P: Position3>(&self, points: &[P], length: f64) -> Result<Self, Error> {
+        crate::joining::check(length)?;
+        merge::merged(self, &P::all(points), length)
     }
 
     /// What the points span: a hull of less than space has no facets.
@@ -107,13 +161,21 @@ impl Hull3 {
     /// The flat faces as polygons, counter-clockwise seen from outside, each from its lexicographically smallest
     /// corner; sorted. The one face of a flat set may be seen from either side.
     pub fn faces(&self) -> impl ExactSizeIterator<Item = &[usize]> + '_ {
-        self.faces.iter()
+        self.joined.as_ref().map_or(&self.faces, |joined| &joined.polygons).iter()
     }
 
     /// The faces cut into triangles, counter-clockwise seen from outside. None for less than space.
     pub fn facets(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
-        let solid = self.faces.iter().filter(|_| self.span == Dimension::Space);
-        solid.flat_map(|face| face[1..].windows(2).map(|side| [face[0], side[0], side[1]]))
+        self.facets_of_faces().map(|(_, facet)| facet)
+    }
+
+    /// The facets, each after the index of the face that it is a part of.
+    pub fn facets_of_faces(&self) -> impl Iterator<Item = (usize, [usize; 3])> + '_ {
+        let solid = self.faces.iter().enumerate().filter(|_| self.span == Dimension::Space);
+        solid.flat_map(|(face, corners)| {
+            let face = self.joined.as_ref().map_or(face, |joined| joined.of[face] as usize);
+            corners[1..].windows(2).map(move |side| (face, [corners[0], side[0], side[1]]))
+        })
     }
 
     /// The facets that are seen from far below: the lower hull. `points` are those of the hull.
