@@ -1,6 +1,6 @@
 //! Convex hulls.
 
-use delone::Hull3;
+use delone::{Error, Hull2, Hull3};
 use delone_predicates::{Sign, orient2d, orient3d};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -9,37 +9,82 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::HULL;
-use crate::triangulation::coordinates;
+use crate::triangulation::{Rows, coordinates};
 
-/// The facets of the hull as rows of indices, and what the points span.
+/// Facets as rows of indices, the face of each, and the corners of faces with where each begins.
+type Facets<'py> = (Rows<'py>, Column<'py, i32>, Column<'py, i32>, Column<'py, i64>);
+type Column<'py, T> = Bound<'py, PyArray1<T>>;
+
+/// The facets of the hull, and the faces that they are parts of; none of points that span less. Corners within a length of the hull of the others
+/// are left out, if one is given; where nothing is left then there are no facets, if that is no error.
 #[pyfunction]
+#[pyo3(signature = (points, merge=None, may_be_flat=false))]
 pub fn convex_hull<'py>(
     py: Python<'py>,
     points: PyReadonlyArray2<'py, f64>,
-) -> PyResult<Bound<'py, PyArray2<i32>>> {
+    merge: Option<f64>,
+    may_be_flat: bool,
+) -> PyResult<Facets<'py>> {
+    let is_flat = |error: &Error| {
+        may_be_flat && matches!(error, Error::Parameter { value, .. } if *value >= 0.0 && value.is_finite())
+    };
     match points.shape()[1] {
         2 => {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
             HULL.check(2, points.len())?;
-            let hull = interruptible(py, points.len(), move || delone::Hull2::from_points(&points))?;
-            let hull = hull.map_err(python_error)?;
-            let edges: Vec<i32> = hull.facets().flatten().map(|v| v as i32).collect();
-            let count = edges.len() / 2;
-            PyArray1::from_vec(py, edges).reshape([count, 2])
+            let hull = interruptible(py, points.len(), move || {
+                let hull = Hull2::from_points(&points)?;
+                match merge {
+                    None => Ok(hull),
+                    Some(length) => hull.merged(&points, length),
+                }
+            })?;
+            let edges = match hull {
+                Err(error) if is_flat(&error) => Vec::new(),
+                hull => hull.map_err(python_error)?.facets().collect(),
+            };
+            rows(py, &edges, 0..edges.len(), edges.iter().map(|edge| &edge[..]))
         }
         3 => {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
             HULL.check(3, points.len())?;
-            let hull = interruptible(py, points.len(), move || Hull3::from_points(&points))?
-                .map_err(python_error)?;
+            let hull = interruptible(py, points.len(), move || {
+                let hull = Hull3::from_points(&points)?;
+                match merge {
+                    None => Ok(hull),
+                    Some(length) => hull.merged(&points, length),
+                }
+            })?;
+            let hull = match hull {
+                Err(error) if is_flat(&error) => Hull3::from_points::<[f64; 3]>(&[]),
+                hull => hull,
+            };
+            let hull = hull.map_err(python_error)?;
+            let (faces, facets): (Vec<usize>, Vec<[usize; 3]>) = hull.facets_of_faces().unzip();
             let is_body = hull.dimension() == delone::Dimension::Space;
-            let facets = hull.facets().filter(|_| is_body).flatten().map(|v| v as i32);
-            let facets: Vec<i32> = facets.collect();
-            let count = facets.len() / 3;
-            PyArray1::from_vec(py, facets).reshape([count, 3])
+            rows(py, &facets, faces, hull.faces().filter(|_| is_body))
         }
         columns => Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
     }
+}
+
+/// Facets and faces as arrays.
+fn rows<'py, 'a, const D: usize>(
+    py: Python<'py>,
+    facets: &[[usize; D]],
+    of: impl IntoIterator<Item = usize>,
+    faces: impl Iterator<Item = &'a [usize]>,
+) -> PyResult<Facets<'py>> {
+    let numbers: Vec<i32> = facets.iter().flatten().map(|&v| v as i32).collect();
+    let of: Vec<i32> = of.into_iter().map(|face| face as i32).collect();
+    let (mut corners, mut starts) = (Vec::<i32>::new(), vec![0]);
+    for face in faces {
+        corners.extend(face.iter().map(|&v| v as i32));
+        starts.push(corners.len() as i64);
+    }
+    let facets = PyArray1::from_vec(py, numbers).reshape([facets.len(), D])?;
+    let [of, corners] = [of, corners].map(|values| PyArray1::from_vec(py, values));
+    Ok((facets, of, corners, PyArray1::from_vec(py, starts)))
 }
 
 /// On which side of facets points are, a row for each point: 1 outside, 0 in its line or plane, -1 inside. Facets are

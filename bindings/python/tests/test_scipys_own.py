@@ -40,9 +40,9 @@ class Merging(delone.Voronoi):
         super().__init__(*args, merge="auto", **options)
 
 
-def substituted(voronoi=delone.Voronoi):
+def substituted(voronoi=delone.Voronoi, package=delone, names=("Delaunay", "ConvexHull")):
     """Their tests, made again as if SciPy had these classes."""
-    ours = {"Delaunay": delone.Delaunay, "Voronoi": voronoi, "ConvexHull": delone.ConvexHull}
+    ours = {"Voronoi": voronoi, **{name: getattr(package, name) for name in names}}
     real = sys.modules["scipy.spatial._qhull"]
     shim = types.ModuleType(real.__name__)
     shim.__dict__.update({name: getattr(real, name) for name in dir(real) if not name.startswith("__")}, **ours)
@@ -51,11 +51,12 @@ def substituted(voronoi=delone.Voronoi):
     with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings():
         patch.setitem(sys.modules, real.__name__, shim)
         patch.setattr(scipy.spatial, "_qhull", shim)
-        patch.setattr(scipy.spatial, "Voronoi", voronoi)
+        for name, ours_of_it in ours.items():
+            patch.setattr(scipy.spatial, name, ours_of_it)
         # Their marks are not known here.
         warnings.simplefilter("ignore")
         spec.loader.exec_module(made)
-    assert made.qhull.Delaunay is delone.Delaunay and made.Voronoi is voronoi
+    assert made.qhull.Delaunay is package.Delaunay and made.Voronoi is voronoi
     return made
 
 

@@ -148,12 +148,13 @@ class Delaunay:
     @property
     def min_bound(self) -> NDArray[np.float64]:
         """The least coordinate of the points along each axis."""
-        return np.asarray(self._points.min(axis=0, initial=np.inf))
+        # Kept, because SciPy's compiled code looks at it later.
+        return self._once("low", lambda: np.asarray(self._points.min(axis=0, initial=np.inf)))
 
     @property
     def max_bound(self) -> NDArray[np.float64]:
         """The largest coordinate of the points along each axis."""
-        return np.asarray(self._points.max(axis=0, initial=-np.inf))
+        return self._once("high", lambda: np.asarray(self._points.max(axis=0, initial=-np.inf)))
 
     def _arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         def make() -> tuple[NDArray[np.int32], NDArray[np.int32]]:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._errors import qhull_error
+from ._merge import as_merge, length_of
 from ._options import parse
 from ._points import as_choice, as_flag, as_points
 from ._simplices import neighbors_of
@@ -33,11 +34,14 @@ class ConvexHull:
         What points are that span less than the plane or space: nothing, the hull in their span, or a QhullError as in SciPy.
         In a plane of space `simplices` are the edges around, `volume` is the area and `area` the perimeter; on a line they are
         the two ends, the length and 2; of a single point there are none. Normals in `equations` are in the span.
+    merge : float or "auto", optional
+        Leaves out corners within this distance of the hull of the others, in coordinate units, and joins facets in one plane
+        within it: points of turned grids and parts are corners by rounding alone. No point is further from the result than
+        this. "auto" is 2^-40 of the largest coordinate. Points that are flat within "auto" are flat; a length that leaves
+        nothing is a ValueError. Without it the hull is exact.
 
     Attributes
     ----------
-    points : (n, ndim) array
-        The points.
     simplices : (nfacet, ndim) array
         Edges counter-clockwise around, or triangles counter-clockwise seen from outside; flat faces are cut.
     neighbors : (nfacet, ndim) array
@@ -55,36 +59,61 @@ class ConvexHull:
         qhull_options: str | None = None,
         *,
         flat: Literal["empty", "span", "raise"] = "empty",
+        merge: float | str | None = None,
     ) -> None:
         """Finds the hull of points."""
         as_flag(incremental, "incremental")
         self._options = parse(qhull_options, "", is_hull=True)
         self.flat = as_choice(flat, ("empty", "span", "raise"), "flat")
+        self._merge = as_merge(merge)
         self._is_closed = False
-        self.points: NDArray[np.float64] = np.array(as_points(points), order="C")
-        self.ndim = self.points.shape[1]
-        if self._options.seen_from is not None and self._options.seen_from >= len(self.points):
-            raise ValueError(f"qhull_options: 'QG{self._options.seen_from}' among {len(self.points)} points")
+        self._points: NDArray[np.float64] = np.array(as_points(points), order="C")
+        self.ndim = self._points.shape[1]
+        if self._options.seen_from is not None and self._options.seen_from >= len(self._points):
+            raise ValueError(f"qhull_options: 'QG{self._options.seen_from}' among {len(self._points)} points")
         self._make(None)
 
     def _make(self, candidates: NDArray[np.intp] | None) -> None:
         """The hull of some points, which must be that of all; None are all."""
         eye = self._options.seen_from
-        self.npoints = len(self.points)
+        self.npoints = len(self._points)
+        self._length = length_of(self._merge, self._points)
+        # A length that is asked for must leave something.
+        may_be_flat = isinstance(self._merge, str)
         if candidates is None and eye is None:
-            self.simplices: NDArray[np.int32] = _delone.convex_hull(self.points)
+            found = _delone.convex_hull(self._points, self._length, may_be_flat)
+            self.simplices: NDArray[np.int32] = found[0]
+            corners = found[2]
         else:
             candidates = self._without_eye(np.arange(self.npoints) if candidates is None else candidates)
-            self.simplices = candidates[_delone.convex_hull(self.points[candidates])].astype(np.int32)
+            found = _delone.convex_hull(self._points[candidates], self._length, may_be_flat)
+            self.simplices, corners = (candidates[rows].astype(np.int32) for rows in (found[0], found[2]))
+        self._face_of, self._faces = found[1], (corners, found[3])
         if not len(self.simplices) and self.flat != "empty":
             self._flatten()
         self.nsimplex = len(self.simplices)
         self.good: NDArray[np.bool_] | None = None
         if eye is not None and self._has_body:
-            is_seen = self._sides(self.points[eye : eye + 1])[0] > 0
+            is_seen = self._sides(self._points[eye : eye + 1])[0] > 0
             self.good = is_seen if self._options.seen else ~is_seen
-        for name in ("vertices", "neighbors", "equations", "area", "volume", "coplanar"):
+        for name in ("vertices", "neighbors", "equations", "area", "volume", "coplanar", "facets"):
             self.__dict__.pop(name, None)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points, (npoints, ndim)."""
+        return self._points
+
+    @cached_property
+    def facets(self) -> list[NDArray[np.int32]]:
+        """The flat facets whole, each as its corners in turn: polygons counter-clockwise seen from outside, in the plane edges.
+
+        `simplices` are their parts. Of points that span less it is what `simplices` has.
+        """
+        if not self._has_body:
+            return list(self.simplices)
+        corners, starts = self._faces
+        return np.split(corners, starts[1:-1])
 
     @cached_property
     def vertices(self) -> NDArray[np.int32]:
@@ -116,7 +145,7 @@ class ConvexHull:
             raise qhull_error(f"{self.npoints} points that span less than {self.ndim} dimensions have no hull")
         if self._options.seen_from is not None:
             raise ValueError('qhull_options: "QG" tells facets of bodies, and flat points have none')
-        self.simplices = facets_in_span(self.points)
+        self.simplices = facets_in_span(self._points, self._length)
 
     def _without_eye(self, candidates: NDArray[np.intp]) -> NDArray[np.intp]:
         eye = self._options.seen_from
@@ -124,7 +153,7 @@ class ConvexHull:
 
     def _sides(self, at: NDArray[np.float64]) -> NDArray[np.int8]:
         """For points a row each with 1 for the facets that see them, 0 for those in whose plane they are."""
-        return _delone.sides(self.points[self.simplices].reshape(-1, self.ndim), np.ascontiguousarray(at))
+        return _delone.sides(self._points[self.simplices].reshape(-1, self.ndim), np.ascontiguousarray(at))
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, whose indices follow those there are: the hull of the corners and of these, or with `restart` of all
@@ -132,12 +161,14 @@ class ConvexHull:
         if self._is_closed:
             raise RuntimeError("closed: no points can be added any more")
         more = as_points(points, columns=self.ndim)
-        before = len(self.points)
+        before = len(self._points)
         # Fewer than a hull takes have no corners.
         is_anew = as_flag(restart, "restart") or not self.nsimplex
+        # Merging starts from all corners there are.
+        is_anew = is_anew or self._merge is not None
         corners = None if is_anew else np.sort(self.vertices)
-        self.points = np.concatenate([self.points, more])
-        self._make(None if corners is None else np.concatenate([corners, np.arange(before, len(self.points))]))
+        self._points = np.concatenate([self._points, more])
+        self._make(None if corners is None else np.concatenate([corners, np.arange(before, len(self._points))]))
 
     def close(self) -> None:
         """Ends changes: no points can be added any more."""
@@ -146,12 +177,12 @@ class ConvexHull:
     @property
     def min_bound(self) -> NDArray[np.float64]:
         """The least coordinate of the points along each axis."""
-        return np.asarray(self.points.min(axis=0, initial=np.inf))
+        return np.asarray(self._points.min(axis=0, initial=np.inf))
 
     @property
     def max_bound(self) -> NDArray[np.float64]:
         """The largest coordinate of the points along each axis."""
-        return np.asarray(self.points.max(axis=0, initial=-np.inf))
+        return np.asarray(self._points.max(axis=0, initial=-np.inf))
 
     @cached_property
     def coplanar(self) -> NDArray[np.int32]:
@@ -163,21 +194,36 @@ class ConvexHull:
         if not (self._options.coplanar and self._has_body):
             return np.empty((0, 3), dtype=np.int32)
         candidates = self._without_eye(np.arange(self.npoints))
-        core = _delone.Triangulation(self.points[candidates])
+        core = _delone.Triangulation(self._points[candidates])
         on_hull, twins = np.unique(core.hull()), core.duplicates()
         found = candidates[np.union1d(on_hull, twins[np.isin(twins[:, 1], on_hull), 0])]
+        if self._length:
+            found = np.union1d(found, candidates[self._is_near(candidates)])
         found = np.setdiff1d(found, self.vertices)
         result = np.empty((len(found), 3), dtype=np.int32)
         for k, point in enumerate(found):
-            facet = int((self._sides(self.points[point : point + 1])[0] == 0).argmax())
+            on = self._sides(self._points[point : point + 1])[0] == 0
+            facet = int(on.argmax()) if on.any() else int(self._heights(self._points[point : point + 1])[0].argmax())
             corners = self.simplices[facet]
-            away = np.abs(self.points[corners] - self.points[point]).max(axis=1)
+            away = np.abs(self._points[corners] - self._points[point]).max(axis=1)
             result[k] = point, facet, corners[away.argmin()]
         return result
 
+    def _heights(self, at: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Rounded distances from the planes of facets, a row for each point; positive outside."""
+        return np.asarray(at @ self.equations[:, :-1].T + self.equations[:, -1])
+
+    def _is_near(self, candidates: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Which points are within the length of a facet's plane."""
+        # So many at a time that the distances of all of them fit memory.
+        step = max(1, 10**7 // self.nsimplex)
+        starts = range(0, len(candidates), step)
+        heights = [self._heights(self._points[candidates[k : k + step]]).max(axis=1) for k in starts]
+        return np.concatenate(heights) >= -(self._length or 0.0)
+
     def _scaled(self) -> tuple[NDArray[np.float64], int]:
         """Corners of facets seen from one of them, divided by a power of two so that no product leaves the range."""
-        corners, far = _shrunk(self.points[self.simplices])
+        corners, far = _shrunk(self._points[self.simplices])
         corners, near = _shrunk(corners - corners[:1, :1])
         return corners, far + near
 
@@ -185,8 +231,8 @@ class ConvexHull:
     def equations(self) -> NDArray[np.float64]:
         """Normals of length 1 that point outside, and offsets: (nfacet, ndim + 1)."""
         if not self._has_body and self.nsimplex:
-            normals = _unit(normals_in_span(_shrunk(self.points - self.points[0])[0], self.simplices))
-            offsets = -(normals * self.points[self.simplices[:, 0]]).sum(axis=1)
+            normals = _unit(normals_in_span(_shrunk(self._points - self._points[0])[0], self.simplices))
+            offsets = -(normals * self._points[self.simplices[:, 0]]).sum(axis=1)
             return np.concatenate([normals, offsets[:, None]], axis=1)
         corners, _ = self._scaled()
         if self.ndim == 2:
@@ -196,8 +242,31 @@ class ConvexHull:
             normals = np.cross(_unit(corners[:, 1] - corners[:, 0]), _unit(corners[:, 2] - corners[:, 0]))
         with np.errstate(over="ignore"):
             normals = _unit(normals)
-            offsets = -(normals * self.points[self.simplices[:, 0]]).sum(axis=1)
+            if self.nsimplex > len(self._faces[1]) - 1:
+                normals = self._of_faces(normals, corners)
+            offsets = -(normals * self._points[self.simplices[:, 0]]).sum(axis=1)
+        if self.nsimplex > len(self._faces[1]) - 1:
+            # The parts of a facet are in one plane, with nothing outside.
+            whole = np.full(len(self._faces[1]) - 1, np.inf)
+            np.minimum.at(whole, self._face_of, offsets)
+            offsets = whole[self._face_of]
         return np.concatenate([normals, offsets[:, None]], axis=1)
+
+    def _facet_equations(self) -> NDArray[np.float64]:
+        """A row of `equations` for each of `facets`."""
+        first = np.unique(self._face_of, return_index=True)[1]
+        return self.equations[first]
+
+    def _of_faces(self, normals: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Of the parts of a facet the mean normal by area for all of them."""
+        areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        sums = np.zeros((len(self._faces[1]) - 1, 3))
+        largest = np.zeros(len(sums))
+        np.maximum.at(largest, self._face_of, areas)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            weights = np.where(largest[self._face_of] > 0, areas / largest[self._face_of], 1.0)
+        np.add.at(sums, self._face_of, normals * weights[:, None])
+        return np.where((np.bincount(self._face_of) > 1)[self._face_of, None], _unit(sums)[self._face_of], normals)
 
     @cached_property
     def area(self) -> float:
@@ -222,7 +291,7 @@ class ConvexHull:
         """Of the border and the inside of what has no body."""
         if not self.nsimplex:
             return 0.0, 0.0
-        points, power = _shrunk(self.points - self.points[0])
+        points, power = _shrunk(self._points - self._points[0])
         border, inside = sizes_in_span(points, self.simplices)
         if self.simplices.shape[1] == 1:
             return border, float(_times(inside, power))

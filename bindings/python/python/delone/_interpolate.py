@@ -22,6 +22,8 @@ class _Interpolator:
     """What interpolators have in common: points, values with a row for each, and how they are called."""
 
     _method = "linear"
+    #: What triangulates points.
+    _triangulation = Delaunay
 
     def __init__(self, points: ArrayLike | Delaunay, values: ArrayLike, fill_value: complex, rescale: bool, outside: str) -> None:
         self.outside = as_choice(outside, ("fill", "nearest", "hull"), "outside")
@@ -30,7 +32,7 @@ class _Interpolator:
         rescale = as_flag(rescale, "rescale")
         if isinstance(points, Delaunay):
             if rescale:
-                raise ValueError("rescale is for points, not for a triangulation")
+                raise ValueError("Rescaling is not supported when passing a Delaunay triangulation as ``points``.")
             if points.furthest_site:
                 raise ValueError("values are interpolated on a triangulation of nearest sites, not of furthest ones")
             self.tri = points
@@ -41,12 +43,17 @@ class _Interpolator:
                 size = np.ptp(given, axis=0)
                 self._scale = np.where(size > 0, size, 1.0)
                 given = (given - self._offset) / self._scale
-            self.tri = Delaunay(given)
-        self.values = _as_values(values, self.tri.npoints)
+            self.tri = self._triangulation(given)
+        self._values = _as_values(values, self.tri.npoints)
         fill = np.asarray(fill_value)
-        if fill.ndim or fill.dtype.kind not in "fiubc" or not np.can_cast(fill.dtype, self.values.dtype):
-            raise TypeError(f"fill_value must be a number of {self.values.dtype}, not {fill_value!r}")
+        if fill.ndim or fill.dtype.kind not in "fiubc" or not np.can_cast(fill.dtype, self._values.dtype):
+            raise TypeError(f"fill_value must be a number of {self._values.dtype}, not {fill_value!r}")
         self.fill_value = fill_value
+
+    @property
+    def values(self) -> NDArray[Any]:
+        """The values, a row for each point."""
+        return self._values
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -80,10 +87,10 @@ class _Interpolator:
         else:
             whole = np.full((len(rows), table.shape[1]), np.nan)
             whole[known] = found
-        result = whole.view(self.values.dtype).reshape(len(rows), *self.values.shape[1:])
+        result = whole.view(self._values.dtype).reshape(len(rows), *self._values.shape[1:])
         if lost.any():
             result[lost] = self.fill_value
-        return result.reshape((*shape, *self.values.shape[1:]))
+        return result.reshape((*shape, *self._values.shape[1:]))
 
     def weights(self, queries: ArrayLike) -> csr_array:
         """The weights of points at queries, whose last axis has the coordinates.
@@ -107,12 +114,12 @@ class _Interpolator:
     def _table(self) -> NDArray[np.float64]:
         """The values as rows of float64, complex ones as two."""
         count = self.tri.npoints
-        if len(self.values) != count:
+        if len(self._values) != count:
             raise ValueError(
-                f"there are {len(self.values)} values and {count} points, because points were added to the triangulation: "
+                f"there are {len(self._values)} values and {count} points, because points were added to the triangulation: "
                 "make an interpolator anew"
             )
-        return self.values.reshape(count, -1 if count else int(np.prod(self.values.shape[1:]))).view(np.float64)
+        return self._values.reshape(count, -1 if count else int(np.prod(self._values.shape[1:]))).view(np.float64)
 
     def _queries(self, xi: tuple[ArrayLike, ...]) -> tuple[NDArray[np.float64], tuple[int, ...]]:
         ndim = self.tri.ndim
@@ -242,8 +249,8 @@ class NaturalNeighborInterpolator(_Interpolator):
         """
         slopes = self._given if self._given is not None else _delone.vertex_gradients(self.tri._core, self._table())
         rows = np.moveaxis(slopes, 0, 1) / self._scale
-        shape = (*self.values.shape, self.tri.ndim)
-        if self.values.dtype.kind == "c":
+        shape = (*self._values.shape, self.tri.ndim)
+        if self._values.dtype.kind == "c":
             return np.asarray(rows[:, 0::2] + 1j * rows[:, 1::2]).reshape(shape)
         return rows.reshape(shape)
 
@@ -257,17 +264,17 @@ class NaturalNeighborInterpolator(_Interpolator):
         if ma.isMaskedArray(gradients):
             raise ValueError("gradients are a masked array: leave out the points that have none")
         array: NDArray[Any] = np.asarray(gradients)
-        shape = (*self.values.shape, self.tri.ndim)
-        if array.dtype.kind not in "fiubc" or not np.can_cast(array.dtype, self.values.dtype, "same_kind"):
-            raise TypeError(f"gradients must be numbers as the values are, {self.values.dtype}, not {array.dtype}")
+        shape = (*self._values.shape, self.tri.ndim)
+        if array.dtype.kind not in "fiubc" or not np.can_cast(array.dtype, self._values.dtype, "same_kind"):
+            raise TypeError(f"gradients must be numbers as the values are, {self._values.dtype}, not {array.dtype}")
         if array.shape != shape:
             raise ValueError(f"gradients must have the shape {shape}, a derivative along each axis, not {array.shape}")
-        columns = int(np.prod(self.values.shape[1:]))
-        rows = array.astype(self.values.dtype).reshape(len(array), columns, self.tri.ndim)
+        columns = int(np.prod(self._values.shape[1:]))
+        rows = array.astype(self._values.dtype).reshape(len(array), columns, self.tri.ndim)
         if not np.isfinite(rows).all():
             point = int(np.argwhere(~np.isfinite(rows))[0][0])
             raise ValueError(f"gradients: that of point {point} is not finite; leave gradients out to have them estimated")
-        if self.values.dtype.kind == "c":
+        if self._values.dtype.kind == "c":
             rows = np.stack([rows.real, rows.imag], axis=2).reshape(len(array), 2 * columns, self.tri.ndim)
         return np.ascontiguousarray(np.moveaxis(rows * self._scale, 1, 0), dtype=np.float64)
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class ShapeError(ValueError, IndexError):
-    """A number where there must be coordinates; SciPy raises IndexError for that, and ValueError for other shapes."""
+    """A number or a row where there must be points; SciPy raises IndexError for that in some places, ValueError in others."""
 
 
 def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
@@ -60,7 +60,7 @@ def as_points(points: ArrayLike, what: str = "points", columns: int | None = Non
     """
     array = as_numbers(points, what)
     if array.ndim != 2:
-        raise ValueError(f"{what} must have the shape (n, 2) or (n, 3), not {array.shape} of {array.ndim} dimensions")
+        raise ShapeError(f"{what} must have the shape (n, 2) or (n, 3), not {array.shape} of {array.ndim} dimensions")
     if columns is None and array.shape[1] not in (2, 3):
         raise ValueError(f"{what} must have 2 or 3 coordinates each, not {array.shape[1]}")
     if columns is not None and array.shape[1] != columns:

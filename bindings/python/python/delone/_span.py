@@ -8,17 +8,20 @@ from numpy.typing import NDArray
 from . import _delone
 
 
-def facets_in_span(points: NDArray[np.float64]) -> NDArray[np.int32]:
-    """The facets of points without a body: edges of a polygon (m, 2) in turn, two ends (2, 1), or of a single point none (0, 0).
+def facets_in_span(points: NDArray[np.float64], length: float | None = None) -> NDArray[np.int32]:
+    """The facets of points without a body.
 
-    Exact: along an axis that is not in the plane a polygon is projected to one with the same corners.
+    Edges of a polygon (m, 2) in turn, two ends (2, 1), or of a single point none (0, 0).
+
+    Exact, or with a length as hulls are merged: along an axis that is not in the plane a polygon is projected to one with the
+    same corners.
     """
     best: NDArray[np.int32] = np.empty((0, 2), dtype=np.int32)
     if points.shape[1] == 3:
         largest = -1.0
         for axes in ([0, 1], [0, 2], [1, 2]):
             flat = np.ascontiguousarray(points[:, axes])
-            edges = _delone.convex_hull(flat)
+            edges = _delone.convex_hull(flat, length, True)[0]
             size = float(np.prod(np.ptp(flat, axis=0))) if len(edges) else -1.0
             if size > largest or (len(edges) and not len(best)):
                 best, largest = edges, size

@@ -38,8 +38,6 @@ class Voronoi:
 
     Attributes
     ----------
-    points : (n, ndim) array
-        The points.
     vertices : (nvertex, ndim) array
         The circumcentres of the triangulation's simplices, each coordinate the nearest number to the exact one; equal ones once.
     ridge_points : (nridge, 2) array
@@ -82,7 +80,6 @@ class Voronoi:
 
     def _make(self) -> None:
         tri = self._tri
-        self.points = tri.points
         self.ndim, self.npoints = tri.ndim, tri.npoints
         self.min_bound, self.max_bound = tri.min_bound, tri.max_bound
         self.furthest_site = tri.furthest_site
@@ -117,6 +114,11 @@ class Voronoi:
         """The vertices of each region."""
         regions = _regions(self._tri, self._which, self.ridge_points, self._ridge_ends, self._ridge_starts)
         return [[], *regions] if self._has_empty else regions
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points, (npoints, ndim)."""
+        return self._tri.points
 
     @property
     def triangulation(self) -> Delaunay:
