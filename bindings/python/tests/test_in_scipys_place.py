@@ -326,7 +326,7 @@ def test_options_that_only_qhull_has_are_left_to_it():
     assert len(set(spatial.Delaunay(twins, qhull_options="QJ Pp").simplices.ravel())) == 60
     flat = np.column_stack([points, np.zeros(30)])
     assert len(spatial.ConvexHull(flat, qhull_options="QJ").simplices) > 0
-    with pytest.raises(ValueError):
+    with pytest.raises(scipy.spatial.QhullError):
         spatial.Delaunay(points, qhull_options="no such option")
 
 
