@@ -80,7 +80,8 @@ pub fn paint<'py>(
     };
     let grid = grid.map_err(python_error)?;
     let (columns, rows) = (grid.columns(), grid.rows());
-    room(columns.saturating_mul(rows).saturating_mul(16), "a raster of so many cells")?;
+    let numbers = columns.saturating_mul(rows).saturating_mul(2).saturating_add(heights.len());
+    room(numbers.saturating_mul(8), "a raster of so many cells")?;
     let size = size_of_queries(columns * rows + heights.len(), 1);
     let (heights, mask) = (heights.to_vec()?, mask.map(|mask| mask.to_vec()).transpose()?);
     let most = max_edge.unwrap_or(f64::INFINITY);

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
+use crate::memory::room;
 use crate::state::table;
 use crate::triangulation::{Core, Triangulation, coordinates};
 
@@ -113,6 +114,7 @@ pub fn ridges<'py>(
     neighbors: PyReadonlyArray2<'py, i32>,
     vertices: PyReadonlyArray1<'py, i64>,
 ) -> PyResult<Ridges<'py>> {
+    room(8 * (simplices.len() + vertices.len()), "copies of so many simplices")?;
     let (simplices, neighbors) = (simplices.as_slice()?.to_vec(), neighbors.as_slice()?.to_vec());
     let vertices = vertices.to_vec()?;
     let (pairs, starts, around) = interruptible(py, vertices.len(), move || {

@@ -356,7 +356,8 @@ class Delaunay(Kept):
         is_new = as_flag(restart, "restart")
         while True:
             given, removed = self._core.given()
-            everything = owned(np.concatenate([given, more]))
+            everything = np.concatenate([given, more])
+            everything.flags.writeable = False
             self._refuse_twins(everything)
             if is_new:
                 self._core = _built(everything, removed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property
 from typing import Literal
 
@@ -128,7 +129,7 @@ class ConvexHull:
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, whose indices follow those there are: the hull of the corners and of these, or with `restart` of all
-        points, is found, which gives the same. RuntimeError after `close`."""
+        points, is found, which gives the same. RuntimeError after `close`. After Ctrl-C no point was added."""
         if self._is_closed:
             raise RuntimeError("closed: no points can be added any more")
         more = as_points(points, columns=self.ndim)
@@ -136,8 +137,10 @@ class ConvexHull:
         # Fewer than a hull takes have no corners.
         is_anew = as_flag(restart, "restart") or not self.nsimplex
         corners = None if is_anew else np.sort(self.vertices)
-        self.points = np.concatenate([self.points, more])
-        self._make(None if corners is None else np.concatenate([corners, np.arange(before, len(self.points))]))
+        made = copy(self)
+        made.points = np.concatenate([self.points, more])
+        made._make(None if corners is None else np.concatenate([corners, np.arange(before, len(made.points))]))
+        self.__dict__ = made.__dict__
 
     def close(self) -> None:
         """Ends changes: no points can be added any more."""
