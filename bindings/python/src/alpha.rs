@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::ALPHA;
 use crate::state::{indices, table};
 use crate::triangulation::coordinates;
@@ -42,11 +42,12 @@ impl Alpha {
         weights: Option<PyReadonlyArray1<'_, f64>>,
     ) -> PyResult<Self> {
         let count = points.shape()[0];
+        let size = size_of_points(points.shape()[1], 0, count);
         let weights = weights.map(|weights| weights.to_vec()).transpose()?;
         ALPHA.check(points.shape()[1], count)?;
         let made: Result<Complexes, Error> = if points.shape()[1] == 2 {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
-            interruptible(py, count, move || {
+            interruptible(py, size, move || {
                 Ok(Complexes::Plane(match weights {
                     None => Delaunay2::from_vec(points)?.alpha(),
                     Some(weights) => Regular2::with_seed(&points, &weights, 0)?.alpha(),
@@ -54,7 +55,7 @@ impl Alpha {
             })?
         } else {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
-            interruptible(py, count, move || {
+            interruptible(py, size, move || {
                 Ok(Complexes::Space(match weights {
                     None => Delaunay3::from_vec(points)?.alpha(),
                     Some(weights) => Regular3::with_seed(&points, &weights, 0)?.alpha(),

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::{HINTS, TRIANGULATION};
 use crate::shared::Shared;
 use crate::state::State;
@@ -30,7 +30,9 @@ fn preprocess<H: Imprecise + 'static>(
 ) -> PyResult<Shared<H>> {
     let centres: Vec<Point<H>> = coordinates(centres)?;
     HINTS.check(Point::<H>::COUNT, centres.len())?;
-    let hints = interruptible(py, centres.len(), move || H::from_centres(&centres, HintOrder::default()))?;
+    let hints = interruptible(py, size_of_points(Point::<H>::COUNT, 0, centres.len()), move || {
+        H::from_centres(&centres, HintOrder::default())
+    })?;
     hints.map(Shared::new).map_err(python_error)
 }
 
@@ -62,7 +64,7 @@ fn instance<H: Imprecise + 'static>(
 ) -> PyResult<H::Triangulation> {
     let points: Vec<Point<H>> = coordinates(points)?;
     TRIANGULATION.check(Point::<H>::COUNT, points.len())?;
-    let count = points.len();
-    let made = hints.change(py, |_| count, move |hints| hints.triangulate(&points).cloned())?;
+    let size = size_of_points(Point::<H>::COUNT, 0, points.len());
+    let made = hints.change(py, |_| size, move |hints| hints.triangulate(&points).cloned())?;
     made.map_err(python_error)
 }

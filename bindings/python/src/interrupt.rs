@@ -36,6 +36,12 @@ pub fn size_of_queries(count: usize, each: usize) -> usize {
     if count > FIRST { LONG } else { count.saturating_mul(each) }
 }
 
+/// How large work is that puts points where there are some: in space each may have simplices with all others.
+pub fn size_of_points(dimension: usize, there: usize, more: usize) -> usize {
+    let all = there.saturating_add(more);
+    if dimension == 2 { all } else { all.max(all.saturating_mul(more) / 12) }
+}
+
 /// The answers to items in their order, piece by piece, each on all threads if it is two tasks at least; the first error of any. Pieces grow
 /// while they take less than [`PAUSE`]. Work that nobody wants any more ends after a piece.
 pub fn in_pieces<I: Sync, A: Send, E: Send>(

@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::{in_pieces, interruptible, size_of_queries};
+use crate::interrupt::{in_pieces, interruptible, size_of_points, size_of_queries};
 use crate::memory::TRIANGULATION;
 use crate::shared::Shared;
 use crate::state::{QUERIES, Rows, State, indices, table};
@@ -205,7 +205,8 @@ fn build<T: Weighted + 'static>(
     let count = points.len();
     TRIANGULATION.check_with(T::Point::COUNT, count, 16 * count)?;
     let (array, weights) = (weights.as_any().clone().unbind(), weights.to_vec()?);
-    let built = interruptible(py, count, move || T::from_parts(&points, &weights))?;
+    let size = size_of_points(T::Point::COUNT, 0, count);
+    let built = interruptible(py, size, move || T::from_parts(&points, &weights))?;
     Ok(Shared::new(State::of(built.map_err(python_error)?, array)))
 }
 

@@ -85,7 +85,8 @@ impl<T: Triangular + 'static, R: Send + Sync + 'static> State<T, R> {
 
     /// How large work is that comes by all of it.
     pub fn size(&self) -> usize {
-        self.triangulation.ids_given()
+        // In space there may be many more simplices than points.
+        self.triangulation.ids_given().max(self.triangulation.slot_count() / 7)
     }
 
     /// What is made of all of it.

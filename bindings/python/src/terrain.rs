@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 
 use crate::constrained::{Constrained, SEGMENT, index, pairs};
 use crate::errors::python_error;
-use crate::interrupt::{LONG, interruptible, size_of_queries};
+use crate::interrupt::{interruptible, size_of_queries};
 use crate::memory::{TRIANGULATION, room};
 use crate::shared::Shared;
 use crate::state::{State, table};
@@ -141,6 +141,15 @@ pub struct Wanted {
     max_edge: f64,
 }
 
+impl Wanted {
+    /// How many levels there are, nearly.
+    fn count(&self, heights: &[f64]) -> usize {
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        self.levels.as_ref().map_or(((high - low) / self.interval) as usize, Vec::len)
+    }
+}
+
 /// Makes something of contours.
 fn traced<R: Send + 'static>(
     py: Python<'_>,
@@ -151,13 +160,13 @@ fn traced<R: Send + 'static>(
     make: impl FnOnce(&Contours, &Levels) -> Result<R, Error> + Send + 'static,
 ) -> PyResult<R> {
     let (heights, mask) = (heights.to_vec()?, mask.map(|mask| mask.to_vec()).transpose()?);
-    // There may be any number of levels.
+    let size = size_of_queries(heights.len(), wanted.count(&heights).saturating_add(1));
     match sheet {
-        Sheet::Delaunay(triangulation) => State::asked(plane(triangulation)?, py, LONG, move |state, _| {
+        Sheet::Delaunay(triangulation) => State::asked(plane(triangulation)?, py, size, move |state, _| {
             traced_of(state, &heights, mask.as_deref(), &wanted, make)
         }),
         Sheet::Constrained(triangulation) => {
-            State::asked(triangulation.shared(), py, LONG, move |state, _| {
+            State::asked(triangulation.shared(), py, size, move |state, _| {
                 traced_of(state, &heights, mask.as_deref(), &wanted, make)
             })
         }

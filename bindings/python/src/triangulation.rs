@@ -6,7 +6,7 @@ use pyo3::exceptions::{PyIndexError, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::TRIANGULATION;
 use crate::shared::Shared;
 use crate::state::{Rows, State, table};
@@ -213,7 +213,8 @@ impl Triangulation {
 fn build<T: Change + 'static>(py: Python<'_>, points: Vec<T::Point>, given: Given) -> PyResult<Held<T>> {
     TRIANGULATION.check(T::Point::COUNT, points.len())?;
     let first = given.removed.first().copied();
-    let built = interruptible(py, points.len(), move || {
+    let size = size_of_points(T::Point::COUNT, 0, points.len());
+    let built = interruptible(py, size, move || {
         let mut d = T::from_vec(points)?;
         first.map_or(Ok(()), |first| d.remove_observed(VertexId::new(first), &mut ()))?;
         Ok::<_, Error>(d)
@@ -231,9 +232,9 @@ fn extend<T: Change + 'static>(
     let (count, more, given) = (all.shape()[0], points.len(), all.as_any().clone().unbind());
     let extended = held.change(
         py,
-        |state| state.size() + more,
+        |state| size_of_points(T::Point::COUNT, state.size(), more),
         move |state| {
-            if state.size() + more != count {
+            if state.triangulation.ids_given() + more != count {
                 return Ok(false);
             }
             state.forget();

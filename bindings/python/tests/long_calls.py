@@ -72,6 +72,7 @@ BORDERS = [
 ASKED = {
     "Delaunay": (None, lambda _: delone.Delaunay(PLANE)),
     "Delaunay in space": (None, lambda _: delone.Delaunay(SPACE)),
+    "Delaunay of few in space, which may have any number of simplices": (None, lambda _: delone.Delaunay(SPACE[:1000])),
     "Delaunay.simplices": ("plane", lambda d: d.simplices),
     "Delaunay.simplices in space": ("space", lambda d: d.simplices),
     "Delaunay.simplices of furthest sites": ("furthest", lambda d: d.simplices),
@@ -100,6 +101,7 @@ ASKED = {
     "rasterize sibson": ("plane", lambda d: delone.rasterize(d, HEIGHTS, cell=0.01, method="sibson")),
     "rasterize constrained": ("constrained", lambda c: delone.rasterize(c, c.points[:, 0], cell=0.004)),
     "contours": ("plane", lambda d: delone.contours(d, HEIGHTS, interval=0.1)),
+    "contours of few at many levels": (None, lambda _: delone.contours(PLANE[:300], HEIGHTS[:300], interval=1e-4)),
     "bands": ("plane", lambda d: delone.contours(d, HEIGHTS, interval=0.1, bands=True)),
     "contours constrained": ("constrained", lambda c: delone.contours(c, c.points[:, 0], interval=0.1)),
     "simplify": (None, lambda _: delone.simplify(PLANE, HEIGHTS**2, max_error=0.01)),
