@@ -19,7 +19,7 @@ from ._points import as_count, as_flag, as_indices, as_points, as_queries, owned
 from ._simplices import neighbors_of, transforms
 
 #: What a triangulation holds itself; all else is a subclass's.
-_OWN = frozenset(["_core", "_is_closed", "_cache", "_options", "_furthest"])
+_OWN = frozenset(["_core", "_ndim", "_is_closed", "_cache", "_options", "_furthest"])
 
 
 class Delaunay(Kept):
@@ -78,7 +78,7 @@ class Delaunay(Kept):
         self._refuse_twins(given)
 
     def _begin(self, core: _delone.Triangulation) -> None:
-        self._core = core
+        self._core, self._ndim = core, int(core.points.shape[1])
         self._is_closed = False
         self._cache = {}
 
@@ -105,7 +105,7 @@ class Delaunay(Kept):
     @property
     def ndim(self) -> int:
         """2 in the plane, 3 in space."""
-        return int(self.points.shape[1])
+        return self._ndim
 
     @property
     def npoints(self) -> int:
