@@ -1,37 +1,39 @@
 //! A constrained triangulation, by its arrays, its changes and its queries.
 
-use std::sync::RwLockReadGuard;
-
 use delone::{
     Ask, Constrained2, Crossings, Fill, Inserted, RegionSeed2, Seeds2, SegmentEnds, SegmentId, TriangleId,
     Triangulation as _, VertexId,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::BoundObject;
 use pyo3::exceptions::{PyIndexError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{in_pieces, interruptible, size_of_queries, while_wanted};
 use crate::memory::TRIANGULATION;
-use crate::pool::{FEW, detached, is_many, shared};
 use crate::shared::Shared;
-use crate::triangulation::{Rows, State, coordinates, table};
+use crate::state::{QUERIES, Rows, State, indices, table};
+use crate::triangulation::coordinates;
 
 /// Bytes that a segment takes, the input apart.
 pub const SEGMENT: usize = 60;
 /// Lines of sight that one task follows.
 const SIGHTS: usize = 256;
 
+/// What changes with a triangulation.
+pub struct Record {
+    /// Segment ids given so far.
+    segment_ids: usize,
+    /// The names and arguments of all changes, in order.
+    changes: Vec<Py<PyAny>>,
+}
+
+pub type Made = State<Constrained2, Record>;
+
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
 pub struct Constrained(Shared<Made>);
-
-/// What is shared.
-pub struct Made {
-    pub state: State<Constrained2>,
-    /// Segment ids given so far.
-    segment_ids: usize,
-}
 
 /// What was counted as the segments were made constraints, by name.
 type Report = Vec<(&'static str, usize)>;
@@ -61,79 +63,87 @@ impl Constrained {
         let size = work(points.len(), segments.len(), split);
         let how = if split { Crossings::Split } else { Crossings::Refuse };
         let built = interruptible(py, size, move || Constrained2::with_crossings(&points, &segments, how))?;
-        Ok(Self(Shared::new(Made { state: State::of(built.map_err(python_error)?), segment_ids })))
+        let record = Record { segment_ids, changes: Vec::new() };
+        Ok(Self(Shared::new(State::of(built.map_err(python_error)?, record))))
+    }
+
+    /// Another number after each change.
+    #[getter]
+    fn version(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.0.read(py)?.version())
+    }
+
+    /// All changes, each with its name and what it was given.
+    fn changes(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
+        let changes = &self.0.read(py)?.record.changes;
+        Ok(changes.iter().map(|change| change.clone_ref(py)).collect())
     }
 
     /// The coordinates of the points from an index on.
     fn points_from<'py>(&self, py: Python<'py>, first: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let this = self.0.read(py)?;
-        let points = this.made().points().get(first..).unwrap_or_default();
-        PyArray1::from_slice(py, points.as_flattened()).reshape([points.len(), 2])
+        let points = self.0.read(py)?.make(py, move |this| {
+            this.made().points().get(first..).unwrap_or_default().as_flattened().to_vec()
+        })?;
+        table(py, 2, points)
     }
 
     #[getter]
     fn point_count(&self, py: Python<'_>) -> PyResult<usize> {
-        let this = self.0.read(py)?;
-        Ok(this.made().points().len())
+        Ok(self.0.read(py)?.made().points().len())
     }
 
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        let this = self.0.read(py)?;
-        this.state.arrays(py)
+        self.0.read(py)?.arrays(py)
     }
 
     /// Whether the edge across from each corner is a constraint, a row for each triangle.
     fn sides<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
-        let this = self.0.read(py)?;
-        let c = this.made();
-        let of = |t: TriangleId| [1, 2, 0].map(|k| c.is_constraint(t.edge(k)));
-        let sides: Vec<bool> = py.detach(|| c.triangle_ids().flat_map(of).collect());
-        let count = sides.len() / 3;
-        PyArray1::from_vec(py, sides).reshape([count, 3])
+        let sides = self.0.read(py)?.make(py, |this| {
+            let c = this.made();
+            let of = |t: TriangleId| [1, 2, 0].map(|k| c.is_constraint(t.edge(k)));
+            c.triangle_ids().flat_map(of).collect()
+        })?;
+        table(py, 3, sides)
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let this = self.0.read(py)?;
-        this.state.hull(py)
+        self.0.read(py)?.hull(py)
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let this = self.0.read(py)?;
-        this.state.edges(py)
+        self.0.read(py)?.edges(py)
     }
 
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let this = self.0.read(py)?;
-        this.state.duplicates(py)
+        self.0.read(py)?.duplicates(py, |_, _| true)
     }
 
     #[getter]
     fn vertex_count(&self, py: Python<'_>) -> PyResult<usize> {
-        let this = self.0.read(py)?;
-        Ok(this.state.vertex_count())
+        Ok(self.0.read(py)?.vertex_count())
     }
 
     #[getter]
     fn span(&self, py: Python<'_>) -> PyResult<i32> {
-        let this = self.0.read(py)?;
-        Ok(this.state.span())
+        Ok(self.0.read(py)?.span())
     }
 
     /// The constraint edges, the lesser end first.
     fn constraints<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let this = self.0.read(py)?;
-        let edges: Vec<[VertexId; 2]> = py.detach(|| this.made().constraints().collect());
-        table(py, 2, edges.into_iter())
+        let edges = self.0.read(py)?.make(py, |this| indices(this.made().constraints()))?;
+        table(py, 2, edges)
     }
 
     /// The ends of all segments ever given, by id; -1 for those that are not there.
     fn segments<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let this = self.0.read(py)?;
-        let mut ends = vec![[-1; 2]; this.segment_ids];
-        for (s, both) in this.made().segments() {
-            ends[s.index()] = both.map(|v| v.index() as i32);
-        }
-        PyArray1::from_vec(py, ends.into_flattened()).reshape([this.segment_ids, 2])
+        let ends = self.0.read(py)?.make(py, |this| {
+            let mut ends = vec![[-1; 2]; this.record.segment_ids];
+            for (s, both) in this.made().segments() {
+                ends[s.index()] = both.map(|v| v.index() as i32);
+            }
+            ends.into_flattened()
+        })?;
+        table(py, 2, ends)
     }
 
     fn report(&self, py: Python<'_>) -> PyResult<Report> {
@@ -152,8 +162,7 @@ impl Constrained {
 
     /// The vertices along a segment.
     fn chain<'py>(&self, py: Python<'py>, segment: usize) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let this = self.0.read(py)?;
-        let found = this.made().chain(SegmentId::new(segment));
+        let found = self.0.read(py)?.make(py, move |this| this.made().chain(SegmentId::new(segment)))?;
         let found = found.ok_or_else(|| python_error(delone::Error::NoSuchSegment { segment }))?;
         Ok(PyArray1::from_iter(py, found.into_iter().map(|v| v.index() as i64)))
     }
@@ -167,24 +176,22 @@ impl Constrained {
         regions: PyReadonlyArray2<'py, f64>,
         keep_concavities: bool,
     ) -> PyResult<Parts<'py>> {
-        let this = self.0.read(py)?;
         let (holes, regions): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (coordinates(&holes)?, coordinates(&regions)?);
-        let c = this.made();
-        let (of, domains) = py.detach(|| {
-            let seed = |at| RegionSeed2 { at, attribute: 0.0, max_area: None };
-            let regions = regions.into_iter().map(seed).collect();
-            let seeds = Seeds2 { holes, regions, keep_concavities };
-            let fill = match fill {
+        let seed = |at| RegionSeed2 { at, attribute: 0.0, max_area: None };
+        let seeds = Seeds2 { holes, regions: regions.into_iter().map(seed).collect(), keep_concavities };
+        let fill = fill.to_owned();
+        let (of, domains) = self.0.read(py)?.make(py, move |this| {
+            let fill = match fill.as_str() {
                 "all" => Fill::All,
                 "even-odd" => Fill::EvenOdd,
                 "nonzero" => Fill::NonZero,
                 "seeds" => Fill::Seeds(&seeds),
                 other => return Err(PyValueError::new_err(format!("no such fill: {other}"))),
             };
-            let domains = c.domains(&fill).map_err(python_error)?;
+            let domains = this.made().domains(&fill).map_err(python_error)?;
             let part = |t| domains.part(t).map_or(-1, |part| part as i32);
-            Ok((c.triangle_ids().map(part).collect::<Vec<i32>>(), domains))
-        })?;
+            Ok((this.made().triangle_ids().map(part).collect::<Vec<i32>>(), domains))
+        })??;
         let parts = domains.parts();
         let regions = parts.iter().map(|part| part.region.map_or(-1, |region| region as i32));
         let rivals: Vec<i64> = domains.rivals().iter().flatten().map(|&region| region as i64).collect();
@@ -206,27 +213,29 @@ impl Constrained {
         queries: PyReadonlyArray2<'py, f64>,
         names: PyReadonlyArray1<'py, i32>,
     ) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        let this = self.0.read(py)?;
-        let (queries, names): (Vec<[f64; 2]>, _) = (coordinates(&queries)?, names.as_slice()?);
-        let c = this.made();
-        let rows = py.detach(|| this.state.rows());
-        let name =
-            |t: TriangleId| usize::try_from(rows[t.index()]).ok().and_then(|row| names.get(row).copied());
-        let counts = |t: TriangleId| name(t).filter(|&name| name >= 0);
-        let answer = |q: [f64; 2]| {
-            let found = c.find(q)?;
-            let Some(t) = found.simplex else { return Ok(-1) };
-            let beside = || match *found.face() {
-                [v] => c.simplices_at(v).into_iter().find_map(counts),
-                [v, w] => {
-                    let other = c.corners(t).iter().position(|&corner| corner != v && corner != w);
-                    other.and_then(|k| c.across(t, k)).and_then(counts)
-                }
-                _ => None,
+        let (queries, names): (Vec<[f64; 2]>, _) = (coordinates(&queries)?, names.to_vec()?);
+        let size = size_of_queries(queries.len(), 1);
+        let found = State::asked(&self.0, py, size, move |this, wanted| {
+            let (c, rows) = (this.made(), this.rows());
+            let name =
+                |t: TriangleId| usize::try_from(rows[t.index()]).ok().and_then(|row| names.get(row).copied());
+            let counts = |t: TriangleId| name(t).filter(|&name| name >= 0);
+            let answer = |&q: &[f64; 2]| {
+                let found = c.find(q)?;
+                let Some(t) = found.simplex else { return Ok(-1) };
+                let beside = || match *found.face() {
+                    [v] => c.simplices_at(v).into_iter().find_map(counts),
+                    [v, w] => {
+                        let other = c.corners(t).iter().position(|&corner| corner != v && corner != w);
+                        other.and_then(|k| c.across(t, k)).and_then(counts)
+                    }
+                    _ => None,
+                };
+                Ok(counts(t).or_else(beside).unwrap_or(-1))
             };
-            Ok(counts(t).or_else(beside).unwrap_or(-1))
-        };
-        Ok(PyArray1::from_vec(py, this.state.answers(py, &queries, answer)?))
+            in_pieces(wanted, &queries, QUERIES, answer).map_err(python_error)
+        })?;
+        Ok(PyArray1::from_vec(py, found))
     }
 
     fn nearest<'py>(
@@ -234,8 +243,7 @@ impl Constrained {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let this = self.0.read(py)?;
-        Ok(PyArray1::from_vec(py, this.state.nearest(py, coordinates(&queries)?)?))
+        Ok(PyArray1::from_vec(py, State::nearest(&self.0, py, coordinates(&queries)?)?))
     }
 
     fn k_nearest<'py>(
@@ -244,9 +252,8 @@ impl Constrained {
         queries: PyReadonlyArray2<'py, f64>,
         k: usize,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        let this = self.0.read(py)?;
         let count = queries.shape()[0];
-        PyArray1::from_vec(py, this.state.k_nearest(py, coordinates(&queries)?, k)?).reshape([count, k])
+        PyArray1::from_vec(py, State::k_nearest(&self.0, py, coordinates(&queries)?, k)?).reshape([count, k])
     }
 
     /// For each pair of vertices the first constraint between them; -1 for none.
@@ -255,17 +262,19 @@ impl Constrained {
         py: Python<'py>,
         lines: PyReadonlyArray2<'py, i64>,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        let this = self.0.read(py)?;
-        let lines = pairs(&lines)?;
-        let c = this.made();
-        let first = |&[a, b]: &[i64; 2]| {
-            let met = c.first_constraint(vertex(a)?, vertex(b)?).map_err(python_error)?;
-            let ends = met.map(|e| [c.mesh().origin(e), c.mesh().destination(e)]);
-            Ok(ends.map_or([-1; 2], |ends| ends.map(|v| v.index() as i64)))
-        };
-        let found: PyResult<Vec<[i64; 2]>> =
-            detached(py, is_many(lines, SIGHTS), || shared(lines, SIGHTS, first));
-        PyArray1::from_vec(py, found?.into_flattened()).reshape([lines.len(), 2])
+        let (this, lines) = (self.0.read(py)?, pairs(&lines)?.to_vec());
+        // A line may come by many triangles, but not by all.
+        let size = size_of_queries(lines.len(), this.size().isqrt());
+        let found = while_wanted(py, size, move |wanted| {
+            let c = this.made();
+            let first = |&[a, b]: &[i64; 2]| {
+                let met = c.first_constraint(vertex(a)?, vertex(b)?).map_err(python_error)?;
+                let ends = met.map(|e| [c.mesh().origin(e), c.mesh().destination(e)]);
+                Ok::<_, PyErr>(ends.map_or([-1; 2], |ends| ends.map(|v| v.index() as i64)))
+            };
+            in_pieces(wanted, &lines, SIGHTS, first)
+        })??;
+        table(py, 2, found.into_flattened())
     }
 
     /// Inserts points one after the other, all or none; the vertex of each.
@@ -274,25 +283,31 @@ impl Constrained {
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let mut this = self.0.write(py)?;
+        let note = note(py, ("insert", points.as_any()))?;
         let points: Vec<[f64; 2]> = coordinates(&points)?;
         TRIANGULATION.check(2, points.len())?;
-        let (count, most) = (this.made().points().len() + points.len(), delone::MAX_POINTS);
-        if count > most {
-            return Err(python_error(delone::Error::TooManyPoints { count, most }));
-        }
-        let is_long = this.state.change(points.len());
-        let c = &mut this.state.triangulation;
-        let insert = |p| match c.insert(p)? {
-            Inserted::New(v) | Inserted::Existing(v) => Ok(v.index() as i64),
-        };
-        let vertices =
-            detached(py, is_long, || points.into_iter().map(insert).collect::<Result<Vec<_>, _>>());
+        let more = points.len();
+        let vertices = self.0.change(
+            py,
+            |this| this.size() + more,
+            move |this| {
+                let (count, most) = (this.made().points().len() + more, delone::MAX_POINTS);
+                if count > most {
+                    return Err(delone::Error::TooManyPoints { count, most });
+                }
+                this.changed(note, |c| {
+                    let insert = |p| match c.insert(p)? {
+                        Inserted::New(v) | Inserted::Existing(v) => Ok(v.index() as i64),
+                    };
+                    points.into_iter().map(insert).collect::<Result<Vec<_>, _>>()
+                })
+            },
+        )?;
         Ok(PyArray1::from_vec(py, vertices.map_err(python_error)?))
     }
 
     fn remove(&self, py: Python<'_>, point: i64, ends: &str) -> PyResult<()> {
-        let mut this = self.0.write(py)?;
+        let note = note(py, ("remove", point, ends))?;
         let ends = match ends {
             "refuse" => SegmentEnds::Refuse,
             "join" => SegmentEnds::Join,
@@ -300,55 +315,77 @@ impl Constrained {
             other => return Err(PyValueError::new_err(format!("no such choice of ends: {other}"))),
         };
         let v = vertex(point)?;
-        this.changed(py, |c| c.remove_with(v, ends))
+        self.changed(py, move |this| this.changed(note, |c| c.remove_with(v, ends)))
     }
 
     fn insert_segment(&self, py: Python<'_>, a: i64, b: i64) -> PyResult<usize> {
-        let mut this = self.0.write(py)?;
+        let note = note(py, ("insert_segment", a, b))?;
         let (a, b) = (vertex(a)?, vertex(b)?);
-        let id = this.changed(py, |c| c.insert_segment(a, b))?.index();
-        this.segment_ids = this.segment_ids.max(id + 1);
-        Ok(id)
+        self.changed(py, move |this| {
+            let id = this.changed(note, |c| c.insert_segment(a, b))?.index();
+            this.record.segment_ids = this.record.segment_ids.max(id + 1);
+            Ok(id)
+        })
     }
 
     fn remove_segment(&self, py: Python<'_>, segment: usize) -> PyResult<()> {
-        let mut this = self.0.write(py)?;
-        this.changed(py, |c| c.remove_segment(SegmentId::new(segment)))
+        let note = note(py, ("remove_segment", segment))?;
+        self.changed(py, move |this| this.changed(note, |c| c.remove_segment(SegmentId::new(segment))))
     }
 
     fn check(&self, py: Python<'_>) -> PyResult<()> {
         let this = self.0.read(py)?;
-        let checked = detached(py, this.made().vertex_count() >= FEW / 2, || this.made().check());
+        let checked = interruptible(py, 2 * this.size(), move || this.made().check())?;
         checked.map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
     }
 
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
         let this = self.0.read(py)?;
-        let copied = Made { state: State::of(this.made().clone()), segment_ids: this.segment_ids };
-        Ok(Self(Shared::new(copied)))
+        let Record { segment_ids, changes } = &this.record;
+        let changes = changes.iter().map(|change| change.clone_ref(py)).collect();
+        let record = Record { segment_ids: *segment_ids, changes };
+        Ok(Self(Shared::new(State::of(this.make(py, |this| this.made().clone())?, record))))
     }
 }
 
 impl Constrained {
-    pub fn read(&self, py: Python<'_>) -> PyResult<RwLockReadGuard<'_, Made>> {
-        self.0.read(py)
+    pub fn shared(&self) -> &Shared<Made> {
+        &self.0
+    }
+
+    fn changed<A: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        change: impl FnOnce(&mut Made) -> Result<A, delone::Error> + Send + 'static,
+    ) -> PyResult<A> {
+        self.0.change(py, |this| this.size() + 1, change)?.map_err(python_error)
     }
 }
 
 impl Made {
     pub fn made(&self) -> &Constrained2 {
-        &self.state.triangulation
+        &self.triangulation
     }
 
-    /// Changes it, if it is large on the threads there are.
-    fn changed<A: Send>(
+    /// Changes it, and notes what was done.
+    fn changed<A>(
         &mut self,
-        py: Python<'_>,
-        change: impl FnOnce(&mut Constrained2) -> Result<A, delone::Error> + Send,
-    ) -> PyResult<A> {
-        let is_long = self.state.change(1);
-        detached(py, is_long, || change(&mut self.state.triangulation)).map_err(python_error)
+        note: Py<PyAny>,
+        change: impl FnOnce(&mut Constrained2) -> Result<A, delone::Error>,
+    ) -> Result<A, delone::Error> {
+        self.forget();
+        let answer = change(&mut self.triangulation)?;
+        self.record.changes.push(note);
+        Ok(answer)
     }
+}
+
+/// A change as Python knows it: its name and its arguments.
+fn note<'py, N: IntoPyObject<'py>>(py: Python<'py>, change: N) -> PyResult<Py<PyAny>>
+where
+    N::Error: Into<PyErr>,
+{
+    Ok(change.into_pyobject(py).map_err(Into::into)?.into_any().unbind())
 }
 
 /// How much work points and segments are, for those who count items. The library counts triangles, two a point; and where

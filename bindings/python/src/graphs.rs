@@ -6,7 +6,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::TRIANGULATION;
 use crate::triangulation::coordinates;
 
@@ -47,5 +47,6 @@ fn found<T: Change>(
     let count = points.len();
     let each = if let Graph::Nearest(k) = graph { 64 * k.min(count) } else { 0 };
     TRIANGULATION.check_with(T::Point::COUNT, count, each.saturating_mul(count))?;
-    interruptible(py, count, move || edges(&T::from_vec(points)?, graph))?.map_err(python_error)
+    interruptible(py, size_of_points(T::Point::COUNT, 0, count), move || edges(&T::from_vec(points)?, graph))?
+        .map_err(python_error)
 }

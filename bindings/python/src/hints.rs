@@ -6,20 +6,20 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::{HINTS, TRIANGULATION};
-use crate::pool::{FEW, detached};
 use crate::shared::Shared;
-use crate::triangulation::{Core, State, Triangulation, coordinates};
+use crate::state::State;
+use crate::triangulation::{Core, Given, Triangulation, coordinates};
 
 enum Either {
-    Plane(Box<Hints2>),
-    Space(Box<Hints3>),
+    Plane(Shared<Hints2>),
+    Space(Shared<Hints3>),
 }
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
-pub struct Hints(Shared<Either>);
+pub struct Hints(Either);
 
 /// The points of what hints make.
 type Point<H> = <<H as Imprecise>::Triangulation as delone::Triangulation>::Point;
@@ -27,40 +27,44 @@ type Point<H> = <<H as Imprecise>::Triangulation as delone::Triangulation>::Poin
 fn preprocess<H: Imprecise + 'static>(
     py: Python<'_>,
     centres: &PyReadonlyArray2<'_, f64>,
-) -> PyResult<Box<H>> {
+) -> PyResult<Shared<H>> {
     let centres: Vec<Point<H>> = coordinates(centres)?;
     HINTS.check(Point::<H>::COUNT, centres.len())?;
-    let hints = interruptible(py, centres.len(), move || H::from_centres(&centres, HintOrder::default()))?;
-    hints.map(Box::new).map_err(python_error)
+    let hints = interruptible(py, size_of_points(Point::<H>::COUNT, 0, centres.len()), move || {
+        H::from_centres(&centres, HintOrder::default())
+    })?;
+    hints.map(Shared::new).map_err(python_error)
 }
 
 #[pymethods]
 impl Hints {
     #[new]
     fn new(py: Python<'_>, centres: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
-        Ok(Self(Shared::new(match centres.shape()[1] {
+        Ok(Self(match centres.shape()[1] {
             2 => Either::Plane(preprocess(py, &centres)?),
             3 => Either::Space(preprocess(py, &centres)?),
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
-        })))
+        }))
     }
 
     fn triangulate(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Triangulation> {
-        let core = match &mut *self.0.write(py)? {
-            Either::Plane(hints) => Core::Plane(State::of(instance(py, &mut **hints, &points)?)),
-            Either::Space(hints) => Core::Space(State::of(instance(py, &mut **hints, &points)?)),
+        let given = Given::of(points.as_any());
+        let core = match &self.0 {
+            Either::Plane(hints) => Core::Plane(Shared::new(State::of(instance(py, hints, &points)?, given))),
+            Either::Space(hints) => Core::Space(Shared::new(State::of(instance(py, hints, &points)?, given))),
         };
-        Ok(Triangulation { core: Shared::new(core) })
+        Ok(Triangulation { core })
     }
 }
 
-fn instance<H: Imprecise>(
+fn instance<H: Imprecise + 'static>(
     py: Python<'_>,
-    hints: &mut H,
+    hints: &Shared<H>,
     points: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<H::Triangulation> {
     let points: Vec<Point<H>> = coordinates(points)?;
     TRIANGULATION.check(Point::<H>::COUNT, points.len())?;
-    let made = detached(py, points.len() >= FEW, || hints.triangulate(&points).cloned());
+    let size = size_of_points(Point::<H>::COUNT, 0, points.len());
+    let made = hints.change(py, |_| size, move |hints| hints.triangulate(&points).cloned())?;
     made.map_err(python_error)
 }

@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::HULL;
-use crate::triangulation::{Rows, coordinates};
+use crate::state::Rows;
+use crate::triangulation::coordinates;
 
 /// Facets as rows of indices, the face of each, and the corners of faces with where each begins.
 type Facets<'py> = (Rows<'py>, Column<'py, i32>, Column<'py, i32>, Column<'py, i64>);
@@ -96,12 +97,17 @@ pub fn sides<'py>(
     points: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray2<i8>>> {
     let (rows, columns) = (points.shape()[0], facets.shape()[0] / points.shape()[1].max(1));
+    let size = rows.saturating_mul(columns);
     let sides = if points.shape()[1] == 2 {
         let (facets, points) = (coordinates(&facets)?, coordinates(&points)?);
-        py.detach(|| table(&points, facets.as_chunks().0, |p, [a, b]| -orient2d(*a, *b, *p)))
+        interruptible(py, size, move || {
+            table(&points, facets.as_chunks().0, |p, [a, b]| -orient2d(*a, *b, *p))
+        })?
     } else {
         let (facets, points) = (coordinates(&facets)?, coordinates(&points)?);
-        py.detach(|| table(&points, facets.as_chunks().0, |p, [a, b, c]| orient3d(*a, *b, *c, *p)))
+        interruptible(py, size, move || {
+            table(&points, facets.as_chunks().0, |p, [a, b, c]| orient3d(*a, *b, *c, *p))
+        })?
     };
     PyArray1::from_vec(py, sides).reshape([rows, columns])
 }

@@ -1,27 +1,64 @@
-//! Long work that Ctrl-C ends.
+//! Long work that Ctrl-C ends: every call that may be long goes through [`while_wanted`].
+//!
+//! Work owns all that it needs, so that it can go on when its caller is gone. The caller holds nothing meanwhile: a handler of signals,
+//! which runs on the caller's thread, may ask and change whatever the work is about, and waits for the work at most.
 
-use std::sync::Mutex;
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::pool::{FEW, alone, generation, pool};
+use crate::pool::{FEW, alone, generation, pool, shared};
 
 /// How often to look for signals.
 const PAUSE: Duration = Duration::from_millis(50);
 
-/// Queries that are answered before the first look: the slowest, of a thousand neighbours each, take 0.1 ms.
+/// The size of work that is long whatever it is about.
+pub const LONG: usize = usize::MAX;
+
+/// Queries of the first piece, and as many as are answered without a thread: the slowest, of a thousand neighbours each, take 0.1 ms.
 const FIRST: usize = 1 << 10;
 
-/// The answers to items, piece by piece, with a look for signals after each. Pieces grow while they take less than [`PAUSE`], so
-/// many quick ones are few pieces.
-pub fn in_pieces<I, A>(
-    py: Python<'_>,
+/// Whether somebody still waits for work.
+pub struct Wanted(Option<Arc<AtomicBool>>);
+
+impl Wanted {
+    pub fn is(&self) -> bool {
+        self.0.as_ref().is_none_or(|wanted| wanted.load(Ordering::Relaxed))
+    }
+}
+
+/// How large work on queries is, if each has so many answers at most.
+pub fn size_of_queries(count: usize, each: usize) -> usize {
+    if count > FIRST { LONG } else { count.saturating_mul(each) }
+}
+
+/// How large work is that puts points where there are some: in space each may have simplices with all others.
+pub fn size_of_points(dimension: usize, there: usize, more: usize) -> usize {
+    let all = there.saturating_add(more);
+    if dimension == 2 { all } else { all.max(all.saturating_mul(more) / 12) }
+}
+
+/// The answers to items in their order, piece by piece, each on all threads if it is two tasks at least; the first error of any. Pieces grow
+/// while they take less than [`PAUSE`]. Work that nobody wants any more ends after a piece.
+pub fn in_pieces<I: Sync, A: Send, E: Send>(
+    wanted: &Wanted,
     items: &[I],
-    mut work: impl FnMut(&[I]) -> PyResult<Vec<A>>,
-) -> PyResult<Vec<A>> {
+    task: usize,
+    answer: impl Fn(&I) -> Result<A, E> + Sync + Send,
+) -> Result<Vec<A>, E> {
+    joined(wanted, items, |piece| shared(piece, task, &answer))
+}
+
+/// The same of what answers pieces.
+pub fn joined<I, A, E>(
+    wanted: &Wanted,
+    items: &[I],
+    mut work: impl FnMut(&[I]) -> Result<Vec<A>, E>,
+) -> Result<Vec<A>, E> {
     let (mut all, mut rest, mut size) = (Vec::new(), items, FIRST);
     loop {
         let (piece, later) = rest.split_at(size.min(rest.len()));
@@ -34,10 +71,9 @@ pub fn in_pieces<I, A>(
         } else {
             all.extend(answers);
         }
-        if later.is_empty() {
+        if later.is_empty() || !wanted.is() {
             return Ok(all);
         }
-        py.check_signals()?;
         if began.elapsed() < PAUSE {
             size *= 2;
         }
@@ -52,17 +88,35 @@ pub fn interruptible<T: Send + 'static>(
     points: usize,
     work: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
+    while_wanted(py, points, |_| work())
+}
+
+/// The same of work that can end sooner when nobody wants its result.
+pub fn while_wanted<T: Send + 'static>(
+    py: Python<'_>,
+    points: usize,
+    work: impl FnOnce(&Wanted) -> T + Send + 'static,
+) -> PyResult<T> {
     if points < FEW {
-        return Ok(py.detach(work));
+        return Ok(py.detach(|| work(&Wanted(None))));
     }
     let Some(pool) = py.detach(pool) else {
-        return Ok(py.detach(|| alone(work)));
+        return Ok(py.detach(|| alone(|| work(&Wanted(None)))));
     };
+    let wanted = Arc::new(AtomicBool::new(true));
+    let seen = Wanted(Some(Arc::clone(&wanted)));
     let (sender, receiver) = sync_channel(1);
     pool.spawn(move || {
         // Nobody is there any more after an interruption.
-        _ = sender.send(work());
+        _ = sender.send(work(&seen));
     });
+    let result = result_of(py, receiver);
+    wanted.store(result.is_ok(), Ordering::Relaxed);
+    result
+}
+
+/// Waits for a result, and looks for signals meanwhile.
+fn result_of<T: Send>(py: Python<'_>, receiver: Receiver<T>) -> PyResult<T> {
     let here = generation();
     // A receiver is for one thread; the lock lends it to whichever this is.
     let receiver = Mutex::new(receiver);

@@ -21,6 +21,7 @@ mod pool;
 mod regular;
 mod shared;
 mod sizes;
+mod state;
 mod surface;
 mod terrain;
 mod tiles;

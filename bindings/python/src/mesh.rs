@@ -1,7 +1,6 @@
 //! A refined mesh: what is wanted of it, its arrays, and its refinement again.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use delone::{
     Constrained2, Crossings, Domains2, Error, Fill, Keep, Reason, Refined2, Refinement, RegionSeed2, Seeds2,
@@ -13,19 +12,21 @@ use pyo3::prelude::*;
 
 use crate::constrained::{Constrained, SEGMENT, index, pairs, work};
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{LONG, interruptible, while_wanted};
 use crate::memory::TRIANGULATION;
 use crate::sizes::{Asked, Field};
+use crate::state::table;
 use crate::triangulation::coordinates;
 
-/// However few points there are: what comes out may take for ever.
-const LONG: usize = usize::MAX;
 /// Coordinates or indices, a row each.
 type Table<'py, T> = Bound<'py, PyArray2<T>>;
 
 /// See `_delone.pyi`.
-#[pyclass(module = "delone._delone")]
-pub struct Mesh {
+#[pyclass(module = "delone._delone", frozen)]
+pub struct Mesh(Arc<Content>);
+
+/// What is shared with work in the background.
+struct Content {
     made: Constrained2,
     refined: Refined2,
     /// The rows of triangles: those inside, by their slots; -1 for all else.
@@ -114,60 +115,66 @@ impl Mesh {
         let size = work(points.len(), given, split);
         let how = if split { Crossings::Split } else { Crossings::Refuse };
         let built = interruptible(py, size, move || Constrained2::with_crossings(&points, &segments, how))?;
+        let built = built.map_err(python_error)?;
         let areas = match &wishes.of {
             Some(old) => {
-                let old = old.get().read(py)?;
-                wishes.areas(old.made(), &old.made().triangle_ids().collect::<Vec<_>>())?
+                let old = old.get().shared().read(py)?;
+                wishes.areas(py, move || {
+                    let triangles = old.made().triangle_ids().collect();
+                    (old.made().clone(), triangles)
+                })?
             }
             None => None,
         };
-        Self::refined(py, (built.map_err(python_error)?, None), given, areas, wishes)
+        Self::refined(py, (built, None), given, areas, wishes)
     }
 
     /// Refines what is inside again; a new one.
     fn again(&self, py: Python<'_>, wishes: Wishes<'_>) -> PyResult<Self> {
-        let areas = wishes.areas(&self.made, &self.inside)?;
-        let inside = Some(self.refined.domains.clone());
-        Self::refined(py, (self.made.clone(), inside), self.given, areas, wishes)
+        let this = Arc::clone(&self.0);
+        let areas = wishes.areas(py, move || (this.made.clone(), this.inside.clone()))?;
+        let made = self.of(py, |this| (this.made.clone(), Some(this.refined.domains.clone())))?;
+        Self::refined(py, made, self.0.given, areas, wishes)
     }
 
     /// The coordinates of all points.
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, f64>> {
-        let points = self.made.points();
-        PyArray1::from_slice(py, points.as_flattened()).reshape([points.len(), 2])
+        table(py, 2, self.of(py, |this| this.made.points().as_flattened().to_vec())?)
     }
 
     /// The corners and neighbours of the triangles inside.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Table<'py, i64>)> {
-        let (corners, neighbors) = py.detach(|| {
-            let c = &self.made;
+        let (corners, neighbors) = self.of(py, |this| {
+            let c = &this.made;
             let of = |t: TriangleId| c.corners(t).map(|v| v.index() as i64);
-            let row = |next: Option<TriangleId>| next.map_or(-1, |t| self.rows[t.index()]);
-            let corners: Vec<i64> = self.inside.iter().flat_map(|&t| of(t)).collect();
+            let row = |next: Option<TriangleId>| next.map_or(-1, |t| this.rows[t.index()]);
+            let corners: Vec<i64> = this.inside.iter().flat_map(|&t| of(t)).collect();
             let beside = |&t: &TriangleId| [0, 1, 2].map(|k| row(c.across(t, k)));
-            (corners, self.inside.iter().flat_map(beside).collect::<Vec<i64>>())
-        });
-        let table = |values| PyArray1::from_vec(py, values).reshape([self.inside.len(), 3]);
-        Ok((table(corners)?, table(neighbors)?))
+            (corners, this.inside.iter().flat_map(beside).collect::<Vec<i64>>())
+        })?;
+        Ok((table(py, 3, corners)?, table(py, 3, neighbors)?))
     }
 
     /// The region of each triangle inside, or -1.
-    fn regions<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let of = |&t: &TriangleId| self.refined.domains.region(t).map_or(-1, |region| region as i64);
-        PyArray1::from_iter(py, self.inside.iter().map(of))
+    fn regions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<i64>>> {
+        let regions = self.of(py, |this| {
+            let of = |&t: &TriangleId| this.refined.domains.region(t).map_or(-1, |region| region as i64);
+            this.inside.iter().map(of).collect()
+        })?;
+        Ok(PyArray1::from_vec(py, regions))
     }
 
     /// Constraint edges beside triangles inside: their ends, and the first segment on each or -1.
     fn segments<'py>(&self, py: Python<'py>) -> PyResult<(Table<'py, i64>, Bound<'py, PyArray1<i64>>)> {
-        let (ends, origins) = py.detach(|| {
-            let c = &self.made;
-            let inside = |t: TriangleId| self.rows.get(t.index()).is_some_and(|&row| row >= 0);
+        let (ends, origins) = self.of(py, |this| {
+            let c = &this.made;
+            let inside = |t: TriangleId| this.rows.get(t.index()).is_some_and(|&row| row >= 0);
             let (mut ends, mut origins) = (Vec::new(), Vec::new());
             for e in c.constraint_edges() {
                 if !inside(e.triangle()) && !inside(c.mesh().twin(e).triangle()) {
                     continue;
                 }
-                let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < self.given);
+                let first = c.covering(e).into_iter().min().filter(|on| on.segment.index() < this.given);
                 let mut pair = [c.mesh().origin(e), c.mesh().destination(e)].map(|v| v.index() as i64);
                 if first.is_some_and(|on| !on.is_forward) {
                     pair.reverse();
@@ -176,40 +183,50 @@ impl Mesh {
                 origins.push(first.map_or(-1, |on| on.segment.index() as i64));
             }
             (ends, origins)
-        });
-        let count = origins.len();
-        Ok((PyArray1::from_vec(py, ends).reshape([count, 2])?, PyArray1::from_vec(py, origins)))
+        })?;
+        Ok((table(py, 2, ends)?, PyArray1::from_vec(py, origins)))
     }
 
     /// Vertices added inside and on constraints.
     #[getter]
     fn added(&self) -> (usize, usize) {
-        (self.refined.report.inside, self.refined.report.on_constraints)
+        let report = &self.0.refined.report;
+        (report.inside, report.on_constraints)
     }
 
     /// The smallest and the largest angle, and how many triangles have a smallest angle, and how many angles there are, every
     /// ten degrees.
     #[getter]
     fn angles(&self) -> (f64, f64, Vec<usize>, Vec<usize>) {
-        let report = &self.refined.report;
+        let report = &self.0.refined.report;
         (report.smallest_angle, report.largest_angle, report.smallest_angles.into(), report.angles.into())
     }
 
     /// The rows of triangles that are not as they were to be, and why.
     #[getter]
     fn left(&self) -> Vec<(i64, &'static str)> {
-        let left = self.refined.report.left.iter();
-        left.map(|left| (self.rows[left.triangle.index()], word(left.reason))).collect()
+        let left = self.0.refined.report.left.iter();
+        left.map(|left| (self.0.rows[left.triangle.index()], word(left.reason))).collect()
     }
 
     /// Proves that it is the canonical triangulation of its points and constraints.
     fn check(&self, py: Python<'_>) -> PyResult<()> {
-        let checked = py.detach(|| self.made.check());
+        let checked = self.of(py, |this| this.made.check())?;
         checked.map_err(|flaw| PyRuntimeError::new_err(flaw.to_string()))
     }
 }
 
 impl Mesh {
+    /// What is made of all of it.
+    fn of<A: Send + 'static>(
+        &self,
+        py: Python<'_>,
+        make: impl FnOnce(&Content) -> A + Send + 'static,
+    ) -> PyResult<A> {
+        let this = Arc::clone(&self.0);
+        interruptible(py, this.made.points().len(), move || make(&this))
+    }
+
     /// Refines what was built, under Python's lock only where Python is asked. What is inside is known, or wished.
     fn refined(
         py: Python<'_>,
@@ -231,35 +248,38 @@ impl Mesh {
             Some(values) => Some(values.extract::<PyReadonlyArray1<f64>>()?.as_slice()?.to_vec()),
             None => None,
         };
-        let is_wanted = Arc::new(AtomicBool::new(true));
-        let seen = Arc::clone(&is_wanted);
-        let done = interruptible(py, LONG, move || {
+        let done = while_wanted(py, LONG, move |wanted| {
             let lengths = match values {
                 Some(values) => Field::lengths(from.0.points()[..values.len()].to_vec(), values)?,
                 None => Field::Everywhere,
             };
             let areas = areas.unwrap_or(Field::Everywhere);
             let length = |at| lengths.length(at);
-            let stop = || !seen.load(Ordering::Relaxed);
-            plan.refine(from, given, lengths.is_asked().then_some(&length as _), &areas, &stop)
+            plan.refine(from, given, lengths.is_asked().then_some(&length as _), &areas, &|| !wanted.is())
         });
-        // Whoever still works at it after an interruption need not go on.
-        is_wanted.store(done.is_ok(), Ordering::Relaxed);
         Ok(done??)
     }
 }
 
 impl<'py> Wishes<'py> {
-    /// Areas of triangles, by the triangles of a mesh that they are in order.
-    fn areas(&self, mesh: &Constrained2, triangles: &[TriangleId]) -> PyResult<Option<Field>> {
+    /// Areas of triangles, by a mesh and the triangles of it that they are in order.
+    fn areas(
+        &self,
+        py: Python<'_>,
+        mesh: impl FnOnce() -> (Constrained2, Vec<TriangleId>) + Send + 'static,
+    ) -> PyResult<Option<Field>> {
         let Some(areas) = &self.max_areas else { return Ok(None) };
-        if areas.len() != triangles.len() {
-            let (areas, count) = (areas.len(), triangles.len());
-            return Err(PyValueError::new_err(format!("{areas} areas for {count} triangles")));
-        }
-        let mut by_slot = vec![f64::INFINITY; mesh.slot_count()];
-        triangles.iter().zip(areas.as_slice()?).for_each(|(t, &area)| by_slot[t.index()] = area);
-        Ok(Some(Field::areas(mesh.clone(), by_slot)))
+        let areas = areas.to_vec()?;
+        interruptible(py, areas.len(), move || {
+            let (mesh, triangles) = mesh();
+            if areas.len() != triangles.len() {
+                let (areas, count) = (areas.len(), triangles.len());
+                return Err(PyValueError::new_err(format!("{areas} areas for {count} triangles")));
+            }
+            let mut by_slot = vec![f64::INFINITY; mesh.slot_count()];
+            triangles.iter().zip(areas).for_each(|(t, area)| by_slot[t.index()] = area);
+            Ok(Some(Field::areas(mesh, by_slot)))
+        })?
     }
 
     /// What of it is plain, and the rest.
@@ -331,7 +351,7 @@ impl Plan {
         let inside: Vec<TriangleId> = made.triangle_ids().filter(|&t| refined.domains.is_inside(t)).collect();
         let mut rows = vec![-1; made.slot_count()];
         inside.iter().zip(0..).for_each(|(t, row)| rows[t.index()] = row);
-        Ok(Mesh { made, refined, rows, inside, given })
+        Ok(Mesh(Arc::new(Content { made, refined, rows, inside, given })))
     }
 
     /// Whether there is memory for as many triangles as bounds for all places ask for at least.

@@ -1,33 +1,44 @@
 //! A tree of points that is asked for those near others.
 
-use delone::{Error, Neighbors2, Neighbors3};
+use std::sync::{Arc, OnceLock};
+
+use delone::{Coordinates, Error, Neighbors2, Neighbors3};
 use numpy::{PyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::{in_pieces, interruptible};
-use crate::memory::{NEIGHBORS, room_for_neighbors};
-use crate::pool::{detached, is_many, shared};
+use crate::interrupt::{in_pieces, interruptible, size_of_queries, while_wanted};
+use crate::memory::{NEIGHBORS, room, room_for_neighbors};
 use crate::triangulation::coordinates;
 
 /// Queries that one task answers.
 const QUERIES: usize = 512;
 
 enum Tree {
-    Plane(Neighbors2),
-    Space(Neighbors3),
+    Plane(Arc<Neighbors2>),
+    Space(Arc<Neighbors3>),
 }
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
-pub struct Neighbors(Tree);
+pub struct Neighbors {
+    tree: Tree,
+    /// The coordinates of the points, once distances were asked for.
+    points: OnceLock<Arc<[f64]>>,
+}
 
-/// The same for either dimension.
+/// What is made of the answers to queries, of so many neighbours each at most; the same for either dimension.
 macro_rules! answers {
-    ($self:ident, $py:ident, $queries:ident, $tree:ident, $q:ident => $answer:expr) => {
-        match &$self.0 {
-            Tree::Plane($tree) => answers($py, &coordinates::<[f64; 2]>(&$queries)?, |$q| $answer),
-            Tree::Space($tree) => answers($py, &coordinates::<[f64; 3]>(&$queries)?, |$q| $answer),
+    ($self:ident, $py:ident, $queries:ident, $each:expr, $tree:ident, $q:ident => $answer:expr, $make:expr) => {
+        match &$self.tree {
+            Tree::Plane(tree) => {
+                let ($tree, queries) = (Arc::clone(tree), coordinates::<[f64; 2]>(&$queries)?);
+                answers($py, queries, $each, move |$q| $answer, $make)
+            }
+            Tree::Space(tree) => {
+                let ($tree, queries) = (Arc::clone(tree), coordinates::<[f64; 3]>(&$queries)?);
+                answers($py, queries, $each, move |$q| $answer, $make)
+            }
         }
     };
 }
@@ -40,12 +51,14 @@ impl Neighbors {
         NEIGHBORS.check(columns, count)?;
         let tree = if columns == 2 {
             let points: Vec<[f64; 2]> = coordinates(&points)?;
-            interruptible(py, count, move || Neighbors2::from_points(&points).map(Tree::Plane))?
+            let tree = interruptible(py, count, move || Neighbors2::from_points(&points))?;
+            Tree::Plane(Arc::new(tree.map_err(python_error)?))
         } else {
             let points: Vec<[f64; 3]> = coordinates(&points)?;
-            interruptible(py, count, move || Neighbors3::from_points(&points).map(Tree::Space))?
+            let tree = interruptible(py, count, move || Neighbors3::from_points(&points))?;
+            Tree::Space(Arc::new(tree.map_err(python_error)?))
         };
-        tree.map(Self).map_err(python_error)
+        Ok(Self { tree, points: OnceLock::new() })
     }
 
     /// The nearest points; -1 if there are none.
@@ -54,8 +67,9 @@ impl Neighbors {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let found = answers!(self, py, queries, tree, q => tree.nearest(q))?;
-        Ok(PyArray1::from_iter(py, found.into_iter().map(|i| i.map_or(-1, |i| i as i64))))
+        let index = |i: Option<usize>| i.map_or(-1, |i| i as i64);
+        let found = answers!(self, py, queries, 1, tree, q => tree.nearest(q).map(index), |found| found)?;
+        Ok(PyArray1::from_vec(py, found))
     }
 
     /// The k nearest points, nearest first; -1 where there are not so many.
@@ -66,12 +80,15 @@ impl Neighbors {
         k: usize,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
         let mut padded = room_for_neighbors::<i64>(queries.shape()[0], k)?;
-        for found in answers!(self, py, queries, tree, q => tree.k_nearest(q, k))? {
-            let missing = k - found.len();
-            padded.extend(found.into_iter().map(|i| i as i64));
-            padded.extend(std::iter::repeat_n(-1, missing));
-        }
-        Ok(PyArray1::from_vec(py, padded))
+        let found = answers!(self, py, queries, k, tree, q => tree.k_nearest(q, k), move |all| {
+            for found in all {
+                let missing = k - found.len();
+                padded.extend(found.into_iter().map(|i| i as i64));
+                padded.extend(std::iter::repeat_n(-1, missing));
+            }
+            padded
+        })?;
+        Ok(PyArray1::from_vec(py, found))
     }
 
     /// Their distances and indices; infinite and the number of points where there are not so many. `points` are those of the tree.
@@ -88,22 +105,29 @@ impl Neighbors {
             room_for_neighbors::<f64>(queries.shape()[0], k)?,
             room_for_neighbors::<i64>(queries.shape()[0], k)?,
         );
+        if self.points.get().is_none() {
+            room(points.len().saturating_mul(8), "copies of so many points")?;
+        }
         let points = points.as_slice()?;
-        let distance = |i: usize, q: &[f64]| {
+        let points = Arc::clone(self.points.get_or_init(|| points.into()));
+        let distance = move |i: usize, q: &[f64]| {
             let p = &points[i * columns..][..columns];
             p.iter().zip(q).map(|(p, q)| p - q).fold(0.0, f64::hypot)
         };
-        let found = answers!(self, py, queries, tree, q => {
+        let make = move |all: Vec<Vec<(f64, i64)>>| {
+            for found in all {
+                let missing = k - found.len();
+                distances.extend(found.iter().map(|found| found.0));
+                distances.extend(std::iter::repeat_n(f64::INFINITY, missing));
+                indices.extend(found.iter().map(|found| found.1));
+                indices.extend(std::iter::repeat_n(count as i64, missing));
+            }
+            (distances, indices)
+        };
+        let (distances, indices) = answers!(self, py, queries, k, tree, q => {
             let found = tree.k_nearest(q, k)?;
-            Ok(found.into_iter().map(|i| (distance(i, &q), i as i64)).collect::<Vec<_>>())
-        })?;
-        for found in found {
-            let missing = k - found.len();
-            distances.extend(found.iter().map(|found| found.0));
-            distances.extend(std::iter::repeat_n(f64::INFINITY, missing));
-            indices.extend(found.iter().map(|found| found.1));
-            indices.extend(std::iter::repeat_n(count as i64, missing));
-        }
+            Ok(found.into_iter().map(|i| (distance(i, &q), i as i64)).collect())
+        }, make)?;
         Ok((PyArray1::from_vec(py, distances), PyArray1::from_vec(py, indices)))
     }
 
@@ -115,27 +139,34 @@ impl Neighbors {
         queries: PyReadonlyArray2<'py, f64>,
         radius: f64,
     ) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>)> {
-        let found = answers!(self, py, queries, tree, q => tree.within(q, radius))?;
-        let mut end = 0;
-        let ends: Vec<i64> = found
-            .iter()
-            .map(|found| {
+        let most = match &self.tree {
+            Tree::Plane(tree) => tree.len(),
+            Tree::Space(tree) => tree.len(),
+        };
+        let make = |all: Vec<Vec<usize>>| {
+            let mut end = 0;
+            let ends = all.iter().map(|found| {
                 end += found.len() as i64;
                 end
-            })
-            .collect();
-        let found = PyArray1::from_iter(py, found.into_iter().flatten().map(|i| i as i64));
-        Ok((found, PyArray1::from_vec(py, ends)))
+            });
+            let ends: Vec<i64> = ends.collect();
+            (all.into_iter().flatten().map(|i| i as i64).collect(), ends)
+        };
+        let (found, ends) = answers!(self, py, queries, most, tree, q => tree.within(q, radius), make)?;
+        Ok((PyArray1::from_vec(py, found), PyArray1::from_vec(py, ends)))
     }
 }
 
-/// The answers to queries, in their order, on all threads if they are many. The first error that any query has.
-fn answers<Q: Copy + Sync, A: Send>(
+/// What is made of the answers to queries, in their order. The first error that any query has.
+fn answers<Q: Coordinates + Send + Sync + 'static, A: Send, B: Send + 'static>(
     py: Python<'_>,
-    queries: &[Q],
-    answer: impl Fn(Q) -> Result<A, Error> + Sync + Send,
-) -> PyResult<Vec<A>> {
-    in_pieces(py, queries, |piece| {
-        detached(py, is_many(piece, QUERIES), || shared(piece, QUERIES, |&q| answer(q))).map_err(python_error)
-    })
+    queries: Vec<Q>,
+    each: usize,
+    answer: impl Fn(Q) -> Result<A, Error> + Sync + Send + 'static,
+    make: impl FnOnce(Vec<A>) -> B + Send + 'static,
+) -> PyResult<B> {
+    let result = while_wanted(py, size_of_queries(queries.len(), each), move |wanted| {
+        in_pieces(wanted, &queries, QUERIES, |&q| answer(q)).map(make)
+    })?;
+    result.map_err(python_error)
 }

@@ -10,13 +10,16 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::interruptible;
 use crate::memory::{ORDER, ORDER_SITES, TRIANGULATION};
-use crate::pool::{FEW, detached};
-use crate::triangulation::{Rows, State, coordinates};
+use crate::shared::Shared;
+use crate::state::{Rows, State, table};
+use crate::triangulation::coordinates;
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
-pub struct Orders {
-    state: State<Delaunay2>,
+pub struct Orders(Shared<State<Delaunay2, Regions>>);
+
+/// The regions of a diagram, by their sites.
+struct Regions {
     order: usize,
     /// For each region its sites, sorted; regions are sorted by them.
     sites: Vec<i32>,
@@ -53,7 +56,7 @@ impl Orders {
         let more = ORDER.saturating_add(ORDER_SITES.saturating_mul(order)).saturating_mul(order);
         TRIANGULATION.check_with(2, count, count.saturating_mul(more))?;
         let points: Vec<[f64; 2]> = coordinates(&points)?;
-        let made = interruptible(py, count.saturating_mul(order).saturating_mul(order), move || {
+        let made = interruptible(py, work(count, order), move || {
             let d = Delaunay2::from_vec(points)?;
             let arrays = Arrays::of(&d.order(order)?);
             Ok::<_, Error>((d, arrays))
@@ -69,12 +72,12 @@ impl Orders {
             PyArray1::from_vec(py, around).reshape([circles, 3])?,
             PyArray1::from_vec(py, centres).reshape([circles, 2])?,
         );
-        Ok((Self { state: State::of(d), order, sites }, diagram))
+        Ok((Self(Shared::new(State::of(d, Regions { order, sites }))), diagram))
     }
 
     /// Points that are no sites because they equal one, each with this.
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        self.state.duplicates(py)
+        self.0.read(py)?.duplicates(py, |_, _| true)
     }
 
     /// The regions that points are in.
@@ -84,10 +87,11 @@ impl Orders {
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i32>>> {
         let queries: Vec<[f64; 2]> = coordinates(&queries)?;
-        let found = self.state.answers(py, &queries, |q| {
-            let mut nearest: Vec<i32> = indices(self.state.triangulation.k_nearest(q, self.order)?).collect();
+        let found = State::answers(&self.0, py, queries, |state, q| {
+            let regions = &state.record;
+            let mut nearest: Vec<i32> = indices(state.triangulation.k_nearest(q, regions.order)?).collect();
             nearest.sort_unstable();
-            Ok(self.region(&nearest))
+            Ok(regions.find(&nearest))
         })?;
         Ok(PyArray1::from_vec(py, found))
     }
@@ -99,7 +103,7 @@ impl Orders {
         rings: Vec<PyReadonlyArray2<'py, f64>>,
         merge: Option<f64>,
     ) -> PyResult<Polygons<'py>> {
-        let (corners, ring_starts, starts) = self.clipped(py, &rings, |order, region| {
+        let (corners, ring_starts, starts) = self.clipped(py, &rings, move |order, region| {
             let mut cells = order.cells(region);
             if let Some(length) = merge {
                 cells = cells.merged(length, region)?;
@@ -112,11 +116,9 @@ impl Orders {
                 }
                 starts.push(ring_starts.len() as i64 - 1);
             }
-            Ok((corners, ring_starts, starts))
+            Ok((corners.into_flattened(), ring_starts, starts))
         })?;
-        let count = corners.len();
-        let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
-        Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
+        Ok((table(py, 2, corners)?, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
     }
 
     /// The areas of the clipped regions.
@@ -133,9 +135,9 @@ impl Orders {
     }
 }
 
-impl Orders {
+impl Regions {
     /// The region with these sites, which are sorted; -1 if there is none.
-    fn region(&self, sites: &[i32]) -> i32 {
+    fn find(&self, sites: &[i32]) -> i32 {
         let row = |i: usize| &self.sites[i * self.order..][..self.order];
         let count = self.sites.len() / self.order;
         let (mut low, mut high) = (0, count);
@@ -145,22 +147,33 @@ impl Orders {
         }
         if low < count && row(low) == sites { low as i32 } else { -1 }
     }
+}
 
+impl Orders {
     /// Makes the diagram again, and something of it and a polygon.
-    fn clipped<T: Send>(
+    fn clipped<T: Send + 'static>(
         &self,
         py: Python<'_>,
         rings: &[PyReadonlyArray2<'_, f64>],
-        make: impl Fn(&OrderK2, &Region2) -> Result<T, Error> + Sync + Send,
+        make: impl FnOnce(&OrderK2, &Region2) -> Result<T, Error> + Send + 'static,
     ) -> PyResult<T> {
         let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
-        let d = &self.state.triangulation;
-        let clipped = detached(py, d.vertex_count() >= FEW, || {
-            let region = Region2::polygon(&rings)?;
-            make(&d.order(self.order)?, &region)
-        });
+        let sides: usize = rings.iter().map(Vec::len).sum();
+        let clipped = self.0.ask(
+            py,
+            |state| work(state.size(), state.record.order).saturating_mul(sides.max(1)),
+            move |state| {
+                let region = Region2::polygon(&rings)?;
+                make(&state.triangulation.order(state.record.order)?, &region)
+            },
+        )?;
         clipped.map_err(python_error)
     }
+}
+
+/// How much work a diagram is, for those who count points.
+fn work(points: usize, order: usize) -> usize {
+    points.saturating_mul(order).saturating_mul(order)
 }
 
 impl Arrays {

@@ -93,22 +93,13 @@ pub fn after_fork() {
     slot();
 }
 
-/// Does work without Python's lock, if it is long on all threads.
-pub fn detached<T: Send>(py: Python<'_>, is_long: bool, work: impl FnOnce() -> T + Send) -> T {
-    py.detach(|| match if is_long { pool() } else { None } {
-        Some(pool) => pool.install(work),
-        None if is_long => alone(work),
-        None => work(),
-    })
-}
-
 /// Whether so many items are worth the threads, if a task takes as many.
-pub fn is_many<I>(items: &[I], task: usize) -> bool {
+fn is_many<I>(items: &[I], task: usize) -> bool {
     items.len() >= 2 * task
 }
 
-/// What work says of all items, in their order, in tasks of as many if they are enough; the first error of any. To be called where
-/// [`detached`] has gone to.
+/// What work says of all items, in their order, in tasks of as many if they are enough; the first error of any. For work on a
+/// thread of the pool.
 pub fn shared<I: Sync, A: Send, E: Send>(
     items: &[I],
     task: usize,

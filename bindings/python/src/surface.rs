@@ -1,18 +1,20 @@
 //! Values between points: interpolation and its weights.
 
 use delone::surface::{Interpolator, Outside, Weights, gradients};
-use delone::{Coordinates, Error, Surround};
+use delone::{Coordinates, Surround};
 use numpy::{
     PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::interrupt::in_pieces;
+use crate::errors::python_error;
+use crate::interrupt::{joined, size_of_queries};
 use crate::memory::room;
 use crate::near::Near;
-use crate::pool::{FEW, detached};
-use crate::triangulation::{Core, State, Triangulation, coordinates};
+use crate::shared::Shared;
+use crate::state::State;
+use crate::triangulation::{Core, Given, Triangulation, coordinates, of_row};
 
 /// Where rows begin and the last one ends, columns, and weights.
 type Rows<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
@@ -31,19 +33,20 @@ pub fn interpolate<'py>(
     gradients: Option<PyReadonlyArray3<'py, f64>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let (count, columns) = (queries.shape()[0], values.shape()[1]);
-    room(count.saturating_mul(columns).saturating_mul(16), "values at so many points")?;
-    let found = match &*triangulation.core.read(py)? {
-        Core::Plane(state) => values_at(py, state, method, outside, &queries, &values, gradients.as_ref()),
-        Core::Space(state) => values_at(py, state, method, outside, &queries, &values, gradients.as_ref()),
+    let copies = values.len() + gradients.as_ref().map_or(0, |gradients| gradients.len());
+    let numbers = count.saturating_mul(columns).saturating_mul(2).saturating_add(copies);
+    room(numbers.saturating_mul(8), "values at so many points")?;
+    let found = match &triangulation.core {
+        Core::Plane(held) => values_at(py, held, [method, outside], &queries, &values, gradients.as_ref()),
+        Core::Space(held) => values_at(py, held, [method, outside], &queries, &values, gradients.as_ref()),
     }?;
     PyArray1::from_vec(py, found).reshape([count, columns])
 }
 
-fn values_at<T: Surround + Sync>(
+fn values_at<T: Surround + 'static>(
     py: Python<'_>,
-    state: &State<T>,
-    method: &str,
-    outside: &str,
+    held: &Shared<State<T, Given>>,
+    names: [&str; 2],
     queries: &PyReadonlyArray2<'_, f64>,
     values: &PyReadonlyArray2<'_, f64>,
     slopes: Option<&PyReadonlyArray3<'_, f64>>,
@@ -51,49 +54,47 @@ fn values_at<T: Surround + Sync>(
 where
     for<'a> Interpolator<'a, T>: Clone + Send + Sync,
 {
-    let f = interpolator(&state.triangulation, method, outside)?;
+    let [method, outside] = names.map(str::to_owned);
     let queries: Vec<T::Point> = coordinates(queries)?;
-    let (columns, table) = (values.shape()[1], values.as_slice()?);
-    let surface = match method {
-        "smooth" => Interpolator::<T>::smooth,
-        "farin" => Interpolator::<T>::farin,
-        _ => {
-            let near = detached(py, queries.len() >= FEW, || Near::new(queries));
-            let found = in_pieces(py, &near.queries, |piece| {
-                state.asked(py, piece.len(), || f.many(piece, table, columns))
-            })?;
-            return Ok(py.detach(|| near.back(found, columns)));
-        }
+    let (points, columns, table) = (values.shape()[0], values.shape()[1], values.to_vec()?);
+    let is_smooth = matches!(method.as_str(), "smooth" | "farin");
+    let slopes: Vec<T::Point> = match slopes {
+        _ if !is_smooth => Vec::new(),
+        None => return Err(PyValueError::new_err("a smooth surface needs gradients")),
+        Some(slopes) => slopes.as_slice()?.chunks_exact(T::Point::COUNT).map(of_row).collect(),
     };
-    let slopes = slopes.ok_or_else(|| PyValueError::new_err("a smooth surface needs gradients"))?;
-    let rows = slopes.as_slice()?.chunks_exact(T::Point::COUNT);
-    let slopes: Vec<T::Point> = rows
-        .map(|row| {
-            let mut slope = T::Point::default();
-            slope.as_mut().copy_from_slice(row);
-            slope
-        })
-        .collect();
-    let points = values.shape()[0];
-    if slopes.len() != points * columns {
+    if is_smooth && slopes.len() != points * columns {
         return Err(PyValueError::new_err(format!(
             "{} gradients where there must be {points} for each of {columns} columns",
             slopes.len()
         )));
     }
-    let near = detached(py, queries.len() >= FEW, || Near::new(queries));
-    let mut result = vec![f64::NAN; near.queries.len() * columns];
-    for column in 0..columns {
-        let own: Vec<f64> = table.iter().skip(column).step_by(columns).copied().collect();
-        let slopes = &slopes[column * points..][..points];
-        let found = in_pieces(py, &near.queries, |piece| {
-            state.asked(py, piece.len(), || f.many_bent(piece, |f, q| surface(f, q, &own, slopes)))
-        })?;
-        for (row, value) in result.chunks_exact_mut(columns).zip(found) {
-            row[column] = value;
+    let size = size_of_queries(queries.len(), columns);
+    State::asked(held, py, size, move |state, wanted| {
+        let f = interpolator(&state.triangulation, &method, &outside)?;
+        let near = Near::new(queries);
+        if !is_smooth {
+            let found = joined(wanted, &near.queries, |piece| f.many(piece, &table, columns));
+            let found = found.map_err(python_error)?;
+            // There are not all of them if nobody wants them.
+            return Ok(if wanted.is() { near.back(found, columns) } else { found });
         }
-    }
-    Ok(py.detach(|| near.back(result, columns)))
+        let is_farin = method == "farin";
+        let mut result = vec![f64::NAN; near.queries.len() * columns];
+        for column in (0..columns).take_while(|_| wanted.is()) {
+            let own: Vec<f64> = table.iter().skip(column).step_by(columns).copied().collect();
+            let slopes = &slopes[column * points..][..points];
+            let found = joined(wanted, &near.queries, |piece| {
+                f.many_bent(piece, |f, q| {
+                    if is_farin { f.farin(q, &own, slopes) } else { f.smooth(q, &own, slopes) }
+                })
+            });
+            for (row, value) in result.chunks_exact_mut(columns).zip(found.map_err(python_error)?) {
+                row[column] = value;
+            }
+        }
+        Ok(near.back(result, columns))
+    })
 }
 
 /// The weights of points at queries, compressed rows; empty ones outside.
@@ -106,9 +107,9 @@ pub fn interpolation_weights<'py>(
     queries: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Rows<'py>> {
     room(queries.shape()[0].saturating_mul(256), "weights at so many points")?;
-    let weights = match &*triangulation.core.read(py)? {
-        Core::Plane(state) => weights_at(py, state, method, outside, &queries),
-        Core::Space(state) => weights_at(py, state, method, outside, &queries),
+    let weights = match &triangulation.core {
+        Core::Plane(held) => weights_at(py, held, [method, outside], &queries),
+        Core::Space(held) => weights_at(py, held, [method, outside], &queries),
     }?;
     Ok((
         PyArray1::from_iter(py, weights.starts.into_iter().map(|start| start as i64)),
@@ -117,21 +118,21 @@ pub fn interpolation_weights<'py>(
     ))
 }
 
-fn weights_at<T: Surround + Sync>(
+fn weights_at<T: Surround + 'static>(
     py: Python<'_>,
-    state: &State<T>,
-    method: &str,
-    outside: &str,
+    held: &Shared<State<T, Given>>,
+    names: [&str; 2],
     queries: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Weights>
 where
     for<'a> Interpolator<'a, T>: Clone + Send + Sync,
 {
-    let f = interpolator(&state.triangulation, method, outside)?;
+    let [method, outside] = names.map(str::to_owned);
     let queries: Vec<T::Point> = coordinates(queries)?;
-    state.asked(py, queries.len(), || {
+    State::asked(held, py, size_of_queries(queries.len(), 1), move |state, _| {
+        let f = interpolator(&state.triangulation, &method, &outside)?;
         let near = Near::new(queries);
-        let found = f.matrix(&near.queries)?;
+        let found = f.matrix(&near.queries).map_err(python_error)?;
         let mut weights = Weights { starts: vec![0], ..Weights::default() };
         for row in near.order() {
             let row = found.starts[row]..found.starts[row + 1];
@@ -150,28 +151,29 @@ pub fn vertex_gradients<'py>(
     triangulation: &Triangulation,
     values: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let (found, dimension) = match &*triangulation.core.read(py)? {
-        Core::Plane(state) => (slopes(py, state, &values)?, 2),
-        Core::Space(state) => (slopes(py, state, &values)?, 3),
+    let (found, dimension) = match &triangulation.core {
+        Core::Plane(held) => (slopes(py, held, &values)?, 2),
+        Core::Space(held) => (slopes(py, held, &values)?, 3),
     };
     PyArray1::from_vec(py, found).reshape([values.shape()[1], values.shape()[0], dimension])
 }
 
-fn slopes<T: Surround>(
+fn slopes<T: Surround + 'static>(
     py: Python<'_>,
-    state: &State<T>,
+    held: &Shared<State<T, Given>>,
     values: &PyReadonlyArray2<'_, f64>,
 ) -> PyResult<Vec<f64>> {
-    let (points, columns, table) = (values.shape()[0], values.shape()[1], values.as_slice()?);
-    room(points.saturating_mul(columns).saturating_mul(48), "gradients at so many points")?;
-    state.asked(py, points, || {
+    let [points, columns] = [values.shape()[0], values.shape()[1]];
+    room(points.saturating_mul(columns).saturating_mul(56), "gradients at so many points")?;
+    let table = values.to_vec()?;
+    State::asked(held, py, size_of_queries(points, columns), move |state, wanted| {
         let mut all = Vec::new();
-        for column in 0..columns {
+        for column in (0..columns).take_while(|_| wanted.is()) {
             let own: Vec<f64> = table.iter().skip(column).step_by(columns).copied().collect();
-            let found = gradients(&state.triangulation, &own)?;
+            let found = gradients(&state.triangulation, &own).map_err(python_error)?;
             all.extend(found.iter().flat_map(|slope| slope.as_ref().iter().copied()));
         }
-        Ok::<_, Error>(all)
+        Ok(all)
     })
 }
 

@@ -4,16 +4,18 @@ use std::collections::HashMap;
 
 use delone::surface::{Contours, Grid, Levels, Thinned, Thinning, rasterize};
 use delone::{Ask, Bounds, Constrained2, Crossings, Error, Triangulation as Triangular, VertexId};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::constrained::{Constrained, SEGMENT, index, pairs};
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, size_of_queries};
 use crate::memory::{TRIANGULATION, room};
+use crate::shared::Shared;
+use crate::state::{State, table};
 use crate::surface::interpolator;
-use crate::triangulation::{Core, State, Triangulation, coordinates};
+use crate::triangulation::{Core, Given, Triangulation, coordinates};
 
 /// Triangles of the plane of either kind.
 #[derive(FromPyObject)]
@@ -78,27 +80,27 @@ pub fn paint<'py>(
     };
     let grid = grid.map_err(python_error)?;
     let (columns, rows) = (grid.columns(), grid.rows());
-    room(columns.saturating_mul(rows).saturating_mul(16), "a raster of so many cells")?;
-    let heights = heights.as_slice()?;
-    let mask = mask.as_ref().map(|mask| mask.as_slice()).transpose()?;
+    let numbers = columns.saturating_mul(rows).saturating_mul(2).saturating_add(heights.len());
+    room(numbers.saturating_mul(8), "a raster of so many cells")?;
+    let size = size_of_queries(columns * rows + heights.len(), 1);
+    let (heights, mask) = (heights.to_vec()?, mask.map(|mask| mask.to_vec()).transpose()?);
     let most = max_edge.unwrap_or(f64::INFINITY);
     let values = match &sheet {
         Sheet::Delaunay(triangulation) => {
-            let core = triangulation.core.read(py)?;
-            let state = plane(&core)?;
-            let d = &state.triangulation;
-            let f = interpolator(d, method, "fill")?;
-            state.asked(py, columns * rows + heights.len(), || {
-                let keep = Keep { rows: state.rows(), mask, most };
-                let mut values = rasterize(d, heights, &grid, |s| keep.has(d, s))?;
+            let method = method.to_owned();
+            State::asked(plane(triangulation)?, py, size, move |state, _| {
+                let mut values = linear(state, &heights, &grid, mask.as_deref(), most)?;
                 if method != "linear" {
-                    f.fill(&grid, heights, &mut values)?;
+                    let f = interpolator(&state.triangulation, &method, "fill")?;
+                    f.fill(&grid, &heights, &mut values).map_err(python_error)?;
                 }
                 Ok(values)
             })?
         }
         Sheet::Constrained(triangulation) => {
-            linear(py, &triangulation.read(py)?.state, heights, &grid, mask, most)?
+            State::asked(triangulation.shared(), py, size, move |state, _| {
+                linear(state, &heights, &grid, mask.as_deref(), most)
+            })?
         }
     };
     let xs = PyArray1::from_iter(py, (0..columns).map(|k| grid.x(k)));
@@ -107,24 +109,21 @@ pub fn paint<'py>(
     Ok((values, xs, ys, grid.corner(), grid.step()))
 }
 
-fn linear<T: Ask<Point = [f64; 2]> + Sync>(
-    py: Python<'_>,
-    state: &State<T>,
+fn linear<T: Ask<Point = [f64; 2]> + 'static, R: Send + Sync + 'static>(
+    state: &State<T, R>,
     heights: &[f64],
     grid: &Grid,
     mask: Option<&[bool]>,
     most: f64,
 ) -> PyResult<Vec<f64>> {
     let d = &state.triangulation;
-    state.asked(py, grid.columns() * grid.rows() + heights.len(), || {
-        let keep = Keep { rows: state.rows(), mask, most };
-        rasterize(d, heights, grid, |s| keep.has(d, s))
-    })
+    let keep = Keep { rows: state.rows(), mask, most };
+    rasterize(d, heights, grid, |s| keep.has(d, s)).map_err(python_error)
 }
 
-fn plane(core: &Core) -> PyResult<&State<delone::Delaunay2>> {
-    match core {
-        Core::Plane(state) => Ok(state),
+fn plane(triangulation: &Triangulation) -> PyResult<&Shared<State<delone::Delaunay2, Given>>> {
+    match &triangulation.core {
+        Core::Plane(held) => Ok(held),
         Core::Space(_) => Err(PyValueError::new_err("heights are at points of the plane, not of space")),
     }
 }
@@ -142,44 +141,53 @@ pub struct Wanted {
     max_edge: f64,
 }
 
-/// Makes something of contours, without the lock of Python.
-fn traced<R: Send>(
+impl Wanted {
+    /// How many levels there are, nearly.
+    fn count(&self, heights: &[f64]) -> usize {
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        self.levels.as_ref().map_or(((high - low) / self.interval) as usize, Vec::len)
+    }
+}
+
+/// Makes something of contours.
+fn traced<R: Send + 'static>(
     py: Python<'_>,
     sheet: &Sheet<'_>,
     heights: &PyReadonlyArray1<'_, f64>,
     mask: Option<PyReadonlyArray1<'_, bool>>,
-    wanted: &Wanted,
-    make: impl FnOnce(&Contours, &Levels) -> Result<R, Error> + Send,
+    wanted: Wanted,
+    make: impl FnOnce(&Contours, &Levels) -> Result<R, Error> + Send + 'static,
 ) -> PyResult<R> {
-    let heights = heights.as_slice()?;
-    let mask = mask.as_ref().map(|mask| mask.as_slice()).transpose()?;
-    let trace = |surface: Contours| {
-        let levels = match &wanted.levels {
-            Some(levels) => Levels::given(levels)?,
-            None => Levels::every(wanted.interval, wanted.base, surface.range().unwrap_or([wanted.base; 2]))?,
-        };
-        make(&surface, &levels)
-    };
+    let (heights, mask) = (heights.to_vec()?, mask.map(|mask| mask.to_vec()).transpose()?);
+    let size = size_of_queries(heights.len(), wanted.count(&heights).saturating_add(1));
     match sheet {
-        Sheet::Delaunay(triangulation) => {
-            let core = triangulation.core.read(py)?;
-            let state = plane(&core)?;
-            let d = &state.triangulation;
-            state.asked(py, heights.len(), || {
-                let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
-                trace(Contours::of_triangles(d, heights, |s| keep.has(d, s))?)
-            })
-        }
+        Sheet::Delaunay(triangulation) => State::asked(plane(triangulation)?, py, size, move |state, _| {
+            traced_of(state, &heights, mask.as_deref(), &wanted, make)
+        }),
         Sheet::Constrained(triangulation) => {
-            let shared = triangulation.read(py)?;
-            let state = &shared.state;
-            let c = &state.triangulation;
-            state.asked(py, heights.len(), || {
-                let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
-                trace(Contours::of_triangles(c, heights, |s| keep.has(c, s))?)
+            State::asked(triangulation.shared(), py, size, move |state, _| {
+                traced_of(state, &heights, mask.as_deref(), &wanted, make)
             })
         }
     }
+}
+
+fn traced_of<T: Ask<Point = [f64; 2], Corners = [VertexId; 3]> + 'static, S: Send + Sync + 'static, R>(
+    state: &State<T, S>,
+    heights: &[f64],
+    mask: Option<&[bool]>,
+    wanted: &Wanted,
+    make: impl FnOnce(&Contours, &Levels) -> Result<R, Error>,
+) -> PyResult<R> {
+    let d = &state.triangulation;
+    let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
+    let surface = Contours::of_triangles(d, heights, |s| keep.has(d, s)).map_err(python_error)?;
+    let levels = match &wanted.levels {
+        Some(levels) => Levels::given(levels),
+        None => Levels::every(wanted.interval, wanted.base, surface.range().unwrap_or([wanted.base; 2])),
+    };
+    make(&surface, &levels.map_err(python_error)?).map_err(python_error)
 }
 
 #[pyfunction]
@@ -191,17 +199,22 @@ pub fn contour_lines<'py>(
     wanted: Wanted,
     mask: Option<PyReadonlyArray1<'py, bool>>,
 ) -> PyResult<Lines<'py>> {
-    let lines = traced(py, &sheet, &heights, mask, &wanted, Contours::lines)?;
-    let (mut points, mut starts) = (Vec::new(), vec![0]);
-    for line in &lines {
-        points.extend_from_slice(&line.points);
-        starts.push(points.len() as i64);
-    }
+    let (levels, points, starts, closed) = traced(py, &sheet, &heights, mask, wanted, |surface, levels| {
+        let lines = surface.lines(levels)?;
+        let (mut points, mut starts) = (Vec::new(), vec![0]);
+        for line in &lines {
+            points.extend_from_slice(&line.points);
+            starts.push(points.len() as i64);
+        }
+        let levels = lines.iter().map(|line| line.level).collect();
+        let closed = lines.iter().map(|line| line.is_closed).collect();
+        Ok((levels, points.into_flattened(), starts, closed))
+    })?;
     Ok((
-        PyArray1::from_iter(py, lines.iter().map(|line| line.level)),
-        pairs_of(py, points)?,
+        PyArray1::from_vec(py, levels),
+        table(py, 2, points)?,
         PyArray1::from_vec(py, starts),
-        PyArray1::from_iter(py, lines.iter().map(|line| line.is_closed)),
+        PyArray1::from_vec(py, closed),
     ))
 }
 
@@ -214,26 +227,24 @@ pub fn contour_bands<'py>(
     wanted: Wanted,
     mask: Option<PyReadonlyArray1<'py, bool>>,
 ) -> PyResult<Bands<'py>> {
-    let found = traced(py, &sheet, &heights, mask, &wanted, Contours::bands)?;
-    let (mut points, mut rings, mut polygons, mut bands) = (Vec::new(), vec![0], vec![0], vec![0]);
-    for band in &found {
-        for polygon in &band.polygons {
-            for ring in polygon {
-                points.extend_from_slice(ring);
-                rings.push(points.len() as i64);
+    let (between, points, starts) = traced(py, &sheet, &heights, mask, wanted, |surface, levels| {
+        let found = surface.bands(levels)?;
+        let (mut points, mut rings, mut polygons, mut bands) = (Vec::new(), vec![0], vec![0], vec![0]);
+        for band in &found {
+            for polygon in &band.polygons {
+                for ring in polygon {
+                    points.extend_from_slice(ring);
+                    rings.push(points.len() as i64);
+                }
+                polygons.push(rings.len() as i64 - 1);
             }
-            polygons.push(rings.len() as i64 - 1);
+            bands.push(polygons.len() as i64 - 1);
         }
-        bands.push(polygons.len() as i64 - 1);
-    }
-    let between = found.iter().map(|band| [band.lower, band.upper]).collect();
-    let [rings, polygons, bands] = [rings, polygons, bands].map(|starts| PyArray1::from_vec(py, starts));
-    Ok((pairs_of(py, between)?, pairs_of(py, points)?, rings, polygons, bands))
-}
-
-fn pairs_of(py: Python<'_>, rows: Vec<[f64; 2]>) -> PyResult<Points<'_>> {
-    let count = rows.len();
-    PyArray1::from_vec(py, rows.into_flattened()).reshape([count, 2])
+        let between = found.iter().flat_map(|band| [band.lower, band.upper]).collect();
+        Ok((between, points.into_flattened(), [rings, polygons, bands]))
+    })?;
+    let [rings, polygons, bands] = starts.map(|starts| PyArray1::from_vec(py, starts));
+    Ok((table(py, 2, between)?, table(py, 2, points)?, rings, polygons, bands))
 }
 
 /// The points that are left, their triangles by their rows, and the largest error.
@@ -258,9 +269,8 @@ pub fn thin<'py>(
         Ok::<_, Error>((thinned, triangles))
     })?;
     let (thinned, triangles) = done.map_err(python_error)?;
-    let count = triangles.len();
     let vertices = PyArray1::from_iter(py, thinned.vertices.iter().map(|&i| i as i64));
-    Ok((vertices, PyArray1::from_vec(py, triangles.into_flattened()).reshape([count, 3])?, thinned.error))
+    Ok((vertices, table(py, 3, triangles.into_flattened())?, thinned.error))
 }
 
 /// The canonical triangles of what is left, as the others were measured against.

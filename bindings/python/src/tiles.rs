@@ -1,5 +1,7 @@
 //! Tiles: cuts, the two functions that triangulate a tile and join borders, and what travels between processes.
 
+use std::sync::Arc;
+
 use delone::Duplicate;
 use delone::tiles::{Border, Cut, Cuts, Fingerprint, Node, Region, Tile, join};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -8,9 +10,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 
 use crate::errors::python_error;
-use crate::interrupt::interruptible;
+use crate::interrupt::{LONG, interruptible};
 use crate::memory::TRIANGULATION;
-use crate::pool::detached;
+use crate::state::table;
 use crate::triangulation::coordinates;
 
 type Table<'py, T> = Bound<'py, PyArray2<T>>;
@@ -20,7 +22,7 @@ type Sides = [[f64; 2]; 2];
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", name = "Cuts", frozen)]
-pub struct PyCuts(Cuts);
+pub struct PyCuts(Arc<Cuts>);
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", name = "Border", frozen)]
@@ -40,23 +42,20 @@ fn node(number: u32) -> PyResult<Node> {
     Node::new(number).ok_or_else(|| PyValueError::new_err("nodes are numbered from 1, the root"))
 }
 
-fn table<T: numpy::Element>(py: Python<'_>, values: Vec<T>, columns: usize) -> PyResult<Table<'_, T>> {
-    let rows = values.len() / columns;
-    PyArray1::from_vec(py, values).reshape([rows, columns])
-}
-
 #[pymethods]
 impl PyCuts {
     #[staticmethod]
     fn from_sample(py: Python<'_>, sample: PyReadonlyArray2<'_, f64>, tiles: usize) -> PyResult<Self> {
         let sample: Vec<[f64; 2]> = coordinates(&sample)?;
-        py.detach(|| Cuts::from_sample(&sample, tiles)).map(Self).map_err(python_error)
+        let cuts = interruptible(py, sample.len(), move || Cuts::from_sample(&sample, tiles))?;
+        cuts.map(|cuts| Self(Arc::new(cuts))).map_err(python_error)
     }
 
     #[staticmethod]
     fn from_cuts(cuts: Vec<(u32, usize, f64)>) -> PyResult<Self> {
         let cuts = cuts.into_iter().map(|(number, axis, at)| Ok((node(number)?, Cut { axis, at })));
-        Cuts::from_cuts(cuts.collect::<PyResult<Vec<_>>>()?).map(Self).map_err(python_error)
+        let cuts = Cuts::from_cuts(cuts.collect::<PyResult<Vec<_>>>()?);
+        cuts.map(|cuts| Self(Arc::new(cuts))).map_err(python_error)
     }
 
     fn cuts(&self) -> Vec<(u32, usize, f64)> {
@@ -65,7 +64,10 @@ impl PyCuts {
 
     fn tile_of<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'_, f64>) -> PyResult<List<'py, u32>> {
         let points: Vec<[f64; 2]> = coordinates(&points)?;
-        let tiles = py.detach(|| points.iter().map(|&p| self.0.tile_of(p).number()).collect());
+        let cuts = Arc::clone(&self.0);
+        let tiles = interruptible(py, points.len(), move || {
+            points.iter().map(|&p| cuts.tile_of(p).number()).collect()
+        })?;
         Ok(PyArray1::from_vec(py, tiles))
     }
 
@@ -87,7 +89,7 @@ impl PyCuts {
 impl PyBorder {
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, f64>> {
-        table(py, self.0.points.as_flattened().to_vec(), 2)
+        table(py, 2, self.0.points.as_flattened().to_vec())
     }
 
     #[getter]
@@ -97,7 +99,7 @@ impl PyBorder {
 
     #[getter]
     fn open<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, u32>> {
-        table(py, self.0.open.as_flattened().to_vec(), 3)
+        table(py, 3, self.0.open.as_flattened().to_vec())
     }
 
     fn to_bytes<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
@@ -147,17 +149,18 @@ impl PyFingerprint {
     ) -> PyResult<Self> {
         let points: Vec<[f64; 2]> = coordinates(&points)?;
         let triangles: Vec<i64> = triangles.as_array().iter().copied().collect();
-        let mut all = Fingerprint::default();
-        let is_whole = py.detach(|| {
-            triangles.chunks_exact(3).all(|t| {
+        let all = interruptible(py, triangles.len(), move || {
+            let mut all = Fingerprint::default();
+            let is_whole = triangles.chunks_exact(3).all(|t| {
                 let corners = t.iter().map(|&v| usize::try_from(v).ok().and_then(|v| points.get(v)));
                 let Some(corners) = corners.collect::<Option<Vec<&[f64; 2]>>>() else { return false };
                 all.add(corners.into_iter().copied());
                 true
-            })
-        });
+            });
+            is_whole.then_some(all)
+        })?;
         let refused = || PyValueError::new_err("triangles have corners that are no points");
-        is_whole.then_some(Self(all)).ok_or_else(refused)
+        all.map(Self).ok_or_else(refused)
     }
 
     #[getter]
@@ -195,6 +198,9 @@ pub enum Names<'py> {
     Ids(PyReadonlyArray1<'py, u64>),
 }
 
+/// The name of a vertex of a tile.
+type Id = Box<dyn Fn(&Tile, u32) -> u64 + Send>;
+
 /// See `_delone.pyi`.
 #[pyfunction]
 pub fn triangulate_tile<'py>(
@@ -206,33 +212,38 @@ pub fn triangulate_tile<'py>(
     let count = points.shape()[0];
     TRIANGULATION.check(2, count)?;
     let points: Vec<[f64; 2]> = coordinates(&points)?;
-    let made = interruptible(py, count, move || Tile::new(&points, &region(sides)))?;
-    let tile = made.map_err(python_error)?;
-    let (finals, order, fingerprint) = py.detach(|| {
-        let finals: Vec<u32> = tile.finals().flatten().collect();
-        let order: Vec<i64> = tile.order().iter().map(|&row| i64::from(row)).collect();
-        (finals, order, tile.fingerprint())
-    });
-    let border = match names {
+    let id: Id = match names {
         Names::Node(number) => {
             let node = node(number)?;
-            tile.border(|v| node.id(v))
+            Box::new(move |_, v| node.id(v))
+        }
+        Names::Ids(ids) if ids.len() == count => {
+            let ids = ids.to_vec()?;
+            Box::new(move |tile, v| ids[tile.order()[v as usize] as usize])
         }
         Names::Ids(ids) => {
-            let ids = ids.as_array();
-            if ids.len() != count {
-                return Err(PyValueError::new_err(format!("{} ids for {count} points", ids.len())));
-            }
-            tile.border(|v| ids[tile.order()[v as usize] as usize])
+            return Err(PyValueError::new_err(format!("{} ids for {count} points", ids.len())));
         }
     };
-    let duplicates =
-        tile.duplicates().iter().flat_map(|&Duplicate { point, vertex, .. }| [point, vertex.index()]);
+    let made = interruptible(py, count, move || {
+        let tile = Tile::new(&points, &region(sides))?;
+        let finals: Vec<u32> = tile.finals().flatten().collect();
+        let order: Vec<i64> = tile.order().iter().map(|&row| i64::from(row)).collect();
+        let border = tile.border(|v| id(&tile, v));
+        let twins = tile.duplicates().iter();
+        let duplicates: Vec<i64> = twins
+            .flat_map(|&Duplicate { point, vertex, .. }| [point, vertex.index()])
+            .map(|row| row as i64)
+            .collect();
+        let points = tile.points().as_flattened().to_vec();
+        Ok((points, order, finals, duplicates, tile.fingerprint(), border))
+    })?;
+    let (points, order, finals, duplicates, fingerprint, border) = made.map_err(python_error)?;
     Ok((
-        table(py, tile.points().as_flattened().to_vec(), 2)?,
+        table(py, 2, points)?,
         PyArray1::from_vec(py, order),
-        table(py, finals, 3)?,
-        table(py, duplicates.map(|row| row as i64).collect(), 2)?,
+        table(py, 3, finals)?,
+        table(py, 2, duplicates)?,
         PyFingerprint(fingerprint),
         PyBorder(border),
     ))
@@ -248,8 +259,8 @@ pub fn join_borders(
     let borders: Vec<Border> = borders.iter().map(|border| border.get().0.clone()).collect();
     let count = borders.iter().map(|border| border.points.len()).sum();
     TRIANGULATION.check(2, count)?;
-    let made = detached(py, true, move || join(&borders, &region(sides)));
+    let made = interruptible(py, LONG, move || join(&borders, &region(sides)))?;
     let seam = made.map_err(python_error)?;
-    let triangles = table(py, seam.triangles.as_flattened().to_vec(), 3)?;
+    let triangles = table(py, 3, seam.triangles.as_flattened().to_vec())?;
     Ok((triangles, PyFingerprint(seam.fingerprint), PyBorder(seam.border)))
 }

@@ -1,59 +1,49 @@
-//! A triangulation of the plane or of space, by its arrays and its queries.
-//!
-//! Whoever asks borrows it, and only changes borrow it alone: several threads of Python may ask at once.
+//! A triangulation of the plane or of space, by its arrays, its queries and its changes.
 
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-
-use delone::{
-    Ask, Change, Coordinates, Corners, Delaunay2, Delaunay3, Error, Triangulation as Triangular, VertexId,
-};
+use delone::{Change, Coordinates, Delaunay2, Delaunay3, Error, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::interrupt::{in_pieces, interruptible};
-use crate::memory::{TRIANGULATION, room_for_neighbors};
-use crate::pool::{FEW, detached, generation, is_many, shared};
+use crate::interrupt::{interruptible, size_of_points};
+use crate::memory::TRIANGULATION;
 use crate::shared::Shared;
+use crate::state::{Rows, State, table};
 
-/// Queries that one task answers.
-const QUERIES: usize = 1024;
-/// Of so many points a sample, which a question may ask for at any time, is large enough for threads.
-const MANY: usize = 500_000;
-
-/// Rows of indices.
-pub type Rows<'py> = Bound<'py, PyArray2<i32>>;
-
-/// A triangulation and the rows of its simplices.
-pub struct State<T> {
-    pub triangulation: T,
-    /// For each number of a simplex its row, once it was asked for; -1 for what is not finite.
-    rows: OnceLock<Vec<i32>>,
-    /// Whether it has all that it makes for its first question.
-    is_asked: AtomicBool,
-    /// One more than the generation of the process that asks this; 0 if none does.
-    first_asked_by: AtomicUsize,
+/// What was given, as Python has it: a change of the triangulation and of this is one, however its caller fares.
+pub struct Given {
+    /// An array of all points, which is never written.
+    pub points: Py<PyAny>,
+    /// Those that were removed, increasing.
+    removed: Vec<usize>,
 }
 
+impl Given {
+    pub fn of(points: &Bound<'_, PyAny>) -> Self {
+        Self { points: points.clone().unbind(), removed: Vec::new() }
+    }
+}
+
+type Held<T> = Shared<State<T, Given>>;
+
 pub enum Core {
-    Plane(State<Delaunay2>),
-    Space(State<Delaunay3>),
+    Plane(Held<Delaunay2>),
+    Space(Held<Delaunay3>),
 }
 
 /// See `_delone.pyi`.
 #[pyclass(module = "delone._delone", frozen)]
 pub struct Triangulation {
-    pub core: Shared<Core>,
+    pub core: Core,
 }
 
 /// The same for either dimension.
 macro_rules! either {
-    ($core:expr, $state:ident => $body:expr) => {
+    ($core:expr, $held:ident => $body:expr) => {
         match $core {
-            Core::Plane($state) => $body,
-            Core::Space($state) => $body,
+            Core::Plane($held) => $body,
+            Core::Space($held) => $body,
         }
     };
 }
@@ -62,75 +52,120 @@ macro_rules! either {
 impl Triangulation {
     #[new]
     fn new(py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let given = Given::of(points.as_any());
         let core = match points.shape()[1] {
-            2 => Core::Plane(State::build(py, coordinates(&points)?)?),
-            3 => Core::Space(State::build(py, coordinates(&points)?)?),
+            2 => Core::Plane(build(py, coordinates(&points)?, given)?),
+            3 => Core::Space(build(py, coordinates(&points)?, given)?),
             columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
         };
-        Ok(Self { core: Shared::new(core) })
+        Ok(Self { core })
+    }
+
+    /// Of points without some, from others where these equal each other and no other point.
+    #[staticmethod]
+    fn without(
+        py: Python<'_>,
+        points: &Bound<'_, PyAny>,
+        moved: PyReadonlyArray2<'_, f64>,
+        mut removed: Vec<usize>,
+    ) -> PyResult<Self> {
+        removed.sort_unstable();
+        let given = Given { points: points.clone().unbind(), removed };
+        let core = match moved.shape()[1] {
+            2 => Core::Plane(build(py, coordinates(&moved)?, given)?),
+            3 => Core::Space(build(py, coordinates(&moved)?, given)?),
+            columns => return Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
+        };
+        Ok(Self { core })
+    }
+
+    /// All points given, and those that were removed.
+    fn given(&self, py: Python<'_>) -> PyResult<(Py<PyAny>, Vec<usize>)> {
+        either!(&self.core, held => {
+            let state = held.read(py)?;
+            Ok((state.record.points.clone_ref(py), state.record.removed.clone()))
+        })
+    }
+
+    #[getter]
+    fn points(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        either!(&self.core, held => Ok(held.read(py)?.record.points.clone_ref(py)))
+    }
+
+    /// Another number after each change.
+    #[getter]
+    fn version(&self, py: Python<'_>) -> PyResult<usize> {
+        either!(&self.core, held => Ok(held.read(py)?.version()))
     }
 
     /// Corners and neighbours of the finite simplices.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        either!(&*self.core.read(py)?, state => state.arrays(py))
+        either!(&self.core, held => held.read(py)?.arrays(py))
     }
 
     /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        fn rows<const D: usize>(
-            py: Python<'_>,
-            centres: Vec<[f64; D]>,
-        ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-            let count = centres.len();
-            PyArray1::from_vec(py, centres.into_flattened()).reshape([count, D])
-        }
-        match &*self.core.read(py)? {
-            Core::Plane(state) => {
-                let d = &state.triangulation;
-                let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
-                rows(py, py.detach(|| d.mesh().triangles().map(centre).collect()))
+        match &self.core {
+            Core::Plane(held) => {
+                let centres = held.read(py)?.make(py, |state| {
+                    let d = &state.triangulation;
+                    let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
+                    d.mesh().triangles().flat_map(centre).collect()
+                })?;
+                table(py, 2, centres)
             }
-            Core::Space(state) => {
-                let d = &state.triangulation;
-                let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 3]);
-                rows(py, py.detach(|| d.tetrahedron_ids().map(centre).collect()))
+            Core::Space(held) => {
+                let centres = held.read(py)?.make(py, |state| {
+                    let d = &state.triangulation;
+                    let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 3]);
+                    d.tetrahedron_ids().flat_map(centre).collect()
+                })?;
+                table(py, 3, centres)
             }
         }
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&*self.core.read(py)?, state => state.hull(py))
+        either!(&self.core, held => held.read(py)?.hull(py))
     }
 
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&*self.core.read(py)?, state => state.edges(py))
+        either!(&self.core, held => held.read(py)?.edges(py))
     }
 
-    /// Points that are no vertices because they equal one, each with this.
+    /// Points that are no vertices because they equal one, each with this; without those that were removed.
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        either!(&*self.core.read(py)?, state => state.duplicates(py))
+        let is_left = |given: &Given, point: usize| given.removed.binary_search(&point).is_err();
+        either!(&self.core, held => held.read(py)?.duplicates(py, is_left))
     }
 
     #[getter]
     fn vertex_count(&self, py: Python<'_>) -> PyResult<usize> {
-        Ok(either!(&*self.core.read(py)?, state => state.vertex_count()))
+        either!(&self.core, held => Ok(held.read(py)?.vertex_count()))
     }
 
     #[getter]
     fn span(&self, py: Python<'_>) -> PyResult<i32> {
-        Ok(either!(&*self.core.read(py)?, state => state.span()))
+        either!(&self.core, held => Ok(held.read(py)?.span()))
     }
 
-    fn extend(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<()> {
-        either!(&mut *self.core.write(py)?, state => state.extend(py, coordinates(&points)?))
+    /// Adds points, if all of them are so many rows more than there are; says whether they are.
+    fn extend(
+        &self,
+        py: Python<'_>,
+        points: PyReadonlyArray2<'_, f64>,
+        all: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<bool> {
+        either!(&self.core, held => extend(py, held, coordinates(&points)?, &all))
     }
 
+    /// Removes vertices, and duplicates of these.
     fn remove(&self, py: Python<'_>, vertices: Vec<i64>) -> PyResult<()> {
-        either!(&mut *self.core.write(py)?, state => state.remove(py, &vertices))
+        either!(&self.core, held => remove(py, held, vertices))
     }
 
     fn is_vertex(&self, py: Python<'_>, index: usize) -> PyResult<bool> {
-        Ok(either!(&*self.core.read(py)?, state => state.is_vertex(VertexId::new(index))))
+        either!(&self.core, held => Ok(held.read(py)?.is_vertex(VertexId::new(index))))
     }
 
     /// The rows of simplices that hold points; -1 outside.
@@ -139,7 +174,8 @@ impl Triangulation {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        either!(&*self.core.read(py)?, state => state.find(py, coordinates(&queries)?))
+        let found = either!(&self.core, held => State::find(held, py, coordinates(&queries)?))?;
+        Ok(PyArray1::from_vec(py, found))
     }
 
     /// The nearest vertices; -1 if there is none.
@@ -148,7 +184,7 @@ impl Triangulation {
         py: Python<'py>,
         queries: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<i64>>> {
-        let found = either!(&*self.core.read(py)?, state => state.nearest(py, coordinates(&queries)?))?;
+        let found = either!(&self.core, held => State::nearest(held, py, coordinates(&queries)?))?;
         Ok(PyArray1::from_vec(py, found))
     }
 
@@ -160,208 +196,97 @@ impl Triangulation {
         k: usize,
     ) -> PyResult<Bound<'py, PyArray2<i64>>> {
         let count = queries.shape()[0];
-        let found = either!(&*self.core.read(py)?, state => state.k_nearest(py, coordinates(&queries)?, k))?;
+        let found = either!(&self.core, held => State::k_nearest(held, py, coordinates(&queries)?, k))?;
         PyArray1::from_vec(py, found).reshape([count, k])
     }
 
     fn copy(&self, py: Python<'_>) -> PyResult<Self> {
-        let core = match &*self.core.read(py)? {
-            Core::Plane(state) => Core::Plane(State::of(state.triangulation.clone())),
-            Core::Space(state) => Core::Space(State::of(state.triangulation.clone())),
+        let core = match &self.core {
+            Core::Plane(held) => Core::Plane(copied(py, held)?),
+            Core::Space(held) => Core::Space(copied(py, held)?),
         };
-        Ok(Self { core: Shared::new(core) })
+        Ok(Self { core })
     }
 }
 
-impl<T: Triangular> State<T> {
-    /// Corners of a simplex.
-    const WIDTH: usize = T::Point::COUNT + 1;
-
-    pub fn of(triangulation: T) -> Self {
-        let (is_asked, first_asked_by) = (AtomicBool::new(false), AtomicUsize::new(0));
-        Self { triangulation, rows: OnceLock::new(), is_asked, first_asked_by }
-    }
-
-    /// For each number of a simplex its row.
-    pub fn rows(&self) -> &[i32] {
-        if let Some(rows) = self.rows.get() {
-            return rows;
-        }
-        // Two may make them at once. Were it one while others wait, a process that is forked meanwhile would wait for ever.
-        let mut rows = vec![-1; self.triangulation.slot_count()];
-        for (row, simplex) in (0..).zip(self.triangulation.simplices()) {
-            rows[self.triangulation.index(simplex)] = row;
-        }
-        self.rows.get_or_init(|| rows)
-    }
-
-    /// The row of a simplex; -1 for none.
-    pub fn row(&self, rows: &[i32], simplex: Option<T::Simplex>) -> i32 {
-        simplex.map_or(-1, |simplex| rows[self.triangulation.index(simplex)])
-    }
-
-    /// Forgets what is not so any more after a change, and says whether changes by so many points are worth threads.
-    pub fn change(&mut self, points: usize) -> bool {
-        self.rows.take();
-        (*self.is_asked.get_mut(), *self.first_asked_by.get_mut()) = (false, 0);
-        points + self.triangulation.vertex_count() >= FEW
-    }
-
-    pub fn arrays<'py>(&self, py: Python<'py>) -> PyResult<(Rows<'py>, Rows<'py>)> {
-        let (corners, neighbors) = py.detach(|| {
-            let rows = self.rows();
-            let (mut corners, mut neighbors): (Vec<i32>, Vec<i32>) = (Vec::new(), Vec::new());
-            for simplex in self.triangulation.simplices() {
-                corners.extend(self.triangulation.corners(simplex).indices().map(|i| i as i32));
-                let across = (0..Self::WIDTH).map(|k| self.triangulation.across(simplex, k));
-                neighbors.extend(across.map(|next| self.row(rows, next)));
-            }
-            (corners, neighbors)
-        });
-        let count = corners.len() / Self::WIDTH;
-        let array = |values: Vec<i32>| PyArray1::from_vec(py, values).reshape([count, Self::WIDTH]);
-        Ok((array(corners)?, array(neighbors)?))
-    }
-
-    pub fn hull<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        // Coplanar points have facets, but no hull that is a body.
-        let is_spanned = self.span() as usize == T::Point::COUNT;
-        let facets = self.triangulation.hull_facets().filter(|_| is_spanned);
-        table(py, T::Point::COUNT, facets)
-    }
-
-    pub fn edges<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let edges: Vec<[VertexId; 2]> = py.detach(|| self.triangulation.edges().collect());
-        table(py, 2, edges.into_iter())
-    }
-
-    pub fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Rows<'py>> {
-        let duplicates = self.triangulation.duplicates().map(|d| [VertexId::new(d.point), d.vertex]);
-        table(py, 2, duplicates)
-    }
-
-    pub fn vertex_count(&self) -> usize {
-        self.triangulation.vertex_count()
-    }
-
-    pub fn span(&self) -> i32 {
-        // Nothing is -1, a point 0.
-        self.triangulation.dimension() as i32 - 1
-    }
-
-    pub fn is_vertex(&self, v: VertexId) -> bool {
-        self.triangulation.position(v).is_some()
-    }
+/// Triangulates points. Where some of these were removed, they equal each other, and go.
+fn build<T: Change + 'static>(py: Python<'_>, points: Vec<T::Point>, given: Given) -> PyResult<Held<T>> {
+    TRIANGULATION.check(T::Point::COUNT, points.len())?;
+    let first = given.removed.first().copied();
+    let size = size_of_points(T::Point::COUNT, 0, points.len());
+    let built = interruptible(py, size, move || {
+        let mut d = T::from_vec(points)?;
+        first.map_or(Ok(()), |first| d.remove_observed(VertexId::new(first), &mut ()))?;
+        Ok::<_, Error>(d)
+    })?;
+    Ok(Shared::new(State::of(built.map_err(python_error)?, given)))
 }
 
-impl<T: Ask> State<T> {
-    /// The answers to queries, in their order. The first error that any query has.
-    pub fn answers<A: Send>(
-        &self,
-        py: Python<'_>,
-        queries: &[T::Point],
-        answer: impl Fn(T::Point) -> Result<A, Error> + Sync,
-    ) -> PyResult<Vec<A>> {
-        in_pieces(py, queries, |piece| {
-            self.asking(py, is_many(piece, QUERIES), piece.is_empty(), || {
-                shared(piece, QUERIES, |&q| answer(q))
-            })
-        })
-    }
-
-    /// The answer of the library to so many questions at once.
-    pub fn asked<A: Send>(
-        &self,
-        py: Python<'_>,
-        count: usize,
-        answer: impl FnOnce() -> Result<A, Error> + Send,
-    ) -> PyResult<A> {
-        self.asking(py, count >= FEW, count == 0, answer)
-    }
-
-    fn asking<A: Send>(
-        &self,
-        py: Python<'_>,
-        is_many: bool,
-        is_nothing: bool,
-        answer: impl FnOnce() -> Result<A, Error> + Send,
-    ) -> PyResult<A> {
-        let is_first = !self.is_asked.load(Ordering::Acquire);
-        if is_first {
-            let here = generation() + 1;
-            let asking = self.first_asked_by.compare_exchange(0, here, Ordering::AcqRel, Ordering::Acquire);
-            // Others wait for the one who makes what finds answers. A child waits for ever if that was a thread of its parent.
-            if asking.is_err_and(|other| other != here) {
-                let message =
-                    "forked while another thread asked this triangulation for the first time; ask its copy()";
-                return Err(PyRuntimeError::new_err(message));
+fn extend<T: Change + 'static>(
+    py: Python<'_>,
+    held: &Held<T>,
+    points: Vec<T::Point>,
+    all: &PyReadonlyArray2<'_, f64>,
+) -> PyResult<bool> {
+    TRIANGULATION.check(T::Point::COUNT, points.len())?;
+    let (count, more, given) = (all.shape()[0], points.len(), all.as_any().clone().unbind());
+    let extended = held.change(
+        py,
+        |state| size_of_points(T::Point::COUNT, state.size(), more),
+        move |state| {
+            if state.triangulation.ids_given() + more != count {
+                return Ok(false);
             }
-        }
-        // The first question makes what finds answers, which is worth threads, and others may have to make it better.
-        let few = if is_first { FEW } else { MANY };
-        let found = detached(py, is_many || self.triangulation.vertex_count() >= few, answer);
-        self.is_asked.fetch_or(!is_nothing, Ordering::Release);
-        found.map_err(python_error)
-    }
-
-    fn find<'py>(&self, py: Python<'py>, queries: Vec<T::Point>) -> PyResult<Bound<'py, PyArray1<i32>>> {
-        let rows = py.detach(|| self.rows());
-        let row = |q| self.triangulation.find(q).map(|found| self.row(rows, found.simplex));
-        Ok(PyArray1::from_vec(py, self.answers(py, &queries, row)?))
-    }
-
-    pub fn nearest(&self, py: Python<'_>, queries: Vec<T::Point>) -> PyResult<Vec<i64>> {
-        let vertex =
-            |q| self.triangulation.nearest_observed(q, &mut ()).map(|v| v.map_or(-1, |v| v.index() as i64));
-        self.answers(py, &queries, vertex)
-    }
-
-    pub fn k_nearest(&self, py: Python<'_>, queries: Vec<T::Point>, k: usize) -> PyResult<Vec<i64>> {
-        let mut padded = room_for_neighbors(queries.len(), k)?;
-        let most = k.min(self.triangulation.vertex_count());
-        let found = self.answers(py, &queries, |q| self.triangulation.k_nearest(q, most))?;
-        for found in found {
-            let missing = k - found.len();
-            padded.extend(found.into_iter().map(|v| v.index() as i64));
-            padded.extend(std::iter::repeat_n(-1, missing));
-        }
-        Ok(padded)
-    }
+            state.forget();
+            state.triangulation.extend(&points, 0)?;
+            state.record.points = given;
+            Ok(true)
+        },
+    )?;
+    extended.map_err(python_error)
 }
 
-impl<T: Change + 'static> State<T> {
-    fn build(py: Python<'_>, points: Vec<T::Point>) -> PyResult<Self> {
-        TRIANGULATION.check(T::Point::COUNT, points.len())?;
-        let built = interruptible(py, points.len(), move || T::from_vec(points))?;
-        Ok(Self::of(built.map_err(python_error)?))
-    }
-
-    fn extend(&mut self, py: Python<'_>, points: Vec<T::Point>) -> PyResult<()> {
-        TRIANGULATION.check(T::Point::COUNT, points.len())?;
-        let is_long = self.change(points.len());
-        detached(py, is_long, || self.triangulation.extend(&points, 0)).map(drop).map_err(python_error)
-    }
-
-    /// All or none.
-    fn remove(&mut self, py: Python<'_>, vertices: &[i64]) -> PyResult<()> {
-        let mut wanted = Vec::with_capacity(vertices.len());
-        for &index in vertices {
-            let v = usize::try_from(index).ok().map(VertexId::new);
-            match v.filter(|&v| self.is_vertex(v)) {
-                Some(v) => wanted.push(v),
-                None => return Err(PyIndexError::new_err(format!("point {index} is no vertex"))),
+/// All or none.
+fn remove<T: Change + 'static>(py: Python<'_>, held: &Held<T>, vertices: Vec<i64>) -> PyResult<()> {
+    let count = vertices.len();
+    held.change(
+        py,
+        |state| state.size() + count,
+        move |state| {
+            let mut wanted = Vec::with_capacity(count);
+            for index in vertices {
+                let v = usize::try_from(index).ok().map(VertexId::new);
+                match v.filter(|&v| state.is_vertex(v)) {
+                    Some(v) => wanted.push(v),
+                    None => return Err(PyIndexError::new_err(format!("point {index} is no vertex"))),
+                }
             }
-        }
-        wanted.sort_unstable();
-        if let Some(twice) = wanted.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(PyValueError::new_err(format!("point {} is to be removed twice", twice[0].index())));
-        }
-        let is_long = self.change(wanted.len());
-        detached(py, is_long, || {
-            wanted.into_iter().try_for_each(|v| self.triangulation.remove_observed(v, &mut ()))
-        })
-        .map_err(python_error)
-    }
+            wanted.sort_unstable();
+            if let Some(twice) = wanted.windows(2).find(|pair| pair[0] == pair[1]) {
+                let twice = twice[0].index();
+                return Err(PyValueError::new_err(format!("point {twice} is to be removed twice")));
+            }
+            let twins = state.triangulation.duplicates().filter(|d| wanted.binary_search(&d.vertex).is_ok());
+            let mut gone: Vec<usize> = twins.map(|d| d.point).collect();
+            state.forget();
+            for &v in &wanted {
+                state.triangulation.remove_observed(v, &mut ()).map_err(python_error)?;
+            }
+            let removed = &mut state.record.removed;
+            removed.append(&mut gone);
+            removed.extend(wanted.iter().map(|v| v.index()));
+            removed.sort_unstable();
+            removed.dedup();
+            Ok(())
+        },
+    )?
+}
+
+fn copied<T: Change + 'static>(py: Python<'_>, held: &Held<T>) -> PyResult<Held<T>> {
+    let state = held.read(py)?;
+    let Given { points, removed } = &state.record;
+    let given = Given { points: points.clone_ref(py), removed: removed.clone() };
+    Ok(Shared::new(State::of(state.make(py, |state| state.triangulation.clone())?, given)))
 }
 
 /// The points of an array that has a column for each coordinate.
@@ -377,21 +302,13 @@ pub fn coordinates<P: Coordinates>(points: &PyReadonlyArray2<'_, f64>) -> PyResu
     if copy.try_reserve_exact(rows.len()).is_err() {
         return Err(PyMemoryError::new_err(format!("a copy of {} points", rows.len())));
     }
-    copy.extend(rows.map(|row| {
-        let mut point = P::default();
-        point.as_mut().copy_from_slice(row);
-        point
-    }));
+    copy.extend(rows.map(of_row::<P>));
     Ok(copy)
 }
 
-/// Vertices as rows of so many numbers.
-pub fn table<C: Corners>(
-    py: Python<'_>,
-    columns: usize,
-    rows: impl Iterator<Item = C>,
-) -> PyResult<Rows<'_>> {
-    let values: Vec<i32> = rows.flat_map(Corners::indices).map(|i| i as i32).collect();
-    let count = values.len() / columns;
-    PyArray1::from_vec(py, values).reshape([count, columns])
+/// A point from as many numbers.
+pub fn of_row<P: Coordinates>(row: &[f64]) -> P {
+    let mut point = P::default();
+    point.as_mut().copy_from_slice(row);
+    point
 }

@@ -7,7 +7,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::python_error;
-use crate::pool::{FEW, detached};
+use crate::interrupt::interruptible;
+use crate::memory::room;
+use crate::state::table;
 use crate::triangulation::{Core, Triangulation, coordinates};
 
 /// Corners, the starts of rings among them, and the starts of points among the rings.
@@ -23,31 +25,33 @@ pub fn clipped_cells<'py>(
     rings: Vec<PyReadonlyArray2<'py, f64>>,
     merge: Option<f64>,
 ) -> PyResult<Polygons<'py>> {
-    let core = triangulation.core.read(py)?;
-    let Core::Plane(state) = &*core else {
+    let Core::Plane(held) = &triangulation.core else {
         return Err(PyValueError::new_err("cells are clipped in the plane"));
     };
     let rings = rings.iter().map(coordinates).collect::<PyResult<Vec<Vec<[f64; 2]>>>>()?;
-    let d = &state.triangulation;
-    let (corners, ring_starts, starts) = detached(py, points >= FEW, || {
-        let region = Region2::polygon(&rings).map_err(python_error)?;
-        let mut cells = d.voronoi().clip(&region);
-        if let Some(length) = merge {
-            cells = cells.merged(length, &region).map_err(python_error)?;
-        }
-        let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
-        for v in (0..points).map(VertexId::new) {
-            for ring in cells.rings(v) {
-                corners.extend(ring.points());
-                ring_starts.push(corners.len() as i64);
+    // Each side of the region may cut each cell.
+    let sides: usize = rings.iter().map(Vec::len).sum();
+    let (corners, ring_starts, starts) = held.ask(
+        py,
+        |state| state.size().saturating_mul(sides.max(1)),
+        move |state| {
+            let region = Region2::polygon(&rings).map_err(python_error)?;
+            let mut cells = state.triangulation.voronoi().clip(&region);
+            if let Some(length) = merge {
+                cells = cells.merged(length, &region).map_err(python_error)?;
             }
-            starts.push(ring_starts.len() as i64 - 1);
-        }
-        Ok::<_, PyErr>((corners, ring_starts, starts))
-    })?;
-    let count = corners.len();
-    let corners = PyArray1::from_vec(py, corners.into_flattened()).reshape([count, 2])?;
-    Ok((corners, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
+            let (mut corners, mut ring_starts, mut starts) = (Vec::<[f64; 2]>::new(), vec![0], vec![0]);
+            for v in (0..points).map(VertexId::new) {
+                for ring in cells.rings(v) {
+                    corners.extend(ring.points());
+                    ring_starts.push(corners.len() as i64);
+                }
+                starts.push(ring_starts.len() as i64 - 1);
+            }
+            Ok::<_, PyErr>((corners.into_flattened(), ring_starts, starts))
+        },
+    )??;
+    Ok((table(py, 2, corners)?, PyArray1::from_vec(py, ring_starts), PyArray1::from_vec(py, starts)))
 }
 
 /// Which of the places each becomes if sides up to a length are contracted; equal ones become one.
@@ -61,20 +65,21 @@ pub fn merged_vertices<'py>(
     let (ends, _) = sides.as_slice()?.as_chunks::<2>();
     let sides: Vec<[u32; 2]> = ends.iter().map(|ends| ends.map(|i| i as u32)).collect();
     let merged = if places.shape()[1] == 2 {
-        merged_places(py, &coordinates::<[f64; 2]>(&places)?, &sides, length)
+        merged_places::<[f64; 2]>(py, coordinates(&places)?, sides, length)
     } else {
-        merged_places(py, &coordinates::<[f64; 3]>(&places)?, &sides, length)
+        merged_places::<[f64; 3]>(py, coordinates(&places)?, sides, length)
     }?;
     Ok(PyArray1::from_vec(py, merged.into_iter().map(i64::from).collect()))
 }
 
-fn merged_places<P: Coordinates>(
+fn merged_places<P: Coordinates + Send + 'static>(
     py: Python<'_>,
-    places: &[P],
-    sides: &[[u32; 2]],
+    places: Vec<P>,
+    sides: Vec<[u32; 2]>,
     length: f64,
 ) -> PyResult<Vec<u32>> {
-    detached(py, places.len() >= FEW, || delone::merged_vertices(places, sides, length)).map_err(python_error)
+    let merged = interruptible(py, places.len(), move || delone::merged_vertices(&places, &sides, length))?;
+    merged.map_err(python_error)
 }
 
 /// Triangles, and the circumcentre of each.
@@ -83,21 +88,18 @@ type Triangles<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray2<f64>>);
 /// The triangles of furthest sites, counter-clockwise, and the circumcentre of each, the nearest number to the exact one.
 #[pyfunction]
 pub fn furthest<'py>(py: Python<'py>, triangulation: PyRef<'py, Triangulation>) -> PyResult<Triangles<'py>> {
-    let core = triangulation.core.read(py)?;
-    let Core::Plane(state) = &*core else {
+    let Core::Plane(held) = &triangulation.core else {
         return Err(PyValueError::new_err("furthest sites are for the plane"));
     };
-    let d = &state.triangulation;
-    let (corners, centres) = detached(py, d.vertex_count() >= FEW, || {
+    let (corners, centres) = held.read(py)?.make(py, |state| {
+        let d = &state.triangulation;
         let triangles: Vec<[VertexId; 3]> = d.furthest().triangles().collect();
         let corners: Vec<i32> = triangles.iter().flatten().map(|v| v.index() as i32).collect();
         let centre = |[a, b, c]: [[f64; 2]; 3]| circumcentre(a, b, c).unwrap_or([f64::INFINITY; 2]);
         let centres = triangles.iter().flat_map(|triangle| centre(triangle.map(|v| d.point(v))));
         (corners, centres.collect::<Vec<f64>>())
-    });
-    let count = corners.len() / 3;
-    let corners = PyArray1::from_vec(py, corners).reshape([count, 3])?;
-    Ok((corners, PyArray1::from_vec(py, centres).reshape([count, 2])?))
+    })?;
+    Ok((table(py, 3, corners)?, table(py, 2, centres)?))
 }
 
 /// Pairs of points, the starts of their ridges, and the vertices of these.
@@ -112,11 +114,11 @@ pub fn ridges<'py>(
     neighbors: PyReadonlyArray2<'py, i32>,
     vertices: PyReadonlyArray1<'py, i64>,
 ) -> PyResult<Ridges<'py>> {
-    let (corners, _) = simplices.as_slice()?.as_chunks::<4>();
-    let (across, _) = neighbors.as_slice()?.as_chunks::<4>();
-    let vertices = vertices.as_slice()?;
-    let mesh = Rows { corners, across };
-    let (pairs, starts, around) = py.detach(|| {
+    room(8 * (simplices.len() + vertices.len()), "copies of so many simplices")?;
+    let (simplices, neighbors) = (simplices.as_slice()?.to_vec(), neighbors.as_slice()?.to_vec());
+    let vertices = vertices.to_vec()?;
+    let (pairs, starts, around) = interruptible(py, vertices.len(), move || {
+        let mesh = Rows { corners: simplices.as_chunks().0, across: neighbors.as_chunks().0 };
         let (mut pairs, mut starts, mut around) = (Vec::<i32>::new(), vec![0], Vec::<i64>::new());
         let mut ring = Vec::new();
         for (t, corners) in mesh.corners.iter().enumerate() {
@@ -140,10 +142,8 @@ pub fn ridges<'py>(
             }
         }
         (pairs, starts, around)
-    });
-    let count = pairs.len() / 2;
-    let pairs = PyArray1::from_vec(py, pairs).reshape([count, 2])?;
-    Ok((pairs, PyArray1::from_vec(py, starts), PyArray1::from_vec(py, around)))
+    })?;
+    Ok((table(py, 2, pairs)?, PyArray1::from_vec(py, starts), PyArray1::from_vec(py, around)))
 }
 
 /// Tetrahedra by rows.

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._errors import restores
+from ._kept import Kept
 from ._points import as_choice, as_count, as_flag, as_index, as_numbers, as_points, as_queries, as_segments
-
-T = TypeVar("T")
 
 _FILLS = ("all", "even-odd", "nonzero", "seeds")
 _CROSSINGS = ("refuse", "split")
 _ENDS = ("refuse", "join", "drop")
 
 
-class ConstrainedDelaunay:
+class ConstrainedDelaunay(Kept):
     """The constrained Delaunay triangulation of points and segments in the plane.
 
     It is exact, and a function of the set of points and of the union of the segments alone. Segments may pass through points,
@@ -85,22 +83,18 @@ class ConstrainedDelaunay:
         self._holes = np.array(_seeds(holes, "holes"))
         self._regions, self._values = _regions(regions)
         self._split = as_choice(crossings, _CROSSINGS, "crossings") == "split"
-        self._origin, self._changes = (given, ends), list[tuple[Any, ...]]()
+        self._origin = (given, ends)
         self._begin(_delone.Constrained(given, ends, self._split))
         if self._fill == "seeds":
             # What is wrong with seeds is told now.
             self._parts()
 
     def _begin(self, core: _delone.Constrained) -> None:
-        self._core, self._cache = core, dict[str, Any]()
-
-    def _once(self, name: str, make: Callable[[], T]) -> T:
-        if name not in self._cache:
-            self._cache[name] = make()
-        result: T = self._cache[name]
-        return result
+        self._core, self._cache = core, {}
 
     # What there is.
+
+    _core: _delone.Constrained
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -354,19 +348,15 @@ class ConstrainedDelaunay:
 
     # Changes.
 
-    def _changed(self, *change: Any) -> None:
-        """Notes what was done, for pickles."""
-        self._changes.append(change)
-        self._cache.clear()
-
     def insert(self, points: ArrayLike) -> NDArray[np.int64]:
         """Inserts a point, or rows of points, and returns their indices: new ones, or those of vertices that are there
-        already. A constraint that a point is on is split. All or none."""
+        already. A constraint that a point is on is split. All or none.
+
+        Ctrl-C ends the wait for this and other changes, not the change: whoever asks next waits for its end.
+        """
         more, shape = as_queries(points, 2, "points")
-        more = np.array(more)
-        vertices = self._core.insert(more)
-        self._changed("insert", more)
-        return vertices.reshape(shape)
+        self._forget()
+        return self._core.insert(np.array(more)).reshape(shape)
 
     def remove(self, vertex: int, ends: str = "refuse") -> None:
         """Removes a vertex; indices of others stay as they are. Segments that pass straight through it stay.
@@ -375,29 +365,28 @@ class ConstrainedDelaunay:
         they become one, with the lesser id. "drop": they are removed. IndexError for what is no vertex.
         """
         v, how = self._vertex(vertex), as_choice(ends, _ENDS, "ends")
+        self._forget()
         self._core.remove(v, how)
-        self._changed("remove", v, how)
 
     def insert_segment(self, a: int, b: int) -> int:
         """Inserts a segment between two vertices, and returns its id. CrossingError where it crosses a constraint,
         ValueError for twice the same vertex, IndexError for what is no vertex."""
         v, w = self._vertex(a), self._vertex(b)
-        segment = self._core.insert_segment(v, w)
-        self._changed("insert_segment", v, w)
-        return segment
+        self._forget()
+        return self._core.insert_segment(v, w)
 
     def remove_segment(self, segment: int) -> None:
         """Removes a segment; its ends, and the vertices on it, stay. IndexError for one that is not there."""
         s = self._segment(segment)
+        self._forget()
         self._core.remove_segment(s)
-        self._changed("remove_segment", s)
 
     # Copies, and how it looks.
 
     def copy(self) -> ConstrainedDelaunay:
         """A triangulation of its own with the same points and segments."""
         made = type(self).__new__(type(self))
-        made.__dict__.update(self.__dict__, _changes=list(self._changes))
+        made.__dict__.update(self.__dict__)
         made._begin(self._core.copy())
         return made
 
@@ -411,14 +400,15 @@ class ConstrainedDelaunay:
 
     def __getstate__(self) -> dict[str, Any]:
         """What was given at the beginning, and the changes since."""
-        return {name: value for name, value in self.__dict__.items() if name not in ("_core", "_cache")}
+        state = {name: value for name, value in self.__dict__.items() if name not in ("_core", "_cache")}
+        return {**state, "_changes": self._core.changes()}
 
     @restores
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Triangulates again, and changes it as it was changed."""
-        self.__dict__.update(state)
+        self.__dict__.update({name: value for name, value in state.items() if name != "_changes"})
         core = _delone.Constrained(*self._origin, self._split)
-        for name, *arguments in self._changes:
+        for name, *arguments in state["_changes"]:
             getattr(core, name)(*arguments)
         self._begin(core)
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from copy import copy, deepcopy
 from itertools import chain, count
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy import ma
@@ -13,18 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
 from ._errors import restores
+from ._kept import Kept
 from ._options import parse
-from ._points import as_count, as_flag, as_indices, as_points, as_queries
+from ._points import as_count, as_flag, as_indices, as_points, as_queries, owned
 from ._simplices import neighbors_of, transforms
 
-T = TypeVar("T")
-
-
 #: What a triangulation holds itself; all else is a subclass's.
-_OWN = frozenset(["_points", "_core", "_removed", "_is_closed", "_cache", "_options", "_furthest"])
+_OWN = frozenset(["_core", "_ndim", "_is_closed", "_cache", "_options", "_furthest"])
 
 
-class Delaunay:
+class Delaunay(Kept):
     """The Delaunay triangulation of points in the plane or in space.
 
     It is exact, and a function of the set of points alone: neither the order of the points nor the number of threads
@@ -72,53 +70,47 @@ class Delaunay:
         as_flag(incremental, "incremental")
         self._options = parse(qhull_options, "")
         # SciPy copies too: what a caller changes later does not change the triangulation.
-        given = np.array(as_points(points), order="C")
+        given = owned(as_points(points))
         self._furthest = as_flag(furthest_site, "furthest_site")
         if self._furthest and given.shape[1] != 2:
             raise NotImplementedError("furthest-site triangulations are for points of the plane")
-        self._begin(given, _delone.Triangulation(given))
+        self._begin(_delone.Triangulation(given))
         self._refuse_twins(given)
 
-    def _begin(self, points: NDArray[np.float64], core: _delone.Triangulation) -> None:
-        points.flags.writeable = False
-        self._points, self._core = points, core
-        self._removed: list[int] = []
+    def _begin(self, core: _delone.Triangulation) -> None:
+        self._core, self._ndim = core, int(core.points.shape[1])
         self._is_closed = False
-        self._cache: dict[str, Any] = {}
+        self._cache = {}
 
     def _refuse_twins(self, points: NDArray[np.float64]) -> None:
         if self._options.distinct and len(np.unique(points + 0.0, axis=0)) < len(points):
             raise ValueError("qhull_options: 'QJ' makes a corner of each point, but some are equal, and nothing is joggled")
 
     @classmethod
-    def _of(cls, points: NDArray[np.float64], core: _delone.Triangulation) -> Delaunay:
+    def _of(cls, core: _delone.Triangulation) -> Delaunay:
         made = cls.__new__(cls)
         made._options, made._furthest = parse(None, ""), False
-        made._begin(np.array(points, order="C"), core)
+        made._begin(core)
         return made
 
-    def _once(self, name: str, make: Callable[[], T]) -> T:
-        if name not in self._cache:
-            self._cache[name] = make()
-        result: T = self._cache[name]
-        return result
-
     # What there is.
+
+    _core: _delone.Triangulation
 
     @property
     def points(self) -> NDArray[np.float64]:
         """The points given, removed ones and duplicates included: (n, ndim). Read-only."""
-        return self._points
+        return self._core.points
 
     @property
     def ndim(self) -> int:
         """2 in the plane, 3 in space."""
-        return int(self._points.shape[1])
+        return self._ndim
 
     @property
     def npoints(self) -> int:
         """The number of points given."""
-        return len(self._points)
+        return len(self.points)
 
     @property
     def nsimplex(self) -> int:
@@ -149,12 +141,12 @@ class Delaunay:
     def min_bound(self) -> NDArray[np.float64]:
         """The least coordinate of the points along each axis."""
         # Kept, because SciPy's compiled code looks at it later.
-        return self._once("low", lambda: np.asarray(self._points.min(axis=0, initial=np.inf)))
+        return self._once("low", lambda: np.asarray(self.points.min(axis=0, initial=np.inf)))
 
     @property
     def max_bound(self) -> NDArray[np.float64]:
         """The largest coordinate of the points along each axis."""
-        return self._once("high", lambda: np.asarray(self._points.max(axis=0, initial=-np.inf)))
+        return self._once("high", lambda: np.asarray(self.points.max(axis=0, initial=-np.inf)))
 
     def _arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         def make() -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -216,11 +208,7 @@ class Delaunay:
     def duplicates(self) -> NDArray[np.int32]:
         """Points that equal an earlier one, each with this: (m, 2)."""
 
-        def make() -> NDArray[np.int32]:
-            twins = self._core.duplicates()
-            return twins[~np.isin(twins[:, 0], self._removed)]
-
-        return self._once("duplicates", make)
+        return self._once("duplicates", self._core.duplicates)
 
     @property
     def coplanar(self) -> NDArray[np.int32]:
@@ -269,7 +257,7 @@ class Delaunay:
         its last place may move the result by a thousandth, or where T is out of range. In all others the result is right to
         a 50th for each x in the simplex; that is proved, and mostly it is right to many places.
         """
-        return self._once("transform", lambda: transforms(self._points[self.simplices]))
+        return self._once("transform", lambda: transforms(self.points[self.simplices]))
 
     #: Lifted points have the height paraboloid_scale * |x|^2 + paraboloid_shift; SciPy scales to the size of the others.
     paraboloid_scale = 1.0
@@ -291,7 +279,7 @@ class Delaunay:
         offsets."""
 
         def make() -> NDArray[np.float64]:
-            lifted = self._lift(self._points)[self.simplices]
+            lifted = self._lift(self.points)[self.simplices]
             with np.errstate(all="ignore"):
                 sides = lifted[:, 1:] - lifted[:, :1]
                 minors = [np.delete(sides, k, axis=2) for k in range(self.ndim + 1)]
@@ -334,7 +322,7 @@ class Delaunay:
     def _find_furthest(self, queries: NDArray[np.float64]) -> NDArray[np.int32]:
         """Looks at all triangles, which join the corners of the hull alone."""
         found = np.full(len(queries), -1, dtype=np.int32)
-        sides = self._points[np.stack([self.simplices, np.roll(self.simplices, -1, axis=1)], axis=2)].reshape(-1, 2)
+        sides = self.points[np.stack([self.simplices, np.roll(self.simplices, -1, axis=1)], axis=2)].reshape(-1, 2)
         # So many at a time that the answers for all of them fit memory.
         step = max(1, 10**7 // max(1, len(sides)))
         for start in range(0, len(queries) if len(sides) else 0, step):
@@ -358,18 +346,26 @@ class Delaunay:
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, whose indices follow those there are. `restart` triangulates all anew, removed ones left out: the
-        result is the same, and for more points than there are it is faster. RuntimeError after `close`."""
+        result is the same, and for more points than there are it is faster. RuntimeError after `close`.
+
+        Ctrl-C ends the wait, not the change: whoever asks next waits for its end, and the points are there then. With `restart`
+        no point was added.
+        """
         self._refuse_closed()
+        self._forget()
         more = as_points(points, columns=self.ndim)
-        everything = np.concatenate([self._points, more])
-        self._refuse_twins(everything)
-        if as_flag(restart, "restart"):
-            self._core = _built(everything, self._removed)
-        else:
-            self._core.extend(more)
-        everything.flags.writeable = False
-        self._points = everything
-        self._cache.clear()
+        is_new = as_flag(restart, "restart")
+        while True:
+            given, removed = self._core.given()
+            everything = np.concatenate([given, more])
+            everything.flags.writeable = False
+            self._refuse_twins(everything)
+            if is_new:
+                self._core = _built(everything, removed)
+                return
+            # Another thread may have added some meanwhile.
+            if self._core.extend(more, everything):
+                return
 
     def remove(self, points: int | Iterable[int] | ArrayLike) -> None:
         """Removes vertices by index, or those that a mask says, all or none. Duplicates of a vertex go with it. Indices of
@@ -377,17 +373,16 @@ class Delaunay:
 
         A mask has a boolean for each point, and those that are no vertices must not be marked. TypeError for what is neither
         integers nor a mask, IndexError for what is no vertex, RuntimeError after `close`.
+
+        Ctrl-C ends the wait, not the change, as in `add_points`.
         """
         self._refuse_closed()
         wanted = as_indices(points, self.npoints)
         beyond = next((v for v in wanted if not 0 <= v < self.npoints), None)
         if beyond is not None:
             raise IndexError(f"point {beyond} is no vertex")
-        twins = self.duplicates
-        gone = twins[np.isin(twins[:, 1], wanted), 0].tolist()
+        self._forget()
         self._core.remove(wanted)
-        self._removed.extend(wanted + gone)
-        self._cache.clear()
 
     def close(self) -> None:
         """Ends changes: points can be neither added nor removed any more."""
@@ -403,8 +398,8 @@ class Delaunay:
         """A triangulation of its own with the same points."""
         made = type(self).__new__(type(self))
         made.__dict__.update(self.__dict__)
-        made._begin(np.array(self._points, order="C"), self._core.copy())
-        made._removed, made._is_closed = list(self._removed), self._is_closed
+        made._begin(self._core.copy())
+        made._is_closed = self._is_closed
         return made
 
     def to_scipy(self) -> Any:
@@ -422,7 +417,7 @@ class Delaunay:
         names += ["paraboloid_shift", "simplices", "neighbors", "equations", "coplanar", "good"]
         given = {name: copy(getattr(self, name)) for name in names}
         nothing = dict.fromkeys(["_qhull", "_transform", "_vertex_to_simplex", "_vertex_neighbor_vertices"])
-        made.__dict__.update(given, **nothing, _points=np.array(self._points))
+        made.__dict__.update(given, **nothing, _points=np.array(self.points))
         return made
 
     def __copy__(self) -> Delaunay:
@@ -438,7 +433,8 @@ class Delaunay:
 
     def __getstate__(self) -> dict[str, Any]:
         """Points and what was removed, and what a subclass added."""
-        state = {"points": np.array(self._points), "removed": list(self._removed), "options": self._options}
+        points, removed = self._core.given()
+        state = {"points": np.array(points), "removed": removed, "options": self._options}
         others = {name: value for name, value in self.__dict__.items() if name not in _OWN}
         return {**state, "furthest": self._furthest, "closed": self._is_closed, "others": others}
 
@@ -447,8 +443,8 @@ class Delaunay:
         """Triangulates again: the triangulation is a function of the points."""
         self._options, self._furthest = state["options"], state["furthest"]
         points = as_points(state["points"], "points")
-        self._begin(points, _built(points, state["removed"]))
-        self._removed, self._is_closed = state["removed"], state["closed"]
+        self._begin(_built(owned(points), state["removed"]))
+        self._is_closed = state["closed"]
         self.__dict__.update(state.get("others", {}))
 
     def __repr__(self) -> str:
@@ -472,7 +468,4 @@ def _built(points: NDArray[np.float64], removed: list[int]) -> _delone.Triangula
     elsewhere = next(x for x in chain(ends, count(0.5)) if np.isfinite(x) and not (column == x).any())
     moved = np.array(points)
     moved[removed] = elsewhere
-    core = _delone.Triangulation(moved)
-    # The others equal it, and go with it.
-    core.remove([min(removed)])
-    return core
+    return _delone.Triangulation.without(points, moved, removed)

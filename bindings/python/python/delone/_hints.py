@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _delone
 from ._delaunay import Delaunay
-from ._points import as_points
+from ._points import as_points, owned
 
 
 class Hints:
@@ -34,5 +33,4 @@ class Hints:
 
     def triangulate(self, points: ArrayLike) -> Delaunay:
         """The triangulation of points, the k-th of which is near the k-th centre."""
-        array = as_points(points, columns=self._shape[1])
-        return Delaunay._of(np.asarray(array), self._core.triangulate(array))
+        return Delaunay._of(self._core.triangulate(owned(as_points(points, columns=self._shape[1]))))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property
 from typing import Literal
 
@@ -157,7 +158,7 @@ class ConvexHull:
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, whose indices follow those there are: the hull of the corners and of these, or with `restart` of all
-        points, is found, which gives the same. RuntimeError after `close`."""
+        points, is found, which gives the same. RuntimeError after `close`. After Ctrl-C no point was added."""
         if self._is_closed:
             raise RuntimeError("closed: no points can be added any more")
         more = as_points(points, columns=self.ndim)
@@ -167,8 +168,10 @@ class ConvexHull:
         # Merging starts from all corners there are.
         is_anew = is_anew or self._merge is not None
         corners = None if is_anew else np.sort(self.vertices)
-        self._points = np.concatenate([self._points, more])
-        self._make(None if corners is None else np.concatenate([corners, np.arange(before, len(self._points))]))
+        made = copy(self)
+        made._points = np.concatenate([self._points, more])
+        made._make(None if corners is None else np.concatenate([corners, np.arange(before, len(made._points))]))
+        self.__dict__ = made.__dict__
 
     def close(self) -> None:
         """Ends changes: no points can be added any more."""

@@ -178,3 +178,10 @@ def as_flag(value: Any, what: str) -> bool:
     if isinstance(value, (bool, np.bool_)) or (isinstance(value, (int, np.integer)) and value in (0, 1)):
         return bool(value)
     raise TypeError(f"{what} must be True or False, not {value!r}")
+
+
+def owned(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A copy that nobody writes."""
+    copied = np.array(points, order="C")
+    copied.flags.writeable = False
+    return copied

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._kept import Kept
 from ._points import as_numbers, as_points, as_queries
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def _as_weights(weights: ArrayLike | None, count: int) -> NDArray[np.float64]:
     return result
 
 
-class RegularTriangulation:
+class RegularTriangulation(Kept):
     """The regular triangulation of points with weights, in the plane or in space.
 
     It is exact, and a function of the set of points with their weights alone: the dual of the power diagram, in which the
@@ -69,9 +70,10 @@ class RegularTriangulation:
     def __init__(self, points: ArrayLike, weights: ArrayLike | None = None) -> None:
         """Triangulates points with weights."""
         self._points = np.array(as_points(points), order="C")
-        self._weights = _as_weights(weights, len(self._points)).copy()
-        self._core = _delone.Regular(self._points, self._weights)
-        self._arrays: tuple[NDArray[np.int32], NDArray[np.int32]] | None = None
+        self._core = _delone.Regular(self._points, _as_weights(weights, len(self._points)).copy())
+        self._cache = {}
+
+    _core: _delone.Regular
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -81,12 +83,10 @@ class RegularTriangulation:
     @property
     def weights(self) -> NDArray[np.float64]:
         """Their weights."""
-        return self._weights
+        return self._core.weights
 
     def _both(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        if self._arrays is None:
-            self._arrays = self._core.arrays()
-        return self._arrays
+        return self._once("arrays", self._core.arrays)
 
     @property
     def simplices(self) -> NDArray[np.int32]:
@@ -129,10 +129,13 @@ class RegularTriangulation:
         return self._core.nearest(queries).reshape(shape)
 
     def set_weights(self, weights: ArrayLike) -> None:
-        """Gives all sites other weights. What changes is repaired, or all is built anew where that is faster."""
+        """Gives all sites other weights. What changes is repaired, or all is built anew where that is faster.
+
+        Ctrl-C ends the wait, not the change: whoever asks next waits for its end.
+        """
         new = _as_weights(weights, len(self._points)).copy()
+        self._forget()
         self._core.set_weights(new)
-        self._weights, self._arrays = new, None
 
 
 class PowerDiagram(RegularTriangulation):
@@ -184,23 +187,15 @@ class PowerDiagram(RegularTriangulation):
         rings: Any = domain
         is_one = np.ndim(rings[0][0]) == 0 if len(rings) and len(rings[0]) else True
         self._rings = [as_points(ring, "domain", columns=2) for ring in ([rings] if is_one else rings)]
-        self._integrals: tuple[Any, ...] | None = None
 
     def _integrated(self) -> tuple[Any, ...]:
-        if self._integrals is None:
-            self._integrals = self._core.integrals(len(self._points), self._rings)
-        return self._integrals
-
-    def set_weights(self, weights: ArrayLike) -> None:
-        """Gives all sites other weights."""
-        super().set_weights(weights)
-        self._integrals = None
+        return self._once("integrals", lambda: self._core.integrals(len(self._points), self._rings))
 
     def adjust_weights(self, areas: ArrayLike | None = None, tolerance: float = 1e-9) -> float:
         """Takes the weights for which the cells have these areas, in proportion; None is all the same.
 
         Newton's method, damped so that no cell is lost. Every site must have a cell without weights, so it must be in or near the
-        domain and no other one at its point.
+        domain and no other one at its point. After Ctrl-C the weights are as they were.
 
         Returns
         -------
@@ -212,9 +207,7 @@ class PowerDiagram(RegularTriangulation):
         if shares.shape != (count,):
             raise ValueError(f"areas must have the shape ({count},), one for each site, not {shares.shape}")
         wanted: NDArray[np.float64] = np.require(shares, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
-        self._weights, error = self._core.adjust_weights(wanted, self._rings, tolerance)
-        self._arrays = self._integrals = None
-        return error
+        return self._core.adjust_weights(wanted, self._rings, tolerance)
 
     def integrals(self) -> NDArray[np.float64]:
         """The areas of the cells; zero for those that are empty."""

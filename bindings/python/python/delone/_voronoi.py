@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -70,9 +71,11 @@ class Voronoi:
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, whose indices follow those there are, and makes the diagram of all. `restart` is for those who come
-        from SciPy: it triangulates anew, which gives the same. RuntimeError after `close`."""
-        self._tri.add_points(points, restart)
-        self._make()
+        from SciPy: it triangulates anew, which gives the same. RuntimeError after `close`. After Ctrl-C no point was added."""
+        made = copy(self)
+        made._tri.add_points(points, restart)
+        made._make()
+        self.__dict__ = made.__dict__
 
     def close(self) -> None:
         """Ends changes: no points can be added any more."""

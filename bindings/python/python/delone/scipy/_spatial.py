@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -47,9 +48,8 @@ class Delaunay(_delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace)
 
     @property
     def points(self) -> NDArray[np.float64]:
-        """The points given, (npoints, ndim)."""
-        self._points.flags.writeable = True
-        return self._points
+        """The points given, (npoints, ndim): a copy that may be changed, which changes nothing else."""
+        return self._once("points", lambda: np.array(self._core.points))
 
     def _arrays(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """In space all rows have their corners in the order of indices, so that both sides of a facet name it alike."""
@@ -119,6 +119,7 @@ class Voronoi(_voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=InItsPlace):  #
 
     def _make(self) -> None:
         refuse_flat(not self._tri.nsimplex, self._tri.npoints, self._tri.ndim)
+        self.__dict__.pop("_points", None)
         super()._make()
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
@@ -127,9 +128,12 @@ class Voronoi(_voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=InItsPlace):  #
 
     @property
     def points(self) -> NDArray[np.float64]:
-        """The points, (npoints, ndim)."""
-        self._tri._points.flags.writeable = True
-        return self._tri._points
+        """The points, (npoints, ndim): a copy that may be changed, which changes nothing else."""
+        return self._points
+
+    @cached_property
+    def _points(self) -> NDArray[np.float64]:
+        return np.array(self._tri.points)
 
     def __del__(self) -> None:
         """Nothing of SciPy's is to be closed."""
