@@ -2,6 +2,7 @@
 //!
 //! Whoever asks borrows it, and only changes borrow it alone: several threads of Python may ask at once.
 
+use std::convert::Infallible;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -20,6 +21,8 @@ use crate::shared::Shared;
 
 /// Queries that one task answers.
 const QUERIES: usize = 1024;
+/// Simplices whose centres one task finds.
+const CENTRES: usize = FEW / 2;
 /// Of so many points a sample, which a question may ask for at any time, is large enough for threads.
 const MANY: usize = 500_000;
 
@@ -77,23 +80,23 @@ impl Triangulation {
 
     /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        fn rows<const D: usize>(
+        fn rows<I: Sync, const D: usize>(
             py: Python<'_>,
-            centres: Vec<[f64; D]>,
+            simplices: impl Iterator<Item = I> + Send,
+            centre: impl Fn(&I) -> Option<[f64; D]> + Sync + Send,
         ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-            let count = centres.len();
-            PyArray1::from_vec(py, centres.into_flattened()).reshape([count, D])
+            let simplices: Vec<I> = simplices.collect();
+            let centre = |simplex: &I| Ok::<_, Infallible>(centre(simplex).unwrap_or([f64::INFINITY; D]));
+            let Ok(centres) =
+                detached(py, is_many(&simplices, CENTRES), || shared(&simplices, CENTRES, centre));
+            PyArray1::from_vec(py, centres.into_flattened()).reshape([simplices.len(), D])
         }
         match &*self.core.read(py)? {
-            Core::Plane(state) => {
-                let d = &state.triangulation;
-                let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
-                rows(py, py.detach(|| d.mesh().triangles().map(centre).collect()))
+            Core::Plane(State { triangulation: d, .. }) => {
+                rows(py, d.mesh().triangles(), |&t| d.circumcentre(t))
             }
-            Core::Space(state) => {
-                let d = &state.triangulation;
-                let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 3]);
-                rows(py, py.detach(|| d.tetrahedron_ids().map(centre).collect()))
+            Core::Space(State { triangulation: d, .. }) => {
+                rows(py, d.tetrahedron_ids(), |&t| d.circumcentre(t))
             }
         }
     }

@@ -12,7 +12,6 @@ from . import _delone
 from ._errors import qhull_error
 from ._options import parse
 from ._points import as_choice, as_flag, as_points
-from ._simplices import neighbors_of
 from ._span import facets_in_span, normals_in_span, sizes_in_span
 
 
@@ -83,7 +82,7 @@ class ConvexHull:
         if eye is not None and self._has_body:
             is_seen = self._sides(self.points[eye : eye + 1])[0] > 0
             self.good = is_seen if self._options.seen else ~is_seen
-        for name in ("vertices", "neighbors", "equations", "area", "volume", "coplanar"):
+        for name in ("vertices", "neighbors", "equations", "area", "volume", "_sizes", "coplanar"):
             self.__dict__.pop(name, None)
 
     @cached_property
@@ -103,7 +102,7 @@ class ConvexHull:
         """The facets across from each corner."""
         if self.simplices.shape[1] == 1:
             return np.array([[1], [0]], dtype=np.int32)
-        return neighbors_of(self.simplices)
+        return _delone.neighbors_of(self.simplices) if self.nsimplex else np.empty_like(self.simplices)
 
     @property
     def _has_body(self) -> bool:
@@ -175,12 +174,6 @@ class ConvexHull:
             result[k] = point, facet, corners[away.argmin()]
         return result
 
-    def _scaled(self) -> tuple[NDArray[np.float64], int]:
-        """Corners of facets seen from one of them, divided by a power of two so that no product leaves the range."""
-        corners, far = _shrunk(self.points[self.simplices])
-        corners, near = _shrunk(corners - corners[:1, :1])
-        return corners, far + near
-
     @cached_property
     def equations(self) -> NDArray[np.float64]:
         """Normals of length 1 that point outside, and offsets: (nfacet, ndim + 1)."""
@@ -188,35 +181,22 @@ class ConvexHull:
             normals = _unit(normals_in_span(_shrunk(self.points - self.points[0])[0], self.simplices))
             offsets = -(normals * self.points[self.simplices[:, 0]]).sum(axis=1)
             return np.concatenate([normals, offsets[:, None]], axis=1)
-        corners, _ = self._scaled()
-        if self.ndim == 2:
-            along = corners[:, 1] - corners[:, 0]
-            normals = np.stack([along[:, 1], -along[:, 0]], axis=1)
-        else:
-            normals = np.cross(_unit(corners[:, 1] - corners[:, 0]), _unit(corners[:, 2] - corners[:, 0]))
-        with np.errstate(over="ignore"):
-            normals = _unit(normals)
-            offsets = -(normals * self.points[self.simplices[:, 0]]).sum(axis=1)
-        return np.concatenate([normals, offsets[:, None]], axis=1)
+        return _delone.facet_equations(self.points, self.simplices) if self.nsimplex else np.empty((0, self.ndim + 1))
 
     @cached_property
     def area(self) -> float:
         """The area of the surface; in the plane the perimeter."""
-        if not self._has_body:
-            return self._flat_sizes()[0]
-        corners, power = self._scaled()
-        sides = corners[:, 1:] - corners[:, :1]
-        if self.ndim == 2:
-            return float(_times(np.linalg.norm(sides[:, 0], axis=1).sum(), power))
-        return float(_times(np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).sum() / 2, 2 * power))
+        return self._sizes[0]
 
     @cached_property
     def volume(self) -> float:
         """The volume inside; in the plane the area."""
-        if not self._has_body:
-            return self._flat_sizes()[1]
-        corners, power = self._scaled()
-        return float(_times(np.linalg.det(corners).sum() / (2 if self.ndim == 2 else 6), self.ndim * power))
+        return self._sizes[1]
+
+    @cached_property
+    def _sizes(self) -> tuple[float, float]:
+        """Of the border and the inside."""
+        return _delone.facet_sizes(self.points, self.simplices) if self._has_body else self._flat_sizes()
 
     def _flat_sizes(self) -> tuple[float, float]:
         """Of the border and the inside of what has no body."""
