@@ -1,14 +1,31 @@
-//! Rows of indices that Python gives back: it may have written into them, so each is looked at before it is one of something here.
+//! Rows of indices that Python gives back, and rows as its lists. It may have written into arrays, so each index is looked at before it is
+//! one of something here.
 
-use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 
 /// Whether all numbers of an array are finite.
 #[pyfunction]
 pub fn is_finite(array: PyReadonlyArray2<'_, f64>) -> PyResult<bool> {
     // All of them are looked at, which is faster than to stop.
     Ok(array.as_slice()?.iter().fold(true, |are_finite, x| are_finite & x.is_finite()))
+}
+
+/// A list for each row of items, from where rows start and where the last one ends.
+#[pyfunction]
+pub fn lists<'py>(
+    py: Python<'py>,
+    starts: PyReadonlyArray1<'py, i64>,
+    items: PyReadonlyArray1<'py, i64>,
+) -> PyResult<Bound<'py, PyList>> {
+    let items = items.as_slice()?;
+    let row = |ends: &[i64]| {
+        let row = items.get(ends[0] as usize..ends[1] as usize);
+        PyList::new(py, row.ok_or_else(|| PyIndexError::new_err("rows beyond the end of their items"))?)
+    };
+    PyList::new(py, starts.as_slice()?.windows(2).map(row).collect::<PyResult<Vec<_>>>()?)
 }
 
 /// Rows of so many columns.

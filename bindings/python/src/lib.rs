@@ -67,10 +67,12 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(voronoi::merged_vertices, m)?)?;
     m.add("MERGE_AUTO", delone::MERGE_AUTO)?;
     m.add_function(wrap_pyfunction!(arrays::is_finite, m)?)?;
+    m.add_function(wrap_pyfunction!(arrays::lists, m)?)?;
     m.add_function(wrap_pyfunction!(facets::facet_equations, m)?)?;
     m.add_function(wrap_pyfunction!(facets::facet_sizes, m)?)?;
     m.add_function(wrap_pyfunction!(diagram::voronoi_ridges, m)?)?;
     m.add_function(wrap_pyfunction!(diagram::voronoi_regions, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::corners_of, m)?)?;
     m.add_function(wrap_pyfunction!(simplices::neighbors_of, m)?)?;
     m.add_function(wrap_pyfunction!(simplices::vertex_to_simplex, m)?)?;
     m.add_function(wrap_pyfunction!(simplices::vertex_neighbors, m)?)?;

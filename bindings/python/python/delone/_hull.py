@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._cached import cached_property
 from ._errors import qhull_error
 from ._options import parse
 from ._points import as_choice, as_flag, as_points
@@ -93,9 +93,7 @@ class ConvexHull:
             return self.simplices[:, 0] if self.nsimplex else single
         if self.ndim == 2:
             return self.simplices[:, 0]
-        is_corner = np.zeros(self.npoints, dtype=bool)
-        is_corner[self.simplices] = True
-        return np.flatnonzero(is_corner).astype(np.int32)
+        return _delone.corners_of(self.npoints, self.simplices)
 
     @cached_property
     def neighbors(self) -> NDArray[np.int32]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -11,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._cached import cached_property
 from ._delaunay import Delaunay
-from ._lists import pairs_of, rows_of
+from ._lists import lists
 from ._merge import as_merge, length_of, merged_centres
 from ._options import parse
 from ._points import as_flag, as_numbers, as_points
@@ -110,14 +110,12 @@ class Voronoi:
     @cached_property
     def ridge_vertices(self) -> list[list[int]]:
         """The vertices of each ridge."""
-        if self.ndim == 2:
-            return pairs_of(self.ridge_indices)
-        return rows_of(self.ridge_indptr, self.ridge_indices)
+        return lists(self.ridge_indptr, self.ridge_indices)
 
     @cached_property
     def regions(self) -> list[list[int]]:
         """The vertices of each region."""
-        return rows_of(*self._rows_of_regions)
+        return lists(*self._rows_of_regions)
 
     @property
     def region_indptr(self) -> NDArray[np.int64]:

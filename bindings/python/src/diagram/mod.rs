@@ -49,6 +49,13 @@ impl Ragged {
     fn end_row(&mut self) {
         self.starts.push(self.items.len() as i64);
     }
+
+    /// More rows after these.
+    fn extend(&mut self, more: &Self) {
+        let end = self.items.len() as i64;
+        self.starts.extend(more.starts[1..].iter().map(|start| end + start));
+        self.items.extend(&more.items);
+    }
 }
 
 /// Pairs of points, and the vertices between them.
@@ -76,6 +83,7 @@ pub fn voronoi_ridges<'py>(
     if centres.shape()[0] != count || kept.is_some_and(|kept| kept.len() != count) {
         return Err(PyValueError::new_err("a centre for each simplex"));
     }
+    // Enough for the parts below, which must not look for threads elsewhere.
     let is_long = count >= FEW;
     let (vertices, columns, which, ridges) = if centres.shape()[1] == 2 {
         let corners = indices::<3>(&simplices, 0, usize::MAX)?;

@@ -1,14 +1,32 @@
 //! Ridges and regions in space, from tetrahedra and their neighbours.
 
+use std::convert::Infallible;
+use std::ops::Range;
+
 use super::{Ragged, Ridges};
+use crate::pool::{FEW, shared};
 
 /// The ridges across edges: around each edge the vertices in turn, equal ones once, and -1 where the ring is open. Those of fewer than
-/// three are left out.
+/// three are left out. On all threads that there are, in parts that are joined in their order.
 pub fn ridges(corners: &[[i32; 4]], across: &[[i32; 4]], which: &[i32]) -> Ridges {
     let mesh = Rows { corners, across };
+    let parts: Vec<Range<usize>> =
+        (0..corners.len()).step_by(FEW).map(|start| start..corners.len().min(start + FEW)).collect();
+    let Ok(parts) = shared(&parts, 1, |part| Ok::<_, Infallible>(ridges_from(&mesh, part.clone(), which)));
+    let mut all = Ridges { pairs: Vec::new(), vertices: Ragged::new() };
+    for part in parts {
+        all.pairs.extend(part.pairs);
+        all.vertices.extend(&part.vertices);
+    }
+    all
+}
+
+/// The same across those edges of which the first tetrahedron is one of some.
+fn ridges_from(mesh: &Rows, tetrahedra: Range<usize>, which: &[i32]) -> Ridges {
     let (mut pairs, mut vertices) = (Vec::new(), Ragged::new());
     let mut ring = Vec::new();
-    for (t, corners) in mesh.corners.iter().enumerate() {
+    for t in tetrahedra {
+        let corners = mesh.corners[t];
         for (i, j) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
             let Some(is_open) = mesh.turn(t, [corners[i], corners[j]], &mut ring) else { continue };
             for vertex in ring.iter().map(|&t| which[t]).chain(is_open.then_some(-1)) {

@@ -32,6 +32,21 @@ pub fn neighbors_of<'py>(
     }
 }
 
+/// Which of so many points are corners of triangles, increasing.
+#[pyfunction]
+pub fn corners_of<'py>(
+    py: Python<'py>,
+    points: usize,
+    facets: PyReadonlyArray2<'py, i32>,
+) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    let mut is_corner = vec![false; points];
+    for &corner in indices::<3>(&facets, 0, points)?.as_flattened() {
+        is_corner[corner as usize] = true;
+    }
+    let corners = (0..).zip(is_corner).filter_map(|(point, is_corner)| is_corner.then_some(point));
+    Ok(PyArray1::from_vec(py, corners.collect()))
+}
+
 /// For each of so many points the last simplex that it, or the one that it equals, is a corner of; -1 for those that are no corner.
 /// Twins are points with the one that each equals.
 #[pyfunction]
