@@ -61,31 +61,31 @@ pub fn convex_hull<'py>(
                 hull => hull,
             };
             let hull = hull.map_err(python_error)?;
-            let (faces, facets): (Vec<usize>, Vec<[usize; 3]>) = hull.facets_of_faces().unzip();
+            let (of, parts): (Vec<usize>, Vec<[usize; 3]>) = hull.facets_of_faces().unzip();
             let is_body = hull.dimension() == delone::Dimension::Space;
-            rows(py, &facets, faces, hull.faces().filter(|_| is_body))
+            rows(py, &parts, of, hull.faces().filter(|_| is_body))
         }
         columns => Err(PyValueError::new_err(format!("points of {columns} coordinates"))),
     }
 }
 
-/// Facets and faces as arrays.
+/// Facets, which are the parts of faces, and faces as arrays.
 fn rows<'py, 'a, const D: usize>(
     py: Python<'py>,
-    facets: &[[usize; D]],
+    parts: &[[usize; D]],
     of: impl IntoIterator<Item = usize>,
     faces: impl Iterator<Item = &'a [usize]>,
 ) -> PyResult<Facets<'py>> {
-    let numbers: Vec<i32> = facets.iter().flatten().map(|&v| v as i32).collect();
+    let numbers: Vec<i32> = parts.iter().flatten().map(|&v| v as i32).collect();
     let of: Vec<i32> = of.into_iter().map(|face| face as i32).collect();
     let (mut corners, mut starts) = (Vec::<i32>::new(), vec![0]);
     for face in faces {
         corners.extend(face.iter().map(|&v| v as i32));
         starts.push(corners.len() as i64);
     }
-    let facets = PyArray1::from_vec(py, numbers).reshape([facets.len(), D])?;
+    let parts = PyArray1::from_vec(py, numbers).reshape([parts.len(), D])?;
     let [of, corners] = [of, corners].map(|values| PyArray1::from_vec(py, values));
-    Ok((facets, of, corners, PyArray1::from_vec(py, starts)))
+    Ok((parts, of, corners, PyArray1::from_vec(py, starts)))
 }
 
 /// On which side of facets points are, a row for each point: 1 outside, 0 in its line or plane, -1 inside. Facets are

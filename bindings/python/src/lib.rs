@@ -5,8 +5,11 @@
 //! finite simplices by increasing id, and are made anew after a change.
 
 mod alpha;
+mod arrays;
 mod constrained;
+mod diagram;
 mod errors;
+mod facets;
 mod graphs;
 mod hints;
 mod hull;
@@ -18,8 +21,10 @@ mod neighbors;
 mod orders;
 mod polygons;
 mod pool;
+mod powers;
 mod regular;
 mod shared;
+mod simplices;
 mod sizes;
 mod state;
 mod surface;
@@ -62,5 +67,16 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(voronoi::furthest, m)?)?;
     m.add_function(wrap_pyfunction!(voronoi::merged_vertices, m)?)?;
     m.add("MERGE_AUTO", delone::MERGE_AUTO)?;
-    m.add_function(wrap_pyfunction!(voronoi::ridges, m)?)
+    m.add_function(wrap_pyfunction!(arrays::is_finite, m)?)?;
+    m.add_function(wrap_pyfunction!(arrays::lists, m)?)?;
+    m.add_function(wrap_pyfunction!(facets::facet_equations, m)?)?;
+    m.add_function(wrap_pyfunction!(facets::facet_sizes, m)?)?;
+    m.add_function(wrap_pyfunction!(diagram::voronoi_ridges, m)?)?;
+    m.add_function(wrap_pyfunction!(diagram::voronoi_regions, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::corners_of, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::neighbors_of, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::vertex_to_simplex, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::vertex_neighbors, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::transforms, m)?)?;
+    m.add_function(wrap_pyfunction!(simplices::lifted_equations, m)?)
 }

@@ -1,6 +1,8 @@
 //! A triangulation of the plane or of space, by its arrays, its queries and its changes.
 
-use delone::{Change, Coordinates, Delaunay2, Delaunay3, Error, VertexId};
+use std::convert::Infallible;
+
+use delone::{Change, Coordinates, Delaunay2, Delaunay3, Error, Triangulation as _, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
@@ -8,8 +10,12 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::TRIANGULATION;
+use crate::pool::{FEW, shared};
 use crate::shared::Shared;
 use crate::state::{Rows, State, table};
+
+/// Simplices whose centres one task finds.
+const CENTRES: usize = FEW / 2;
 
 /// What was given, as Python has it: a change of the triangulation and of this is one, however its caller fares.
 pub struct Given {
@@ -105,20 +111,28 @@ impl Triangulation {
 
     /// The circumcentres of the finite simplices, each the nearest number to the exact one; infinite where that is too large.
     fn centres<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        fn rows<I: Sync, const D: usize>(
+            simplices: Vec<I>,
+            centre: impl Fn(&I) -> Option<[f64; D]> + Sync + Send,
+        ) -> Vec<f64> {
+            let centre = |simplex: &I| Ok::<_, Infallible>(centre(simplex).unwrap_or([f64::INFINITY; D]));
+            let Ok(centres) = shared(&simplices, CENTRES, centre);
+            centres.into_flattened()
+        }
         match &self.core {
             Core::Plane(held) => {
-                let centres = held.read(py)?.make(py, |state| {
+                let state = held.read(py)?;
+                let centres = interruptible(py, state.triangulation.slot_count(), move || {
                     let d = &state.triangulation;
-                    let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 2]);
-                    d.mesh().triangles().flat_map(centre).collect()
+                    rows(d.mesh().triangles().collect(), |&t| d.circumcentre(t))
                 })?;
                 table(py, 2, centres)
             }
             Core::Space(held) => {
-                let centres = held.read(py)?.make(py, |state| {
+                let state = held.read(py)?;
+                let centres = interruptible(py, state.triangulation.slot_count(), move || {
                     let d = &state.triangulation;
-                    let centre = |t| d.circumcentre(t).unwrap_or([f64::INFINITY; 3]);
-                    d.tetrahedron_ids().flat_map(centre).collect()
+                    rows(d.tetrahedron_ids().collect(), |&t| d.circumcentre(t))
                 })?;
                 table(py, 3, centres)
             }

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from fractions import Fraction
 
 import delone
 import numpy as np
@@ -57,6 +58,43 @@ def test_neighbors_of_vertices(ndim):
         assert set(found[starts[k] : starts[k + 1]]) == set(other[other_starts[k] : other_starts[k + 1]])
     rows = ours.vertex_to_simplex
     assert all(k in ours.simplices[rows[k]] for k in range(len(points)))
+
+
+@pytest.mark.parametrize("far", [0, 1000])
+@pytest.mark.parametrize("furthest", [False, True])
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_equations_hold(ndim, furthest, far):
+    if furthest and ndim == 3:
+        pytest.skip("in the plane alone")
+    points = random_points(100, ndim) + far
+    tri = delone.Delaunay(points, furthest_site=furthest)
+    assert tri.equations.shape == (tri.nsimplex, ndim + 2) and tri.nsimplex > 5
+    for row, equation in zip(tri.simplices, tri.equations, strict=True):
+        corners = [[Fraction(x) for x in corner] for corner in points[row].tolist()]
+        lifted = [[*corner, sum(x * x for x in corner)] for corner in corners]
+        sides = [[x - y for x, y in zip(corner, lifted[0], strict=True)] for corner in lifted[1:]]
+        normal = [(-1) ** k * determinant([side[:k] + side[k + 1 :] for side in sides]) for k in range(ndim + 1)]
+        size = sum(float(x) ** 2 for x in normal) ** 0.5 * (-1 if (normal[-1] > 0) != furthest else 1)
+        assert np.allclose(equation[:-1], [float(x) / size for x in normal], rtol=0, atol=1e-12 if not far else 1e-3)
+        offset = -sum(float(x) / size * float(y) for x, y in zip(normal, lifted[0], strict=True))
+        assert np.isclose(equation[-1], offset, rtol=1e-9 if not far else 1e-2, atol=1e-12)
+
+
+def determinant(rows):
+    """Of fractions, along the first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    return sum((-1) ** k * x * determinant([row[:k] + row[k + 1 :] for row in rows[1:]]) for k, x in enumerate(rows[0]))
+
+
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_many_simplices_are_as_few(ndim):
+    # So many are worth threads.
+    whole = delone.Delaunay(random_points(20_500, ndim))
+    for first in (0, 12_345, whole.nsimplex - 5):
+        part = np.ascontiguousarray(whole.simplices[first : first + 5])
+        assert (delone._delone.transforms(whole.points, part) == whole.transform[first : first + 5]).all()
+        assert (delone._delone.lifted_equations(whole.points, part, False) == whole.equations[first : first + 5]).all()
 
 
 @pytest.mark.parametrize("ndim", [2, 3])

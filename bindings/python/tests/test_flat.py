@@ -43,6 +43,7 @@ def test_lines_and_points():
     assert plane.vertices.tolist() == [0, 1] and plane.volume == 5
     point = delone.ConvexHull([[5, 5, 5], [5, 5, 5]], flat="span")
     assert (point.vertices.tolist(), point.nsimplex, point.area, point.volume) == ([0], 0, 0, 0)
+    assert point.equations.shape == (0, 4) and point.neighbors.shape == point.simplices.shape
     nothing = delone.ConvexHull(np.empty((0, 2)), flat="span")
     assert len(nothing.vertices) == 0 and nothing.volume == 0
     assert delone.ConvexHull([[0, 0], [1, 1]]).nsimplex == 0

@@ -90,7 +90,7 @@ def test_copies_change_by_themselves(name):
 
 
 @pytest.mark.parametrize("ndim", [2, 3])
-def test_neighbors_of_facets_as_scipy(ndim):
+def test_facets_as_scipy(ndim):
     points = random_points(200, ndim)
     ours, theirs = delone.ConvexHull(points), scipy.spatial.ConvexHull(points)
 
@@ -101,6 +101,9 @@ def test_neighbors_of_facets_as_scipy(ndim):
         return {(facets[k], corner): facets[n] for k, row in enumerate(rows) for corner, n in zip(*row, strict=True)}
 
     assert across(ours) == across(theirs)
+    planes = [dict(zip(map(frozenset, h.simplices.tolist()), h.equations, strict=True)) for h in (ours, theirs)]
+    assert all(np.allclose(plane, planes[1][facet], rtol=0, atol=1e-12) for facet, plane in planes[0].items())
+    assert np.isclose(ours.area, theirs.area, rtol=1e-12) and np.isclose(ours.volume, theirs.volume, rtol=1e-12)
     assert (ours.min_bound == theirs.min_bound).all() and (ours.max_bound == theirs.max_bound).all()
 
 

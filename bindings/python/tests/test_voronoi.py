@@ -1,11 +1,12 @@
 """Voronoi diagrams against fractions: every vertex is the nearest number to the exact centre, equal centres are one vertex."""
 
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 
 import delone
 import numpy as np
 import pytest
+import scipy.spatial
 
 
 def solved(rows, right):
@@ -100,3 +101,71 @@ def test_cubes_have_cubes_as_regions():
     inner = [r for r in diagram.regions if r and -1 not in r]
     assert len(inner) == 8 and all(len(region) == 8 for region in inner)
     assert len(diagram.vertices) == 27
+
+
+def rows(starts, items):
+    """Lists of rows of which the starts and what is in them are given."""
+    assert starts.dtype == items.dtype == np.int64
+    assert starts[0] == 0 and starts[-1] == len(items)
+    return [items[a:b].tolist() for a, b in pairwise(starts)]
+
+
+ASKED = [{}, {"furthest_site": True}, {"incremental": True}, {"merge": "auto"}, {"merge": 0.05}]
+
+
+@pytest.mark.parametrize("asked", ASKED, ids=str)
+@pytest.mark.parametrize("name", [*SETS, "equal points", "a line", "nothing", "large"])
+def test_rows_are_lists(name, asked):
+    sets = {
+        "equal points": np.repeat(np.random.default_rng(5).integers(0, 4, (30, 2)).astype(float), 2, axis=0),
+        "a line": np.outer(np.arange(5.0), [1.0, 2.0]),
+        "nothing": np.empty((0, 2)),
+        # As many as are worth threads.
+        "large": np.random.default_rng(6).random((21_000, 2)),
+    }
+    points = sets[name] if name in sets else SETS[name]
+    if "furthest_site" in asked and points.shape[1] == 3:
+        pytest.skip("in the plane alone")
+    diagram = delone.Voronoi(points, **asked)
+    assert rows(diagram.ridge_indptr, diagram.ridge_indices) == diagram.ridge_vertices
+    assert rows(diagram.region_indptr, diagram.region_indices) == diagram.regions
+    assert len(diagram.ridge_vertices) == len(diagram.ridge_points)
+    assert len(diagram.regions) == len(points) + ("incremental" not in asked)
+    most = len(diagram.vertices)
+    assert all(-1 <= v < most for ridge in diagram.ridge_vertices for v in ridge)
+
+
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_rows_are_those_of_scipy(ndim):
+    points = np.random.default_rng(ndim).random((2000, ndim))
+    ours, theirs = delone.Voronoi(points), scipy.spatial.Voronoi(points)
+    # Both have the same vertices but for rounding, ours sorted.
+    order = np.lexsort(theirs.vertices.T[::-1])
+    assert np.allclose(ours.vertices, theirs.vertices[order], rtol=1e-6, atol=1e-6)
+    number = np.append(np.argsort(order), -1)
+    mine = zip(ours.ridge_points.tolist(), rows(ours.ridge_indptr, ours.ridge_indices), strict=True)
+    others = zip(theirs.ridge_points.tolist(), theirs.ridge_vertices, strict=True)
+    expected = {frozenset(pair): frozenset(number[ridge].tolist()) for pair, ridge in others}
+    assert {frozenset(pair): frozenset(ridge) for pair, ridge in mine} == expected
+    regions = rows(ours.region_indptr, ours.region_indices)
+    for point in range(len(points)):
+        region = theirs.regions[theirs.point_region[point]]
+        assert sorted(regions[ours.point_region[point]]) == sorted(number[region].tolist())
+
+
+@pytest.mark.parametrize("ndim", [2, 3])
+def test_what_is_written_into_arrays_is_looked_at(ndim):
+    points = np.random.default_rng(ndim).random((50, ndim))
+    diagram = delone.Voronoi(points)
+    diagram.ridge_points[3, 0] = 50
+    with pytest.raises(IndexError, match="50 is out of bounds for 50"):
+        _ = diagram.regions
+    triangulation = delone.Delaunay(points)
+    triangulation.simplices[7, 1] = -1
+    for name in ("transform", "equations", "vertex_to_simplex"):
+        with pytest.raises(IndexError, match="-1 is out of bounds for 50"):
+            getattr(triangulation, name)
+    # Neighbours of something else have no meaning, but an end.
+    diagram = delone.Voronoi(points)
+    diagram.triangulation.neighbors[:] = np.roll(diagram.triangulation.neighbors, 1)
+    assert len(diagram.regions) == 51

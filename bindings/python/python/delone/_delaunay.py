@@ -16,7 +16,6 @@ from ._errors import restores
 from ._kept import Kept
 from ._options import parse
 from ._points import as_count, as_flag, as_indices, as_points, as_queries, owned
-from ._simplices import neighbors_of, transforms
 
 #: What a triangulation holds itself; all else is a subclass's.
 _OWN = frozenset(["_core", "_ndim", "_is_closed", "_cache", "_options", "_furthest"])
@@ -153,7 +152,7 @@ class Delaunay(Kept):
             if not self._furthest:
                 return self._core.arrays()
             triangles = self._farthest()[0]
-            return triangles, neighbors_of(triangles)
+            return triangles, _delone.neighbors_of(triangles)
 
         return self._once("arrays", make)
 
@@ -217,6 +216,8 @@ class Delaunay(Kept):
         SciPy lists what it lost to rounding here, too; nothing is lost here.
         """
         twins = self.duplicates
+        if not len(twins):
+            return np.empty((0, 3), dtype=np.int32)
         return np.column_stack([twins[:, 0], self.vertex_to_simplex[twins[:, 1]], twins[:, 1]])
 
     @property
@@ -224,13 +225,7 @@ class Delaunay(Kept):
         """For each point a simplex that it, or the one that it equals, is a corner of; -1 for those that are no corner."""
 
         def make() -> NDArray[np.int32]:
-            simplices = self.simplices
-            result = np.full(self.npoints, -1, dtype=np.int32)
-            rows = np.repeat(np.arange(len(simplices), dtype=np.int32), self.ndim + 1)
-            result[simplices.ravel()] = rows
-            twins = self.duplicates
-            result[twins[:, 0]] = result[twins[:, 1]]
-            return result
+            return _delone.vertex_to_simplex(self.npoints, self.simplices, self.duplicates)
 
         return self._once("vertex_to_simplex", make)
 
@@ -238,15 +233,7 @@ class Delaunay(Kept):
     def vertex_neighbor_vertices(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Neighbours of all points as (indptr, indices): those of point k are indices[indptr[k]:indptr[k + 1]]."""
 
-        def make() -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-            edges = self.edges
-            ends = np.concatenate([edges, edges[:, ::-1]])
-            ends = ends[np.lexsort((ends[:, 1], ends[:, 0]))]
-            indptr = np.zeros(self.npoints + 1, dtype=np.int32)
-            np.cumsum(np.bincount(ends[:, 0], minlength=self.npoints), out=indptr[1:])
-            return indptr, np.ascontiguousarray(ends[:, 1])
-
-        return self._once("vertex_neighbor_vertices", make)
+        return self._once("vertex_neighbor_vertices", lambda: _delone.vertex_neighbors(self.npoints, self.edges))
 
     @property
     def transform(self) -> NDArray[np.float64]:
@@ -257,7 +244,7 @@ class Delaunay(Kept):
         its last place may move the result by a thousandth, or where T is out of range. In all others the result is right to
         a 50th for each x in the simplex; that is proved, and mostly it is right to many places.
         """
-        return self._once("transform", lambda: transforms(self.points[self.simplices]))
+        return self._once("transform", lambda: _delone.transforms(self.points, self.simplices))
 
     #: Lifted points have the height paraboloid_scale * |x|^2 + paraboloid_shift; SciPy scales to the size of the others.
     paraboloid_scale = 1.0
@@ -279,15 +266,7 @@ class Delaunay(Kept):
         offsets."""
 
         def make() -> NDArray[np.float64]:
-            lifted = self._lift(self.points)[self.simplices]
-            with np.errstate(all="ignore"):
-                sides = lifted[:, 1:] - lifted[:, :1]
-                minors = [np.delete(sides, k, axis=2) for k in range(self.ndim + 1)]
-                normals = np.stack([(-1) ** k * np.linalg.det(minor) for k, minor in enumerate(minors)], axis=1)
-                normals *= np.sign(normals[:, -1:]) * (1 if self._furthest else -1)
-                normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-                offsets = -(normals * lifted[:, 0]).sum(axis=1)
-            return np.concatenate([normals, offsets[:, None]], axis=1)
+            return _delone.lifted_equations(self.points, self.simplices, self._furthest)
 
         return self._once("equations", make)
 

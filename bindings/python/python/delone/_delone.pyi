@@ -26,19 +26,30 @@ __all__ = [
     "contour_bands",
     "contour_lines",
     "convex_hull",
+    "corners_of",
+    "facet_equations",
+    "facet_sizes",
     "furthest",
     "interpolate",
     "interpolation_weights",
+    "is_finite",
     "join_borders",
+    "lifted_equations",
+    "lists",
     "merged_vertices",
+    "neighbors_of",
     "paint",
     "proximity_graph",
-    "ridges",
     "sides",
     "thin",
+    "transforms",
     "triangulate_polygons",
     "triangulate_tile",
     "vertex_gradients",
+    "vertex_neighbors",
+    "vertex_to_simplex",
+    "voronoi_regions",
+    "voronoi_ridges",
 ]
 
 MERGE_AUTO: float
@@ -201,18 +212,43 @@ def triangulate_polygons(
     is_one: bool,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
 def after_fork() -> None: ...
+def lists(starts: NDArray[np.int64], items: NDArray[np.int64]) -> list[list[int]]: ...
+def is_finite(array: NDArray[np.float64]) -> bool: ...
 def sides(facets: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.int8]: ...
 def convex_hull(
     points: NDArray[np.float64], merge: float | None = None, may_be_flat: bool = False
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int64]]: ...
+def facet_equations(
+    points: NDArray[np.float64], parts: NDArray[np.int32], faces: NDArray[np.int32] | None = None
+) -> NDArray[np.float64]: ...
+def facet_sizes(points: NDArray[np.float64], facets: NDArray[np.int32]) -> tuple[float, float]: ...
 def clipped_cells(
     triangulation: Triangulation, points: int, rings: list[NDArray[np.float64]], merge: float | None
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
 def merged_vertices(places: NDArray[np.float64], sides: NDArray[np.int64], length: float) -> NDArray[np.int64]: ...
 def furthest(triangulation: Triangulation) -> tuple[NDArray[np.int32], NDArray[np.float64]]: ...
-def ridges(
-    simplices: NDArray[np.int32], neighbors: NDArray[np.int32], vertices: NDArray[np.int64]
-) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
+def voronoi_ridges(
+    simplices: NDArray[np.int32],
+    neighbors: NDArray[np.int32],
+    centres: NDArray[np.float64],
+    kept: NDArray[np.bool_] | None,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32], NDArray[np.int64], NDArray[np.int64]]: ...
+def voronoi_regions(
+    points: int,
+    has_empty: bool,
+    simplices: NDArray[np.int32],
+    neighbors: NDArray[np.int32],
+    which: NDArray[np.int32],
+    pairs: NDArray[np.int32],
+    starts: NDArray[np.int64],
+    vertices: NDArray[np.int64],
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]: ...
+def corners_of(points: int, facets: NDArray[np.int32]) -> NDArray[np.int32]: ...
+def neighbors_of(simplices: NDArray[np.int32]) -> NDArray[np.int32]: ...
+def vertex_to_simplex(points: int, simplices: NDArray[np.int32], twins: NDArray[np.int32]) -> NDArray[np.int32]: ...
+def vertex_neighbors(points: int, edges: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]: ...
+def transforms(points: NDArray[np.float64], simplices: NDArray[np.int32]) -> NDArray[np.float64]: ...
+def lifted_equations(points: NDArray[np.float64], simplices: NDArray[np.int32], is_up: bool) -> NDArray[np.float64]: ...
 def interpolate(
     triangulation: Triangulation,
     method: str,

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from copy import copy
-from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._cached import cached_property
 from ._errors import qhull_error
 from ._merge import as_merge, length_of
 from ._options import parse
 from ._points import as_choice, as_flag, as_points
-from ._simplices import neighbors_of
 from ._span import facets_in_span, normals_in_span, sizes_in_span
 
 
@@ -97,7 +96,7 @@ class ConvexHull:
         if eye is not None and self._has_body:
             is_seen = self._sides(self._points[eye : eye + 1])[0] > 0
             self.good = is_seen if self._options.seen else ~is_seen
-        for name in ("vertices", "neighbors", "equations", "area", "volume", "coplanar", "facets"):
+        for name in ("vertices", "neighbors", "equations", "area", "volume", "_sizes", "coplanar", "facets"):
             self.__dict__.pop(name, None)
 
     @property
@@ -124,16 +123,14 @@ class ConvexHull:
             return self.simplices[:, 0] if self.nsimplex else single
         if self.ndim == 2:
             return self.simplices[:, 0]
-        is_corner = np.zeros(self.npoints, dtype=bool)
-        is_corner[self.simplices] = True
-        return np.flatnonzero(is_corner).astype(np.int32)
+        return _delone.corners_of(self.npoints, self.simplices)
 
     @cached_property
     def neighbors(self) -> NDArray[np.int32]:
         """The facets across from each corner."""
         if self.simplices.shape[1] == 1:
             return np.array([[1], [0]], dtype=np.int32)
-        return neighbors_of(self.simplices)
+        return _delone.neighbors_of(self.simplices) if self.nsimplex else np.empty_like(self.simplices)
 
     @property
     def _has_body(self) -> bool:
@@ -224,12 +221,6 @@ class ConvexHull:
         heights = [self._heights(self._points[candidates[k : k + step]]).max(axis=1) for k in starts]
         return np.concatenate(heights) >= -(self._length or 0.0)
 
-    def _scaled(self) -> tuple[NDArray[np.float64], int]:
-        """Corners of facets seen from one of them, divided by a power of two so that no product leaves the range."""
-        corners, far = _shrunk(self._points[self.simplices])
-        corners, near = _shrunk(corners - corners[:1, :1])
-        return corners, far + near
-
     @cached_property
     def equations(self) -> NDArray[np.float64]:
         """Normals of length 1 that point outside, and offsets: (nfacet, ndim + 1)."""
@@ -237,58 +228,30 @@ class ConvexHull:
             normals = _unit(normals_in_span(_shrunk(self._points - self._points[0])[0], self.simplices))
             offsets = -(normals * self._points[self.simplices[:, 0]]).sum(axis=1)
             return np.concatenate([normals, offsets[:, None]], axis=1)
-        corners, _ = self._scaled()
-        if self.ndim == 2:
-            along = corners[:, 1] - corners[:, 0]
-            normals = np.stack([along[:, 1], -along[:, 0]], axis=1)
-        else:
-            normals = np.cross(_unit(corners[:, 1] - corners[:, 0]), _unit(corners[:, 2] - corners[:, 0]))
-        with np.errstate(over="ignore"):
-            normals = _unit(normals)
-            if self.nsimplex > len(self._faces[1]) - 1:
-                normals = self._of_faces(normals, corners)
-            offsets = -(normals * self._points[self.simplices[:, 0]]).sum(axis=1)
-        if self.nsimplex > len(self._faces[1]) - 1:
-            # The parts of a facet are in one plane, with nothing outside.
-            whole = np.full(len(self._faces[1]) - 1, np.inf)
-            np.minimum.at(whole, self._face_of, offsets)
-            offsets = whole[self._face_of]
-        return np.concatenate([normals, offsets[:, None]], axis=1)
+        if not self.nsimplex:
+            return np.empty((0, self.ndim + 1))
+        has_parts = self.nsimplex > len(self._faces[1]) - 1
+        return _delone.facet_equations(self._points, self.simplices, self._face_of if has_parts else None)
 
     def _facet_equations(self) -> NDArray[np.float64]:
         """A row of `equations` for each of `facets`."""
         first = np.unique(self._face_of, return_index=True)[1]
         return self.equations[first]
 
-    def _of_faces(self, normals: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Of the parts of a facet the mean normal by area for all of them."""
-        areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-        sums = np.zeros((len(self._faces[1]) - 1, 3))
-        largest = np.zeros(len(sums))
-        np.maximum.at(largest, self._face_of, areas)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            weights = np.where(largest[self._face_of] > 0, areas / largest[self._face_of], 1.0)
-        np.add.at(sums, self._face_of, normals * weights[:, None])
-        return np.where((np.bincount(self._face_of) > 1)[self._face_of, None], _unit(sums)[self._face_of], normals)
-
     @cached_property
     def area(self) -> float:
         """The area of the surface; in the plane the perimeter."""
-        if not self._has_body:
-            return self._flat_sizes()[0]
-        corners, power = self._scaled()
-        sides = corners[:, 1:] - corners[:, :1]
-        if self.ndim == 2:
-            return float(_times(np.linalg.norm(sides[:, 0], axis=1).sum(), power))
-        return float(_times(np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1).sum() / 2, 2 * power))
+        return self._sizes[0]
 
     @cached_property
     def volume(self) -> float:
         """The volume inside; in the plane the area."""
-        if not self._has_body:
-            return self._flat_sizes()[1]
-        corners, power = self._scaled()
-        return float(_times(np.linalg.det(corners).sum() / (2 if self.ndim == 2 else 6), self.ndim * power))
+        return self._sizes[1]
+
+    @cached_property
+    def _sizes(self) -> tuple[float, float]:
+        """Of the border and the inside."""
+        return _delone.facet_sizes(self._points, self.simplices) if self._has_body else self._flat_sizes()
 
     def _flat_sizes(self) -> tuple[float, float]:
         """Of the border and the inside of what has no body."""

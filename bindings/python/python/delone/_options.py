@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 
 from ._errors import qhull_error
 
@@ -41,6 +42,12 @@ def parse(given: str | bytes | None, usual: str, is_hull: bool = False) -> Optio
     if given is not None and not isinstance(given, (str, bytes)):
         raise TypeError(f"qhull_options must be a string, not {given!r}")
     text = given.decode("ascii", "replace") if isinstance(given, bytes) else usual if given is None else given
+    return _of_words(text, is_hull)
+
+
+@lru_cache(maxsize=64)
+def _of_words(text: str, is_hull: bool) -> Options:
+    """What words ask for; they are few, and read once."""
     words = text.split()
     seen_from, seen = None, True
     for word in words:

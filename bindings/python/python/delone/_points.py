@@ -13,6 +13,10 @@ import numpy as np
 from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
+from . import _delone
+
+_DOUBLE = np.dtype(np.float64)
+
 
 class ShapeError(ValueError, IndexError):
     """A number or a row where there must be points; SciPy raises IndexError for that in some places, ValueError in others."""
@@ -25,6 +29,8 @@ def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
 
     Raises TypeError for what holds no real numbers, ValueError for masked values and for rows of several lengths.
     """
+    if type(values) is np.ndarray and values.dtype.kind in "fiub":
+        return values
     if ma.is_masked(values):
         raise ValueError(f"{what} is a masked array: give what counts, for example array[~array.mask.any(axis=1)].data")
     array: NDArray[Any] = np.asarray(values)
@@ -69,11 +75,12 @@ def as_points(points: ArrayLike, what: str = "points", columns: int | None = Non
         largest = max(abs(int(array.min())), abs(int(array.max())))
         if largest > 2**53:
             raise ValueError(f"{what} holds integers beyond 2**53, which float64 does not tell apart")
-    with np.errstate(over="ignore", under="ignore"):
-        result: NDArray[np.float64] = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
-    is_finite = np.isfinite(result)
-    if not is_finite.all():
-        row, column = np.argwhere(~is_finite)[0]
+    result: NDArray[np.float64] = array
+    if array.dtype is not _DOUBLE or not (array.flags.c_contiguous and array.flags.aligned):
+        with np.errstate(over="ignore", under="ignore"):
+            result = np.require(array, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
+    if not _delone.is_finite(result):
+        row, column = np.argwhere(~np.isfinite(result))[0]
         raise ValueError(f"{what}: point {row} has the {'xyz'[column]} coordinate {array[row, column]}, which is not finite")
     if array.dtype.kind == "f" and array.dtype.itemsize > 8 and (result != array).any():
         raise ValueError(f"{what} holds numbers that float64 does not hold exactly; round them with astype(numpy.float64)")

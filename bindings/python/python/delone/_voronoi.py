@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -12,7 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._cached import cached_property
 from ._delaunay import Delaunay
+from ._lists import lists
 from ._merge import as_merge, length_of, merged_centres
 from ._options import parse
 from ._points import as_flag, as_numbers, as_points
@@ -48,6 +49,11 @@ class Voronoi:
     regions : list of lists
         The vertices of each region; -1 is infinitely far away. In the plane in order, counter-clockwise. With `Qz` there is
         an empty one first, which is that of no point.
+    ridge_indptr, ridge_indices : arrays of int64
+        The vertices of ridge k are ``ridge_indices[ridge_indptr[k]:ridge_indptr[k + 1]]``: rows as in
+        a sparse array, the same as `ridge_vertices`, without the time and the memory that lists take.
+    region_indptr, region_indices : arrays of int64
+        The same of regions, in the order of `regions`.
     point_region : (n,) array
         The region of each point, in the order of the points; that of the equal one for duplicates; -1 for points that are
         furthest from nowhere.
@@ -84,39 +90,58 @@ class Voronoi:
     def _make(self) -> None:
         tri = self._tri
         self.ndim, self.npoints = tri.ndim, tri.npoints
-        self.min_bound, self.max_bound = tri.min_bound, tri.max_bound
         self.furthest_site = tri.furthest_site
         length = length_of(self._merge, tri.points)
-        if length is None:
-            self.vertices, self._which = _distinct(tri._centres())
-        else:
-            centres, kept = merged_centres(tri, length)
-            self.vertices, which = _distinct(centres[kept])
-            self._which = np.full(len(centres), -1, dtype=np.intp)
-            self._which[kept] = which
-        self.ridge_points, self._ridge_ends, self._ridge_starts = _ridges(tri, self._which)
-        # Lists are made when they are asked for: they cost more than all the rest.
-        for lists in ("ridge_vertices", "regions"):
-            self.__dict__.pop(lists, None)
-        self.point_region = np.arange(tri.npoints, dtype=np.int64) + self._has_empty
+        centres, kept = (tri._centres(), None) if length is None else merged_centres(tri, length)
+        made = _delone.voronoi_ridges(*tri._arrays(), centres, kept)
+        self.vertices, self._which, self.ridge_points, self.ridge_indptr, self.ridge_indices = made
+        # What is made when it is asked for; lists cost more than all the rest.
+        for later in ("_rows_of_regions", "ridge_vertices", "regions"):
+            self.__dict__.pop(later, None)
+        first = int(self._has_empty)
+        self.point_region = np.arange(first, tri.npoints + first, dtype=np.int64)
         twins = tri.duplicates
-        self.point_region[twins[:, 0]] = twins[:, 1] + self._has_empty
+        if len(twins):
+            self.point_region[twins[:, 0]] = twins[:, 1] + first
         if tri.furthest_site:
-            self.point_region[[not self.regions[r] for r in self.point_region]] = -1
+            is_empty = np.diff(self.region_indptr) == 0
+            self.point_region[is_empty[self.point_region]] = -1
 
     @cached_property
     def ridge_vertices(self) -> list[list[int]]:
         """The vertices of each ridge."""
-        flat: list[Any] = self._ridge_ends.tolist()
-        if self._ridge_starts is None:
-            return flat
-        return [flat[a:b] for a, b in pairwise(self._ridge_starts.tolist())]
+        return lists(self.ridge_indptr, self.ridge_indices)
 
     @cached_property
     def regions(self) -> list[list[int]]:
         """The vertices of each region."""
-        regions = _regions(self._tri, self._which, self.ridge_points, self._ridge_ends, self._ridge_starts)
-        return [[], *regions] if self._has_empty else regions
+        return lists(*self._rows_of_regions)
+
+    @property
+    def region_indptr(self) -> NDArray[np.int64]:
+        """Where the vertices of each region start, and where the last ones end."""
+        return self._rows_of_regions[0]
+
+    @property
+    def region_indices(self) -> NDArray[np.int64]:
+        """The vertices of all regions."""
+        return self._rows_of_regions[1]
+
+    @cached_property
+    def _rows_of_regions(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        simplices, neighbors = self._tri._arrays()
+        ridges = self.ridge_points, self.ridge_indptr, self.ridge_indices
+        return _delone.voronoi_regions(self.npoints, self._has_empty, simplices, neighbors, self._which, *ridges)
+
+    @property
+    def min_bound(self) -> NDArray[np.float64]:
+        """The least coordinate of the points along each axis."""
+        return self._tri.min_bound
+
+    @property
+    def max_bound(self) -> NDArray[np.float64]:
+        """The largest coordinate of the points along each axis."""
+        return self._tri.max_bound
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -185,94 +210,3 @@ def _pieces(
     """For each cell its rings."""
     pieces = np.split(corners, ring_starts[1:-1]) if len(ring_starts) > 1 else []
     return [pieces[a:b] for a, b in pairwise(starts.tolist())]
-
-
-def _distinct(rows: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """The distinct rows, sorted, and for each row which of them it is."""
-    order = np.lexsort(rows.T[::-1])
-    in_order = rows[order]
-    is_new = np.ones(len(rows), dtype=bool)
-    is_new[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
-    which = np.empty(len(rows), dtype=np.intp)
-    which[order] = np.cumsum(is_new) - 1
-    return in_order[is_new], which
-
-
-def _ridges(tri: Delaunay, which: NDArray[np.intp]) -> tuple[NDArray[np.int32], NDArray[np.int64], NDArray[np.int64] | None]:
-    """Pairs of points, and the vertices between them: in the plane two in a row, in space all in one, with where each begins."""
-    simplices, neighbors, ndim = tri.simplices, tri.neighbors, tri.ndim
-    if not len(simplices):
-        return np.empty((0, 2), dtype=np.int32), np.empty((0, 2), dtype=np.int64), None
-    vertex_of = np.concatenate([which, [-1]])
-    if ndim == 2:
-        # An edge is across from a corner; from the smaller of its two triangles.
-        rows, corners = np.nonzero((neighbors < 0) | (np.arange(len(simplices))[:, None] < neighbors))
-        pairs = np.stack([simplices[rows, (corners + 1) % 3], simplices[rows, (corners + 2) % 3]], axis=1)
-        beyond = neighbors[rows, corners]
-        vertices = np.stack([vertex_of[np.where(beyond < 0, -1, beyond)], vertex_of[rows]], axis=1)
-        # Cocircular points: both sides are one vertex, and there is no ridge.
-        real = vertices[:, 0] != vertices[:, 1]
-        return np.ascontiguousarray(pairs[real]), vertices[real], None
-    pairs, starts, around = _delone.ridges(simplices, neighbors, which.astype(np.int64))
-    return pairs, around, starts
-
-
-def _regions(
-    tri: Delaunay,
-    which: NDArray[np.intp],
-    ridge_points: NDArray[np.int32],
-    ridge_ends: NDArray[np.int64],
-    ridge_starts: NDArray[np.int64] | None,
-) -> list[list[int]]:
-    """The vertices of the region of each point; none for duplicates."""
-    if not len(ridge_points):
-        return [[] for _ in range(tri.npoints)]
-    if ridge_starts is not None:
-        sites = np.repeat(ridge_points, np.diff(ridge_starts), axis=0).T.ravel()
-        # Pairs as one number, which sorts faster; infinity is -1.
-        most = int(ridge_ends.max()) + 2
-        both = np.sort(sites.astype(np.int64) * most + np.tile(ridge_ends + 1, 2))
-        both = both[np.r_[True, both[1:] != both[:-1]]]
-        ends = np.searchsorted(both // most, np.arange(tri.npoints + 1)).tolist()
-        found = (both % most - 1).tolist()
-        return [found[a:b] for a, b in pairwise(ends)]
-    return _stars(tri, which)
-
-
-def _stars(tri: Delaunay, which: NDArray[np.intp]) -> list[list[int]]:
-    """In the plane: the vertices of the triangles around each point, counter-clockwise; infinity first where the star is open.
-
-    Neighbours alone say who follows whom. Vertices are rounded, so that different ones may be equal: runs of them are one.
-    """
-    regions: list[list[int]] = [[] for _ in range(tri.npoints)]
-    # Corner k of triangle t is 3 t + k. After it counter-clockwise around its point comes the triangle across from corner k + 1.
-    beyond = tri.neighbors[:, [1, 2, 0]]
-    opposite = np.empty_like(beyond)
-    for k in range(3):
-        # Which corner of the triangle across has the same point.
-        same = tri.simplices[beyond[:, k]] == tri.simplices[:, k, None]
-        opposite[:, k] = same.argmax(axis=1)
-    after = np.where(beyond < 0, -1, 3 * beyond + opposite).ravel().tolist()
-    points = tri.simplices.ravel().tolist()
-    # An open star begins where nothing is clockwise.
-    is_first = (tri.neighbors[:, [2, 0, 1]] < 0).ravel()
-    starts = np.concatenate([np.flatnonzero(is_first), np.arange(len(points))]).tolist()
-    vertex = np.repeat(which, 3).tolist()
-    is_open = is_first.tolist()
-    for start in starts:
-        point = points[start]
-        if regions[point]:
-            continue
-        ring = [-1] if is_open[start] else []
-        corner = start
-        # No star has more triangles than there are.
-        for _ in range(len(tri.simplices)):
-            if not ring or ring[-1] != vertex[corner]:
-                ring.append(vertex[corner])
-            corner = after[corner]
-            if corner in (-1, start):
-                break
-        while len(ring) > 1 and ring[-1] == ring[0]:
-            ring.pop()
-        regions[point] = ring
-    return regions

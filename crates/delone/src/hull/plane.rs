@@ -128,17 +128,65 @@ fn outer(points: &[[f64; 2]]) -> Vec<usize> {
     if points.len() < FEW {
         return (0..points.len()).collect();
     }
-    let directions = [[1., 0.], [1., 1.], [0., 1.], [-1., 1.], [-1., 0.], [-1., -1.], [0., -1.], [1., -1.]];
-    let reach = |p: [f64; 2], [x, y]: [f64; 2]| p[0] / 2.0 * x + p[1] / 2.0 * y;
-    let extreme = |direction: [f64; 2]| {
-        let further = |p: &[f64; 2], q: &[f64; 2]| reach(*p, direction).total_cmp(&reach(*q, direction));
-        points.iter().copied().max_by(further).unwrap_or_default()
-    };
     // Rounded or not, these are points: what is left of every side of their polygon is inside of their hull.
-    let mut octagon = directions.map(extreme).to_vec();
+    let extremes = extremes(points);
+    let mut octagon = extremes.to_vec();
     octagon.dedup();
     let next = octagon.iter().cycle().skip(1);
     let sides: Vec<_> = octagon.iter().zip(next).filter(|(a, b)| a != b).collect();
     let inside = |q: [f64; 2]| sides.iter().all(|&(&a, &b)| orient2d(a, b, q).is_positive());
-    (0..points.len()).filter(|&i| sides.is_empty() || !inside(points[i])).collect()
+    // Most points are strictly inside of a box whose corners are in the octagon, which comparisons tell.
+    let [_, ne, _, nw, _, sw, _, se] = extremes;
+    let (low, high) = ([nw[0].max(sw[0]), sw[1].max(se[1])], [ne[0].min(se[0]), ne[1].min(nw[1])]);
+    let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
+    let holds = |q: [f64; 2]| sides.iter().all(|&(&a, &b)| !orient2d(a, b, q).is_negative());
+    let is_box = low[0] < high[0] && low[1] < high[1] && corners.into_iter().all(holds);
+    let boxed = |[x, y]: [f64; 2]| is_box && low[0] < x && x < high[0] && low[1] < y && y < high[1];
+    let is_inside = |q| boxed(q) || (!sides.is_empty() && inside(q));
+    (0..points.len()).filter(|&i| !is_inside(points[i])).collect()
+}
+
+/// The extreme points in eight directions, counter-clockwise from the right, each but for rounding.
+fn extremes(points: &[[f64; 2]]) -> [[f64; 2]; 8] {
+    // Sums of halves cannot overflow.
+    let reaches = |p: [f64; 2]| {
+        let [x, y] = p.map(|coordinate| coordinate / 2.0);
+        [x, x + y, y, y - x, -x, -x - y, -y, x - y]
+    };
+    let first = points.first().copied().unwrap_or_default();
+    let (mut found, mut furthest) = ([first; 8], reaches(first));
+    for &p in points {
+        for ((found, furthest), reach) in found.iter_mut().zip(&mut furthest).zip(reaches(p)) {
+            if reach > *furthest {
+                (*found, *furthest) = (p, reach);
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{corners, outer};
+    use delone_generators::Kind;
+    use delone_predicates::orient2d;
+
+    #[test]
+    fn what_is_thrown_away_is_inside() {
+        let mut thrown_away = 0;
+        for (&kind, scale) in
+            Kind::ALL.iter().flat_map(|kind| [1.0, 1e-200, 1e150].map(|scale| (kind, scale)))
+        {
+            let points: Vec<[f64; 2]> = kind.points(700, 3).iter().map(|p| p.map(|x| x * scale)).collect();
+            let (hull, left) = (corners(&points), outer(&points));
+            assert!(left.is_sorted() && hull.iter().all(|i| left.binary_search(i).is_ok()), "{kind:?}");
+            for i in (0..points.len()).filter(|i| left.binary_search(i).is_err()) {
+                let mut sides = hull.iter().zip(hull.iter().cycle().skip(1));
+                let is_left = |(&a, &b)| orient2d(points[a], points[b], points[i]).is_positive();
+                assert!(hull.len() > 2 && sides.all(is_left), "{kind:?} {:?}", points[i]);
+                thrown_away += 1;
+            }
+        }
+        assert!(thrown_away > 10_000);
+    }
 }
