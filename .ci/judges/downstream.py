@@ -62,7 +62,17 @@ def passing(paths, folder, place):
     folder.mkdir(parents=True, exist_ok=True)
     report = folder / f"{place}.xml"
     report.unlink(missing_ok=True)
-    command = [sys.executable, "-m", "pytest", "-q", "--tb=short", "-p", "no:cacheprovider", f"--junitxml={report}", "--timeout=300"]
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "--tb=short",
+        "-p",
+        "no:cacheprovider",
+        f"--junitxml={report}",
+        "--timeout=300",
+    ]
     command += ["-W", "ignore", *(["-p", "in_place"] if place == "delone" else []), *map(str, paths)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(HERE), os.environ.get("PYTHONPATH")]))}
     with open(folder / f"{place}.log", "w") as log:
