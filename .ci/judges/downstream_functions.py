@@ -14,6 +14,7 @@ CUBIC = {
 @pytest.mark.parametrize("name", CUBIC)
 @pytest.mark.parametrize("constant", [2.87, 3.61, 4.05, 5.43])
 def test_ase_brillouin_zones(name, constant):
+    """ASE's zones have the faces of their lattice."""
     from ase.dft.bz import bz_vertices
 
     axes, faces = CUBIC[name]
@@ -22,6 +23,7 @@ def test_ase_brillouin_zones(name, constant):
 
 @pytest.mark.parametrize("name", CUBIC)
 def test_pymatgen_brillouin_zones(name):
+    """So have pymatgen's."""
     from pymatgen.core import Lattice
 
     axes, faces = CUBIC[name]
@@ -30,6 +32,7 @@ def test_pymatgen_brillouin_zones(name):
 
 @pytest.mark.parametrize(("name", "neighbors"), [("fcc", 12), ("bcc", 14)])
 def test_pymatgen_voronoi_neighbors(name, neighbors):
+    """Atoms have as many neighbours as their lattice says."""
     from pymatgen.analysis.local_env import VoronoiNN
     from pymatgen.core import Lattice, Structure
 
@@ -38,6 +41,7 @@ def test_pymatgen_voronoi_neighbors(name, neighbors):
 
 
 def test_pymatgen_wulff_shapes():
+    """A crystal's shape has a volume, and its faces all of the surface."""
     from pymatgen.analysis.wulff import WulffShape
     from pymatgen.core import Lattice
 
@@ -47,6 +51,7 @@ def test_pymatgen_wulff_shapes():
 
 
 def test_pymatgen_phase_diagrams():
+    """Stable compounds are on the hull."""
     from pymatgen.analysis.phase_diagram import PDEntry, PhaseDiagram
     from pymatgen.core import Composition
 
@@ -56,6 +61,7 @@ def test_pymatgen_phase_diagrams():
 
 
 def test_geovoronoi_regions():
+    """Regions tile the square."""
     shapely = pytest.importorskip("shapely")
     from geovoronoi import voronoi_regions_from_coords
 
@@ -66,6 +72,7 @@ def test_geovoronoi_regions():
 
 
 def test_alphashape_of_a_ball_is_closed():
+    """A shape in space is closed."""
     alphashape = pytest.importorskip("alphashape")
     points = np.random.default_rng(2).normal(size=(300, 3))
     assert alphashape.alphashape(points, 0.5).is_watertight
