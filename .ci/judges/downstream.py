@@ -3,7 +3,8 @@
     python .ci/judges/downstream.py FOLDER
 
 Whatever passes by SciPy must pass with Delone, but for what `ARBITRARY` has. Prints what passes more or less, and exits with 1
-if anything is less. Packages are those that this Python has; tests that are not installed along come from the source of the version.
+if anything is less. Packages are those that this Python has; tests that are not installed along come from the source of that
+version.
 """
 
 import importlib.metadata
