@@ -318,6 +318,39 @@ def test_half_spaces_that_cannot_be():
         made.add_halfspaces(cube)
 
 
+@pytest.mark.parametrize("away", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_half_spaces_seen_from_near_a_border(away):
+    # A box with a cut corner; its corners are known.
+    rows = [[*(np.eye(3)[k] * sign), -1.0] for k in range(3) for sign in (1, -1)]
+    given = np.array([*rows, [1.0, 1.0, 1.0, -2.0]])
+    corners = np.array([p for p in itertools.product([-1.0, 1.0], repeat=3) if sum(p) < 2] + [[1, 1, 0], [1, 0, 1], [0, 1, 1]])
+    for point in ([1 - away, 0.2, 0.1], [away - 1, away - 1, 0.3], [2 / 3 - away] * 3):
+        for merge in ("auto", None):
+            found = spatial.HalfspaceIntersection(given, point, merge=merge).intersections
+            nearest = np.linalg.norm(found[:, None] - corners[None], axis=2).min(axis=1)
+            assert len(found) == len(corners) and nearest.max() < 1e-3 * away + 1e-9, (point, merge)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_planes_of_exact_facets_have_no_point_outside(seed):
+    points = turned(GRID, seed)
+    hull = spatial.ConvexHull(points, merge=None)
+    assert np.isfinite(hull.equations).all()
+    assert (points @ hull.equations[:, :3].T + hull.equations[:, 3]).max() < 1e-12
+
+
+def test_values_may_be_others():
+    points = RANDOM.random((50, 2))
+    f = spatial.LinearNDInterpolator(points, points[:, 0])
+    f.values = points[:, 1]
+    assert f(0.5, 0.4) == pytest.approx(0.4)
+    with pytest.raises(ValueError):
+        f.values = points[1:, 1]
+    tri = spatial.Delaunay(points)
+    tri.good[0] = 0
+    assert tri.good[0] == 0
+
+
 def test_options_that_only_qhull_has_are_left_to_it():
     points = RANDOM.random((30, 2))
     assert type(spatial.Delaunay(points, qhull_options="Qbb Qt Qc C-0")) is scipy.spatial.Delaunay

@@ -140,7 +140,7 @@ def test_what_is_refused():
         ("masked", np.ma.masked_array(points, points > 0.5), values),
         ("not finite", np.where(points > 0.9, np.nan, points), values),
         ("2 or 3 coordinates", random_points(50, 4), values),
-        ("for points, not", delone.Delaunay(points), values, "sibson", np.nan, True),
+        ("Rescaling is not supported", delone.Delaunay(points), values, "sibson", np.nan, True),
     ]:
         with pytest.raises(ValueError, match=match):
             make(*arguments)

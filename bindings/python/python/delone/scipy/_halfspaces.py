@@ -11,6 +11,7 @@ import numpy as np
 import scipy.spatial
 from numpy.typing import ArrayLike, NDArray
 
+from .. import _delone
 from .._errors import qhull_error
 from .._points import as_flag
 from ._place import InItsPlace, as_doubles, is_ours
@@ -31,7 +32,8 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
     qhull_options : str, optional
         For those who come from SciPy, as of `delone.ConvexHull`.
     merge : float or "auto", optional
-        Corners of the dual hull within this distance are one, see `delone.ConvexHull`; None for the exact dual hull.
+        Corners of the dual hull within this distance of the hull of the others are left out, see `delone.ConvexHull`. "auto" is
+        2^-40 of the distance of the nearest corner of the dual hull from the origin; None is the exact dual hull.
 
     Attributes
     ----------
@@ -114,7 +116,12 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
         far = np.flatnonzero(~np.isfinite(self.dual_points).all(axis=1))
         if len(far):
             raise qhull_error(f"interior_point is hardly feasible: too near to the border of half-space {far[0]}")
-        hull = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=self._merge)
+        merge = self._merge
+        if isinstance(merge, str):
+            # A border that is near makes a dual point that is far: rounding is measured by the nearest corner.
+            exact = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=None)
+            merge = _delone.MERGE_AUTO * float(np.linalg.norm(self.dual_points[exact.vertices], axis=1).min())
+        hull = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=merge)
         self.min_bound, self.max_bound = hull.min_bound, hull.max_bound
         self.dual_facets: list[list[int]] = [facet.tolist() for facet in hull.facets]
         self._dual_vertices: NDArray[np.int32] = np.sort(hull.vertices)

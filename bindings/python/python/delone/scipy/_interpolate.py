@@ -53,6 +53,21 @@ class LinearNDInterpolator(_interpolate.LinearNDInterpolator, scipy.interpolate.
         """The values, a row for each point and a column for each of its values."""
         return self._values.reshape(len(self._values), -1)
 
+    @values.setter
+    def values(self, values: ArrayLike) -> None:
+        """Takes other values at the same points."""
+        self._values = _interpolate._as_values(values, self.tri.npoints)
+
+    @property
+    def offset(self) -> NDArray[np.float64] | float:
+        """What `rescale` has taken from the points."""
+        return self._offset
+
+    @property
+    def scale(self) -> NDArray[np.float64] | float:
+        """What `rescale` has divided the points by."""
+        return self._scale
+
     @property
     def is_complex(self) -> bool:
         """Whether values are complex."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABCMeta
 from collections.abc import Callable
 from typing import Any
 
@@ -13,7 +14,7 @@ from .._errors import qhull_error
 from .._options import parse
 
 
-class InItsPlace(type):
+class InItsPlace(ABCMeta):
     """The type of classes that have `_theirs`, the class of SciPy that they stand for.
 
     What `_suits` refuses SciPy makes itself; what SciPy has made is an instance too. Classes that users derive are plain ones.
@@ -31,7 +32,8 @@ class InItsPlace(type):
             given = {name: value for name, value in options.items() if name != "merge"}
             if not suits:
                 return own["_theirs"](*args, **given)
-            if "QJ" in str(given.get("qhull_options", args[-1:])):
+            texts = [text for text in (*args, *given.values()) if isinstance(text, (str, bytes))]
+            if any("QJ" in str(text) for text in texts):
                 # A joggle makes corners of points that are equal, and a body of what is flat.
                 try:
                     return super().__call__(*args, **options)

@@ -36,7 +36,7 @@ class Delaunay(_delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace)
         qhull_options: str | None = None,
     ) -> None:
         """Triangulates points."""
-        super().__init__(as_doubles(points), furthest_site, incremental, qhull_options)
+        super().__init__(as_doubles(points), bool(furthest_site), bool(incremental), qhull_options)
         refuse_flat(not self.nsimplex, self.npoints, self.ndim)
 
     @classmethod
@@ -66,8 +66,9 @@ class Delaunay(_delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace)
     simplices = Assignable(lambda self: self._arrays()[0])
     neighbors = Assignable(lambda self: self._arrays()[1])
     equations = Assignable(lambda self: _delaunay.Delaunay.equations.__get__(self))
-    coplanar = Assignable(lambda self: _delaunay.Delaunay.coplanar.__get__(self))
-    good = Assignable(lambda self: _delaunay.Delaunay.good.__get__(self))
+    coplanar = Assignable(lambda self: self._once("coplanar", lambda: _delaunay.Delaunay.coplanar.__get__(self)))
+    good = Assignable(lambda self: self._once("good", lambda: _delaunay.Delaunay.good.__get__(self)))
+    nsimplex = Assignable(lambda self: len(self.simplices))
 
     @property
     def convex_hull(self) -> NDArray[np.int32]:
@@ -103,7 +104,7 @@ class Voronoi(_voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=InItsPlace):  #
         merge: float | str | None = "auto",
     ) -> None:
         """Makes the diagram of points."""
-        super().__init__(as_doubles(points), furthest_site, incremental, qhull_options, merge=merge)
+        super().__init__(as_doubles(points), bool(furthest_site), bool(incremental), qhull_options, merge=merge)
 
     @classmethod
     def _suits(
@@ -157,7 +158,7 @@ class ConvexHull(_hull.ConvexHull, scipy.spatial.ConvexHull, metaclass=InItsPlac
         merge: float | str | None = "auto",
     ) -> None:
         """Finds the hull of points."""
-        super().__init__(as_doubles(points), incremental, qhull_options, merge=merge)
+        super().__init__(as_doubles(points), bool(incremental), qhull_options, merge=merge)
 
     @classmethod
     def _suits(cls, points: ArrayLike, incremental: bool = False, qhull_options: str | None = None, *, merge: Any = None) -> bool:
