@@ -12,6 +12,7 @@ import importlib.util
 import io
 import json
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -39,10 +40,12 @@ IN_SOURCE = {
     "scikit-image": ["tests/skimage/morphology/test_convex_hull.py", "tests/skimage/transform/test_geometric.py"],
     "alphashape": ["tests"],
     "MetPy": ["tests/interpolate"],
-    "trimesh": ["tests/test_nsphere.py", "tests/test_medial.py", "tests/test_convex.py", "tests/test_bounds.py"],
 }
-#: Tests that pass by SciPy's arbitrary choices alone, each with the reason.
-ARBITRARY: dict[str, str] = {}
+#: Patterns of tests that pass by arbitrary choices alone, each with the reason.
+ARBITRARY = {
+    r"test_learner_performance_is_invariant_under_scaling\[Learner2D": "points on a lattice are scaled by a random factor, which leaves "
+    "them on one circle but for rounding: one diagonal or the other is Delaunay, and the learner's next point is beside it",
+}
 
 
 def source_of(package, folder):
@@ -74,7 +77,8 @@ def passing(paths, folder, place):
         f"--junitxml={report}",
         "--timeout=300",
     ]
-    command += ["-W", "ignore", *(["-p", "in_place"] if place == "delone" else []), *map(str, paths)]
+    # What its authors expect to fail sometimes counts for neither.
+    command += ["-W", "ignore", "-o", "xfail_strict=true", *(["-p", "in_place"] if place == "delone" else []), *map(str, paths)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(HERE), os.environ.get("PYTHONPATH")]))}
     with open(folder / f"{place}.log", "w") as log:
         subprocess.run(command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT, timeout=1800)
@@ -87,7 +91,7 @@ def passing(paths, folder, place):
 def judge(package, paths, folder):
     """What passes by SciPy and not with Delone."""
     theirs, ours = (passing(paths, folder, place) for place in ("scipy", "delone"))
-    less = sorted(theirs - ours - ARBITRARY.keys())
+    less = sorted(name for name in theirs - ours if not any(re.search(pattern, name) for pattern in ARBITRARY))
     print(f"{package}: {len(theirs)} pass by SciPy, {len(ours)} with Delone, {len(ours - theirs)} of them by Delone alone")
     for name in less:
         print(f"  fails: {name}")

@@ -71,6 +71,19 @@ def test_geovoronoi_regions():
     assert sum(region.area for region in regions.values()) == pytest.approx(1)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_trimesh_hulls_and_spheres(seed):
+    """Hulls of turned parts are convex to trimesh, with the faces that they have; the least sphere holds all points."""
+    trimesh = pytest.importorskip("trimesh")
+    grid = np.stack(np.meshgrid(*[np.linspace(0, 1, 6)] * 3), -1).reshape(-1, 3)
+    turn = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    hull = trimesh.convex.convex_hull(grid @ turn)
+    assert hull.is_watertight and hull.is_convex and hull.volume == pytest.approx(1)
+    points = np.random.default_rng(seed).normal(size=(100, 3))
+    center, radius = trimesh.nsphere.minimum_nsphere(points)
+    assert np.linalg.norm(points - center, axis=1).max() == pytest.approx(radius)
+
+
 def test_alphashape_of_a_ball_is_closed():
     """A shape in space is closed."""
     alphashape = pytest.importorskip("alphashape")
