@@ -43,8 +43,10 @@ IN_SOURCE = {
 }
 #: Patterns of tests that pass by arbitrary choices alone, each with the reason.
 ARBITRARY = {
-    r"test_learner_performance_is_invariant_under_scaling\[Learner2D": "points on a lattice are scaled by a random factor, which leaves "
-    "them on one circle but for rounding: one diagonal or the other is Delaunay, and the learner's next point is beside it",
+    r"test_learner_performance_is_invariant_under_scaling\[Learner2D": (
+        "points of a lattice are scaled by a random factor, so that four are on one circle but for rounding: either diagonal "
+        "may be Delaunay, and the learner's next point is beside it"
+    ),
 }
 
 
