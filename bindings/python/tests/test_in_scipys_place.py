@@ -349,6 +349,10 @@ def test_values_may_be_others():
     tri = spatial.Delaunay(points)
     tri.good[0] = 0
     assert tri.good[0] == 0
+    hull = spatial.ConvexHull(points)
+    before = hull.simplices.copy()
+    hull.vertices[:] = 0
+    assert np.array_equal(hull.simplices, before) and hull.vertices.flags.c_contiguous
 
 
 def test_options_that_only_qhull_has_are_left_to_it():

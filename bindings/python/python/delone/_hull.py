@@ -122,7 +122,7 @@ class ConvexHull:
             single = np.zeros(1 if self.flat == "span" and self.npoints else 0, dtype=np.int32)
             return self.simplices[:, 0] if self.nsimplex else single
         if self.ndim == 2:
-            return self.simplices[:, 0]
+            return self.simplices[:, 0].copy()
         return _delone.corners_of(self.npoints, self.simplices)
 
     @cached_property
