@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ import scipy.spatial
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _delaunay, _hull, _voronoi
+from .._cached import cached_property
 from ._place import Assignable, InItsPlace, as_doubles, is_ours, refuse_flat
 
 

@@ -30,8 +30,16 @@ pub(super) fn normal(corners: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], f64)
     if size > 0.0 { (sum.map(|x| x / size), size) } else { ([0.0; 3], 0.0) }
 }
 
-/// For each face of a hull the face that it is joined to; none if all points are within the length of one plane.
-pub(super) fn groups(points: &[[f64; 3]], faces: &Faces, length: f64) -> Option<Vec<usize>> {
+/// Faces that are joined.
+pub(super) struct Groups {
+    /// For each face that which it is joined to.
+    pub(super) of: Vec<usize>,
+    /// The faces that others are joined to, each with the ring around them all, from its least corner.
+    pub(super) polygons: Vec<(usize, Vec<usize>)>,
+}
+
+/// Joins the faces of a hull; none if all points are within the length of one plane.
+pub(super) fn groups(points: &[[f64; 3]], faces: &Faces, length: f64) -> Option<Groups> {
     let at = |face: usize| faces.get(face).iter().map(|&i| points[i]);
     let sides = Sides::of(faces);
     let planes: Vec<([f64; 3], f64)> = (0..faces.iter().len()).map(|face| normal(at(face))).collect();
@@ -47,7 +55,7 @@ pub(super) fn groups(points: &[[f64; 3]], faces: &Faces, length: f64) -> Option<
     if points.iter().all(|&p| is_near(largest, p)) {
         return None;
     }
-    let mut group = vec![NONE; planes.len()];
+    let (mut group, mut polygons) = (vec![NONE; planes.len()], Vec::new());
     let mut members = Vec::new();
     for seed in order {
         if group[seed] != NONE {
@@ -71,26 +79,14 @@ pub(super) fn groups(points: &[[f64; 3]], faces: &Faces, length: f64) -> Option<
             }
         }
         let is_border = |[u, v]: [usize; 2]| group[sides.face([v, u])] != seed;
-        let is_whole = |ring: Vec<usize>| is_convex(points, &ring, plane.0);
-        if members.len() > 1 && !ring(faces, &members, is_border).is_some_and(is_whole) {
+        let whole = ring(faces, &members, is_border).filter(|ring| is_convex(points, ring, plane.0));
+        if whole.is_none() {
             members.iter().for_each(|&face| group[face] = NONE);
             group[seed] = seed;
         }
+        polygons.push((seed, whole.unwrap_or_else(|| faces.get(seed).to_vec())));
     }
-    Some(group)
-}
-
-/// The polygons of faces that are joined, each from its least corner, after the face that the others are joined to.
-pub(super) fn polygons(faces: &Faces, groups: &[usize]) -> Vec<(usize, Vec<usize>)> {
-    let sides = Sides::of(faces);
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
-    groups.iter().enumerate().for_each(|(face, &group)| members[group].push(face));
-    let rings =
-        members.iter().enumerate().filter(|(_, members)| !members.is_empty()).map(|(group, members)| {
-            let ring = ring(faces, members, |[u, v]| groups[sides.face([v, u])] != group);
-            (group, ring.unwrap_or_else(|| faces.get(group).to_vec()))
-        });
-    rings.collect()
+    Some(Groups { of: group, polygons })
 }
 
 /// The one ring around some faces, from its least corner, if it has all their corners; of their sides those are given that are on the border.

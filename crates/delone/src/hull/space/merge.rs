@@ -17,7 +17,6 @@ use super::super::merge::near_one;
 use super::faces::Faces;
 use super::join::{self, normal};
 use super::{Hull3, Joined};
-
 use crate::error::Error;
 use crate::foot::{distance, minus};
 use crate::mesh::Dimension;
@@ -52,13 +51,13 @@ pub(super) fn merged(hull: &Hull3, points: &[[f64; 3]], length: f64) -> Result<H
     let there: Vec<[f64; 3]> = left.iter().map(|&k| corners[k]).collect();
     let groups = join::groups(&there, &made.faces, length_there).ok_or_else(|| too_long(length))?;
     let name = |i: usize| order[left[i]];
-    let rings = join::polygons(&made.faces, &groups);
-    let (polygons, before) = Faces::rows(rings.iter().map(|(_, ring)| &ring[..])).renamed(name);
+    let rings = groups.polygons.iter().map(|(_, ring)| &ring[..]);
+    let (polygons, before) = Faces::rows(rings).renamed(name);
     // By the face that others are joined to.
-    let mut number = vec![0; groups.len()];
-    (0..).zip(before).for_each(|(new, old)| number[rings[old as usize].0] = new);
+    let mut number = vec![0; groups.of.len()];
+    (0..).zip(before).for_each(|(new, old)| number[groups.polygons[old as usize].0] = new);
     let (faces, before) = made.faces.renamed(name);
-    let of = before.iter().map(|&old| number[groups[old as usize]]).collect();
+    let of = before.iter().map(|&old| number[groups.of[old as usize]]).collect();
     Ok(Hull3 { joined: Some(Joined { polygons, of }), ..Hull3::solid(faces) })
 }
 
@@ -183,7 +182,7 @@ impl Stars {
         let mut edges: Vec<[usize; 2]> = Vec::with_capacity(3 * facets.len());
         for &[a, b, c] in facets {
             edges.extend([[a, b], [b, c], [c, a]]);
-            let (unit, _) = normal([a, b, c].map(|i| points[i]).iter().copied());
+            let (unit, _) = normal([a, b, c].map(|i| points[i]).into_iter());
             for v in [a, b, c] {
                 starts[v + 1] += 1;
                 normals[v] = [0, 1, 2].map(|k| normals[v][k] + unit[k]);
