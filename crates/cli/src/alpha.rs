@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use delone::{Alpha, Delaunay2, Delaunay3, Manifold3, VertexId};
 use delone_io::{
-    Cloud, Format, Graph, GraphRing, Patches, Solid, picture, write_filtration, write_graph, write_indices,
-    write_patches, write_solid,
+    Cloud, Contents, Format, Graph, GraphRing, Patches, Solid, picture, write_filtration, write_graph,
+    write_indices, write_patches, write_solid,
 };
 
 use crate::args::AlphaArgs;
@@ -47,6 +47,11 @@ pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(stats_path)
 }
 
+/// Files that hold outlines of the plane, or the triangles of a shape.
+pub(crate) const IN_THE_PLANE: &[Contents] = &[Contents::Lines, Contents::Patches];
+/// Files that hold surfaces of space, or their triangles.
+pub(crate) const IN_SPACE: &[Contents] = &[Contents::Surfaces, Contents::Indices];
+
 /// Refuses outputs that say nothing, or that formats cannot hold.
 fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
     if outputs.is_empty() && args.filtration.is_none() {
@@ -67,30 +72,9 @@ fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure>
     }
     if let Some(path) = &args.filtration {
         let format = files::format_beside(path)?;
-        if !matches!(format, Format::Npz | Format::Text) {
-            return Err(Failure::file(path, &delone_io::Error::NotAFiltration(format)));
-        }
+        files::check_formats(&[(path.clone(), format)], &[Contents::Filtrations])?;
     }
-    for (path, format) in outputs {
-        use Format::{GeoJson, Npy, Obj, Ply, Png, Poly, Stl, Svg, Text, Vtu, Wkt, WktCollection};
-        let holds = match format {
-            Npy | Text | Ply | Obj | Stl | Vtu | Svg | Png => true,
-            GeoJson | Wkt | WktCollection | Poly => !args.dim.is_space(),
-            _ => !args.dim.is_space() && Patches::check(*format).is_ok(),
-        };
-        if !holds {
-            let names = if args.dim.is_space() {
-                "npy csv ply obj stl vtu svg png"
-            } else {
-                "geojson wkt poly npy csv ply obj stl vtu wkb svg png"
-            };
-            return Err(Failure::usage(
-                format!("{}: no alpha shape is written as {format}", path.display()),
-                format!("choose among {names}"),
-            ));
-        }
-    }
-    Ok(())
+    files::check_formats(outputs, if args.dim.is_space() { IN_SPACE } else { IN_THE_PLANE })
 }
 
 /// The complexes of the points, with weights or without, written if that is asked for; and the points, all of which have their places

@@ -2,7 +2,7 @@
 
 use delone::Delaunay2;
 use delone::surface::{Contours, Levels};
-use delone_io::{ContourMap, Format, write_contours};
+use delone_io::{Contents, ContourMap, Format, write_contours};
 
 use crate::args::ContoursArgs;
 use crate::files;
@@ -15,9 +15,7 @@ use crate::stats::Stats;
 pub(crate) fn run(args: &ContoursArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &args.input.paths())?;
-    for (path, format) in &outputs {
-        ContourMap::check(*format).map_err(|error| Failure::file(path, &error))?;
-    }
+    files::check_formats(&outputs, &[Contents::Contours])?;
     let mut stats = Stats::start();
     let (points, mut heights, about) = files::surface(&args.input, quiet)?;
     stats.phase("read");

@@ -1,7 +1,7 @@
 //! `delone draw`: pictures.
 
 use delone::{Coordinates, Delaunay2, HintOrder, Hints2, VertexId};
-use delone_io::{Cut, Format, Trim, picture, write_mesh};
+use delone_io::{Contents, Cut, Trim, picture, write_mesh};
 
 use crate::args::{Choice, DrawArgs};
 use crate::message::Failure;
@@ -22,14 +22,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     inputs.extend(args.graph.segments.as_deref());
     inputs.extend(args.weights.file());
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?;
-    if let Some((path, format)) =
-        outputs.iter().find(|(_, format)| !matches!(format, Format::Svg | Format::Png))
-    {
-        return Err(Failure::usage(
-            format!("{}: {format} is no picture", path.display()),
-            "pictures are svg and png; for other files use delone triangulate",
-        ));
-    }
+    files::check_formats(&outputs, &[Contents::Pictures])?;
     let mut options = options(args, R::is_space())?;
     let cut = cut(args)?;
     if args.weights.given().is_some() {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use delone_generators::{Graph, Kind, Kind3, Random, moved};
-use delone_io::{Cloud, Format, GraphRing};
+use delone_io::{Cloud, Contents, Direction, Format, GraphRing};
 
 use crate::args::GenerateArgs;
 use crate::files;
@@ -114,7 +114,7 @@ fn make_graph(
     };
     let _phase = Phase::start(quiet, "writing");
     for (path, format) in outputs {
-        if matches!(format, Format::Poly | Format::GeoJson | Format::Wkt | Format::WktCollection) {
+        if format.holds(Contents::Lines, Direction::Written) {
             files::write(path, |out| delone_io::write_graph(out, *format, &graph))?;
         } else {
             files::write(path, |out| delone_io::write_points(out, *format, &graph.cloud.xy))?;

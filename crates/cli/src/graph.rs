@@ -1,7 +1,7 @@
 //! `delone graph`: proximity graphs, as pairs of points and as pictures.
 
 use delone::Graph;
-use delone_io::{Edges, Format, picture, write_edges, write_mesh};
+use delone_io::{Contents, Edges, Format, picture, write_edges, write_mesh};
 
 use crate::args::{ProximityArgs, ProximityName};
 use crate::files;
@@ -13,6 +13,7 @@ use crate::stats::Stats;
 pub(crate) fn run<R: Room>(args: &ProximityArgs, quiet: bool) -> Result<(), Failure> {
     let graph = graph(args)?;
     let outputs = files::outputs(&args.output, args.to, args.input.stats.as_deref(), &args.input.paths())?;
+    files::check_formats(&outputs, &[Contents::Edges, Contents::Pictures])?;
     let is_picture = |format: Format| matches!(format, Format::Svg | Format::Png);
     for (path, format) in &outputs {
         if is_picture(*format) && R::is_space() {
@@ -20,9 +21,6 @@ pub(crate) fn run<R: Room>(args: &ProximityArgs, quiet: bool) -> Result<(), Fail
                 format!("{}: pictures of graphs are for the plane", path.display()),
                 "choose npy, csv or geojson, or leave --dim 3 out",
             ));
-        }
-        if !is_picture(*format) && !matches!(format, Format::Npy | Format::Text | Format::GeoJson) {
-            return Err(Failure::file(path, &delone_io::Error::NotEdges(*format)));
         }
     }
     let mut stats = Stats::start();

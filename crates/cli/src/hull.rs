@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use delone::{Delaunay2, Delaunay3, Dimension, Error, Hull2, Hull3, HullHistory3};
-use delone_io::{Format, Solid, picture};
+use delone_io::{Contents, Direction, Format, Solid, picture};
 
 use crate::args::{HullAlgorithm, HullArgs};
 use crate::files;
@@ -40,7 +40,7 @@ pub(crate) fn run(args: &HullArgs, quiet: bool) -> Result<(), Failure> {
 }
 
 fn is_list(format: Format) -> bool {
-    matches!(format, Format::Npy | Format::Text)
+    format.holds(Contents::Indices, Direction::Written)
 }
 
 /// The length up to which corners are left out, if any are.
@@ -95,14 +95,7 @@ fn space(
     stats: &mut Stats,
     quiet: bool,
 ) -> Result<(), Failure> {
-    use Format::{Obj, Ply, Png, Stl, Svg, Vtu};
-    let holds = |format: Format| is_list(format) || matches!(format, Ply | Obj | Stl | Vtu | Svg | Png);
-    if let Some((path, format)) = outputs.iter().find(|(_, format)| !holds(*format)) {
-        return Err(Failure::usage(
-            format!("{}: no hull in space is written as {format}", path.display()),
-            "choose among npy csv ply obj stl vtu svg png",
-        ));
-    }
+    files::check_formats(outputs, &[Contents::Surfaces, Contents::Indices])?;
     let camera = args.camera.camera()?;
     let options = picture::Options { size: args.camera.size, camera, ..picture::Options::default() };
     let (points, _) = room::read::<Delaunay3>(&args.input, quiet)?;

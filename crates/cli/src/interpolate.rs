@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::{Grid, Interpolator, Outside, gradients};
 use delone::{Delaunay2, Delaunay3, Error, Surround};
-use delone_io::{Cloud, Format, RasterInfo, RasterWriter, Sample, write_array};
+use delone_io::{Cloud, Contents, Direction, Format, RasterInfo, RasterWriter, Sample, write_array};
 
 use crate::args::{InterpolateArgs, MethodName, OutsideName};
 use crate::files;
@@ -71,12 +71,10 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
             let shape = [values.len() / columns, columns];
             files::write(&args.output, |out| Ok(write_array(out, &shape, values.iter().copied())?))?;
         }
-        (_, grid) => {
-            let Some(grid) = grid else {
-                return Err(Failure::file(&args.output, &delone_io::Error::NotARaster(format)));
-            };
-            write_raster(&args.output, format, grid, &about, &values)?;
-        }
+        (_, None) => format
+            .check(Contents::Numbers, Direction::Written)
+            .map_err(|error| Failure::file(&args.output, &error))?,
+        (_, Some(grid)) => write_raster(&args.output, format, grid, &about, &values)?,
     }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);
@@ -93,15 +91,8 @@ fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), F
     if args.grid.is_some() && args.value.len() > 1 {
         return Err(Failure::usage("a raster has one value", "give --value once, or places with --queries"));
     }
-    let is_raster = matches!(format, Format::Tiff | Format::Asc | Format::Npy);
-    let is_list = matches!(format, Format::Text | Format::Npy);
-    if args.grid.is_some() && !is_raster {
-        return Err(Failure::usage("a raster is written as tif, asc or npy", "choose one of them with --to"));
-    }
-    if args.grid.is_none() && !is_list {
-        return Err(Failure::usage("values are written as csv or npy", "choose one of them with --to"));
-    }
-    Ok(())
+    let contents = if args.grid.is_some() { Contents::Rasters } else { Contents::Numbers };
+    files::check_formats(&[(args.output.clone(), format)], &[contents])
 }
 
 /// The values that there are, a list for each.

@@ -45,25 +45,9 @@ impl Failure {
             Error::UnknownExtension(_) => error.to_string(),
             _ => format!("{}: {error}", path.display()),
         };
-        let usage = matches!(
-            error,
-            Error::UnknownExtension(_)
-                | Error::NotPoints(_)
-                | Error::NotTriangles(_)
-                | Error::NotInChunks(_)
-                | Error::NotAMesh(_)
-                | Error::NotCells(_)
-                | Error::NotEdges(_)
-                | Error::NotPatches(_)
-                | Error::NotASolid(_)
-                | Error::NotTetrahedra(_)
-                | Error::NotABody(_)
-                | Error::NotSecondOrder(_)
-                | Error::NotContours(_)
-                | Error::NotARaster(_)
-                | Error::NeedsAFile(_)
-        );
-        Self { message, help: error.help().to_owned(), status: if usage { 2 } else { 1 } }
+        let usage =
+            matches!(error, Error::UnknownExtension(_) | Error::Unsupported { .. } | Error::NeedsAFile(_));
+        Self { message, help: error.help().into_owned(), status: if usage { 2 } else { 1 } }
     }
 
     /// Something wrong with points.

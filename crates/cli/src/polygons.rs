@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use delone::{Crossings, PolygonTriangles2, Polygons2};
-use delone_io::{Graph, Patches, write_patches};
+use delone_io::{Contents, Graph, Patches, write_patches};
 
 use crate::args::{CrossingsName, InputArgs, PolygonFill, PolygonsArgs};
 use crate::files;
@@ -17,9 +17,7 @@ const NAMED: usize = 10;
 pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     let inputs: Vec<_> = args.input.iter().map(PathBuf::as_path).collect();
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.stats.as_deref(), &inputs)?)?;
-    for (path, format) in &outputs {
-        Patches::check(*format).map_err(|error| Failure::file(path, &error))?;
-    }
+    files::check_formats(&outputs, &[Contents::Patches])?;
     let mut stats = Stats::start();
     let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
     let graph = files::graph(&input, None, quiet)?;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::{Delaunay2, Relaxation2};
-use delone_io::Diagram;
+use delone_io::{Contents, Diagram};
 
 use crate::args::VoronoiArgs;
 use crate::clip::{is_polygon, merge, not_merged, polygon_region, region};
@@ -27,9 +27,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&inputs, all.iter().map(AsRef::as_ref).chain(args.input.stats.as_deref()))?;
     let outputs =
         args.wkt.of(files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?)?;
-    for (path, format) in &outputs {
-        delone_io::check_cells(*format).map_err(|error| Failure::file(path, &error))?;
-    }
+    files::check_formats(&outputs, &[Contents::Cells])?;
     let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
     if !args.bounds.is_empty() && args.clip != Path::new("box") {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));

@@ -120,9 +120,17 @@ fn wrong_use_is_named() {
     place.file("line.csv", "0,0\n1,0\n2,0\n");
     place.fail("alpha p.csv --alpha 1", 2, "nothing to write");
     place.fail("alpha p.csv -o a.geojson", 2, "the radius of the shape is not known");
-    place.fail("alpha p.csv --alpha 1 -o a.las", 2, "no alpha shape is written as las");
-    place.fail("alpha p.csv --alpha 1 --dim 3 -o a.geojson", 2, "no alpha shape is written as geojson");
-    place.fail("alpha p.csv --filtration f.ply", 1, "filtrations are written as npz or csv");
+    place.fail(
+        "alpha p.csv --alpha 1 -o a.las",
+        2,
+        "lines and polygons or triangles of polygons are not written to las files",
+    );
+    place.fail(
+        "alpha p.csv --alpha 1 --dim 3 -o a.geojson",
+        2,
+        "surfaces in space or rows of indices are not written to geojson files",
+    );
+    place.fail("alpha p.csv --filtration f.ply", 2, "filtrations are not written to ply files");
     place.fail("alpha line.csv --optimal -o a.geojson", 1, "span no shape");
     place.fail("alpha p.csv --optimal 0 -o a.geojson", 2, "0 parts");
     place.fail("alpha p.csv --filtration p.csv", 2, "overwrite");

@@ -172,7 +172,11 @@ fn hulls_and_furthest_points() {
         2,
         "--seed is for random orders",
     );
-    place.fail("hull p.csv --dim 3 -o h.laz", 2, "no hull in space");
+    place.fail(
+        "hull p.csv --dim 3 -o h.laz",
+        2,
+        "surfaces in space or rows of indices are not written to las files",
+    );
     place.fail("hull p.csv --dim 3 -o h.svg --view 10,100", 2, "two angles");
     place.fail("hull p.csv --dim 3 -o h.npy", 1, "no third coordinate");
     let cube: String = (0..9).map(|i| format!("{} {} {}\n", i & 1, i >> 1 & 1, i >> 2 & 1)).collect();

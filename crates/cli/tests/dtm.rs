@@ -480,7 +480,7 @@ fn values_are_interpolated() {
         (1, "nan.csv --value a --queries q.csv -o v.npy", "the value of point 1 is NaN"),
         (2, "p.csv --queries q.csv -o v.npy", "nothing to interpolate"),
         (1, "p.csv --value c --queries q.csv -o v.npy", "c"),
-        (2, "p.csv --value a --queries q.csv -o v.tif", "csv or npy"),
+        (2, "p.csv --value a --queries q.csv -o v.tif", "numbers are not written to tif files"),
         (2, "p.csv --value a --value b --grid 1 -o v.tif", "one value"),
         (2, "p.csv --value a -o v.npy", "--queries"),
     ] {

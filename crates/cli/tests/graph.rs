@@ -89,7 +89,7 @@ fn what_makes_no_sense_is_refused() {
     place.fail("graph p.csv --kind gabriel --beta 2 -o e.npy", 2, "--beta goes with --kind beta");
     place.fail("graph p.csv --kind nearest -o e.npy", 2, "-k goes with --kind nearest");
     place.fail("graph p.csv --kind gabriel -k 2 -o e.npy", 2, "-k goes with --kind nearest");
-    place.fail("graph p.csv --kind gabriel -o e.ply", 2, "edges are not written to ply files");
+    place.fail("graph p.csv --kind gabriel -o e.ply", 2, "edges or pictures are not written to ply files");
     place.fail("graph p.csv --kind gabriel -o p.csv", 2, "overwrite");
     place.fail("graph bad.csv --kind gabriel -o e.npy", 1, "point 1 has the y coordinate NaN");
     place.fail("graph p.csv --kind gabriel --dim 3 -o e.npy", 1, "no third coordinate");

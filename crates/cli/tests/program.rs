@@ -230,7 +230,7 @@ fn wrong_usage() {
         ("triangulate p.csv", "required"),
         ("triangulate p.csv -o m.what", "no format has this extension"),
         ("triangulate p.csv -o m", "no format has this extension"),
-        ("triangulate p.csv -o m.las", "hold points"),
+        ("triangulate p.csv -o m.las", "triangles are not written to las files"),
         ("triangulate p.csv -o p.csv", "would overwrite"),
         ("triangulate p.csv -o ./p.csv --to ply", "would overwrite"),
         ("triangulate p.csv -o m.ply -o ./m.ply", "would overwrite"),
@@ -243,12 +243,12 @@ fn wrong_usage() {
         ("triangulate p.csv -o m.ply --locate spatial", "--locate"),
         ("triangulate p.csv -o m.ply --dim 4", "4"),
         ("triangulate p.csv -o m.ply --dim 3 --algorithm divide-conquer", "for the plane"),
-        ("triangulate p.csv -o m.geojson --dim 3", "triangulations of space are not written"),
+        ("triangulate p.csv -o m.geojson --dim 3", "tetrahedra are not written to geojson files"),
         ("triangulate p.csv -o m.ply --dim 3 --locate stars", "for the plane"),
         ("triangulate p.csv -o m.ply --threads 0", "0"),
         ("triangulate p.csv -o m.ply --class 2", "--class"),
         ("triangulate p.csv -o m.ply --class two", "two"),
-        ("draw p.csv -o m.ply", "no picture"),
+        ("draw p.csv -o m.ply", "pictures are not written to ply files"),
         ("draw p.csv -o m.png --size 3", "3"),
         ("generate nothing -n 5 -o p.npy", "no set named"),
         ("generate uniform -n 5", "output file is missing"),
@@ -458,7 +458,11 @@ fn wrong_queries_are_named() {
     place.fail("locate points.csv --queries bad.csv -o t.npy", 1, "query 1: the x coordinate NaN");
     place.fail("nearest points.csv --queries bad.csv -o t.npy -k 3", 1, "query 1: the x coordinate NaN");
     place.fail("locate points.csv --queries none.csv -o t.npy", 1, "none.csv");
-    place.fail("locate points.csv --queries points.csv -o t.png", 2, "npy or csv");
+    place.fail(
+        "locate points.csv --queries points.csv -o t.png",
+        2,
+        "rows of indices are not written to png files",
+    );
     place.fail("locate points.csv --queries points.csv -o points.csv", 2, "overwrite");
     place.fail("nearest points.csv --queries points.csv -o t.npy -k 0", 2, "0");
     place.fail("nearest points.csv --queries points.csv -o t.npy --locate conflict", 2, "building in bulk");

@@ -122,7 +122,7 @@ fn bad_files_are_named() {
     place.file("open.geojson", r#"{"type":"Polygon","coordinates":[[[0,0],[1,0],[0,1]]]}"#);
     place.fail("triangulate open.geojson -o t.npy", 1, "ring 0 of polygon 0 is not closed");
     place.file("s.png", "0,1\n");
-    place.fail("triangulate p.csv --segments s.png -o t.npy", 1, "segments are not read from png");
+    place.fail("triangulate p.csv --segments s.png -o t.npy", 2, "segments are not read from png");
     place.fail("triangulate p.csv --segments s.csv --dim 3 -o t.npy", 2, "segments are for the plane");
     place.fail("draw p.csv --segments s.csv --hints -o t.svg", 2, "segments are for the plane");
     place.fail("triangulate p.csv --segments p.csv -o p.csv", 2, "would overwrite");

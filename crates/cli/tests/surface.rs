@@ -166,9 +166,13 @@ fn what_is_wrong_is_said() {
         ("simplify cone.asc --max-error -1 -o m.ply", 2, "--max-error"),
         ("simplify cone.asc --max-error nan -o m.ply", 2, "--max-error takes a height"),
         ("simplify cone.asc --max-error 1 -o m.geotiff", 2, "no format has this extension"),
-        ("simplify cone.asc --max-error 1 -o m.laz", 2, "not triangles"),
+        ("simplify cone.asc --max-error 1 -o m.laz", 2, "triangles are not written to las files"),
         ("simplify cone.asc --max-error 1 -o m.ply --kept m.ply", 2, "would overwrite"),
-        ("simplify cone.asc --max-error 1 -o m.ply --kept k.ply", 2, "npy or csv"),
+        (
+            "simplify cone.asc --max-error 1 -o m.ply --kept k.ply",
+            2,
+            "rows of indices are not written to ply files",
+        ),
         ("simplify flat.csv --max-error 1 -o m.ply", 1, "the points have no heights"),
         ("simplify nan.csv --max-error 1 -o m.ply", 1, "point 1 has the height NaN"),
     ] {

@@ -272,7 +272,7 @@ fn refusals_say_what_to_do() {
     }
     // What makes a folder before it fails leaves nothing in it.
     for (line, status, message) in [
-        ("tiles p.ply -o u", 2, "not read piece by piece"),
+        ("tiles p.ply -o u", 2, "points in pieces are not read from ply files"),
         ("tiles bad.csv -o u", 1, "bad.csv: point 2 has the y coordinate NaN"),
         ("tiles flat.csv bad.csv -o u", 1, "bad.csv: point 5 has the y coordinate NaN"),
         ("tiles flat.csv -o u --heights", 1, "has no heights"),

@@ -6,7 +6,7 @@ use std::io::Write;
 
 use delone::surface::{ContourBand, ContourLine};
 
-use crate::{Crs, Error, Format, formats, picture};
+use crate::{Contents, Crs, Direction, Error, Format, formats, picture};
 
 /// Lines or bands to be written, or both.
 ///
@@ -33,14 +33,6 @@ pub struct ContourMap<'a> {
 }
 
 impl ContourMap<'_> {
-    /// Refuses formats that hold no contours.
-    pub fn check(format: Format) -> Result<(), Error> {
-        match format {
-            Format::GeoJson | Format::Svg | Format::Png => Ok(()),
-            _ => Err(Error::NotContours(format)),
-        }
-    }
-
     /// All points.
     pub(crate) fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let rings = self.bands.iter().flat_map(|band| band.polygons.iter().flatten().flatten());
@@ -59,14 +51,14 @@ impl ContourMap<'_> {
 /// (null where there is no bound), or as a picture whose longer side has `size` pixels.
 ///
 /// # Errors
-/// [`Error::NotContours`] for other formats, and those of the output.
+/// [`Error::Unsupported`] for other formats, and those of the output.
 pub fn write_contours(
     out: &mut dyn Write,
     format: Format,
     map: &ContourMap<'_>,
     size: u32,
 ) -> Result<(), Error> {
-    ContourMap::check(format)?;
+    format.check(Contents::Contours, Direction::Written)?;
     match format {
         Format::GeoJson => Ok(formats::geojson::write_contours(out, map)?),
         _ => picture::write_contours(out, format, map, size),

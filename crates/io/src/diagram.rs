@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::{Cells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
-use crate::{Crs, Error, Format};
+use crate::Crs;
 
 /// Clipped cells, with the triangulation of their sites.
 #[derive(Debug)]
@@ -26,25 +26,6 @@ pub struct OrderDiagram<'a> {
     pub cells: &'a OrderCells2,
     /// What the coordinates mean; formats that can say it do.
     pub crs: Option<&'a Crs>,
-}
-
-/// Refuses formats that hold no cells: all but GeoJSON, well-known text and binary, CSV with a column of well-known text, SVG and PNG.
-///
-/// ```
-/// use delone_io::{Format, check_cells};
-///
-/// assert!(check_cells(Format::Wkt).is_ok());
-/// assert!(check_cells(Format::Npy).is_err());
-/// ```
-///
-/// # Errors
-/// [`Error::NotCells`].
-pub fn check_cells(format: Format) -> Result<(), Error> {
-    use Format::{GeoJson, Png, Svg, Text, Wkb, Wkt, WktCollection};
-    match format {
-        GeoJson | Wkt | WktCollection | Text | Wkb | Svg | Png => Ok(()),
-        _ => Err(Error::NotCells(format)),
-    }
 }
 
 /// What is written of any diagram: polygons that tile, with what they are of.

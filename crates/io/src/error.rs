@@ -1,6 +1,8 @@
 //! What can go wrong with a file: what, and where in it.
 
-use crate::Format;
+use std::borrow::Cow;
+
+use crate::{Contents, Direction, Format};
 
 /// Why a file could not be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -57,66 +59,25 @@ pub enum Error {
     /// The points are in a `.node` file, which is not known here.
     #[error("the file has no points of its own: they are in the .node file beside it")]
     PointsElsewhere,
-    /// The format holds no segments by themselves.
-    #[error("segments are not read from {0} files")]
-    NotSegments(Format),
-    /// The format holds no list of numbers.
-    #[error("numbers are not read from {0} files")]
-    NotNumbers(Format),
-    /// The format holds no graphs.
-    #[error("graphs are not written to {0} files")]
-    NotAGraph(Format),
-    /// The format holds no faces of all dimensions with values.
-    #[error("filtrations are written as npz or csv, not to {0} files")]
-    NotAFiltration(Format),
+    /// Files of this format do not hold what was asked for.
+    #[error("{contents} are not {direction} {format} files")]
+    Unsupported {
+        /// The format.
+        format: Format,
+        /// What it does not hold.
+        contents: Contents,
+        /// Whether it was to be read or written.
+        direction: Direction,
+    },
     /// No format has this extension.
     #[error("{0}: no format has this extension")]
     UnknownExtension(String),
-    /// The format holds no points, or cannot be read yet.
-    #[error("points are not read from or written to {0} files")]
-    NotPoints(Format),
-    /// The format is not read in chunks.
-    #[error("{0} files are not read piece by piece")]
-    NotInChunks(Format),
-    /// The format holds no triangles.
-    #[error("triangles are not read from {0} files")]
-    NotTriangles(Format),
-    /// The format holds points only.
-    #[error("{0} files hold points, not triangles")]
-    NotAMesh(Format),
-    /// The format holds no edges.
-    #[error("edges are not written to {0} files")]
-    NotEdges(Format),
-    /// The format holds no Voronoi cells.
-    #[error("Voronoi cells are not written to {0} files")]
-    NotCells(Format),
-    /// The format holds no triangles of polygons.
-    #[error("triangles of polygons are not written to {0} files")]
-    NotPatches(Format),
-    /// The format holds no tetrahedra.
-    #[error("tetrahedra are not read from {0} files")]
-    NotTetrahedra(Format),
-    /// The format holds no elements of second order, or none of space.
-    #[error("elements of second order are not written to {0} files")]
-    NotSecondOrder(Format),
     /// The circumcentre of a triangle is no finite number.
     #[error("the circumcentre of triangle {triangle} is too far away to be written")]
     FarCentre {
         /// Its number in the `.ele` file.
         triangle: usize,
     },
-    /// The format holds no triangulation of space.
-    #[error("triangulations of space are not written to {0} files")]
-    NotABody(Format),
-    /// The format holds no closed surfaces.
-    #[error("surfaces in space are not written to {0} files")]
-    NotASolid(Format),
-    /// The format holds no contours.
-    #[error("contours are not written to {0} files")]
-    NotContours(Format),
-    /// The format holds no rasters.
-    #[error("rasters are not read from or written to {0} files")]
-    NotARaster(Format),
     /// The format is finished where it begins, and this output goes forwards only.
     #[error("{0} files are finished at their beginning: standard output, pipes and .gz go forwards only")]
     NeedsAFile(Format),
@@ -173,8 +134,8 @@ impl Error {
     }
 
     /// What the user can do about it.
-    pub fn help(&self) -> &'static str {
-        match self {
+    pub fn help(&self) -> Cow<'static, str> {
+        Cow::Borrowed(match self {
             Self::Truncated(_) => "copy or download it again: it is shorter than it says",
             Self::TooMuchOutput => "allow more with --max-output SIZE",
             Self::Expands => "if it is meant, allow memory with --max-memory SIZE, or decompress it first",
@@ -188,39 +149,18 @@ impl Error {
             Self::PointsElsewhere => {
                 "read the points from the .node file of the same name, or put them into this file"
             }
-            Self::NotSegments(_) => "segments are read from: csv txt npy poly edge",
-            Self::NotNumbers(_) => "numbers are read from: csv txt npy",
-            Self::NotAFiltration(_) => "choose npz or csv",
-            Self::NotAGraph(_) => "graphs are written to: poly geojson wkt",
             Self::UnknownExtension(_) => "name the format with --from or --to",
-            Self::NotPoints(_) => {
-                "points: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off stl vtk vtu msh pcd tif asc geojson wkt wkb"
-            }
-            Self::NotInChunks(_) => "more points than memory are read from: npy las laz csv xyz txt tsv bin",
-            Self::NotTriangles(_) => "triangles are read from: npy ele ply obj off msh",
-            Self::NotEdges(_) => "edges: npy csv geojson; in the plane also svg png",
-            Self::NotCells(_) => "cells: geojson wkt wkb csv svg png",
-            Self::NotPatches(_) => "triangles of polygons: npy csv ply obj stl vtu geojson wkt wkb svg png",
-            Self::NotTetrahedra(_) => "tetrahedra are read from: npy ele msh",
-            Self::NotSecondOrder(_) => {
-                "triangles of second order, of the plane: node ele neigh edge poly vtu msh inp svg png"
-            }
             Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
-            Self::NotABody(_) => {
-                "tetrahedra: npy ele neigh node edge vtu msh inp; their hull: ply obj stl; pictures: svg png"
-            }
-            Self::NotASolid(_) => "surfaces in space: ply obj stl vtu svg png",
-            Self::NotContours(_) => "contours: geojson svg png",
-            Self::NotARaster(_) => "rasters: tif asc npy",
             Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",
             Self::Extent { .. } => "choose a larger cell, or write the raster in parts",
             Self::Rows { .. } => "give the values of whole rows, as many as the raster has",
             Self::Beyond { .. } => "choose numbers of 64 bits, or remove that value",
-            Self::NotAMesh(_) => {
-                "meshes: npy node ele neigh edge poly ply obj off stl vtu msh inp geojson wkt wkb svg png"
+            Self::Unsupported { contents, direction, .. } => {
+                let formats = Format::with(&[*contents], *direction);
+                return Cow::Owned(format!("{contents} are {direction}: {formats}"));
             }
-        }
+        })
     }
 }
 

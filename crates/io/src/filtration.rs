@@ -5,7 +5,7 @@ use std::io::{BufWriter, Write};
 use delone::{Alpha, VertexId};
 
 use crate::formats::npy;
-use crate::{Error, Format};
+use crate::{Contents, Direction, Error, Format};
 
 /// Names of the faces of a dimension, and of their values.
 const NAMES: [[&str; 2]; 4] = [
@@ -47,7 +47,7 @@ pub fn write_filtration<const D: usize>(
             }
             out.flush()?;
         }
-        _ => return Err(Error::NotAFiltration(format)),
+        _ => return Err(format.without(Contents::Filtrations, Direction::Written)),
     }
     Ok(())
 }

@@ -1,10 +1,17 @@
 //! Formats, and how files say which one they are.
 
+mod contents;
+mod table;
+
 use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
+pub(crate) use contents::Readers;
+pub use contents::{Contents, Direction};
+
 use crate::Error;
+use table::{Row, TABLE};
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -44,20 +51,26 @@ pub enum Format {
     Off,
     /// Stereolithography.
     Stl,
-    /// VTK unstructured grids; points are read of other XML files of VTK too.
+    /// VTK unstructured grids.
     Vtu,
+    /// Other XML files of VTK, of which points are read.
+    Vtp,
     /// VTK's legacy format.
     Vtk,
     /// Clouds of the Point Cloud Library.
     Pcd,
     /// GeoJSON.
     GeoJson,
+    /// GeoJSON with a feature a line.
+    GeoJsonLines,
     /// Well-known text of geometries, one a line.
     Wkt,
     /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.
     WktCollection,
     /// Well-known binary of geometries.
     Wkb,
+    /// Tracks, routes and waypoints.
+    Gpx,
     /// GeoTIFF rasters.
     Tiff,
     /// ESRI ASCII grids.
@@ -72,60 +85,91 @@ pub enum Format {
     Png,
 }
 
-/// Names and extensions; the first of each format is the one it prints.
-const NAMES: &[(&str, Format)] = &[
-    ("csv", Format::Text),
-    ("xyz", Format::Text),
-    ("txt", Format::Text),
-    ("tsv", Format::Text),
-    ("dat", Format::Text),
-    ("pts", Format::Pts),
-    ("npy", Format::Npy),
-    ("npz", Format::Npz),
-    ("bin", Format::Raw),
-    ("node", Format::Node),
-    ("poly", Format::Poly),
-    ("area", Format::Area),
-    ("ele", Format::Ele),
-    ("neigh", Format::Neigh),
-    ("edge", Format::Edge),
-    ("las", Format::Las),
-    ("laz", Format::Las),
-    ("e57", Format::E57),
-    ("ply", Format::Ply),
-    ("obj", Format::Obj),
-    ("off", Format::Off),
-    ("stl", Format::Stl),
-    ("vtu", Format::Vtu),
-    ("vtp", Format::Vtu),
-    ("vtk", Format::Vtk),
-    ("pcd", Format::Pcd),
-    ("geojson", Format::GeoJson),
-    ("json", Format::GeoJson),
-    ("geojsonl", Format::GeoJson),
-    ("geojsons", Format::GeoJson),
-    ("ndjson", Format::GeoJson),
-    ("wkt", Format::Wkt),
-    ("ewkt", Format::Wkt),
-    ("wkb", Format::Wkb),
-    ("ewkb", Format::Wkb),
-    ("tif", Format::Tiff),
-    ("tiff", Format::Tiff),
-    ("asc", Format::Asc),
-    ("msh", Format::Msh),
-    ("inp", Format::Inp),
-    ("svg", Format::Svg),
-    ("png", Format::Png),
-];
-
 impl Format {
+    /// All formats, in the order in which they are listed.
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLE.iter().map(|row| row.format)
+    }
+
     /// The format that a file's extension names; `.gz` after it says that the file is compressed.
     pub fn of(path: &Path) -> Result<Self, Error> {
         let inner = if is_gzip(path) { path.with_extension("") } else { path.to_owned() };
         let extension = inner.extension().and_then(|e| e.to_str()).unwrap_or_default();
         extension.parse().map_err(|_| Error::UnknownExtension(path.display().to_string()))
     }
+
+    /// What it is, in a few words.
+    pub fn title(self) -> &'static str {
+        self.row().title
+    }
+
+    /// Its names, which are extensions too: those that are listed, and others that are understood.
+    pub fn names(self) -> [&'static [&'static str]; 2] {
+        [self.row().names, self.row().also]
+    }
+
+    /// Whether files of this format hold such contents, as far as they are read or written.
+    ///
+    /// ```
+    /// use delone_io::{Contents, Direction, Format};
+    ///
+    /// assert!(Format::Las.holds(Contents::Points, Direction::Read));
+    /// assert!(!Format::Las.holds(Contents::Points, Direction::Written));
+    /// ```
+    pub fn holds(self, contents: Contents, direction: Direction) -> bool {
+        match direction {
+            Direction::Read => self.row().readers.has(contents),
+            Direction::Written => self.row().writes.contains(&contents),
+        }
+    }
+
+    /// Refuses contents that files of this format do not hold.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`], which knows the formats that do.
+    pub fn check(self, contents: Contents, direction: Direction) -> Result<(), Error> {
+        if self.holds(contents, direction) { Ok(()) } else { Err(self.without(contents, direction)) }
+    }
+
+    /// The error of a format that does not hold such contents.
+    pub(crate) fn without(self, contents: Contents, direction: Direction) -> Error {
+        Error::Unsupported { format: self, contents, direction }
+    }
+
+    /// The functions that read it.
+    pub(crate) fn readers(self) -> &'static Readers {
+        &self.row().readers
+    }
+
+    /// The names of the formats that hold any of these contents, apart by spaces: all that are listed of what is read, the first of what
+    /// is written.
+    ///
+    /// ```
+    /// use delone_io::{Contents, Direction, Format};
+    ///
+    /// assert_eq!(Format::with(&[Contents::Rasters], Direction::Written), "npy tif asc");
+    /// ```
+    pub fn with(any: &[Contents], direction: Direction) -> String {
+        let holds = |row: &&Row| any.iter().any(|&contents| row.format.holds(contents, direction));
+        let most = if direction == Direction::Read { usize::MAX } else { 1 };
+        let names = TABLE.iter().filter(holds).flat_map(|row| row.names.iter().take(most));
+        names.copied().collect::<Vec<_>>().join(" ")
+    }
+
+    fn row(self) -> &'static Row {
+        &TABLE[self as usize]
+    }
 }
+
+// Rows are found by the order of the formats.
+const _: () = {
+    assert!(TABLE.len() == Format::Png as usize + 1);
+    let mut place = 0;
+    while place < TABLE.len() {
+        assert!(TABLE[place].format as usize == place);
+        place += 1;
+    }
+};
 
 /// Whether a file is compressed, by its name.
 pub(crate) fn is_gzip(path: &Path) -> bool {
@@ -136,16 +180,20 @@ impl FromStr for Format {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self, Error> {
-        let named = |(known, _): &&(&str, Self)| name.eq_ignore_ascii_case(known);
-        NAMES.iter().find(named).map(|entry| entry.1).ok_or_else(|| Error::UnknownExtension(name.to_owned()))
+        let is_named =
+            |row: &&Row| row.names.iter().chain(row.also).any(|known| name.eq_ignore_ascii_case(known));
+        TABLE
+            .iter()
+            .find(is_named)
+            .map(|row| row.format)
+            .ok_or_else(|| Error::UnknownExtension(name.to_owned()))
     }
 }
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // It is no name of its own for files.
+        // One collection has no name of its own for files.
         let of = if *self == Self::WktCollection { Self::Wkt } else { *self };
-        let name = NAMES.iter().find(|entry| entry.1 == of).map_or("unnamed", |entry| entry.0);
-        f.write_str(name)
+        f.write_str(of.row().names.first().unwrap_or(&"unnamed"))
     }
 }

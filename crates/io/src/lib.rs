@@ -36,10 +36,10 @@ pub use cloud::Cloud;
 pub use columns::{Column, write_columns};
 pub use contours::{ContourMap, write_contours};
 pub use crs::Crs;
-pub use diagram::{Diagram, OrderDiagram, check_cells};
+pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
 pub use filtration::write_filtration;
-pub use format::Format;
+pub use format::{Contents, Direction, Format};
 pub use formats::edges::{Edges, write_edges};
 pub use formats::las::LAS_CLASSES;
 pub use formats::npy::{Element, write_array};
@@ -92,33 +92,8 @@ pub struct ReadOptions {
 ///
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
-    use formats::{
-        e57, geojson, las, msh, npy, obj, off, pcd, ply, poly, raw, stl, text, triangle, vtk, wkb, wkt,
-    };
-    match format {
-        Format::Text => text::read(source, &options.columns),
-        Format::Pts => text::read_pts(source),
-        Format::Npy => npy::read_points(source),
-        Format::Npz => npy::read_archive(source),
-        Format::Raw => raw::read(source, options.dimension),
-        Format::Node => triangle::read_node(source),
-        Format::Poly => poly::read_points(source),
-        Format::Las => las::read(source, &options.classes),
-        Format::E57 => e57::read(source),
-        Format::Ply => ply::read_points(source),
-        Format::Obj => obj::read_points(source),
-        Format::Off => off::read_points(source),
-        Format::Stl => stl::read_points(source),
-        Format::GeoJson => geojson::read(source),
-        Format::Wkt | Format::WktCollection => wkt::read_points(source),
-        Format::Wkb => wkb::read_points(source),
-        Format::Vtu => vtk::read_xml(source),
-        Format::Vtk => vtk::read_legacy(source),
-        Format::Pcd => pcd::read(source),
-        Format::Msh => msh::read_points(source),
-        Format::Tiff | Format::Asc => read_raster(source, format).map(Raster::into_points),
-        _ => Err(Error::NotPoints(format)),
-    }
+    let reader = format.readers().points;
+    reader.ok_or_else(|| format.without(Contents::Points, Direction::Read))?(source, options)
 }
 
 /// Reads the points of a file in its order, about `most` at a time: `take` is given them, and may refuse to go on. What is
@@ -128,7 +103,7 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
 /// some 100 bytes a point of `most`, and 64 megabytes where chunks of LAZ are decoded on all cores.
 ///
 /// # Errors
-/// [`Error::NotInChunks`] for other formats; what `take` returns; else as [`read_points`].
+/// [`Error::Unsupported`] for other formats; what `take` returns; else as [`read_points`].
 ///
 /// ```
 /// use std::io::Cursor;
@@ -150,15 +125,9 @@ pub fn read_chunks(
     most: usize,
     take: Take,
 ) -> Result<Cloud, Error> {
-    use formats::{las, npy, raw, text};
+    let reader = format.readers().pieces.ok_or_else(|| format.without(Contents::Pieces, Direction::Read))?;
     let mut chunks = Chunks(Some((most.max(1), &mut *take)));
-    let mut rest = match format {
-        Format::Text => text::read_in(source, &options.columns, &mut chunks),
-        Format::Npy => npy::read_in(source, &mut chunks),
-        Format::Raw => raw::read_in(source, options.dimension, &mut chunks),
-        Format::Las => las::read_in(source, &options.classes, &mut chunks),
-        _ => Err(Error::NotInChunks(format)),
-    }?;
+    let mut rest = reader(source, options, &mut chunks)?;
     if !rest.xy.is_empty() {
         take(&rest.xy, rest.z.as_deref())?;
         rest.clear();
@@ -168,26 +137,12 @@ pub fn read_chunks(
 
 /// Reads the triangles of a mesh file as indices into its points, from 0.
 pub fn read_triangles(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 3]>, Error> {
-    use formats::{msh, npy, obj, off, ply, triangle};
-    match format {
-        Format::Msh => msh::read_simplices(source),
-        Format::Off => off::read_triangles(source),
-        Format::Npy => npy::read_simplices(source),
-        Format::Ele => Ok(triangle::read_ele(source, false)?.0),
-        Format::Ply => ply::read_triangles(source),
-        Format::Obj => obj::read_triangles(source),
-        _ => Err(Error::NotTriangles(format)),
-    }
+    format.readers().triangles.ok_or_else(|| format.without(Contents::Triangles, Direction::Read))?(source)
 }
 
 /// Reads the tetrahedra of a mesh file as indices into its points, from 0.
 pub fn read_tetrahedra(source: Box<dyn Source>, format: Format) -> Result<Vec<[u64; 4]>, Error> {
-    match format {
-        Format::Msh => formats::msh::read_simplices(source),
-        Format::Npy => formats::npy::read_simplices(source),
-        Format::Ele => Ok(formats::triangle::read_ele(source, false)?.0),
-        _ => Err(Error::NotTetrahedra(format)),
-    }
+    format.readers().tetrahedra.ok_or_else(|| format.without(Contents::Tetrahedra, Direction::Read))?(source)
 }
 
 /// Reads points with segments: those of `.poly` files, the lines and rings of GeoJSON, well-known text and well-known binary;
@@ -220,43 +175,23 @@ pub fn read_graph(
     options: &ReadOptions,
     beside: Option<Beside>,
 ) -> Result<Graph, Error> {
-    use formats::{geojson, poly, triangle, wkb, wkt};
-    match format {
-        Format::Poly => poly::read(source, beside),
-        Format::Node => triangle::read_graph(source),
-        Format::GeoJson => geojson::read_graph(source),
-        Format::Wkt | Format::WktCollection => wkt::read_graph(source),
-        Format::Wkb => wkb::read_graph(source),
-        _ => read_points(source, format, options).map(Graph::of_points),
+    let readers = format.readers();
+    match (readers.lines, readers.attributed) {
+        (Some(read), _) => read(source, beside),
+        (None, Some(read)) => read(source),
+        (None, None) => read_points(source, format, options).map(Graph::of_points),
     }
 }
 
 /// Reads segments alone, as indices of points from 0: text with two columns, a NumPy array of shape (m, 2), a `.poly` or an
 /// `.edge` file. Whether there are such points is for the reader of these to ask, except in a `.poly` file that has them.
 pub fn read_segments(source: Box<dyn Source>, format: Format) -> Result<Vec<[usize; 2]>, Error> {
-    use formats::{npy, pairs, poly};
-    match format {
-        Format::Text => pairs::read(source),
-        Format::Npy => {
-            let rows = npy::read_simplices::<2>(source)?;
-            Ok(rows
-                .into_iter()
-                .map(|ends| ends.map(|end| usize::try_from(end).unwrap_or(usize::MAX)))
-                .collect())
-        }
-        Format::Poly => poly::read_segments(source),
-        Format::Edge => poly::read_edges(source),
-        _ => Err(Error::NotSegments(format)),
-    }
+    format.readers().segments.ok_or_else(|| format.without(Contents::Segments, Direction::Read))?(source)
 }
 
 /// Reads a number for each point: text with one in each line, or a NumPy array of shape (n,).
 pub fn read_numbers(source: Box<dyn Source>, format: Format) -> Result<Vec<f64>, Error> {
-    match format {
-        Format::Text => formats::list::read(source),
-        Format::Npy => formats::npy::read_list(source),
-        _ => Err(Error::NotNumbers(format)),
-    }
+    format.readers().numbers.ok_or_else(|| format.without(Contents::Numbers, Direction::Read))?(source)
 }
 
 /// Reads the attributes of the triangles of an `.ele` file, a row each; other formats have none.
@@ -269,10 +204,7 @@ pub fn read_triangle_attributes(source: Box<dyn Source>, format: Format) -> Resu
 
 /// Reads the largest area that each triangle may have, where there is a bound, from an `.area` file.
 pub fn read_areas(source: Box<dyn Source>, format: Format) -> Result<Vec<Option<f64>>, Error> {
-    match format {
-        Format::Area => formats::poly::read_areas(source),
-        _ => Err(Error::NotTriangles(format)),
-    }
+    format.readers().areas.ok_or_else(|| format.without(Contents::Areas, Direction::Read))?(source)
 }
 
 /// What formats of triangles in space ask for.
@@ -299,14 +231,11 @@ trait Shape {
 
 /// Reads the rings of polygons: those of GeoJSON, well-known text and well-known binary, or all points of another format as one ring.
 pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    match format {
-        Format::GeoJson => formats::geojson::read_rings(source),
-        Format::Wkt | Format::WktCollection => formats::wkt::read_rings(source),
-        Format::Wkb => formats::wkb::read_rings(source),
-        _ => {
-            Ok(vec![read_points(source, format, &ReadOptions { dimension: 2, ..ReadOptions::default() })?.xy])
-        }
+    if let Some(read) = format.readers().polygons {
+        return read(source);
     }
+    let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
+    Ok(vec![read_points(source, format, &options)?.xy])
 }
 
 /// Writes Voronoi cells, one for each site with its input index (`site`) and the area of its cell: as GeoJSON, or as CSV with the
@@ -317,7 +246,7 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f6
 /// polygon in the other formats. An area beyond the range of numbers is null in GeoJSON and an empty field in CSV.
 ///
 /// # Errors
-/// [`Error::NotCells`] for other formats ([`check_cells`]), and those of the output.
+/// [`Error::Unsupported`] for other formats, and those of the output.
 ///
 /// ```
 /// use delone::{Delaunay2, Region2};
@@ -344,7 +273,7 @@ pub fn write_diagram(
 /// area, in the formats of [`write_diagram`].
 ///
 /// # Errors
-/// [`Error::NotCells`] for other formats, and those of the output.
+/// [`Error::Unsupported`] for other formats, and those of the output.
 pub fn write_orders(
     out: &mut dyn std::io::Write,
     format: Format,
@@ -368,7 +297,7 @@ fn write_tiles(
         Format::Text => formats::cells::write_csv(out, diagram)?,
         Format::Wkb => formats::cells::write_wkb(out, diagram)?,
         Format::Svg | Format::Png => picture::write_cells(out, format, diagram, size)?,
-        _ => return Err(Error::NotCells(format)),
+        _ => return Err(format.without(Contents::Cells, Direction::Written)),
     }
     Ok(())
 }
@@ -392,7 +321,7 @@ pub fn write_points<const D: usize>(
             wkt::write_points(out, points, format == Format::WktCollection)?;
         }
         Format::Wkb => wkb::write_points(out, points)?,
-        _ => return Err(Error::NotPoints(format)),
+        _ => return Err(format.without(Contents::Points, Direction::Written)),
     }
     Ok(())
 }
@@ -407,7 +336,7 @@ pub fn write_graph(out: &mut dyn std::io::Write, format: Format, graph: &Graph) 
         Format::Wkt | Format::WktCollection => {
             Ok(formats::graphs::write_wkt(out, graph, format == Format::WktCollection)?)
         }
-        _ => Err(Error::NotAGraph(format)),
+        _ => Err(format.without(Contents::Lines, Direction::Written)),
     }
 }
 
@@ -417,7 +346,7 @@ pub fn write_index_list(out: &mut dyn std::io::Write, format: Format, values: &[
     match format {
         Format::Npy => npy::write_index_list(out, values)?,
         Format::Text => text::write_indices(out, 1, values)?,
-        _ => return Err(Error::NotPoints(format)),
+        _ => return Err(format.without(Contents::Indices, Direction::Written)),
     }
     Ok(())
 }
@@ -433,7 +362,7 @@ pub fn write_indices(
     match format {
         Format::Npy => npy::write_indices(out, columns, values)?,
         Format::Text => text::write_indices(out, columns, values)?,
-        _ => return Err(Error::NotPoints(format)),
+        _ => return Err(format.without(Contents::Indices, Direction::Written)),
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vtu, wkb, wkt};
 use crate::middles::{Middles, ordered};
-use crate::{Attributes, Crs, Error, Format, Remark, Shape, Trim, picture, write_solid};
+use crate::{Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
 /// A triangulation to be written, with what lies beside it.
 ///
@@ -268,25 +268,11 @@ impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {
 /// Points whose triangulations are drawn, and written where a format holds triangles alone: those of the plane as they
 /// are, those of space by their border.
 pub trait Drawable: Coordinates {
-    /// The formats that hold triangulations of such points.
-    const FORMATS: &'static [Format];
-
-    /// Those of them that hold elements of second order, or what does not depend on the order.
-    const SECOND_ORDER: &'static [Format];
-
-    /// Why a triangulation is not written in another format.
-    fn refusal(format: Format) -> Error;
-
-    /// Whether triangulations of such points are written in a format.
-    fn check(format: Format) -> Result<(), Error> {
-        if Self::FORMATS.contains(&format) { Ok(()) } else { Err(Self::refusal(format)) }
-    }
+    /// What files hold of such triangulations.
+    const CONTENTS: Contents;
 
     /// Whether triangulations of such points are written in a format if their elements are of second order.
-    fn check_second_order(format: Format) -> Result<(), Error> {
-        Self::check(format)?;
-        if Self::SECOND_ORDER.contains(&format) { Ok(()) } else { Err(Error::NotSecondOrder(format)) }
-    }
+    fn check_second_order(format: Format) -> Result<(), Error>;
 
     /// Writes the triangles of a triangulation, or draws it.
     fn write_triangles<T: Triangulation<Point = Self>>(
@@ -298,41 +284,11 @@ pub trait Drawable: Coordinates {
 }
 
 impl Drawable for [f64; 2] {
-    const FORMATS: &'static [Format] = &{
-        use Format::{
-            Edge, Ele, GeoJson, Inp, Msh, Neigh, Node, Npy, Obj, Off, Ply, Png, Poly, Stl, Svg, Vtu, Wkb,
-            Wkt, WktCollection,
-        };
-        [
-            Npy,
-            Node,
-            Ele,
-            Neigh,
-            Edge,
-            Poly,
-            Vtu,
-            Msh,
-            Inp,
-            Ply,
-            Obj,
-            Off,
-            Stl,
-            GeoJson,
-            Wkt,
-            WktCollection,
-            Wkb,
-            Svg,
-            Png,
-        ]
-    };
+    const CONTENTS: Contents = Contents::Triangles;
 
-    const SECOND_ORDER: &'static [Format] = &{
-        use Format::{Edge, Ele, Inp, Msh, Neigh, Node, Png, Poly, Svg, Vtu};
-        [Node, Ele, Neigh, Edge, Poly, Vtu, Msh, Inp, Svg, Png]
-    };
-
-    fn refusal(format: Format) -> Error {
-        Error::NotAMesh(format)
+    fn check_second_order(format: Format) -> Result<(), Error> {
+        format.check(Self::CONTENTS, Direction::Written)?;
+        format.check(Contents::SecondOrder, Direction::Written)
     }
 
     fn write_triangles<T: Triangulation<Point = Self>>(
@@ -351,22 +307,17 @@ impl Drawable for [f64; 2] {
             Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,
             Format::Wkb => wkb::write(out, mesh)?,
             Format::Svg | Format::Png => picture::write(out, format, mesh, options)?,
-            _ => return Err(Self::refusal(format)),
+            _ => return Err(format.without(Self::CONTENTS, Direction::Written)),
         }
         Ok(None)
     }
 }
 
 impl Drawable for [f64; 3] {
-    const FORMATS: &'static [Format] = &{
-        use Format::{Edge, Ele, Inp, Msh, Neigh, Node, Npy, Obj, Ply, Png, Stl, Svg, Vtu};
-        [Npy, Node, Ele, Neigh, Edge, Vtu, Msh, Inp, Ply, Obj, Stl, Svg, Png]
-    };
+    const CONTENTS: Contents = Contents::Tetrahedra;
 
-    const SECOND_ORDER: &'static [Format] = &[];
-
-    fn refusal(format: Format) -> Error {
-        Error::NotABody(format)
+    fn check_second_order(format: Format) -> Result<(), Error> {
+        Err(format.without(Contents::SecondOrder, Direction::Written))
     }
 
     fn write_triangles<T: Triangulation<Point = Self>>(
@@ -375,7 +326,7 @@ impl Drawable for [f64; 3] {
         mesh: &Mesh<T>,
         options: &picture::Options,
     ) -> Result<Remark, Error> {
-        Self::check(format)?;
+        format.check(Self::CONTENTS, Direction::Written)?;
         let mut solid = mesh.solid();
         if solid.faces.is_empty() && matches!(format, Format::Png | Format::Svg) {
             // A picture of points on a line shows them.

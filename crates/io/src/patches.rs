@@ -5,7 +5,7 @@ use std::io::Write;
 
 use crate::formats::{geojson, obj, ply, stl, vtu, wkb, wkt};
 use crate::picture::{Mark, Sketch, Tone, write_sketch};
-use crate::{Crs, Error, Format, Remark, Shape, write_indices};
+use crate::{Contents, Crs, Direction, Error, Format, Remark, Shape, write_indices};
 
 /// Triangles of polygons, and which one each is of.
 #[derive(Clone, Debug, Default)]
@@ -46,15 +46,6 @@ impl Shape for Patches {
 }
 
 impl Patches {
-    /// Refuses formats that hold no such triangles.
-    pub fn check(format: Format) -> Result<(), Error> {
-        use Format::{GeoJson, Npy, Obj, Ply, Png, Stl, Svg, Text, Vtu, Wkb, Wkt, WktCollection};
-        match format {
-            Npy | Text | Ply | Obj | Stl | Vtu | GeoJson | Wkt | WktCollection | Wkb | Svg | Png => Ok(()),
-            _ => Err(Error::NotPatches(format)),
-        }
-    }
-
     /// The box of all points that are somewhere.
     fn window(&self) -> [[f64; 2]; 2] {
         let mut points = self.points.iter().filter(|p| p.iter().all(|x| x.is_finite()));
@@ -105,7 +96,7 @@ pub fn write_patches(
         Format::Wkt | Format::WktCollection => wkt::write(out, patches, format == Format::WktCollection)?,
         Format::Wkb => wkb::write(out, patches)?,
         Format::Svg | Format::Png => write_sketch(out, format, &patches.sketch(), patches.window(), size)?,
-        _ => return Err(Error::NotPatches(format)),
+        _ => return Err(format.without(Contents::Patches, Direction::Written)),
     }
     Ok(None)
 }

@@ -5,7 +5,7 @@ use std::io::Write;
 use delone::{Corners, Dimension, Hull3, Triangulation, VertexId};
 
 use crate::elements::FACETS;
-use crate::{Error, Format, Mesh, Remark, Shape, picture};
+use crate::{Contents, Direction, Error, Format, Mesh, Remark, Shape, picture};
 
 /// Flat convex faces around a body.
 #[derive(Clone, Debug, Default)]
@@ -95,7 +95,7 @@ pub fn write_solid(
         Format::Stl => return Ok(stl::write(out, solid)?),
         Format::Vtu => vtu::write(out, solid)?,
         Format::Svg | Format::Png => picture::write_solid(out, format, solid, options)?,
-        _ => return Err(Error::NotASolid(format)),
+        _ => return Err(format.without(Contents::Surfaces, Direction::Written)),
     }
     Ok(None)
 }

@@ -70,5 +70,5 @@ fn whoever_takes_may_stop() {
     assert!(found.is_err_and(|error| error.to_string() == "enough"));
     let other =
         read_chunks(Box::new(Cursor::new("")), Format::Ply, &ReadOptions::default(), 1, &mut { stop });
-    assert!(matches!(other, Err(Error::NotInChunks(Format::Ply))));
+    assert!(matches!(other, Err(Error::Unsupported { .. })));
 }

@@ -60,7 +60,7 @@ fn polys_are_read_and_written_whole() {
     let mut written = Vec::new();
     write_graph(&mut written, Format::Poly, &square).expect("memory takes it");
     assert_eq!(good(Format::Poly, &written), square);
-    assert!(matches!(write_graph(&mut written, Format::Ply, &square), Err(Error::NotAGraph(Format::Ply))));
+    assert!(matches!(write_graph(&mut written, Format::Ply, &square), Err(Error::Unsupported { .. })));
     // From 0, without markers; heights of other formats are an attribute.
     let plain = Graph {
         cloud: Cloud { z: Some(vec![1.5, 2.5]), xy: vec![[0.0; 2], [1.0; 2]], ..Cloud::default() },

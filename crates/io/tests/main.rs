@@ -3,6 +3,8 @@
 mod chunks;
 mod constrained;
 mod elements;
+mod formats;
+mod gpx;
 mod graphs;
 mod new_kind;
 mod numbers;
@@ -11,3 +13,10 @@ mod same_points;
 mod scene;
 mod stl;
 mod triangle;
+
+use delone_io::{Contents, Direction, Format};
+
+/// The formats that triangulations are written to.
+fn meshes(contents: Contents) -> impl Iterator<Item = Format> {
+    Format::all().filter(move |format| format.holds(contents, Direction::Written))
+}

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 use delone_io::Format;
 
+use super::formats;
 use super::shapes::CameraArgs;
 use super::{DimArgs, InputArgs, WeightArgs, WktArgs};
+use crate::alpha::{IN_SPACE, IN_THE_PLANE};
 
 /// Alpha shapes.
 #[derive(Debug, Args)]
@@ -44,9 +46,8 @@ pub(crate) struct AlphaArgs {
     /// In space: give sheets of the surface that touch vertices of their own, so that every edge has two faces.
     #[arg(long)]
     pub(crate) manifold: bool,
-    /// Output file (in the plane geojson wkt poly, and npy csv ply obj stl vtu wkb svg png; in space npy csv ply obj stl vtu svg png), or
-    /// - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT")]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", help = format!("Output file (in the plane {}; in space {}), or - for standard output; may be repeated", formats::written(IN_THE_PLANE), formats::written(IN_SPACE)))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

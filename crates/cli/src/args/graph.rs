@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::formats;
+
 /// Segments, and what they mean.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Segments")]
 pub(crate) struct GraphArgs {
-    /// File of segments between the points: two indices a line from 0 (csv npy edge poly).
-    #[arg(long, value_name = "FILE")]
+    /// Segments between the points.
+    #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
     /// What happens where segments cross [default: refuse].
     #[arg(long, value_name = "HOW")]

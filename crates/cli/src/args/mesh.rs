@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::triangle::{Switches, table};
 use super::{GraphArgs, InputArgs, WktArgs, count};
 
@@ -28,9 +29,8 @@ const SAID: [&str; 9] = [
 pub(crate) struct MeshArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (node ele neigh edge poly v.node v.edge off npy ply obj stl vtu msh inp geojson wkt wkb svg png), or - for
-    /// standard output; may be repeated. With --triangle it may be left out.
-    #[arg(long, short, value_name = "OUT", required_unless_present = "triangle")]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required_unless_present = "triangle", help = format!("Output file ({} v.node v.edge), or - for standard output; may be repeated. With --triangle it may be left out", formats::written(&[Contents::Triangles])))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -65,8 +65,8 @@ pub(crate) struct MeshArgs {
     /// Columns of a text file of --size that are x, y and the size: names or numbers from 1.
     #[arg(long, value_name = "COLUMN", value_delimiter = ',', requires = "size", help_heading = "Quality")]
     pub(crate) size_columns: Vec<String>,
-    /// Triangles between the points of the input (ele npy ply obj off msh), which are refined: a mesh once more.
-    #[arg(long, value_name = "FILE", help_heading = "Quality")]
+    /// Triangles that are refined.
+    #[arg(long, value_name = "FILE", help_heading = "Quality", help = format!("Triangles between the points of the input ({}), which are refined: a mesh once more", formats::read(Contents::Triangles)))]
     pub(crate) refine: Option<PathBuf>,
     /// File of the largest area within each triangle of --refine (area).
     #[arg(long, value_name = "FILE", requires = "refine", help_heading = "Quality")]

@@ -5,6 +5,7 @@ mod alpha;
 mod ask;
 #[cfg(feature = "experiments")]
 mod experiment;
+mod formats;
 mod graph;
 mod mesh;
 mod points;
@@ -24,7 +25,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use delone_io::{Format, LAS_CLASSES};
+use delone_io::{Contents, Format, LAS_CLASSES};
 
 pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
@@ -151,9 +152,8 @@ pub(crate) enum Command {
 /// How points are read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
-    /// Files of points, or - for standard input: csv xyz txt tsv pts npy npz bin node poly las laz e57 ply obj off
-    /// stl vtk vtu msh pcd tif asc geojson wkt wkb, each also with .gz. Several files are one set.
-    #[arg(value_name = "IN", required = true)]
+    /// Files of points.
+    #[arg(value_name = "IN", required = true, help = format!("Files of points, or - for standard input: {}, each also with .gz. Several files are one set", formats::read(Contents::Points)))]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{DimArgs, InputArgs, WeightArgs, WktArgs, count, length};
 
 /// Make points.
@@ -30,8 +31,8 @@ pub(crate) struct GenerateArgs {
     /// Move each point at random, by this at most: an instance of the same set, row by row, as imprecise points have them.
     #[arg(long, value_name = "RADIUS", default_value_t = 0.0, value_parser = length, allow_negative_numbers = true)]
     pub(crate) noise: f64,
-    /// Output file (csv xyz txt npy bin node ply obj geojson wkt wkb; with segments poly geojson wkt), or - for standard output.
-    #[arg(long, short, value_name = "OUT")]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", help = format!("Output file ({}; with segments {}), or - for standard output", formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])))]
     pub(crate) output: Option<PathBuf>,
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -96,8 +97,8 @@ pub(crate) struct CheckArgs {
     /// The last of the files.
     #[arg(skip)]
     pub(crate) mesh: PathBuf,
-    /// In the plane, file of segments between the points: two indices a line from 0 (csv npy edge poly).
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["weights", "radii"])]
+    /// Segments between the points.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["weights", "radii"], help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) weights: WeightArgs,
@@ -133,11 +134,11 @@ pub(crate) struct ReduceArgs {
     /// Another program to judge instead.
     #[arg(long, value_name = "COMMAND")]
     pub(crate) against: Option<String>,
-    /// File of segments between the points: two indices a line from 0 (csv npy edge poly).
-    #[arg(long, value_name = "FILE")]
+    /// Segments between the points.
+    #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
-    /// File for the reduced points (with segments: poly geojson wkt).
-    #[arg(long, short, value_name = "OUT")]
+    /// The reduced points.
+    #[arg(long, short, value_name = "OUT", help = format!("File for the reduced points ({}; with segments {})", formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])))]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) wkt: WktArgs,

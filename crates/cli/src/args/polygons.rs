@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{CrossingsName, WktArgs};
 
 /// Triangulate polygons.
@@ -26,8 +27,8 @@ pub(crate) struct PolygonsArgs {
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) from: Option<Format>,
-    /// Output file (npy csv ply obj stl vtu geojson wkt wkb svg png), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Patches]))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

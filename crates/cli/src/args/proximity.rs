@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{DimArgs, InputArgs};
 
 /// Proximity graphs.
@@ -34,8 +35,8 @@ pub(crate) struct ProximityArgs {
     /// Of --kind nearest: with how many each point is joined at least.
     #[arg(short, long, value_name = "K")]
     pub(crate) k: Option<u32>,
-    /// Output file (npy: int64, csv geojson; in the plane also svg png), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = format!("Output file ({}; in the plane also {}), or - for standard output; may be repeated", formats::written(&[Contents::Edges]), formats::written(&[Contents::Pictures])))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{DuplicatesName, InputArgs, WktArgs, count, length};
 
 /// Contours.
@@ -23,8 +24,8 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct ContoursArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (geojson svg png), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Contours]))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -74,9 +75,8 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct SimplifyArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy node ele neigh edge poly ply obj off stl vtu msh inp geojson wkt wkb svg png), or - for standard output; may be
-    /// repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Triangles]))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -92,8 +92,8 @@ pub(crate) struct SimplifyArgs {
     /// Which height a place has at which there are several points.
     #[arg(long, value_name = "RULE", default_value = "lowest")]
     pub(crate) duplicates: DuplicatesName,
-    /// File of segments between the points that stay: two indices a line from 0 (csv npy edge poly).
-    #[arg(long, value_name = "FILE")]
+    /// Segments between the points.
+    #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
     /// Write the indices of the points that are left, of rasters among the cells with data, row by row (npy csv).
     #[arg(long, value_name = "FILE")]

@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use delone::MERGE_AUTO;
-use delone_io::Format;
 use delone_io::picture::Camera;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{DimArgs, GraphArgs, InputArgs, WeightArgs, WktArgs, length};
 use crate::message::Failure;
 
@@ -26,8 +27,8 @@ of the hull alone; pictures show flat faces whole.")]
 pub(crate) struct HullArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy csv; in space also ply obj stl vtu svg png), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = format!("Output file ({}; in space also {}), or - for standard output; may be repeated", formats::written(&[Contents::Indices]), formats::written(&[Contents::Surfaces])))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -108,8 +109,8 @@ the name `wkt`; several sites are apart by spaces. Well-known text and binary ho
 pub(crate) struct VoronoiArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (geojson wkt wkb csv svg png), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = formats::outputs(&[Contents::Cells]))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

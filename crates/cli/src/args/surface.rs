@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{DimArgs, InputArgs, length, tiles::size};
 
 /// How values between points come about.
@@ -63,8 +64,8 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct DtmArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (tif asc npy png geojson), or - for standard output; may be repeated.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required = true, help = format!("Output file ({} png geojson), or - for standard output; may be repeated", formats::written(&[Contents::Rasters])))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -87,11 +88,11 @@ pub(crate) struct DtmArgs {
     /// The same, but only from the border inwards: gaps in the middle are filled.
     #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Borders", conflicts_with = "memory")]
     pub(crate) carve: Option<f64>,
-    /// Polygons outside of which there are no heights (geojson wkt wkb).
-    #[arg(long, value_name = "FILE", help_heading = "Borders")]
+    /// Polygons around heights.
+    #[arg(long, value_name = "FILE", help_heading = "Borders", help = format!("Polygons outside of which there are no heights ({})", formats::read(Contents::Polygons)))]
     pub(crate) clip: Option<PathBuf>,
-    /// Lines that must be edges, with their own heights or, without, those of the surface below (geojson wkt wkb poly); may be repeated.
-    #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory")]
+    /// Lines that must be edges.
+    #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory", help = format!("Lines that must be edges, with their own heights or, without, those of the surface below ({}); may be repeated", formats::read(Contents::Lines)))]
     pub(crate) breaklines: Vec<PathBuf>,
     /// Polygons that are level, water say: at the one height that they have, or at the lowest of the surface along their border.
     #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory")]
@@ -145,8 +146,8 @@ pub(crate) struct InterpolateArgs {
     /// What there is outside of the hull.
     #[arg(long, value_name = "WHAT", default_value = "nothing")]
     pub(crate) outside: OutsideName,
-    /// Output file, or - for standard output: csv npy, of a raster also tif asc.
-    #[arg(long, short, value_name = "OUT")]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", help = format!("Output file, or - for standard output: {}; of a raster {}", formats::written(&[Contents::Numbers]), formats::written(&[Contents::Rasters])))]
     pub(crate) output: PathBuf,
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]

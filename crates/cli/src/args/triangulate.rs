@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::{Border, Format};
+use delone_io::{Border, Contents, Format};
 
+use super::formats;
 use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, WktArgs, length};
 
 /// Triangulate points.
@@ -34,9 +35,8 @@ Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Output file (npy node ele neigh edge poly ply obj stl vtu msh inp geojson wkt wkb svg png), or - for standard output; may
-    /// be repeated. For several instances {} stands for the name of each.
-    #[arg(long, short, value_name = "OUT", required_unless_present = "fingerprint")]
+    /// Output files.
+    #[arg(long, short, value_name = "OUT", required_unless_present = "fingerprint", help = format!("Output file ({}), or - for standard output; may be repeated. For several instances {{}} stands for the name of each", formats::written(&[Contents::Triangles])))]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use delone::surface::{Interpolator, Outside};
 use delone::{Constrained2, Crossings, SegmentId};
-use delone_io::{Cloud, Crs, Graph};
+use delone_io::{Cloud, Contents, Crs, Direction, Format, Graph};
 
 use super::surface::of_points;
 use crate::args::{DtmArgs, DuplicatesName, InputArgs};
@@ -35,7 +35,7 @@ impl Lines {
             let graph = files::graph(&InputArgs::of(std::slice::from_ref(path)), None, quiet)?;
             if graph.segments.is_empty() {
                 let what = format!("{}: there is no line in it", path.display());
-                return Err(Failure::new(what, "give lines or polygons as geojson, wkt, wkb or poly"));
+                return Err(Failure::new(what, give("lines or polygons", Contents::Lines)));
             }
             check_crs(path, crs, graph.cloud.crs.as_ref())?;
             if is_level && graph.rings.is_empty() {
@@ -183,4 +183,9 @@ pub(super) fn check_crs(path: &Path, ours: Option<&Crs>, theirs: Option<&Crs>) -
 
 pub(super) fn no_polygon(path: &Path, help: &str) -> Failure {
     Failure::new(format!("{}: there is no polygon in it", path.display()), help)
+}
+
+/// What to give in a file's place.
+pub(super) fn give(what: &str, contents: Contents) -> String {
+    format!("give {what} in one of {}", Format::with(&[contents], Direction::Read))
 }

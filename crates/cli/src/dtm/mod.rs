@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::Grid;
 use delone::{Bounds, Delaunay2};
-use delone_io::{Cloud, ContourMap, Crs, Format, beside_raster_name, write_contours};
+use delone_io::{Cloud, Contents, ContourMap, Crs, Direction, Format, beside_raster_name, write_contours};
 
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
@@ -54,7 +54,7 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
     let mut job = Job { args, outputs: &outputs, clip, label: input.label(), quiet };
     let in_chunks = input.input.iter().all(|path| {
         let format = input.from.or_else(|| Format::of(path).ok());
-        path.is_file() && matches!(format, Some(Format::Text | Format::Npy | Format::Raw | Format::Las))
+        path.is_file() && format.is_some_and(|format| format.holds(Contents::Pieces, Direction::Read))
     });
     match args.memory {
         Some(memory) if in_chunks => {
@@ -96,11 +96,16 @@ fn keep_besides_apart(
 }
 
 fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
-    let is_known =
-        |format| matches!(format, Format::Tiff | Format::Asc | Format::Npy | Format::Png | Format::GeoJson);
-    if let Some((path, format)) = outputs.iter().find(|output| !is_known(output.1)) {
+    let holds = |format: Format| {
+        format.holds(Contents::Rasters, Direction::Written) || matches!(format, Format::Png | Format::GeoJson)
+    };
+    if let Some((path, format)) = outputs.iter().find(|output| !holds(output.1)) {
         let what = format!("{}: {format} is no format of terrain", path.display());
-        return Err(Failure::usage(what, "choose tif, asc, npy, png (hillshade) or geojson (contours)"));
+        let rasters = Format::with(&[Contents::Rasters], Direction::Written);
+        return Err(Failure::usage(
+            what,
+            format!("choose among {rasters} png (hillshade) geojson (contours)"),
+        ));
     }
     if args.memory.is_some() && args.method.is_bent() {
         return Err(Failure::usage(

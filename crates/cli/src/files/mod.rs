@@ -6,7 +6,7 @@ mod write;
 use std::io::{BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Format, Graph, Raster, ReadOptions, Source, decompressed};
+use delone_io::{Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed};
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
 pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
@@ -67,13 +67,22 @@ pub(crate) fn outputs(
     paths.iter().map(by_extension).collect()
 }
 
+/// Refuses files whose formats hold none of what could be written.
+pub(crate) fn check_formats(outputs: &[(PathBuf, Format)], any: &[Contents]) -> Result<(), Failure> {
+    let holds = |format: Format| any.iter().any(|&contents| format.holds(contents, Direction::Written));
+    let Some((path, format)) = outputs.iter().find(|(_, format)| !holds(*format)) else { return Ok(()) };
+    let what: Vec<_> = any.iter().map(ToString::to_string).collect();
+    Err(Failure::usage(
+        format!("{}: {} are not written to {format} files", path.display(), what.join(" or ")),
+        format!("choose among {}", Format::with(any, Direction::Written)),
+    ))
+}
+
 /// The format of a file of indices.
 pub(crate) fn index_format(path: &Path, said: Option<Format>) -> Result<Format, Failure> {
     let format = format(path, said, "--to")?;
-    match format {
-        Format::Npy | Format::Text => Ok(format),
-        _ => Err(Failure::usage("answers are written as npy or csv", "choose one of them with --to")),
-    }
+    check_formats(&[(path.to_owned(), format)], &[Contents::Indices])?;
+    Ok(format)
 }
 
 /// Opens a file, or takes all of standard input, or of what is no file, into memory; decompresses.
@@ -320,7 +329,7 @@ pub(crate) fn simplices<T>(
     if is_standard(path) {
         return Err(Failure::usage(
             "triangles are not read from standard input",
-            "name a file: npy ele ply obj off msh",
+            format!("name a file: {}", Format::with(&[Contents::Triangles], Direction::Read)),
         ));
     }
     let format = format(path, None, "the extension")?;

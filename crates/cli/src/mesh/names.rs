@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use delone_io::{Drawable, Format, next_file};
+use delone_io::{Contents, Direction, Drawable, Format, next_file};
 
 use super::plan::Plan;
 use super::source::{Material, stem, with};
@@ -29,7 +29,7 @@ pub(super) fn named(args: &MeshArgs, plan: &Plan, inputs: &[&Path]) -> Result<Ve
         let check = if plan.traits.second_order {
             <[f64; 2]>::check_second_order(format)
         } else {
-            <[f64; 2]>::check(format)
+            format.check(Contents::Triangles, Direction::Written)
         };
         check.map_err(|error| Failure::file(&path, &error))?;
         let is_voronoi =

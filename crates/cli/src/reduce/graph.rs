@@ -4,7 +4,7 @@ use std::panic::{self, AssertUnwindSafe};
 
 use delone::plane::verify::verify_constrained;
 use delone::{Constrained2, Crossings};
-use delone_io::{Cloud, Format, Graph};
+use delone_io::{Cloud, Contents, Direction, Graph};
 
 use super::{Points, from_least, reduce};
 use crate::args::ReduceArgs;
@@ -46,11 +46,12 @@ pub(super) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("reduced_segments", segments.len());
     let graph = Graph { segments, cloud: Cloud { xy: points, ..Cloud::default() }, ..Graph::default() };
     for (path, format) in &outputs {
-        files::write(path, |out| match format {
-            Format::Poly | Format::GeoJson | Format::Wkt | Format::WktCollection => {
+        files::write(path, |out| {
+            if format.holds(Contents::Lines, Direction::Written) {
                 delone_io::write_graph(out, *format, &graph)
+            } else {
+                delone_io::write_points(out, *format, &graph.cloud.xy)
             }
-            _ => delone_io::write_points(out, *format, &graph.cloud.xy),
         })?;
     }
     stats.phase("write");

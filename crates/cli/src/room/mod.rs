@@ -146,10 +146,7 @@ pub(crate) fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>
 
 /// Refuses formats that hold no triangulations.
 pub(crate) fn check_formats<R: Room>(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
-    let check = |(path, format): &(PathBuf, Format)| {
-        R::Point::check(*format).map_err(|error| Failure::file(path, &error))
-    };
-    outputs.iter().try_for_each(check)
+    files::check_formats(outputs, &[R::Point::CONTENTS])
 }
 
 /// Triangulates, with progress.

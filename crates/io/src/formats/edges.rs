@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use delone::Coordinates;
 
 use super::{geojson, npy};
-use crate::{Crs, Error, Format};
+use crate::{Contents, Crs, Direction, Error, Format};
 
 /// Edges to be written.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ pub fn write_edges(
         }
         Format::Text => edges.write_text(out)?,
         Format::GeoJson => edges.write_geojson(out)?,
-        _ => return Err(Error::NotEdges(format)),
+        _ => return Err(format.without(Contents::Edges, Direction::Written)),
     }
     Ok(())
 }

@@ -4,6 +4,7 @@ pub(crate) mod cells;
 pub(crate) mod e57;
 pub(crate) mod edges;
 pub(crate) mod geojson;
+pub(crate) mod gpx;
 pub(crate) mod graphs;
 pub(crate) mod inp;
 pub(crate) mod las;

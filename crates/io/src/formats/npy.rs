@@ -217,6 +217,12 @@ pub(crate) fn read_archive(mut source: Box<dyn Source>) -> Result<Cloud, Error> 
     Ok(cloud)
 }
 
+/// Reads pairs of indices, an array of shape (m, 2); an index that no list can have is the largest there is.
+pub(crate) fn read_pairs(source: Box<dyn Source>) -> Result<Vec<[usize; 2]>, Error> {
+    let rows = read_simplices::<2>(source)?;
+    Ok(rows.into_iter().map(|ends| ends.map(|end| usize::try_from(end).unwrap_or(usize::MAX))).collect())
+}
+
 /// Reads rows of N indices.
 pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
     let file = open(source)?;

@@ -135,7 +135,7 @@ impl Head {
 }
 
 /// Reads a grid; memory grows with the values that are really there.
-pub(super) fn read(mut source: Box<dyn Source>) -> Result<Raster, Error> {
+pub(crate) fn read(mut source: Box<dyn Source>) -> Result<Raster, Error> {
     let mut head = Head::default();
     let mut raster = None;
     let mut line = Vec::new();

@@ -13,11 +13,14 @@ use std::io::{Seek, Write};
 
 use delone::surface::Grid;
 
-use crate::{Cloud, Crs, Error, Format, ReadOptions, Source, read_points};
+use crate::{Cloud, Contents, Crs, Direction, Error, Format, ReadOptions, Source, read_points};
 
 pub use asc::ASC_NODATA;
+pub(crate) use asc::read as read_asc;
 pub use beside::{beside_raster, beside_raster_name};
+pub(crate) use npy::read as read_npy;
 pub use shade::{Light, ShadeWriter};
+pub(crate) use tiff::read as read_tiff;
 
 /// The numbers that a GeoTIFF is written with. Text is written with as many digits as these need, and arrays of NumPy with 64 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -111,14 +114,14 @@ impl<W: Write + Seek> RasterWriter<W> {
     /// anywhere; the other formats only write forwards.
     ///
     /// # Errors
-    /// [`Error::NotARaster`] for other formats, [`Error::NeedsAFile`] for a GeoTIFF that goes forwards only, [`Error::NotSquare`] and
+    /// [`Error::Unsupported`] for other formats, [`Error::NeedsAFile`] for a GeoTIFF that goes forwards only, [`Error::NotSquare`] and
     /// [`Error::Extent`] for rasters that the format does not hold, and those of the output.
     pub fn create(out: W, format: Format, info: &RasterInfo) -> Result<Self, Error> {
         let sheet = match format {
             Format::Tiff => Sheet::Tiff(tiff::Writer::create(out, info)?),
             Format::Asc => Sheet::Asc(asc::Writer::create(out, info)?),
             Format::Npy => Sheet::Npy(npy::Writer::create(out, info)?),
-            _ => return Err(Error::NotARaster(format)),
+            _ => return Err(format.without(Contents::Rasters, Direction::Written)),
         };
         Ok(Self { sheet, columns: info.grid.columns(), rows: info.grid.rows(), values: 0 })
     }
@@ -222,14 +225,9 @@ fn placed(corner: [f64; 2], step: [f64; 2], columns: usize, rows: usize) -> Resu
 /// Costs 8 bytes a cell, and a strip or tile of the file; what a header claims takes no memory.
 ///
 /// # Errors
-/// What is wrong with the file; [`Error::NotARaster`] for other formats.
+/// What is wrong with the file; [`Error::Unsupported`] for other formats.
 pub fn read_raster(source: Box<dyn Source>, format: Format) -> Result<Raster, Error> {
-    match format {
-        Format::Tiff => tiff::read(source),
-        Format::Asc => asc::read(source),
-        Format::Npy => npy::read(source),
-        _ => Err(Error::NotARaster(format)),
-    }
+    format.readers().rasters.ok_or_else(|| format.without(Contents::Rasters, Direction::Read))?(source)
 }
 
 /// Reads points with heights, of whatever formats have them: as [`read_points`](crate::read_points), and an array of a shape that is not

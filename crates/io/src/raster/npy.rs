@@ -40,7 +40,7 @@ impl<W: Write + Seek> Writer<W> {
 }
 
 /// Reads an array.
-pub(super) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
+pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     let (rows, columns, values) = npy::read_grid(source)?;
     Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values })
 }

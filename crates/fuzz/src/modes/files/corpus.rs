@@ -115,6 +115,9 @@ fn documents() -> Seeds {
     seeds.push((Format::GeoJson, gzip(all.as_bytes())));
     seeds.push((Format::GeoJson, b"[[[0,0],[4,0,1],[0,4]],[[1,1],[1,2],[2,1]]]".to_vec()));
     seeds.extend([written(Format::Wkt), mesh(Format::Wkt), written(Format::Wkb), mesh(Format::Wkb)]);
+    let walk = "<gpx xmlns=\"http://www.topografix.com/GPX/1/1\"><wpt lat=\"47.5\" lon=\"8\"/><trk><trkseg>\n\
+        <trkpt lat=\"1\" lon=\"2\"><ele>3</ele></trkpt><trkpt lat=\"4\" lon=\"5.5\"><ele>6e0</ele></trkpt></trkseg></trk></gpx>";
+    seeds.push((Format::Gpx, walk.as_bytes().to_vec()));
     let geometries = [Format::Wkt, Format::Wkt, Format::Wkb].into_iter().zip(GEOMETRIES);
     seeds.extend(geometries.map(|(format, text)| (format, text.as_bytes().to_vec())));
     seeds

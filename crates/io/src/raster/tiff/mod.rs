@@ -7,7 +7,7 @@ mod place;
 mod read;
 mod write;
 
-pub(super) use read::read;
+pub(crate) use read::read;
 pub(super) use write::Writer;
 
 /// The tags that say what a file has, by number.

@@ -18,7 +18,7 @@ use crate::{Error, Source, guard, xml};
 /// What a byte of LZW, the best of the compressions, can stand for at most.
 const BYTES_A_BYTE: u64 = 2048;
 
-pub(in crate::raster) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
+pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     guard::decode("TIFF", || File::open(source)?.read())
 }
 

@@ -1,0 +1,26 @@
+//! The names of formats in help texts: from the table of formats.
+
+use delone_io::{Contents, Direction, Format};
+
+/// The formats that one of these is written to.
+pub(super) fn written(any: &[Contents]) -> String {
+    Format::with(any, Direction::Written)
+}
+
+/// The formats that these are read from.
+pub(super) fn read(contents: Contents) -> String {
+    Format::with(&[contents], Direction::Read)
+}
+
+/// An output that may be given more than once.
+pub(super) fn outputs(any: &[Contents]) -> String {
+    format!("Output file ({}), or - for standard output; may be repeated", written(any))
+}
+
+/// A file of segments.
+pub(super) fn segments() -> String {
+    format!(
+        "File of segments between the points: two indices a line from 0, or a file that has them ({})",
+        read(Contents::Segments)
+    )
+}

@@ -1,0 +1,384 @@
+//! The table of formats: a row for each.
+
+use super::Contents::{
+    Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points, Rasters,
+    SecondOrder, Surfaces, Tetrahedra, Triangles,
+};
+use super::{Contents, Format, Readers};
+use crate::formats::{
+    e57, geojson, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw, stl, text, triangle, vtk,
+    wkb, wkt,
+};
+use crate::raster;
+
+/// A format: how it is called, and what it holds.
+#[derive(Debug)]
+pub(super) struct Row {
+    pub(super) format: Format,
+    /// In a few words.
+    pub(super) title: &'static str,
+    /// Names and extensions; the first is the one it prints.
+    pub(super) names: &'static [&'static str],
+    /// Other names that are understood.
+    pub(super) also: &'static [&'static str],
+    pub(super) readers: Readers,
+    pub(super) writes: &'static [Contents],
+}
+
+/// All formats, in the order in which they are listed.
+pub(super) const TABLE: &[Row] = &[
+    Row {
+        format: Format::Text,
+        title: "columns of numbers",
+        names: &["csv", "xyz", "txt", "tsv", "dat"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, options| text::read(source, &options.columns)),
+            pieces: Some(|source, options, pieces| text::read_in(source, &options.columns, pieces)),
+            segments: Some(pairs::read),
+            numbers: Some(list::read),
+            ..Readers::NONE
+        },
+        writes: &[Points, Numbers, Indices, Cells, Edges, Patches, Filtrations],
+    },
+    Row {
+        format: Format::Pts,
+        title: "counted lists of points",
+        names: &["pts"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| text::read_pts(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Npy,
+        title: "NumPy arrays",
+        names: &["npy"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| npy::read_points(source)),
+            pieces: Some(|source, _, pieces| npy::read_in(source, pieces)),
+            segments: Some(npy::read_pairs),
+            numbers: Some(npy::read_list),
+            triangles: Some(npy::read_simplices),
+            tetrahedra: Some(npy::read_simplices),
+            rasters: Some(raster::read_npy),
+            ..Readers::NONE
+        },
+        writes: &[Points, Numbers, Indices, Triangles, Tetrahedra, Edges, Patches, Rasters],
+    },
+    Row {
+        format: Format::Npz,
+        title: "NumPy archives",
+        names: &["npz"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| npy::read_archive(source)), ..Readers::NONE },
+        writes: &[Filtrations],
+    },
+    Row {
+        format: Format::Raw,
+        title: "raw numbers, little-endian float64",
+        names: &["bin"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, options| raw::read(source, options.dimension)),
+            pieces: Some(|source, options, pieces| raw::read_in(source, options.dimension, pieces)),
+            ..Readers::NONE
+        },
+        writes: &[Points],
+    },
+    Row {
+        format: Format::Node,
+        title: "Triangle's points",
+        names: &["node"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| triangle::read_node(source)),
+            attributed: Some(triangle::read_graph),
+            ..Readers::NONE
+        },
+        writes: &[Points, Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Poly,
+        title: "Triangle's graphs: points, segments, holes, regions",
+        names: &["poly"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| poly::read_points(source)),
+            lines: Some(poly::read),
+            segments: Some(poly::read_segments),
+            ..Readers::NONE
+        },
+        writes: &[Lines, Triangles, SecondOrder],
+    },
+    Row {
+        format: Format::Area,
+        title: "Triangle's largest areas of triangles",
+        names: &["area"],
+        also: &[],
+        readers: Readers { areas: Some(poly::read_areas), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Ele,
+        title: "Triangle's and TetGen's simplices",
+        names: &["ele"],
+        also: &[],
+        readers: Readers {
+            triangles: Some(|source| Ok(triangle::read_ele(source, false)?.0)),
+            tetrahedra: Some(|source| Ok(triangle::read_ele(source, false)?.0)),
+            ..Readers::NONE
+        },
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Neigh,
+        title: "Triangle's neighbours",
+        names: &["neigh"],
+        also: &[],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Edge,
+        title: "Triangle's edges",
+        names: &["edge"],
+        also: &[],
+        readers: Readers { segments: Some(poly::read_edges), ..Readers::NONE },
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Las,
+        title: "LAS, LAZ and COPC point clouds",
+        names: &["las", "laz"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, options| las::read(source, &options.classes)),
+            pieces: Some(|source, options, pieces| las::read_in(source, &options.classes, pieces)),
+            ..Readers::NONE
+        },
+        writes: &[],
+    },
+    Row {
+        format: Format::E57,
+        title: "E57 scans",
+        names: &["e57"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| e57::read(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Ply,
+        title: "Stanford polygons",
+        names: &["ply"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| ply::read_points(source)),
+            triangles: Some(ply::read_triangles),
+            ..Readers::NONE
+        },
+        writes: &[Points, Triangles, Tetrahedra, Surfaces, Patches],
+    },
+    Row {
+        format: Format::Obj,
+        title: "Wavefront objects",
+        names: &["obj"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| obj::read_points(source)),
+            triangles: Some(obj::read_triangles),
+            ..Readers::NONE
+        },
+        writes: &[Points, Triangles, Tetrahedra, Surfaces, Patches],
+    },
+    Row {
+        format: Format::Off,
+        title: "Geomview objects",
+        names: &["off"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| off::read_points(source)),
+            triangles: Some(off::read_triangles),
+            ..Readers::NONE
+        },
+        writes: &[Triangles],
+    },
+    Row {
+        format: Format::Stl,
+        title: "stereolithography",
+        names: &["stl"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| stl::read_points(source)), ..Readers::NONE },
+        writes: &[Triangles, Tetrahedra, Surfaces, Patches],
+    },
+    Row {
+        format: Format::Vtu,
+        title: "VTK's unstructured grids",
+        names: &["vtu"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| vtk::read_xml(source)), ..Readers::NONE },
+        writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Patches],
+    },
+    Row {
+        format: Format::Vtp,
+        title: "VTK's surfaces",
+        names: &["vtp"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| vtk::read_xml(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Vtk,
+        title: "VTK's legacy files",
+        names: &["vtk"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| vtk::read_legacy(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Pcd,
+        title: "clouds of the Point Cloud Library",
+        names: &["pcd"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| pcd::read(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::GeoJson,
+        title: "GeoJSON",
+        names: &["geojson"],
+        also: &["json"],
+        readers: Readers {
+            points: Some(|source, _| geojson::read(source)),
+            lines: Some(|source, _| geojson::read_graph(source)),
+            polygons: Some(geojson::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Triangles, Cells, Edges, Patches, Contours],
+    },
+    Row {
+        format: Format::GeoJsonLines,
+        title: "GeoJSON, a feature a line",
+        names: &["geojsonl"],
+        also: &["geojsons", "ndjson"],
+        readers: Readers {
+            points: Some(|source, _| geojson::read(source)),
+            lines: Some(|source, _| geojson::read_graph(source)),
+            polygons: Some(geojson::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[],
+    },
+    Row {
+        format: Format::Wkt,
+        title: "well-known text, a geometry a line",
+        names: &["wkt"],
+        also: &["ewkt"],
+        readers: Readers {
+            points: Some(|source, _| wkt::read_points(source)),
+            lines: Some(|source, _| wkt::read_graph(source)),
+            polygons: Some(wkt::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Triangles, Cells, Patches],
+    },
+    Row {
+        format: Format::WktCollection,
+        title: "well-known text, one collection",
+        names: &[],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| wkt::read_points(source)),
+            lines: Some(|source, _| wkt::read_graph(source)),
+            polygons: Some(wkt::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Triangles, Cells, Patches],
+    },
+    Row {
+        format: Format::Wkb,
+        title: "well-known binary",
+        names: &["wkb"],
+        also: &["ewkb"],
+        readers: Readers {
+            points: Some(|source, _| wkb::read_points(source)),
+            lines: Some(|source, _| wkb::read_graph(source)),
+            polygons: Some(wkb::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Triangles, Cells, Patches],
+    },
+    Row {
+        format: Format::Gpx,
+        title: "tracks, routes and waypoints of GPS receivers",
+        names: &["gpx"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| gpx::read_points(source)),
+            lines: Some(|source, _| gpx::read_graph(source)),
+            ..Readers::NONE
+        },
+        writes: &[],
+    },
+    Row {
+        format: Format::Tiff,
+        title: "GeoTIFF rasters",
+        names: &["tif"],
+        also: &["tiff"],
+        readers: Readers {
+            points: Some(|source, _| Ok(raster::read_tiff(source)?.into_points())),
+            rasters: Some(raster::read_tiff),
+            ..Readers::NONE
+        },
+        writes: &[Rasters],
+    },
+    Row {
+        format: Format::Asc,
+        title: "ESRI ASCII grids",
+        names: &["asc"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| Ok(raster::read_asc(source)?.into_points())),
+            rasters: Some(raster::read_asc),
+            ..Readers::NONE
+        },
+        writes: &[Rasters],
+    },
+    Row {
+        format: Format::Msh,
+        title: "Gmsh meshes",
+        names: &["msh"],
+        also: &[],
+        readers: Readers {
+            points: Some(|source, _| msh::read_points(source)),
+            triangles: Some(msh::read_simplices),
+            tetrahedra: Some(msh::read_simplices),
+            ..Readers::NONE
+        },
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Inp,
+        title: "Abaqus meshes",
+        names: &["inp"],
+        also: &[],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder, Tetrahedra],
+    },
+    Row {
+        format: Format::Svg,
+        title: "vector pictures",
+        names: &["svg"],
+        also: &[],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Cells, Patches, Contours, Pictures],
+    },
+    Row {
+        format: Format::Png,
+        title: "pixel pictures",
+        names: &["png"],
+        also: &[],
+        readers: Readers::NONE,
+        writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Cells, Patches, Contours, Pictures],
+    },
+];

@@ -1,0 +1,68 @@
+//! GPX: waypoints, and the lines of tracks and routes, in longitude and latitude.
+//!
+//! Source: <https://www.topografix.com/GPX/1/1/>.
+
+use roxmltree::{Document, Node};
+
+use super::shapes::Shapes;
+use crate::{Cloud, Crs, Error, Graph, Source, xml};
+
+/// Longitude and latitude of WGS 84, which all files have.
+const EPSG: u32 = 4326;
+
+/// Reads all points.
+pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    Ok(Cloud { crs: Some(Crs::of_epsg(EPSG)), ..read(source)?.cloud() })
+}
+
+/// Reads waypoints, and the segments of tracks and routes.
+pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    let mut graph = read(source)?.graph()?;
+    graph.cloud.crs = Some(Crs::of_epsg(EPSG));
+    Ok(graph)
+}
+
+fn read(mut source: Box<dyn Source>) -> Result<Shapes, Error> {
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes)?;
+    let text = str::from_utf8(&bytes).map_err(|_| Error::content("GPX: it is not text"))?;
+    let document = xml::parse(text)?;
+    if !is(&document.root_element(), "gpx") {
+        return Err(Error::content("GPX: its root is not gpx"));
+    }
+    let mut shapes = Shapes::default();
+    for node in document.descendants() {
+        if is(&node, "wpt") {
+            position(&document, &node, &mut shapes)?;
+        } else if is(&node, "trkseg") || is(&node, "rte") {
+            let start = shapes.len();
+            for point in node.children().filter(|node| is(node, "trkpt") || is(node, "rtept")) {
+                position(&document, &point, &mut shapes)?;
+            }
+            shapes.line(start);
+        }
+    }
+    Ok(shapes)
+}
+
+/// Whether it is an element of this name, in whatever version of the format.
+fn is(node: &Node, name: &str) -> bool {
+    node.is_element() && node.tag_name().name() == name
+}
+
+/// Takes a point: longitude, latitude, and its elevation if there is one.
+fn position(document: &Document, node: &Node, shapes: &mut Shapes) -> Result<(), Error> {
+    let number = |name: &str, text: Option<&str>| {
+        let text = text.unwrap_or_default().trim();
+        text.parse::<f64>().map_err(|_| Error::Line {
+            line: document.text_pos_at(node.range().start).row as usize,
+            what: format!("{name} of a point is not a number: {text:?}"),
+        })
+    };
+    let mut numbers = vec![number("lon", node.attribute("lon"))?, number("lat", node.attribute("lat"))?];
+    if let Some(elevation) = node.children().find(|node| is(node, "ele")) {
+        numbers.push(number("ele", elevation.text())?);
+    }
+    shapes.position(&numbers);
+    Ok(())
+}
