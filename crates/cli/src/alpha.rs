@@ -8,7 +8,7 @@ use delone_io::{
     write_indices, write_patches, write_solid,
 };
 
-use crate::args::AlphaArgs;
+use crate::args::{AlphaArgs, IN_SPACE, IN_THE_PLANE};
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
@@ -46,11 +46,6 @@ pub(crate) fn run(args: &AlphaArgs, quiet: bool) -> Result<(), Failure> {
     stats.tell(quiet, words.simplex);
     stats.write(stats_path)
 }
-
-/// Files that hold outlines of the plane, or the triangles of a shape.
-pub(crate) const IN_THE_PLANE: &[Contents] = &[Contents::Lines, Contents::Patches];
-/// Files that hold surfaces of space, or their triangles.
-pub(crate) const IN_SPACE: &[Contents] = &[Contents::Surfaces, Contents::Indices];
 
 /// Refuses outputs that say nothing, or that formats cannot hold.
 fn check(args: &AlphaArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {

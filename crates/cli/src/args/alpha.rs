@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use delone_io::Format;
 
-use super::formats;
+use super::formats::{self, IN_SPACE, IN_THE_PLANE};
 use super::shapes::CameraArgs;
 use super::{DimArgs, InputArgs, WeightArgs, WktArgs};
-use crate::alpha::{IN_SPACE, IN_THE_PLANE};
 
 /// Alpha shapes.
 #[derive(Debug, Args)]

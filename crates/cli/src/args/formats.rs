@@ -2,6 +2,11 @@
 
 use delone_io::{Contents, Direction, Format};
 
+/// Outlines of the plane, or triangles of a shape.
+pub(crate) const IN_THE_PLANE: &[Contents] = &[Contents::Lines, Contents::Patches];
+/// Surfaces of space, or their triangles.
+pub(crate) const IN_SPACE: &[Contents] = &[Contents::Surfaces, Contents::Indices];
+
 /// The formats that one of these is written to.
 pub(super) fn written(any: &[Contents]) -> String {
     Format::with(any, Direction::Written)

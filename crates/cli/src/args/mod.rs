@@ -31,6 +31,7 @@ pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
 #[cfg(feature = "experiments")]
 pub(crate) use experiment::ExperimentArgs;
+pub(crate) use formats::{IN_SPACE, IN_THE_PLANE};
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs, ReduceArgs};

@@ -124,7 +124,7 @@ fn in_chunks(
     };
     let found = source.and_then(|source| delone_io::read_chunks(source, format, options, 3, &mut take));
     match (whole, found) {
-        (_, Err(delone_io::Error::NotInChunks(_))) | (Err(_), Err(_)) => Ok(()),
+        (_, Err(delone_io::Error::Unsupported { .. })) | (Err(_), Err(_)) => Ok(()),
         (Ok(whole), Ok(_)) => {
             let heights = whole.z.iter().flatten().map(|z| z.to_bits());
             let are_same = bits(&whole.xy) == xy && heights.eq(z.iter().copied());
