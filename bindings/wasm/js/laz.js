@@ -21,6 +21,7 @@ const error = (code, message) => new DeloneError(code, message);
 
 /**
  * Points of a file: `coords` x and y by turns, `heights`, `classes`. Of `classes` only, if these are given: 2 is the ground.
+ * Points that are withheld are left out, unless `withheld` is true.
  *
  * @param {ArrayBuffer | ArrayBufferView} file
  */
@@ -28,7 +29,7 @@ export function readLas(file, options) {
   if (!(file instanceof ArrayBuffer) && !ArrayBuffer.isView(file)) throw error("not-numbers", "expected the bytes of a file");
   const bytes = file instanceof ArrayBuffer ? new Uint8Array(file) : new Uint8Array(file.buffer, file.byteOffset, file.byteLength);
   module ??= unpack(packed);
-  const {memory, room, want, read, count, ...at} = new WebAssembly.Instance(module, {}).exports;
+  const {memory, room, want, want_withheld, read, count, ...at} = new WebAssembly.Instance(module, {}).exports;
   const start = room(bytes.length) >>> 0;
   if (!start) throw error("memory", `there is no memory for a file of ${bytes.length} bytes`);
   new Uint8Array(memory.buffer, start, bytes.length).set(bytes);
@@ -36,6 +37,7 @@ export function readLas(file, options) {
     if (!Number.isInteger(wanted) || wanted < 0 || wanted > 255) throw error("range", `${shown(wanted)} is no class: they are 0 to 255`);
     want(wanted);
   }
+  if (options?.withheld) want_withheld();
   let found;
   try {
     found = read();

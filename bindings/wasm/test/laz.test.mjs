@@ -56,6 +56,16 @@ test("the sample has the points that its header tells of", () => {
   assert.equal(classes.filter((type) => type === 2).length, 26_107);
 });
 
+test("points that are withheld are left out", () => {
+  const file = las([[1, 2, 3, 2], [3, 4, 5, 2 | 0x80], [5, 6, 7, 5 | 0x20]]);
+  assert.deepEqual([...readLas(file).classes], [2, 5]);
+  assert.deepEqual([...readLas(file, {withheld: true}).classes], [2, 2, 5]);
+  const wide = las([[1, 2, 3, 2], [3, 4, 5, 2]], {format: 6});
+  wide[227 + 30 + 15] = 4;
+  assert.deepEqual([...readLas(wide).coords], [10.5, 21]);
+  assert.equal(readLas(wide, {withheld: true, classes: [2]}).classes.length, 2);
+});
+
 test("classes are chosen", () => {
   const [all, ground] = [readLas(sample), readLas(sample, {classes: [2]})];
   assert.deepEqual([ground.heights.length, ground.coords.length, ground.classes.length], [26_107, 2 * 26_107, 26_107]);

@@ -6,5 +6,5 @@ export interface PointCloud {
   classes: Uint8Array;
 }
 
-/** The points of a LAS or LAZ file; those of `classes` only, if these are given. */
-export function readLas(file: ArrayBuffer | ArrayBufferView, options?: {classes?: Iterable<number>}): PointCloud;
+/** The points of a LAS or LAZ file; those of `classes` only, if these are given, and without those withheld unless `withheld` is true. */
+export function readLas(file: ArrayBuffer | ArrayBufferView, options?: {classes?: Iterable<number>; withheld?: boolean}): PointCloud;

@@ -1,7 +1,7 @@
 //! `delone info`: what is in a file of points, and of segments.
 
 use delone::{Constrained2, Coordinates, Dimension, Error};
-use delone_io::{Cloud, Graph, LAS_CLASSES};
+use delone_io::{Cloud, Graph, LAS_CLASSES, LasFlag};
 use serde_json::{Map, Value};
 
 use crate::args::{GraphArgs, InfoArgs};
@@ -88,6 +88,10 @@ fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
         let counts: Map<String, Value> =
             cloud.classes.iter().map(|&(class, count)| (class.to_string(), count.into())).collect();
         stats.set("classes", counts);
+        for (flag, &count) in LasFlag::ALL.iter().zip(&cloud.flags).filter(|entry| *entry.1 > 0) {
+            line(flag.name(), count.to_string());
+            stats.set(&flag.name().replace('-', "_"), count);
+        }
     }
 }
 

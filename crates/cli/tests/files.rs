@@ -134,6 +134,14 @@ fn systems_of_coordinates_are_passed_on() {
     let told = place.succeed(&format!("-q info {}", tile.display()));
     assert!(told.contains("class 2 ground") && told.contains("26107"), "{told}");
     assert_eq!(points(&place, &format!("{} --class ground", tile.display())), 26_107);
+    let part = |options: &str| points(&place, &format!("{} {options}", tile.display()));
+    assert_eq!(
+        part("--returns first") + part("--returns 2") + part("--returns 3") + part("--returns 4"),
+        110_000
+    );
+    assert!(
+        part("--z-range=-5,420") > part("--z-range 410,420 --returns last") && part("--z-range 1,2") == 0
+    );
 }
 
 #[test]

@@ -16,6 +16,8 @@ pub struct Cloud {
     pub base: usize,
     /// LAS classes and how many points of the file have them, those left out included.
     pub classes: Vec<(u8, u64)>,
+    /// How many points of LAS files have each flag ([`LasFlag::ALL`](crate::LasFlag::ALL)), those left out included.
+    pub flags: [u64; 4],
     /// What a user might want to know of how the file was read: which columns were taken, what was left out.
     pub remarks: Vec<String>,
 }
@@ -83,6 +85,7 @@ impl Cloud {
                 Err(i) => self.classes.insert(i, (class, count)),
             }
         }
+        self.flags.iter_mut().zip(other.flags).for_each(|(sum, count)| *sum += count);
         self.remarks.extend(other.remarks.iter().cloned());
         if self.xy.is_empty() {
             (self.xy, self.z, self.base) = (other.xy, other.z, other.base);

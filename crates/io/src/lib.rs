@@ -41,7 +41,7 @@ pub use error::Error;
 pub use filtration::write_filtration;
 pub use format::{Contents, Direction, Format};
 pub use formats::edges::{Edges, write_edges};
-pub use formats::las::LAS_CLASSES;
+pub use formats::las::{LAS_CLASSES, LasFilter, LasFlag, Returns};
 pub use formats::npy::{Element, write_array};
 pub use formats::poly::{Beside, has_points_beside};
 pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
@@ -77,8 +77,8 @@ impl<T: BufRead + Seek + Send + Sync> Source for T {}
 /// How to read points.
 #[derive(Clone, Debug, Default)]
 pub struct ReadOptions {
-    /// LAS classes to keep; all when empty.
-    pub classes: Vec<u8>,
+    /// Which points of LAS files are taken.
+    pub las: LasFilter,
     /// Columns of text that are x, y and perhaps z: names of the header, or numbers from 1.
     pub columns: Vec<String>,
     /// Coordinates of a point where the format does not tell (raw numbers): 2 or 3.

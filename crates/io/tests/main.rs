@@ -6,6 +6,7 @@ mod elements;
 mod formats;
 mod gpx;
 mod graphs;
+mod las;
 mod new_kind;
 mod numbers;
 mod rasters;

@@ -49,8 +49,10 @@ impl Header {
         let (first_record, start, records) = (short(file, 94)?, word(file, 96)?, word(file, 100)?);
         let [format] = bytes(file, 104)?;
         let (record, mut total) = (short(file, 105)?, word(file, 107)? as u64);
-        if total == 0 && minor >= 4 {
-            total = u64::from_le_bytes(bytes(file, 247)?);
+        if minor >= 4 {
+            // What this field counts holds; a writer that left it empty has used the smaller one.
+            let count = u64::from_le_bytes(bytes(file, 247)?);
+            total = if count > 0 { count } else { total };
         }
         let number = |at| Ok(f64::from_le_bytes(bytes(file, at)?));
         let scale = [number(131)?, number(139)?, number(147)?];

@@ -38,16 +38,17 @@ pub struct Cloud {
     pub classes: Vec<u8>,
 }
 
-/// Reads a file; `wants` says of each class whether its points are wanted.
+/// Reads a file; `wants` says of a class, and of points that are withheld or not, whether they are wanted.
 ///
 /// # Errors
 /// A [`Fault`] says what is wrong with it.
-pub fn read_file(file: &[u8], wants: impl Fn(u8) -> bool) -> Result<Cloud, Fault> {
+pub fn read_file(file: &[u8], wants: impl Fn(u8, bool) -> bool) -> Result<Cloud, Fault> {
     let header = Header::read(file)?;
     let mut cloud = Cloud::default();
     let mut take = |point: &[u8]| {
-        let class = if header.wide { point[16] } else { point[15] & 0x1f };
-        if wants(class) {
+        let (class, withheld) =
+            if header.wide { (point[16], point[15] & 4) } else { (point[15] & 0x1f, point[15] & 0x80) };
+        if wants(class, withheld != 0) {
             let at = |axis: usize| {
                 let [a, b, c, d] = [0, 1, 2, 3].map(|k| point[4 * axis + k]);
                 f64::from(i32::from_le_bytes([a, b, c, d])) * header.scale[axis] + header.offset[axis]
@@ -83,7 +84,9 @@ pub fn read_file(file: &[u8], wants: impl Fn(u8) -> bool) -> Result<Cloud, Fault
             _ => Box::new(SequentialPointRecordDecompressor::new(bytes)),
         };
         decoder.set_fields_from(vlr.items()).map_err(|_| Fault::Damaged)?;
-        decoder.set_selection(DecompressionSelection::base().decompress_z().decompress_classification());
+        decoder.set_selection(
+            DecompressionSelection::base().decompress_z().decompress_classification().decompress_flags(),
+        );
         let count = chunk.points.min(rest);
         for _ in 0..count {
             decoder.decompress_next(&mut point).map_err(|_| Fault::Truncated)?;
@@ -99,6 +102,8 @@ pub fn read_file(file: &[u8], wants: impl Fn(u8) -> bool) -> Result<Cloud, Fault
 struct Tray {
     file: Vec<u8>,
     wanted: Vec<u8>,
+    /// Whether points that are withheld are wanted too.
+    withheld: bool,
     cloud: Cloud,
 }
 
@@ -133,11 +138,19 @@ export! {
         TRAY.with_borrow_mut(|tray| tray.wanted.push(class as u8));
     }
 
+    /// Wants points that are withheld, too.
+    fn want_withheld() -> () {
+        TRAY.with_borrow_mut(|tray| tray.withheld = true);
+    }
+
     /// Reads the file: 0, or the number of a fault.
     fn read() -> u32 {
         TRAY.with_borrow_mut(|tray| {
-            let wanted = &tray.wanted;
-            match read_file(&tray.file, |class| wanted.is_empty() || wanted.contains(&class)) {
+            let (wanted, withheld) = (&tray.wanted, tray.withheld);
+            let wants = |class: u8, is_withheld: bool| {
+                (wanted.is_empty() || wanted.contains(&class)) && (withheld || !is_withheld)
+            };
+            match read_file(&tray.file, wants) {
                 Ok(cloud) => tray.cloud = cloud,
                 Err(fault) => return fault as u32,
             }

@@ -7,6 +7,7 @@ mod ask;
 mod experiment;
 mod formats;
 mod graph;
+mod las;
 mod mesh;
 mod points;
 mod polygons;
@@ -25,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use delone_io::{Contents, Format, LAS_CLASSES};
+use delone_io::{Contents, Format};
 
 pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
@@ -33,6 +34,7 @@ pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArg
 pub(crate) use experiment::ExperimentArgs;
 pub(crate) use formats::{IN_SPACE, IN_THE_PLANE};
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
+use las::LasArgs;
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
@@ -159,9 +161,8 @@ pub(crate) struct InputArgs {
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) from: Option<Format>,
-    /// LAS classes to keep, by number or name (ground, building, water, ...), separated by commas.
-    #[arg(long, value_name = "CLASS", value_delimiter = ',', value_parser = class)]
-    pub(crate) class: Vec<u8>,
+    #[command(flatten)]
+    pub(crate) las: LasArgs,
     /// Columns of text that are x, y and perhaps z: names or numbers from 1, separated by commas.
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
@@ -173,7 +174,7 @@ pub(crate) struct InputArgs {
 impl InputArgs {
     /// Files that nothing else is said of.
     pub(crate) fn of(paths: &[PathBuf]) -> Self {
-        Self { input: paths.to_vec(), from: None, class: Vec::new(), columns: Vec::new(), stats: None }
+        Self { input: paths.to_vec(), from: None, las: LasArgs::default(), columns: Vec::new(), stats: None }
     }
 
     /// The files that are read.
@@ -194,15 +195,6 @@ impl InputArgs {
             [] => PathBuf::new(),
         }
     }
-}
-
-/// A LAS class by its number or its name.
-fn class(text: &str) -> Result<u8, String> {
-    let named = LAS_CLASSES.iter().find(|(name, _)| text.eq_ignore_ascii_case(name)).map(|class| class.1);
-    named.or_else(|| text.parse().ok()).ok_or_else(|| {
-        let names: Vec<&str> = LAS_CLASSES.iter().map(|class| class.0).collect();
-        format!("a class is a number up to 255 or one of {}", names.join(", "))
-    })
 }
 
 /// A part of a length.

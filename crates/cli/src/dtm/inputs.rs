@@ -35,8 +35,8 @@ pub(super) fn resolve(args: &DtmArgs) -> Result<InputArgs, Failure> {
         clouds.sort();
         input.input.append(&mut clouds);
     }
-    if input.class.is_empty() && !args.all_classes && has_classes(&input) {
-        input.class.push(GROUND);
+    if input.las.class.is_empty() && !args.all_classes && has_classes(&input) {
+        input.las.class.push(GROUND);
     }
     Ok(input)
 }
@@ -71,7 +71,7 @@ pub(super) fn check_count(count: u64, label: &Path, args: &DtmArgs) -> Result<()
     if count > 0 {
         return Ok(());
     }
-    let names: Vec<String> = args.input.class.iter().map(|&class| name(class)).collect();
+    let names: Vec<String> = args.input.las.class.iter().map(|&class| name(class)).collect();
     let of = match &names[..] {
         [] if args.all_classes || !has_classes(&args.input) => {
             let what = format!("{}: there are no points", label.display());

@@ -128,8 +128,11 @@ pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
     for path in &args.input {
         formats.push(format(path, args.from, "--from")?);
     }
-    if !args.class.is_empty() && !formats.contains(&Format::Las) {
-        return Err(Failure::usage("--class is for LAS and LAZ files", "leave --class out"));
+    if let Some(option) = args.las.option().filter(|_| !formats.contains(&Format::Las)) {
+        return Err(Failure::usage(
+            format!("{option} is for LAS and LAZ files"),
+            format!("leave {option} out"),
+        ));
     }
     if !args.columns.is_empty() && !formats.contains(&Format::Text) {
         return Err(Failure::usage("--columns is for text files", "leave --columns out"));
@@ -139,7 +142,7 @@ pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
 
 /// Reads the points of a command.
 pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
-    let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension };
+    let options = ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension };
     read_all(args, quiet, |source, format| delone_io::read_points(source, format, &options))
 }
 
@@ -171,7 +174,7 @@ type Surface = (Vec<[f64; 2]>, Vec<f64>, Cloud);
 
 /// Reads the points of a command with their heights: points of any format, or cells of rasters. The cloud has the rest of what is told.
 pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<Surface, Failure> {
-    let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension: 3 };
+    let options = ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension: 3 };
     let mut all = read_all(args, quiet, |source, format| delone_io::read_surface(source, format, &options))?;
     need_heights(all.z.as_deref(), &args.label())?;
     Ok((std::mem::take(&mut all.xy), all.z.take().unwrap_or_default(), all))
@@ -206,7 +209,7 @@ pub(crate) fn graph_with_points(
     quiet: bool,
 ) -> Result<(Graph, Vec<PathBuf>), Failure> {
     let mut besides = Vec::new();
-    let options = ReadOptions { classes: args.class.clone(), columns: args.columns.clone(), dimension: 2 };
+    let options = ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension: 2 };
     let mut all = Graph::default();
     for path in &args.input {
         let format = format(path, args.from, "--from")?;

@@ -40,8 +40,8 @@ impl<'a> Input<'a> {
             }
         }
         let dimension = if args.heights { 3 } else { 2 };
-        let (classes, columns) = (args.input.class.clone(), args.input.columns.clone());
-        Ok(Self { args, formats, options: ReadOptions { classes, columns, dimension } })
+        let (las, columns) = (args.input.las.filter(), args.input.columns.clone());
+        Ok(Self { args, formats, options: ReadOptions { las, columns, dimension } })
     }
 
     /// What the input is now: files, and how they are read.
@@ -49,7 +49,7 @@ impl<'a> Input<'a> {
         Ok(json!({
             "files": manifest::describe(&self.args.input.input)?,
             "from": self.args.input.from.map(|format| format.to_string()),
-            "classes": self.args.input.class,
+            "las": format!("{:?}", self.options.las),
             "columns": self.args.input.columns,
             "heights": self.args.heights,
         }))

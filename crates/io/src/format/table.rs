@@ -153,8 +153,8 @@ pub(super) const TABLE: &[Row] = &[
         names: &["las", "laz"],
         also: &[],
         readers: Readers {
-            points: Some(|source, options| las::read(source, &options.classes)),
-            pieces: Some(|source, options, pieces| las::read_in(source, &options.classes, pieces)),
+            points: Some(|source, options| las::read(source, &options.las)),
+            pieces: Some(|source, options, pieces| las::read_in(source, &options.las, pieces)),
             ..Readers::NONE
         },
         writes: &[],

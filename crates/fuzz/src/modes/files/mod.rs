@@ -8,7 +8,7 @@ use std::fs;
 use std::io::Cursor;
 
 use delone_generators::Random;
-use delone_io::{Cloud, Format, Graph, ReadOptions, Source, decompressed};
+use delone_io::{Cloud, Format, Graph, LasFilter, ReadOptions, Source, decompressed};
 
 pub(crate) use self::mutation::{Mutation, some};
 use crate::attack::{Attack, Judgement};
@@ -60,7 +60,11 @@ pub(crate) fn mutated(group: usize, mutations: &[Mutation], seed: u64) -> (Forma
 /// Reads a file in all ways that its format has.
 fn read(format: Format, bytes: &[u8]) -> Judgement {
     let source = || decompressed(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Source>, format);
-    let options = |dimension, classes| ReadOptions { dimension, classes, ..ReadOptions::default() };
+    let options = |dimension, classes| ReadOptions {
+        dimension,
+        las: LasFilter { classes, ..LasFilter::default() },
+        ..ReadOptions::default()
+    };
     let mut said = Vec::new();
     for (dimension, classes) in [(2, vec![]), (3, vec![2])] {
         let options = options(dimension, classes);

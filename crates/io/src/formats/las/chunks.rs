@@ -11,7 +11,7 @@ use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, Sequential
 use laz::{DecompressionSelection, LazItem, LazItemType};
 use rayon::prelude::*;
 
-use super::{CHUNK, Kept, Tile, broken};
+use super::{CHUNK, Counts, Kept, LasFilter, Tile, broken};
 use crate::chunks::Chunks;
 use crate::{Cloud, Error, guard};
 
@@ -206,7 +206,7 @@ fn decode_all(
             .into_par_iter()
             .map(|(points, bytes)| {
                 guard::decode("LAS", || {
-                    decode(bytes, points, items, layered, record, buffer.clone(), kept.classes)
+                    decode(bytes, points, items, layered, record, buffer.clone(), kept.filter)
                 })
             })
             .collect();
@@ -223,7 +223,7 @@ impl Kept<'_> {
     /// Appends what was kept of a chunk.
     fn append(&mut self, part: Kept) {
         self.cloud.append(part.cloud);
-        self.counts.iter_mut().zip(part.counts).for_each(|(sum, count)| *sum += count);
+        self.counts.add(&part.counts);
     }
 }
 
@@ -235,10 +235,10 @@ fn decode<'a>(
     layered: bool,
     record: usize,
     mut data: PointData,
-    classes: &'a [u8],
+    filter: &'a LasFilter,
 ) -> Result<Kept<'a>, Error> {
     let items = items.to_vec();
-    let mut part = Kept { cloud: Cloud::with_capacity(0, true), classes, counts: [0; 256] };
+    let mut part = Kept { cloud: Cloud::with_capacity(0, true), filter, counts: Counts::NONE };
     let mut decoder: Box<dyn RecordDecompressor<Cursor<Vec<u8>>>> = if layered {
         let head = record + 4 + 4 * layers(&items);
         let (_, length) =
@@ -251,7 +251,9 @@ fn decode<'a>(
         Box::new(SequentialPointRecordDecompressor::new(Cursor::new(bytes)))
     };
     decoder.set_fields_from(&items).map_err(broken)?;
-    decoder.set_selection(DecompressionSelection::base().decompress_z().decompress_classification());
+    decoder.set_selection(
+        DecompressionSelection::base().decompress_z().decompress_classification().decompress_flags(),
+    );
     let mut rest = points;
     while rest > 0 {
         let count = BLOCK.min(rest);

@@ -4,6 +4,7 @@
 //! few times what is really there.
 
 mod chunks;
+mod filter;
 mod system;
 
 use std::io::{Read, Seek, SeekFrom};
@@ -14,6 +15,8 @@ use las::{Builder, PointData, PointDataBuilder, Vlr};
 use crate::chunks::Chunks;
 use crate::guard;
 use crate::{Cloud, Error, Source};
+use filter::Attributes;
+pub use filter::{LasFilter, LasFlag, Returns};
 
 /// Points decoded at a time: bounded memory beside the result.
 const CHUNK: u64 = 50_000;
@@ -21,14 +24,18 @@ const CHUNK: u64 = 50_000;
 /// More points than a byte can hold, however well they are compressed: a file that claims them lies.
 const POINTS_A_BYTE: u64 = 4096;
 
-/// Reads x, y and z of the points whose class is among `classes` (of all, if that is empty).
-pub(crate) fn read(source: Box<dyn Source>, classes: &[u8]) -> Result<Cloud, Error> {
-    read_in(source, classes, &mut Chunks::default())
+/// Reads x, y and z of the points that the filter takes.
+pub(crate) fn read(source: Box<dyn Source>, filter: &LasFilter) -> Result<Cloud, Error> {
+    read_in(source, filter, &mut Chunks::default())
 }
 
 /// Reads in chunks.
-pub(crate) fn read_in(source: Box<dyn Source>, classes: &[u8], chunks: &mut Chunks) -> Result<Cloud, Error> {
-    guard::decode("LAS", || Tile::open(source)?.read(classes, chunks))
+pub(crate) fn read_in(
+    source: Box<dyn Source>,
+    filter: &LasFilter,
+    chunks: &mut Chunks,
+) -> Result<Cloud, Error> {
+    guard::decode("LAS", || Tile::open(source)?.read(filter, chunks))
 }
 
 fn broken(error: impl std::fmt::Display) -> Error {
@@ -50,16 +57,40 @@ struct Tile {
 /// The points that were kept so far, and how many there were of each class.
 struct Kept<'a> {
     cloud: Cloud,
-    classes: &'a [u8],
-    counts: [u64; 256],
+    filter: &'a LasFilter,
+    counts: Counts,
+}
+
+/// How many points there were of each class, with each flag, and how many were left out because they are withheld.
+#[derive(Clone, Copy)]
+struct Counts {
+    classes: [u64; 256],
+    flags: [u64; 4],
+    withheld: u64,
+}
+
+impl Counts {
+    const NONE: Self = Self { classes: [0; 256], flags: [0; 4], withheld: 0 };
+
+    fn add(&mut self, more: &Self) {
+        self.classes.iter_mut().zip(more.classes).for_each(|(sum, count)| *sum += count);
+        self.flags.iter_mut().zip(more.flags).for_each(|(sum, count)| *sum += count);
+        self.withheld += more.withheld;
+    }
 }
 
 impl Kept<'_> {
     fn take(&mut self, data: &PointData) {
-        for (((x, y), z), class) in data.x().zip(data.y()).zip(data.z()).zip(data.classification()) {
-            self.counts[usize::from(class)] += 1;
-            if self.classes.is_empty() || self.classes.contains(&class) {
-                self.cloud.push([x, y], z);
+        const WITHHELD: usize = 2;
+        for (((x, y), z), point) in data.x().zip(data.y()).zip(data.z()).zip(Attributes::of(data)) {
+            self.counts.classes[usize::from(point.class)] += 1;
+            self.counts.flags.iter_mut().zip(point.flags).for_each(|(sum, is_set)| *sum += u64::from(is_set));
+            if self.filter.takes(point, z) {
+                if point.flags[WITHHELD] && !self.filter.withheld {
+                    self.counts.withheld += 1;
+                } else {
+                    self.cloud.push([x, y], z);
+                }
             }
         }
     }
@@ -89,9 +120,11 @@ impl Tile {
             }
             about.vlrs.push(record);
         }
-        let total = match header.large_file {
-            Some(large) if header.number_of_point_records == 0 => large.number_of_point_records,
-            _ => u64::from(header.number_of_point_records),
+        // What the larger field counts holds; a writer that left it empty has used the smaller one.
+        let legacy = u64::from(header.number_of_point_records);
+        let total = match header.large_file.map(|large| large.number_of_point_records) {
+            Some(count) if count > 0 => count,
+            _ => legacy,
         };
         if let Some(extended) = extended {
             system::read_extended(&mut source, extended, length, &mut about)?;
@@ -100,7 +133,7 @@ impl Tile {
         Ok(Self { source, length, start, total, record, about })
     }
 
-    fn read(mut self, classes: &[u8], takers: &mut Chunks) -> Result<Cloud, Error> {
+    fn read(mut self, filter: &LasFilter, takers: &mut Chunks) -> Result<Cloud, Error> {
         let bytes = self.length - self.start;
         let (fits, claim) = if self.about.point_format.is_compressed {
             (bytes.saturating_mul(POINTS_A_BYTE), bytes)
@@ -111,8 +144,8 @@ impl Tile {
             return Err(Error::Truncated(format!("after {fits} of {} points", self.total)));
         }
         let capacity =
-            if classes.is_empty() && takers.is_whole() { self.total.min(claim) as usize } else { 0 };
-        let mut kept = Kept { cloud: Cloud::with_capacity(capacity, true), classes, counts: [0; 256] };
+            if filter.is_plain() && takers.is_whole() { self.total.min(claim) as usize } else { 0 };
+        let mut kept = Kept { cloud: Cloud::with_capacity(capacity, true), filter, counts: Counts::NONE };
         self.source.seek(SeekFrom::Start(self.start))?;
         if self.about.point_format.is_compressed {
             chunks::read(&mut self, &mut kept, takers)?;
@@ -129,7 +162,12 @@ impl Tile {
         }
         let mut cloud = kept.cloud;
         cloud.crs = system::find(&self.about.vlrs);
-        cloud.classes = (0..=255).zip(kept.counts).filter(|entry| entry.1 > 0).collect();
+        let counts = kept.counts;
+        cloud.classes = (0..=255).zip(counts.classes).filter(|entry| entry.1 > 0).collect();
+        cloud.flags = counts.flags;
+        if counts.withheld > 0 {
+            cloud.remarks.push(format!("{} points that are withheld are left out", counts.withheld));
+        }
         Ok(cloud)
     }
 
