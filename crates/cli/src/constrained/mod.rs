@@ -8,7 +8,7 @@ use delone::{
     Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
     VertexId,
 };
-use delone_io::{Border, Constraints, Contents, Direction, Format, Graph, Mesh, Trim, picture, write_mesh};
+use delone_io::{Border, Constraints, Format, Graph, Mesh, Trim, picture, write_mesh};
 
 use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
@@ -23,7 +23,7 @@ pub(crate) use values::{along, clamped, extended, least};
 pub(crate) fn is_meant(input: &InputArgs, graph: &GraphArgs) -> bool {
     let holds = |path: &PathBuf| {
         let format = input.from.or_else(|| Format::of(path).ok());
-        format.is_some_and(|format| format.holds(Contents::Lines, Direction::Read))
+        format.is_some_and(|format| files::holds_lines(path, format))
     };
     graph.is_given() || input.input.iter().any(holds)
 }

@@ -9,7 +9,7 @@
 use std::path::Path;
 
 use delone::surface::Grid;
-use delone_io::{Contents, Crs, Direction, Format};
+use delone_io::{Contents, Crs};
 use delone_predicates::orient2d;
 
 use super::lines;
@@ -29,12 +29,13 @@ pub(super) struct Clip {
 impl Clip {
     /// Reads them; the points of a file without polygons are one ring.
     pub(super) fn read(path: &Path, quiet: bool) -> Result<Self, Failure> {
-        if !Format::of(path).is_ok_and(|format| format.holds(Contents::Polygons, Direction::Read)) {
-            return Ok(Self { polygons: vec![files::rings(path, quiet)?], crs: None });
-        }
+        let format = files::format_beside(path)?;
         let graph = files::graph(&InputArgs::of(&[path.to_owned()]), None, quiet)?;
-        if graph.rings.is_empty() {
+        if graph.rings.is_empty() && files::holds_lines(path, format) {
             return Err(lines::no_polygon(path, &lines::give("polygons", Contents::Polygons)));
+        }
+        if graph.rings.is_empty() {
+            return Ok(Self { polygons: vec![vec![graph.cloud.xy]], crs: graph.cloud.crs });
         }
         let ring = |sides: &[[usize; 2]]| sides.iter().map(|side| graph.cloud.xy[side[0]]).collect();
         let polygons = graph

@@ -305,6 +305,14 @@ pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<C
     Ok(cloud)
 }
 
+/// Whether a file is one of lines and polygons. Of standard input, and of pipes, the format alone tells.
+pub(crate) fn holds_lines(path: &Path, format: Format) -> bool {
+    let nothing: Box<dyn Source> = Box::new(Cursor::new(Vec::new()));
+    let content = if path.is_file() { apart::source(path) } else { Ok(nothing) };
+    let content = content.map_err(delone_io::Error::from).and_then(|source| decompressed(source, format));
+    content.is_ok_and(|source| delone_io::holds_lines(source, format))
+}
+
 /// Reads the rings of polygons.
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     let format = format_beside(path)?;

@@ -126,7 +126,7 @@ type Whole = Box<dyn Source>;
 type Reader<T> = Option<fn(Whole) -> Result<T, Error>>;
 type PointReader = fn(Whole, &ReadOptions) -> Result<Cloud, Error>;
 type PieceReader = fn(Whole, &ReadOptions, &mut Chunks) -> Result<Cloud, Error>;
-type LineReader = fn(Whole, Option<Beside>) -> Result<Graph, Error>;
+type LineReader = fn(Whole, &ReadOptions, Option<Beside>) -> Result<Graph, Error>;
 
 /// The functions that read a format, where it has what they read.
 #[derive(Clone, Copy, Debug)]
@@ -134,6 +134,8 @@ pub(crate) struct Readers {
     pub(crate) points: Option<PointReader>,
     pub(crate) pieces: Option<PieceReader>,
     pub(crate) lines: Option<LineReader>,
+    /// Of a format that seldom has lines: whether there is one.
+    pub(crate) seldom: Option<fn(Whole) -> bool>,
     /// Points with attributes and markers, which a graph can have and a cloud cannot.
     pub(crate) attributed: Reader<Graph>,
     pub(crate) segments: Reader<Vec<[usize; 2]>>,
@@ -151,6 +153,7 @@ impl Readers {
         points: None,
         pieces: None,
         lines: None,
+        seldom: None,
         attributed: None,
         segments: None,
         polygons: None,

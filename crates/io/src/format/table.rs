@@ -35,7 +35,10 @@ pub(super) const TABLE: &[Row] = &[
         readers: Readers {
             points: Some(|source, options| text::read(source, &options.columns)),
             pieces: Some(|source, options, pieces| text::read_in(source, &options.columns, pieces)),
+            lines: Some(|source, options, _| text::read_graph(source, &options.columns)),
+            seldom: Some(text::has_geometries),
             segments: Some(pairs::read),
+            polygons: Some(text::read_rings),
             numbers: Some(list::read),
             ..Readers::NONE
         },
@@ -105,7 +108,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &[],
         readers: Readers {
             points: Some(|source, _| poly::read_points(source)),
-            lines: Some(poly::read),
+            lines: Some(|source, _, beside| poly::read(source, beside)),
             segments: Some(poly::read_segments),
             ..Readers::NONE
         },
@@ -186,6 +189,8 @@ pub(super) const TABLE: &[Row] = &[
         also: &[],
         readers: Readers {
             points: Some(|source, _| obj::read_points(source)),
+            lines: Some(|source, _, _| obj::read_graph(source)),
+            seldom: Some(obj::has_lines),
             triangles: Some(obj::read_triangles),
             ..Readers::NONE
         },
@@ -250,7 +255,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &["json"],
         readers: Readers {
             points: Some(|source, _| geojson::read(source)),
-            lines: Some(|source, _| geojson::read_graph(source)),
+            lines: Some(|source, _, _| geojson::read_graph(source)),
             polygons: Some(geojson::read_rings),
             ..Readers::NONE
         },
@@ -263,7 +268,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &["geojsons", "ndjson"],
         readers: Readers {
             points: Some(|source, _| geojson::read(source)),
-            lines: Some(|source, _| geojson::read_graph(source)),
+            lines: Some(|source, _, _| geojson::read_graph(source)),
             polygons: Some(geojson::read_rings),
             ..Readers::NONE
         },
@@ -276,7 +281,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &["ewkt"],
         readers: Readers {
             points: Some(|source, _| wkt::read_points(source)),
-            lines: Some(|source, _| wkt::read_graph(source)),
+            lines: Some(|source, _, _| wkt::read_graph(source)),
             polygons: Some(wkt::read_rings),
             ..Readers::NONE
         },
@@ -289,7 +294,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &[],
         readers: Readers {
             points: Some(|source, _| wkt::read_points(source)),
-            lines: Some(|source, _| wkt::read_graph(source)),
+            lines: Some(|source, _, _| wkt::read_graph(source)),
             polygons: Some(wkt::read_rings),
             ..Readers::NONE
         },
@@ -302,7 +307,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &["ewkb"],
         readers: Readers {
             points: Some(|source, _| wkb::read_points(source)),
-            lines: Some(|source, _| wkb::read_graph(source)),
+            lines: Some(|source, _, _| wkb::read_graph(source)),
             polygons: Some(wkb::read_rings),
             ..Readers::NONE
         },
@@ -315,7 +320,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &[],
         readers: Readers {
             points: Some(|source, _| gpx::read_points(source)),
-            lines: Some(|source, _| gpx::read_graph(source)),
+            lines: Some(|source, _, _| gpx::read_graph(source)),
             ..Readers::NONE
         },
         writes: &[],

@@ -1,19 +1,62 @@
-//! Wavefront: `v x y z` and `f a b c` lines; everything else is passed over.
+//! Wavefront: vertices (`v x y z`), faces (`f a b c`), lines (`l a b c ...`); everything else is passed over.
 
 use std::io::{self, Write};
 
 use super::in_space;
 use super::lines::{Line, Lines};
-use crate::{Cloud, Error, Shape, Source};
+use crate::{Cloud, Error, Graph, Shape, Source};
 
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    read(source, |_, _, _| Ok(()))
+}
+
+/// Reads points, and the segments of lines.
+pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    let mut ends: Vec<([u64; 2], usize)> = Vec::new();
+    let cloud = read(source, |line, words, vertices| {
+        let corners = words.map(|word| corner(line, word, vertices)).collect::<Result<Vec<_>, _>>()?;
+        ends.extend(corners.windows(2).map(|side| ([side[0], side[1]], line.number)));
+        Ok(())
+    })?;
+    let mut graph = Graph::of_points(cloud);
+    for (side, line) in ends {
+        // Lines may come before their vertices.
+        if let Some(&far) = side.iter().find(|&&end| end >= graph.cloud.xy.len() as u64) {
+            return Err(Error::Line { line, what: format!("there is no vertex {}", far + 1) });
+        }
+        graph.segments.push(side.map(|end| end as usize));
+    }
+    graph.is_border = vec![false; graph.segments.len()];
+    Ok(graph)
+}
+
+/// Whether there is a line in it.
+pub(crate) fn has_lines(source: Box<dyn Source>) -> bool {
+    let mut lines = Lines::new(source);
+    while let Ok(Some(line)) = lines.next() {
+        if line.text.split_whitespace().next() == Some("l") {
+            return true;
+        }
+    }
+    false
+}
+
+/// Reads vertices; `take` is given lines with their words and the number of vertices before.
+fn read(
+    source: Box<dyn Source>,
+    mut take: impl FnMut(&Line, std::str::SplitWhitespace, i64) -> Result<(), Error>,
+) -> Result<Cloud, Error> {
     let mut lines = Lines::new(source);
     let mut cloud = Cloud::with_capacity(0, true);
     while let Some(line) = lines.next()? {
         let mut words = line.text.split_whitespace();
-        if words.next() == Some("v") {
-            let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
-            cloud.push(xy, line.number(words.next(), "z")?);
+        match words.next() {
+            Some("v") => {
+                let xy = [line.number(words.next(), "x")?, line.number(words.next(), "y")?];
+                cloud.push(xy, line.number(words.next(), "z")?);
+            }
+            Some("l") => take(&line, words, cloud.xy.len() as i64)?,
+            _ => {}
         }
     }
     Ok(cloud)

@@ -46,6 +46,11 @@ impl Shapes {
         self.xy.len()
     }
 
+    /// How many lines and polygons there are.
+    pub(super) fn parts(&self) -> usize {
+        self.lines + self.polygons
+    }
+
     /// Takes a position: x, y, and perhaps a height. False if there are fewer than two numbers.
     pub(super) fn position(&mut self, numbers: &[f64]) -> bool {
         let &[x, y, ..] = numbers else { return false };
@@ -108,7 +113,7 @@ impl Shapes {
 
     /// All positions as points.
     pub(super) fn cloud(self) -> Cloud {
-        let shapes = self.lines + self.polygons;
+        let shapes = self.parts();
         let mut cloud = self.points();
         if shapes > 0 {
             cloud.remarks.push(format!("the corners of {shapes} lines and polygons were taken as points"));

@@ -79,6 +79,23 @@ fn digits(text: &[u8]) -> Result<Option<Vec<u8>>, Error> {
     Ok(Some(bytes))
 }
 
+/// Whether a word is the digits of a geometry: the order of bytes first, and enough of them for an empty one.
+pub(super) fn is_digits(word: &str) -> bool {
+    const SHORTEST: usize = 2 * (1 + 4 + 4);
+    let digits = word.strip_prefix("\\x").unwrap_or(word);
+    digits.len() >= SHORTEST
+        && (digits.starts_with("00") || digits.starts_with("01"))
+        && digits.bytes().all(|byte| byte.is_ascii_hexdigit())
+}
+
+/// Reads the one geometry that digits stand for, and gives its system.
+pub(super) fn read_digits(word: &str, shapes: &mut Shapes) -> Result<Option<Crs>, String> {
+    let bytes = digits(word.as_bytes()).map_err(|error| error.to_string())?.unwrap_or_default();
+    let mut reader = Reader { rest: &bytes, is_big: false };
+    let system = reader.geometry(shapes, None, DEEPEST)?;
+    if reader.rest.is_empty() { Ok(system) } else { Err("there are digits after its geometry".to_owned()) }
+}
+
 /// Collections in each other at most: nobody has more, and each takes a piece of the stack.
 const DEEPEST: u32 = 100;
 
@@ -129,7 +146,7 @@ impl Reader<'_> {
         let high = flags & WITH_HEIGHTS != 0 || thousands & 1 != 0;
         let measured = flags & WITH_MEASURES != 0 || thousands & 2 != 0;
         let width = Width { numbers: 2 + usize::from(high) + usize::from(measured), high };
-        if thousands > 3 || !(POINT..=COLLECTION).contains(&kind) {
+        if thousands > 3 || !((POINT..=COLLECTION).contains(&kind) || (SURFACE..=TRIANGLE).contains(&kind)) {
             return Err(format!("kind {word} is none of points, lines, polygons and collections of them"));
         }
         if let Some(expected) = inside
@@ -146,7 +163,7 @@ impl Reader<'_> {
                 self.positions(width, shapes)?;
                 shapes.line(start);
             }
-            POLYGON => {
+            POLYGON | TRIANGLE => {
                 shapes.polygon();
                 for _ in 0..self.count()? {
                     let start = shapes.len();
@@ -156,7 +173,12 @@ impl Reader<'_> {
             }
             _ if depth == 0 => return Err(format!("more than {DEEPEST} collections in each other")),
             _ => {
-                let inside = (kind != COLLECTION).then_some(kind - 3);
+                let inside = match kind {
+                    COLLECTION => None,
+                    TIN => Some(TRIANGLE),
+                    SURFACE => Some(POLYGON),
+                    _ => Some(kind - 3),
+                };
                 for _ in 0..self.count()? {
                     self.geometry(shapes, inside, depth - 1)?;
                 }
@@ -190,6 +212,10 @@ pub(super) const POLYGON: u32 = 3;
 const MULTIPOINT: u32 = 4;
 pub(super) const MULTIPOLYGON: u32 = 6;
 pub(super) const COLLECTION: u32 = 7;
+/// Polygons that share sides, triangles that do, and one triangle.
+const SURFACE: u32 = 15;
+const TIN: u32 = 16;
+const TRIANGLE: u32 = 17;
 /// What EWKB adds to a kind: positions have heights, or measures; the number of the system follows.
 const WITH_HEIGHTS: u32 = 1 << 31;
 const WITH_MEASURES: u32 = 1 << 30;

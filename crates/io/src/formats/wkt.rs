@@ -6,18 +6,25 @@
 use std::io::{self, Read, Write};
 
 use super::shapes::Shapes;
+use super::wkb;
 use crate::error::excerpt;
 use crate::{Cloud, Crs, Error, Graph, Shape, Source};
 
 /// What geometries are called, and how deep their positions are in lists.
-const KINDS: [(&str, usize); 6] = [
+const KINDS: [(&str, usize); 9] = [
     ("POINT", 0),
     ("MULTIPOINT", 0),
     ("LINESTRING", 0),
     ("MULTILINESTRING", 1),
     ("POLYGON", 1),
     ("MULTIPOLYGON", 2),
+    ("TRIANGLE", 1),
+    ("TIN", 2),
+    ("POLYHEDRALSURFACE", 2),
 ];
+
+/// What has rings.
+const AREAS: [&str; 5] = ["POLYGON", "MULTIPOLYGON", "TRIANGLE", "TIN", "POLYHEDRALSURFACE"];
 
 /// What has geometries in it.
 const COLLECTION: &str = "GEOMETRYCOLLECTION";
@@ -62,13 +69,10 @@ fn read(mut source: Box<dyn Source>) -> Result<(Shapes, Option<Crs>), Error> {
         if begin.is_empty() {
             return Ok((shapes, crs));
         }
-        let system = reader.system();
-        if reader.geometry(&mut shapes, 0).is_none() {
-            let what = no_geometry(begin);
-            return Err(Error::Line { line: line(text.len() - reader.rest.len()), what });
-        }
-        // No number, or 0, is no system.
-        let system = system.filter(|&number| number > 0).map(Crs::of_epsg);
+        let system = match reader.one(&mut shapes) {
+            Ok(system) => system,
+            Err(what) => return Err(Error::Line { line: line(text.len() - reader.rest.len()), what }),
+        };
         if let (Some(before), Some(now)) = (&crs, &system)
             && before != now
         {
@@ -86,20 +90,19 @@ fn no_geometry(text: &str) -> String {
     )
 }
 
-/// Whether a text begins like a geometry: its kind, and a list or the word that there is none.
+/// Whether a text begins like a geometry: its kind, and a list or the word that there is none; or the digits of a binary one.
 pub(super) fn is_geometry(text: &str) -> bool {
     let mut reader = Reader { rest: text.trim() };
     reader.system();
-    reader.kind().is_some()
+    reader.kind().is_some() || wkb::is_digits(text.trim())
 }
 
-/// Reads a text that is one geometry.
-pub(super) fn read_one(text: &str) -> Result<Shapes, String> {
+/// Reads a text that is one geometry, and gives its system.
+pub(super) fn read_one(text: &str, shapes: &mut Shapes) -> Result<Option<Crs>, String> {
     let mut reader = Reader { rest: text.trim() };
-    reader.system();
-    let mut shapes = Shapes::default();
-    let complete = reader.geometry(&mut shapes, 0).is_some() && reader.rest.trim().is_empty();
-    complete.then_some(shapes).ok_or_else(|| no_geometry(text.trim()))
+    let system = reader.one(shapes)?;
+    reader.skip_remarks();
+    if reader.rest.is_empty() { Ok(system) } else { Err(no_geometry(text.trim())) }
 }
 
 /// A kind of geometry.
@@ -119,12 +122,27 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
+    /// Steps over remarks, and over semicolons after geometries.
     fn skip_remarks(&mut self) {
-        self.rest = self.rest.trim_start();
+        let is_between = |c: char| c.is_whitespace() || c == ';';
+        self.rest = self.rest.trim_start_matches(is_between);
         while self.rest.starts_with('#') {
             let (_, after) = self.rest.split_once('\n').unwrap_or_default();
-            self.rest = after.trim_start();
+            self.rest = after.trim_start_matches(is_between);
         }
+    }
+
+    /// A geometry with the number of its system before it, or in hexadecimal digits. No number, or 0, is no system.
+    fn one(&mut self, shapes: &mut Shapes) -> Result<Option<Crs>, String> {
+        let begin = self.rest;
+        let digits = begin.find(char::is_whitespace).map_or(begin, |end| &begin[..end]);
+        if wkb::is_digits(digits) {
+            self.rest = &begin[digits.len()..];
+            return wkb::read_digits(digits, shapes);
+        }
+        let system = self.system();
+        self.geometry(shapes, 0).ok_or_else(|| no_geometry(begin))?;
+        Ok(system.filter(|&number| number > 0).map(Crs::of_epsg))
     }
 
     /// The number of a system that stands before a geometry.
@@ -198,7 +216,7 @@ impl<'a> Reader<'a> {
             return self.word().eq_ignore_ascii_case("EMPTY").then_some(());
         }
         self.sign('(')?;
-        let is_area = kind.name.ends_with("POLYGON");
+        let is_area = AREAS.contains(&kind.name);
         if is_area && depth == 1 {
             shapes.polygon();
         }
@@ -316,7 +334,7 @@ pub(crate) fn write_points<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::{is_geometry, read_graph, read_one};
-    use crate::formats::shapes::Heights;
+    use crate::formats::shapes::{Heights, Shapes};
     use std::io::Cursor;
 
     type Positions = (Vec<[f64; 2]>, Heights);
@@ -347,13 +365,25 @@ mod tests {
             ),
             ("GEOMETRYCOLLECTION (POINT (1 2), POINT (3 4))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
             ("MULTIPOLYGON (EMPTY, ((1 2, 3 4, 1 2)))", flat(&[[1.0, 2.0], [3.0, 4.0]])),
+            ("TRIANGLE ((0 0, 1 0, 0 1, 0 0));", flat(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])),
+            (
+                "TIN Z (((0 0 1, 1 0 2, 0 1 3, 0 0 1)), ((1 0 2, 1 1 4, 0 1 3, 1 0 2)))",
+                high(
+                    &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+                    &[1.0, 2.0, 3.0, 2.0, 4.0, 3.0],
+                ),
+            ),
+            ("POLYHEDRALSURFACE (((0 0, 1 0, 0 1, 0 0)))", flat(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])),
+            ("0101000000000000000000f03f0000000000000040", flat(&[[1.0, 2.0]])),
             ("POINT EMPTY", flat(&[])),
             (
                 "GEOMETRYCOLLECTION (POINT (1 2), POINT Z (3 4 5))",
                 (vec![[1.0, 2.0], [3.0, 4.0]], Heights::OfSome),
             ),
         ] {
-            assert_eq!(read_one(text).map(|shapes| shapes.positions()), Ok(expected), "{text}");
+            let mut shapes = Shapes::default();
+            assert!(read_one(text, &mut shapes).is_ok(), "{text}");
+            assert_eq!(shapes.positions(), expected, "{text}");
         }
         for text in [
             "POINT (1)",
@@ -374,10 +404,10 @@ mod tests {
             "POINT (1 2) POINT (3 4)",
             "GEOMETRYCOLLECTION(GEOMETRYCOLLECTION(",
         ] {
-            assert!(read_one(text).is_err(), "{text}");
+            assert!(read_one(text, &mut Shapes::default()).is_err(), "{text}");
         }
-        assert!(read_one(&"GEOMETRYCOLLECTION(".repeat(100_000)).is_err());
-        assert!(read_one(&format!("POINT {}", "(".repeat(100_000))).is_err());
+        assert!(read_one(&"GEOMETRYCOLLECTION(".repeat(100_000), &mut Shapes::default()).is_err());
+        assert!(read_one(&format!("POINT {}", "(".repeat(100_000)), &mut Shapes::default()).is_err());
         for text in ["points", "Point", "Point Number", "POINT_X", "Polygon"] {
             assert!(!is_geometry(text), "{text}");
         }

@@ -118,7 +118,7 @@ fn documents() -> Seeds {
     let walk = "<gpx xmlns=\"http://www.topografix.com/GPX/1/1\"><wpt lat=\"47.5\" lon=\"8\"/><trk><trkseg>\n\
         <trkpt lat=\"1\" lon=\"2\"><ele>3</ele></trkpt><trkpt lat=\"4\" lon=\"5.5\"><ele>6e0</ele></trkpt></trkseg></trk></gpx>";
     seeds.push((Format::Gpx, walk.as_bytes().to_vec()));
-    let geometries = [Format::Wkt, Format::Wkt, Format::Wkb].into_iter().zip(GEOMETRIES);
+    let geometries = [Format::Wkt, Format::Wkt, Format::Wkt, Format::Wkb].into_iter().zip(GEOMETRIES);
     seeds.extend(geometries.map(|(format, text)| (format, text.as_bytes().to_vec())));
     seeds
 }
@@ -227,6 +227,7 @@ fn meshes() -> Seeds {
     let off = "OFF\n# by hand\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     let mut seeds: Seeds = [Format::Obj, Format::Stl, Format::Node, Format::Ele].map(mesh).into();
     seeds.push((Format::Stl, solid.as_bytes().to_vec()));
+    seeds.push((Format::Obj, b"v 0 0 1\nv 4 0 1\nv 4 4 2\nl 1 2/5 3 1\nl -1 -3\nf 1 2 3\n".to_vec()));
     seeds.push((Format::Off, off.as_bytes().to_vec()));
     seeds.push(written(Format::Node));
     seeds.extend(GRAPHS.map(|(format, text)| (format, text.as_bytes().to_vec())));
@@ -264,8 +265,10 @@ const OLD_GMSH: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\
     4 4 2 0 1 10 20 30 25\n$EndElements\n";
 
 /// Geometries as text and as bytes.
-const GEOMETRIES: [&str; 3] = [
+const GEOMETRIES: [&str; 4] = [
     "SRID=25832;POLYGON ((0 0, 8 0, 8 8, 0 0), (2 2, 3 2, 3 3, 2 2))\n# a line\nLINESTRING ZM (0 0 1 2, 1e9 -1 2 3)\n",
+    "TIN Z (((0 0 1, 1 0 2, 0 1 3, 0 0 1)), ((1 0 2, 1 1 4, 0 1 3, 1 0 2)));\nTRIANGLE ((5 5, 6 5, 5 6, 5 5))\n\
+     0101000000000000000000F03F0000000000000040\n",
     "GEOMETRYCOLLECTION (MULTIPOINT ((1 2), (3 4)), MULTIPOLYGON (EMPTY, ((0 0, 1 0, 0 1, 0 0))), POINT EMPTY)",
     "0103000020E6640000010000000400000000000000000000000000000000000000000000000000F03F0000000000000000\
      0000000000000000000000000000F03F00000000000000000000000000000000\n",

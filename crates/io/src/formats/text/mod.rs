@@ -6,17 +6,19 @@
 
 mod columns;
 mod fields;
+#[cfg(test)]
+mod tests;
 
 use std::io::{self, Write};
 
 use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
 use super::lines::Lines;
-use super::shapes::Heights;
+use super::shapes::{Heights, Shapes};
 use super::wkt;
 use crate::chunks::Chunks;
 use crate::error::excerpt;
-use crate::{Cloud, Error, Source};
+use crate::{Cloud, Crs, Error, Graph, Source};
 
 /// No quoted field goes on for longer.
 const LONGEST: usize = 1 << 26;
@@ -28,11 +30,65 @@ pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Er
 
 /// Reads in chunks.
 pub(crate) fn read_in(source: Box<dyn Source>, said: &[String], chunks: &mut Chunks) -> Result<Cloud, Error> {
+    let table = table(source, said, chunks, Wanted::Points)?;
+    let parts = table.parts;
+    let mut cloud = table.end()?.0;
+    if parts > 0 {
+        cloud.remarks.push(format!("the corners of {parts} lines and polygons were taken as points"));
+    }
+    Ok(cloud)
+}
+
+/// Reads points, or the lines and rings of a column of geometries.
+pub(crate) fn read_graph(source: Box<dyn Source>, said: &[String]) -> Result<Graph, Error> {
+    let table = table(source, said, &mut Chunks::default(), Wanted::Shapes)?;
+    let is_of_geometries = matches!(table.columns, Some(Columns::Geometry(_)));
+    let (cloud, shapes) = table.end()?;
+    if !is_of_geometries {
+        return Ok(Graph::of_points(cloud));
+    }
+    let mut graph = shapes.graph()?;
+    graph.cloud.crs = cloud.crs;
+    graph.cloud.remarks.splice(0..0, cloud.remarks);
+    Ok(graph)
+}
+
+/// Reads the rings of a column of geometries, or all points as one ring.
+pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    let table = table(source, &[], &mut Chunks::default(), Wanted::Shapes)?;
+    let is_of_geometries = matches!(table.columns, Some(Columns::Geometry(_)));
+    let (cloud, shapes) = table.end()?;
+    Ok(if is_of_geometries { shapes.rings() } else { vec![cloud.xy] })
+}
+
+/// Whether the first lines tell of a column of geometries.
+pub(crate) fn has_geometries(source: Box<dyn Source>) -> bool {
+    let begun = table(source, &[], &mut Chunks::default(), Wanted::Columns);
+    begun.is_ok_and(|table| matches!(table.columns, Some(Columns::Geometry(_))))
+}
+
+/// What a table is read for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    Points,
+    /// Geometries as they are.
+    Shapes,
+    /// Which columns there are.
+    Columns,
+}
+
+/// Reads a table.
+fn table<'a>(
+    source: Box<dyn Source>,
+    said: &'a [String],
+    chunks: &mut Chunks,
+    wanted: Wanted,
+) -> Result<Table<'a>, Error> {
     if !(said.is_empty() || (2..=3).contains(&said.len())) {
         return Err(Error::content("two or three columns are needed, x,y or x,y,z"));
     }
     let mut lines = Lines::new(source);
-    let mut table = Table::new(said);
+    let mut table = Table::new(said, wanted);
     let mut separator = None;
     let mut record = String::new();
     while let Some(line) = lines.next_whole()? {
@@ -77,15 +133,23 @@ pub(crate) fn read_in(source: Box<dyn Source>, said: &[String], chunks: &mut Chu
             None => table.first(at, sign, &record)?,
             Some(_) => table.row(at, sign, &record)?,
         }
+        if wanted == Wanted::Columns {
+            break;
+        }
         table.before += chunks.offer(&mut table.cloud)?;
     }
-    table.end()
+    Ok(table)
 }
 
 /// A table being read.
 struct Table<'a> {
     said: &'a [String],
     cloud: Cloud,
+    wanted: Wanted,
+    /// The geometries, where these are wanted.
+    shapes: Shapes,
+    /// Lines and polygons whose corners are among the points.
+    parts: usize,
     /// How many points were given away.
     before: usize,
     columns: Option<Columns>,
@@ -101,10 +165,24 @@ struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    fn new(said: &'a [String]) -> Self {
+    fn new(said: &'a [String], wanted: Wanted) -> Self {
         let cloud = Cloud::default();
         let (columns, above, count) = (None, Vec::new(), None);
-        Self { said, cloud, before: 0, columns, width: 0, above, left_out: 0, count, after_header: false }
+        let shapes = Shapes::default();
+        Self {
+            said,
+            cloud,
+            wanted,
+            shapes,
+            parts: 0,
+            before: 0,
+            columns,
+            width: 0,
+            above,
+            left_out: 0,
+            count,
+            after_header: false,
+        }
     }
 
     /// Whether a line that looks like a remark may be a row: its first field, such as #ff0000, is not a coordinate, and
@@ -242,7 +320,15 @@ impl<'a> Table<'a> {
     }
 
     fn geometry(&mut self, text: &str) -> Result<(), String> {
-        let (xy, heights) = wkt::read_one(text)?.positions();
+        if self.wanted == Wanted::Shapes {
+            let system = wkt::read_one(text, &mut self.shapes)?;
+            return self.take_system(system);
+        }
+        let mut shapes = Shapes::default();
+        let system = wkt::read_one(text, &mut shapes)?;
+        self.take_system(system)?;
+        self.parts += shapes.parts();
+        let (xy, heights) = shapes.positions();
         let is_first = self.before == 0 && self.cloud.xy.is_empty();
         match (heights, &mut self.cloud.z) {
             _ if xy.is_empty() => {}
@@ -259,14 +345,28 @@ impl<'a> Table<'a> {
         Ok(())
     }
 
-    fn end(mut self) -> Result<Cloud, Error> {
+    /// Takes the system of a geometry, which is that of all.
+    fn take_system(&mut self, system: Option<Crs>) -> Result<(), String> {
+        match (&self.cloud.crs, system) {
+            (Some(before), Some(now)) if *before != now => {
+                Err(format!("its coordinates are {now}, those before it {before}"))
+            }
+            (None, system) => {
+                self.cloud.crs = system;
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn end(mut self) -> Result<(Cloud, Shapes), Error> {
+        let found = self.before + self.cloud.xy.len() + self.shapes.len();
         match self.count {
             // A number alone, and nothing that it counts.
             Some((_, line)) if self.columns.is_none() => {
                 return Err(Error::Line { line, what: "a point needs two numbers, x and y".to_owned() });
             }
-            Some((number, _)) if self.before + self.cloud.xy.len() < number => {
-                let found = self.before + self.cloud.xy.len();
+            Some((number, _)) if found < number => {
                 return Err(Error::Truncated(format!("after {found} of {number} points")));
             }
             _ => {}
@@ -274,7 +374,7 @@ impl<'a> Table<'a> {
         if self.columns.is_none() && self.left_out > 0 {
             self.cloud.remarks.push(format!("all lines, {} of them, are remarks", self.left_out));
         }
-        Ok(self.cloud)
+        Ok((self.cloud, self.shapes))
     }
 }
 
@@ -337,116 +437,4 @@ pub(crate) fn write_indices(out: &mut dyn Write, columns: usize, values: &[i64])
         writeln!(out)?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::read;
-    use crate::Cloud;
-    use std::io::Cursor;
-
-    fn parse(text: &'static str, columns: &[&str]) -> Result<Cloud, String> {
-        let columns: Vec<_> = columns.iter().map(ToString::to_string).collect();
-        read(Box::new(Cursor::new(text)), &columns).map_err(|error| error.to_string())
-    }
-
-    #[test]
-    fn separators_and_headers() {
-        let plain = Cloud { xy: vec![[1.0, 2.0], [3.5, -4.0]], ..Cloud::default() };
-        for text in [
-            "1,2\n3.5,-4",
-            "1 2\n3.5   -4\n\n",
-            "x;y\n1;2\n3.5;-4\n",
-            "# made by hand\n1\t2\n3.5\t-4",
-            "lat,lon\n2,1\n-4,3.5",
-            "1,2\r3.5,-4\r",
-            "\u{feff}x,y\r\n\"1\",\"2\"\r\n3.5,-4\r\n",
-            "name;x;y\n\"a; b\";1;2\nc;3,5;-4,0",
-            "1|2\n3.5|-4",
-            "id,geom\n1,POINT (1 2)\n2,\"MULTIPOINT (3.5 -4)\"",
-            "POINT (1 2)\nPOINT (3.5 -4)",
-            "x,y,2020\n1,2,0\n3.5,-4,0\n,,\n",
-            "1,2 # the first\n3.5,-4",
-            "sep=;\n1;2\n3,5;-4",
-            "# lat lon\n2 1\n-4 3.5",
-            "#lat,lon\n2,1\n-4,3.5",
-            "#,x,y\n7,1,2\n8,3.5,-4",
-            "2\n1 2\n3.5 -4\n\u{1a}",
-            "//X Y\n2\n1 2\n3.5 -4",
-            "\"x\" \"y\"\n\"1\" 1 2\n\"2\" 3.5 -4",
-            "\tx\ty\tz\n0\t1\t2\t7\n1\t3.5\t-4\t7",
-            "colour,x,y\n\"#ff0000\",1,2\n# 2,7,8\nred,3.5,-4",
-            "1,2,\n3.5,-4,",
-            "x,y\n1,2,\n3.5,-4,",
-            "# lat lon (WGS84)\n# made by me\n2 1\n-4 3.5",
-            "# columns: lat lon\n2 1\n-4 3.5",
-            "geometry\nPOINT (1 2)\nMULTIPOINT (3.5 -4)",
-            "wkt\nSRID=4326;MULTIPOINT (1 2,3.5 -4)",
-            "MULTIPOINT (1 2, 3.5 -4)",
-            "\"n\" \"x\" \"y\"\n\"a\"\"b\" 1 2\n\"c\" 3.5 -4",
-            "n,x,y\n5\" pipe,1,2\n\"a\n\nb\",3.5,-4",
-        ] {
-            let cloud = parse(text, &[]).unwrap_or_else(|error| panic!("{text:?}: {error}"));
-            let heights = text.contains('z').then(|| vec![7.0, 7.0]);
-            assert_eq!((&cloud.xy, &cloud.z), (&plain.xy, &heights), "{text:?}");
-        }
-        let high = parse("id,x,y,z\n7,1,2,3", &[]).expect("valid");
-        assert_eq!((high.xy, high.z), (vec![[1.0, 2.0]], Some(vec![3.0])));
-        assert_eq!(parse("a b c\n1 2 3", &["c", "1"]).expect("valid").xy, [[3.0, 1.0]]);
-        assert_eq!(parse("", &[]), Ok(Cloud::default()));
-        assert!(parse("nan,1", &[]).expect("the library judges").xy[0][0].is_nan());
-    }
-
-    #[test]
-    fn errors_name_the_line() {
-        for (text, message) in [
-            ("1,2\n3", "line 2: 1 fields where the first line has 2"),
-            ("1,2\n\n# comment\n3,x", "line 4: field 2 is \"x\", not a number"),
-            ("1,2\n3,", "line 2: field 2 is \"\", not a number"),
-            ("1\n2", "line 2: a point needs two numbers, x and y"),
-            ("3\n1 2\n3 4\n", "the file ends after 2 of 3 points"),
-            (
-                "x,y,n\n1,2,\"5\" pipe\"\n3,4,\"6\" pipe\"",
-                "line 2: a quotation mark inside of quotes is not doubled",
-            ),
-            ("x,y,z\n1,2,3,4", "line 2: 4 fields where the first line has 3"),
-            ("x,y\n\"1,000\",2", "line 2: field 1 is \"1,000\", not a number"),
-            (
-                "colour,wkt\n#ff0000,POINT (1 2)",
-                "line 2: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
-            ),
-            (
-                "name x y\n#1 1 2",
-                "line 2: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
-            ),
-            ("wkt\nPOINT (1 2)\nPOINT Z (1 2 3)", "line 3: a position with height after some without"),
-            ("1\n", "line 1: a point needs two numbers, x and y"),
-            ("NA,NA\n1,2", "line 1: field 1 is \"NA\", not a number"),
-            ("0.1D+01,0.2D+01\n1,2", "line 1: field 1 is \"0.1D+01\", not a number"),
-            ("50N,7E\n1,2", "line 1: field 1 is \"50N\", not a number"),
-            ("x,y\n1.#INF,2", "line 2: field 1 is \"1.#INF\", not a number"),
-            (
-                "1,5000,1000,100.5,TP",
-                "line 1: without names it cannot be told which of 5 columns are x and y, one of which is \"TP\"",
-            ),
-            ("Breite,Wert\n1,2", "line 1: none of the columns Breite, Wert is called x or y"),
-            ("x,y,n\n1,2,\"a\n3,4,b\n", "line 2: a quotation mark is not closed"),
-            (
-                "id,x,y\n1,2,3\n#2,7,8",
-                "line 3: it may be a remark or a row: put its first field in quotes, or a blank after its sign",
-            ),
-            ("x;wkt\n1;POINT 1 2", "line 2: \"POINT 1 2\" is no geometry such as POINT (1 2)"),
-            ("N/A,1\n2,3", "line 1: field 1 is \"N/A\", not a number"),
-            ("id,foo,bar\n1,2,3", "line 1: none of the columns id, foo, bar is called x or y"),
-            ("1.5;1,234.5", "line 1: field 2 is \"1,234.5\", not a number"),
-            ("id,wkt\n1,POINT (1)", "line 2: \"POINT (1)\" is no geometry such as POINT (1 2)"),
-            ("1,2\0", "line 1: it is not text"),
-        ] {
-            assert_eq!(parse(text, &[]), Err(message.to_owned()), "{text:?}");
-        }
-        assert_eq!(
-            parse("1,2", &["3", "1"]),
-            Err("line 1: there is no column \"3\" among 2 without names".to_owned())
-        );
-    }
 }
