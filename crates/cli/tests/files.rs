@@ -142,7 +142,7 @@ fn systems_of_coordinates_are_passed_on() {
     assert!(
         part("--z-range=-5,420") > part("--z-range 410,420 --returns last") && part("--z-range 1,2") == 0
     );
-    place.write("p.csv", "0,0\n1,0\n0,1\n");
+    fs::write(place.path("p.csv"), "0,0\n1,0\n0,1\n").expect("a file");
     for (options, message) in [
         ("--returns last", "--returns is for LAS"),
         ("--returns some", "returns are all, first"),
