@@ -74,7 +74,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
         (_, None) => format
             .check(Contents::Numbers, Direction::Written)
             .map_err(|error| Failure::file(&args.output, &error))?,
-        (_, Some(grid)) => write_raster(&args.output, format, grid, &about, &values)?,
+        (_, Some(grid)) => write_raster(&args.output, format, grid, &about, &values, quiet)?,
     }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);
@@ -191,6 +191,7 @@ fn write_raster(
     grid: &Grid,
     about: &Cloud,
     values: &[f64],
+    quiet: bool,
 ) -> Result<(), Failure> {
     let info = RasterInfo { grid: *grid, crs: about.crs.clone(), nodata: None, sample: Sample::default() };
     let output = files::create(path)?;
@@ -199,5 +200,6 @@ fn write_raster(
         writer.write_rows(values)?;
         files::finish(writer.finish()?)
     };
-    write().map_err(|error| files::cannot_write(path, error))
+    write().map_err(|error| files::cannot_write(path, error))?;
+    files::write_sides(path, format, about.crs.as_ref(), quiet)
 }

@@ -145,3 +145,35 @@ fn closed_standard_output_is_an_error() {
         assert!(shell(&place, line).status.success(), "{line}");
     }
 }
+
+/// A raster is not moved by what is left of another one.
+#[test]
+fn files_beside_an_earlier_raster_go() {
+    let place = Place::new();
+    let write = |name: &str, text: &str| fs::write(place.path(name), text).expect("a file");
+    write("p.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n9,9,4\n");
+    let sides = ["dem.tif.aux.xml", "dem.tif.ovr", "dem.asc.aux.xml", "dem.prj", "dem.png.aux.xml"];
+    for command in
+        ["dtm p.csv --cell 1 -o dem.tif -o dem.asc -o dem.png", "interpolate p.csv --grid 1 -o dem.tif"]
+    {
+        sides.iter().for_each(|side| write(side, "of another"));
+        write("dem.txt", "mine");
+        let told = text(&place.run(command).stderr);
+        for side in sides {
+            let of = side.rsplit_once('.').expect("two names").0;
+            let goes = command.contains("-o dem.png") || of.starts_with("dem.tif");
+            assert_eq!(place.path(side).exists(), !goes, "{command}: {side}");
+            assert_eq!(told.contains(&format!("{side}: removed")), goes, "{told}");
+        }
+        assert!(place.path("dem.txt").exists());
+    }
+    // Work that failed leaves the earlier raster as it was.
+    write("dem.tif.aux.xml", "of another");
+    place.fail("dtm p.csv --cell 1 -o dem.tif --stats no/such/folder.json", 1, "folder");
+    assert!(place.path("dem.tif.aux.xml").exists());
+    // A shapefile of the same name keeps its system.
+    write("dem.shp", "");
+    write("dem.prj", "of the shapefile");
+    let told = text(&place.run("dtm p.csv --cell 1 -o dem.asc").stderr);
+    assert!(place.path("dem.prj").exists() && told.contains("dem.prj: it may not be that of"), "{told}");
+}

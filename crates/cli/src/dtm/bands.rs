@@ -4,9 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use delone::surface::Grid;
-use delone_io::{
-    ASC_NODATA, Crs, Format, Light, Output, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
-};
+use delone_io::{ASC_NODATA, Crs, Format, Light, Output, RasterInfo, RasterWriter, Sample, ShadeWriter};
 
 use crate::files;
 use crate::message::{Failure, warn};
@@ -79,9 +77,7 @@ pub(super) fn write(
     }
     for (output, (path, format)) in done.into_iter().zip(outputs) {
         files::finish(output).map_err(|error| files::cannot_write(path, error))?;
-        if let Some((beside, text)) = beside_raster(path, *format, about.crs.as_ref()) {
-            files::write(&beside, |out| Ok(std::io::Write::write_all(out, text.as_bytes())?))?;
-        }
+        files::write_sides(path, *format, about.crs.as_ref(), quiet)?;
     }
     if let Some(number) = nothing.filter(|_| hidden > 0) {
         let what = format!("{hidden} cells have the height {number}, which stands for no data");

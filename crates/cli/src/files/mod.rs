@@ -1,6 +1,7 @@
 //! Files as the commands use them: names checked first, points read, outputs written whole.
 
 mod apart;
+mod sides;
 mod write;
 
 use std::io::{BufReader, Cursor, Read};
@@ -9,6 +10,7 @@ use std::path::{Path, PathBuf};
 use delone_io::{Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed};
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
+pub(crate) use sides::write_sides;
 pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
 
 use crate::args::InputArgs;

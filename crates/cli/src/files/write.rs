@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use delone_io::{Finished, Output, Remark, give_names};
 
 use super::apart::{check_open, refuse_read};
+use super::sides::remove_stale;
 use super::{is_special, is_standard};
 use crate::message::{Failure, note};
 
@@ -16,6 +17,7 @@ static FINISHED: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
 /// Gives all outputs of the command their names.
 pub(crate) fn publish() -> Result<(), Failure> {
     let finished = std::mem::take(&mut *FINISHED.lock().unwrap_or_else(PoisonError::into_inner));
+    remove_stale()?;
     give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))
 }
 

@@ -50,6 +50,33 @@ pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
     }
 }
 
+/// All files beside a raster that programs read with it: its system and statistics, overviews, mask. Whoever replaces the raster
+/// replaces or removes them.
+///
+/// ```
+/// use std::path::Path;
+/// use delone_io::{Format, besides_of_raster};
+///
+/// let sides = besides_of_raster(Path::new("dem.asc"), Format::Asc);
+/// assert!(sides.iter().any(|side| side == Path::new("dem.prj")));
+/// ```
+pub fn besides_of_raster(path: &Path, format: Format) -> Vec<PathBuf> {
+    let (true, Some(name)) = (matches!(format, Format::Tiff | Format::Asc | Format::Png), path.file_name())
+    else {
+        return Vec::new();
+    };
+    let with = |end: &str| {
+        let mut name = name.to_owned();
+        name.push(end);
+        path.with_file_name(name)
+    };
+    let mut sides = [".aux.xml", ".ovr", ".msk"].map(with).to_vec();
+    if format == Format::Asc {
+        sides.push(path.with_extension("prj"));
+    }
+    sides
+}
+
 /// A text as XML has it, without what XML cannot hold.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

@@ -17,7 +17,7 @@ use crate::{Cloud, Contents, Crs, Direction, Error, Format, ReadOptions, Source,
 
 pub use asc::ASC_NODATA;
 pub(crate) use asc::read as read_asc;
-pub use beside::{beside_raster, beside_raster_name};
+pub use beside::{beside_raster, beside_raster_name, besides_of_raster};
 pub(crate) use npy::read as read_npy;
 pub use shade::{Light, ShadeWriter};
 pub(crate) use tiff::read as read_tiff;
