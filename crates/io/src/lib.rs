@@ -35,7 +35,7 @@ pub use cloud::Cloud;
 #[cfg(feature = "parquet")]
 pub use columns::{Column, write_columns};
 pub use contours::{ContourMap, write_contours};
-pub use crs::Crs;
+pub use crs::{Crs, GeoKeys};
 pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
 pub use filtration::write_filtration;

@@ -3,7 +3,7 @@
 //! A projected system is in key 3072, a geographic one in 2048, heights are in 4096: never a number of both in one key, which
 //! no reader understands.
 
-use super::{Crs, codes};
+use super::{Crs, GeoKeys, codes};
 
 /// The keys, by number: what the model is, whether cells are areas, names, systems.
 const MODEL: u16 = 1_024;
@@ -15,14 +15,15 @@ const PROJECTED: u16 = 3_072;
 const PROJECTED_NAME: u16 = 3_073;
 const VERTICAL: u16 = 4_096;
 
-/// The tag, and the record of LAS, that texts of keys are in.
+/// The tags, and the records of LAS, that numbers with fractions and texts of keys are in.
+const DOUBLES: u16 = 34_736;
 const TEXTS: u16 = 34_737;
 
 /// What stands for a system that has no number.
 const OWN: u16 = 32_767;
 
 /// The system that keys name, entries of four numbers after a head of four. A projected system wins over a geographic one.
-pub(crate) fn decode(numbers: &[u16], texts: &[u8]) -> Option<Crs> {
+pub(crate) fn decode(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<Crs> {
     let number = |key| {
         let found = entry(numbers, key).filter(|e| e[1] == 0 && e[3] != 0 && e[3] != OWN);
         found.map(|e| u32::from(e[3]))
@@ -49,7 +50,46 @@ pub(crate) fn decode(numbers: &[u16], texts: &[u8]) -> Option<Crs> {
         vertical,
         is_geographic,
         wkt: None,
+        keys: if epsg.is_none() { own(numbers, doubles, texts) } else { None },
     })
+}
+
+/// The keys of a system that has no number, if all that they point to is there.
+fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<GeoKeys> {
+    let (&[version, revision, minor, count], entries) = numbers.split_first_chunk::<4>()?;
+    let entries = entries.as_chunks::<4>().0.get(..usize::from(count))?;
+    let is_there = |&[_, place, count, at]: &[u16; 4]| {
+        let end = usize::from(at) + usize::from(count);
+        match place {
+            0 => true,
+            DOUBLES => end <= doubles.len(),
+            TEXTS => end <= texts.len(),
+            _ => false,
+        }
+    };
+    let defines = entries.iter().any(|entry| entry[1] == DOUBLES);
+    (defines && entries.iter().all(is_there) && texts.is_ascii()).then(|| GeoKeys {
+        numbers: [version, revision, minor, count]
+            .into_iter()
+            .chain(entries.iter().flatten().copied())
+            .collect(),
+        doubles: doubles.iter().map(|number| number.to_bits()).collect(),
+        texts: String::from_utf8_lossy(texts).trim_end_matches('\0').to_owned(),
+    })
+}
+
+/// Keys as they are, of a raster whose cells are areas.
+fn passed_on(own: &GeoKeys) -> Keys {
+    let (head, entries) = own.numbers.split_at(4.min(own.numbers.len()));
+    let mut entries: Vec<[u16; 4]> = entries.as_chunks::<4>().0.to_vec();
+    entries.retain(|entry| entry[0] != RASTER);
+    entries.push([RASTER, 0, 1, 1]);
+    entries.sort_by_key(|entry| entry[0]);
+    let mut numbers = head.to_vec();
+    numbers[3] = entries.len() as u16;
+    numbers.extend(entries.into_iter().flatten());
+    let doubles = own.doubles.iter().map(|&bits| f64::from_bits(bits)).collect();
+    Keys { numbers, doubles, texts: own.texts.clone(), are_complete: true }
 }
 
 /// Whether the points of a raster are the centres of its cells, and not their corners.
@@ -66,6 +106,7 @@ fn entry(numbers: &[u16], key: u16) -> Option<[u16; 4]> {
 #[derive(Debug, PartialEq)]
 pub(crate) struct Keys {
     pub(crate) numbers: Vec<u16>,
+    pub(crate) doubles: Vec<f64>,
     pub(crate) texts: String,
     /// Whether the keys say all of the system.
     pub(crate) are_complete: bool,
@@ -73,8 +114,12 @@ pub(crate) struct Keys {
 
 /// The keys of a system; none where none is known, because readers take keys without a system for one of their own.
 pub(crate) fn encode(crs: Option<&Crs>) -> Keys {
-    let mut keys = Keys { numbers: Vec::new(), texts: String::new(), are_complete: true };
+    let mut keys =
+        Keys { numbers: Vec::new(), doubles: Vec::new(), texts: String::new(), are_complete: true };
     let Some(crs) = crs else { return keys };
+    if let (None, Some(own)) = (crs.epsg, &crs.keys) {
+        return passed_on(own);
+    }
     let code =
         |number: Option<u32>| number.and_then(|n| u16::try_from(n).ok()).filter(|&n| n != 0 && n != OWN);
     let epsg = code(crs.epsg.filter(|&epsg| !codes::is_compound(epsg)));
@@ -137,13 +182,13 @@ mod tests {
         for crs in [Crs::of_epsg(25832), Crs::of_epsg(4326), compound] {
             let keys = encode(Some(&crs));
             assert!(keys.are_complete);
-            assert_eq!(decode(&keys.numbers, keys.texts.as_bytes()), Some(crs));
+            assert_eq!(decode(&keys.numbers, &keys.doubles, keys.texts.as_bytes()), Some(crs));
             assert!(!is_point(&keys.numbers));
             let order: Vec<u16> = keys.numbers[4..].iter().step_by(4).copied().collect();
             assert!(order.is_sorted(), "{order:?}");
         }
         let keys = encode(None);
-        assert_eq!((decode(&keys.numbers, &[]), keys.numbers.len()), (None, 0));
+        assert_eq!((decode(&keys.numbers, &[], &[]), keys.numbers.len()), (None, 0));
     }
 
     #[test]
@@ -151,13 +196,13 @@ mod tests {
         let ours = Crs::of_wkt("PROJCS[\"our|s \u{e9}\",UNIT[\"metre\",1]]").expect("a system");
         let keys = encode(Some(&ours));
         assert!(!keys.are_complete);
-        let read = decode(&keys.numbers, keys.texts.as_bytes()).expect("a system");
+        let read = decode(&keys.numbers, &keys.doubles, keys.texts.as_bytes()).expect("a system");
         assert_eq!((read.name.as_deref(), read.is_geographic), (Some("our s"), Some(false)));
         // A number of two systems fits no key.
         let keys = encode(Some(&Crs::of_epsg(7405)));
         assert!(!keys.are_complete && !keys.numbers.contains(&7405));
         assert_eq!(
-            decode(&keys.numbers, keys.texts.as_bytes()).expect("one").name.as_deref(),
+            decode(&keys.numbers, &keys.doubles, keys.texts.as_bytes()).expect("one").name.as_deref(),
             Some("EPSG:7405")
         );
     }
@@ -165,7 +210,24 @@ mod tests {
     #[test]
     fn a_projected_system_wins() {
         let numbers = [1, 1, 0, 3, 2048, 0, 1, 4258, 3072, 0, 1, 25832, 4096, 0, 1, 5783];
-        let crs = decode(&numbers, &[]).expect("a system");
+        let crs = decode(&numbers, &[], &[]).expect("a system");
         assert_eq!((crs.epsg, crs.vertical, crs.is_geographic), (Some(25832), Some(5783), Some(false)));
+    }
+
+    #[test]
+    fn keys_without_a_number_are_passed_on() {
+        let numbers = [
+            1, 1, 0, 5, 1024, 0, 1, 1, 1026, 34737, 4, 0, 3072, 0, 1, 32767, 3078, 34736, 1, 1, 3079, 34736,
+            1, 0,
+        ];
+        let crs = decode(&numbers, &[0.3048, 45.5], b"own|").expect("a system");
+        assert_eq!((crs.epsg, crs.name.as_deref(), crs.is_geographic), (None, Some("own"), Some(false)));
+        let keys = encode(Some(&crs));
+        assert!(keys.are_complete && keys.numbers[3] == 6 && keys.doubles == [0.3048, 45.5]);
+        assert!(keys.numbers[4..].chunks(4).is_sorted_by_key(|entry| entry[0]));
+        let again = decode(&keys.numbers, &keys.doubles, keys.texts.as_bytes()).expect("a system");
+        assert_eq!(encode(Some(&again)), keys);
+        // What keys point to must be there.
+        assert_eq!(decode(&numbers, &[0.3048], b"own|").expect("a name").keys, None);
     }
 }

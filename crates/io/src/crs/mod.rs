@@ -16,8 +16,21 @@ pub struct Crs {
     pub wkt: Option<String>,
     /// The number of the system of heights in the EPSG registry, where one is named.
     pub vertical: Option<u32>,
+    /// Its definition as GeoTIFF keys, where these alone have it: they have no number for it.
+    pub keys: Option<GeoKeys>,
     /// Whether the axes are longitude and latitude, where the file says so or its number tells.
     pub is_geographic: Option<bool>,
+}
+
+/// A system as GeoTIFF keys: in LAS files and GeoTIFF, passed on key by key.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GeoKeys {
+    /// Entries of four numbers after a head of four.
+    pub(crate) numbers: Vec<u16>,
+    /// The bits of the numbers with fractions that entries point to.
+    pub(crate) doubles: Vec<u64>,
+    /// The texts that entries point to.
+    pub(crate) texts: String,
 }
 
 /// How well-known text begins the systems that are projected, the others that have two horizontal axes, and those of heights.
@@ -60,7 +73,14 @@ impl Crs {
         let part = bracketed(&text[start..]);
         let name = part.split('"').nth(1).filter(|name| !name.is_empty()).map(str::to_owned);
         let vertical = first(&VERTICAL).and_then(|at| own_number(bracketed(&text[at..])));
-        Some(Self { epsg: own_number(part), name, wkt: Some(text.to_owned()), vertical, is_geographic })
+        Some(Self {
+            epsg: own_number(part),
+            name,
+            wkt: Some(text.to_owned()),
+            keys: None,
+            vertical,
+            is_geographic,
+        })
     }
 
     /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) or `urn:ogc:def:crs:EPSG::25832` stands for.

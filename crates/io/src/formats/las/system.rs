@@ -11,6 +11,7 @@ use crate::{Crs, Error, Source};
 /// Who the records about coordinates belong to, and their numbers.
 const OWNER: &str = "LASF_Projection";
 const KEYS: u16 = 34_735;
+const DOUBLES: u16 = 34_736;
 const TEXTS: u16 = 34_737;
 const WELL_KNOWN_TEXT: u16 = 2_112;
 
@@ -55,14 +56,16 @@ pub(super) fn find(records: &[Vlr]) -> Option<Crs> {
         ours.find(|record| record.record_id == id).map(|record| record.data.as_slice())
     };
     let text = content(WELL_KNOWN_TEXT).map(String::from_utf8_lossy);
-    text.and_then(|text| Crs::of_wkt(&text))
-        .or_else(|| of_keys(content(KEYS)?, content(TEXTS).unwrap_or_default()))
+    text.and_then(|text| Crs::of_wkt(&text)).or_else(|| {
+        of_keys(content(KEYS)?, content(DOUBLES).unwrap_or_default(), content(TEXTS).unwrap_or_default())
+    })
 }
 
 /// The system that GeoTIFF keys name.
-fn of_keys(keys: &[u8], texts: &[u8]) -> Option<Crs> {
+fn of_keys(keys: &[u8], doubles: &[u8], texts: &[u8]) -> Option<Crs> {
     let numbers: Vec<u16> = keys.as_chunks().0.iter().map(|&pair| u16::from_le_bytes(pair)).collect();
-    decode(&numbers, texts)
+    let doubles: Vec<f64> = doubles.as_chunks().0.iter().map(|&word| f64::from_le_bytes(word)).collect();
+    decode(&numbers, &doubles, texts)
 }
 
 #[cfg(test)]

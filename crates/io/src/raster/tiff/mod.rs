@@ -29,6 +29,7 @@ mod tag {
     pub(super) const TIE: u16 = 33_922;
     pub(super) const TRANSFORM: u16 = 34_264;
     pub(super) const KEYS: u16 = 34_735;
+    pub(super) const DOUBLES: u16 = 34_736;
     pub(super) const TEXTS: u16 = 34_737;
     pub(super) const ABOUT: u16 = 42_112;
     pub(super) const NO_DATA: u16 = 42_113;

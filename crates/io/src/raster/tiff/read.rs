@@ -77,7 +77,7 @@ impl File {
             )));
         }
         let numbers = self.shorts(tag::KEYS);
-        let crs = decode(&numbers, self.text(tag::TEXTS).as_bytes());
+        let crs = decode(&numbers, &self.doubles(tag::DOUBLES), self.text(tag::TEXTS).as_bytes());
         let [scale, tie, matrix] = [tag::SCALE, tag::TIE, tag::TRANSFORM].map(|number| self.doubles(number));
         let grid = place::grid(&scale, &tie, &matrix, is_point(&numbers), [self.columns, self.rows])?;
         let meaning = Meaning::of(&self.text(tag::NO_DATA), &self.text(tag::ABOUT))?;

@@ -135,6 +135,9 @@ impl<W: Write + Seek> Writer<W> {
         if !keys.numbers.is_empty() {
             tags.push(Tag::shorts(tag::KEYS, &keys.numbers));
         }
+        if !keys.doubles.is_empty() {
+            tags.push(Tag::doubles(tag::DOUBLES, &keys.doubles));
+        }
         if !keys.texts.is_empty() {
             tags.push(Tag::text(tag::TEXTS, &keys.texts));
         }
