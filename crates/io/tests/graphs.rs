@@ -4,9 +4,8 @@ use std::io::Cursor;
 
 use delone::RegionSeed2;
 use delone_io::{
-    Beside, Cloud, Crs, Error, Format, Graph, GraphRing, ReadOptions, Source, holds_lines, read_areas,
-    read_graph, read_points, read_rings, read_segments, read_triangle_attributes, read_triangles,
-    write_graph,
+    Beside, Cloud, Crs, Error, Format, Graph, GraphRing, ReadOptions, Source, read_areas, read_graph,
+    read_points, read_rings, read_segments, read_triangle_attributes, read_triangles, write_graph,
 };
 
 fn source(content: impl AsRef<[u8]>) -> Box<dyn Source> {
@@ -417,61 +416,4 @@ fn what_triangles_have() {
     assert_eq!(areas, [Some(0.5), None, None]);
     let error = read_areas(source("3\n1 0.5\n"), Format::Area).expect_err("short").to_string();
     assert_eq!(error, "the file ends after 1 of 3 areas");
-}
-
-#[test]
-fn a_column_of_geometries_is_a_graph() {
-    let text = "id;WKT;name\n1;\"SRID=25832;POLYGON ((0 0, 4 0, 4 4, 0 0), (1 0.5, 2 0.5, 2 1, 1 0.5))\";a\n\
-        2;LINESTRING (5 5, 6 5);b\n3;POINT (7 7);c\n4;0101000000000000000000f03f0000000000000040;d\n";
-    let graph = good(Format::Text, text);
-    assert_eq!(graph.segments, [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [6, 7]]);
-    assert_eq!(
-        graph.rings.iter().map(|ring| (ring.polygon, ring.ring)).collect::<Vec<_>>(),
-        [(0, 0), (0, 1)]
-    );
-    assert_eq!(graph.cloud.xy[8..], [[7.0, 7.0], [1.0, 2.0]]);
-    assert_eq!(graph.cloud.crs.as_ref().and_then(|crs| crs.epsg), Some(25832));
-    assert_eq!(graph.is_border[5..], [true, false]);
-    let cloud = read_points(source(text), Format::Text, &ReadOptions::default()).expect("points");
-    assert_eq!((cloud.xy, cloud.crs), (graph.cloud.xy, graph.cloud.crs));
-    assert!(cloud.remarks.iter().any(|remark| remark.starts_with("the corners of 2 lines and polygons")));
-    assert_eq!(read_rings(source(text), Format::Text).expect("rings").len(), 2);
-    // Without such a column a file is of points, and they are one ring.
-    let plain = "x,y\n0,0\n1,0\n0,1\n";
-    assert_eq!(good(Format::Text, plain).segments, [[0; 2]; 0]);
-    assert_eq!(
-        read_rings(source(plain), Format::Text).expect("a ring"),
-        [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
-    );
-    for (text, holds) in
-        [(text, true), (plain, false), ("POINT (1 2)\n", true), ("# x y\n1 2\n", false), ("", false)]
-    {
-        assert_eq!(holds_lines(source(text), Format::Text), holds, "{text}");
-    }
-    let mixed = text.replace("LINESTRING (5 5, 6 5)", "\"SRID=25833;LINESTRING (5 5, 6 5)\"");
-    let error =
-        read_graph(source(&mixed), Format::Text, &ReadOptions::default(), None).expect_err("two systems");
-    assert_eq!(error.to_string(), "line 3: its coordinates are EPSG:25833, those before it EPSG:25832");
-}
-
-#[test]
-fn lines_of_objects_are_segments() {
-    let text = "l 1 2 3/7 1\nv 0 0 0\nv 4 0 1\nv 4 4 2\nv 0 4 3\nl -1 -2\nf 1 2 3\np 4\n";
-    let graph = good(Format::Obj, text);
-    assert_eq!(graph.segments, [[0, 1], [1, 2], [2, 0], [3, 2]]);
-    assert_eq!((graph.is_border, graph.cloud.z), (vec![false; 4], Some(vec![0.0, 1.0, 2.0, 3.0])));
-    assert!(
-        holds_lines(source(text), Format::Obj)
-            && !holds_lines(source("v 1 2 3\n# l\nf 1 1 1\n"), Format::Obj)
-    );
-    for (text, message) in [
-        ("v 0 0 0\nl 1 2\nv 1 1\n", "line 3: z is missing"),
-        ("v 0 0 0\n\nl 1 2\n", "line 3: there is no vertex 2"),
-        ("v 0 0 0\nl 1 0\n", "line 2: there is no vertex 0"),
-        ("v 0 0 0\nl 1 -2\n", "line 2: there is no vertex -2"),
-        ("v 0 0 0\nl 1 x\n", "line 2: a corner is \"x\", not a number of the kind expected"),
-    ] {
-        let error = read_graph(source(text), Format::Obj, &ReadOptions::default(), None).expect_err(text);
-        assert_eq!(error.to_string(), message);
-    }
 }

@@ -2,6 +2,7 @@
 
 mod chunks;
 mod constrained;
+mod dialects;
 mod elements;
 mod formats;
 mod gpx;

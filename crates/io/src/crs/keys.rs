@@ -55,7 +55,7 @@ pub(crate) fn decode(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<C
 }
 
 /// The keys of a system that has no number, if all that they point to is there.
-fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<GeoKeys> {
+fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<Box<GeoKeys>> {
     let (&[version, revision, minor, count], entries) = numbers.split_first_chunk::<4>()?;
     let entries = entries.as_chunks::<4>().0.get(..usize::from(count))?;
     let is_there = |&[_, place, count, at]: &[u16; 4]| {
@@ -68,13 +68,15 @@ fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<GeoKeys> {
         }
     };
     let defines = entries.iter().any(|entry| entry[1] == DOUBLES);
-    (defines && entries.iter().all(is_there) && texts.is_ascii()).then(|| GeoKeys {
-        numbers: [version, revision, minor, count]
-            .into_iter()
-            .chain(entries.iter().flatten().copied())
-            .collect(),
-        doubles: doubles.iter().map(|number| number.to_bits()).collect(),
-        texts: String::from_utf8_lossy(texts).trim_end_matches('\0').to_owned(),
+    (defines && entries.iter().all(is_there) && texts.is_ascii()).then(|| {
+        Box::new(GeoKeys {
+            numbers: [version, revision, minor, count]
+                .into_iter()
+                .chain(entries.iter().flatten().copied())
+                .collect(),
+            doubles: doubles.iter().map(|number| number.to_bits()).collect(),
+            texts: String::from_utf8_lossy(texts).trim_end_matches('\0').to_owned(),
+        })
     })
 }
 

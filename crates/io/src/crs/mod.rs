@@ -17,7 +17,7 @@ pub struct Crs {
     /// The number of the system of heights in the EPSG registry, where one is named.
     pub vertical: Option<u32>,
     /// Its definition as GeoTIFF keys, where these alone have it: they have no number for it.
-    pub keys: Option<GeoKeys>,
+    pub keys: Option<Box<GeoKeys>>,
     /// Whether the axes are longitude and latitude, where the file says so or its number tells.
     pub is_geographic: Option<bool>,
 }

@@ -103,7 +103,7 @@ pub(super) const TABLE: &[Row] = &[
     },
     Row {
         format: Format::Poly,
-        title: "Triangle's graphs: points, segments, holes, regions",
+        title: "Triangle's graphs, and polygons of Osmosis",
         names: &["poly"],
         also: &[],
         readers: Readers {

@@ -15,11 +15,18 @@ pub(super) struct Lines {
     bytes: Vec<u8>,
     text: String,
     number: usize,
+    /// Whether commas are as good as blanks.
+    has_commas: bool,
 }
 
 impl Lines {
     pub(super) fn new(source: Box<dyn Source>) -> Self {
-        Self { source, bytes: Vec::new(), text: String::new(), number: 0 }
+        Self { source, bytes: Vec::new(), text: String::new(), number: 0, has_commas: false }
+    }
+
+    /// Lines as Triangle reads them, to which commas are as good as blanks.
+    pub(super) fn of_triangle(source: Box<dyn Source>) -> Self {
+        Self { has_commas: true, ..Self::new(source) }
     }
 
     /// The next line with something on it besides a comment.
@@ -63,6 +70,9 @@ impl Lines {
         }
         self.text.clear();
         self.text.push_str(&decoded(bytes));
+        if self.has_commas && self.text.contains(',') {
+            self.text = self.text.replace(',', " ");
+        }
         Ok(true)
     }
 
@@ -131,10 +141,13 @@ impl Line<'_> {
         Error::Line { line: self.number, what: what.into() }
     }
 
-    /// The next word as a number.
+    /// The next word as a number. Programs in Fortran write `1.5D0` for 1.5, and some write `3.0` for a number that counts.
     pub(super) fn number<T: std::str::FromStr>(&self, word: Option<&str>, meaning: &str) -> Result<T, Error> {
         let word = word.ok_or_else(|| self.error(format!("{meaning} is missing")))?;
-        word.parse().map_err(|_| {
+        let plain = || word.replace(['D', 'd'], "e").parse().ok();
+        let whole =
+            || word.split_once('.').filter(|parts| parts.1.bytes().all(|c| c == b'0'))?.0.parse().ok();
+        word.parse().ok().or_else(plain).or_else(whole).ok_or_else(|| {
             self.error(format!("{meaning} is {:?}, not a number of the kind expected", excerpt(word)))
         })
     }

@@ -15,6 +15,7 @@ pub(crate) mod npy;
 mod numbers;
 pub(crate) mod obj;
 pub(crate) mod off;
+mod osmosis;
 pub(crate) mod pairs;
 pub(crate) mod pcd;
 pub(crate) mod ply;

@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use delone::{RegionSeed2, Triangulation};
 
 use super::lines::{Line, Lines};
+use super::osmosis;
 use super::triangle::{AHEAD, NodeRows, Nodes, count};
 use crate::{Cloud, Constraints, Error, Graph, Mesh, Source};
 
@@ -13,12 +14,15 @@ use crate::{Cloud, Constraints, Error, Graph, Mesh, Source};
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
 
 /// Reads a graph. Where the file has no points, they are in the `.node` file beside it.
-pub(crate) fn read(source: Box<dyn Source>, beside: Option<Beside>) -> Result<Graph, Error> {
-    let mut lines = Lines::new(source);
+pub(crate) fn read(mut source: Box<dyn Source>, beside: Option<Beside>) -> Result<Graph, Error> {
+    if osmosis::is_one(&mut source)? {
+        return osmosis::read(source);
+    }
+    let mut lines = Lines::of_triangle(source);
     let mut nodes = Nodes::read(&mut lines, true)?;
     if nodes.cloud.xy.is_empty() {
         let open = beside.ok_or(Error::PointsElsewhere)?;
-        nodes = Nodes::read(&mut Lines::new(open("node")?), true)?;
+        nodes = Nodes::read(&mut Lines::of_triangle(open("node")?), true)?;
     }
     if nodes.is_in_space {
         return Err(Error::content(
@@ -41,21 +45,24 @@ pub(crate) fn read(source: Box<dyn Source>, beside: Option<Beside>) -> Result<Gr
 
 /// Whether the points of a file are in the `.node` file beside it: its first number, which counts them, is 0.
 pub fn has_points_beside(source: Box<dyn Source>) -> Result<bool, Error> {
-    let mut lines = Lines::new(source);
+    let mut lines = Lines::of_triangle(source);
     let line = lines.next()?;
     let word = line.as_ref().and_then(|line| line.text.split_whitespace().next());
     Ok(word.and_then(|word| word.parse().ok()) == Some(0))
 }
 
 /// Reads the points alone.
-pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let nodes = Nodes::read(&mut Lines::new(source), false)?;
+pub(crate) fn read_points(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
+    if osmosis::is_one(&mut source)? {
+        return osmosis::read(source).map(|graph| graph.cloud);
+    }
+    let nodes = Nodes::read(&mut Lines::of_triangle(source), false)?;
     if nodes.cloud.xy.is_empty() { Err(Error::PointsElsewhere) } else { Ok(nodes.cloud) }
 }
 
 /// Reads segments alone. Where there are no points, the number of the first segment tells the base.
 pub(crate) fn read_segments(source: Box<dyn Source>) -> Result<Vec<[usize; 2]>, Error> {
-    let mut lines = Lines::new(source);
+    let mut lines = Lines::of_triangle(source);
     let nodes = Nodes::read(&mut lines, false)?;
     let points = nodes.cloud.xy.len();
     if points == 0 {
@@ -66,7 +73,7 @@ pub(crate) fn read_segments(source: Box<dyn Source>) -> Result<Vec<[usize; 2]>, 
 
 /// Reads the edges of an `.edge` file, which are like segments: the number of the first tells the base.
 pub(crate) fn read_edges(source: Box<dyn Source>) -> Result<Vec<[usize; 2]>, Error> {
-    numbered(&mut Lines::new(source))
+    numbered(&mut Lines::of_triangle(source))
 }
 
 /// Segments of points that are elsewhere.
@@ -190,7 +197,7 @@ fn heading(line: &Line, words: &[&str], most: usize, what: &str) -> Result<usize
 
 /// The largest areas of triangles, in their order: `count`, then `index area` each, where what is not positive is no bound.
 pub(crate) fn read_areas(source: Box<dyn Source>) -> Result<Vec<Option<f64>>, Error> {
-    let mut lines = Lines::new(source);
+    let mut lines = Lines::of_triangle(source);
     let number = count(&mut lines, "triangles")?;
     let mut areas = Vec::with_capacity(number.min(AHEAD));
     for i in 0..number {

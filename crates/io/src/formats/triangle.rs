@@ -15,12 +15,12 @@ pub(super) const AHEAD: usize = 1 << 16;
 /// Points: `count dimension attributes markers`, then `index x y ...` each. A dimension of 3 (as TetGen has it)
 /// or else the first attribute gives the height.
 pub(crate) fn read_node(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    Ok(Nodes::read(&mut Lines::new(source), false)?.cloud)
+    Ok(Nodes::read(&mut Lines::of_triangle(source), false)?.cloud)
 }
 
 /// Points with their attributes and markers.
 pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
-    Ok(Nodes::read(&mut Lines::new(source), true)?.graph())
+    Ok(Nodes::read(&mut Lines::of_triangle(source), true)?.graph())
 }
 
 /// The number that begins a file.
@@ -103,7 +103,7 @@ pub(crate) fn read_ele<const N: usize>(
     source: Box<dyn Source>,
     wants_attributes: bool,
 ) -> Result<(Vec<[u64; N]>, Attributes), Error> {
-    let mut lines = Lines::new(source);
+    let mut lines = Lines::of_triangle(source);
     let Some(line) = lines.next()? else {
         return Err(Error::content("the file has no header line"));
     };

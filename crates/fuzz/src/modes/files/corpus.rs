@@ -228,6 +228,8 @@ fn meshes() -> Seeds {
     let mut seeds: Seeds = [Format::Obj, Format::Stl, Format::Node, Format::Ele].map(mesh).into();
     seeds.push((Format::Stl, solid.as_bytes().to_vec()));
     seeds.push((Format::Obj, b"v 0 0 1\nv 4 0 1\nv 4 4 2\nl 1 2/5 3 1\nl -1 -3\nf 1 2 3\n".to_vec()));
+    let island = "island\n1\n  1.0E+00 2.0\n 5 2\n 5 6\nEND\n!lake\n 3 3\n 4 3\n 4 4\nEND\nEND\n";
+    seeds.push((Format::Poly, island.as_bytes().to_vec()));
     seeds.push((Format::Off, off.as_bytes().to_vec()));
     seeds.push(written(Format::Node));
     seeds.extend(GRAPHS.map(|(format, text)| (format, text.as_bytes().to_vec())));
