@@ -111,7 +111,7 @@ fn main() -> ExitCode {
         Command::Completions { shell } => about::completions(shell),
         Command::Man { output } => about::man(output.as_deref(), quiet),
     };
-    match result.and_then(|()| files::publish()) {
+    match result.and_then(|()| files::publish(quiet)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             delone_io::remove_unfinished();

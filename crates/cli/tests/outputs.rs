@@ -177,3 +177,29 @@ fn files_beside_an_earlier_raster_go() {
     let told = text(&place.run("dtm p.csv --cell 1 -o dem.asc").stderr);
     assert!(place.path("dem.prj").exists() && told.contains("dem.prj: it may not be that of"), "{told}");
 }
+
+#[test]
+fn what_coordinates_mean_is_passed_on_or_told() {
+    let place = Place::new();
+    let write = |name: &str, text: &str| fs::write(place.path(name), text).expect("a file");
+    let points = |system: &str| {
+        format!(
+            "{{\"type\":\"MultiPoint\",\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":\"{system}\"}}}},\"coordinates\":[[0,0],[1,0],[0,1]]}}"
+        )
+    };
+    write("utm.geojson", &points("urn:ogc:def:crs:EPSG::25832"));
+    write("own.geojson", &points("ours"));
+    write("plain.csv", "0,0\n1,0\n0,1\n");
+    let told = |line: &str| text(&place.run(line).stderr);
+    let line = "triangulate utm.geojson -o a.geojson -o a.wkb -o a.ply -o a.npy -o a.png";
+    assert_eq!(told(line).lines().count(), 1, "{}", told(line));
+    let line = told("triangulate utm.geojson -o a.vtu -o a.npy -o a.stl");
+    assert!(line.contains("a.vtu, a.stl: nothing in it says that its coordinates are EPSG:25832"), "{line}");
+    let line = told("voronoi own.geojson -o a.geojson -o a.wkb");
+    assert!(
+        line.contains("a.wkb: nothing in it says") && line.contains("warning: a.geojson: readers will take"),
+        "{line}"
+    );
+    assert_eq!(told("triangulate plain.csv -o a.vtu").lines().count(), 1);
+    assert_eq!(told("-q voronoi own.geojson -o a.geojson"), "");
+}

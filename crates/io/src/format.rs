@@ -10,8 +10,21 @@ use std::str::FromStr;
 pub(crate) use contents::Readers;
 pub use contents::{Contents, Direction};
 
-use crate::Error;
+use crate::{Crs, Error};
 use table::{Row, TABLE};
+
+/// How a file says what its coordinates mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Said {
+    /// So that readers know.
+    Whole,
+    /// Not at all.
+    Not,
+    /// Not, and readers will take them for something else.
+    Otherwise,
+    /// It has none.
+    NeedNot,
+}
 
 /// A file format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -120,6 +133,38 @@ impl Format {
         match direction {
             Direction::Read => self.row().readers.has(contents),
             Direction::Written => self.row().writes.contains(&contents),
+        }
+    }
+
+    /// How files of this format say what their coordinates mean. Side files of rasters count.
+    ///
+    /// ```
+    /// use delone_io::{Crs, Format, Said};
+    ///
+    /// let ours = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]").expect("a system");
+    /// assert_eq!(Format::GeoJson.says(&Crs::of_epsg(25832)), Said::Whole);
+    /// assert_eq!(Format::GeoJson.says(&ours), Said::Otherwise);
+    /// assert_eq!(Format::Vtu.says(&ours), Said::Not);
+    /// ```
+    pub fn says(self, crs: &Crs) -> Said {
+        let when = |is_said: bool| if is_said { Said::Whole } else { Said::Not };
+        match self {
+            Self::GeoJson if crs.epsg.is_some() || crs.is_plain_degrees() => Said::Whole,
+            Self::GeoJson => Said::Otherwise,
+            Self::Wkb | Self::Ply | Self::Obj => when(crs.epsg.is_some()),
+            Self::Tiff => when(crs.epsg.is_some() || crs.wkt.is_some() || crs.keys.is_some()),
+            Self::Asc => when(crs.wkt.is_some()),
+            Self::Wkt
+            | Self::WktCollection
+            | Self::Node
+            | Self::Poly
+            | Self::Off
+            | Self::Stl
+            | Self::Vtu
+            | Self::Msh
+            | Self::Inp => Said::Not,
+            // There are no coordinates in it, or nobody looks for their meaning.
+            _ => Said::NeedNot,
         }
     }
 

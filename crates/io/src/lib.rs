@@ -39,7 +39,7 @@ pub use crs::{Crs, GeoKeys};
 pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
 pub use filtration::write_filtration;
-pub use format::{Contents, Direction, Format};
+pub use format::{Contents, Direction, Format, Said};
 pub use formats::edges::{Edges, write_edges};
 pub use formats::las::{LAS_CLASSES, LasFilter, LasFlag, Returns};
 pub use formats::npy::{Element, write_array};

@@ -2,6 +2,7 @@
 
 mod apart;
 mod sides;
+mod systems;
 mod write;
 
 use std::io::{BufReader, Cursor, Read};
@@ -66,7 +67,9 @@ pub(crate) fn outputs(
         let known = if paths.len() > 1 { Format::of(path).ok() } else { None };
         Ok((path.clone(), known.map_or_else(|| format(path, to, "--to"), Ok)?))
     };
-    paths.iter().map(by_extension).collect()
+    let outputs = paths.iter().map(by_extension).collect::<Result<Vec<_>, _>>()?;
+    systems::expect(&outputs);
+    Ok(outputs)
 }
 
 /// Refuses files whose formats hold none of what could be written.
@@ -164,6 +167,7 @@ fn read_all(
             note(quiet, format_args!("{}: {remark}", path.display()));
         }
         let told = all.remarks.len() + cloud.remarks.len();
+        systems::heed(cloud.crs.as_ref());
         all.join(cloud).map_err(failed)?;
         limits::check_points(all.xy.len(), path)?;
         all.remarks[told..].iter().for_each(|remark| note(quiet, remark));
@@ -231,6 +235,7 @@ pub(crate) fn graph_with_points(
             note(quiet, format_args!("{}: {remark}", path.display()));
         }
         let told = all.cloud.remarks.len() + graph.cloud.remarks.len();
+        systems::heed(graph.cloud.crs.as_ref());
         all.join(graph).map_err(failed)?;
         limits::check_points(all.cloud.xy.len(), path)?;
         all.cloud.remarks[told..].iter().for_each(|remark| note(quiet, remark));

@@ -8,6 +8,7 @@ use delone_io::{Finished, Output, Remark, give_names};
 
 use super::apart::{check_open, refuse_read};
 use super::sides::remove_stale;
+use super::systems;
 use super::{is_special, is_standard};
 use crate::message::{Failure, note};
 
@@ -15,9 +16,10 @@ use crate::message::{Failure, note};
 static FINISHED: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
 
 /// Gives all outputs of the command their names.
-pub(crate) fn publish() -> Result<(), Failure> {
+pub(crate) fn publish(quiet: bool) -> Result<(), Failure> {
     let finished = std::mem::take(&mut *FINISHED.lock().unwrap_or_else(PoisonError::into_inner));
     remove_stale()?;
+    systems::tell(quiet);
     give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))
 }
 

@@ -101,6 +101,11 @@ impl Crs {
         }
     }
 
+    /// Whether it is longitude and latitude as GeoJSON has them.
+    pub(crate) fn is_plain_degrees(&self) -> bool {
+        self.epsg == Some(4326) || self.name.as_deref() == Some("OGC:CRS84")
+    }
+
     /// The name that other programs understand, if there is a number.
     pub(crate) fn urn(&self) -> Option<String> {
         self.epsg.map(|number| format!("urn:ogc:def:crs:EPSG::{number}"))
