@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _delone
 from .._errors import qhull_error
 from .._points import as_flag
-from ._place import InItsPlace, as_doubles, is_ours
+from ._place import InItsPlace, WithoutQhull, as_doubles, is_ours, or_theirs
 from ._spatial import ConvexHull
 
 
-class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InItsPlace):  # type: ignore[misc]
+class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, metaclass=InItsPlace):  # type: ignore[misc]
     """The intersection of half-spaces of the plane or of space that hold a point: a `scipy.spatial.HalfspaceIntersection`.
 
     Parameters
@@ -69,8 +69,8 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
     """
 
     _theirs = scipy.spatial.HalfspaceIntersection
-    _qhull = None
 
+    @or_theirs
     def __init__(
         self,
         halfspaces: ArrayLike,
@@ -163,11 +163,7 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
         """Ends changes: no half-spaces can be added any more."""
         self._is_closed = True
 
-    def __del__(self) -> None:
-        """Nothing of SciPy's is to be closed."""
-
-    def __repr__(self) -> str:
-        """A line that says what there is."""
+    def _shown(self) -> str:
         return f"<delone.scipy.HalfspaceIntersection: {self.nineq} half-spaces, {len(self.intersections)} corners>"
 
 

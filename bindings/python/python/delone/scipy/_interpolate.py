@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _delaunay, _interpolate
 from .._points import as_coordinates
-from ._place import InItsPlace, as_doubles
+from ._place import InItsPlace, as_doubles, or_theirs
 from ._spatial import Delaunay
 
 
@@ -38,6 +38,7 @@ class LinearNDInterpolator(_interpolate.LinearNDInterpolator, scipy.interpolate.
     _theirs = scipy.interpolate.LinearNDInterpolator
     _triangulation = Delaunay
 
+    @or_theirs
     def __init__(
         self, points: Any, values: ArrayLike, fill_value: complex = np.nan, rescale: bool = False, **options: Any
     ) -> None:
@@ -110,6 +111,7 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
     values: NDArray[Any]
     grad: NDArray[Any]
 
+    @or_theirs
     def __init__(
         self,
         points: Any,

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _delaunay, _hull, _voronoi
 from .._cached import cached_property
-from ._place import Assignable, InItsPlace, as_doubles, is_ours, refuse_flat
+from ._place import Assignable, InItsPlace, WithoutQhull, as_doubles, is_ours, or_theirs, refuse_flat
 
 
-class Delaunay(_delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace):  # type: ignore[misc]
+class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace):  # type: ignore[misc]
     """A triangulation that is a `scipy.spatial.Delaunay`; see `delone.Delaunay` for all that it has, and `delone.scipy`.
 
     Examples
@@ -25,9 +25,8 @@ class Delaunay(_delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace)
     """
 
     _theirs = scipy.spatial.Delaunay
-    # SciPy's destructor looks for it.
-    _qhull = None
 
+    @or_theirs
     def __init__(
         self,
         points: ArrayLike,
@@ -81,19 +80,16 @@ class Delaunay(_delaunay.Delaunay, scipy.spatial.Delaunay, metaclass=InItsPlace)
         super().add_points(as_doubles(points), restart)
         Assignable.forget(self)
 
-    def __del__(self) -> None:
-        """Nothing of SciPy's is to be closed."""
 
-
-class Voronoi(_voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=InItsPlace):  # type: ignore[misc]
+class Voronoi(WithoutQhull, _voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=InItsPlace):  # type: ignore[misc]
     """A Voronoi diagram that is a `scipy.spatial.Voronoi`; see `delone.Voronoi` for all that it has, and `delone.scipy`.
 
     Sides up to rounding are contracted, unless `merge` is None or another length.
     """
 
     _theirs = scipy.spatial.Voronoi
-    _qhull = None
 
+    @or_theirs
     def __init__(
         self,
         points: ArrayLike,
@@ -136,19 +132,16 @@ class Voronoi(_voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=InItsPlace):  #
     def _points(self) -> NDArray[np.float64]:
         return np.array(self._tri.points)
 
-    def __del__(self) -> None:
-        """Nothing of SciPy's is to be closed."""
 
-
-class ConvexHull(_hull.ConvexHull, scipy.spatial.ConvexHull, metaclass=InItsPlace):  # type: ignore[misc]
+class ConvexHull(WithoutQhull, _hull.ConvexHull, scipy.spatial.ConvexHull, metaclass=InItsPlace):  # type: ignore[misc]
     """A convex hull that is a `scipy.spatial.ConvexHull`; see `delone.ConvexHull` for all that it has, and `delone.scipy`.
 
     Corners and facets that only rounding has made are no more, unless `merge` is None or another length.
     """
 
     _theirs = scipy.spatial.ConvexHull
-    _qhull = None
 
+    @or_theirs
     def __init__(
         self,
         points: ArrayLike,
@@ -171,9 +164,6 @@ class ConvexHull(_hull.ConvexHull, scipy.spatial.ConvexHull, metaclass=InItsPlac
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points, as `delone.ConvexHull` does."""
         super().add_points(as_doubles(points), restart)
-
-    def __del__(self) -> None:
-        """Nothing of SciPy's is to be closed."""
 
 
 def tsearch(tri: Any, xi: ArrayLike) -> NDArray[np.int32]:
