@@ -250,8 +250,7 @@ class Delaunay(Kept):
     paraboloid_scale = 1.0
     paraboloid_shift = 0.0
 
-    @staticmethod
-    def _lift(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _lift(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         with np.errstate(over="ignore", under="ignore"):
             return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
 

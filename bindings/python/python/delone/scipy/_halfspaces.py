@@ -13,8 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _delone
 from .._errors import qhull_error
-from .._points import as_flag
-from ._place import InItsPlace, WithoutQhull, as_doubles, is_ours, or_theirs
+from ._place import InItsPlace, WithoutQhull, as_doubles, as_more, is_ours, or_theirs, refuse_options
 from ._spatial import ConvexHull
 
 
@@ -81,7 +80,7 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         merge: float | str | None = "auto",
     ) -> None:
         """Intersects half-spaces."""
-        as_flag(incremental, "incremental")
+        refuse_options(qhull_options)
         self._qhull_options, self._merge, self._is_closed = qhull_options, merge, False
         self._halfspaces = np.array(_as_halfspaces(halfspaces))
         self.ndim = self._halfspaces.shape[1] - 1
@@ -101,11 +100,11 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         merge: Any = None,
     ) -> bool:
         shape = np.shape(halfspaces)
-        return is_ours(np.empty((0, shape[1] - 1)) if len(shape) == 2 else halfspaces, qhull_options)
+        return is_ours(np.empty((0, shape[1] - 1)) if len(shape) == 2 and shape[1] else halfspaces, qhull_options)
 
     def _intersect(self) -> None:
         normals, offsets = self._halfspaces[:, :-1], self._halfspaces[:, -1]
-        self.nineq = len(self._halfspaces)
+        self.nineq = self.npoints = len(self._halfspaces)
         with np.errstate(all="ignore"):
             depths = -(normals @ self.interior_point + offsets)
             self.dual_points: NDArray[np.float64] = normals / depths[:, None]
@@ -122,9 +121,9 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
             exact = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=None)
             merge = _delone.MERGE_AUTO * float(np.linalg.norm(self.dual_points[exact.vertices], axis=1).min())
         hull = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=merge)
-        self.min_bound, self.max_bound = hull.min_bound, hull.max_bound
+        self.min_bound, self.max_bound = self._halfspaces.min(axis=0), self._halfspaces.max(axis=0)
         self.dual_facets: list[list[int]] = [facet.tolist() for facet in hull.facets]
-        self._dual_vertices: NDArray[np.int32] = np.sort(hull.vertices)
+        self._dual_vertices = np.sort(hull.vertices).astype(np.int64)
         self.dual_area, self.dual_volume = hull.area, hull.volume
         self.dual_equations: NDArray[np.float64] = hull._facet_equations()
         with np.errstate(all="ignore"):
@@ -137,16 +136,15 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         return self._halfspaces
 
     @property
-    def dual_vertices(self) -> NDArray[np.int32]:
+    def dual_vertices(self) -> NDArray[np.int64]:
         """The half-spaces that bound the intersection: (nvertex,)."""
         return self._dual_vertices
 
     def add_halfspaces(self, halfspaces: ArrayLike, restart: bool = False) -> None:
         """Adds half-spaces, or one, whose indices follow those there are. RuntimeError after `close`."""
-        as_flag(restart, "restart")
         if self._is_closed:
             raise RuntimeError("closed: no half-spaces can be added any more")
-        one = as_doubles(halfspaces)
+        one = as_more(halfspaces)
         more = _as_halfspaces(one[None] if one.ndim == 1 else one)
         if more.shape[1] != self.ndim + 1:
             raise ValueError(f"half-spaces must have {self.ndim + 1} numbers each, not {more.shape[1]}")

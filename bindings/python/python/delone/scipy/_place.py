@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .._errors import qhull_error
 from .._options import parse
+from .._points import ShapeError
 
 
 class InItsPlace(ABCMeta):
@@ -73,8 +74,10 @@ def _over_theirs(kind: Any) -> type:
         theirs: type = ours._theirs
         return theirs
     if "_over" not in vars(kind):
-        names = {name: getattr(kind, name) for name in ("__module__", "__qualname__", "__doc__")}
-        kind._over = type(kind)(kind.__name__, (kind,), {**names, "_instead_of": ours, "__reduce_ex__": _reduce})
+        body = {name: getattr(kind, name) for name in ("__module__", "__qualname__", "__doc__")}
+        body.update(_instead_of=ours, __reduce_ex__=_reduce)
+        derive: Callable[..., type] = type(kind)
+        kind._over = derive(kind.__name__, (kind,), body)
     over: type = vars(kind)["_over"]
     return over
 
@@ -123,6 +126,34 @@ def as_doubles(points: ArrayLike) -> NDArray[np.float64]:
     return doubles
 
 
+def as_more(points: ArrayLike) -> NDArray[np.float64]:
+    """Points to add as SciPy takes them, also what a mask hides. Raises QhullError for what is not finite, as Qhull does then."""
+    doubles: NDArray[np.float64] = np.asarray(np.asarray(points), dtype=np.float64)
+    if not np.isfinite(doubles).all():
+        raise qhull_error(f"points to add: {doubles[~np.isfinite(doubles)][0]} is not finite")
+    return doubles
+
+
+def as_rows(xi: ArrayLike, columns: int) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+    """Queries as SciPy takes them, as rows, and the shape that their answers have: that of `xi` without its last axis."""
+    array: NDArray[Any] = np.asarray(xi)
+    if not array.ndim:
+        raise ShapeError(f"xi must have {columns} coordinates in its last axis; it is no array but {xi!r}")
+    if array.shape[-1] != columns:
+        raise ValueError(f"xi must have {columns} coordinates in its last axis; its shape is {array.shape}")
+    return np.ascontiguousarray(array.reshape(-1, columns).astype(np.float64)), array.shape[:-1]
+
+
+class OptionsError(AttributeError, TypeError):
+    """Options that are no string; SciPy finds that they have no `encode`."""
+
+
+def refuse_options(options: Any) -> None:
+    """An error for what is no string."""
+    if not isinstance(options, (str, bytes, type(None))):
+        raise OptionsError(f"qhull_options must be a string, not {options!r}")
+
+
 def is_ours(points: ArrayLike, options: Any, is_hull: bool = False) -> bool:
     """Whether points are in the plane or in space, and options are known here; what is no array is refused here."""
     shape = np.shape(points)
@@ -154,9 +185,9 @@ class Assignable:
     """An attribute that is made when it is asked for, unless it was assigned; it may be deleted."""
 
     def __init__(self, make: Callable[[Any], Any]) -> None:
-        """Of what makes it."""
+        """Of what makes it, such as `__get__` of an attribute of a base class."""
         self._make = make
-        self.__doc__ = make.__doc__
+        self.__doc__ = getattr(make, "__self__", make).__doc__
 
     def __set_name__(self, owner: type, name: str) -> None:
         """Where assigned values are kept."""
@@ -184,13 +215,8 @@ class Assignable:
         instance.__dict__[self._name] = _Deleted
 
     @staticmethod
-    def assigned(instance: Any) -> set[str]:
-        """The names of those that were assigned or deleted."""
-        kind = type(instance)
-        return {name for name in instance.__dict__ if isinstance(getattr(kind, name, None), Assignable)}
-
-    @staticmethod
     def forget(instance: Any) -> None:
         """Nothing was assigned any more."""
-        for name in Assignable.assigned(instance):
+        kind = type(instance)
+        for name in [name for name in instance.__dict__ if isinstance(getattr(kind, name, None), Assignable)]:
             del instance.__dict__[name]
