@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import scipy.spatial
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _delone
@@ -82,6 +83,9 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         """Intersects half-spaces."""
         refuse_options(qhull_options)
         self._qhull_options, self._merge, self._is_closed = qhull_options, merge, False
+        for given, what in ((halfspaces, "halfspaces"), (interior_point, "interior_point")):
+            if ma.is_masked(given):
+                raise ValueError(f"{what} must not be masked")
         self._halfspaces = np.array(_as_halfspaces(halfspaces))
         self.ndim = self._halfspaces.shape[1] - 1
         self.interior_point: NDArray[np.float64] = np.array(as_doubles(interior_point))
@@ -168,6 +172,8 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
 def _as_halfspaces(halfspaces: ArrayLike) -> NDArray[np.float64]:
     """Rows of three or four finite numbers."""
     rows = as_doubles(halfspaces)
+    if rows.ndim == 2 and rows.shape[1] == 2:
+        raise qhull_error("half-spaces must be of at least two dimensions, rows of three numbers; these are half-lines")
     if rows.ndim != 2 or rows.shape[1] not in (3, 4):
         raise ValueError(f"halfspaces must be a 2D array of shape (n, 3) or (n, 4), not {rows.shape}")
     if not np.isfinite(rows).all():

@@ -178,7 +178,7 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
     def __init__(
         self,
         points: Any,
-        values: ArrayLike,
+        values: ArrayLike | None,
         fill_value: complex = np.nan,
         tol: float = 1e-6,
         maxiter: int = 400,
@@ -188,6 +188,10 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
         given = _as_points(points)
         if isinstance(given, _delaunay.Delaunay) and not isinstance(given, Delaunay):
             given = given.to_scipy()
+        if values is None:
+            # Values that are set later are SciPy's own affair.
+            super().__init__(given, None, fill_value, tol, maxiter, rescale)
+            return
         where = given.points if isinstance(given, Delaunay) else given
         rows = _as_values(values, fill_value)[0]
         if where.ndim == 2 and where.shape[1] == 2 and len(rows) == len(where) > 0:
@@ -206,7 +210,8 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
 
     def __call__(self, *xi: Any, **options: Any) -> NDArray[Any]:
         """Values at points: an array whose last axis has the coordinates, or an array for each coordinate."""
-        _refuse_changed(self.tri, min(len(self.values), len(self.grad)))
+        if self.values is not None:
+            _refuse_changed(self.tri, min(len(self.values), len(self.grad)))
         found: NDArray[Any] = super().__call__(*xi, **options)
         return found
 

@@ -41,8 +41,8 @@ def patched() -> Iterator[None]:
     """Within it SciPy's classes are those of `delone.scipy`, wherever modules that are loaded have their names.
 
     For programs that import from SciPy and cannot be changed. What they import within it, they have from Delone too, also
-    afterwards; so it is best put around a whole program. It is for all threads at once,
-    and of several contexts the last that ends gives SciPy's classes back.
+    afterwards; so it is best put around a whole program. It is for all threads at once, and of several contexts the last that
+    ends gives SciPy's classes back.
 
     Examples
     --------

@@ -76,8 +76,7 @@ def _over_theirs(kind: Any) -> type:
     if "_over" not in vars(kind):
         body = {name: getattr(kind, name) for name in ("__module__", "__qualname__", "__doc__")}
         body.update(_instead_of=ours, __reduce_ex__=_reduce)
-        derive: Callable[..., type] = type(kind)
-        kind._over = derive(kind.__name__, (kind,), body)
+        kind._over = type(kind)(kind.__name__, (kind,), body)
     over: type = vars(kind)["_over"]
     return over
 
@@ -90,7 +89,7 @@ def _reduce(self: Any, protocol: Any) -> tuple[Any, ...]:
 
 def _new_over_theirs(kind: type) -> Any:
     """An object to which a state is given."""
-    over = _over_theirs(kind)
+    over: Any = _over_theirs(kind)
     return over.__new__(over)
 
 
@@ -127,10 +126,16 @@ def as_doubles(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def as_more(points: ArrayLike) -> NDArray[np.float64]:
-    """Points to add as SciPy takes them, also what a mask hides. Raises QhullError for what is not finite, as Qhull does then."""
-    doubles: NDArray[np.float64] = np.asarray(np.asarray(points), dtype=np.float64)
+    """What is to be added as SciPy takes it, also what a mask hides: a row for each, or one row.
+
+    Raises QhullError for what is not finite, as Qhull does then.
+    """
+    array: NDArray[Any] = np.asarray(points)
+    if array.ndim not in (1, 2):
+        raise ShapeError(f"there must be a row of numbers for each, not an array of {array.ndim} dimensions")
+    doubles = array.astype(np.float64)
     if not np.isfinite(doubles).all():
-        raise qhull_error(f"points to add: {doubles[~np.isfinite(doubles)][0]} is not finite")
+        raise qhull_error(f"what is to be added holds {doubles[~np.isfinite(doubles)][0]}, which is not finite")
     return doubles
 
 

@@ -28,20 +28,26 @@ from ._place import (
 _KEPT = ("_transform", "_vertex_to_simplex", "_vertex_neighbor_vertices")
 
 
+def _forget_following(tri: Delaunay) -> None:
+    """What follows from the parts of a triangulation is to be made anew."""
+    tri._cache.pop("equations", None)
+    for name in _KEPT:
+        tri.__dict__.pop(name, None)
+
+
 class _Shape(Assignable):
     """A part of a triangulation; once it is assigned, what follows from it is made anew."""
 
     def __set__(self, instance: Any, value: Any) -> None:
         """Keeps a value."""
         super().__set__(instance, value)
-        for name in _KEPT:
-            instance.__dict__.pop(name, None)
+        _forget_following(instance)
 
 
 def _is_within(values: ArrayLike, low: int, end: int) -> bool:
     """Whether integers are indices from one number to before another."""
     array: NDArray[Any] = np.asarray(values)
-    return not array.size or bool(low <= array.min() and array.max() < end)
+    return array.dtype == np.int32 and (not array.size or bool(low <= array.min() and array.max() < end))
 
 
 def _following(name: str) -> Any:
@@ -135,13 +141,14 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
     def _refuse_out_of_range(self, *, alone: bool) -> None:
         """A ValueError for arrays that are assigned and do not fit the others, which SciPy's compiled code would follow out of
         memory; `alone` are simplices without what SciPy knows of their neighbours."""
-        if not isinstance(self.simplices, np.ndarray):
+        parts = [self.simplices] if alone else [self.simplices, self.neighbors, self.min_bound, self.max_bound]
+        if not all(isinstance(part, np.ndarray) for part in parts):
             # SciPy takes nothing else.
             return
         rows, count, ndim = len(self.simplices), *self.points.shape
         sizes = (self.ndim, self.npoints, self.nsimplex) == (ndim, count, rows)
         if not sizes or self.simplices.shape != (rows, ndim + 1) or not _is_within(self.simplices, 0, count):
-            raise ValueError(f"simplices that were assigned must be {self.nsimplex} rows of {ndim + 1} indices of points")
+            raise ValueError(f"simplices that were assigned must be {self.nsimplex} rows of {ndim + 1} indices of points, int32")
         if alone:
             return
         if np.shape(self.neighbors) != (rows, ndim + 1) or not _is_within(self.neighbors, -1, rows):
@@ -165,12 +172,13 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
         """The simplices that hold points, as `delone.Delaunay` finds them; after simplices, neighbours or other parts were
         assigned as SciPy does, in what was assigned."""
         rows, shape = as_rows(xi, self.ndim)
+        by_force = bool(bruteforce)
         if tol is not None:
             math.fabs(tol)
         if not self._is_assigned():
             return super().find_simplex(rows).reshape(shape)
         self._refuse_out_of_range(alone=False)
-        found: NDArray[np.int32] = scipy.spatial.Delaunay.find_simplex(self, rows, bool(bruteforce), tol)
+        found: NDArray[np.int32] = scipy.spatial.Delaunay.find_simplex(self, rows, by_force, tol)
         return found.reshape(shape)
 
     def plane_distance(self, xi: ArrayLike) -> NDArray[np.float64]:
@@ -195,8 +203,7 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
         """Adds points, as `delone.Delaunay` does."""
         super().add_points(as_more(points), bool(restart))
         Assignable.forget(self)
-        for name in _KEPT:
-            self.__dict__.pop(name, None)
+        _forget_following(self)
 
 
 _SHAPES = frozenset(name for name, value in vars(Delaunay).items() if isinstance(value, _Shape))
