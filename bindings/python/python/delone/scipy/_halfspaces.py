@@ -145,7 +145,10 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         return self._dual_vertices
 
     def add_halfspaces(self, halfspaces: ArrayLike, restart: bool = False) -> None:
-        """Adds half-spaces, or one, whose indices follow those there are. RuntimeError after `close`."""
+        """Adds half-spaces, or one, whose indices follow those there are. RuntimeError after `close`.
+
+        `restart` is for those who come from SciPy, and has no effect.
+        """
         if self._is_closed:
             raise RuntimeError("closed: no half-spaces can be added any more")
         one = as_more(halfspaces)

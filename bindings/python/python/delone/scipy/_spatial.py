@@ -36,11 +36,15 @@ def _forget_following(tri: Delaunay) -> None:
 
 
 class _Shape(Assignable):
-    """A part of a triangulation; once it is assigned, what follows from it is made anew."""
+    """A part of a triangulation; once it is assigned, what follows from it is made anew.
+
+    Of an array that is not contiguous there is a copy: SciPy's compiled code would misread it.
+    """
 
     def __set__(self, instance: Any, value: Any) -> None:
         """Keeps a value."""
-        super().__set__(instance, value)
+        is_spread = isinstance(value, np.ndarray) and not value.flags.c_contiguous
+        super().__set__(instance, np.ascontiguousarray(value) if is_spread else value)
         _forget_following(instance)
 
 
