@@ -122,6 +122,18 @@ def test_derived_classes_with_what_only_qhull_has():
         DERIVED["Delaunay"](np.zeros((9, 4)))
 
 
+def test_constructors_may_be_called_again():
+    space, plane = RANDOM.random((30, 4)), RANDOM.random((30, 2))
+    tri = Explicit(space)
+    for points, options in [(plane, "Qt"), (space, "Qt"), (plane, "Qt"), (plane, "C-0 Qt"), (plane[:9], "Qt")]:
+        spatial.Delaunay.__init__(tri, points, qhull_options=options)
+        assert isinstance(tri, Explicit) and isinstance(tri, delone.Delaunay) == (options == "Qt" and points.shape[1] == 2)
+        assert tri.simplices.shape == (tri.nsimplex, points.shape[1] + 1) and tri.npoints == len(points)
+        tri.simplices = tri.simplices[:1]
+        if isinstance(tri, delone.Delaunay):
+            assert tri.nsimplex == 1
+
+
 # Attributes.
 
 

@@ -45,6 +45,11 @@ def or_theirs(make: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(make)
     def made(self: Any, *args: Any, **options: Any) -> None:
+        if "_instead_of" in vars(type(self)):
+            # Made once more, maybe of what suits.
+            self.__class__ = type(self).__bases__[0]
+        if self.__dict__:
+            Assignable.forget(self)
         try:
             suits = self._suits(*args, **options)
         except TypeError:
