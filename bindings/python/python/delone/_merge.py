@@ -36,12 +36,12 @@ def merged_centres(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], N
     """For each simplex the vertex that its centre becomes, and whether there is one: it is infinitely far away for slivers of the
     hull that are flat within the length."""
     rows, neighbors = tri._centres(), tri._arrays()[1]
-    kept = np.isfinite(rows).all(axis=1)
+    kept: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(rows), axis=1, dtype=bool)
     if not tri.furthest_site:
         kept[_slivers(tri, rows, length)] = False
-    ends = np.flatnonzero(neighbors > np.arange(len(rows))[:, None])
-    sides = np.empty((len(ends), 2), dtype=np.int64)
-    sides[:, 0], sides[:, 1] = ends // (tri.ndim + 1), neighbors.ravel()[ends]
+    row, corner = np.nonzero(neighbors > np.arange(len(rows))[:, None])
+    sides = np.empty((len(row), 2), dtype=np.int64)
+    sides[:, 0], sides[:, 1] = row, neighbors[row, corner]
     if kept.all():
         return rows[_delone.merged_vertices(rows, sides, length)], kept
     number = np.cumsum(kept) - 1
@@ -55,16 +55,16 @@ def _slivers(tri: Delaunay, rows: NDArray[np.float64], length: float) -> NDArray
     """The simplices on the hull whose circle or sphere is as flat as the length along their longest edge, and those on the hull
     without them."""
     simplices, neighbors = tri._arrays()
-    found = [np.empty(0, dtype=np.intp)]
+    found: list[NDArray[np.intp]] = []
     seen = np.zeros(len(rows), dtype=bool)
-    outer = np.flatnonzero(neighbors < 0) // (tri.ndim + 1)
-    while len(outer):
+    outer = np.nonzero(neighbors < 0)[0]
+    while True:
         seen[outer] = True
-        flat = outer[_is_flat(tri.points[simplices[outer]], rows[outer], length)]
-        found.append(flat)
-        around = neighbors[flat]
-        outer = np.unique(around[(around >= 0) & ~seen[around]])
-    return np.concatenate(found)
+        found.append(outer[_is_flat(tri.points[simplices[outer]], rows[outer], length)])
+        if not len(found[-1]):
+            return np.concatenate(found)
+        around = neighbors[found[-1]]
+        outer = np.unique(around[(around >= 0) & ~seen[around]]).astype(np.intp)
 
 
 def _is_flat(corners: NDArray[np.float64], centres: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
@@ -75,5 +75,6 @@ def _is_flat(corners: NDArray[np.float64], centres: NDArray[np.float64], length:
         longest = np.sqrt(np.maximum.reduce(squares))
         radius = np.sqrt(((centres.T - at[:, 0]) ** 2).sum(axis=0))
         # The height of an arc over its chord.
-        is_flat = (radius > longest) & (longest / radius * longest <= 8 * length)
-    return is_flat | ~np.isfinite(centres).all(axis=1)
+        is_flat: NDArray[np.bool_] = (radius > longest) & (longest / radius * longest <= 8 * length)
+    is_flat[~np.isfinite(centres).all(axis=1)] = True
+    return is_flat
