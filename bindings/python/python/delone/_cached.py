@@ -20,8 +20,8 @@ class cached_property(Generic[T]):
     @overload
     def __get__(self, instance: None, owner: type) -> cached_property[T]: ...
     @overload
-    def __get__(self, instance: object, owner: type) -> T: ...
-    def __get__(self, instance: object | None, owner: type) -> cached_property[T] | T:
+    def __get__(self, instance: object, owner: type | None = None) -> T: ...
+    def __get__(self, instance: object | None, owner: type | None = None) -> cached_property[T] | T:
         """Called once: later the instance has what was made under the same name."""
         if instance is None:
             return self

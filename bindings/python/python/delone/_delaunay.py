@@ -218,14 +218,16 @@ class Delaunay(Kept):
         twins = self.duplicates
         if not len(twins):
             return np.empty((0, 3), dtype=np.int32)
-        return np.column_stack([twins[:, 0], self.vertex_to_simplex[twins[:, 1]], twins[:, 1]])
+        return np.column_stack([twins[:, 0], self._simplex_of_each()[twins[:, 1]], twins[:, 1]])
 
     @property
     def vertex_to_simplex(self) -> NDArray[np.int32]:
         """For each point a simplex that it, or the one that it equals, is a corner of; -1 for those that are no corner."""
+        return self._simplex_of_each()
 
+    def _simplex_of_each(self) -> NDArray[np.int32]:
         def make() -> NDArray[np.int32]:
-            return _delone.vertex_to_simplex(self.npoints, self.simplices, self.duplicates)
+            return _delone.vertex_to_simplex(len(self._core.points), self._arrays()[0], self.duplicates)
 
         return self._once("vertex_to_simplex", make)
 
@@ -250,8 +252,7 @@ class Delaunay(Kept):
     paraboloid_scale = 1.0
     paraboloid_shift = 0.0
 
-    @staticmethod
-    def _lift(x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _lift(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         with np.errstate(over="ignore", under="ignore"):
             return np.concatenate([x, (x**2).sum(axis=-1, keepdims=True)], axis=-1)
 

@@ -35,36 +35,46 @@ def length_of(merge: Merge, *arrays: NDArray[np.float64]) -> float | None:
 def merged_centres(tri: Delaunay, length: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """For each simplex the vertex that its centre becomes, and whether there is one: it is infinitely far away for slivers of the
     hull that are flat within the length."""
-    rows = tri._centres()
-    gone = np.logical_or.reduce(~np.isfinite(rows), axis=1, dtype=bool)
-    kept = ~gone if tri.furthest_site else ~(gone | _slivers(tri, rows, length))
+    rows, neighbors = tri._centres(), tri._arrays()[1]
+    kept: NDArray[np.bool_] = np.logical_and.reduce(np.isfinite(rows), axis=1, dtype=bool)
+    if not tri.furthest_site:
+        kept[_slivers(tri, rows, length)] = False
+    row, corner = np.nonzero(neighbors > np.arange(len(rows))[:, None])
+    sides = np.empty((len(row), 2), dtype=np.int64)
+    sides[:, 0], sides[:, 1] = row, neighbors[row, corner]
+    if kept.all():
+        return rows[_delone.merged_vertices(rows, sides, length)], kept
     number = np.cumsum(kept) - 1
-    row, corner = np.nonzero(tri.neighbors > np.arange(len(rows))[:, None])
-    sides = np.stack([row, tri.neighbors[row, corner]], axis=1)
-    sides = sides[kept[sides].all(axis=1)]
-    which = _delone.merged_vertices(np.ascontiguousarray(rows[kept]), number[sides].astype(np.int64), length)
+    sides = number[sides[kept[sides].all(axis=1)]]
     places = rows.copy()
-    places[kept] = rows[kept][which]
+    places[kept] = rows[kept][_delone.merged_vertices(rows[kept], sides, length)]
     return places, kept
 
 
-def _slivers(tri: Delaunay, rows: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
+def _slivers(tri: Delaunay, rows: NDArray[np.float64], length: float) -> NDArray[np.intp]:
     """The simplices on the hull whose circle or sphere is as flat as the length along their longest edge, and those on the hull
     without them."""
-    corners = tri.points[tri.simplices]
-    longest = np.zeros(len(rows))
-    for i in range(tri.ndim + 1):
-        for j in range(i):
-            longest = np.maximum(longest, np.linalg.norm(corners[:, i] - corners[:, j], axis=1))
-    with np.errstate(over="ignore", invalid="ignore"):
-        radius = np.linalg.norm(rows - corners[:, 0], axis=1)
-        # The height of an arc over its chord.
-        is_flat = (radius > longest) & (longest / radius * longest <= 8 * length)
-    is_flat |= ~np.isfinite(rows).all(axis=1)
-    gone = np.zeros(len(rows), dtype=bool)
+    simplices, neighbors = tri._arrays()
+    found: list[NDArray[np.intp]] = []
+    seen = np.zeros(len(rows), dtype=bool)
+    outer = np.nonzero(neighbors < 0)[0]
     while True:
-        is_outer = ((tri.neighbors < 0) | gone[tri.neighbors]).any(axis=1)
-        new = is_flat & is_outer & ~gone
-        if not new.any():
-            return gone
-        gone |= new
+        seen[outer] = True
+        found.append(outer[_is_flat(tri.points[simplices[outer]], rows[outer], length)])
+        if not len(found[-1]):
+            return np.concatenate(found)
+        around = neighbors[found[-1]]
+        outer = np.unique(around[(around >= 0) & ~seen[around]]).astype(np.intp)
+
+
+def _is_flat(corners: NDArray[np.float64], centres: NDArray[np.float64], length: float) -> NDArray[np.bool_]:
+    """Whether circles or spheres are as flat as the length along the longest edges of their simplices."""
+    at = corners.T
+    with np.errstate(over="ignore", invalid="ignore"):
+        squares = [((at[:, i] - at[:, j]) ** 2).sum(axis=0) for i in range(at.shape[1]) for j in range(i)]
+        longest = np.sqrt(np.maximum.reduce(squares))
+        radius = np.sqrt(((centres.T - at[:, 0]) ** 2).sum(axis=0))
+        # The height of an arc over its chord.
+        is_flat: NDArray[np.bool_] = (radius > longest) & (longest / radius * longest <= 8 * length)
+    is_flat[~np.isfinite(centres).all(axis=1)] = True
+    return is_flat

@@ -18,7 +18,10 @@ Classes are those of `delone` and of SciPy at once. Where the two differ they do
 | corners of tetrahedra | in one orientation | by index, so that both sides of a facet name it alike |
 | more than three dimensions, furthest sites in space, options that only Qhull has | refused | made by SciPy |
 | numbers that float64 does not hold | refused | rounded |
-| `points` and others | read-only | may be assigned |
+| classes that users derive, where only SciPy has an answer | refused | stay instances, over SciPy's class |
+| `points` and others | read-only | `points` may be changed, which changes nothing else; others may be assigned and deleted |
+| `find_simplex` after `simplices` or others were assigned | as before | in what was assigned, as SciPy finds it |
+| wrong calls | TypeError, ValueError | errors of SciPy's class |
 
 All other names of `scipy.spatial` are SciPy's own. Needs the package `scipy`.
 """

@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 import scipy.spatial
+from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _delone
 from .._errors import qhull_error
-from .._points import as_flag
-from ._place import InItsPlace, as_doubles, is_ours
+from ._place import InItsPlace, WithoutQhull, as_doubles, as_more, is_ours, or_theirs, refuse_options
 from ._spatial import ConvexHull
 
 
-class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InItsPlace):  # type: ignore[misc]
+class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, metaclass=InItsPlace):  # type: ignore[misc]
     """The intersection of half-spaces of the plane or of space that hold a point: a `scipy.spatial.HalfspaceIntersection`.
 
     Parameters
@@ -69,8 +69,8 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
     """
 
     _theirs = scipy.spatial.HalfspaceIntersection
-    _qhull = None
 
+    @or_theirs
     def __init__(
         self,
         halfspaces: ArrayLike,
@@ -81,8 +81,11 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
         merge: float | str | None = "auto",
     ) -> None:
         """Intersects half-spaces."""
-        as_flag(incremental, "incremental")
+        refuse_options(qhull_options)
         self._qhull_options, self._merge, self._is_closed = qhull_options, merge, False
+        for given, what in ((halfspaces, "halfspaces"), (interior_point, "interior_point")):
+            if ma.is_masked(given):
+                raise ValueError(f"{what} must not be masked")
         self._halfspaces = np.array(_as_halfspaces(halfspaces))
         self.ndim = self._halfspaces.shape[1] - 1
         self.interior_point: NDArray[np.float64] = np.array(as_doubles(interior_point))
@@ -101,11 +104,11 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
         merge: Any = None,
     ) -> bool:
         shape = np.shape(halfspaces)
-        return is_ours(np.empty((0, shape[1] - 1)) if len(shape) == 2 else halfspaces, qhull_options)
+        return is_ours(np.empty((0, shape[1] - 1)) if len(shape) == 2 and shape[1] else halfspaces, qhull_options)
 
     def _intersect(self) -> None:
         normals, offsets = self._halfspaces[:, :-1], self._halfspaces[:, -1]
-        self.nineq = len(self._halfspaces)
+        self.nineq = self.npoints = len(self._halfspaces)
         with np.errstate(all="ignore"):
             depths = -(normals @ self.interior_point + offsets)
             self.dual_points: NDArray[np.float64] = normals / depths[:, None]
@@ -122,9 +125,9 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
             exact = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=None)
             merge = _delone.MERGE_AUTO * float(np.linalg.norm(self.dual_points[exact.vertices], axis=1).min())
         hull = ConvexHull(self.dual_points, qhull_options=self._qhull_options, merge=merge)
-        self.min_bound, self.max_bound = hull.min_bound, hull.max_bound
+        self.min_bound, self.max_bound = self._halfspaces.min(axis=0), self._halfspaces.max(axis=0)
         self.dual_facets: list[list[int]] = [facet.tolist() for facet in hull.facets]
-        self._dual_vertices: NDArray[np.int32] = np.sort(hull.vertices)
+        self._dual_vertices = np.sort(hull.vertices).astype(np.int64)
         self.dual_area, self.dual_volume = hull.area, hull.volume
         self.dual_equations: NDArray[np.float64] = hull._facet_equations()
         with np.errstate(all="ignore"):
@@ -137,16 +140,18 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
         return self._halfspaces
 
     @property
-    def dual_vertices(self) -> NDArray[np.int32]:
+    def dual_vertices(self) -> NDArray[np.int64]:
         """The half-spaces that bound the intersection: (nvertex,)."""
         return self._dual_vertices
 
     def add_halfspaces(self, halfspaces: ArrayLike, restart: bool = False) -> None:
-        """Adds half-spaces, or one, whose indices follow those there are. RuntimeError after `close`."""
-        as_flag(restart, "restart")
+        """Adds half-spaces, or one, whose indices follow those there are. RuntimeError after `close`.
+
+        `restart` is for those who come from SciPy, and has no effect.
+        """
         if self._is_closed:
             raise RuntimeError("closed: no half-spaces can be added any more")
-        one = as_doubles(halfspaces)
+        one = as_more(halfspaces)
         more = _as_halfspaces(one[None] if one.ndim == 1 else one)
         if more.shape[1] != self.ndim + 1:
             raise ValueError(f"half-spaces must have {self.ndim + 1} numbers each, not {more.shape[1]}")
@@ -163,17 +168,15 @@ class HalfspaceIntersection(scipy.spatial.HalfspaceIntersection, metaclass=InIts
         """Ends changes: no half-spaces can be added any more."""
         self._is_closed = True
 
-    def __del__(self) -> None:
-        """Nothing of SciPy's is to be closed."""
-
-    def __repr__(self) -> str:
-        """A line that says what there is."""
+    def _shown(self) -> str:
         return f"<delone.scipy.HalfspaceIntersection: {self.nineq} half-spaces, {len(self.intersections)} corners>"
 
 
 def _as_halfspaces(halfspaces: ArrayLike) -> NDArray[np.float64]:
     """Rows of three or four finite numbers."""
     rows = as_doubles(halfspaces)
+    if rows.ndim == 2 and rows.shape[1] == 2:
+        raise qhull_error("half-spaces must be of at least two dimensions, rows of three numbers; these are half-lines")
     if rows.ndim != 2 or rows.shape[1] not in (3, 4):
         raise ValueError(f"halfspaces must be a 2D array of shape (n, 3) or (n, 4), not {rows.shape}")
     if not np.isfinite(rows).all():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import scipy.interpolate
@@ -10,26 +10,71 @@ import scipy.spatial
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _delaunay, _interpolate
-from .._points import as_coordinates
-from ._place import InItsPlace, as_doubles
+from .._points import ShapeError
+from ._place import Assignable, InItsPlace, as_doubles, as_rows, or_theirs
 from ._spatial import Delaunay
 
 
 def _is_ours(points: Any) -> bool:
-    """Whether they are a triangulation of ours, or points of the plane or of space."""
+    """Whether they are a triangulation of ours with all its own, or points of the plane or of space."""
     if isinstance(points, scipy.spatial.Delaunay):
-        return type.__instancecheck__(Delaunay, points)
+        return type.__instancecheck__(Delaunay, points) and not (points.furthest_site or points._is_assigned())
     if isinstance(points, tuple):
         return len(points) in (2, 3)
     shape = np.shape(points)
     return not (len(shape) == 2 and shape[1] > 3)
 
 
+def _as_coordinates(given: Any, ndim: int = 1) -> NDArray[Any]:
+    """Coordinates in the last axis, as SciPy's interpolators take them.
+
+    A tuple has an array for each, an array of one axis has points one after the other. Masks do not count.
+    """
+    if isinstance(given, tuple) and len(given) == 1:
+        given = given[0]
+    if not isinstance(given, tuple):
+        array: NDArray[Any] = np.asarray(given)
+        return array.reshape(-1, ndim) if array.ndim == 1 else array
+    if not given:
+        raise ShapeError("no coordinates")
+    parts = np.broadcast_arrays(*given)
+    stacked = np.empty((*parts[0].shape, len(parts)))
+    for axis, part in enumerate(parts):
+        stacked[..., axis] = part
+    return stacked
+
+
 def _as_points(points: Any) -> Any:
     """A triangulation as it is, else float64."""
     if isinstance(points, _delaunay.Delaunay):
         return points
-    return as_doubles(as_coordinates(points, "points"))
+    return as_doubles(_as_coordinates(points))
+
+
+def _as_values(values: ArrayLike, fill_value: Any) -> tuple[NDArray[Any], Any]:
+    """Values and what there is outside, as float64 or complex128."""
+    array: NDArray[Any] = np.asarray(values)
+    if not array.ndim:
+        raise ShapeError(f"values must have a row for each point; it is no array but {values!r}")
+    if np.issubdtype(array.dtype, np.complexfloating):
+        return array.astype(np.complex128), complex(fill_value)
+    return array.astype(np.float64), float(fill_value)
+
+
+def _refuse_changed(tri: Any, count: int) -> None:
+    """A ValueError for triangulations that are no longer those of so many values."""
+    if tri.npoints != count:
+        raise ValueError(
+            f"there are {count} values and {tri.npoints} points, because points were added to the triangulation: "
+            "make an interpolator anew"
+        )
+    if _is_assigned(tri):
+        tri._refuse_out_of_range(alone=False)
+
+
+def _is_assigned(tri: Any) -> bool:
+    """Whether parts of a triangulation of ours were assigned."""
+    return type.__instancecheck__(Delaunay, tri) and tri._is_assigned()
 
 
 class LinearNDInterpolator(_interpolate.LinearNDInterpolator, scipy.interpolate.LinearNDInterpolator, metaclass=InItsPlace):  # type: ignore[misc]
@@ -38,11 +83,19 @@ class LinearNDInterpolator(_interpolate.LinearNDInterpolator, scipy.interpolate.
     _theirs = scipy.interpolate.LinearNDInterpolator
     _triangulation = Delaunay
 
+    @or_theirs
     def __init__(
-        self, points: Any, values: ArrayLike, fill_value: complex = np.nan, rescale: bool = False, **options: Any
+        self,
+        points: Any,
+        values: ArrayLike,
+        fill_value: complex = np.nan,
+        rescale: bool = False,
+        outside: Literal["fill", "nearest", "hull"] = "fill",
     ) -> None:
         """Triangulates the points, unless they are."""
-        super().__init__(_as_points(points), values, fill_value, rescale, **options)
+        self._is_scaled = bool(rescale)
+        numbers, fill = _as_values(values, fill_value)
+        super().__init__(_as_points(points), numbers, fill, self._is_scaled, outside)
 
     @classmethod
     def _suits(cls, points: Any, *args: Any, **options: Any) -> bool:
@@ -58,25 +111,36 @@ class LinearNDInterpolator(_interpolate.LinearNDInterpolator, scipy.interpolate.
         """Takes other values at the same points."""
         self._values = _interpolate._as_values(values, self.tri.npoints)
 
-    @property
+    @values.deleter
+    def values(self) -> None:
+        """There are none any more."""
+        del self._values
+
+    points = Assignable(lambda self: self.tri.points)
+    scale = Assignable(lambda self: self._scale if self._is_scaled else None)
+    is_complex = Assignable(lambda self: self._values.dtype.kind == "c")
+    values_shape = Assignable(lambda self: self._values.shape[1:])
+
+    @Assignable
     def offset(self) -> NDArray[np.float64] | float:
         """What `rescale` has taken from the points."""
+        if not self._is_scaled:
+            raise AttributeError("nothing was rescaled")
         return self._offset
 
-    @property
-    def scale(self) -> NDArray[np.float64] | float:
-        """What `rescale` has divided the points by."""
-        return self._scale
+    def __call__(self, *xi: Any, simplex_tolerance: float = 1.0) -> NDArray[Any]:
+        """Values at points, as `delone.LinearNDInterpolator` has them; in simplices that were assigned SciPy finds them."""
+        if not simplex_tolerance > 0:
+            raise ValueError("simplex_tolerance must be positive")
+        if isinstance(self.tri, _delaunay.Delaunay) and not _is_assigned(self.tri):
+            return super().__call__(*xi)
+        _refuse_changed(self.tri, len(self._values))
+        found: NDArray[Any] = scipy.interpolate.LinearNDInterpolator.__call__(self, *xi)
+        return found
 
-    @property
-    def is_complex(self) -> bool:
-        """Whether values are complex."""
-        return self._values.dtype.kind == "c"
-
-    @property
-    def values_shape(self) -> tuple[int, ...]:
-        """The shape of the values of a point."""
-        return self._values.shape[1:]
+    def _queries(self, xi: tuple[Any, ...]) -> tuple[NDArray[np.float64], tuple[int, ...]]:
+        rows, shape = as_rows(_as_coordinates(xi, self.tri.ndim), self.tri.ndim)
+        return (rows if self.scale is None else (rows - self.offset) / self.scale), shape
 
 
 class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, metaclass=InItsPlace):  # type: ignore[misc]
@@ -110,10 +174,11 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
     values: NDArray[Any]
     grad: NDArray[Any]
 
+    @or_theirs
     def __init__(
         self,
         points: Any,
-        values: ArrayLike,
+        values: ArrayLike | None,
         fill_value: complex = np.nan,
         tol: float = 1e-6,
         maxiter: int = 400,
@@ -121,10 +186,15 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
     ) -> None:
         """Triangulates the points, unless they are, and estimates gradients."""
         given = _as_points(points)
+        if isinstance(given, _delaunay.Delaunay) and not isinstance(given, Delaunay):
+            given = given.to_scipy()
+        if values is None:
+            # Values that are set later are SciPy's own affair.
+            super().__init__(given, None, fill_value, tol, maxiter, rescale)
+            return
         where = given.points if isinstance(given, Delaunay) else given
-        rows: NDArray[Any] = np.asarray(values)
-        slopes: NDArray[Any] | None = None
-        if where.ndim == 2 and where.shape[1] == 2 and len(rows) == len(where) > 0 and rows.dtype.kind in "fiubc":
+        rows = _as_values(values, fill_value)[0]
+        if where.ndim == 2 and where.shape[1] == 2 and len(rows) == len(where) > 0:
             rest, slopes = _without_plane(where, rows)
             super().__init__(given, rest.reshape(rows.shape), fill_value, tol, maxiter, rescale)
             self.values = np.ascontiguousarray(rows.reshape(self.values.shape), dtype=self.values.dtype)
@@ -137,6 +207,13 @@ class CloughTocher2DInterpolator(scipy.interpolate.CloughTocher2DInterpolator, m
     @classmethod
     def _suits(cls, points: Any, *args: Any, **options: Any) -> bool:
         return _is_ours(points)
+
+    def __call__(self, *xi: Any, **options: Any) -> NDArray[Any]:
+        """Values at points: an array whose last axis has the coordinates, or an array for each coordinate."""
+        if self.values is not None:
+            _refuse_changed(self.tri, min(len(self.values), len(self.grad)))
+        found: NDArray[Any] = super().__call__(*xi, **options)
+        return found
 
     def _calculate_triangulation(self, points: NDArray[np.float64]) -> None:
         self.tri = Delaunay(points)
@@ -184,7 +261,7 @@ def griddata(
     >>> spatial.griddata([[0, 0], [2, 0], [0, 2]], [0.0, 2.0, 4.0], ([0.5], [0.5])).tolist()
     [1.5]
     """
-    at = as_coordinates(points, "points")
+    at = _as_coordinates(points)
     if at.ndim < 2 or at.shape[-1] == 1 or method not in ("linear", "cubic") or (method == "cubic" and at.shape[-1] != 2):
         result: NDArray[Any] = scipy.interpolate.griddata(points, values, xi, method, fill_value, rescale)
         return result

@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from threading import Lock
+from typing import Any
 
 import scipy.interpolate
 import scipy.spatial
@@ -28,13 +30,19 @@ _OURS = {
 }
 _KEPT = ("delone", "scipy.spatial._", "scipy.interpolate._", "scipy.spatial.qhull", "scipy.interpolate.interpnd")
 
+#: How many contexts there are, and what they have changed; the last one that ends undoes it all.
+_lock = Lock()
+_contexts = 0
+_changed: list[tuple[dict[str, Any], str, Any, Any]] = []
+
 
 @contextmanager
 def patched() -> Iterator[None]:
     """Within it SciPy's classes are those of `delone.scipy`, wherever modules that are loaded have their names.
 
     For programs that import from SciPy and cannot be changed. What they import within it, they have from Delone too, also
-    afterwards; so it is best put around a whole program. It is for all threads at once.
+    afterwards; so it is best put around a whole program. It is for all threads at once, and of several contexts the last that
+    ends gives SciPy's classes back.
 
     Examples
     --------
@@ -43,20 +51,38 @@ def patched() -> Iterator[None]:
     ...     type(scipy.spatial.Delaunay([[0, 0], [1, 0], [0, 1]])).__module__
     'delone.scipy._spatial'
     """
-    changed = []
-    for name, module in list(sys.modules.items()):
-        # Modules may be lazy: only what they have is looked at.
-        names = getattr(module, "__dict__", None)
-        if not isinstance(names, dict) or name.startswith(_KEPT):
-            continue
-        for attribute, value in list(names.items()):
-            found = _OURS.get(id(value))
-            if found and found[0] is value:
-                names[attribute] = found[1]
-                changed.append((names, attribute, *found))
+    _enter()
     try:
         yield
     finally:
-        for names, attribute, theirs, ours in reversed(changed):
+        _leave()
+
+
+def _enter() -> None:
+    """Changes what modules have by now."""
+    global _contexts
+    with _lock:
+        _contexts += 1
+        for name, module in list(sys.modules.items()):
+            # Modules may be lazy: only what they have is looked at.
+            names = getattr(module, "__dict__", None)
+            if not isinstance(names, dict) or name.startswith(_KEPT):
+                continue
+            for attribute, value in list(names.items()):
+                found = _OURS.get(id(value))
+                if found and found[0] is value:
+                    names[attribute] = found[1]
+                    _changed.append((names, attribute, *found))
+
+
+def _leave() -> None:
+    """Of the last one: gives names back."""
+    global _contexts
+    with _lock:
+        _contexts -= 1
+        if _contexts:
+            return
+        for names, attribute, theirs, ours in reversed(_changed):
             if names.get(attribute) is ours:
                 names[attribute] = theirs
+        _changed.clear()
