@@ -153,7 +153,7 @@ def as_more(points: ArrayLike, ndims: tuple[int, ...] = (2,)) -> NDArray[np.floa
     """
     array: NDArray[Any] = np.asarray(points)
     if array.ndim not in ndims:
-        raise ShapeError(f"there must be a row of numbers for each that is added, not an array of {array.ndim} dimensions")
+        raise ShapeError(f"what is added must be a 2D array, a row of numbers for each, not one of {array.ndim} dimensions")
     doubles = array.astype(np.float64)
     if not np.isfinite(doubles).all():
         raise qhull_error(f"what is to be added holds {doubles[~np.isfinite(doubles)][0]}, which is not finite")
