@@ -64,6 +64,9 @@ SHAPES = {
     "options 3": lambda s, kind: kind(P, qhull_options=3),
     "options list": lambda s, kind: kind(P, qhull_options=["Qt"]),
     "options unknown": lambda s, kind: kind(P, qhull_options="Nonsense"),
+    "Qz for more": lambda s, kind: kind(P, incremental=True, qhull_options="Qz"),
+    "Qbb for more": lambda s, kind: kind(P, incremental=True, qhull_options="Qt Qbb"),
+    "seen from nowhere": lambda s, kind: kind(P, qhull_options="QG99"),
     "no arguments": lambda s, kind: kind(),
     "too many arguments": lambda s, kind: kind(P, False, False, None, None, None),
     "an unknown name": lambda s, kind: kind(P, nonsense=1),
@@ -82,7 +85,10 @@ ADDED = {
     "nothing": [],
     "ragged": [[1, 2], [3]],
     "an object": Odd(),
+    "numbers by name": np.zeros(5, dtype=[("x", float), ("y", float)]),
 }
+#: What is no array; SciPy takes nothing else in some places.
+NO_ARRAYS = [None, 0, 1.5, np.nan, "x", b"x", [], [[]], [[1, 2], [3]], {1, 2}, {1: 2}, Odd(), range(20), (V,), True]
 
 CALLS = {
     # Questions to triangulations.
@@ -127,6 +133,11 @@ CALLS = {
     "half-spaces of nothing": lambda s: s.HalfspaceIntersection(np.empty((0, 3)), CENTRE),
     "half-spaces of one number": lambda s: s.HalfspaceIntersection(np.ones((3, 1)), np.zeros(0)),
     "half-spaces of no numbers": lambda s: s.HalfspaceIntersection(np.ones((3, 0)), np.zeros(0)),
+    "half-spaces that are a row": lambda s: s.HalfspaceIntersection(V, CENTRE),
+    "hull of half-spaces with Qz": lambda s: s.HalfspaceIntersection(BOX, CENTRE, qhull_options="Qz"),
+    "a hull with Qz": lambda s: s.ConvexHull(P, qhull_options="Qz"),
+    "a hull with Qu": lambda s: s.ConvexHull(P, qhull_options="Qu"),
+    "add half-spaces of four": lambda s: s.HalfspaceIntersection(BOX, CENTRE, True).add_halfspaces(np.ones((2, 4))),
     "half-spaces with NaN": lambda s: s.HalfspaceIntersection(BOX * np.nan, CENTRE),
     "half-spaces of words": lambda s: s.HalfspaceIntersection(BOX.astype(str).astype("U1"), np.array(["a", "b"])),
     "masked half-spaces": lambda s: s.HalfspaceIntersection(np.ma.array(BOX, mask=BOX == 1), CENTRE),
@@ -244,6 +255,24 @@ def test_points_that_are_added_wrongly(name, what):
             grown(spatial, name).add_points(ADDED[what])
         return
     compared(lambda s: grown(s, name).add_points(ADDED[what]))
+
+
+@pytest.mark.parametrize("given", NO_ARRAYS, ids=lambda given: type(given).__name__)
+def test_what_is_no_array_where_scipy_takes_arrays(given):
+    for call in (
+        lambda s: s.Delaunay(P).plane_distance(given),
+        lambda s: s.Delaunay(P).lift_points(given),
+        lambda s: s.HalfspaceIntersection(given, CENTRE),
+        lambda s: s.HalfspaceIntersection(BOX, given),
+        lambda s: s.HalfspaceIntersection(BOX, CENTRE, True).add_halfspaces(given),
+    ):
+        with pytest.raises(AttributeError):
+            call(THEIRS)
+        try:
+            call(spatial)
+        except Exception as ours:
+            # Lists are taken where they are right.
+            assert isinstance(ours, AttributeError), ours
 
 
 @pytest.mark.parametrize("what", CALLS)

@@ -70,7 +70,7 @@ class ConvexHull:
         self._points: NDArray[np.float64] = np.array(as_points(points), order="C")
         self.ndim = self._points.shape[1]
         if self._options.seen_from is not None and self._options.seen_from >= len(self._points):
-            raise ValueError(f"qhull_options: 'QG{self._options.seen_from}' among {len(self._points)} points")
+            raise qhull_error(f"qhull_options: 'QG{self._options.seen_from}' among {len(self._points)} points")
         self._make(None)
 
     def _make(self, candidates: NDArray[np.intp] | None) -> None:

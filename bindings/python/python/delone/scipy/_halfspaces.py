@@ -14,7 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _delone
 from .._errors import qhull_error
-from ._place import InItsPlace, WithoutQhull, as_doubles, as_more, is_ours, or_theirs, refuse_options
+from .._points import ShapeError
+from ._place import InItsPlace, WithoutQhull, as_doubles, as_more, is_ours, or_theirs, refuse_options, taken_for_array
 from ._spatial import ConvexHull
 
 
@@ -81,16 +82,18 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         merge: float | str | None = "auto",
     ) -> None:
         """Intersects half-spaces."""
-        refuse_options(qhull_options)
+        refuse_options(qhull_options, incremental)
         self._qhull_options, self._merge, self._is_closed = qhull_options, merge, False
         for given, what in ((halfspaces, "halfspaces"), (interior_point, "interior_point")):
             if ma.is_masked(given):
                 raise ValueError(f"{what} must not be masked")
-        self._halfspaces = np.array(_as_halfspaces(halfspaces))
+        with taken_for_array(halfspaces):
+            self._halfspaces = np.array(_as_halfspaces(halfspaces))
         self.ndim = self._halfspaces.shape[1] - 1
-        self.interior_point: NDArray[np.float64] = np.array(as_doubles(interior_point))
-        if self.interior_point.shape != (self.ndim,):
-            raise ValueError(f"interior_point must have the shape ({self.ndim},), not {self.interior_point.shape}")
+        with taken_for_array(interior_point):
+            self.interior_point: NDArray[np.float64] = np.array(as_doubles(interior_point))
+            if self.interior_point.shape != (self.ndim,):
+                raise ValueError(f"interior_point must have the shape ({self.ndim},), not {self.interior_point.shape}")
         self._intersect()
 
     @classmethod
@@ -104,7 +107,7 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         merge: Any = None,
     ) -> bool:
         shape = np.shape(halfspaces)
-        return is_ours(np.empty((0, shape[1] - 1)) if len(shape) == 2 and shape[1] else halfspaces, qhull_options)
+        return is_ours(np.empty((0, shape[1] - 1)) if len(shape) == 2 and shape[1] else halfspaces, qhull_options, is_hull=True)
 
     def _intersect(self) -> None:
         normals, offsets = self._halfspaces[:, :-1], self._halfspaces[:, -1]
@@ -151,10 +154,10 @@ class HalfspaceIntersection(WithoutQhull, scipy.spatial.HalfspaceIntersection, m
         """
         if self._is_closed:
             raise RuntimeError("closed: no half-spaces can be added any more")
-        one = as_more(halfspaces)
-        more = _as_halfspaces(one[None] if one.ndim == 1 else one)
-        if more.shape[1] != self.ndim + 1:
-            raise ValueError(f"half-spaces must have {self.ndim + 1} numbers each, not {more.shape[1]}")
+        with taken_for_array(halfspaces):
+            more = np.atleast_2d(as_more(halfspaces, (1, 2)))
+            if more.shape[1] != self.ndim + 1:
+                raise qhull_error(f"half-spaces must have {self.ndim + 1} numbers each, not {more.shape[1]}")
         before = self._halfspaces
         self._halfspaces = np.concatenate([before, more])
         try:
@@ -178,7 +181,7 @@ def _as_halfspaces(halfspaces: ArrayLike) -> NDArray[np.float64]:
     if rows.ndim == 2 and rows.shape[1] == 2:
         raise qhull_error("half-spaces must be of at least two dimensions, rows of three numbers; these are half-lines")
     if rows.ndim != 2 or rows.shape[1] not in (3, 4):
-        raise ValueError(f"halfspaces must be a 2D array of shape (n, 3) or (n, 4), not {rows.shape}")
+        raise ShapeError(f"halfspaces must be a 2D array of shape (n, 3) or (n, 4), not {rows.shape}")
     if not np.isfinite(rows).all():
         raise ValueError(f"half-space {np.argwhere(~np.isfinite(rows))[0][0]} is not finite")
     return rows

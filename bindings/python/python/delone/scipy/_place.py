@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABCMeta
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import wraps
 from typing import Any
 
@@ -52,7 +53,7 @@ def or_theirs(make: Callable[..., None]) -> Callable[..., None]:
             Assignable.forget(self)
         try:
             suits = self._suits(*args, **options)
-        except TypeError:
+        except (TypeError, ValueError):
             # Arguments are wrong, as the constructor will say.
             suits = True
         given = {name: value for name, value in options.items() if name != "merge"}
@@ -130,14 +131,29 @@ def as_doubles(points: ArrayLike) -> NDArray[np.float64]:
     return doubles
 
 
-def as_more(points: ArrayLike) -> NDArray[np.float64]:
-    """What is to be added as SciPy takes it, also what a mask hides: a row for each, or one row.
+class NotAnArrayError(AttributeError, IndexError, TypeError, ValueError):
+    """What is wrong with something that is no array, where SciPy takes nothing else and finds that it has no `shape`."""
+
+
+@contextmanager
+def taken_for_array(given: Any) -> Iterator[None]:
+    """Errors on the way from something to an array are NotAnArrayErrors unless it is one."""
+    try:
+        yield
+    except (TypeError, ValueError) as error:
+        if hasattr(given, "shape"):
+            raise
+        raise NotAnArrayError(str(error)) from error
+
+
+def as_more(points: ArrayLike, ndims: tuple[int, ...] = (2,)) -> NDArray[np.float64]:
+    """What is to be added as SciPy takes it, also what a mask hides.
 
     Raises QhullError for what is not finite, as Qhull does then.
     """
     array: NDArray[Any] = np.asarray(points)
-    if array.ndim not in (1, 2):
-        raise ShapeError(f"there must be a row of numbers for each, not an array of {array.ndim} dimensions")
+    if array.ndim not in ndims:
+        raise ShapeError(f"what is added must be a 2D array, a row of numbers for each, not one of {array.ndim} dimensions")
     doubles = array.astype(np.float64)
     if not np.isfinite(doubles).all():
         raise qhull_error(f"what is to be added holds {doubles[~np.isfinite(doubles)][0]}, which is not finite")
@@ -158,16 +174,21 @@ class OptionsError(AttributeError, TypeError):
     """Options that are no string; SciPy finds that they have no `encode`."""
 
 
-def refuse_options(options: Any) -> None:
-    """An error for what is no string."""
-    if not isinstance(options, (str, bytes, type(None))):
+def refuse_options(options: Any, incremental: Any) -> None:
+    """An error for what is no string, and for options that SciPy takes not with `incremental`."""
+    if options is None:
+        return
+    if not isinstance(options, (str, bytes)):
         raise OptionsError(f"qhull_options must be a string, not {options!r}")
+    wrong = [word for word in ("Qbb", "Qbk", "QBk", "QbB", "Qz") if incremental and word in str(options)]
+    if wrong:
+        raise ValueError(f"qhull_options: {wrong[0]!r} is not for incremental=True, as in SciPy")
 
 
 def is_ours(points: ArrayLike, options: Any, is_hull: bool = False) -> bool:
     """Whether points are in the plane or in space, and options are known here; what is no array is refused here."""
     shape = np.shape(points)
-    if len(shape) == 2 and shape[1] > 3:
+    if (len(shape) == 2 and shape[1] > 3) or (is_hull and "Qz" in str(options)):
         return False
     try:
         parse(options, "", is_hull)

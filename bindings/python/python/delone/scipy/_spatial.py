@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _delaunay, _hull, _voronoi
 from .._cached import cached_property
+from .._points import ShapeError
 from ._place import (
     Assignable,
     InItsPlace,
@@ -22,6 +23,7 @@ from ._place import (
     or_theirs,
     refuse_flat,
     refuse_options,
+    taken_for_array,
 )
 
 #: What SciPy's compiled code keeps of a triangulation whose parts were assigned.
@@ -90,7 +92,7 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
         qhull_options: str | None = None,
     ) -> None:
         """Triangulates points."""
-        refuse_options(qhull_options)
+        refuse_options(qhull_options, incremental)
         super().__init__(as_doubles(points), bool(furthest_site), bool(incremental), qhull_options)
         refuse_flat(not self.nsimplex, self.npoints, self.ndim)
 
@@ -187,15 +189,19 @@ class Delaunay(WithoutQhull, _delaunay.Delaunay, scipy.spatial.Delaunay, metacla
 
     def plane_distance(self, xi: ArrayLike) -> NDArray[np.float64]:
         """Distances of lifted points from the planes of all simplices, (..., nsimplex), as `delone.Delaunay` has them."""
-        rows, shape = as_rows(xi, self.ndim)
+        with taken_for_array(xi):
+            rows, shape = as_rows(xi, self.ndim)
         with np.errstate(all="ignore"):
             heights = self._lift(rows) @ self.equations[:, :-1].T + self.equations[:, -1]
         return np.asarray(heights).reshape((*shape, self.nsimplex))
 
     def lift_points(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Points on the paraboloid: one more coordinate, the square of the distance from the origin."""
-        rows, shape = as_rows(x, self.ndim)
-        return self._lift(rows).reshape((*shape, self.ndim + 1))
+        """Points on the paraboloid, of any dimension: one more coordinate, the square of the distance from the origin."""
+        with taken_for_array(x):
+            array = np.asarray(x).astype(np.float64)
+            if not array.ndim:
+                raise ShapeError(f"x must have coordinates in its last axis; it is no array but {x!r}")
+        return self._lift(array)
 
     def _lift(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         lifted = super()._lift(x)
@@ -232,7 +238,7 @@ class Voronoi(WithoutQhull, _voronoi.Voronoi, scipy.spatial.Voronoi, metaclass=I
         merge: float | str | None = "auto",
     ) -> None:
         """Makes the diagram of points."""
-        refuse_options(qhull_options)
+        refuse_options(qhull_options, incremental)
         super().__init__(as_doubles(points), bool(furthest_site), bool(incremental), qhull_options, merge=merge)
 
     @classmethod
@@ -290,7 +296,7 @@ class ConvexHull(WithoutQhull, _hull.ConvexHull, scipy.spatial.ConvexHull, metac
         merge: float | str | None = "auto",
     ) -> None:
         """Finds the hull of points."""
-        refuse_options(qhull_options)
+        refuse_options(qhull_options, incremental)
         super().__init__(as_doubles(points), bool(incremental), qhull_options, merge=merge)
 
     @classmethod
