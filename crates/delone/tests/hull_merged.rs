@@ -236,6 +236,58 @@ fn orders_copies_and_powers_of_two_do_not_show() {
     }
 }
 
+/// A flat cone on a circle: over its base the apex is over a needle of any triangulation.
+#[test]
+fn flat_hubs_go_whatever_needles_are_below() {
+    const RING: usize = 3000;
+    let at = |k: usize| (std::f64::consts::TAU * k as f64 / RING as f64).sin_cos();
+    for (height, is_left) in [(1e-13, false), (5e-13, false), (9e-13, false), (9.2e-13, true), (1e-11, true)]
+    {
+        let mut points: Vec<Point> = (0..RING).map(|k| [at(k).1, at(k).0, 0.0]).collect();
+        points.extend([[0.0, 0.0, -1.0], [0.0, 0.0, height]]);
+        let hull = Hull3::from_points(&points).expect("finite");
+        assert_eq!(hull.corners().len(), RING + 2);
+        let merged = auto(&points);
+        assert_eq!(merged.corners().len(), RING + 1 + usize::from(is_left), "{height}");
+        assert_eq!(merged.corners().contains(&(RING + 1)), is_left);
+    }
+}
+
+/// Corners that are one point once the set is scaled by a power of two: they are left out only within the length.
+#[test]
+fn corners_that_scales_do_not_tell_apart_are_not_lost() {
+    const RING: usize = 600;
+    let big = 2.0_f64.powi(1000);
+    let at = |k: usize| (std::f64::consts::TAU * k as f64 / RING as f64).sin_cos();
+    let small = 2.0_f64.powi(-70);
+    let mut points: Vec<Point> = (0..RING).map(|k| [small * at(k).1, small * at(k).0, big]).collect();
+    points.extend([[big, 0.0, 0.0], [-big, 0.0, 0.0], [0.0, big, 0.0], [0.0, -big, 0.0], [0.0, 0.0, -big]]);
+    let hull = Hull3::from_points(&points).expect("finite");
+    assert_eq!(hull.corners().len(), RING + 5);
+    assert_eq!(hull.merged(&points, small).expect("a body").corners(), hull.corners());
+    let merged = hull.merged(&points, MERGE_AUTO * big).expect("a body");
+    proper(&points, &merged);
+    assert_eq!(merged.corners().len(), 6);
+}
+
+/// Points that are not those of the hull: a closed hull, or an error.
+#[test]
+fn other_points_are_no_panic() {
+    let mut random = Random::new(16);
+    for (name, points) in sets(&mut random) {
+        let hull = Hull3::from_points(&points).expect("finite");
+        let equal = vec![[0.0; 3]; points.len()];
+        let turned: Vec<Point> = points.iter().rev().copied().collect();
+        for (other, length) in
+            [(&equal, 1e-9), (&equal, 0.1), (&turned, 1e-9), (&turned, 0.1), (&turned, 0.5)]
+        {
+            if let Ok(merged) = hull.merged(other, length) {
+                assert_eq!(merged.facets().count(), 2 * merged.corners().len() - 4, "{name} {length}");
+            }
+        }
+    }
+}
+
 #[test]
 fn what_is_flat_within_the_length_is_told() {
     let mut random = Random::new(14);

@@ -42,7 +42,8 @@ impl Hull2 {
     /// out, if all that were left out stay within the length of what is left. `points` are those of the hull, and `length` is in
     /// coordinate units: [`crate::MERGE_AUTO`] times the largest coordinate is a length of rounding.
     ///
-    /// O(n log n) for n corners, times a few rounds.
+    /// O(n log n) for n corners, and a little for each corner beside one that is left out. Distances are rounded upwards, so that lengths of a
+    /// few last places leave nothing out.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a length that is negative, not finite, or not below the width of the hull, which would be flat then.
@@ -61,7 +62,7 @@ impl Hull2 {
         if self.dimension() < Dimension::Plane || length == 0.0 {
             return Ok(self.clone());
         }
-        let corners = merge::left(&P::all(points), &self.corners, length);
+        let corners = merge::left(&P::all(points), &self.corners, length, &mut ());
         let range = "less than the width of the hull, which is flat within this";
         let corners = corners.ok_or(Error::Parameter { name: "merge", value: length, range })?;
         Ok(Self { corners })

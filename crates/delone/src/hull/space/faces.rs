@@ -3,6 +3,8 @@
 //! Cost: O(f) exact orientations for f triangles; O(f log f) for their order. Faces are rows of one array: most are triangles, and a list
 //! for each would cost more than finding them.
 
+use std::ops::Range;
+
 use delone_predicates::{are_collinear3, lexicographic3, orient3d};
 
 use super::shell::{Facet, NONE, Shell};
@@ -46,23 +48,24 @@ impl Faces {
         faces.renamed(name).0
     }
 
-    /// Given corners, face after face.
-    pub(super) fn rows<'a>(rows: impl Iterator<Item = &'a [usize]>) -> Self {
-        let mut faces = Self::none();
-        for row in rows {
-            faces.corners.extend_from_slice(row);
-            faces.starts.push(faces.corners.len());
-        }
-        faces
+    /// Adds a face.
+    pub(super) fn push(&mut self, corners: &[usize]) {
+        self.corners.extend_from_slice(corners);
+        self.starts.push(self.corners.len());
     }
 
-    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &[usize]> {
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &[usize]> + Clone {
         self.starts.windows(2).map(|ends| &self.corners[ends[0]..ends[1]])
     }
 
     /// The face of an index.
     pub(super) fn get(&self, face: usize) -> &[usize] {
-        &self.corners[self.starts[face]..self.starts[face + 1]]
+        &self.corners[self.range(face)]
+    }
+
+    /// Where the corners of a face are, which are the starts of its sides too.
+    pub(super) fn range(&self, face: usize) -> Range<usize> {
+        self.starts[face]..self.starts[face + 1]
     }
 
     /// The same faces with other names of points, sorted; and for each of these the index that it had.
@@ -75,8 +78,7 @@ impl Faces {
         let mut sorted = Self { corners: Vec::with_capacity(self.corners.len()), starts: vec![0] };
         sorted.starts.reserve(order.len());
         for &(_, face) in &order {
-            sorted.corners.extend_from_slice(self.get(face as usize));
-            sorted.starts.push(sorted.corners.len());
+            sorted.push(self.get(face as usize));
         }
         (sorted, order.into_iter().map(|(_, face)| face).collect())
     }

@@ -9,8 +9,9 @@
 use std::cmp::Ordering;
 
 use super::faces::Faces;
+use super::sides::{Sides, value};
 use super::start::turn;
-use crate::foot::{dot, minus};
+use crate::foot::{cross, dot, minus};
 
 /// No face yet.
 const NONE: usize = usize::MAX;
@@ -22,8 +23,8 @@ pub(super) fn normal(corners: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], f64)
     let (mut sum, mut before) = ([0.0; 3], [0.0; 3]);
     for corner in corners {
         let u = minus(corner, first);
-        sum = [0, 1, 2]
-            .map(|k| sum[k] + before[(k + 1) % 3] * u[(k + 2) % 3] - before[(k + 2) % 3] * u[(k + 1) % 3]);
+        let normal = cross(before, u);
+        sum = [0, 1, 2].map(|k| sum[k] + normal[k]);
         before = u;
     }
     let size = dot(sum, sum).sqrt();
@@ -34,30 +35,46 @@ pub(super) fn normal(corners: impl Iterator<Item = [f64; 3]>) -> ([f64; 3], f64)
 pub(super) struct Groups {
     /// For each face that which it is joined to.
     pub(super) of: Vec<usize>,
-    /// The faces that others are joined to, each with the ring around them all, from its least corner.
-    pub(super) polygons: Vec<(usize, Vec<usize>)>,
+    /// The faces that others are joined to.
+    pub(super) seeds: Vec<usize>,
+    /// For each of these the ring around them all, from its least corner.
+    pub(super) rings: Faces,
 }
 
 /// Joins the faces of a hull; none if all points are within the length of one plane.
 pub(super) fn groups(points: &[[f64; 3]], faces: &Faces, length: f64) -> Option<Groups> {
     let at = |face: usize| faces.get(face).iter().map(|&i| points[i]);
-    let sides = Sides::of(faces);
+    let across = across(points.len(), faces);
     let planes: Vec<([f64; 3], f64)> = (0..faces.iter().len()).map(|face| normal(at(face))).collect();
-    let mut order: Vec<usize> = (0..planes.len()).collect();
-    order.sort_by(|&f, &g| planes[g].1.total_cmp(&planes[f].1));
     // The corner that is furthest outside, along the normal.
     let plane = |face: usize| {
         let unit = planes[face].0;
         (unit, at(face).map(|p| dot(unit, p)).fold(f64::NEG_INFINITY, f64::max))
     };
     let is_near = |(unit, most): ([f64; 3], f64), p: [f64; 3]| most - dot(unit, p) <= length;
-    let largest = plane(order[0]);
+    // The largest first.
+    let mut order: Vec<(f64, usize)> =
+        planes.iter().enumerate().map(|(face, &(_, size))| (size, face)).collect();
+    let by_size = |(p, f): &(f64, usize), (q, g): &(f64, usize)| q.total_cmp(p).then(f.cmp(g));
+    let largest = plane(order.iter().min_by(|p, q| by_size(p, q))?.1);
     if points.iter().all(|&p| is_near(largest, p)) {
         return None;
     }
-    let (mut group, mut polygons) = (vec![NONE; planes.len()], Vec::new());
+    let same = |plane: ([f64; 3], f64), next: usize| {
+        dot(planes[next].0, plane.0) > 0.0 && at(next).all(|p| is_near(plane, p))
+    };
+    let is_alone = |face: usize| {
+        let plane = plane(face);
+        across[faces.range(face)].iter().all(|&next| !same(plane, next))
+    };
+    if (0..planes.len()).all(is_alone) {
+        let each: Vec<usize> = (0..planes.len()).collect();
+        return Some(Groups { of: each.clone(), seeds: each, rings: faces.clone() });
+    }
+    order.sort_unstable_by(by_size);
+    let (mut group, mut seeds, mut rings) = (vec![NONE; planes.len()], Vec::new(), Faces::none());
     let mut members = Vec::new();
-    for seed in order {
+    for (_, seed) in order {
         if group[seed] != NONE {
             continue;
         }
@@ -68,34 +85,39 @@ pub(super) fn groups(points: &[[f64; 3]], faces: &Faces, length: f64) -> Option<
         let mut k = 0;
         while let Some(&face) = members.get(k) {
             k += 1;
-            for [u, v] in sides_of(faces.get(face)) {
-                let next = sides.face([v, u]);
-                let same =
-                    |next: usize| dot(planes[next].0, plane.0) > 0.0 && at(next).all(|p| is_near(plane, p));
-                if group[next] == NONE && same(next) {
+            for &next in &across[faces.range(face)] {
+                if group[next] == NONE && same(plane, next) {
                     group[next] = seed;
                     members.push(next);
                 }
             }
         }
-        let is_border = |[u, v]: [usize; 2]| group[sides.face([v, u])] != seed;
-        let whole = ring(faces, &members, is_border).filter(|ring| is_convex(points, ring, plane.0));
+        let is_border = |next: usize| group[next] != seed;
+        let whole = if members.len() > 1 {
+            ring(faces, &members, &across, is_border).filter(|ring| is_convex(points, ring, plane.0))
+        } else {
+            None
+        };
         if whole.is_none() {
             members.iter().for_each(|&face| group[face] = NONE);
             group[seed] = seed;
         }
-        polygons.push((seed, whole.unwrap_or_else(|| faces.get(seed).to_vec())));
+        seeds.push(seed);
+        rings.push(whole.as_deref().unwrap_or_else(|| faces.get(seed)));
     }
-    Some(Groups { of: group, polygons })
+    Some(Groups { of: group, seeds, rings })
 }
 
-/// The one ring around some faces, from its least corner, if it has all their corners; of their sides those are given that are on the border.
-fn ring(faces: &Faces, members: &[usize], is_border: impl Fn([usize; 2]) -> bool) -> Option<Vec<usize>> {
-    if let [face] = members {
-        return Some(faces.get(*face).to_vec());
-    }
-    let all = members.iter().flat_map(|&face| sides_of(faces.get(face)));
-    let mut border: Vec<[usize; 2]> = all.filter(|&side| is_border(side)).collect();
+/// The one ring around some faces, from its least corner, if it has all their corners; a side is on the border if the face across says so.
+fn ring(
+    faces: &Faces,
+    members: &[usize],
+    across: &[usize],
+    is_border: impl Fn(usize) -> bool,
+) -> Option<Vec<usize>> {
+    let all = members.iter().flat_map(|&face| sides_of(faces.get(face)).zip(&across[faces.range(face)]));
+    let mut border: Vec<[usize; 2]> =
+        all.filter(|&(_, &next)| is_border(next)).map(|(side, _)| side).collect();
     border.sort_unstable();
     let first = border.first()?[0];
     let mut ring = vec![first];
@@ -121,25 +143,14 @@ fn is_convex(points: &[[f64; 3]], ring: &[usize], normal: [f64; 3]) -> bool {
     (0..n).all(|k| turn(points, [0, 1, 2].map(|i| ring[(k + i) % n]), axis) != right)
 }
 
-fn sides_of(face: &[usize]) -> impl Iterator<Item = [usize; 2]> + '_ {
-    face.iter().zip(face.iter().cycle().skip(1)).map(|(&u, &v)| [u, v])
+/// For each side of faces, in their order, the face across; hulls are closed.
+fn across(corners: usize, faces: &Faces) -> Vec<usize> {
+    let all = faces.iter().enumerate().flat_map(|(face, row)| sides_of(row).map(move |side| (side, face)));
+    let sides = Sides::of(corners, all.clone().map(|([u, v], face)| (u, (v, face))));
+    let face = |[u, v]: [usize; 2]| value(sides.leaving(v), u);
+    all.map(|(side, _)| face(side).expect("each side is left by two faces, in either direction")).collect()
 }
 
-/// The sides of all faces, sorted.
-struct Sides(Vec<([usize; 2], usize)>);
-
-impl Sides {
-    fn of(faces: &Faces) -> Self {
-        let rows = faces.iter().enumerate();
-        let mut all: Vec<_> =
-            rows.flat_map(|(face, row)| sides_of(row).map(move |side| (side, face))).collect();
-        all.sort_unstable();
-        Self(all)
-    }
-
-    /// The face that a side belongs to; hulls are closed.
-    fn face(&self, side: [usize; 2]) -> usize {
-        let found = self.0.binary_search_by_key(&side, |&(side, _)| side);
-        self.0[found.expect("each side is left by two faces, in either direction")].1
-    }
+fn sides_of(face: &[usize]) -> impl Iterator<Item = [usize; 2]> + Clone + '_ {
+    face.iter().zip(face.iter().cycle().skip(1)).map(|(&u, &v)| [u, v])
 }

@@ -6,20 +6,24 @@
 //! another must be found, or it stays. So no point is ever further from the result than the length.
 //!
 //! Points are taken in lexicographic order, so that the order in which they are given does not show. What is left is an exact hull,
-//! because it is made of its points alone; only distances are rounded.
+//! because it is made of its points alone; only distances are rounded, upwards.
 //!
-//! Cost: O(n log n) for n corners in each of a few rounds; the hull of its neighbours for each corner that does not stick out by more than
-//! the length.
+//! After the first round only corners around those that went are measured again (`rings.rs`): no other could go.
+//!
+//! Cost: O(n log n) for n corners; for each corner that is measured, the hull of its neighbours and the distances of what it holds.
 
-use delone_predicates::{lexicographic3, orient3d};
+use delone_predicates::lexicographic3;
 
 use super::super::merge::near_one;
-use super::faces::Faces;
-use super::join::{self, normal};
-use super::{Hull3, Joined};
+use super::fill::{fill, is_flat};
+use super::join;
+use super::rings::Rings;
+use super::{Hull3, Joined, SIZES};
 use crate::error::Error;
-use crate::foot::{distance, minus};
+use crate::foot::{cross, distance_bound, dot, minus};
 use crate::mesh::Dimension;
+use crate::order::quantize::scaled;
+use crate::tally::Tally;
 
 /// Points and triangles that are compared for one corner at most, some tens of milliseconds; a corner that would take more stays. Only hubs come
 /// near: a corner of 1,000 neighbours that holds 1,000 points.
@@ -41,67 +45,98 @@ pub(super) fn merged(hull: &Hull3, points: &[[f64; 3]], length: f64) -> Result<H
     }
     let mut order = hull.corners.clone();
     order.sort_unstable_by(|&i, &j| lexicographic3(points[i], points[j]));
-    let (corners, length_there) = near_one(order.iter().map(|&i| points[i]).collect(), length);
-    let left = left(&corners, length_there);
-    let exact: Vec<[f64; 3]> = left.iter().map(|&k| points[order[k]]).collect();
-    let made = Hull3::named(&exact, |i| i);
+    let corners: Vec<[f64; 3]> = order.iter().map(|&i| points[i]).collect();
+    let scaled = scaled(corners.len(), |i| corners[i], &SIZES);
+    let exact = scaled.as_ref().map_or(&corners, |(corners, _)| corners);
+    let (near, length_there) = near_one(corners.clone(), length);
+    let mut place = vec![0; points.len()];
+    order.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+    let (all, _) = hull.faces.clone().renamed(|i| place[i]);
+    let all =
+        Hull3 { corners: (0..corners.len()).collect(), faces: all, span: Dimension::Space, joined: None };
+    let left = left(exact, &near, all.facets().collect(), length_there, &mut ());
+    let made = if left.len() == corners.len() {
+        all
+    } else {
+        let exact: Vec<[f64; 3]> = left.iter().map(|&k| exact[k]).collect();
+        Hull3::named(&exact, |i| i)
+    };
     if made.span < Dimension::Space {
         return Err(too_long(length));
     }
-    let there: Vec<[f64; 3]> = left.iter().map(|&k| corners[k]).collect();
+    let there: Vec<[f64; 3]> = left.iter().map(|&k| near[k]).collect();
     let groups = join::groups(&there, &made.faces, length_there).ok_or_else(|| too_long(length))?;
+    if left.len() == corners.len() && groups.seeds.len() == groups.of.len() {
+        return Ok(Hull3 { joined: None, ..hull.clone() });
+    }
     let name = |i: usize| order[left[i]];
-    let rings = groups.polygons.iter().map(|(_, ring)| &ring[..]);
-    let (polygons, before) = Faces::rows(rings).renamed(name);
+    let (polygons, before) = groups.rings.renamed(name);
     // By the face that others are joined to.
     let mut number = vec![0; groups.of.len()];
-    (0..).zip(before).for_each(|(new, old)| number[groups.polygons[old as usize].0] = new);
+    (0..).zip(before).for_each(|(new, old)| number[groups.seeds[old as usize]] = new);
     let (faces, before) = made.faces.renamed(name);
     let of = before.iter().map(|&old| number[groups.of[old as usize]]).collect();
     Ok(Hull3 { joined: Some(Joined { polygons, of }), ..Hull3::solid(faces) })
 }
 
-/// The corners that are left, as indices of all, which are corners in lexicographic order.
-fn left(points: &[[f64; 3]], length: f64) -> Vec<usize> {
-    let mut left: Vec<usize> = (0..points.len()).collect();
+/// The corners that are left, as indices of all, which are corners in lexicographic order with the facets of their hull. Decisions are for
+/// `exact`, distances for `near`, the same points near to one.
+fn left(
+    exact: &[[f64; 3]],
+    near: &[[f64; 3]],
+    facets: Vec<[usize; 3]>,
+    length: f64,
+    tally: &mut impl Tally,
+) -> Vec<usize> {
+    let mut rings = Rings::of(near.len(), &facets);
+    drop(facets);
     let mut out =
-        Out { points, length, near: vec![None; points.len()], held: vec![Vec::new(); points.len()] };
-    loop {
-        let at: Vec<[f64; 3]> = left.iter().map(|&i| points[i]).collect();
-        let hull = Hull3::named(&at, |i| left[i]);
-        if hull.span < Dimension::Space {
-            return left;
-        }
-        // Without their neighbours corners may be in the middle of faces.
-        let facets: Vec<[usize; 3]> = hull.facets().collect();
-        for &v in left.iter().filter(|v| hull.corners.binary_search(v).is_err()) {
-            out.leave(v, &facets);
-        }
-        left.clone_from(&hull.corners);
-        let stars = Stars::of(points, &facets);
+        Out { points: near, length, near: vec![None; near.len()], held: vec![Vec::new(); near.len()] };
+    let mut left: Vec<usize> = (0..near.len()).collect();
+    // A corner that did not go, and whose ring is the same still, does not go now.
+    let mut changed = left.clone();
+    let (mut stays, mut goes) = (vec![0; near.len()], vec![false; near.len()]);
+    for round in 1.. {
         let mut candidates: Vec<(f64, usize, Vec<[usize; 3]>)> = Vec::new();
-        for &v in &left {
-            if !stars.sticks_out(v, points, length)
-                && let Some((part, fill)) = out.without(v, stars.around(v))
+        for &v in &changed {
+            let ring = rings.around(v);
+            if sticks_out(near, v, ring, length) {
+                continue;
+            }
+            tally.compared();
+            if let Some(fill) = fill(exact, v, ring)
+                && let Some(part) = out.without(v, &fill)
             {
                 candidates.push((part, v, fill));
             }
         }
-        if candidates.is_empty() {
-            return left;
-        }
-        candidates.sort_unstable_by(|(p, v, _), (q, w, _)| p.total_cmp(q).then(v.cmp(w)));
-        let mut stays = vec![false; points.len()];
-        let mut goes = vec![false; points.len()];
+        // Of equal ones hubs come last: a hub that goes keeps all around it for the next round.
+        candidates.sort_unstable_by(|(p, v, f), (q, w, g)| {
+            p.total_cmp(q).then(f.len().cmp(&g.len())).then(v.cmp(w))
+        });
+        let (mut changes, mut count) = (Vec::new(), left.len());
         for (_, v, fill) in candidates {
-            if !stays[v] {
-                goes[v] = true;
-                stars.around(v).iter().for_each(|&w| stays[w] = true);
-                out.leave(v, &fill);
+            let ring = rings.around(v);
+            if stays[v] == round {
+                continue;
             }
+            let Some(change) = rings.changes(v, &fill) else { continue };
+            changes.extend(change);
+            goes[v] = true;
+            ring.iter().for_each(|&w| stays[w] = round);
+            out.leave(v, &fill);
+            if ring.len() + 1 == count && is_flat(exact, &fill) {
+                return ring.to_vec();
+            }
+            count -= 1;
+        }
+        changed = rings.change(changes);
+        if changed.is_empty() {
+            break;
         }
         left.retain(|&v| !goes[v]);
     }
+    left
 }
 
 /// What was left out.
@@ -115,95 +150,94 @@ struct Out<'a> {
 }
 
 impl Out<'_> {
+    /// The distance of a point from a triangle as a part of the length; none beyond that.
+    fn part(&self, p: usize, triangle: [usize; 3]) -> Option<f64> {
+        let part = distance_bound(self.points[p], triangle.map(|i| self.points[i])) / self.length;
+        (part <= 1.0).then_some(part)
+    }
+
     /// The nearest of some triangles, and its distance as a part of the length; none beyond that.
     fn nearest(&self, p: usize, triangles: &[[usize; 3]]) -> Option<(f64, [usize; 3])> {
-        let q = self.points[p];
-        let part = |triangle: &[usize; 3]| distance(q, triangle.map(|i| self.points[i])) / self.length;
-        let near =
-            triangles.iter().map(|triangle| (part(triangle), *triangle)).filter(|(part, _)| *part <= 1.0);
+        let near = triangles.iter().filter_map(|&triangle| Some((self.part(p, triangle)?, triangle)));
         near.min_by(|(p, _), (q, _)| p.total_cmp(q))
     }
 
-    /// The points that a corner holds, and itself.
-    fn with_held(&self, v: usize) -> impl Iterator<Item = usize> + '_ {
-        let near = move |p: usize| self.near[p].is_some_and(|corners| corners.contains(&v));
-        let held = self.held[v].iter().copied();
-        std::iter::once(v).chain(held.filter(move |&p| near(p)))
-    }
-
-    /// The distance of a corner from the hull of its neighbours, as a part of the length, and the triangles of that which take its
-    /// place; none if it, or what it holds, is further away than the length.
-    fn without(&self, v: usize, around: &[usize]) -> Option<(f64, Vec<[usize; 3]>)> {
-        let at: Vec<[f64; 3]> = around.iter().map(|&i| self.points[i]).collect();
-        let hull = Hull3::named(&at, |i| around[i]);
-        let q = self.points[v];
-        let is_seen = |[a, b, c]: &[usize; 3]| {
-            !orient3d(self.points[*a], self.points[*b], self.points[*c], q).is_negative()
+    /// The distance of a corner from the triangles that would take its place, as a part of the length; none if it, or a point that it
+    /// holds, is further away than the length.
+    fn without(&mut self, v: usize, fill: &[[usize; 3]]) -> Option<f64> {
+        let (part, _) = self.nearest(v, fill)?;
+        let mut held = std::mem::take(&mut self.held[v]);
+        held.retain(|&p| self.near[p].is_some_and(|corners| corners.contains(&v)));
+        let is_far = |&p: &usize| fill.iter().all(|&triangle| self.part(p, triangle).is_none());
+        let far = match held.len().saturating_mul(fill.len()) {
+            0..=MOST_PAIRS => held.iter().position(is_far),
+            _ => Some(0),
         };
-        let fill: Vec<[usize; 3]> = match hull.span {
-            Dimension::Space => hull.facets().filter(is_seen).collect(),
-            Dimension::Plane => {
-                hull.corners[1..].windows(2).map(|side| [hull.corners[0], side[0], side[1]]).collect()
-            }
-            _ => return None,
-        };
-        if self.held[v].len().saturating_mul(fill.len()) > MOST_PAIRS {
-            return None;
-        }
-        let (part, _) = self.nearest(v, &fill)?;
-        self.with_held(v).all(|p| self.nearest(p, &fill).is_some()).then_some((part, fill))
+        // A point that is too far away is likely to be so next time: it is asked first.
+        far.into_iter().for_each(|k| held.swap(0, k));
+        self.held[v] = held;
+        far.is_none().then_some(part)
     }
 
     /// A corner is left out, and some triangles take its place.
     fn leave(&mut self, v: usize, fill: &[[usize; 3]]) {
-        let mut those: Vec<usize> = self.with_held(v).collect();
-        those.sort_unstable();
-        those.dedup();
-        for p in those {
+        for p in std::mem::take(&mut self.held[v]).into_iter().chain([v]) {
+            let before = self.near[p].unwrap_or([v; 3]);
             self.near[p] = self.nearest(p, fill).map(|(_, triangle)| triangle);
-            self.near[p].iter().flatten().for_each(|&w| self.held[w].push(p));
+            let fresh = self.near[p].into_iter().flatten().filter(|w| !before.contains(w));
+            fresh.for_each(|w| self.held[w].push(p));
         }
-        self.held[v] = Vec::new();
     }
 }
 
-/// The neighbours of corners, row after row, and where they look to.
-struct Stars {
-    starts: Vec<usize>,
-    neighbors: Vec<usize>,
-    normals: Vec<[f64; 3]>,
+/// Whether a corner is further than a length beyond a plane that has all its neighbours on the other side: then it is to stay.
+fn sticks_out(points: &[[f64; 3]], v: usize, ring: &[usize], length: f64) -> bool {
+    let mut sum = [0.0; 3];
+    let to = |w: usize| minus(points[w], points[v]);
+    let mut before = ring.last().map_or([0.0; 3], |&w| to(w));
+    for w in ring.iter().map(|&w| to(w)) {
+        let normal = cross(before, w);
+        sum = [0, 1, 2].map(|k| sum[k] + normal[k]);
+        before = w;
+    }
+    let least = length * dot(sum, sum).sqrt();
+    ring.iter().all(|&w| -dot(sum, to(w)) > least)
 }
 
-impl Stars {
-    fn of(points: &[[f64; 3]], facets: &[[usize; 3]]) -> Self {
-        let mut starts = vec![0; points.len() + 1];
-        let mut normals = vec![[0.0; 3]; points.len()];
-        // Each edge is left by one facet in either direction.
-        let mut edges: Vec<[usize; 2]> = Vec::with_capacity(3 * facets.len());
-        for &[a, b, c] in facets {
-            edges.extend([[a, b], [b, c], [c, a]]);
-            let (unit, _) = normal([a, b, c].map(|i| points[i]).into_iter());
-            for v in [a, b, c] {
-                starts[v + 1] += 1;
-                normals[v] = [0, 1, 2].map(|k| normals[v][k] + unit[k]);
+#[cfg(test)]
+mod tests {
+    use super::{left, lexicographic3};
+    use crate::hull::Hull3;
+    use crate::tally::Work;
+    use delone_generators::Random;
+
+    fn sphere(count: usize, random: &mut Random) -> Vec<[f64; 3]> {
+        let mut point = || loop {
+            let p = [0; 3].map(|_| random.between(-1.0, 1.0));
+            let size = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if (0.1..=1.0).contains(&size) {
+                break p.map(|x| x / size);
             }
+        };
+        let mut points: Vec<[f64; 3]> = (0..count).map(|_| point()).collect();
+        points.sort_unstable_by(|p, q| lexicographic3(*p, *q));
+        points
+    }
+
+    #[test]
+    fn corners_are_measured_again_only_beside_those_that_went() {
+        let points = sphere(3000, &mut Random::new(21));
+        let hull = Hull3::from_points(&points).expect("finite");
+        let of = |length: f64| {
+            let mut work = Work::default();
+            let left = left(&points, &points, hull.facets().collect(), length, &mut work);
+            (points.len() - left.len(), work.compared as usize)
+        };
+        assert_eq!(of(1e-12), (0, 0), "all stick out");
+        for (length, least) in [(1e-4, 1), (1e-3, 500), (1e-2, 2500)] {
+            let (gone, measured) = of(length);
+            // A corner has six neighbours in the mean, and each is measured at first.
+            assert!(gone >= least && measured <= points.len() + 6 * gone, "{length}: {gone} {measured}");
         }
-        edges.sort_unstable();
-        (0..points.len()).for_each(|v| starts[v + 1] += starts[v]);
-        Self { starts, neighbors: edges.into_iter().map(|[_, w]| w).collect(), normals }
-    }
-
-    fn around(&self, v: usize) -> &[usize] {
-        &self.neighbors[self.starts[v]..self.starts[v + 1]]
-    }
-
-    /// Whether a corner is further than a length beyond a plane that has all its neighbours on the other side: then it is to stay.
-    fn sticks_out(&self, v: usize, points: &[[f64; 3]], length: f64) -> bool {
-        let [x, y, z] = self.normals[v];
-        let size = (x * x + y * y + z * z).sqrt();
-        self.around(v).iter().all(|&w| {
-            let away = minus(points[v], points[w]);
-            x * away[0] + y * away[1] + z * away[2] > length * size
-        })
     }
 }

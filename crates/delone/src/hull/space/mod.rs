@@ -11,13 +11,16 @@
 
 mod columns;
 mod faces;
+mod fill;
 mod flips;
 mod history;
 mod join;
 mod merge;
 mod prune;
 mod quickhull;
+mod rings;
 mod shell;
+mod sides;
 mod start;
 
 pub use history::HullHistory3;
@@ -120,7 +123,8 @@ impl Hull3 {
     /// within the length of the plane of the largest, if they have one ring around. [`Hull3::faces`] has these polygons, which are flat
     /// within the length, and [`Hull3::facets`] triangles of the exact hull.
     ///
-    /// O(n log n) for n corners, times a few rounds.
+    /// O(n log n) for n corners, and a little for each corner around one that is left out; less than the hull where nothing is. Distances are
+    /// rounded upwards, so that lengths of a few last places leave nothing out.
     ///
     /// # Errors
     /// [`Error::Parameter`] for a length that is negative, not finite, or not below the thickness of the hull, which would be flat

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use delone_predicates::{are_collinear3, lexicographic3, orient2d, orient3d};
 
 use super::super::plane;
+use crate::foot::cross;
 use crate::mesh::Dimension;
 
 /// The orientation of three points seen along an axis.
@@ -23,10 +24,6 @@ pub(super) fn turn(points: &[[f64; 3]], corners: [usize; 3], axis: usize) -> Ord
 /// The coordinates but one, in cyclic order.
 pub(super) fn without(p: [f64; 3], axis: usize) -> [f64; 2] {
     [p[(axis + 1) % 3], p[(axis + 2) % 3]]
-}
-
-fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3])
 }
 
 fn square(u: [f64; 3]) -> f64 {
