@@ -337,6 +337,9 @@ fn polygons_share_places() {
     }
     place.file("line.geojson", r#"{"type":"LineString","coordinates":[[1,1],[3,3]]}"#);
     place.fail("-q dtm p.csv --cell 1 --clip line.geojson -o c.npy", 1, "no polygon");
+    // The points of a graph of Triangle are a ring.
+    fs::write(place.path("ring.poly"), "3 2 0 0\n1 0 0\n2 9 0\n3 0 9\n1 0\n1 1 2\n0\n").expect("a file");
+    place.succeed("-q dtm p.csv --cell 1 --clip ring.poly -o c.npy");
 }
 
 /// Lines that run along each other, in pieces of their own, or nearly do.

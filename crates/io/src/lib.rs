@@ -186,7 +186,7 @@ pub fn read_graph(
 /// Whether a file is one of lines and polygons: its format is made for them, or there are some in it.
 pub fn holds_lines(source: Box<dyn Source>, format: Format) -> bool {
     let readers = format.readers();
-    readers.lines.is_some() && readers.seldom.is_none_or(|is_there| is_there(source))
+    readers.lines.is_some() && readers.has_lines.is_none_or(|is_there| is_there(source))
 }
 
 /// Reads segments alone, as indices of points from 0: text with two columns, a NumPy array of shape (m, 2), a `.poly` or an

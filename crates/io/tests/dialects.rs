@@ -104,6 +104,11 @@ fn polys_of_osmosis_are_polygons() {
         read_points(source(text), Format::Poly, &ReadOptions::default()).expect("points"),
         graph.cloud
     );
+    let borders = read_rings(source(text), Format::Poly).expect("rings");
+    assert_eq!(borders.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3, 3]);
+    assert_eq!(borders[1], [[3.0, 3.0], [4.0, 3.0], [4.0, 4.0]]);
+    let plain = "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n0\n";
+    assert_eq!(read_rings(source(plain), Format::Poly).expect("a ring").len(), 1);
     for (text, message) in [
         ("island\n1\n 1 2\n", "the file ends inside a polygon, without END"),
         ("island\n1\n 1 2\nEND\n", "the file ends without the last END"),

@@ -7,9 +7,10 @@ use las::point::{Classification, Format as Records};
 use las::{Builder, Point, Version, Writer};
 
 /// So many points at (i, 2 i, 3 i), of a pulse with three returns each three, every fifth withheld, every seventh in an overlap.
-fn file(count: u8, version: Version, records: u8) -> Vec<u8> {
+fn file(count: u8, version: Version, records: u8, is_compressed: bool) -> Vec<u8> {
     let mut builder = Builder::from(version);
     builder.point_format = Records::new(records).expect("a format");
+    builder.point_format.is_compressed = is_compressed;
     let header = builder.into_header().expect("a header");
     let mut writer = Writer::new(Cursor::new(Vec::new()), header).expect("a writer");
     for i in 0..count {
@@ -44,7 +45,7 @@ fn every(las: LasFilter) -> LasFilter {
 
 #[test]
 fn the_larger_field_counts() {
-    let mut bytes = file(50, Version::new(1, 4), 6);
+    let mut bytes = file(50, Version::new(1, 4), 6, false);
     // The field of 32 bits, which newer files may leave empty or wrong.
     for legacy in [0_u32, 10, 70] {
         bytes[107..111].copy_from_slice(&legacy.to_le_bytes());
@@ -57,8 +58,11 @@ fn the_larger_field_counts() {
 
 #[test]
 fn attributes_decide_which_points_are_taken() {
-    for (version, records) in [(Version::new(1, 4), 6), (Version::new(1, 2), 1), (Version::new(1, 2), 0)] {
-        let bytes = file(50, version, records);
+    let kinds = [(Version::new(1, 4), 6), (Version::new(1, 2), 1), (Version::new(1, 2), 0)];
+    for ((version, records), is_compressed) in
+        kinds.into_iter().flat_map(|kind| [(kind, false), (kind, true)])
+    {
+        let bytes = file(50, version, records, is_compressed);
         let taken =
             |las: LasFilter| -> Vec<usize> { read(&bytes, las).xy.iter().map(|p| p[0] as usize).collect() };
         let where_is = |test: &dyn Fn(usize) -> bool| (0..50).filter(|&i| test(i)).collect::<Vec<_>>();

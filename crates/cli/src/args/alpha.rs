@@ -46,7 +46,13 @@ pub(crate) struct AlphaArgs {
     #[arg(long)]
     pub(crate) manifold: bool,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", help = format!("Output file (in the plane {}; in space {}), or - for standard output; may be repeated", formats::written(IN_THE_PLANE), formats::written(IN_SPACE)))]
+    #[arg(
+        long, short, value_name = "OUT",
+        help = format!(
+            "Output file (in the plane {}; in space {}), or - for standard output; may be repeated",
+            formats::written(IN_THE_PLANE), formats::written(IN_SPACE)
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -30,7 +30,13 @@ pub(crate) struct MeshArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required_unless_present = "triangle", help = format!("Output file ({} v.node v.edge), or - for standard output; may be repeated. With --triangle it may be left out", formats::written(&[Contents::Triangles])))]
+    #[arg(
+        long, short, value_name = "OUT", required_unless_present = "triangle",
+        help = format!(
+            "Output file ({} v.node v.edge), or - for standard output; may be repeated. With --triangle it may be left out",
+            formats::written(&[Contents::Triangles])
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -66,7 +72,13 @@ pub(crate) struct MeshArgs {
     #[arg(long, value_name = "COLUMN", value_delimiter = ',', requires = "size", help_heading = "Quality")]
     pub(crate) size_columns: Vec<String>,
     /// Triangles that are refined.
-    #[arg(long, value_name = "FILE", help_heading = "Quality", help = format!("Triangles between the points of the input ({}), which are refined: a mesh once more", formats::read(Contents::Triangles)))]
+    #[arg(
+        long, value_name = "FILE", help_heading = "Quality",
+        help = format!(
+            "Triangles between the points of the input ({}), which are refined: a mesh once more",
+            formats::read(Contents::Triangles)
+        )
+    )]
     pub(crate) refine: Option<PathBuf>,
     /// File of the largest area within each triangle of --refine (area).
     #[arg(long, value_name = "FILE", requires = "refine", help_heading = "Quality")]

@@ -156,7 +156,13 @@ pub(crate) enum Command {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct InputArgs {
     /// Files of points.
-    #[arg(value_name = "IN", required = true, help = format!("Files of points, or - for standard input: {}, each also with .gz. Several files are one set", formats::read(Contents::Points)))]
+    #[arg(
+        value_name = "IN", required = true,
+        help = format!(
+            "Files of points, or - for standard input: {}, each also with .gz. Several files are one set",
+            formats::read(Contents::Points)
+        )
+    )]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]

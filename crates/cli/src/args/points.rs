@@ -32,7 +32,13 @@ pub(crate) struct GenerateArgs {
     #[arg(long, value_name = "RADIUS", default_value_t = 0.0, value_parser = length, allow_negative_numbers = true)]
     pub(crate) noise: f64,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", help = format!("Output file ({}; with segments {}), or - for standard output", formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])))]
+    #[arg(
+        long, short, value_name = "OUT",
+        help = format!(
+            "Output file ({}; with segments {}), or - for standard output",
+            formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])
+        )
+    )]
     pub(crate) output: Option<PathBuf>,
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -138,7 +144,13 @@ pub(crate) struct ReduceArgs {
     #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
     /// The reduced points.
-    #[arg(long, short, value_name = "OUT", help = format!("File for the reduced points ({}; with segments {})", formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])))]
+    #[arg(
+        long, short, value_name = "OUT",
+        help = format!(
+            "File for the reduced points ({}; with segments {})",
+            formats::written(&[Contents::Points]), formats::written(&[Contents::Lines])
+        )
+    )]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) wkt: WktArgs,

@@ -36,7 +36,13 @@ pub(crate) struct ProximityArgs {
     #[arg(short, long, value_name = "K")]
     pub(crate) k: Option<u32>,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required = true, help = format!("Output file ({}; in the plane also {}), or - for standard output; may be repeated", formats::written(&[Contents::Edges]), formats::written(&[Contents::Pictures])))]
+    #[arg(
+        long, short, value_name = "OUT", required = true,
+        help = format!(
+            "Output file ({}; in the plane also {}), or - for standard output; may be repeated",
+            formats::written(&[Contents::Edges]), formats::written(&[Contents::Pictures])
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -28,7 +28,13 @@ pub(crate) struct HullArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required = true, help = format!("Output file ({}; in space also {}), or - for standard output; may be repeated", formats::written(&[Contents::Indices]), formats::written(&[Contents::Surfaces])))]
+    #[arg(
+        long, short, value_name = "OUT", required = true,
+        help = format!(
+            "Output file ({}; in space also {}), or - for standard output; may be repeated",
+            formats::written(&[Contents::Indices]), formats::written(&[Contents::Surfaces])
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -65,7 +65,13 @@ pub(crate) struct DtmArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required = true, help = format!("Output file ({} png geojson), or - for standard output; may be repeated", formats::written(&[Contents::Rasters])))]
+    #[arg(
+        long, short, value_name = "OUT", required = true,
+        help = format!(
+            "Output file ({} png geojson), or - for standard output; may be repeated",
+            formats::written(&[Contents::Rasters])
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -89,10 +95,22 @@ pub(crate) struct DtmArgs {
     #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Borders", conflicts_with = "memory")]
     pub(crate) carve: Option<f64>,
     /// Polygons around heights.
-    #[arg(long, value_name = "FILE", help_heading = "Borders", help = format!("Polygons outside of which there are no heights ({})", formats::read(Contents::Polygons)))]
+    #[arg(
+        long, value_name = "FILE", help_heading = "Borders",
+        help = format!(
+            "Polygons outside of which there are no heights ({})",
+            formats::read(Contents::Polygons)
+        )
+    )]
     pub(crate) clip: Option<PathBuf>,
     /// Lines that must be edges.
-    #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory", help = format!("Lines that must be edges, with their own heights or, without, those of the surface below ({}); may be repeated", formats::read(Contents::Lines)))]
+    #[arg(
+        long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory",
+        help = format!(
+            "Lines that must be edges, with their own heights or, without, those of the surface below ({}); may be repeated",
+            formats::read(Contents::Lines)
+        )
+    )]
     pub(crate) breaklines: Vec<PathBuf>,
     /// Polygons that are level, water say: at the one height that they have, or at the lowest of the surface along their border.
     #[arg(long, value_name = "FILE", help_heading = "Lines", conflicts_with = "memory")]
@@ -147,7 +165,13 @@ pub(crate) struct InterpolateArgs {
     #[arg(long, value_name = "WHAT", default_value = "nothing")]
     pub(crate) outside: OutsideName,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", help = format!("Output file, or - for standard output: {}; of a raster {}", formats::written(&[Contents::Numbers]), formats::written(&[Contents::Rasters])))]
+    #[arg(
+        long, short, value_name = "OUT",
+        help = format!(
+            "Output file, or - for standard output: {}; of a raster {}",
+            formats::written(&[Contents::Numbers]), formats::written(&[Contents::Rasters])
+        )
+    )]
     pub(crate) output: PathBuf,
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -36,7 +36,13 @@ pub(crate) struct TriangulateArgs {
     #[command(flatten)]
     pub(crate) input: InputArgs,
     /// Output files.
-    #[arg(long, short, value_name = "OUT", required_unless_present = "fingerprint", help = format!("Output file ({}), or - for standard output; may be repeated. For several instances {{}} stands for the name of each", formats::written(&[Contents::Triangles])))]
+    #[arg(
+        long, short, value_name = "OUT", required_unless_present = "fingerprint",
+        help = format!(
+            "Output file ({}), or - for standard output; may be repeated. For several instances {{}} stands for the name of each",
+            formats::written(&[Contents::Triangles])
+        )
+    )]
     pub(crate) output: Vec<PathBuf>,
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -9,7 +9,7 @@
 use std::path::Path;
 
 use delone::surface::Grid;
-use delone_io::{Contents, Crs};
+use delone_io::{Contents, Crs, Format};
 use delone_predicates::orient2d;
 
 use super::lines;
@@ -31,7 +31,8 @@ impl Clip {
     pub(super) fn read(path: &Path, quiet: bool) -> Result<Self, Failure> {
         let format = files::format_beside(path)?;
         let graph = files::graph(&InputArgs::of(&[path.to_owned()]), None, quiet)?;
-        if graph.rings.is_empty() && files::holds_lines(path, format) {
+        // Points of Triangle's graphs are a ring, whatever segments there are.
+        if graph.rings.is_empty() && format != Format::Poly && files::holds_lines(path, format) {
             return Err(lines::no_polygon(path, &lines::give("polygons", Contents::Polygons)));
         }
         if graph.rings.is_empty() {

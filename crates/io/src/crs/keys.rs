@@ -68,7 +68,9 @@ fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<Box<GeoKeys>> {
         }
     };
     let defines = entries.iter().any(|entry| entry[1] == DOUBLES);
-    (defines && entries.iter().all(is_there) && texts.is_ascii()).then(|| {
+    // One more is written.
+    let has_room = count < u16::MAX;
+    (defines && has_room && entries.iter().all(is_there) && texts.is_ascii()).then(|| {
         Box::new(GeoKeys {
             numbers: [version, revision, minor, count]
                 .into_iter()
@@ -82,14 +84,13 @@ fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<Box<GeoKeys>> {
 
 /// Keys as they are, of a raster whose cells are areas.
 fn passed_on(own: &GeoKeys) -> Keys {
-    let (head, entries) = own.numbers.split_at(4.min(own.numbers.len()));
+    let (head, entries) = own.numbers.split_first_chunk::<4>().unwrap_or((&[1, 1, 0, 0], &[]));
     let mut entries: Vec<[u16; 4]> = entries.as_chunks::<4>().0.to_vec();
     entries.retain(|entry| entry[0] != RASTER);
     entries.push([RASTER, 0, 1, 1]);
     entries.sort_by_key(|entry| entry[0]);
-    let mut numbers = head.to_vec();
-    numbers[3] = entries.len() as u16;
-    numbers.extend(entries.into_iter().flatten());
+    let head = [head[0], head[1], head[2], entries.len() as u16];
+    let numbers = head.into_iter().chain(entries.into_iter().flatten()).collect();
     let doubles = own.doubles.iter().map(|&bits| f64::from_bits(bits)).collect();
     Keys { numbers, doubles, texts: own.texts.clone(), are_complete: true }
 }

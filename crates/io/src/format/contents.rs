@@ -135,7 +135,7 @@ pub(crate) struct Readers {
     pub(crate) pieces: Option<PieceReader>,
     pub(crate) lines: Option<LineReader>,
     /// Of a format that seldom has lines: whether there is one.
-    pub(crate) seldom: Option<fn(Whole) -> bool>,
+    pub(crate) has_lines: Option<fn(Whole) -> bool>,
     /// Points with attributes and markers, which a graph can have and a cloud cannot.
     pub(crate) attributed: Reader<Graph>,
     pub(crate) segments: Reader<Vec<[usize; 2]>>,
@@ -153,7 +153,7 @@ impl Readers {
         points: None,
         pieces: None,
         lines: None,
-        seldom: None,
+        has_lines: None,
         attributed: None,
         segments: None,
         polygons: None,

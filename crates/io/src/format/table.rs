@@ -25,6 +25,22 @@ pub(super) struct Row {
     pub(super) writes: &'static [Contents],
 }
 
+/// The readers of GeoJSON, which tell by themselves whether there is a feature a line.
+const OF_GEOJSON: Readers = Readers {
+    points: Some(|source, _| geojson::read(source)),
+    lines: Some(|source, _, _| geojson::read_graph(source)),
+    polygons: Some(geojson::read_rings),
+    ..Readers::NONE
+};
+
+/// The readers of well-known text, which tell by themselves whether it is one collection.
+const OF_WKT: Readers = Readers {
+    points: Some(|source, _| wkt::read_points(source)),
+    lines: Some(|source, _, _| wkt::read_graph(source)),
+    polygons: Some(wkt::read_rings),
+    ..Readers::NONE
+};
+
 /// All formats, in the order in which they are listed.
 pub(super) const TABLE: &[Row] = &[
     Row {
@@ -36,7 +52,7 @@ pub(super) const TABLE: &[Row] = &[
             points: Some(|source, options| text::read(source, &options.columns)),
             pieces: Some(|source, options, pieces| text::read_in(source, &options.columns, pieces)),
             lines: Some(|source, options, _| text::read_graph(source, &options.columns)),
-            seldom: Some(text::has_geometries),
+            has_lines: Some(text::has_geometries),
             segments: Some(pairs::read),
             polygons: Some(text::read_rings),
             numbers: Some(list::read),
@@ -109,6 +125,7 @@ pub(super) const TABLE: &[Row] = &[
         readers: Readers {
             points: Some(|source, _| poly::read_points(source)),
             lines: Some(|source, _, beside| poly::read(source, beside)),
+            polygons: Some(poly::read_rings),
             segments: Some(poly::read_segments),
             ..Readers::NONE
         },
@@ -190,7 +207,7 @@ pub(super) const TABLE: &[Row] = &[
         readers: Readers {
             points: Some(|source, _| obj::read_points(source)),
             lines: Some(|source, _, _| obj::read_graph(source)),
-            seldom: Some(obj::has_lines),
+            has_lines: Some(obj::has_lines),
             triangles: Some(obj::read_triangles),
             ..Readers::NONE
         },
@@ -253,12 +270,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "GeoJSON",
         names: &["geojson"],
         also: &["json"],
-        readers: Readers {
-            points: Some(|source, _| geojson::read(source)),
-            lines: Some(|source, _, _| geojson::read_graph(source)),
-            polygons: Some(geojson::read_rings),
-            ..Readers::NONE
-        },
+        readers: OF_GEOJSON,
         writes: &[Points, Lines, Triangles, Cells, Edges, Patches, Contours],
     },
     Row {
@@ -266,12 +278,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "GeoJSON, a feature a line",
         names: &["geojsonl"],
         also: &["geojsons", "ndjson"],
-        readers: Readers {
-            points: Some(|source, _| geojson::read(source)),
-            lines: Some(|source, _, _| geojson::read_graph(source)),
-            polygons: Some(geojson::read_rings),
-            ..Readers::NONE
-        },
+        readers: OF_GEOJSON,
         writes: &[],
     },
     Row {
@@ -279,12 +286,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "well-known text, a geometry a line",
         names: &["wkt"],
         also: &["ewkt"],
-        readers: Readers {
-            points: Some(|source, _| wkt::read_points(source)),
-            lines: Some(|source, _, _| wkt::read_graph(source)),
-            polygons: Some(wkt::read_rings),
-            ..Readers::NONE
-        },
+        readers: OF_WKT,
         writes: &[Points, Lines, Triangles, Cells, Patches],
     },
     Row {
@@ -292,12 +294,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "well-known text, one collection",
         names: &[],
         also: &[],
-        readers: Readers {
-            points: Some(|source, _| wkt::read_points(source)),
-            lines: Some(|source, _, _| wkt::read_graph(source)),
-            polygons: Some(wkt::read_rings),
-            ..Readers::NONE
-        },
+        readers: OF_WKT,
         writes: &[Points, Lines, Triangles, Cells, Patches],
     },
     Row {

@@ -8,7 +8,7 @@ use delone::{RegionSeed2, Triangulation};
 use super::lines::{Line, Lines};
 use super::osmosis;
 use super::triangle::{AHEAD, NodeRows, Nodes, count};
-use crate::{Cloud, Constraints, Error, Graph, Mesh, Source};
+use crate::{Cloud, Constraints, Error, Graph, GraphRing, Mesh, Source};
 
 /// What opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
@@ -58,6 +58,18 @@ pub(crate) fn read_points(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
     }
     let nodes = Nodes::read(&mut Lines::of_triangle(source), false)?;
     if nodes.cloud.xy.is_empty() { Err(Error::PointsElsewhere) } else { Ok(nodes.cloud) }
+}
+
+/// Reads the rings of polygons, or else all points as one ring.
+pub(crate) fn read_rings(mut source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+    if osmosis::is_one(&mut source)? {
+        let graph = osmosis::read(source)?;
+        let ring = |ring: &GraphRing| {
+            graph.segments[ring.segments.clone()].iter().map(|side| graph.cloud.xy[side[0]]).collect()
+        };
+        return Ok(graph.rings.iter().map(ring).collect());
+    }
+    Ok(vec![read_points(source)?.xy])
 }
 
 /// Reads segments alone. Where there are no points, the number of the first segment tells the base.

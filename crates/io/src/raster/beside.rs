@@ -50,8 +50,8 @@ pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
     }
 }
 
-/// All files beside a raster that programs read with it: its system and statistics, overviews, mask. Whoever replaces the raster
-/// replaces or removes them.
+/// All files beside a raster that programs read with it: its system and statistics, overviews, mask; none beside standard output.
+/// Whoever replaces the raster replaces or removes them.
 ///
 /// ```
 /// use std::path::Path;
@@ -61,10 +61,8 @@ pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
 /// assert!(sides.iter().any(|side| side == Path::new("dem.prj")));
 /// ```
 pub fn besides_of_raster(path: &Path, format: Format) -> Vec<PathBuf> {
-    let (true, Some(name)) = (matches!(format, Format::Tiff | Format::Asc | Format::Png), path.file_name())
-    else {
-        return Vec::new();
-    };
+    let has_some = matches!(format, Format::Tiff | Format::Asc | Format::Png) && path != Path::new("-");
+    let (true, Some(name)) = (has_some, path.file_name()) else { return Vec::new() };
     let with = |end: &str| {
         let mut name = name.to_owned();
         name.push(end);
