@@ -1,6 +1,6 @@
 //! Points as they come from a file.
 
-use crate::{Crs, Error};
+use crate::{Crs, Error, Features};
 
 /// Points in the order of their file: the coordinates that are triangulated, the heights beside them, and what else
 /// the file tells.
@@ -18,6 +18,8 @@ pub struct Cloud {
     pub classes: Vec<(u8, u64)>,
     /// How many points of LAS files have each flag ([`LasFlag::ALL`](crate::LasFlag::ALL)), those left out included.
     pub flags: [u64; 4],
+    /// The attributes of the points, by the features that they are of.
+    pub features: Features,
     /// What a user might want to know of how the file was read: which columns were taken, what was left out.
     pub remarks: Vec<String>,
 }
@@ -87,6 +89,7 @@ impl Cloud {
         }
         self.flags.iter_mut().zip(other.flags).for_each(|(sum, count)| *sum += count);
         self.remarks.extend(other.remarks.iter().cloned());
+        self.features.join(self.xy.len(), &other.features, other.xy.len());
         if self.xy.is_empty() {
             (self.xy, self.z, self.base) = (other.xy, other.z, other.base);
         } else if !other.xy.is_empty() {

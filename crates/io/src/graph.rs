@@ -65,6 +65,12 @@ impl Graph {
         Self { cloud, ..Self::default() }
     }
 
+    /// The row of a ring's attributes ([`Cloud::features`]), if it has any.
+    pub fn row_of(&self, ring: &GraphRing) -> Option<usize> {
+        let first = self.segments.get(ring.segments.start).filter(|_| !ring.segments.is_empty())?;
+        self.cloud.features.row(first[0])
+    }
+
     /// Makes one graph of two files: points, segments, rings and seeds of the other follow ours. Markers that a file does
     /// not have are 0; attributes stay if both have as many. Points that are in both files are not joined here: the
     /// triangulation finds equal points.

@@ -13,6 +13,7 @@ mod crs;
 mod diagram;
 mod elements;
 mod error;
+mod features;
 mod filtration;
 mod format;
 mod formats;
@@ -38,6 +39,7 @@ pub use contours::{ContourMap, write_contours};
 pub use crs::{Crs, GeoKeys};
 pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
+pub use features::{ColumnType, Features, Table, Value};
 pub use filtration::write_filtration;
 pub use format::{Contents, Direction, Format, Said};
 pub use formats::edges::{Edges, write_edges};
@@ -83,6 +85,8 @@ pub struct ReadOptions {
     pub columns: Vec<String>,
     /// Coordinates of a point where the format does not tell (raw numbers): 2 or 3.
     pub dimension: usize,
+    /// Attributes of features are read, not their names alone.
+    pub attributes: bool,
 }
 
 /// Reads the points of a file, in its order.

@@ -4,6 +4,7 @@ mod chunks;
 mod constrained;
 mod dialects;
 mod elements;
+mod features;
 mod formats;
 mod gpx;
 mod graphs;

@@ -27,8 +27,8 @@ pub(super) struct Row {
 
 /// The readers of GeoJSON, which tell by themselves whether there is a feature a line.
 const OF_GEOJSON: Readers = Readers {
-    points: Some(|source, _| geojson::read(source)),
-    lines: Some(|source, _, _| geojson::read_graph(source)),
+    points: Some(geojson::read),
+    lines: Some(|source, options, _| geojson::read_graph(source, options)),
     polygons: Some(geojson::read_rings),
     ..Readers::NONE
 };
@@ -49,9 +49,9 @@ pub(super) const TABLE: &[Row] = &[
         names: &["csv", "xyz", "txt", "tsv", "dat"],
         also: &[],
         readers: Readers {
-            points: Some(|source, options| text::read(source, &options.columns)),
-            pieces: Some(|source, options, pieces| text::read_in(source, &options.columns, pieces)),
-            lines: Some(|source, options, _| text::read_graph(source, &options.columns)),
+            points: Some(text::read),
+            pieces: Some(text::read_in),
+            lines: Some(|source, options, _| text::read_graph(source, options)),
             has_lines: Some(text::has_geometries),
             segments: Some(pairs::read),
             polygons: Some(text::read_rings),
@@ -316,8 +316,8 @@ pub(super) const TABLE: &[Row] = &[
         names: &["gpx"],
         also: &[],
         readers: Readers {
-            points: Some(|source, _| gpx::read_points(source)),
-            lines: Some(|source, _, _| gpx::read_graph(source)),
+            points: Some(gpx::read_points),
+            lines: Some(|source, options, _| gpx::read_graph(source, options)),
             ..Readers::NONE
         },
         writes: &[],

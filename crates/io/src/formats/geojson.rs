@@ -3,11 +3,12 @@
 use std::io::{self, Read, Write};
 
 use delone::{Ring, Triangulation};
-use geojson::{GeoJson, Geometry, GeometryValue, Position};
+use geojson::feature::Id;
+use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
 use super::shapes::Shapes;
 use crate::diagram::Tiles;
-use crate::{Cloud, Crs, Error, Graph, Mesh, Shape, Source};
+use crate::{Cloud, Crs, Error, Graph, Mesh, ReadOptions, Shape, Source, Value};
 
 mod contours;
 mod coordinates;
@@ -16,14 +17,14 @@ pub(crate) use contours::write_contours;
 
 /// Reads the positions of all geometries, in their order; the last of a ring, which is the first again, is left out.
 /// Several documents may follow each other, as in text sequences and lines of GeoJSON.
-pub(crate) fn read(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let (shapes, crs) = read_shapes(source, true)?;
+pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
+    let (shapes, crs) = read_shapes(source, true, options.attributes)?;
     Ok(Cloud { crs, ..shapes.cloud() })
 }
 
 /// Reads all geometries with the segments of their lines and rings.
-pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
-    let (shapes, crs) = read_shapes(source, false)?;
+pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
+    let (shapes, crs) = read_shapes(source, false, options.attributes)?;
     let mut graph = shapes.graph()?;
     graph.cloud.crs = crs;
     Ok(graph)
@@ -31,18 +32,20 @@ pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
 
 /// Reads the rings of all Polygon and MultiPolygon geometries.
 pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    Ok(read_shapes(source, false)?.0.rings())
+    Ok(read_shapes(source, false, false)?.0.rings())
 }
 
-fn read_shapes(mut source: Box<dyn Source>, as_points: bool) -> Result<(Shapes, Option<Crs>), Error> {
+fn read_shapes(
+    mut source: Box<dyn Source>,
+    as_points: bool,
+    keeps_attributes: bool,
+) -> Result<(Shapes, Option<Crs>), Error> {
     if is_bare(&mut source)? {
         return Ok((coordinates::read(source, as_points)?, None));
     }
     let documents = parse(source)?;
-    let mut shapes = Shapes::default();
-    for geometry in documents.iter().flat_map(geometries) {
-        collect(geometry, &mut shapes)?;
-    }
+    let mut shapes = Shapes::new(keeps_attributes);
+    documents.iter().try_for_each(|document| collect_document(document, &mut shapes))?;
     Ok((shapes, documents.iter().find_map(system)))
 }
 
@@ -100,14 +103,38 @@ pub(super) fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result
     }
 }
 
-fn geometries(content: &GeoJson) -> Vec<&Geometry> {
+fn collect_document(content: &GeoJson, shapes: &mut Shapes) -> Result<(), Error> {
     match content {
-        GeoJson::Geometry(geometry) => vec![geometry],
-        GeoJson::Feature(feature) => feature.geometry.iter().collect(),
+        GeoJson::Geometry(geometry) => {
+            shapes.feature();
+            collect(geometry, shapes)
+        }
+        GeoJson::Feature(feature) => collect_feature(feature, shapes),
         GeoJson::FeatureCollection(collection) => {
-            collection.features.iter().filter_map(|feature| feature.geometry.as_ref()).collect()
+            collection.features.iter().try_for_each(|feature| collect_feature(feature, shapes))
         }
     }
+}
+
+/// Takes the properties and the geometry of a feature; its identifier is a property too.
+fn collect_feature(feature: &Feature, shapes: &mut Shapes) -> Result<(), Error> {
+    /// What the identifier is called, where no property has the name.
+    const IDENTIFIERS: [&str; 2] = ["id", "fid"];
+    shapes.feature();
+    let identifier = match &feature.id {
+        Some(Id::String(text)) => Some(serde_json::Value::from(text.as_str())),
+        Some(Id::Number(number)) => Some(serde_json::Value::Number(number.clone())),
+        None => None,
+    };
+    let has = |name: &str| feature.properties.iter().any(|properties| properties.contains_key(name));
+    if let (Some(identifier), Some(name)) = (identifier, IDENTIFIERS.into_iter().find(|name| !has(name))) {
+        shapes.attribute(name, Value::Json(&identifier.to_string()));
+    }
+    for (name, value) in feature.properties.iter().flatten() {
+        let json = value.to_string();
+        shapes.attribute(name, if value.is_null() { Value::Null } else { Value::Json(&json) });
+    }
+    feature.geometry.iter().try_for_each(|geometry| collect(geometry, shapes))
 }
 
 fn collect(geometry: &Geometry, shapes: &mut Shapes) -> Result<(), Error> {

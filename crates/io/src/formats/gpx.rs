@@ -5,24 +5,24 @@
 use roxmltree::{Document, Node};
 
 use super::shapes::Shapes;
-use crate::{Cloud, Crs, Error, Graph, Source, xml};
+use crate::{Cloud, Crs, Error, Graph, ReadOptions, Source, Value, xml};
 
 /// Longitude and latitude of WGS 84, which all files have.
 const EPSG: u32 = 4326;
 
 /// Reads all points.
-pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    Ok(Cloud { crs: Some(Crs::of_epsg(EPSG)), ..read(source)?.cloud() })
+pub(crate) fn read_points(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
+    Ok(Cloud { crs: Some(Crs::of_epsg(EPSG)), ..read(source, options)?.cloud() })
 }
 
 /// Reads waypoints, and the segments of tracks and routes.
-pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
-    let mut graph = read(source)?.graph()?;
+pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
+    let mut graph = read(source, options)?.graph()?;
     graph.cloud.crs = Some(Crs::of_epsg(EPSG));
     Ok(graph)
 }
 
-fn read(mut source: Box<dyn Source>) -> Result<Shapes, Error> {
+fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;
     let text = str::from_utf8(&bytes).map_err(|_| Error::content("GPX: it is not text"))?;
@@ -30,11 +30,15 @@ fn read(mut source: Box<dyn Source>) -> Result<Shapes, Error> {
     if !is(&document.root_element(), "gpx") {
         return Err(Error::content("GPX: its root is not gpx"));
     }
-    let mut shapes = Shapes::default();
+    let mut shapes = Shapes::new(options.attributes);
     for node in document.descendants() {
         if is(&node, "wpt") {
+            shapes.feature();
+            attributes(&node, &mut shapes);
             position(&document, &node, &mut shapes)?;
         } else if is(&node, "trkseg") || is(&node, "rte") {
+            shapes.feature();
+            attributes(&if is(&node, "rte") { node } else { node.parent().unwrap_or(node) }, &mut shapes);
             let start = shapes.len();
             for point in node.children().filter(|node| is(node, "trkpt") || is(node, "rtept")) {
                 position(&document, &point, &mut shapes)?;
@@ -48,6 +52,17 @@ fn read(mut source: Box<dyn Source>) -> Result<Shapes, Error> {
 /// Whether it is an element of this name, in whatever version of the format.
 fn is(node: &Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
+}
+
+/// Takes the texts of a waypoint, a track or a route: its name, a description, the time.
+fn attributes(node: &Node, shapes: &mut Shapes) {
+    const TEXTS: [&str; 8] = ["name", "cmt", "desc", "src", "time", "sym", "type", "number"];
+    for child in node.children().filter(Node::is_element) {
+        let name = child.tag_name().name();
+        if let Some(text) = child.text().filter(|_| TEXTS.contains(&name)) {
+            shapes.attribute(name, Value::Text(text));
+        }
+    }
 }
 
 /// Takes a point: longitude, latitude, and its elevation if there is one.

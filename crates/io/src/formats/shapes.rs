@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::{Cloud, Error, Graph, GraphRing};
+use crate::{Cloud, Error, Features, Graph, GraphRing, Table, Value};
 
 /// The geometries of a file, in its order. The last position of a ring, which is the first again, is left out.
 #[derive(Debug, Default)]
@@ -13,6 +13,12 @@ pub(super) struct Shapes {
     parts: Vec<Part>,
     polygons: usize,
     lines: usize,
+    /// The attributes of features.
+    table: Table,
+    /// The row of each position, where there are rows.
+    rows: Vec<u32>,
+    /// Attributes are kept, not their names alone.
+    keeps_attributes: bool,
 }
 
 /// The heights of positions.
@@ -41,6 +47,26 @@ enum Kind {
 }
 
 impl Shapes {
+    /// None yet, of features whose attributes are kept or are not.
+    pub(super) fn new(keeps_attributes: bool) -> Self {
+        Self { keeps_attributes, ..Self::default() }
+    }
+
+    /// Begins a feature, whose attributes and geometries follow.
+    pub(super) fn feature(&mut self) {
+        if self.keeps_attributes {
+            self.table.begin();
+        }
+    }
+
+    /// Gives the feature an attribute.
+    pub(super) fn attribute(&mut self, name: &str, value: Value) {
+        let column = self.table.column(name);
+        if self.keeps_attributes {
+            self.table.put(column, value);
+        }
+    }
+
     /// How many positions there are.
     pub(super) fn len(&self) -> usize {
         self.xy.len()
@@ -56,6 +82,9 @@ impl Shapes {
         let &[x, y, ..] = numbers else { return false };
         self.xy.push([x, y]);
         self.z.push(numbers.get(2).copied());
+        if let Some(row) = self.table.len().checked_sub(1) {
+            self.rows.push(row as u32);
+        }
         true
     }
 
@@ -81,6 +110,7 @@ impl Shapes {
             if first == last {
                 self.xy.pop();
                 self.z.pop();
+                self.rows.pop();
             } else if !closes_itself {
                 open = Some(last);
             }
@@ -95,14 +125,14 @@ impl Shapes {
     }
 
     /// The positions, and what heights they have.
-    pub(super) fn positions(self) -> (Vec<[f64; 2]>, Heights) {
+    pub(super) fn positions(&mut self) -> (Vec<[f64; 2]>, Heights) {
         let count = self.z.iter().filter(|z| z.is_some()).count();
         let heights = match count {
             0 => Heights::None,
             _ if count < self.z.len() => Heights::OfSome,
-            _ => Heights::OfAll(self.z.into_iter().flatten().collect()),
+            _ => Heights::OfAll(std::mem::take(&mut self.z).into_iter().flatten().collect()),
         };
-        (self.xy, heights)
+        (std::mem::take(&mut self.xy), heights)
     }
 
     /// The rings of all polygons.
@@ -121,9 +151,9 @@ impl Shapes {
         cloud
     }
 
-    fn points(self) -> Cloud {
+    fn points(mut self) -> Cloud {
         let (xy, heights) = self.positions();
-        let mut cloud = Cloud { xy, ..Cloud::default() };
+        let mut cloud = Cloud { xy, features: Features::new(self.table, self.rows), ..Cloud::default() };
         match heights {
             Heights::None => {}
             Heights::OfAll(heights) => cloud.z = Some(heights),

@@ -6,6 +6,7 @@
 
 mod columns;
 mod fields;
+mod kept;
 #[cfg(test)]
 mod tests;
 
@@ -13,24 +14,29 @@ use std::io::{self, Write};
 
 use self::columns::{Columns, are_said, is_header, name_points};
 use self::fields::{Separator, number, remark};
+use self::kept::Kept;
 use super::lines::Lines;
 use super::shapes::{Heights, Shapes};
 use super::wkt;
 use crate::chunks::Chunks;
 use crate::error::excerpt;
-use crate::{Cloud, Crs, Error, Graph, Source};
+use crate::{Cloud, Crs, Error, Graph, ReadOptions, Source};
 
 /// No quoted field goes on for longer.
 const LONGEST: usize = 1 << 26;
 
 /// Reads points; `said` are header names or numbers from 1 for x, y and perhaps z, or none to find them.
-pub(crate) fn read(source: Box<dyn Source>, said: &[String]) -> Result<Cloud, Error> {
-    read_in(source, said, &mut Chunks::default())
+pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
+    read_in(source, options, &mut Chunks::default())
 }
 
 /// Reads in chunks.
-pub(crate) fn read_in(source: Box<dyn Source>, said: &[String], chunks: &mut Chunks) -> Result<Cloud, Error> {
-    let table = table(source, said, chunks, Wanted::Points)?;
+pub(crate) fn read_in(
+    source: Box<dyn Source>,
+    options: &ReadOptions,
+    chunks: &mut Chunks,
+) -> Result<Cloud, Error> {
+    let table = table(source, options, chunks, Wanted::Points)?;
     let parts = table.parts;
     let mut cloud = table.end()?.0;
     if parts > 0 {
@@ -40,8 +46,8 @@ pub(crate) fn read_in(source: Box<dyn Source>, said: &[String], chunks: &mut Chu
 }
 
 /// Reads points, or the lines and rings of a column of geometries.
-pub(crate) fn read_graph(source: Box<dyn Source>, said: &[String]) -> Result<Graph, Error> {
-    let table = table(source, said, &mut Chunks::default(), Wanted::Shapes)?;
+pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
+    let table = table(source, options, &mut Chunks::default(), Wanted::Shapes)?;
     let is_of_geometries = matches!(table.columns, Some(Columns::Geometry(_)));
     let (cloud, shapes) = table.end()?;
     if !is_of_geometries {
@@ -49,13 +55,15 @@ pub(crate) fn read_graph(source: Box<dyn Source>, said: &[String]) -> Result<Gra
     }
     let mut graph = shapes.graph()?;
     graph.cloud.crs = cloud.crs;
+    graph.cloud.features = cloud.features;
     graph.cloud.remarks.splice(0..0, cloud.remarks);
     Ok(graph)
 }
 
 /// Reads the rings of a column of geometries, or all points as one ring.
 pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    let table = table(source, &[], &mut Chunks::default(), Wanted::Shapes)?;
+    let options = ReadOptions::default();
+    let table = table(source, &options, &mut Chunks::default(), Wanted::Shapes)?;
     let is_of_geometries = matches!(table.columns, Some(Columns::Geometry(_)));
     let (cloud, shapes) = table.end()?;
     Ok(if is_of_geometries { shapes.rings() } else { vec![cloud.xy] })
@@ -63,7 +71,8 @@ pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, 
 
 /// Whether the first lines tell of a column of geometries.
 pub(crate) fn has_geometries(source: Box<dyn Source>) -> bool {
-    let begun = table(source, &[], &mut Chunks::default(), Wanted::Columns);
+    let options = ReadOptions::default();
+    let begun = table(source, &options, &mut Chunks::default(), Wanted::Columns);
     begun.is_ok_and(|table| matches!(table.columns, Some(Columns::Geometry(_))))
 }
 
@@ -80,15 +89,16 @@ enum Wanted {
 /// Reads a table.
 fn table<'a>(
     source: Box<dyn Source>,
-    said: &'a [String],
+    options: &'a ReadOptions,
     chunks: &mut Chunks,
     wanted: Wanted,
 ) -> Result<Table<'a>, Error> {
+    let said = &options.columns;
     if !(said.is_empty() || (2..=3).contains(&said.len())) {
         return Err(Error::content("two or three columns are needed, x,y or x,y,z"));
     }
     let mut lines = Lines::new(source);
-    let mut table = Table::new(said, wanted);
+    let mut table = Table::new(said, wanted, options.attributes);
     let mut separator = None;
     let mut record = String::new();
     while let Some(line) = lines.next_whole()? {
@@ -148,6 +158,8 @@ struct Table<'a> {
     wanted: Wanted,
     /// The geometries, where these are wanted.
     shapes: Shapes,
+    /// The other columns.
+    kept: Kept,
     /// Lines and polygons whose corners are among the points.
     parts: usize,
     /// How many points were given away.
@@ -165,7 +177,7 @@ struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    fn new(said: &'a [String], wanted: Wanted) -> Self {
+    fn new(said: &'a [String], wanted: Wanted, keeps_attributes: bool) -> Self {
         let cloud = Cloud::default();
         let (columns, above, count) = (None, Vec::new(), None);
         let shapes = Shapes::default();
@@ -174,6 +186,7 @@ impl<'a> Table<'a> {
             cloud,
             wanted,
             shapes,
+            kept: Kept::new(keeps_attributes),
             parts: 0,
             before: 0,
             columns,
@@ -259,6 +272,7 @@ impl<'a> Table<'a> {
                 Some("the first columns were taken as x, y: the remarks above do not name them".to_owned());
         }
         self.cloud.remarks.extend(told.filter(|_| self.said.is_empty()));
+        self.kept.name(names, named, &columns);
         (self.columns, self.width, self.after_header) = (Some(columns), own.len(), header);
         if header { Ok(()) } else { self.row(line, separator, record) }
     }
@@ -276,6 +290,8 @@ impl<'a> Table<'a> {
         let mut point = [0.0; 3];
         let mut count = 0;
         let mut last_is_empty = false;
+        let before = self.cloud.xy.len() + self.shapes.len();
+        self.kept.begin();
         for (column, field) in separator.split(record).enumerate() {
             count += 1;
             last_is_empty = field.is_empty();
@@ -292,6 +308,7 @@ impl<'a> Table<'a> {
                 }
                 _ => {}
             }
+            self.kept.take(column, &field);
         }
         // A separator may follow the last field.
         if count != self.width && !(last_is_empty && count == self.width + 1) {
@@ -301,12 +318,14 @@ impl<'a> Table<'a> {
             let [x, y, z] = point;
             self.cloud.push([x, y], z);
         }
+        self.kept.points(self.cloud.xy.len() + self.shapes.len() - before);
         Ok(())
     }
 
     /// Rows have one field more than there are names: R writes names of rows without a name for their column.
     fn skip_row_names(&mut self) {
         self.width += 1;
+        self.kept.shift();
         if self.said.iter().any(|name| name.trim().parse::<usize>().is_ok()) {
             // Numbers are those of the columns of rows.
             return;
@@ -374,6 +393,7 @@ impl<'a> Table<'a> {
         if self.columns.is_none() && self.left_out > 0 {
             self.cloud.remarks.push(format!("all lines, {} of them, are remarks", self.left_out));
         }
+        self.cloud.features = self.kept.features();
         Ok((self.cloud, self.shapes))
     }
 }

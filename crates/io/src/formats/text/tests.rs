@@ -1,12 +1,13 @@
 //! Headers, separators, quotes, geometries.
 
 use super::read;
-use crate::Cloud;
+use crate::{Cloud, ReadOptions};
 use std::io::Cursor;
 
 fn parse(text: &'static str, columns: &[&str]) -> Result<Cloud, String> {
     let columns: Vec<_> = columns.iter().map(ToString::to_string).collect();
-    read(Box::new(Cursor::new(text)), &columns).map_err(|error| error.to_string())
+    let options = ReadOptions { columns, ..ReadOptions::default() };
+    read(Box::new(Cursor::new(text)), &options).map_err(|error| error.to_string())
 }
 
 #[test]
