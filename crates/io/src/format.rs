@@ -76,6 +76,8 @@ pub enum Format {
     GeoJson,
     /// GeoJSON with a feature a line.
     GeoJsonLines,
+    /// FlatGeobuf.
+    FlatGeobuf,
     /// Well-known text of geometries, one a line.
     Wkt,
     /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.
@@ -151,6 +153,7 @@ impl Format {
         match self {
             Self::GeoJson if crs.epsg.is_some() || crs.is_plain_degrees() => Said::Whole,
             Self::GeoJson => Said::Otherwise,
+            Self::FlatGeobuf => when(crs.epsg.is_some() || crs.wkt.is_some()),
             Self::Wkb | Self::Ply | Self::Obj => when(crs.epsg.is_some()),
             Self::Tiff => when(crs.epsg.is_some() || crs.wkt.is_some() || crs.keys.is_some()),
             Self::Asc => when(crs.wkt.is_some()),

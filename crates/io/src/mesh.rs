@@ -5,7 +5,7 @@ use std::io::Write;
 
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vtu, wkb, wkt};
+use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt};
 use crate::middles::{Middles, ordered};
 use crate::{Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Trim, picture, write_solid};
 
@@ -303,6 +303,7 @@ impl Drawable for [f64; 2] {
             Format::Off => off::write(out, mesh)?,
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
+            Format::FlatGeobuf => vector::write(out, format, &vector::Triangles::of_mesh(mesh))?,
             Format::Poly => poly::write(out, mesh)?,
             Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,
             Format::Wkb => wkb::write(out, mesh)?,

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::io::Write;
 
-use crate::formats::{geojson, obj, ply, stl, vtu, wkb, wkt};
+use crate::formats::{geojson, obj, ply, stl, vector, vtu, wkb, wkt};
 use crate::picture::{Mark, Sketch, Tone, write_sketch};
 use crate::{Contents, Crs, Direction, Error, Format, Remark, Shape, write_indices};
 
@@ -93,6 +93,7 @@ pub fn write_patches(
         Format::Stl => return Ok(stl::write(out, patches)?),
         Format::Vtu => vtu::write(out, patches)?,
         Format::GeoJson => geojson::write_polygons(out, patches)?,
+        Format::FlatGeobuf => vector::write(out, format, &vector::Triangles::of_patches(patches))?,
         Format::Wkt | Format::WktCollection => wkt::write(out, patches, format == Format::WktCollection)?,
         Format::Wkb => wkb::write(out, patches)?,
         Format::Svg | Format::Png => write_sketch(out, format, &patches.sketch(), patches.window(), size)?,

@@ -6,8 +6,8 @@ use super::Contents::{
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    e57, geojson, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw, stl, text, triangle, vtk,
-    wkb, wkt,
+    e57, flatgeobuf, geojson, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw, stl, text,
+    triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -280,6 +280,19 @@ pub(super) const TABLE: &[Row] = &[
         also: &["geojsons", "ndjson"],
         readers: OF_GEOJSON,
         writes: &[],
+    },
+    Row {
+        format: Format::FlatGeobuf,
+        title: "FlatGeobuf",
+        names: &["fgb"],
+        also: &["flatgeobuf"],
+        readers: Readers {
+            points: Some(flatgeobuf::read_points),
+            lines: Some(|source, options, _| flatgeobuf::read_graph(source, options)),
+            polygons: Some(flatgeobuf::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Triangles, Cells, Edges, Patches, Contours],
     },
     Row {
         format: Format::Wkt,

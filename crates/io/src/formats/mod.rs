@@ -3,6 +3,7 @@
 pub(crate) mod cells;
 pub(crate) mod e57;
 pub(crate) mod edges;
+pub(crate) mod flatgeobuf;
 pub(crate) mod geojson;
 pub(crate) mod gpx;
 pub(crate) mod graphs;
@@ -25,6 +26,7 @@ mod shapes;
 pub(crate) mod stl;
 pub(crate) mod text;
 pub(crate) mod triangle;
+pub(crate) mod vector;
 pub(crate) mod voronoi;
 pub(crate) mod vtk;
 pub(crate) mod vtu;
