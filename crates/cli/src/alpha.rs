@@ -158,6 +158,7 @@ fn write_outline(
             triangles: triangles.iter().map(|t| counter_clockwise(alpha, *t).map(VertexId::index)).collect(),
             polygons: alpha.parts(value),
             crs: about.crs,
+            ..Patches::default()
         };
         for (path, format) in outputs.iter().filter(|(_, format)| !is_polygon(format)) {
             files::write_mesh(path, quiet, |out| write_patches(out, *format, &patches, size))?;

@@ -1,12 +1,14 @@
 //! `delone furthest`: for each query the vertex furthest from it.
 
 use delone::Delaunay2;
+use delone_io::{Format, Found};
 use serde_json::json;
 
 use crate::args::FurthestArgs;
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
+use crate::queries::{self, answer_format};
 use crate::room::{self, Room, build, remark};
 use crate::stats::Stats;
 
@@ -14,10 +16,10 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     let stats_path = args.input.stats.as_deref();
     let outputs = std::iter::once(args.output.as_path()).chain(stats_path);
     files::keep_apart(&args.input.paths_and(&args.queries), outputs)?;
-    let format = files::index_format(&args.output, args.to)?;
+    let format = answer_format(&args.output, args.to)?;
     let mut stats = Stats::start();
     let (points, _) = room::read::<Delaunay2>(&args.input, quiet)?;
-    let queries = room::queries::<Delaunay2>(&args.queries, quiet)?;
+    let (queries, about) = room::queries_with::<Delaunay2>(&args.queries, quiet)?;
     stats.phase("read");
     let triangulation: Delaunay2 = build(&points, Delaunay2::FASTEST, &args.input.label(), quiet)?;
     remark(&triangulation, quiet);
@@ -44,7 +46,12 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
         json!({ "centre": circle.centre, "radius": circle.radius, "support": support })
     });
     stats.set("enclosing_circle", circle);
-    files::write(&args.output, |out| delone_io::write_index_list(out, format, &answers))?;
+    if format == Format::Npy {
+        files::write(&args.output, |out| delone_io::write_index_list(out, format, &answers))?;
+    } else {
+        let names = ["furthest".to_owned()];
+        queries::write(&args.output, format, &queries, &about, (&names, Found::Indices(&answers)))?;
+    }
     stats.phase("write");
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(stats_path)

@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::{Grid, Interpolator, Outside, gradients};
 use delone::{Delaunay2, Delaunay3, Error, Surround};
-use delone_io::{Cloud, Contents, Direction, Format, RasterInfo, RasterWriter, Sample, write_array};
+use delone_io::{Cloud, Contents, Format, Found, RasterInfo, RasterWriter, Sample, write_array};
 
 use crate::args::{InterpolateArgs, MethodName, OutsideName};
-use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
+use crate::{files, queries};
 
 pub(crate) fn run(args: &InterpolateArgs, quiet: bool) -> Result<(), Failure> {
     if args.dim.is_space() { run_in::<Delaunay3>(args, quiet) } else { run_in::<Delaunay2>(args, quiet) }
@@ -32,8 +32,13 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let label = args.input.label();
     let table = table(args, &about, points.len(), quiet)?;
     let columns = table.len();
+    let mut of_queries = Cloud::default();
     let (queries, grid) = match (&args.queries, args.grid) {
-        (Some(path), _) => (room::queries::<R>(path, quiet)?, None),
+        (Some(path), _) => {
+            let (queries, about) = room::queries_with::<R>(path, quiet)?;
+            of_queries = about;
+            (queries, None)
+        }
         (None, size) => {
             let bounds = room::bounds(&points, &label)?;
             let grid =
@@ -57,13 +62,6 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     stats.set("queries", queries.len());
     stats.set("outside", values.chunks(columns).filter(|row| row[0].is_nan()).count());
     match (format, &grid) {
-        (Format::Text, None) => files::write(&args.output, |out| {
-            for row in values.chunks(columns) {
-                let row: Vec<String> = row.iter().map(f64::to_string).collect();
-                std::io::Write::write_all(out, format!("{}\n", row.join(",")).as_bytes())?;
-            }
-            Ok(())
-        })?,
         (Format::Npy, None) if columns == 1 => {
             files::write(&args.output, |out| Ok(write_array(out, &[values.len()], values.iter().copied())?))?;
         }
@@ -71,9 +69,10 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
             let shape = [values.len() / columns, columns];
             files::write(&args.output, |out| Ok(write_array(out, &shape, values.iter().copied())?))?;
         }
-        (_, None) => format
-            .check(Contents::Numbers, Direction::Written)
-            .map_err(|error| Failure::file(&args.output, &error))?,
+        (_, None) => {
+            let found = Found::Numbers(&values);
+            queries::write(&args.output, format, &queries, &of_queries, (&names(args), found))?;
+        }
         (_, Some(grid)) => write_raster(&args.output, format, grid, &about, &values, quiet)?,
     }
     stats.phase("write");
@@ -91,8 +90,23 @@ fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), F
     if args.grid.is_some() && args.value.len() > 1 {
         return Err(Failure::usage("a raster has one value", "give --value once, or places with --queries"));
     }
-    let contents = if args.grid.is_some() { Contents::Rasters } else { Contents::Numbers };
-    files::check_formats(&[(args.output.clone(), format)], &[contents])
+    if args.grid.is_none() {
+        return queries::answer_format(&args.output, args.to).map(drop);
+    }
+    files::check_formats(&[(args.output.clone(), format)], &[Contents::Rasters])
+}
+
+/// What the values are called: as their columns or files, or by the axis of heights.
+fn names(args: &InterpolateArgs) -> Vec<String> {
+    if args.value.is_empty() {
+        return vec!["z".to_owned()];
+    }
+    let name = |value: &String| match Path::new(value).file_stem() {
+        Some(stem) if Path::new(value).is_file() => stem.to_string_lossy().into_owned(),
+        _ if value.parse::<usize>().is_ok() => format!("value_{value}"),
+        _ => value.clone(),
+    };
+    args.value.iter().map(name).collect()
 }
 
 /// The values that there are, a list for each.

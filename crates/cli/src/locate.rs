@@ -10,7 +10,8 @@ use crate::queries::answer;
 use crate::room::{Room, positive};
 
 pub(crate) fn run<R: Room>(args: &LocateArgs, quiet: bool) -> Result<(), Failure> {
-    answer::<R>(&args.input, &args.query, R::Point::COUNT + 1, quiet, |d, q, work| {
+    let names = ["a", "b", "c", "d"].map(str::to_owned);
+    answer::<R>(&args.input, &args.query, &names[..=R::Point::COUNT], quiet, |d, q, work| {
         let found = d.find_observed(q, work)?;
         Ok(simplex(d, &found).unwrap_or_default())
     })

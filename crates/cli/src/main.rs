@@ -39,6 +39,7 @@ mod replay;
 mod room;
 mod signals;
 mod simplify;
+mod sites;
 mod stats;
 mod threads;
 mod tiles;
@@ -72,6 +73,7 @@ fn main() -> ExitCode {
     let quiet = cli.quiet;
     limits::start(cli.max_memory, cli.max_points, cli.max_output);
     signals::clean_up();
+    message::be_strict(cli.strict);
     threads::start(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),

@@ -4,6 +4,8 @@ use std::fmt::Display;
 use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
@@ -144,6 +146,46 @@ pub(crate) fn say(quiet: bool, text: impl Display) {
 pub(crate) fn note(quiet: bool, text: impl Display) {
     if !quiet {
         tell(format_args!("note: {text}"));
+    }
+}
+
+/// The first thing that an input has and no output of the command.
+static LOST: Mutex<Option<String>> = Mutex::new(None);
+/// Whether that is an error.
+static IS_STRICT: AtomicBool = AtomicBool::new(false);
+
+/// Whatever an input has and an output has not is an error from now on.
+pub(crate) fn be_strict(is_strict: bool) {
+    IS_STRICT.store(is_strict, Ordering::Relaxed);
+}
+
+/// Whether whatever is not as it was asked for is an error.
+pub(crate) fn is_strict() -> bool {
+    IS_STRICT.load(Ordering::Relaxed)
+}
+
+/// Something that an input has and an output has not.
+pub(crate) fn lost(quiet: bool, text: impl Display) {
+    remember_loss(&text);
+    note(quiet, text);
+}
+
+/// The same, where readers will take the output for something else.
+pub(crate) fn mislead(quiet: bool, text: impl Display) {
+    remember_loss(&text);
+    warn(quiet, text);
+}
+
+fn remember_loss(text: &impl Display) {
+    LOST.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert_with(|| text.to_string());
+}
+
+/// Refuses to go on where something was lost and none may be.
+pub(crate) fn refuse_losses() -> Result<(), Failure> {
+    let lost = LOST.lock().unwrap_or_else(PoisonError::into_inner);
+    match lost.as_ref().filter(|_| is_strict()) {
+        Some(what) => Err(Failure::new(what, "choose a format that has room for it, or leave --strict out")),
+        None => Ok(()),
     }
 }
 

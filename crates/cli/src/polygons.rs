@@ -7,7 +7,7 @@ use delone_io::{Contents, Graph, Patches, write_patches};
 
 use crate::args::{CrossingsName, InputArgs, PolygonFill, PolygonsArgs};
 use crate::files;
-use crate::message::{Failure, note};
+use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
 
@@ -18,12 +18,13 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     let inputs: Vec<_> = args.input.iter().map(PathBuf::as_path).collect();
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, args.stats.as_deref(), &inputs)?)?;
     files::check_formats(&outputs, &[Contents::Patches])?;
+    files::keep_attributes(Contents::Patches);
     let mut stats = Stats::start();
     let input = InputArgs { from: args.from, ..InputArgs::of(&args.input) };
     let graph = files::graph(&input, None, quiet)?;
     let polygons = corners(&graph);
     if graph.is_border.contains(&false) {
-        note(quiet, "lines are left out: they are no polygons");
+        lost(quiet, "lines are left out: they are no polygons");
     }
     stats.phase("read");
     let phase = Phase::start(quiet, "triangulating");
@@ -37,7 +38,10 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
         polygons.iter().map(|rings| rings.iter().map(place).collect()).collect();
     let results = how.triangulate_all(&rings);
     drop(phase);
-    let mut patches = Patches { crs: graph.cloud.crs, points: graph.cloud.xy, ..Patches::default() };
+    let mut patches = Patches { points: graph.cloud.xy.clone(), ..Patches::default() };
+    patches.rows = vec![None; polygons.len()];
+    graph.rings.iter().for_each(|ring| patches.rows[ring.polygon] = graph.row_of(ring));
+    (patches.crs, patches.table) = (graph.cloud.crs, graph.cloud.features.table);
     let given = patches.points.len();
     let mut refused = 0;
     for (index, (result, rings)) in results.into_iter().zip(&polygons).enumerate() {
@@ -70,7 +74,7 @@ pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {
     } else {
         note(quiet, format_args!("sides that cross were split: {added} points were added"));
         if graph.cloud.z.is_some() {
-            note(quiet, "heights are left out: points that were added have none");
+            lost(quiet, "heights are left out: points that were added have none");
         }
     }
     stats.phase("build");

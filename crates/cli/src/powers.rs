@@ -12,7 +12,7 @@ use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
 use crate::weighted::{Weighted, beside};
-use crate::{files, weighted};
+use crate::{files, sites, weighted};
 
 /// The part of itself by which an area may be wrong, where rounding allows; and by which none may be.
 const TOLERANCE: f64 = 1e-9;
@@ -39,6 +39,7 @@ pub(crate) fn run(
         (sites, region)
     };
     let Weighted { triangulation: r, points, about } = sites;
+    let features = sites::features(&about, &r, quiet);
     let cells = {
         let _phase = Phase::start(quiet, "clipping");
         let cells = r.power().clip(&region);
@@ -51,7 +52,8 @@ pub(crate) fn run(
     stats.set("cells", r.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
     stats.set("area", region.area());
     let _phase = Phase::start(quiet, "writing");
-    let diagram = Diagram { triangulation: &r, cells: &cells, crs: about.crs.as_ref() };
+    let diagram =
+        Diagram { triangulation: &r, cells: &cells, crs: about.crs.as_ref(), features: Some(&features) };
     for (path, format) in outputs {
         files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
     }

@@ -1,6 +1,9 @@
-//! What `locate` and `nearest` have in common: a question for each of many points, and a row of indices for an answer.
+//! What `locate`, `nearest` and `furthest` have in common: a question for each of many points, and a row of indices for an answer.
+
+use std::path::Path;
 
 use delone::Work;
+use delone_io::{Answers, Cloud, Contents, Format, Found, write_answers};
 
 use crate::args::{InputArgs, QueryArgs};
 use crate::files;
@@ -13,19 +16,20 @@ use crate::stats::{Stats, work_done};
 pub(crate) fn answer<R: Room>(
     input: &InputArgs,
     query: &QueryArgs,
-    columns: usize,
+    names: &[String],
     quiet: bool,
     ask: impl Fn(&R, R::Point, &mut Work) -> Result<Vec<usize>, delone::Error>,
 ) -> Result<(), Failure> {
     let strategy = room::strategy::<R>(&query.strategy, "queries")?;
-    let format = files::index_format(&query.output, query.to)?;
+    let format = answer_format(&query.output, query.to)?;
+    let columns = names.len();
     files::keep_apart(
         &input.paths_and(&query.queries),
         std::iter::once(query.output.as_path()).chain(input.stats.as_deref()),
     )?;
     let mut stats = Stats::start();
     let (points, _) = room::read::<R>(input, quiet)?;
-    let queries = room::queries::<R>(&query.queries, quiet)?;
+    let (queries, about) = room::queries_with::<R>(&query.queries, quiet)?;
     stats.phase("read");
     let mut d: R = room::build(&points, R::FASTEST, &input.label(), quiet)?;
     drop(points);
@@ -51,8 +55,37 @@ pub(crate) fn answer<R: Room>(
     stats.triangulation(&d, d.counters());
     stats.set("queries", queries.len());
     stats.set("counters", work_done(&work));
-    files::write(&query.output, |out| delone_io::write_indices(out, format, columns, &rows))?;
+    if format == Format::Npy {
+        files::write(&query.output, |out| delone_io::write_indices(out, format, columns, &rows))?;
+    } else {
+        write(&query.output, format, &queries, &about, (names, Found::Indices(&rows)))?;
+    }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);
     stats.write(input.stats.as_deref())
+}
+
+/// The format of a file of answers: arrays have the answers alone, other formats the queries with their attributes too.
+pub(crate) fn answer_format(path: &Path, said: Option<Format>) -> Result<Format, Failure> {
+    let format = files::format(path, said, "--to")?;
+    let output = [(path.to_owned(), format)];
+    if format != Format::Npy {
+        files::check_formats(&output, &[Contents::Answers])?;
+    }
+    files::expect(&output);
+    files::keep_attributes(Contents::Answers);
+    Ok(format)
+}
+
+/// Writes answers with the queries and their attributes.
+pub(crate) fn write<P: AsRef<[f64]>>(
+    path: &Path,
+    format: Format,
+    queries: &[P],
+    about: &Cloud,
+    (names, found): (&[String], Found),
+) -> Result<(), Failure> {
+    let (features, crs) = (&about.features, about.crs.as_ref());
+    let answers = Answers { queries, features, crs, names, found };
+    files::write(path, |out| write_answers(out, format, &answers))
 }

@@ -13,6 +13,7 @@ use crate::orders;
 use crate::powers;
 use crate::progress::Phase;
 use crate::room::{self, Room};
+use crate::sites;
 use crate::stats::Stats;
 
 pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
@@ -28,6 +29,9 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let outputs =
         args.wkt.of(files::outputs(&args.output, args.to, args.input.stats.as_deref(), &inputs)?)?;
     files::check_formats(&outputs, &[Contents::Cells])?;
+    if args.order.is_none() {
+        files::keep_attributes(Contents::Cells);
+    }
     let sites_format = args.sites.as_deref().map(files::format_beside).transpose()?;
     if !args.bounds.is_empty() && args.clip != Path::new("box") {
         return Err(Failure::usage("--box is for --clip box", "leave one of them out"));
@@ -43,6 +47,7 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     let mut triangulation: Delaunay2 = build(&points)?;
     drop(points);
     room::remark(&triangulation, quiet);
+    let features = sites::features(&about, &triangulation, quiet);
     stats.phase("build");
     let region = if polygon { polygon_region(args, &rings)? } else { region(args, &triangulation)? };
     if let Some(order) = args.order {
@@ -85,7 +90,12 @@ pub(crate) fn run(args: &VoronoiArgs, quiet: bool) -> Result<(), Failure> {
     stats.set("cells", triangulation.vertices().filter(|&v| cells.rings(v).next().is_some()).count());
     stats.set("area", region.area());
     let _phase = Phase::start(quiet, "writing");
-    let diagram = Diagram { triangulation: &triangulation, cells: &cells, crs: about.crs.as_ref() };
+    let diagram = Diagram {
+        triangulation: &triangulation,
+        cells: &cells,
+        crs: about.crs.as_ref(),
+        features: Some(&features),
+    };
     for (path, format) in &outputs {
         files::write(path, |out| delone_io::write_diagram(out, *format, &diagram, args.size))?;
     }

@@ -1,6 +1,6 @@
 //! The commands `voronoi`, `hull` and `furthest`, and motions and imprecise points in pictures.
 
-use crate::place::{Place, data, rows};
+use crate::place::{Place, answers, data, rows};
 use serde_json::Value;
 
 /// The features of a file of cells: site, area, geometry.
@@ -145,7 +145,8 @@ fn hulls_and_furthest_points() {
     place.file("p.csv", "0,0\n4,0\n2,0\n4,4\n1,1\n0,4\n0,0\n");
     assert_eq!(rows(&place.succeed("hull p.csv -o - --to csv")), [[0], [1], [3], [5]]);
     place.file("q.csv", "0,0\n4,4\n2,2\n9,0\n");
-    assert_eq!(rows(&place.succeed("furthest p.csv --queries q.csv -o - --to csv -q")), [[3], [0], [0], [5]]);
+    let furthest = place.succeed("furthest p.csv --queries q.csv -o - --to csv -q");
+    assert_eq!(furthest, "x,y,furthest\n0.0,0.0,3\n4.0,4.0,0\n2.0,2.0,0\n9.0,0.0,5\n");
     place.succeed("furthest p.csv --queries q.csv -o f.npy --stats s.json -q");
     let stats: Value =
         serde_json::from_slice(&std::fs::read(place.path("s.json")).expect("stats")).expect("JSON");
@@ -154,7 +155,8 @@ fn hulls_and_furthest_points() {
     assert!(String::from_utf8_lossy(&npy).contains("'shape': (4, )"), "one dimension");
     place.file("none.csv", "");
     assert_eq!(place.succeed("hull none.csv -o - --to csv"), "");
-    assert_eq!(place.succeed("furthest none.csv --queries q.csv -o - --to csv -q"), "-1\n".repeat(4));
+    let nothing = place.succeed("furthest none.csv --queries q.csv -o - --to csv -q");
+    assert_eq!(answers(&nothing, 1), [[-1.0]; 4]);
     place.file("bad.csv", "0,0\nnan,1\n");
     place.fail("hull bad.csv -o h.npy", 1, "point 1");
     place.fail("furthest p.csv --queries bad.csv -o h.npy", 1, "query 1");

@@ -477,13 +477,13 @@ fn values_are_interpolated() {
     place.succeed("-q interpolate p.csv --value a --grid 0.1 --outside nearest -o g.npy");
     assert!(raster(&place, "g.npy").2.iter().all(|z| z.is_finite()));
     place.succeed("-q interpolate p.csv --value a --queries q.csv -o v.csv");
-    assert_eq!(fs::read_to_string(place.path("v.csv")).expect("text").lines().count(), 50);
+    assert_eq!(fs::read_to_string(place.path("v.csv")).expect("text").lines().count(), 51);
     place.file("nan.csv", "x,y,a\n0,0,1\n4,0,nan\n4,4,inf\n");
     for (status, arguments, part) in [
         (1, "nan.csv --value a --queries q.csv -o v.npy", "the value of point 1 is NaN"),
         (2, "p.csv --queries q.csv -o v.npy", "nothing to interpolate"),
         (1, "p.csv --value c --queries q.csv -o v.npy", "c"),
-        (2, "p.csv --value a --queries q.csv -o v.tif", "numbers are not written to tif files"),
+        (2, "p.csv --value a --queries q.csv -o v.tif", "answers to queries are not written to tif files"),
         (2, "p.csv --value a --value b --grid 1 -o v.tif", "one value"),
         (2, "p.csv --value a -o v.npy", "--queries"),
     ] {

@@ -1,6 +1,7 @@
 //! All tests of the program from outside, in one program.
 
 mod alpha;
+mod attributes;
 mod cells;
 mod diagrams;
 mod dtm;

@@ -1,11 +1,11 @@
 //! `delone interpolate --outside`: what there is beyond the hull.
 
-use crate::place::Place;
+use crate::place::{Place, answers};
 
 /// Values at places, by what there is beyond the hull.
 fn values(place: &Place, command: &str, outside: &str) -> Vec<f64> {
     let text = place.succeed(&format!("-q interpolate {command} --outside {outside} -o - --to csv"));
-    text.lines().map(|line| line.parse().expect("a number")).collect()
+    answers(&text, 1).concat()
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use crate::place::{Place, data, rows, text};
+use crate::place::{Place, answers, data, text};
 
 #[test]
 fn real_ground_points_become_a_mesh_and_a_picture() {
@@ -369,18 +369,17 @@ fn strategies_of_location_give_the_same_answers() {
     place.file("points.csv", "0,0\n4,0\n0,4\n4,4\n2,2\n");
     place.file("queries.csv", "1,0.5\n2,2\n1,1\n9,9\n2,0\n");
     for locate in ["tree", "walk", "jump-and-walk", "hierarchy", "history", "stars", "delaunay-tree"] {
-        let found = rows(
-            &place
-                .succeed(&format!("locate points.csv --queries queries.csv -o - --to csv --locate {locate}")),
-        );
-        assert_eq!(found[0], [0, 1, 4], "{locate}");
-        assert!(found[1].contains(&4) && found[2].contains(&0) && found[2].contains(&4), "{locate}");
-        assert_eq!(found[3], [-1; 3], "{locate}");
-        assert_eq!(found[4], [0, 1, 4], "{locate}");
+        let line = format!("locate points.csv --queries queries.csv -o - --to csv --locate {locate}");
+        let found = answers(&place.succeed(&line), 3);
+        assert_eq!(found[0], [0.0, 1.0, 4.0], "{locate}");
+        assert!(found[1].contains(&4.0) && found[2].contains(&0.0) && found[2].contains(&4.0), "{locate}");
+        assert_eq!(found[3], [-1.0; 3], "{locate}");
+        assert_eq!(found[4], [0.0, 1.0, 4.0], "{locate}");
         let nearest = place.succeed(&format!(
             "nearest points.csv --queries queries.csv -k 2 -o - --to csv --locate {locate}"
         ));
-        assert_eq!(nearest, "0,4\n4,0\n0,4\n3,4\n0,4\n", "{locate}");
+        let pairs = [[0.0, 4.0], [4.0, 0.0], [0.0, 4.0], [3.0, 4.0], [0.0, 4.0]];
+        assert_eq!(answers(&nearest, 2), pairs, "{locate}");
     }
     place.succeed("nearest points.csv --queries queries.csv -k 7 -o n.npy --stats s.json");
     let bytes = std::fs::read(place.path("n.npy")).expect("written");
@@ -461,7 +460,7 @@ fn wrong_queries_are_named() {
     place.fail(
         "locate points.csv --queries points.csv -o t.png",
         2,
-        "rows of indices are not written to png files",
+        "answers to queries are not written to png files",
     );
     place.fail("locate points.csv --queries points.csv -o points.csv", 2, "overwrite");
     place.fail("nearest points.csv --queries points.csv -o t.npy -k 0", 2, "0");
@@ -469,10 +468,11 @@ fn wrong_queries_are_named() {
     place.file("empty.csv", "");
     assert_eq!(
         place.succeed("locate empty.csv --queries points.csv -o - --to csv -q"),
-        "-1,-1,-1\n".repeat(3)
+        "x,y,a,b,c\n0.0,0.0,-1,-1,-1\n4.0,0.0,-1,-1,-1\n0.0,4.0,-1,-1,-1\n"
     );
-    assert_eq!(place.succeed("nearest empty.csv --queries points.csv -o - --to csv -q"), "-1\n".repeat(3));
-    assert_eq!(place.succeed("locate points.csv --queries empty.csv -o - --to csv -q"), "");
+    let nearest = place.succeed("nearest empty.csv --queries points.csv -o - --to csv -q");
+    assert_eq!(answers(&nearest, 1), [[-1.0]; 3]);
+    assert_eq!(place.succeed("locate points.csv --queries empty.csv -o - --to csv -q"), "x,y,a,b,c\n");
 }
 
 /// What is left out is named, with the way to get it.

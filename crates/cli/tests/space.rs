@@ -1,6 +1,6 @@
 //! The commands with `--dim 3`.
 
-use crate::place::{Place, rows};
+use crate::place::{Place, answers};
 use serde_json::Value;
 
 fn json(place: &Place, name: &str) -> Value {
@@ -103,11 +103,11 @@ fn queries_in_space() {
     let place = Place::new();
     place.file("p.csv", "0,0,0\n4,0,0\n0,4,0\n0,0,4\n");
     place.file("q.csv", "1,1,1\n9,9,9\n0,0,0\n2,2,0\n");
-    let inside = [0, 1, 2, 3];
-    let located = rows(&place.succeed("locate p.csv --queries q.csv --dim 3 -o - --to csv"));
-    assert_eq!(located, [inside, [-1; 4], inside, inside]);
-    let near = rows(&place.succeed("nearest p.csv --queries q.csv --dim 3 -k 2 -o - --to csv"));
-    assert_eq!(near, [[0, 3], [3, 2], [0, 3], [0, 2]]);
+    let inside = [0.0, 1.0, 2.0, 3.0];
+    let located = answers(&place.succeed("locate p.csv --queries q.csv --dim 3 -o - --to csv"), 4);
+    assert_eq!(located, [inside, [-1.0; 4], inside, inside]);
+    let near = answers(&place.succeed("nearest p.csv --queries q.csv --dim 3 -k 2 -o - --to csv"), 2);
+    assert_eq!(near, [[0.0, 3.0], [3.0, 2.0], [0.0, 3.0], [0.0, 2.0]]);
     place.fail("nearest p.csv --queries nowhere.csv --dim 3 -o n.npy", 1, "nowhere.csv");
     place.file("flat.csv", "1,2\n");
     place.fail("locate p.csv --queries flat.csv --dim 3 -o n.npy", 1, "no third coordinate");

@@ -16,6 +16,7 @@ mod hints;
 mod hull;
 mod hull_merged;
 mod locate;
+mod members;
 mod metamorphic;
 mod neighbors;
 mod orders;

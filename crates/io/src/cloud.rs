@@ -22,6 +22,8 @@ pub struct Cloud {
     pub features: Features,
     /// What a user might want to know of how the file was read: which columns were taken, what was left out.
     pub remarks: Vec<String>,
+    /// What the file has and these points have not.
+    pub losses: Vec<String>,
 }
 
 impl Cloud {
@@ -65,11 +67,7 @@ impl Cloud {
     /// where both name one.
     pub fn join(&mut self, other: Self) -> Result<(), Error> {
         if let (Some(ours), Some(theirs)) = (&self.crs, &other.crs) {
-            let differ = match (ours.epsg, theirs.epsg) {
-                (Some(a), Some(b)) => a != b,
-                _ => ours != theirs,
-            };
-            if differ {
+            if !ours.agrees(theirs) {
                 let [ours, theirs] = [ours, theirs].map(ToString::to_string);
                 return Err(Error::Systems { what: "coordinates", ours, theirs });
             }
@@ -89,12 +87,13 @@ impl Cloud {
         }
         self.flags.iter_mut().zip(other.flags).for_each(|(sum, count)| *sum += count);
         self.remarks.extend(other.remarks.iter().cloned());
+        self.losses.extend(other.losses.iter().cloned());
         self.features.join(self.xy.len(), &other.features, other.xy.len());
         if self.xy.is_empty() {
             (self.xy, self.z, self.base) = (other.xy, other.z, other.base);
         } else if !other.xy.is_empty() {
             if self.z.is_some() != other.z.is_some() {
-                self.remarks.push("heights are left out: not all files have them".to_owned());
+                self.losses.push("heights are left out: not all files have them".to_owned());
                 self.z = None;
             }
             self.append(other);
@@ -126,8 +125,8 @@ mod tests {
         assert_eq!(both.classes, [(1, 1), (2, 4)]);
         assert!(both.join(cloud(1, true, Some(25833))).is_err());
         both.join(cloud(0, false, None)).expect("empty files change nothing");
-        assert!(both.z.is_some() && both.remarks.is_empty());
+        assert!(both.z.is_some() && both.losses.is_empty());
         both.join(cloud(1, false, None)).expect("no heights");
-        assert_eq!((both.xy.len(), both.z, both.remarks.len()), (6, None, 1));
+        assert_eq!((both.xy.len(), both.z, both.losses.len()), (6, None, 1));
     }
 }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::{Cells2, OrderCells2, OrderK2, OrderRegion2, Ring, Triangulation, VertexId};
 
-use crate::Crs;
+use crate::{Crs, Features, Table};
 
 /// Clipped cells, with the triangulation of their sites.
 #[derive(Debug)]
@@ -15,6 +15,9 @@ pub struct Diagram<'a, T> {
     pub cells: &'a Cells2,
     /// What the coordinates mean; formats that can say it do.
     pub crs: Option<&'a Crs>,
+    /// The attributes of the sites, which their cells have in GeoJSON, FlatGeobuf and CSV; one that is called `site` or `area` is `site_2` or `area_2`
+    /// there.
+    pub features: Option<&'a Features>,
 }
 
 /// Clipped regions of a diagram of higher order.
@@ -56,6 +59,16 @@ pub(crate) trait Tiles {
 
     /// What the coordinates mean.
     fn crs(&self) -> Option<&Crs>;
+
+    /// The attributes of the sites, where they are known.
+    fn table(&self) -> Option<&Table> {
+        None
+    }
+
+    /// The row of one in that table.
+    fn row(&self, _: Self::Tile) -> Option<usize> {
+        None
+    }
 
     /// Those of which something is left.
     fn present(&self) -> impl Iterator<Item = Self::Tile> {
@@ -120,6 +133,14 @@ impl<T: Triangulation<Point = [f64; 2]>> Tiles for Diagram<'_, T> {
 
     fn crs(&self) -> Option<&Crs> {
         self.crs
+    }
+
+    fn table(&self) -> Option<&Table> {
+        self.features.map(|features| &features.table)
+    }
+
+    fn row(&self, tile: VertexId) -> Option<usize> {
+        self.features?.row(tile.index())
     }
 }
 

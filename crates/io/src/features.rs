@@ -16,18 +16,20 @@ pub struct Features {
     pub table: Table,
     /// The row of each point; nothing where no point has one.
     rows: Vec<u32>,
+    /// The heights of the points are a column of the table.
+    pub(crate) has_heights: bool,
 }
 
 impl Features {
     /// The features of points whose rows are these, in the order of the points.
     pub(crate) fn new(table: Table, rows: Vec<u32>) -> Self {
-        Self { table, rows }
+        Self { table, rows, has_heights: false }
     }
 
     /// A table with a row for each point.
     pub fn of_points(table: Table) -> Self {
         let rows = (0..table.len() as u32).collect();
-        Self { table, rows }
+        Self { table, rows, has_heights: false }
     }
 
     /// The row of a point, if there is one.
@@ -35,8 +37,32 @@ impl Features {
         self.rows.get(point).filter(|&&row| row != NO_ROW).map(|&row| row as usize)
     }
 
+    /// The features with the height of each point, in a column `z`, or `z_2` and so on where there is one of that name; as they are where a
+    /// column has the heights already.
+    #[must_use]
+    pub fn with_heights(&self, heights: &[f64]) -> Self {
+        const NAME: &str = "z";
+        if self.has_heights {
+            return self.clone();
+        }
+        let mut table = Table::default();
+        self.table.names.iter().for_each(|name| _ = table.column(name));
+        let is_taken = |name: &str| self.table.places.contains_key(name);
+        let name = if is_taken(NAME) { numbered(NAME, is_taken) } else { NAME.to_owned() };
+        let column = table.column(&name);
+        for (point, &number) in heights.iter().enumerate() {
+            table.begin();
+            let row = self.row(point).into_iter().flat_map(|row| self.table.row(row));
+            row.for_each(|(column, cell)| table.put(column, Value::Json(cell)));
+            table.put(column, Value::Number(number));
+        }
+        Self { has_heights: true, ..Self::of_points(table) }
+    }
+
     /// Appends the features of `more` other points to those of `count`.
     pub(crate) fn join(&mut self, count: usize, other: &Self, more: usize) {
+        let have_both = self.has_heights && (other.has_heights || more == 0);
+        self.has_heights = if count == 0 { other.has_heights } else { have_both };
         let shift = self.table.len() as u32;
         self.table.append(&other.table);
         if self.rows.is_empty() && other.rows.is_empty() {
@@ -121,6 +147,15 @@ impl Table {
         &self.names
     }
 
+    /// The names that the columns have beside others: one that has the name of another gets a number after it.
+    pub(crate) fn names_beside(&self, others: &[&str]) -> Vec<String> {
+        let is_taken = |name: &str| others.contains(&name) || self.places.contains_key(name);
+        let beside = |name: &String| {
+            if others.contains(&name.as_str()) { numbered(name, is_taken) } else { name.clone() }
+        };
+        self.names.iter().map(beside).collect()
+    }
+
     /// The number of rows.
     pub fn len(&self) -> usize {
         self.begins.len()
@@ -147,6 +182,14 @@ impl Table {
     pub fn value(&self, row: usize, column: usize) -> Value<'_> {
         let cell = self.row(row).find(|cell| cell.0 == column);
         cell.map_or(Value::Null, |(_, cell)| Value::of(cell))
+    }
+
+    /// The fields of a row in a table of text, one for each column.
+    pub(crate) fn fields(&self, row: Option<usize>) -> Vec<String> {
+        let mut fields = vec![String::new(); self.names.len()];
+        let cells = row.into_iter().flat_map(|row| self.row(row));
+        cells.for_each(|(column, cell)| fields[column] = Value::of(cell).field());
+        fields
     }
 
     /// The types of all columns.
@@ -287,6 +330,15 @@ impl<'a> Value<'a> {
         if is_number { Self::Json(field) } else { Self::Text(field) }
     }
 
+    /// The value as a field of a table of text, in quotes where these are needed; an empty one where there is none.
+    pub(crate) fn field(&self) -> String {
+        let text = self.text().unwrap_or_default();
+        if text.contains(['"', ',', '\n', '\r']) || text.trim().len() < text.len() {
+            return format!("\"{}\"", text.replace('"', "\"\""));
+        }
+        text.into_owned()
+    }
+
     /// The value as a text, where there is one.
     pub fn text(&self) -> Option<Cow<'a, str>> {
         Some(match self {
@@ -297,6 +349,18 @@ impl<'a> Value<'a> {
             Self::Text(text) | Self::Json(text) => Cow::Borrowed(*text),
             Self::Owned(text) => Cow::Owned(text.clone()),
         })
+    }
+}
+
+/// A name with the least number from 2 after it that nothing has.
+fn numbered(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let mut number = 2;
+    loop {
+        let own = format!("{name}_{number}");
+        if !is_taken(&own) {
+            return own;
+        }
+        number += 1;
     }
 }
 

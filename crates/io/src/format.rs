@@ -171,6 +171,24 @@ impl Format {
         }
     }
 
+    /// Whether files of this format have the attributes of the input beside such contents.
+    ///
+    /// ```
+    /// use delone_io::{Contents, Format};
+    ///
+    /// assert!(Format::GeoJson.keeps_attributes(Contents::Cells));
+    /// assert!(!Format::Wkt.keeps_attributes(Contents::Cells));
+    /// ```
+    pub fn keeps_attributes(self, contents: Contents) -> bool {
+        match contents {
+            Contents::Cells | Contents::Answers => {
+                matches!(self, Self::GeoJson | Self::FlatGeobuf | Self::Text)
+            }
+            Contents::Triangles | Contents::Patches => matches!(self, Self::GeoJson | Self::FlatGeobuf),
+            _ => false,
+        }
+    }
+
     /// Refuses contents that files of this format do not hold.
     ///
     /// # Errors

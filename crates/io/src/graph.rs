@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use delone::RegionSeed2;
 
-use crate::{Cloud, Error};
+use crate::{Cloud, Crs, Error};
 
 /// Points with segments, and what a file says of them: the input of constrained triangulations.
 ///
@@ -41,6 +41,15 @@ pub struct GraphRing {
     pub ring: usize,
     /// Its segments.
     pub segments: Range<usize>,
+}
+
+/// The rings of polygons, without the last position of each, which is the first again.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rings {
+    /// The rings of all polygons, one after another.
+    pub rings: Vec<Vec<[f64; 2]>>,
+    /// What the coordinates mean, where the file tells.
+    pub crs: Option<Crs>,
 }
 
 /// Rows of values, each of the same width.
@@ -88,7 +97,7 @@ impl Graph {
             self.attributes.values.append(&mut other.attributes.values);
         } else if more_points > 0 {
             self.attributes = Attributes::default();
-            self.cloud.remarks.push("attributes are left out: not all files have as many".to_owned());
+            self.cloud.losses.push("attributes are left out: not all files have as many".to_owned());
         }
         self.holes.append(&mut other.holes);
         self.regions.append(&mut other.regions);
@@ -137,7 +146,7 @@ mod tests {
         assert_eq!(both.markers, Some(vec![0, 0, 0, 0, 5, 5, 5, 5]));
         assert_eq!(both.rings[1], GraphRing { polygon: 1, ring: 0, segments: 4..8 });
         // The last file has no attributes.
-        assert_eq!((both.attributes.width, both.cloud.remarks.len()), (0, 1));
+        assert_eq!((both.attributes.width, both.cloud.losses.len()), (0, 1));
         assert!(both.attributes.row(3).is_empty());
         let mut first = Graph::default();
         first.join(square(None, 1)).expect("no systems");

@@ -4,6 +4,7 @@
 //! Formats are found by extension ([`Format`]). Output goes to a temporary name that is renamed when complete
 //! ([`Output`]), so no reader ever sees half a file.
 
+mod answers;
 mod chunks;
 mod cloud;
 #[cfg(feature = "parquet")]
@@ -31,6 +32,7 @@ mod solid;
 mod trim;
 mod xml;
 
+pub use answers::{Answers, Found, write_answers};
 pub use chunks::Take;
 pub use cloud::Cloud;
 #[cfg(feature = "parquet")]
@@ -47,10 +49,10 @@ pub use formats::las::{LAS_CLASSES, LasFilter, LasFlag, Returns};
 pub use formats::npy::{Element, write_array};
 pub use formats::poly::{Beside, has_points_beside};
 pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
-pub use graph::{Attributes, Graph, GraphRing};
+pub use graph::{Attributes, Graph, GraphRing, Rings};
 pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
-pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
+pub use mesh::{Constraints, Drawable, Mesh, Rows, write_mesh};
 pub use output::{
     Finished, Output, TemporaryFolder, followed, give_names, limit_output, remove_unfinished, sync_file,
     sync_folder, wait_for_names,
@@ -238,19 +240,28 @@ trait Shape {
     fn crs(&self) -> Option<&Crs> {
         None
     }
+    /// The attributes of the polygons that triangles are in, where they are known.
+    fn table(&self) -> Option<&Table> {
+        None
+    }
+    /// The row of each triangle in that table.
+    fn rows(&self) -> impl Iterator<Item = Option<usize>> {
+        std::iter::empty()
+    }
 }
 
 /// Reads the rings of polygons: those of formats that have polygons, or all points of another format as one ring.
-pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Rings, Error> {
     if let Some(read) = format.readers().polygons {
         return read(source);
     }
     let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
-    Ok(vec![read_points(source, format, &options)?.xy])
+    let cloud = read_points(source, format, &options)?;
+    Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs })
 }
 
-/// Writes Voronoi cells, one for each site with its input index (`site`) and the area of its cell: as GeoJSON or FlatGeobuf, or as CSV with the
-/// columns `site,area,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
+/// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON or FlatGeobuf,
+/// or as CSV with the columns `site,area,...,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
 /// binary, one collection, without index and area; or as a picture whose longer side has `size` pixels.
 ///
 /// The rings are the same in all of them, bit for bit. A cell that is empty has its place: no geometry in GeoJSON, an empty
@@ -265,7 +276,7 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Vec<Vec<[f6
 ///
 /// let d = Delaunay2::from_points(&[[0.0, 0.0], [4.0, 0.0]])?;
 /// let cells = d.voronoi().clip(&Region2::rectangle([0.0, 0.0], [4.0, 1.0])?);
-/// let diagram = Diagram { triangulation: &d, cells: &cells, crs: None };
+/// let diagram = Diagram { triangulation: &d, cells: &cells, crs: None, features: None };
 /// let mut file = Vec::new();
 /// write_diagram(&mut file, Format::Text, &diagram, 800)?;
 /// assert!(String::from_utf8(file)?.starts_with("site,area,wkt\n0,2.0,\"POLYGON (("));

@@ -7,7 +7,9 @@ use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
 use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt};
 use crate::middles::{Middles, ordered};
-use crate::{Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Trim, picture, write_solid};
+use crate::{
+    Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Table, Trim, picture, write_solid,
+};
 
 /// A triangulation to be written, with what lies beside it.
 ///
@@ -40,6 +42,8 @@ pub struct Mesh<'a, T: Triangulation> {
     pub constraints: Option<&'a Constraints<'a>>,
     /// The region of each simplex, by its index.
     pub regions: Option<&'a [f64]>,
+    /// The attributes of the polygons that triangles are in, which GeoJSON and FlatGeobuf have.
+    pub features: Option<Rows<'a>>,
     /// Values of the points by id, which `.node` and `.poly` files have instead of heights.
     pub attributes: Option<&'a Attributes>,
     /// A number for each of the points, for `.node` and `.poly` files.
@@ -50,6 +54,15 @@ pub struct Mesh<'a, T: Triangulation> {
     /// ends of their edges in order; heights and attributes of a middle are means, and its marker is that of the edge. Not
     /// all formats hold that: see [`Drawable::check_second_order`].
     pub second_order: bool,
+}
+
+/// A row of a table for each simplex, by its index.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'a> {
+    /// The table.
+    pub table: &'a Table,
+    /// The row of each simplex, if it has one.
+    pub of: &'a [Option<usize>],
 }
 
 /// The constraints of a triangulation, and what a `.poly` file says beside them.
@@ -101,6 +114,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             trim: None,
             constraints: None,
             regions: None,
+            features: None,
             attributes: None,
             point_markers: None,
             edge_markers: true,
@@ -262,6 +276,15 @@ impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {
 
     fn crs(&self) -> Option<&Crs> {
         self.crs
+    }
+
+    fn table(&self) -> Option<&Table> {
+        self.features.map(|features| features.table)
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Option<usize>> {
+        let of = |s| self.features?.of.get(self.triangulation.index(s)).copied().flatten();
+        self.simplices().map(of)
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use crate::formats::{geojson, obj, ply, stl, vector, vtu, wkb, wkt};
 use crate::picture::{Mark, Sketch, Tone, write_sketch};
-use crate::{Contents, Crs, Direction, Error, Format, Remark, Shape, write_indices};
+use crate::{Contents, Crs, Direction, Error, Format, Remark, Shape, Table, write_indices};
 
 /// Triangles of polygons, and which one each is of.
 #[derive(Clone, Debug, Default)]
@@ -20,6 +20,10 @@ pub struct Patches {
     pub polygons: Vec<usize>,
     /// What the coordinates mean.
     pub crs: Option<Crs>,
+    /// The attributes of the polygons, and the row of each; triangles have them in GeoJSON and FlatGeobuf.
+    pub table: Table,
+    /// See there.
+    pub rows: Vec<Option<usize>>,
 }
 
 impl Shape for Patches {
@@ -42,6 +46,14 @@ impl Shape for Patches {
 
     fn crs(&self) -> Option<&Crs> {
         self.crs.as_ref()
+    }
+
+    fn table(&self) -> Option<&Table> {
+        Some(&self.table)
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Option<usize>> {
+        self.polygons.iter().map(|&polygon| self.rows.get(polygon).copied().flatten())
     }
 }
 

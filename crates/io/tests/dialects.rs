@@ -34,12 +34,12 @@ fn a_column_of_geometries_is_a_graph() {
     let cloud = read_points(source(text), Format::Text, &ReadOptions::default()).expect("points");
     assert_eq!((cloud.xy, cloud.crs), (graph.cloud.xy, graph.cloud.crs));
     assert!(cloud.remarks.iter().any(|remark| remark.starts_with("the corners of 2 lines and polygons")));
-    assert_eq!(read_rings(source(text), Format::Text).expect("rings").len(), 2);
+    assert_eq!(read_rings(source(text), Format::Text).expect("rings").rings.len(), 2);
     // Without such a column a file is of points, and they are one ring.
     let plain = "x,y\n0,0\n1,0\n0,1\n";
     assert_eq!(good(Format::Text, plain).segments, [[0; 2]; 0]);
     assert_eq!(
-        read_rings(source(plain), Format::Text).expect("a ring"),
+        read_rings(source(plain), Format::Text).expect("a ring").rings,
         [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
     );
     for (text, holds) in
@@ -104,11 +104,11 @@ fn polys_of_osmosis_are_polygons() {
         read_points(source(text), Format::Poly, &ReadOptions::default()).expect("points"),
         graph.cloud
     );
-    let borders = read_rings(source(text), Format::Poly).expect("rings");
+    let borders = read_rings(source(text), Format::Poly).expect("rings").rings;
     assert_eq!(borders.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3, 3]);
     assert_eq!(borders[1], [[3.0, 3.0], [4.0, 3.0], [4.0, 4.0]]);
     let plain = "3 2 0 0\n1 0 0\n2 1 0\n3 0 1\n0 0\n0\n";
-    assert_eq!(read_rings(source(plain), Format::Poly).expect("a ring").len(), 1);
+    assert_eq!(read_rings(source(plain), Format::Poly).expect("a ring").rings.len(), 1);
     for (text, message) in [
         ("island\n1\n 1 2\n", "the file ends inside a polygon, without END"),
         ("island\n1\n 1 2\nEND\n", "the file ends without the last END"),

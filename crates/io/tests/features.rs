@@ -5,7 +5,7 @@ use std::io::Cursor;
 use delone_io::{Cloud, Format, ReadOptions, Value, read_graph, read_points};
 
 fn options() -> ReadOptions {
-    ReadOptions { attributes: true, dimension: 2, ..ReadOptions::default() }
+    ReadOptions { attributes: true, dimension: 3, ..ReadOptions::default() }
 }
 
 fn points(format: Format, text: &str, options: &ReadOptions) -> Cloud {
@@ -52,6 +52,11 @@ fn columns_of_text() {
         (names, rows),
         (vec!["field_4".to_owned()], vec![vec!["0:4".to_owned()], vec!["0:8".to_owned()]])
     );
+    // In the plane heights are an attribute.
+    let plane = ReadOptions { dimension: 2, ..options() };
+    let cloud = points(Format::Text, "x,y,elevation\n1,2,3\n", &plane);
+    assert_eq!((table(&cloud).0, cloud.z.as_deref()), (vec!["elevation".to_owned()], Some(&[3.0][..])));
+    assert_eq!(cloud.features.with_heights(&[3.0]), cloud.features);
     // R has a field more in its rows, and a row may end with a separator.
     let (names, rows) = table(&points(Format::Text, "\"x\",\"y\",\"w\"\n\"1\",2,3,4\n", &options()));
     assert_eq!((names, rows), (vec!["w".to_owned()], vec![vec!["0:4".to_owned()]]));

@@ -122,7 +122,7 @@ fn what_is_written_is_in_the_table() {
                     is_refused(write_solid(out, format, &solid, &options), format, contents)
                 }
                 Contents::Cells => {
-                    let diagram = Diagram { triangulation: &plane, cells: &cells, crs: None };
+                    let diagram = Diagram { triangulation: &plane, cells: &cells, crs: None, features: None };
                     is_refused(write_diagram(out, format, &diagram, 20), format, contents)
                 }
                 Contents::Edges => {

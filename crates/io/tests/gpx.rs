@@ -36,7 +36,7 @@ fn tracks_are_lines() {
 #[test]
 fn heights_of_some_are_said_to_be_left_out() {
     let cloud = points(&WALK.replace("<ele>410.5</ele>", "")).expect("a file");
-    assert!(cloud.z.is_none() && cloud.remarks.iter().any(|remark| remark.contains("heights are left out")));
+    assert!(cloud.z.is_none() && cloud.losses.iter().any(|loss| loss.contains("heights are left out")));
 }
 
 #[test]

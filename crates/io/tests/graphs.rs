@@ -245,7 +245,7 @@ fn geometries_have_one_meaning_in_all_formats() {
             "{format}"
         );
         assert_eq!(points.remarks, ["the corners of 2 lines and polygons were taken as points"]);
-        let rings = read_rings(source(&content), format).expect("rings");
+        let rings = read_rings(source(&content), format).expect("rings").rings;
         assert_eq!(rings, [&points.xy[..4], &points.xy[4..7]], "{format}");
         let mut expected = square_and_line();
         expected.cloud.crs = system;
@@ -259,7 +259,7 @@ fn heights_and_special_rings() {
     assert_eq!(good(Format::GeoJson, high).cloud.z, Some(vec![5.0, 6.0]));
     let some = "{\"type\":\"LineString\",\"coordinates\":[[0,0,5],[1,0]]}";
     let some = good(Format::GeoJson, some).cloud;
-    assert_eq!((some.z, some.remarks.len()), (None, 1));
+    assert_eq!((some.z, some.losses.len()), (None, 1));
     // Rings that are a point, a segment, nothing.
     let small = good(Format::Wkt, "MULTIPOLYGON (((1 1, 1 1)), ((1 1, 2 2, 1 1)), EMPTY, ((3 3)))");
     assert_eq!((small.cloud.xy.len(), small.segments), (4, vec![[1, 2], [2, 1]]));

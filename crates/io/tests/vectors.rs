@@ -5,9 +5,10 @@ use std::io::{Cursor, Write};
 use delone::surface::{Contours, Levels};
 use delone::{Delaunay2, Region2};
 use delone_io::{
-    Cloud, Contents, ContourMap, Crs, Diagram, Direction, Edges, Error, Format, Graph, GraphRing, Mesh,
-    OrderDiagram, Patches, ReadOptions, Value, picture, read_graph, read_points, read_rings, write_contours,
-    write_diagram, write_edges, write_graph, write_mesh, write_orders, write_patches, write_points,
+    Answers, Cloud, Contents, ContourMap, Crs, Diagram, Direction, Edges, Error, Features, Format, Found,
+    Graph, GraphRing, Mesh, OrderDiagram, Patches, ReadOptions, Rows, Table, Value, picture, read_graph,
+    read_points, read_rings, write_answers, write_contours, write_diagram, write_edges, write_graph,
+    write_mesh, write_orders, write_patches, write_points,
 };
 
 const LAYERS: [Format; 1] = [Format::FlatGeobuf];
@@ -20,7 +21,7 @@ fn content(format: Format, file: &[u8]) -> Content {
     let graph = read_graph(Box::new(Cursor::new(file.to_vec())), format, &options, None);
     let Graph { cloud, segments, rings, .. } = graph.unwrap_or_else(|error| panic!("{format}: {error}"));
     let own = read_rings(Box::new(Cursor::new(file.to_vec())), format).expect("rings");
-    assert_eq!(own.len(), rings.len());
+    assert_eq!((own.rings.len(), &own.crs), (rings.len(), &cloud.crs));
     let Cloud { xy, z, crs, features, .. } = cloud;
     let height = |i: usize| z.as_ref().map(|z| z[i]);
     let positions = xy.iter().enumerate().map(|(i, p)| format!("{p:?} {:?}", height(i))).collect();
@@ -41,6 +42,22 @@ fn points() -> Vec<[f64; 2]> {
     (0..30).map(|i| [f64::from(i * 37 % 101) / 7.0, f64::from(i * 53 % 97) / 3.0]).collect()
 }
 
+/// Attributes of all types, one of them with the name of a column of ours; the last row has none.
+fn features() -> Features {
+    let mut table = Table::default();
+    for i in 0..30_i64 {
+        table.begin();
+        if i < 29 {
+            table.set("area", Value::Integer(i - 7));
+            table.set("name", Value::Text("\u{c5} \"b\""));
+            table.set("is so", Value::Bool(i % 2 == 0));
+            table.set("vertices", Value::Number(i as f64 / 8.0));
+            table.set("mixed", if i % 3 == 0 { Value::Text("x") } else { Value::Null });
+        }
+    }
+    Features::of_points(table)
+}
+
 /// Whether a thing that is written is the same in all formats.
 fn compare(what: &str, write: impl Fn(&mut dyn Write, Format) -> Result<(), Error>) {
     let mut expected = Vec::new();
@@ -56,6 +73,7 @@ fn compare(what: &str, write: impl Fn(&mut dyn Write, Format) -> Result<(), Erro
 #[test]
 fn cells_come_back() {
     let (points, crs) = (points(), Crs::of_epsg(25_832));
+    let features = features();
     let d = Delaunay2::from_points(&points).expect("finite");
     let whole = vec![[0.0, 0.0], [15.0, 0.0], [15.0, 33.0], [0.0, 33.0]];
     let hole = vec![[2.0, 2.0], [13.0, 2.0], [13.0, 30.0], [2.0, 30.0]];
@@ -63,7 +81,8 @@ fn cells_come_back() {
     for region in regions {
         let region = region.expect("rings");
         let cells = d.voronoi().clip(&region);
-        let diagram = Diagram { triangulation: &d, cells: &cells, crs: Some(&crs) };
+        let features = Some(&features);
+        let diagram = Diagram { triangulation: &d, cells: &cells, crs: Some(&crs), features };
         compare("cells", |out, format| write_diagram(out, format, &diagram, 9));
         let orders = d.order(2).expect("two of thirty");
         let cells = orders.cells(&region);
@@ -79,7 +98,10 @@ fn triangles_come_back() {
     let regions: Vec<f64> = (0..100).map(|i| f64::from(i) / 8.0).collect();
     let d = Delaunay2::from_points(&points).expect("finite");
     let flat = Mesh { crs: Some(&crs), ..Mesh::new(&d, &points) };
-    let high = Mesh { heights: Some(&heights), regions: Some(&regions), ..Mesh::new(&d, &points) };
+    let (features, of) = (features(), (0..100).map(|i| (i % 4 > 0).then_some(i % 28)).collect::<Vec<_>>());
+    let rows = Some(Rows { table: &features.table, of: &of });
+    let high =
+        Mesh { heights: Some(&heights), regions: Some(&regions), features: rows, ..Mesh::new(&d, &points) };
     for mesh in [flat, high] {
         compare("triangles", |out, format| {
             write_mesh(out, format, &mesh, &picture::Options::default()).map(|_| ())
@@ -91,6 +113,8 @@ fn triangles_come_back() {
         heights: Some(heights),
         points,
         crs: Some(crs),
+        table: features.table,
+        rows: vec![Some(3); 8],
     };
     compare("patches", |out, format| write_patches(out, format, &patches, 9).map(|_| ()));
 }
@@ -127,6 +151,19 @@ fn graphs_and_edges_come_back() {
     let lines = Graph { rings: Vec::new(), segments: graph.segments[3..].to_vec(), ..graph };
     compare("lines", |out, format| write_graph(out, format, &lines));
     compare("nothing", |out, format| write_graph(out, format, &Graph::default()));
+}
+
+#[test]
+fn answers_come_back() {
+    let (points, features, crs) = (points(), features(), Crs::of_epsg(25_832));
+    let names = ["nearest".to_owned(), "name".to_owned()];
+    let indices: Vec<i64> = (-1..59).collect();
+    let numbers: Vec<f64> = (0..60).map(|i| if i == 7 { f64::NAN } else { f64::from(i) / 4.0 }).collect();
+    for found in [Found::Indices(&indices), Found::Numbers(&numbers)] {
+        let answers =
+            Answers { queries: &points, features: &features, crs: Some(&crs), names: &names, found };
+        compare("answers", |out, format| write_answers(out, format, &answers));
+    }
 }
 
 /// Points have a feature each, which one geometry of GeoJSON has not.

@@ -13,7 +13,7 @@ pub(crate) struct QueryArgs {
     /// File of points to ask for, in any format that points have.
     #[arg(long, value_name = "Q", required = true)]
     pub(crate) queries: PathBuf,
-    /// Output file (npy: int64, or csv), or - for standard output.
+    /// Output file, or - for standard output: npy has the answers alone (int64), csv and geojson the queries with their attributes too.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: PathBuf,
     /// Format of the output, if its extension does not tell.
@@ -75,7 +75,7 @@ pub(crate) struct FurthestArgs {
     /// File of points to ask for, in any format that points have.
     #[arg(long, value_name = "Q", required = true)]
     pub(crate) queries: PathBuf,
-    /// Output file (npy: int64, or csv), or - for standard output.
+    /// Output file, or - for standard output: npy has the answers alone (int64), csv and geojson the queries with their attributes too.
     #[arg(long, short, value_name = "OUT", required = true)]
     pub(crate) output: PathBuf,
     /// Format of the output, if its extension does not tell.

@@ -100,9 +100,6 @@ pub(crate) struct MeshArgs {
     /// Leave out vertices that no triangle uses: the others are numbered anew, in their order.
     #[arg(long)]
     pub(crate) drop_unused: bool,
-    /// Fail, and write nothing, if triangles are left that are not as they were to be.
-    #[arg(long)]
-    pub(crate) strict: bool,
     /// Prove the result with exact arithmetic, and measure all of its triangles again, before writing it.
     #[arg(long)]
     pub(crate) check: bool,

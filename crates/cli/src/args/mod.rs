@@ -56,6 +56,10 @@ pub(crate) struct Cli {
     /// No progress and no notes on standard error; errors still appear.
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
+    /// Fail, and write nothing, where an output has no room for something that the input has (attributes, the system of coordinates, heights,
+    /// lines), or triangles of a mesh are not as they were to be. Otherwise a line on standard error says so.
+    #[arg(long, global = true)]
+    pub(crate) strict: bool,
     /// Threads at most [default: RAYON_NUM_THREADS, or as many as there are cores]. Results do not depend on it;
     /// the default constructions use them, in the plane and in space.
     #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]

@@ -168,8 +168,8 @@ pub(crate) struct InterpolateArgs {
     #[arg(
         long, short, value_name = "OUT",
         help = format!(
-            "Output file, or - for standard output: {}; of a raster {}",
-            formats::written(&[Contents::Numbers]), formats::written(&[Contents::Rasters])
+            "Output file, or - for standard output: npy for the values alone, {} for the places with their attributes too; of a raster {}",
+            formats::written(&[Contents::Answers]), formats::written(&[Contents::Rasters])
         )
     )]
     pub(crate) output: PathBuf,

@@ -1,5 +1,6 @@
 //! Points with segments: read, triangulated, told of and written.
 
+mod polygons;
 mod values;
 
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use delone::{
     Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
     VertexId,
 };
-use delone_io::{Border, Constraints, Format, Graph, Mesh, Trim, picture, write_mesh};
+use delone_io::{Border, Constraints, Contents, Format, Graph, Mesh, Rows, Trim, picture, write_mesh};
 
 use crate::args::{CrossingsName, DrawArgs, FillName, GraphArgs, InputArgs, TriangulateArgs};
 use crate::files;
@@ -35,6 +36,7 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     inputs.extend(args.graph.segments.as_deref());
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &inputs)?)?;
     room::check_formats::<delone::Delaunay2>(&outputs)?;
+    files::keep_attributes(Contents::Triangles);
     let mut stats = Stats::start();
     let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
     if args.check {
@@ -73,6 +75,8 @@ pub(crate) struct Constrained {
     pub(crate) graph: Graph,
     /// The parts of it, and which regions of the input they are.
     pub(crate) inside: Domains2,
+    /// How many polygons of the input are regions.
+    pub(crate) polygons: usize,
     /// The height of every point, those added too.
     pub(crate) heights: Option<Vec<f64>>,
 }
@@ -119,6 +123,7 @@ impl Constrained {
         };
         let mut inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
         triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
+        let polygons = polygons::claim(&triangulation, &graph, &mut inside);
         drop(phase);
         stats.phase("build");
         let heights = graph.cloud.z.as_deref().map(|given| {
@@ -131,7 +136,7 @@ impl Constrained {
             }
             heights
         });
-        let c = Self { triangulation, graph, inside, heights };
+        let c = Self { triangulation, graph, inside, polygons, heights };
         c.tell(stats, quiet);
         Ok(c)
     }
@@ -200,16 +205,21 @@ impl Constrained {
             regions: &graph.regions,
         };
         let mut regions = vec![0.0; c.slot_count()];
+        let mut rows = vec![None; c.slot_count()];
         for t in c.triangle_ids() {
             regions[c.index(t)] = self.inside.attribute(t).unwrap_or_default();
+            rows[c.index(t)] = self.inside.region(t);
         }
+        let features = Rows { table: &graph.cloud.features.table, of: &rows };
+        let has_regions = !graph.regions.is_empty() || self.polygons > 1;
         let mesh = Mesh {
             heights: self.heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
             base: graph.cloud.base,
             trim: (trim.count() > 0).then_some(&trim),
             constraints: Some(&constraints),
-            regions: (!graph.regions.is_empty()).then_some(&regions[..]),
+            regions: has_regions.then_some(&regions[..]),
+            features: (self.polygons > 0).then_some(features),
             ..Mesh::new(c, c.points())
         };
         let phase = Phase::start(quiet, "writing");

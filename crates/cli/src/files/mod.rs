@@ -1,6 +1,7 @@
 //! Files as the commands use them: names checked first, points read, outputs written whole.
 
 mod apart;
+mod attributes;
 mod sides;
 mod systems;
 mod write;
@@ -11,12 +12,13 @@ use std::path::{Path, PathBuf};
 use delone_io::{Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed};
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
+pub(crate) use attributes::{are_kept as are_attributes_kept, keep_attributes};
 pub(crate) use sides::write_sides;
 pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
 
 use crate::args::InputArgs;
 use crate::limits;
-use crate::message::{Failure, note};
+use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 
 /// What progress says while a file is read.
@@ -83,6 +85,11 @@ pub(crate) fn check_formats(outputs: &[(PathBuf, Format)], any: &[Contents]) -> 
     ))
 }
 
+/// Keeps an output, which should say what the input does.
+pub(crate) fn expect(outputs: &[(PathBuf, Format)]) {
+    systems::expect(outputs);
+}
+
 /// The format of a file of indices.
 pub(crate) fn index_format(path: &Path, said: Option<Format>) -> Result<Format, Failure> {
     let format = format(path, said, "--to")?;
@@ -145,9 +152,15 @@ pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
     Ok(formats)
 }
 
+/// How the files of a command are read.
+fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
+    let attributes = are_attributes_kept();
+    ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension, attributes }
+}
+
 /// Reads the points of a command.
 pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
-    let options = ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension };
+    let options = options(args, dimension);
     read_all(args, quiet, |source, format| delone_io::read_points(source, format, &options))
 }
 
@@ -162,17 +175,27 @@ fn read_all(
     for (path, format) in args.input.iter().zip(formats) {
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
-        let cloud = read(source, format).map_err(failed)?;
-        for remark in &cloud.remarks {
-            note(quiet, format_args!("{}: {remark}", path.display()));
-        }
-        let told = all.remarks.len() + cloud.remarks.len();
-        systems::heed(cloud.crs.as_ref());
+        let mut cloud = read(source, format).map_err(failed)?;
+        heed(&mut cloud, path, quiet)?;
         all.join(cloud).map_err(failed)?;
         limits::check_points(all.xy.len(), path)?;
-        all.remarks[told..].iter().for_each(|remark| note(quiet, remark));
+        tell(&mut all, None, quiet);
     }
     Ok(all)
+}
+
+/// Tells what a file says besides its points, and keeps what outputs should say.
+fn heed(cloud: &mut Cloud, path: &Path, quiet: bool) -> Result<(), Failure> {
+    tell(cloud, Some(path), quiet);
+    attributes::heed(cloud);
+    systems::heed(cloud.crs.as_ref(), path)
+}
+
+/// Tells of a file, or of several that were joined, what a user should know; once.
+fn tell(cloud: &mut Cloud, path: Option<&Path>, quiet: bool) {
+    let label = path.map(|path| format!("{}: ", path.display())).unwrap_or_default();
+    std::mem::take(&mut cloud.remarks).iter().for_each(|remark| note(quiet, format_args!("{label}{remark}")));
+    std::mem::take(&mut cloud.losses).iter().for_each(|loss| lost(quiet, format_args!("{label}{loss}")));
 }
 
 /// Points, their heights, and what else the files tell.
@@ -180,7 +203,7 @@ type Surface = (Vec<[f64; 2]>, Vec<f64>, Cloud);
 
 /// Reads the points of a command with their heights: points of any format, or cells of rasters. The cloud has the rest of what is told.
 pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<Surface, Failure> {
-    let options = ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension: 3 };
+    let options = options(args, 3);
     let mut all = read_all(args, quiet, |source, format| delone_io::read_surface(source, format, &options))?;
     need_heights(all.z.as_deref(), &args.label())?;
     Ok((std::mem::take(&mut all.xy), all.z.take().unwrap_or_default(), all))
@@ -215,7 +238,7 @@ pub(crate) fn graph_with_points(
     quiet: bool,
 ) -> Result<(Graph, Vec<PathBuf>), Failure> {
     let mut besides = Vec::new();
-    let options = ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension: 2 };
+    let options = options(args, 2);
     let mut all = Graph::default();
     for path in &args.input {
         let format = format(path, args.from, "--from")?;
@@ -230,15 +253,11 @@ pub(crate) fn graph_with_points(
             besides.push(beside);
             Ok(points)
         };
-        let graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
-        for remark in &graph.cloud.remarks {
-            note(quiet, format_args!("{}: {remark}", path.display()));
-        }
-        let told = all.cloud.remarks.len() + graph.cloud.remarks.len();
-        systems::heed(graph.cloud.crs.as_ref());
+        let mut graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
+        heed(&mut graph.cloud, path, quiet)?;
         all.join(graph).map_err(failed)?;
         limits::check_points(all.cloud.xy.len(), path)?;
-        all.cloud.remarks[told..].iter().for_each(|remark| note(quiet, remark));
+        tell(&mut all.cloud, None, quiet);
     }
     if let Some(path) = segments {
         let format = format_beside(path)?;
@@ -297,18 +316,17 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
 
 /// Reads points that are asked for.
 pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
-    cloud(path, &ReadOptions { dimension, ..ReadOptions::default() }, quiet)
+    let attributes = are_attributes_kept();
+    cloud(path, &ReadOptions { dimension, attributes, ..ReadOptions::default() }, quiet)
 }
 
 /// Reads the points of a file beside those of the input.
 pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<Cloud, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let cloud =
+    let mut cloud =
         delone_io::read_points(source, format, options).map_err(|error| Failure::file(path, &error))?;
-    for remark in &cloud.remarks {
-        note(quiet, format_args!("{}: {remark}", path.display()));
-    }
+    heed(&mut cloud, path, quiet)?;
     Ok(cloud)
 }
 
@@ -324,7 +342,9 @@ pub(crate) fn holds_lines(path: &Path, format: Format) -> bool {
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))
+    let found = delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))?;
+    systems::heed(found.crs.as_ref(), path)?;
+    Ok(found.rings)
 }
 
 /// Reads a text.

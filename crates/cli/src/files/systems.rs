@@ -1,22 +1,33 @@
 //! What coordinates mean is passed on, or a line says where it is not.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use delone_io::{Crs, Format, Said};
 
-use crate::message::{note, warn};
+use crate::message::{Failure, lost, mislead};
 
-/// The system of what was read first.
-static SYSTEM: Mutex<Option<Crs>> = Mutex::new(None);
+/// The system of what was read first, and the file.
+static SYSTEM: Mutex<Option<(Crs, PathBuf)>> = Mutex::new(None);
 /// The outputs of the command.
 static OUTPUTS: Mutex<Vec<(PathBuf, Format)>> = Mutex::new(Vec::new());
 
 /// Keeps the system of an input.
-pub(super) fn heed(crs: Option<&Crs>) {
+///
+/// # Errors
+/// If another input has another one.
+pub(super) fn heed(crs: Option<&Crs>, path: &Path) -> Result<(), Failure> {
     let mut system = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner);
-    if system.is_none() {
-        *system = crs.cloned();
+    match (&*system, crs) {
+        (Some((ours, first)), Some(theirs)) if !ours.agrees(theirs) => Err(Failure::new(
+            format!("{}: its coordinates are {theirs}, those of {} {ours}", path.display(), first.display()),
+            "transform one of them first: ogr2ogr, gdalwarp and pdal do so",
+        )),
+        (None, Some(theirs)) => {
+            *system = Some((theirs.clone(), path.to_owned()));
+            Ok(())
+        }
+        _ => Ok(()),
     }
 }
 
@@ -25,23 +36,28 @@ pub(super) fn expect(outputs: &[(PathBuf, Format)]) {
     OUTPUTS.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(outputs);
 }
 
+/// The outputs of the command.
+pub(super) fn outputs() -> Vec<(PathBuf, Format)> {
+    OUTPUTS.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
 /// Says which outputs do not tell their system, or not to all readers.
 pub(super) fn tell(quiet: bool) {
-    let Some(crs) = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
-    let outputs = std::mem::take(&mut *OUTPUTS.lock().unwrap_or_else(PoisonError::into_inner));
+    let Some((crs, _)) = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
+    let outputs = outputs();
     let names = |said: Said| {
         let those = outputs.iter().filter(|(_, format)| format.says(&crs) == said);
         those.map(|(path, _)| path.display().to_string()).collect::<Vec<_>>().join(", ")
     };
     let silent = names(Said::Not);
     if !silent.is_empty() {
-        note(quiet, format_args!("{silent}: nothing in it says that its coordinates are {crs}"));
+        lost(quiet, format_args!("{silent}: nothing in it says that its coordinates are {crs}"));
     }
     let wrong = names(Said::Otherwise);
     if !wrong.is_empty() {
         let what = format!(
             "{wrong}: readers will take its coordinates, which are {crs}, for longitude and latitude"
         );
-        warn(quiet, format_args!("{what}: nothing but EPSG numbers can be said there"));
+        mislead(quiet, format_args!("{what}: nothing but EPSG numbers can be said there"));
     }
 }

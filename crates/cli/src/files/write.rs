@@ -8,9 +8,9 @@ use delone_io::{Finished, Output, Remark, give_names};
 
 use super::apart::{check_open, refuse_read};
 use super::sides::remove_stale;
-use super::systems;
+use super::{attributes, systems};
 use super::{is_special, is_standard};
-use crate::message::{Failure, note};
+use crate::message::{Failure, lost, refuse_losses};
 
 /// What is written and has no name yet.
 static FINISHED: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
@@ -20,6 +20,8 @@ pub(crate) fn publish(quiet: bool) -> Result<(), Failure> {
     let finished = std::mem::take(&mut *FINISHED.lock().unwrap_or_else(PoisonError::into_inner));
     remove_stale()?;
     systems::tell(quiet);
+    attributes::tell(quiet);
+    refuse_losses()?;
     give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))
 }
 
@@ -44,7 +46,7 @@ pub(crate) fn write_mesh(
     content: impl FnOnce(&mut Output) -> Result<Remark, delone_io::Error>,
 ) -> Result<(), Failure> {
     if let Some(remark) = write(path, content)? {
-        note(quiet, format_args!("{}: {remark}", path.display()));
+        lost(quiet, format_args!("{}: {remark}", path.display()));
     }
     Ok(())
 }

@@ -14,13 +14,14 @@ use std::path::Path;
 
 use delone::{Constrained2, Error, Fill, Location2, Refined2, Seeds2, Triangulation, VertexId};
 use delone_io::{
-    Attributes, Constraints, Format, Graph, Mesh, picture, write_mesh, write_voronoi_edge, write_voronoi_node,
+    Attributes, Constraints, Contents, Format, Graph, Mesh, Rows, picture, write_mesh, write_voronoi_edge,
+    write_voronoi_node,
 };
 
 use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
 use crate::constrained::{Constrained, along, extended};
 use crate::files;
-use crate::message::{Failure, answer, note};
+use crate::message::{Failure, answer, is_strict, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
 use field::{Sizes, between};
@@ -48,6 +49,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
     if by_triangle.is_some() {
         names::input(args)?;
     }
+    files::keep_attributes(Contents::Triangles);
     let mut stats = Stats::start();
     let sizes = match &args.size {
         Some(path) => Some(Sizes::read(path, &args.size_columns, quiet)?),
@@ -74,7 +76,7 @@ pub(crate) fn run(args: &MeshArgs, quiet: bool) -> Result<(), Failure> {
         stats.phase("check");
         note(quiet, "checked: constrained Delaunay, and all triangles are as wanted but those that are left");
     }
-    if let Some(left) = tell::left(report).filter(|_| args.strict) {
+    if let Some(left) = tell::left(report).filter(|_| is_strict()) {
         return Err(Failure::new(left, "ask for less, or leave --strict out to write what there is"));
     }
     if report.triangles == 0 && c.triangle_count() > 0 {
@@ -109,6 +111,8 @@ struct Made {
     heights: Option<Vec<f64>>,
     attributes: Option<Attributes>,
     again: Option<Again>,
+    /// How many polygons of the input are regions.
+    polygons: usize,
 }
 
 impl Made {
@@ -120,7 +124,7 @@ impl Made {
         label: &Path,
         quiet: bool,
     ) -> Result<Self, Failure> {
-        let Constrained { mut triangulation, mut graph, inside, heights, .. } = from;
+        let Constrained { mut triangulation, mut graph, inside, polygons, heights } = from;
         let regions = std::mem::take(&mut graph.regions);
         let seeds = if fill == FillName::Seeds {
             Seeds2 { holes: graph.holes.clone(), regions, keep_concavities: plan.traits.convex }
@@ -159,7 +163,7 @@ impl Made {
             });
             Attributes { width, values: spread(width, &first) }
         });
-        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again })
+        Ok(Self { triangulation, refined, graph, seeds, heights, attributes, again, polygons })
     }
 
     /// Writes all files.
@@ -199,12 +203,16 @@ impl Made {
             values: kept.rows(attributes.width, &attributes.values),
         });
         let regions = self.regions(plan);
+        let mut rows = vec![None; c.slot_count()];
+        c.triangle_ids().for_each(|t| rows[c.index(t)] = domains.region(t));
+        let features = Rows { table: &graph.cloud.features.table, of: &rows };
         let mesh = Mesh {
             heights: heights.as_deref(),
             crs: graph.cloud.crs.as_ref(),
             base: plan.base.unwrap_or(graph.cloud.base),
             constraints: Some(&constraints),
             regions: regions.as_deref(),
+            features: (self.polygons > 0).then_some(features),
             attributes: attributes.as_ref(),
             point_markers: points.as_deref(),
             edge_markers: plan.markers != Written::Never,
@@ -230,7 +238,7 @@ impl Made {
     fn regions(&self, plan: &Plan) -> Option<Vec<f64>> {
         let (c, domains) = (&self.triangulation, &self.refined.domains);
         let again = self.again.as_ref().filter(|again| again.has_attributes());
-        let is_given = again.is_some() || !self.seeds.regions.is_empty();
+        let is_given = again.is_some() || !self.seeds.regions.is_empty() || self.polygons > 1;
         let is_written = match plan.regions {
             Written::AsGiven => is_given,
             Written::Always => true,

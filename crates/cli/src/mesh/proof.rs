@@ -39,7 +39,8 @@ pub(super) fn flaw(c: &Constrained2, refined: &Refined2, seeds: &Seeds2, plan: &
             return Some(format!("{} has an angle of {} degrees", name(), smallest.to_degrees()));
         }
         let longest = [[p, q], [q, r], [r, p]].map(length).into_iter().fold(0.0, f64::max);
-        let own = refined.domains.region(t).and_then(|region| seeds.regions[region].max_area);
+        let seed = refined.domains.region(t).and_then(|region| seeds.regions.get(region));
+        let own = seed.and_then(|seed| seed.max_area);
         // What a product is off by is small beside the sides, not beside the area.
         let is_larger = |most: &f64| c.area(t) > most + ANGLE_ERROR * longest * longest;
         if let Some(most) = plan.max_area.into_iter().chain(own).find(is_larger) {

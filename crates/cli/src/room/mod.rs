@@ -144,6 +144,16 @@ pub(crate) fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>
     R::take_points(&mut files::queries(path, R::Point::COUNT, quiet)?, path)
 }
 
+/// Reads points that are asked for with their attributes, heights in the plane among them.
+pub(crate) fn queries_with<R: Room>(path: &Path, quiet: bool) -> Result<(Vec<R::Point>, Cloud), Failure> {
+    let mut cloud = files::queries(path, R::Point::COUNT, quiet)?;
+    let points = R::take_points(&mut cloud, path)?;
+    if let Some(heights) = cloud.z.take_if(|_| files::are_attributes_kept()) {
+        cloud.features = cloud.features.with_heights(&heights);
+    }
+    Ok((points, cloud))
+}
+
 /// Refuses formats that hold no triangulations.
 pub(crate) fn check_formats<R: Room>(outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
     files::check_formats(outputs, &[R::Point::CONTENTS])

@@ -41,7 +41,7 @@ impl<'a> Input<'a> {
         }
         let dimension = if args.heights { 3 } else { 2 };
         let (las, columns) = (args.input.las.filter(), args.input.columns.clone());
-        Ok(Self { args, formats, options: ReadOptions { las, columns, dimension } })
+        Ok(Self { args, formats, options: ReadOptions { las, columns, dimension, attributes: false } })
     }
 
     /// What the input is now: files, and how they are read.

@@ -68,9 +68,9 @@ fn facets(g: &Given, name: &str) -> Vec<Shape> {
 fn answers(g: &Given, line: &str, shape: impl Fn(&[f64]) -> Shape) -> Vec<Shape> {
     g.run(&format!("{line} --queries q.csv -o a.csv"));
     let shapes = g.set.queries.iter().zip(g.table("a.csv"));
-    shapes
-        .map(|(q, row)| [q.to_vec(), if row[0] < 0.0 { Vec::new() } else { shape(&row) }].concat())
-        .collect()
+    // The place of the query is before its answer.
+    let shape = |row: &[f64]| if row[0] < 0.0 { Vec::new() } else { shape(row) };
+    shapes.map(|(q, row)| [q.to_vec(), shape(&row[q.len()..])].concat()).collect()
 }
 
 /// A mesh over segments, some of which cross.
@@ -115,8 +115,8 @@ const CELL: f64 = 0.0625;
 fn values(g: &Given, options: &str) -> Vec<Shape> {
     g.run(&format!("interpolate p.csv {options} --queries q.csv -o v.csv"));
     let rows = g.table("v.csv").into_iter();
-    let value = |row: Vec<f64>| row.into_iter().map(|z| g.height_back(z)).collect::<Vec<_>>();
-    g.set.queries.iter().zip(rows).map(|(q, row)| [q.to_vec(), value(row)].concat()).collect()
+    let value = |row: &[f64]| row.iter().map(|&z| g.height_back(z)).collect::<Vec<_>>();
+    g.set.queries.iter().zip(rows).map(|(q, row)| [q.to_vec(), value(&row[q.len()..])].concat()).collect()
 }
 
 /// A surface of few points, which are left of the others.
@@ -417,8 +417,9 @@ pub(super) const SPACE: &[Row] = &[
 /// Values that are radii.
 fn space_values(g: &Given, options: &str) -> Vec<Shape> {
     g.run(&format!("interpolate p.csv --dim 3 --value r {options} --queries q.csv -o v.csv"));
-    let value = |row: Vec<f64>| row.into_iter().map(|r| g.length_back(r, 1)).collect::<Vec<_>>();
-    g.set.queries.iter().zip(g.table("v.csv")).map(|(q, row)| [q.to_vec(), value(row)].concat()).collect()
+    let value = |row: &[f64]| row.iter().map(|&r| g.length_back(r, 1)).collect::<Vec<_>>();
+    let rows = g.table("v.csv");
+    g.set.queries.iter().zip(rows).map(|(q, row)| [q.to_vec(), value(&row[q.len()..])].concat()).collect()
 }
 
 /// The rows of an .ele file, each in the order of its corners.

@@ -90,6 +90,15 @@ pub(crate) fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data").join(name)
 }
 
+/// The answers to queries in a table: the last columns, below its header.
+pub(crate) fn answers(text: &str, columns: usize) -> Vec<Vec<f64>> {
+    let row = |line: &str| {
+        let fields: Vec<f64> = line.split(',').filter_map(|field| field.parse().ok()).collect();
+        fields[fields.len() - columns..].to_vec()
+    };
+    text.lines().skip(1).map(row).collect()
+}
+
 /// The rows of a csv of integers.
 pub(crate) fn rows(text: &str) -> Vec<Vec<i64>> {
     text.lines().map(|line| line.split(',').map(|x| x.parse().expect("an integer")).collect()).collect()

@@ -101,6 +101,30 @@ impl Crs {
         }
     }
 
+    /// Whether it is the same horizontal system as another one, as far as both say: by their numbers, or else by all that is known of them.
+    /// Longitude and latitude of WGS 84 have two names.
+    ///
+    /// ```
+    /// use delone_io::Crs;
+    ///
+    /// let named = Crs { name: Some("ETRS89 / UTM zone 32N".to_owned()), ..Crs::of_epsg(25832) };
+    /// assert!(named.agrees(&Crs::of_epsg(25832)));
+    /// assert!(!named.agrees(&Crs::of_epsg(25833)));
+    /// ```
+    pub fn agrees(&self, other: &Self) -> bool {
+        match (self.epsg, other.epsg) {
+            (Some(ours), Some(theirs)) => ours == theirs,
+            _ if self.is_plain_degrees() && other.is_plain_degrees() => true,
+            (None, None) => self.name == other.name && (self.wkt == other.wkt || self.keys == other.keys),
+            // Who names one by its number and who defines it otherwise may mean one system.
+            _ => {
+                self.is_geographic.is_none()
+                    || other.is_geographic.is_none()
+                    || self.is_geographic == other.is_geographic
+            }
+        }
+    }
+
     /// Whether it is longitude and latitude as GeoJSON has them.
     pub(crate) fn is_plain_degrees(&self) -> bool {
         self.epsg == Some(4326) || self.name.as_deref() == Some("OGC:CRS84")

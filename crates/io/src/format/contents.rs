@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::chunks::Chunks;
 use crate::formats::poly::Beside;
-use crate::{Cloud, Error, Graph, Raster, ReadOptions, Source};
+use crate::{Cloud, Error, Graph, Raster, ReadOptions, Rings, Source};
 
 /// A kind of thing that a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,6 +24,8 @@ pub enum Contents {
     Numbers,
     /// Rows of indices.
     Indices,
+    /// Answers to queries, with the places and the attributes of these.
+    Answers,
     /// Triangles between points, or a triangulation of the plane.
     Triangles,
     /// A triangulation of the plane of second order: with a node on each edge.
@@ -60,6 +62,7 @@ impl Contents {
         Self::Polygons,
         Self::Numbers,
         Self::Indices,
+        Self::Answers,
         Self::Triangles,
         Self::SecondOrder,
         Self::Areas,
@@ -85,6 +88,7 @@ impl fmt::Display for Contents {
             Self::Polygons => "polygons",
             Self::Numbers => "numbers",
             Self::Indices => "rows of indices",
+            Self::Answers => "answers to queries",
             Self::Triangles => "triangles",
             Self::SecondOrder => "elements of second order",
             Self::Areas => "areas of triangles",
@@ -139,7 +143,7 @@ pub(crate) struct Readers {
     /// Points with attributes and markers, which a graph can have and a cloud cannot.
     pub(crate) attributed: Reader<Graph>,
     pub(crate) segments: Reader<Vec<[usize; 2]>>,
-    pub(crate) polygons: Reader<Vec<Vec<[f64; 2]>>>,
+    pub(crate) polygons: Reader<Rings>,
     pub(crate) numbers: Reader<Vec<f64>>,
     pub(crate) triangles: Reader<Vec<[u64; 3]>>,
     pub(crate) areas: Reader<Vec<Option<f64>>>,

@@ -1,8 +1,8 @@
 //! The table of formats: a row for each.
 
 use super::Contents::{
-    Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points, Rasters,
-    SecondOrder, Surfaces, Tetrahedra, Triangles,
+    Answers, Cells, Contours, Edges, Filtrations, Indices, Lines, Numbers, Patches, Pictures, Points,
+    Rasters, SecondOrder, Surfaces, Tetrahedra, Triangles,
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
@@ -36,7 +36,7 @@ const OF_GEOJSON: Readers = Readers {
 /// The readers of well-known text, which tell by themselves whether it is one collection.
 const OF_WKT: Readers = Readers {
     points: Some(|source, _| wkt::read_points(source)),
-    lines: Some(|source, _, _| wkt::read_graph(source)),
+    lines: Some(|source, options, _| wkt::read_graph(source, options)),
     polygons: Some(wkt::read_rings),
     ..Readers::NONE
 };
@@ -58,7 +58,7 @@ pub(super) const TABLE: &[Row] = &[
             numbers: Some(list::read),
             ..Readers::NONE
         },
-        writes: &[Points, Numbers, Indices, Cells, Edges, Patches, Filtrations],
+        writes: &[Points, Numbers, Indices, Answers, Cells, Edges, Patches, Filtrations],
     },
     Row {
         format: Format::Pts,
@@ -271,7 +271,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["geojson"],
         also: &["json"],
         readers: OF_GEOJSON,
-        writes: &[Points, Lines, Triangles, Cells, Edges, Patches, Contours],
+        writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
     },
     Row {
         format: Format::GeoJsonLines,
@@ -292,7 +292,7 @@ pub(super) const TABLE: &[Row] = &[
             polygons: Some(flatgeobuf::read_rings),
             ..Readers::NONE
         },
-        writes: &[Points, Lines, Triangles, Cells, Edges, Patches, Contours],
+        writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
     },
     Row {
         format: Format::Wkt,
@@ -317,7 +317,7 @@ pub(super) const TABLE: &[Row] = &[
         also: &["ewkb"],
         readers: Readers {
             points: Some(|source, _| wkb::read_points(source)),
-            lines: Some(|source, _, _| wkb::read_graph(source)),
+            lines: Some(|source, options, _| wkb::read_graph(source, options)),
             polygons: Some(wkb::read_rings),
             ..Readers::NONE
         },

@@ -9,6 +9,7 @@ use delone::Ring;
 
 use super::wkb::{self, COLLECTION, MULTIPOLYGON, POLYGON};
 use super::wkt::Geometries;
+use crate::Value;
 use crate::diagram::Tiles;
 
 /// Writes the cells as text, one a line or in one collection.
@@ -21,16 +22,24 @@ pub(crate) fn write_wkt(out: &mut dyn Write, diagram: &impl Tiles, in_collection
     geometries.end()
 }
 
-/// Writes a table with a header: what each cell is of, its area, empty if that is beyond the range of numbers, and its geometry in
-/// the column `wkt`, by which readers know it.
+/// Writes a table with a header: what each cell is of, its area, empty if that is beyond the range of numbers, the attributes of its
+/// site, and its geometry in the column `wkt`, by which readers know it.
 pub(crate) fn write_csv(out: &mut dyn Write, diagram: &impl Tiles) -> io::Result<()> {
-    writeln!(out, "{},area,wkt", diagram.property())?;
+    let names = diagram.table().map(|table| table.names_beside(&[diagram.property(), "area", "wkt"]));
+    let header: String =
+        names.iter().flatten().map(|name| format!("{},", Value::Text(name).field())).collect();
+    writeln!(out, "{},area,{header}wkt", diagram.property())?;
     for tile in diagram.tiles() {
         let area = diagram.area(tile);
         let area = if area.is_finite() { format!("{area:?}") } else { String::new() };
         let polygons = diagram.polygons(tile);
+        write!(out, "{},{area},", diagram.title(tile))?;
+        if let Some(table) = diagram.table() {
+            let fields = table.fields(diagram.row(tile));
+            fields.iter().try_for_each(|field| write!(out, "{field},"))?;
+        }
         // In quotes, because positions are apart by commas.
-        write!(out, "{},{area},\"{} ", diagram.title(tile), kind(&polygons))?;
+        write!(out, "\"{} ", kind(&polygons))?;
         write_text(out, &polygons)?;
         writeln!(out, "\"")?;
     }

@@ -6,12 +6,14 @@ use delone::{Ring, Triangulation};
 use geojson::feature::Id;
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
+pub(crate) use self::properties::Properties;
 use super::shapes::Shapes;
 use crate::diagram::Tiles;
-use crate::{Cloud, Crs, Error, Graph, Mesh, ReadOptions, Shape, Source, Value};
+use crate::{Cloud, Crs, Error, Graph, Mesh, ReadOptions, Rings, Shape, Source, Value};
 
 mod contours;
 mod coordinates;
+mod properties;
 
 pub(crate) use contours::write_contours;
 
@@ -31,8 +33,9 @@ pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Resu
 }
 
 /// Reads the rings of all Polygon and MultiPolygon geometries.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    Ok(read_shapes(source, false, false)?.0.rings())
+pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
+    let (shapes, crs) = read_shapes(source, false, false)?;
+    Ok(Rings { rings: shapes.rings(), crs })
 }
 
 fn read_shapes(
@@ -96,7 +99,7 @@ fn system(document: &GeoJson) -> Option<Crs> {
 }
 
 /// The member that names a system.
-pub(super) fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result<()> {
+pub(crate) fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result<()> {
     match crs.and_then(Crs::urn) {
         Some(name) => write!(out, r#""crs":{{"type":"name","properties":{{"name":"{name}"}}}},"#),
         None => Ok(()),
@@ -189,6 +192,7 @@ pub(crate) fn write_cells(out: &mut dyn Write, diagram: &impl Tiles) -> io::Resu
     write!(out, "{{\"type\":\"FeatureCollection\",")?;
     write_system(out, diagram.crs())?;
     write!(out, "\"features\":[")?;
+    let properties = diagram.table().map(|table| Properties::beside(table, &[diagram.property(), "area"]));
     for (i, tile) in diagram.tiles().enumerate() {
         write!(out, "{}\n{{\"type\":\"Feature\",\"properties\":{{", if i == 0 { "" } else { "," })?;
         write!(out, "\"{}\":", diagram.property())?;
@@ -196,7 +200,11 @@ pub(crate) fn write_cells(out: &mut dyn Write, diagram: &impl Tiles) -> io::Resu
         let area = diagram.area(tile);
         // Beyond the range it is infinite, which JSON has no number for.
         let area = if area.is_finite() { format!("{area:?}") } else { "null".to_owned() };
-        write!(out, ",\"area\":{area}}},")?;
+        write!(out, ",\"area\":{area}")?;
+        if let Some(properties) = &properties {
+            properties.write(out, diagram.row(tile))?;
+        }
+        write!(out, "}},")?;
         let polygons = diagram.polygons(tile);
         match &polygons[..] {
             [] => write!(out, "\"geometry\":null}}")?,
@@ -229,7 +237,7 @@ fn write_polygon(out: &mut dyn Write, rings: &[Ring]) -> io::Result<()> {
     write!(out, "]")
 }
 
-/// Writes a feature for each triangle, with the indices of its corners and its region.
+/// Writes a feature for each triangle, with the indices of its corners, its region, and the attributes of the polygon that it is in.
 pub(crate) fn write(
     out: &mut dyn Write,
     mesh: &Mesh<impl Triangulation<Point = [f64; 2]>>,
@@ -240,7 +248,7 @@ pub(crate) fn write(
     })
 }
 
-/// Writes a feature for each triangle of polygons, with the indices of its corners and its polygon.
+/// Writes a feature for each triangle of polygons, with the indices of its corners, its polygon and the attributes of that.
 pub(crate) fn write_polygons(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
     write_triangles(out, shape, |out, polygon| write!(out, ",\"polygon\":{polygon}"))
 }
@@ -256,11 +264,16 @@ fn write_triangles(
     write!(out, "\"features\":[")?;
     let positions: Vec<_> = shape.positions().collect();
     let mut values = shape.region_values();
+    let properties = shape.table().map(|table| Properties::beside(table, &["vertices", "region", "polygon"]));
+    let mut rows = shape.rows();
     for (i, triangle) in shape.triangles().enumerate() {
         let separator = if i == 0 { "" } else { "," };
         write!(out, "{separator}\n{{\"type\":\"Feature\",\"properties\":{{\"vertices\":{triangle:?}")?;
         if let Some(value) = values.as_mut().and_then(Iterator::next) {
             property(out, value)?;
+        }
+        if let Some(properties) = &properties {
+            properties.write(out, rows.next().flatten())?;
         }
         write!(out, "}},")?;
         write!(out, "\"geometry\":{{\"type\":\"Polygon\",\"coordinates\":[[")?;

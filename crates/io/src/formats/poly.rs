@@ -8,7 +8,7 @@ use delone::{RegionSeed2, Triangulation};
 use super::lines::{Line, Lines};
 use super::osmosis;
 use super::triangle::{AHEAD, NodeRows, Nodes, count};
-use crate::{Cloud, Constraints, Error, Graph, GraphRing, Mesh, Source};
+use crate::{Cloud, Constraints, Error, Graph, GraphRing, Mesh, Rings, Source};
 
 /// What opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
@@ -61,15 +61,16 @@ pub(crate) fn read_points(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
 }
 
 /// Reads the rings of polygons, or else all points as one ring.
-pub(crate) fn read_rings(mut source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+pub(crate) fn read_rings(mut source: Box<dyn Source>) -> Result<Rings, Error> {
     if osmosis::is_one(&mut source)? {
         let graph = osmosis::read(source)?;
         let ring = |ring: &GraphRing| {
             graph.segments[ring.segments.clone()].iter().map(|side| graph.cloud.xy[side[0]]).collect()
         };
-        return Ok(graph.rings.iter().map(ring).collect());
+        let rings = graph.rings.iter().map(ring).collect();
+        return Ok(Rings { rings, crs: graph.cloud.crs.clone() });
     }
-    Ok(vec![read_points(source)?.xy])
+    Ok(Rings { rings: vec![read_points(source)?.xy], crs: None })
 }
 
 /// Reads segments alone. Where there are no points, the number of the first segment tells the base.

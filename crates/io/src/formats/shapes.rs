@@ -158,7 +158,7 @@ impl Shapes {
             Heights::None => {}
             Heights::OfAll(heights) => cloud.z = Some(heights),
             Heights::OfSome => {
-                cloud.remarks.push("heights are left out: not all positions have them".to_owned());
+                cloud.losses.push("heights are left out: not all positions have them".to_owned());
             }
         }
         cloud

@@ -66,7 +66,7 @@ pub struct Part2 {
     pub is_inside: bool,
     /// How often the segments that are borders wind around it, counter-clockwise less clockwise; 0 where nobody asked.
     pub winding: i32,
-    /// The region whose seed is in it, by index.
+    /// The region whose seed is in it, by index; or the polygon that it is in ([`Constrained2::claim_polygons`]).
     pub region: Option<usize>,
     /// The number of its triangles.
     pub triangles: usize,
@@ -78,11 +78,18 @@ pub struct Domains2 {
     /// For each triangle its part; [`NONE`] for ghosts.
     pub(super) of: Vec<u32>,
     pub(super) parts: Vec<Part2>,
-    pub(in crate::plane) regions: Vec<RegionSeed2>,
+    pub(in crate::plane) regions: Vec<Known>,
     /// Pairs of regions that claim one part; the first one has it.
     rivals: Vec<[usize; 2]>,
     /// What is known of each vertex, by id, if the triangulation was refined.
     pub(in crate::plane) origins: Vec<Origin>,
+}
+
+/// What is known of a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::plane) struct Known {
+    pub(super) attribute: f64,
+    pub(in crate::plane) max_area: Option<f64>,
 }
 
 pub(super) const NONE: u32 = u32::MAX;
@@ -103,7 +110,7 @@ impl Domains2 {
         self.part(t).is_some_and(|part| self.parts[part].is_inside)
     }
 
-    /// The region that a triangle is in, by the index of its seed.
+    /// The region that a triangle is in, by the index of its seed or polygon.
     pub fn region(&self, t: TriangleId) -> Option<usize> {
         self.part(t).and_then(|part| self.parts[part].region)
     }
@@ -111,6 +118,13 @@ impl Domains2 {
     /// The attribute of the region that a triangle is in.
     pub fn attribute(&self, t: TriangleId) -> Option<f64> {
         self.region(t).map(|region| self.regions[region].attribute)
+    }
+
+    /// Gives no part a region.
+    pub(super) fn forget_regions(&mut self) {
+        self.parts.iter_mut().for_each(|part| part.region = None);
+        self.regions.clear();
+        self.rivals.clear();
     }
 
     /// Pairs of regions whose seeds are in one part. The first of each pair has it.
@@ -178,9 +192,7 @@ impl Constrained2 {
     /// # Errors
     /// As [`Self::domains`]; no part has a region then.
     pub fn claim(&self, domains: &mut Domains2, regions: &[RegionSeed2]) -> Result<(), Error> {
-        domains.parts.iter_mut().for_each(|part| part.region = None);
-        domains.regions.clear();
-        domains.rivals.clear();
+        domains.forget_regions();
         let parts =
             regions.iter().enumerate().map(|(index, seed)| self.seeded(domains, "region", index, seed.at));
         let parts: Vec<usize> = parts.collect::<Result<_, _>>()?;
@@ -190,7 +202,8 @@ impl Constrained2 {
                 Some(first) => domains.rivals.push([first, index]),
             }
         }
-        domains.regions = regions.to_vec();
+        let known = |seed: &RegionSeed2| Known { attribute: seed.attribute, max_area: seed.max_area };
+        domains.regions = regions.iter().map(known).collect();
         Ok(())
     }
 

@@ -24,6 +24,7 @@ mod domains;
 mod flips;
 mod force;
 mod locate;
+mod members;
 mod nearest;
 mod overlaps;
 mod passes;

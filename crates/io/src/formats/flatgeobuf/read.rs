@@ -5,7 +5,7 @@ use std::io::{self, BufRead, Read};
 use super::tables::{BROKEN, Buffer, Table};
 use super::{MAGIC, column, crs, feature, geometry, header, kind};
 use crate::formats::shapes::Shapes;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Source, Value};
+use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Source, Value};
 
 /// Reads the positions of all features, in their order.
 pub(crate) fn read_points(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
@@ -22,8 +22,9 @@ pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Resu
 }
 
 /// Reads the rings of all polygons.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
-    Ok(read(source, false)?.0.rings())
+pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
+    let (shapes, crs) = read(source, false)?;
+    Ok(Rings { rings: shapes.rings(), crs })
 }
 
 fn wrong(what: impl std::fmt::Display) -> Error {

@@ -1,13 +1,15 @@
 //! The fields of a table that are no coordinates: attributes of its points and shapes.
 
 use super::columns::Columns;
-use crate::{Features, Table, Value};
+use crate::{Features, ReadOptions, Table, Value};
 
 /// The attributes of the rows that were read.
 #[derive(Default)]
 pub(super) struct Kept {
     /// They are kept, not their names alone.
     keeps: bool,
+    /// The third coordinate is one of them.
+    with_heights: bool,
     table: Table,
     /// The place of each column of the file in the table, where it has one.
     places: Vec<Option<usize>>,
@@ -16,14 +18,16 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// Of rows whose columns are not known yet.
-    pub(super) fn new(keeps: bool) -> Self {
-        Self { keeps, ..Self::default() }
+    /// Of rows whose columns are not known yet. Of attributes that are kept in the plane heights are one, under their own name.
+    pub(super) fn new(options: &ReadOptions) -> Self {
+        let keeps = options.attributes;
+        Self { keeps, with_heights: keeps && options.dimension == 2, ..Self::default() }
     }
 
     /// Names the columns that are neither coordinates nor geometries: as the header does, or by their numbers from 1.
     pub(super) fn name(&mut self, names: &[String], named: bool, columns: &Columns) {
         let is_read = |k: usize| match columns {
+            Columns::Numbers(numbers) if self.with_heights => numbers.iter().take(2).any(|&read| read == k),
             Columns::Numbers(numbers) => numbers.contains(&k),
             Columns::Geometry(column) => *column == k,
         };
@@ -66,6 +70,8 @@ impl Kept {
     /// The attributes of all points.
     pub(super) fn features(mut self) -> Features {
         self.table.unify();
-        Features::new(self.table, self.rows)
+        let mut features = Features::new(self.table, self.rows);
+        features.has_heights = self.with_heights;
+        features
     }
 }

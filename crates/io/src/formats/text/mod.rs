@@ -20,7 +20,7 @@ use super::shapes::{Heights, Shapes};
 use super::wkt;
 use crate::chunks::Chunks;
 use crate::error::excerpt;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Source};
+use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Source};
 
 /// No quoted field goes on for longer.
 const LONGEST: usize = 1 << 26;
@@ -61,12 +61,13 @@ pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Resu
 }
 
 /// Reads the rings of a column of geometries, or all points as one ring.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Vec<Vec<[f64; 2]>>, Error> {
+pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
     let options = ReadOptions::default();
     let table = table(source, &options, &mut Chunks::default(), Wanted::Shapes)?;
     let is_of_geometries = matches!(table.columns, Some(Columns::Geometry(_)));
     let (cloud, shapes) = table.end()?;
-    Ok(if is_of_geometries { shapes.rings() } else { vec![cloud.xy] })
+    let rings = if is_of_geometries { shapes.rings() } else { vec![cloud.xy] };
+    Ok(Rings { rings, crs: cloud.crs })
 }
 
 /// Whether the first lines tell of a column of geometries.
@@ -98,7 +99,7 @@ fn table<'a>(
         return Err(Error::content("two or three columns are needed, x,y or x,y,z"));
     }
     let mut lines = Lines::new(source);
-    let mut table = Table::new(said, wanted, options.attributes);
+    let mut table = Table::new(said, wanted, Kept::new(options));
     let mut separator = None;
     let mut record = String::new();
     while let Some(line) = lines.next_whole()? {
@@ -177,7 +178,7 @@ struct Table<'a> {
 }
 
 impl<'a> Table<'a> {
-    fn new(said: &'a [String], wanted: Wanted, keeps_attributes: bool) -> Self {
+    fn new(said: &'a [String], wanted: Wanted, kept: Kept) -> Self {
         let cloud = Cloud::default();
         let (columns, above, count) = (None, Vec::new(), None);
         let shapes = Shapes::default();
@@ -186,7 +187,7 @@ impl<'a> Table<'a> {
             cloud,
             wanted,
             shapes,
-            kept: Kept::new(keeps_attributes),
+            kept,
             parts: 0,
             before: 0,
             columns,

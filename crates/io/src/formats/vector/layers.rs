@@ -2,11 +2,11 @@
 
 use delone::{Coordinates, Ring, Triangulation};
 
-use super::{Column, Form, Geometry, Kind, Layer, Take};
+use super::{Column, Form, Geometry, Kind, Layer, Take, beside, cells};
 use crate::diagram::Tiles;
 use crate::formats::graphs::Pieces;
 use crate::formats::in_space;
-use crate::{ColumnType, ContourMap, Crs, Edges, Error, Graph, Mesh, Patches, Shape, Value};
+use crate::{Answers, ColumnType, ContourMap, Crs, Edges, Error, Found, Graph, Mesh, Patches, Shape, Value};
 
 /// A number that is written, where it is one.
 fn finite(number: f64) -> Value<'static> {
@@ -28,7 +28,8 @@ impl<T: Tiles> Layer for Cells<'_, T> {
 
     fn columns(&self) -> Vec<Column> {
         let kind = if self.0.property() == "site" { ColumnType::Integer } else { ColumnType::Text };
-        vec![Column::new(self.0.property(), kind), Column::new("area", ColumnType::Number)]
+        let ours = vec![Column::new(self.0.property(), kind), Column::new("area", ColumnType::Number)];
+        beside(ours, self.0.table())
     }
 
     fn form(&self) -> Option<Form> {
@@ -65,7 +66,8 @@ impl<T: Tiles> Layer for Cells<'_, T> {
             json.clear();
             self.0.write_value(&mut json, tile)?;
             let own = Value::of(str::from_utf8(&json).unwrap_or_default());
-            take(&geometry, &mut in_order([own, finite(self.0.area(tile))]))?;
+            let ours = in_order([own, finite(self.0.area(tile))]);
+            take(&geometry, &mut ours.chain(cells(self.0.table(), self.0.row(tile), 2)))?;
         }
         Ok(())
     }
@@ -102,7 +104,7 @@ impl<S: Shape> Layer for Triangles<'_, S> {
         if self.shape.region_values().is_some() {
             columns.push(Column::new(self.value.0, self.value.1));
         }
-        columns
+        beside(columns, self.shape.table())
     }
 
     fn form(&self) -> Option<Form> {
@@ -123,7 +125,8 @@ impl<S: Shape> Layer for Triangles<'_, S> {
 
     fn each(&self, take: Take) -> Result<(), Error> {
         let positions: Vec<_> = self.shape.positions().collect();
-        let mut values = self.shape.region_values();
+        let (mut values, mut rows) = (self.shape.region_values(), self.shape.rows());
+        let first = 1 + usize::from(values.is_some());
         let mut geometry = Geometry::default();
         for triangle in self.shape.triangles() {
             geometry.clear(Kind::Polygon);
@@ -135,7 +138,9 @@ impl<S: Shape> Layer for Triangles<'_, S> {
                 ColumnType::Integer => Value::Integer(value as i64),
                 _ => finite(value),
             });
-            take(&geometry, &mut [Value::Json(&vertices)].into_iter().chain(value).enumerate())?;
+            let ours = [Value::Json(&vertices)].into_iter().chain(value).enumerate();
+            let theirs = cells(self.shape.table(), rows.next().flatten(), first);
+            take(&geometry, &mut ours.chain(theirs))?;
         }
         Ok(())
     }
@@ -318,6 +323,55 @@ impl<P: Coordinates> Layer for Edged<'_, '_, P> {
             geometry.end_line();
             let vertices = format!("{edge:?}");
             take(&geometry, &mut in_order([Value::Json(&vertices), finite(length)]))?;
+        }
+        Ok(())
+    }
+}
+
+/// Answers to queries, a point each with its attributes.
+pub(crate) struct Answered<'a, 'b, P>(pub(crate) &'a Answers<'b, P>);
+
+impl<P: AsRef<[f64]>> Layer for Answered<'_, '_, P> {
+    fn name(&self) -> &'static str {
+        "answers"
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        let kind = match self.0.found {
+            Found::Indices(_) => ColumnType::Integer,
+            Found::Numbers(_) => ColumnType::Number,
+        };
+        let ours = self.0.names.iter().map(|name| Column::new(name, kind)).collect();
+        beside(ours, Some(&self.0.features.table))
+    }
+
+    fn form(&self) -> Option<Form> {
+        Some(Form { kind: Kind::Point, is_multiple: false })
+    }
+
+    fn is_high(&self) -> bool {
+        self.0.queries.first().is_some_and(|query| query.as_ref().len() > 2)
+    }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.0.crs
+    }
+
+    fn count(&self) -> usize {
+        self.0.queries.len()
+    }
+
+    fn each(&self, take: Take) -> Result<(), Error> {
+        let mut geometry = Geometry::default();
+        for (i, query) in self.0.queries.iter().enumerate() {
+            geometry.clear(Kind::Point);
+            geometry.positions.push(in_space(query));
+            let ours = self.0.own(i).map(|at| match self.0.found {
+                Found::Indices(all) => Value::Integer(all[at]),
+                Found::Numbers(all) => finite(all[at]),
+            });
+            let theirs = cells(Some(&self.0.features.table), self.0.features.row(i), self.0.names.len());
+            take(&geometry, &mut ours.enumerate().chain(theirs))?;
         }
         Ok(())
     }

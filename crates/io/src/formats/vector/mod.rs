@@ -6,9 +6,9 @@ mod layers;
 use std::io::Write;
 
 use super::flatgeobuf;
-use crate::{ColumnType, Crs, Error, Format, Value};
+use crate::{ColumnType, Crs, Error, Format, Table, Value};
 
-pub(crate) use layers::{Cells, Edged, Graphs, Points, Triangles};
+pub(crate) use layers::{Answered, Cells, Edged, Graphs, Points, Triangles};
 
 /// A column of a layer.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,21 @@ impl Column {
     fn new(name: &str, kind: ColumnType) -> Self {
         Self { name: name.to_owned(), kind }
     }
+}
+
+/// Appends the columns of a table, under the names that they have beside those of ours.
+fn beside(mut ours: Vec<Column>, table: Option<&Table>) -> Vec<Column> {
+    if let Some(table) = table {
+        let names = table.names_beside(&ours.iter().map(|column| column.name.as_str()).collect::<Vec<_>>());
+        ours.extend(names.into_iter().zip(table.types()).map(|(name, kind)| Column { name, kind }));
+    }
+    ours
+}
+
+/// The values of a row in a table whose columns are beside so many of ours.
+fn cells(table: Option<&Table>, row: Option<usize>, ours: usize) -> impl Iterator<Item = (usize, Value<'_>)> {
+    let cells = table.zip(row).into_iter().flat_map(|(table, row)| table.row(row));
+    cells.map(move |(column, cell)| (ours + column, Value::of(cell)))
 }
 
 /// What geometries are made of.

@@ -1,0 +1,81 @@
+//! Attributes of the input go to the outputs that have room for them, or a line says which do not.
+
+use std::sync::{Mutex, PoisonError};
+
+use delone_io::{Cloud, Contents, Format};
+
+use super::systems::outputs;
+use crate::message::lost;
+
+/// What is known of attributes.
+struct Known {
+    /// With which contents they are written, if the command does so.
+    with: Option<Contents>,
+    /// The names of all that were read.
+    names: Vec<String>,
+}
+
+static KNOWN: Mutex<Known> = Mutex::new(Known { with: None, names: Vec::new() });
+
+/// So many names are told.
+const MOST_NAMES: usize = 12;
+
+/// The command writes attributes with such contents, where a format has room for them: they are read from now on.
+pub(crate) fn keep_attributes(with: Contents) {
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner).with = Some(with);
+}
+
+/// Whether attributes are read: the command writes them, and not only where there is no room for them. Polygons that are regions are told
+/// apart by them.
+pub(crate) fn are_kept() -> bool {
+    let with = KNOWN.lock().unwrap_or_else(PoisonError::into_inner).with;
+    let have_room = |with| outputs().iter().any(|(_, format)| format.keeps_attributes(with));
+    with.is_some_and(|with| with == Contents::Triangles || have_room(with))
+}
+
+/// Keeps the names of the attributes of an input.
+pub(super) fn heed(cloud: &Cloud) {
+    let names = &mut KNOWN.lock().unwrap_or_else(PoisonError::into_inner).names;
+    for name in cloud.features.table.names() {
+        if names.len() <= MOST_NAMES && !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+}
+
+/// Says which outputs are without the attributes of the input. Indices and pictures need none.
+pub(super) fn tell(quiet: bool) {
+    let known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut names: Vec<&str> = known.names.iter().map(String::as_str).collect();
+    if names.is_empty() {
+        return;
+    }
+    if names.len() > MOST_NAMES {
+        *names.last_mut().expect("there are more") = "...";
+    }
+    let is_without = |format: Format| match known.with {
+        Some(with) => has_places(format) && !format.keeps_attributes(with),
+        None => has_places(format),
+    };
+    for (path, _) in outputs().iter().filter(|(_, format)| is_without(*format)) {
+        let what = format!("the attributes of the input are left out: {}", names.join(", "));
+        lost(quiet, format_args!("{}: {what}", path.display()));
+    }
+}
+
+/// Whether files of a format have the places of things, not their indices in the input alone.
+fn has_places(format: Format) -> bool {
+    !matches!(
+        format,
+        Format::Text
+            | Format::Npy
+            | Format::Npz
+            | Format::Ele
+            | Format::Neigh
+            | Format::Edge
+            | Format::Tiff
+            | Format::Asc
+            | Format::Svg
+            | Format::Png
+    )
+}

@@ -1,0 +1,149 @@
+//! Attributes go with their features from file to file, and what is left out is said.
+
+use serde_json::Value;
+
+use crate::place::{Place, text};
+
+const TOWNS: &str = "id,name,x,y,elevation,site\n007,\"A, town\",0,0,1.5,s1\n12,B,10,0,2,s2\n3,,5,8,,s3\n";
+
+/// The properties of a file's features.
+fn properties(place: &Place, name: &str) -> Vec<Value> {
+    let all: Value = serde_json::from_str(&place.read(name)).expect("JSON");
+    all["features"]
+        .as_array()
+        .expect("features")
+        .iter()
+        .map(|feature| feature["properties"].clone())
+        .collect()
+}
+
+#[test]
+fn sites_hand_them_to_their_cells() {
+    let place = Place::new();
+    place.file("t.csv", TOWNS.replace(",,s3", ",3,s3"));
+    place.succeed("-q voronoi t.csv -o c.geojson -o c.csv");
+    let cells = properties(&place, "c.geojson");
+    let expected = serde_json::json!(
+        {"site": 0, "area": cells[0]["area"], "id": "007", "name": "A, town", "elevation": 1.5, "site_2": "s1"}
+    );
+    assert_eq!(cells[0], expected);
+    assert_eq!((&cells[2]["name"], &cells[2]["id"]), (&Value::Null, &Value::from("3")));
+    let table = place.read("c.csv");
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines[0], "site,area,id,name,elevation,site_2,wkt");
+    assert!(lines[1].contains(",007,\"A, town\",1.5,s1,\"POLYGON (("), "{}", lines[1]);
+    // What was written is read again: polygons with all of that.
+    place.succeed("-q polygons c.csv -o p.geojson");
+    assert_eq!(properties(&place, "p.geojson")[0]["name"], "A, town");
+    // With weights too; and the heights of GeoJSON.
+    place.file(
+        "s.geojson",
+        r#"{"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"n":1},"geometry":{"type":"Point","coordinates":[0,0,7]}},
+{"type":"Feature","properties":{"n":2},"geometry":{"type":"Point","coordinates":[4,0,8]}},
+{"type":"Feature","properties":{"n":3},"geometry":{"type":"Point","coordinates":[0,4,9]}}]}"#,
+    );
+    place.succeed("-q voronoi s.geojson --areas equal -o w.geojson");
+    let cells = properties(&place, "w.geojson");
+    assert_eq!((&cells[2]["n"], &cells[2]["z"]), (&Value::from(3), &Value::from(9.0)));
+}
+
+#[test]
+fn what_is_left_out_is_said() {
+    let place = Place::new();
+    place.file("t.csv", TOWNS.replace(",,s3", ",3,s3"));
+    let output = place.run("voronoi t.csv -o c.wkt -o c.geojson");
+    let said = text(&output.stderr);
+    assert!(
+        said.contains("note: c.wkt: the attributes of the input are left out: id, name, elevation, site"),
+        "{said}"
+    );
+    assert!(!said.contains("c.geojson: the attributes"), "{said}");
+    place.fail("-q --strict voronoi t.csv -o d.wkt", 1, "the attributes of the input are left out");
+    assert!(!place.path("d.wkt").exists());
+    place.succeed("--strict voronoi t.csv -o d.geojson");
+    // Indices tell which point is which.
+    let output = place.run("triangulate t.csv -o t.npy -o t.ply");
+    let said = text(&output.stderr);
+    assert!(said.contains("t.ply: the attributes") && !said.contains("t.npy: the attributes"), "{said}");
+    // Of sites at one place one has a cell.
+    place.file("twice.csv", "x,y,n\n0,0,1\n4,0,2\n0,4,3\n0,4,4\n");
+    let output = place.run("voronoi twice.csv -o c.geojson");
+    assert!(text(&output.stderr).contains("sites that equal an earlier one are left out: 1"));
+    place.fail("-q --strict voronoi twice.csv -o d.csv", 1, "sites that equal an earlier one");
+}
+
+const MATERIALS: &str = r#"{"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"material":"clay"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[2,0],[2,2],[0,2],[0,0]]]}},
+{"type":"Feature","properties":{"material":"sand"},"geometry":{"type":"MultiPolygon","coordinates":[[[[2,0],[5,0],[5,2],[2,2],[2,0]]],[[[7,0],[8,0],[7,1],[7,0]]]]}}]}"#;
+
+#[test]
+fn polygons_are_regions() {
+    let place = Place::new();
+    place.file("m.geojson", MATERIALS);
+    for command in ["triangulate m.geojson", "mesh m.geojson --max-area 0.25 --check"] {
+        place.succeed(&format!("-q {command} -o t.geojson -o t.msh -o t.vtu -o t.inp -o t.ele -o t.ply"));
+        let triangles = properties(&place, "t.geojson");
+        assert!(triangles.len() >= 5);
+        for triangle in &triangles {
+            let region = if triangle["material"] == "clay" { 1.0 } else { 2.0 };
+            assert_eq!(triangle["region"], region, "{triangle}");
+        }
+        let of_clay = triangles.iter().filter(|triangle| triangle["material"] == "clay").count();
+        let inp = place.read("t.inp");
+        assert!(inp.contains("ELSET=region_1") && inp.contains("ELSET=region_2"), "{inp}");
+        let ele = place.read("t.ele");
+        assert_eq!(ele.lines().skip(1).filter(|line| line.ends_with(" 1.0")).count(), of_clay, "{ele}");
+    }
+    // A single polygon is no region among others, but has its attributes.
+    let (clay, _) = MATERIALS.rsplit_once(",\n").expect("two features");
+    place.file("one.geojson", format!("{clay}]}}"));
+    place.succeed("-q triangulate one.geojson -o t.geojson");
+    let triangles = properties(&place, "t.geojson");
+    assert_eq!((&triangles[0]["material"], &triangles[0]["region"]), (&Value::from("clay"), &Value::Null));
+    // Well-known text has no attributes; its geometries are regions.
+    place.file("two.wkt", "POLYGON ((0 0, 2 0, 2 2, 0 0))\nPOLYGON ((2 0, 4 0, 4 2, 2 0))\n");
+    place.succeed("-q triangulate two.wkt -o t.geojson");
+    let regions: Vec<Value> =
+        properties(&place, "t.geojson").iter().map(|all| all["region"].clone()).collect();
+    assert!(regions.contains(&Value::from(1.0)) && regions.contains(&Value::from(2.0)), "{regions:?}");
+}
+
+#[test]
+fn queries_keep_theirs_beside_the_answers() {
+    let place = Place::new();
+    place.file("p.csv", "x,y,t\n0,0,1\n4,0,2\n0,4,3\n4,4,4\n");
+    place.file("q.csv", "id,x,y,t\nq1,1,1,seen\n02,9,9,\"far, away\"\n");
+    let table = place.succeed("-q interpolate p.csv --value t --queries q.csv --method linear -o - --to csv");
+    assert_eq!(table, "x,y,id,t_2,t\n1.0,1.0,q1,seen,1.75\n9.0,9.0,02,\"far, away\",NaN\n");
+    place.succeed("-q nearest p.csv --queries q.csv -o n.geojson");
+    let answers = properties(&place, "n.geojson");
+    assert_eq!(answers[1], serde_json::json!({"nearest": 3, "id": "02", "t": "far, away"}));
+    let furthest = place.succeed("-q furthest p.csv --queries q.csv -o - --to csv");
+    assert_eq!(furthest.lines().nth(1), Some("1.0,1.0,q1,seen,3"));
+}
+
+#[test]
+fn two_systems_are_an_error() {
+    let place = Place::new();
+    let in_system = |name: &str, number: u32, geometry: &str| {
+        let named = format!("urn:ogc:def:crs:EPSG::{number}");
+        let crs = format!(r#""crs":{{"type":"name","properties":{{"name":"{named}"}}}}"#);
+        place.file(name, format!("{{{crs},{geometry}}}"));
+    };
+    let points = r#""type":"MultiPoint","coordinates":[[0,0,1],[4,0,2],[0,4,3],[4,4,4]]"#;
+    let area = r#""type":"Polygon","coordinates":[[[0,0],[3,0],[3,3],[0,0]]]"#;
+    in_system("p.geojson", 25832, points);
+    in_system("q.geojson", 25833, points);
+    in_system("area.geojson", 25833, area);
+    for line in [
+        "voronoi p.geojson --clip area.geojson -o c.geojson",
+        "nearest p.geojson --queries q.geojson -o n.csv",
+        "interpolate p.geojson --queries q.geojson -o n.csv",
+        "dtm p.geojson --cell 1 --clip area.geojson -o d.tif",
+        "dtm p.geojson --cell 1 --breaklines area.geojson -o d.tif",
+        "triangulate p.geojson area.geojson -o t.geojson",
+    ] {
+        place.fail(line, 1, "EPSG:25833");
+    }
+}
