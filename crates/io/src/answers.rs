@@ -45,7 +45,7 @@ impl Found<'_> {
 }
 
 /// Writes answers: as CSV with the columns `x,y` or `x,y,z`, those of the attributes and those of the answers, under a header; or as
-/// GeoJSON or FlatGeobuf, a point for each query with all of that as properties. An attribute that has the name of another column gets a number after it.
+/// GeoJSON, FlatGeobuf or GeoPackage, a point for each query with all of that as properties. An attribute that has the name of another column gets a number after it.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for other formats, and those of the output.
@@ -76,7 +76,7 @@ pub fn write_answers<P: AsRef<[f64]>>(
     match format {
         Format::Text => answers.write_text(out)?,
         Format::GeoJson => answers.write_geojson(out)?,
-        Format::FlatGeobuf => vector::write(out, format, &vector::Answered(answers))?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Answered(answers))?,
         _ => return Err(format.without(Contents::Answers, Direction::Written)),
     }
     Ok(())

@@ -72,6 +72,14 @@ pub enum Error {
     /// No format has this extension.
     #[error("{0}: no format has this extension")]
     UnknownExtension(String),
+    /// The format is not in this program, which was built without what it takes.
+    #[error("{format} files are not read or written by this program, which was built without {feature}")]
+    LeftOut {
+        /// The format.
+        format: Format,
+        /// The feature of the crate that has it.
+        feature: &'static str,
+    },
     /// The circumcentre of a triangle is no finite number.
     #[error("the circumcentre of triangle {triangle} is too far away to be written")]
     FarCentre {
@@ -150,6 +158,9 @@ impl Error {
                 "read the points from the .node file of the same name, or put them into this file"
             }
             Self::UnknownExtension(_) => "name the format with --from or --to",
+            Self::LeftOut { .. } => {
+                "build it with that feature, or convert the file with ogr2ogr -f FlatGeobuf OUT.fgb IN"
+            }
             Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
             Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",

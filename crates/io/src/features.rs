@@ -353,7 +353,7 @@ impl<'a> Value<'a> {
 }
 
 /// A name with the least number from 2 after it that nothing has.
-fn numbered(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
+pub(crate) fn numbered(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut number = 2;
     loop {
         let own = format!("{name}_{number}");

@@ -78,6 +78,8 @@ pub enum Format {
     GeoJsonLines,
     /// FlatGeobuf.
     FlatGeobuf,
+    /// GeoPackage.
+    GeoPackage,
     /// Well-known text of geometries, one a line.
     Wkt,
     /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.
@@ -153,7 +155,9 @@ impl Format {
         match self {
             Self::GeoJson if crs.epsg.is_some() || crs.is_plain_degrees() => Said::Whole,
             Self::GeoJson => Said::Otherwise,
-            Self::FlatGeobuf => when(crs.epsg.is_some() || crs.wkt.is_some()),
+            Self::FlatGeobuf | Self::GeoPackage => {
+                when(crs.epsg.is_some() || crs.wkt.is_some() || crs.is_plain_degrees())
+            }
             Self::Wkb | Self::Ply | Self::Obj => when(crs.epsg.is_some()),
             Self::Tiff => when(crs.epsg.is_some() || crs.wkt.is_some() || crs.keys.is_some()),
             Self::Asc => when(crs.wkt.is_some()),
@@ -181,12 +185,15 @@ impl Format {
     /// ```
     pub fn keeps_attributes(self, contents: Contents) -> bool {
         match contents {
-            Contents::Cells | Contents::Answers => {
-                matches!(self, Self::GeoJson | Self::FlatGeobuf | Self::Text)
-            }
-            Contents::Triangles | Contents::Patches => matches!(self, Self::GeoJson | Self::FlatGeobuf),
+            Contents::Cells | Contents::Answers => self == Self::Text || self.has_layers(),
+            Contents::Triangles | Contents::Patches => self.has_layers(),
             _ => false,
         }
+    }
+
+    /// Whether its files have features with attributes of all types.
+    fn has_layers(self) -> bool {
+        matches!(self, Self::GeoJson | Self::FlatGeobuf | Self::GeoPackage)
     }
 
     /// Refuses contents that files of this format do not hold.

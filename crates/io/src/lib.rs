@@ -260,7 +260,7 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Rings, Erro
     Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs })
 }
 
-/// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON or FlatGeobuf,
+/// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON, FlatGeobuf or GeoPackage,
 /// or as CSV with the columns `site,area,...,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
 /// binary, one collection, without index and area; or as a picture whose longer side has `size` pixels.
 ///
@@ -316,7 +316,7 @@ fn write_tiles(
         Format::Wkt | Format::WktCollection => {
             formats::cells::write_wkt(out, diagram, format == Format::WktCollection)?;
         }
-        Format::FlatGeobuf => vector::write(out, format, &vector::Cells(diagram))?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Cells(diagram))?,
         Format::Text => formats::cells::write_csv(out, diagram)?,
         Format::Wkb => formats::cells::write_wkb(out, diagram)?,
         Format::Svg | Format::Png => picture::write_cells(out, format, diagram, size)?,
@@ -340,7 +340,7 @@ pub fn write_points<const D: usize>(
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,
-        Format::FlatGeobuf => vector::write(out, format, &vector::Points(points))?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Points(points))?,
         Format::Wkt | Format::WktCollection => {
             wkt::write_points(out, points, format == Format::WktCollection)?;
         }
@@ -350,14 +350,14 @@ pub fn write_points<const D: usize>(
     Ok(())
 }
 
-/// Writes a graph: as a `.poly` file with all attributes and markers, holes and regions; as GeoJSON, FlatGeobuf or well-known text with its
+/// Writes a graph: as a `.poly` file with all attributes and markers, holes and regions; as GeoJSON, FlatGeobuf, GeoPackage or well-known text with its
 /// polygons, lines of all other segments, and points that no segment joins: in text a geometry a line, or one collection
 /// ([`Format::WktCollection`]).
 pub fn write_graph(out: &mut dyn std::io::Write, format: Format, graph: &Graph) -> Result<(), Error> {
     match format {
         Format::Poly => Ok(formats::poly::write_graph(out, graph)?),
         Format::GeoJson => Ok(formats::graphs::write_geojson(out, graph)?),
-        Format::FlatGeobuf => vector::write(out, format, &vector::Graphs::new(graph)),
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Graphs::new(graph)),
         Format::Wkt | Format::WktCollection => {
             Ok(formats::graphs::write_wkt(out, graph, format == Format::WktCollection)?)
         }

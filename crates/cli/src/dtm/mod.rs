@@ -110,7 +110,7 @@ fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
         let rasters = Format::with(&[Contents::Rasters], Direction::Written);
         return Err(Failure::usage(
             what,
-            format!("choose among {rasters} png (hillshade) geojson fgb (contours)"),
+            format!("choose among {rasters} png (hillshade) geojson fgb gpkg (contours)"),
         ));
     }
     if args.memory.is_some() && args.method.is_bent() {

@@ -6,8 +6,8 @@ use super::Contents::{
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    e57, flatgeobuf, geojson, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw, stl, text,
-    triangle, vtk, wkb, wkt,
+    e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw,
+    stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -290,6 +290,19 @@ pub(super) const TABLE: &[Row] = &[
             points: Some(flatgeobuf::read_points),
             lines: Some(|source, options, _| flatgeobuf::read_graph(source, options)),
             polygons: Some(flatgeobuf::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
+    },
+    Row {
+        format: Format::GeoPackage,
+        title: "GeoPackage",
+        names: &["gpkg"],
+        also: &["geopackage"],
+        readers: Readers {
+            points: Some(geopackage::read_points),
+            lines: Some(|source, options, _| geopackage::read_graph(source, options)),
+            polygons: Some(geopackage::read_rings),
             ..Readers::NONE
         },
         writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],

@@ -55,7 +55,7 @@ impl<P: Coordinates> Edges<'_, P> {
     }
 }
 
-/// Writes edges: npy (int64, two columns), text (from, to, length), GeoJSON or FlatGeobuf (a line each).
+/// Writes edges: npy (int64, two columns), text (from, to, length), GeoJSON, FlatGeobuf or GeoPackage (a line each).
 ///
 /// # Errors
 /// For other formats, and when writing fails.
@@ -71,7 +71,7 @@ pub fn write_edges(
         }
         Format::Text => edges.write_text(out)?,
         Format::GeoJson => edges.write_geojson(out)?,
-        Format::FlatGeobuf => vector::write(out, format, &vector::Edged(edges))?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Edged(edges))?,
         _ => return Err(format.without(Contents::Edges, Direction::Written)),
     }
     Ok(())

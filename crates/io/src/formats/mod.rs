@@ -5,6 +5,7 @@ pub(crate) mod e57;
 pub(crate) mod edges;
 pub(crate) mod flatgeobuf;
 pub(crate) mod geojson;
+pub(crate) mod geopackage;
 pub(crate) mod gpx;
 pub(crate) mod graphs;
 pub(crate) mod inp;

@@ -164,10 +164,9 @@ fn system(table: Table) -> Result<Option<Crs>, &'static str> {
     let code = code.filter(|&code| code > 0 && is_ours);
     let of_text = table.text(crs::WKT)?.as_deref().and_then(Crs::of_wkt);
     let of_name = |name: String| Crs { name: Some(name), ..Crs::default() };
-    Ok(match (of_text, code) {
-        (Some(crs), code) => Some(Crs { epsg: crs.epsg.or(code), ..crs }),
-        (None, Some(code)) => Some(Crs::of_epsg(code)),
-        (None, None) => table.text(crs::NAME)?.filter(|name| !name.is_empty()).map(of_name),
+    Ok(match Crs::of_both(code, of_text) {
+        Some(crs) => Some(crs),
+        None => table.text(crs::NAME)?.filter(|name| !name.is_empty()).map(of_name),
     })
 }
 

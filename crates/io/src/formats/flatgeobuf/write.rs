@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::tables::{Builder, Fields, OFFSET};
 use super::{MAGIC, column, crs, feature, geometry, header, kind};
-use crate::formats::vector::{Column, Form, Geometry, Kind, Layer};
+use crate::formats::vector::{Column, Form, Geometry, Kind, Layer, number};
 use crate::{ColumnType, Crs, Error, Value};
 
 /// Writes a layer.
@@ -66,10 +66,9 @@ fn kind_of(column: ColumnType) -> u8 {
     }
 }
 
-/// Writes the number of a system, its name and its definition. Of one with heights the number is that of a part: there the definition tells
-/// all, if there is one.
+/// Writes the number of a system, its name and its definition.
 fn write_system(builder: &mut Builder, header: &Fields, system: &Crs) {
-    let code = system.epsg.filter(|_| system.vertical.is_none() || system.wkt.is_none());
+    let code = number(system);
     let mut sizes = [0; crs::WKT + 1];
     if code.is_some() {
         sizes[crs::AUTHORITY] = OFFSET;
@@ -131,16 +130,16 @@ fn write_feature(
 }
 
 fn write_geometry(builder: &mut Builder, from: usize, geometry: &Geometry, form: Form, is_high: bool) {
-    let number = form.number();
+    let kind = form.number();
     match form.kind {
-        Kind::Point => write_positions(builder, from, number, &geometry.positions, &[], is_high),
-        Kind::Line => write_positions(builder, from, number, &geometry.positions, &geometry.ends, is_high),
+        Kind::Point => write_positions(builder, from, kind, &geometry.positions, &[], is_high),
+        Kind::Line => write_positions(builder, from, kind, &geometry.positions, &geometry.ends, is_high),
         Kind::Polygon if form.is_multiple => {
             let mut sizes = [0; geometry::PARTS + 1];
             sizes[geometry::KIND] = 1;
             sizes[geometry::PARTS] = OFFSET;
             let fields = builder.table(from, &sizes);
-            builder.put(fields.at(geometry::KIND), &[number]);
+            builder.put(fields.at(geometry::KIND), &[kind]);
             let parts = builder.tables(fields.at(geometry::PARTS), geometry.count());
             for (i, place) in parts.enumerate() {
                 write_polygon(builder, place, geometry, i, is_high);
@@ -151,21 +150,21 @@ fn write_geometry(builder: &mut Builder, from: usize, geometry: &Geometry, form:
 }
 
 fn write_polygon(builder: &mut Builder, from: usize, geometry: &Geometry, i: usize, is_high: bool) {
-    let number = Form { kind: Kind::Polygon, is_multiple: false }.number();
+    let kind = Form { kind: Kind::Polygon, is_multiple: false }.number();
     let mut positions = Vec::new();
     let mut ends = Vec::new();
     for ring in geometry.rings(i) {
         positions.extend_from_slice(ring);
         ends.push(positions.len());
     }
-    write_positions(builder, from, number, &positions, &ends, is_high);
+    write_positions(builder, from, kind, &positions, &ends, is_high);
 }
 
 /// Writes positions, and where their parts end if there are several.
 fn write_positions(
     builder: &mut Builder,
     from: usize,
-    number: u8,
+    kind: u8,
     positions: &[[f64; 3]],
     ends: &[usize],
     is_high: bool,
@@ -176,7 +175,7 @@ fn write_positions(
     sizes[geometry::Z] = if is_high { OFFSET } else { 0 };
     sizes[geometry::KIND] = 1;
     let fields = builder.table(from, &sizes);
-    builder.put(fields.at(geometry::KIND), &[number]);
+    builder.put(fields.at(geometry::KIND), &[kind]);
     if ends.len() > 1 {
         builder.vector(fields.at(geometry::ENDS), ends.len(), 4);
         ends.iter().for_each(|&end| builder.push(&(end as u32).to_le_bytes()));

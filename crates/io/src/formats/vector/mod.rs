@@ -5,7 +5,7 @@ mod layers;
 
 use std::io::Write;
 
-use super::flatgeobuf;
+use super::{flatgeobuf, geopackage};
 use crate::{ColumnType, Crs, Error, Format, Table, Value};
 
 pub(crate) use layers::{Answered, Cells, Edged, Graphs, Points, Triangles};
@@ -36,6 +36,14 @@ fn beside(mut ours: Vec<Column>, table: Option<&Table>) -> Vec<Column> {
 fn cells(table: Option<&Table>, row: Option<usize>, ours: usize) -> impl Iterator<Item = (usize, Value<'_>)> {
     let cells = table.zip(row).into_iter().flat_map(|(table, row)| table.row(row));
     cells.map(move |(column, cell)| (ours + column, Value::of(cell)))
+}
+
+/// The number of a system in the EPSG registry, where it says all of the system: of one with heights the number is that of a part, and
+/// the definition tells more, if there is one.
+pub(super) fn number(crs: &Crs) -> Option<u32> {
+    const DEGREES: u32 = 4326;
+    let number = if crs.is_plain_degrees() { Some(DEGREES) } else { crs.epsg };
+    number.filter(|_| crs.vertical.is_none() || crs.wkt.is_none())
 }
 
 /// What geometries are made of.
@@ -165,6 +173,8 @@ pub(crate) trait Layer {
 
 /// Writes a layer in a format of layers.
 pub(crate) fn write(out: &mut dyn Write, format: Format, layer: &impl Layer) -> Result<(), Error> {
-    debug_assert_eq!(format, Format::FlatGeobuf);
-    flatgeobuf::write(out, layer)
+    match format {
+        Format::GeoPackage => geopackage::write(out, layer),
+        _ => flatgeobuf::write(out, layer),
+    }
 }
