@@ -80,6 +80,8 @@ pub enum Format {
     FlatGeobuf,
     /// GeoPackage.
     GeoPackage,
+    /// Shapefiles, with what lies beside them.
+    Shapefile,
     /// Well-known text of geometries, one a line.
     Wkt,
     /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.
@@ -189,6 +191,11 @@ impl Format {
             Contents::Triangles | Contents::Patches => self.has_layers(),
             _ => false,
         }
+    }
+
+    /// The extensions of the files beside one of this format that are read with it.
+    pub fn sides(self) -> &'static [&'static str] {
+        if self == Self::Shapefile { crate::formats::shapefile::SIDES } else { &[] }
     }
 
     /// Whether its files have features with attributes of all types.

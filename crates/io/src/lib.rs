@@ -103,6 +103,22 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
     reader.ok_or_else(|| format.without(Contents::Points, Direction::Read))?(source, options)
 }
 
+/// Reads the points of a file and of those beside it ([`Format::sides`]), which `beside` opens by their extension.
+///
+/// # Errors
+/// As [`read_points`]. A file that is not there is a remark.
+pub fn read_points_beside(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    beside: Beside,
+) -> Result<Cloud, Error> {
+    match format {
+        Format::Shapefile => formats::shapefile::read_points(source, options, Some(beside)),
+        _ => read_points(source, format, options),
+    }
+}
+
 /// Reads the points of a file in its order, about `most` at a time: `take` is given them, and may refuse to go on. What is
 /// returned has no points, and all else that the file tells.
 ///
@@ -258,6 +274,14 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Rings, Erro
     let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
     let cloud = read_points(source, format, &options)?;
     Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs })
+}
+
+/// Reads the rings of polygons of a file and what their system is from those beside it ([`Format::sides`]).
+pub fn read_rings_beside(source: Box<dyn Source>, format: Format, beside: Beside) -> Result<Rings, Error> {
+    match format {
+        Format::Shapefile => formats::shapefile::read_rings(source, Some(beside)),
+        _ => read_rings(source, format),
+    }
 }
 
 /// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON, FlatGeobuf or GeoPackage,

@@ -7,7 +7,7 @@ use super::Contents::{
 use super::{Contents, Format, Readers};
 use crate::formats::{
     e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw,
-    stl, text, triangle, vtk, wkb, wkt,
+    shapefile, stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -306,6 +306,19 @@ pub(super) const TABLE: &[Row] = &[
             ..Readers::NONE
         },
         writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
+    },
+    Row {
+        format: Format::Shapefile,
+        title: "shapefiles, with their .dbf, .cpg and .prj files",
+        names: &["shp"],
+        also: &["shapefile"],
+        readers: Readers {
+            points: Some(|source, options| shapefile::read_points(source, options, None)),
+            lines: Some(shapefile::read_graph),
+            polygons: Some(|source| shapefile::read_rings(source, None)),
+            ..Readers::NONE
+        },
+        writes: &[],
     },
     Row {
         format: Format::Wkt,
