@@ -157,6 +157,9 @@ impl Error {
             Self::PointsElsewhere => {
                 "read the points from the .node file of the same name, or put them into this file"
             }
+            Self::UnknownExtension(name) if is_of_others(name) => {
+                return Cow::Owned(format!("convert it with ogr2ogr -f GPKG out.gpkg {name}"));
+            }
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::LeftOut { .. } => {
                 "build it with that feature, or convert the file with ogr2ogr -f FlatGeobuf OUT.fgb IN"
@@ -173,6 +176,14 @@ impl Error {
             }
         })
     }
+}
+
+/// Whether a name is that of a file of features in a format that is not read here, and that GDAL reads.
+fn is_of_others(name: &str) -> bool {
+    const OTHERS: [&str; 11] =
+        ["kml", "kmz", "gml", "tab", "mif", "gdb", "topojson", "parquet", "geoparquet", "dgn", "osm"];
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    OTHERS.iter().any(|other| extension.eq_ignore_ascii_case(other))
 }
 
 /// A message that may quote what others wrote, at most as long as is read.

@@ -82,6 +82,8 @@ pub enum Format {
     GeoPackage,
     /// Shapefiles, with what lies beside them.
     Shapefile,
+    /// Drawings of CAD.
+    Dxf,
     /// Well-known text of geometries, one a line.
     Wkt,
     /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.

@@ -161,6 +161,15 @@ fn errors_name_what_holds_it() {
     assert_eq!(error.help(), "Voronoi cells are written to: csv geojson fgb gpkg wkt wkb svg png");
 }
 
+#[test]
+fn formats_of_others_are_converted() {
+    let help = |name: &str| Format::of(Path::new(name)).expect_err("no format").help().into_owned();
+    assert_eq!(help("maps/a.KML"), "convert it with ogr2ogr -f GPKG out.gpkg maps/a.KML");
+    assert!(help("a.gdb").starts_with("convert it"));
+    assert_eq!(help("a.what"), "name the format with --from or --to");
+    assert_eq!("kml".parse::<Format>().expect_err("none").help(), "name the format with --from or --to");
+}
+
 /// The page of the book: a row for each format. `BLESS=1 cargo test -p delone-io --test all formats` writes it.
 fn page() -> String {
     let held = |format: Format, direction| {

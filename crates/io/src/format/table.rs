@@ -6,8 +6,8 @@ use super::Contents::{
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw,
-    shapefile, stl, text, triangle, vtk, wkb, wkt,
+    dxf, e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly,
+    raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -316,6 +316,19 @@ pub(super) const TABLE: &[Row] = &[
             points: Some(|source, options| shapefile::read_points(source, options, None)),
             lines: Some(shapefile::read_graph),
             polygons: Some(|source| shapefile::read_rings(source, None)),
+            ..Readers::NONE
+        },
+        writes: &[],
+    },
+    Row {
+        format: Format::Dxf,
+        title: "drawings, as text",
+        names: &["dxf"],
+        also: &[],
+        readers: Readers {
+            points: Some(dxf::read_points),
+            lines: Some(|source, options, _| dxf::read_graph(source, options)),
+            polygons: Some(dxf::read_rings),
             ..Readers::NONE
         },
         writes: &[],

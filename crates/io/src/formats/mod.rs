@@ -1,6 +1,7 @@
 //! The formats, one file each.
 
 pub(crate) mod cells;
+pub(crate) mod dxf;
 pub(crate) mod e57;
 pub(crate) mod edges;
 pub(crate) mod flatgeobuf;
