@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use delone::{Alpha, Delaunay2, Delaunay3, Manifold3, VertexId};
 use delone_io::{
-    Cloud, Contents, Format, Graph, GraphRing, Patches, Solid, picture, write_filtration, write_graph,
-    write_indices, write_patches, write_solid,
+    Cloud, Contents, Direction, Format, Graph, GraphRing, Patches, Solid, picture, write_filtration,
+    write_graph, write_indices, write_patches, write_solid,
 };
 
 use crate::args::{AlphaArgs, IN_SPACE, IN_THE_PLANE};
@@ -143,10 +143,7 @@ fn write_outline(
     quiet: bool,
 ) -> Result<(), Failure> {
     let _phase = Phase::start(quiet, "writing");
-    let is_polygon = |format: &Format| {
-        use Format::{GeoJson, Poly, Wkt, WktCollection};
-        matches!(format, GeoJson | Wkt | WktCollection | Poly)
-    };
+    let is_polygon = |format: &Format| format.holds(Contents::Lines, Direction::Written);
     if outputs.iter().any(|(_, format)| is_polygon(format)) {
         let graph = graph(alpha, value, &about);
         for (path, format) in outputs.iter().filter(|(_, format)| is_polygon(format)) {

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use crate::formats::geojson::{Properties, write_system};
+use crate::formats::vector;
 use crate::{Contents, Crs, Direction, Error, Features, Format, Value};
 
 /// The axes, as columns are called.
@@ -44,7 +45,7 @@ impl Found<'_> {
 }
 
 /// Writes answers: as CSV with the columns `x,y` or `x,y,z`, those of the attributes and those of the answers, under a header; or as
-/// GeoJSON, a point for each query with all of that as properties. An attribute that has the name of another column gets a number after it.
+/// GeoJSON, FlatGeobuf or GeoPackage, a point for each query with all of that as properties. An attribute that has the name of another column gets a number after it.
 ///
 /// # Errors
 /// [`Error::Unsupported`] for other formats, and those of the output.
@@ -75,6 +76,7 @@ pub fn write_answers<P: AsRef<[f64]>>(
     match format {
         Format::Text => answers.write_text(out)?,
         Format::GeoJson => answers.write_geojson(out)?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Answered(answers))?,
         _ => return Err(format.without(Contents::Answers, Direction::Written)),
     }
     Ok(())
@@ -120,7 +122,7 @@ impl<P: AsRef<[f64]>> Answers<'_, P> {
     }
 
     /// Where the answers to a query are.
-    fn own(&self, query: usize) -> std::ops::Range<usize> {
+    pub(crate) fn own(&self, query: usize) -> std::ops::Range<usize> {
         let width = self.names.len();
         query * width..(query + 1) * width
     }

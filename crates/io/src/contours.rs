@@ -1,4 +1,4 @@
-//! Contours: lines and bands of heights, as GeoJSON or as a picture.
+//! Contours: lines and bands of heights, as features or as a picture.
 //!
 //! Cost: linear in the points.
 
@@ -47,7 +47,7 @@ impl ContourMap<'_> {
     }
 }
 
-/// Writes contours: as GeoJSON, a feature for each line with the property `elevation` and one for each band with `lower` and `upper`
+/// Writes contours: as GeoJSON, FlatGeobuf or GeoPackage, a feature for each line with the property `elevation` and one for each band with `lower` and `upper`
 /// (null where there is no bound), or as a picture whose longer side has `size` pixels.
 ///
 /// # Errors
@@ -61,6 +61,7 @@ pub fn write_contours(
     format.check(Contents::Contours, Direction::Written)?;
     match format {
         Format::GeoJson => Ok(formats::geojson::write_contours(out, map)?),
+        Format::FlatGeobuf | Format::GeoPackage => formats::vector::write(out, format, map),
         _ => picture::write_contours(out, format, map, size),
     }
 }

@@ -15,7 +15,7 @@ pub struct Diagram<'a, T> {
     pub cells: &'a Cells2,
     /// What the coordinates mean; formats that can say it do.
     pub crs: Option<&'a Crs>,
-    /// The attributes of the sites, which their cells have in GeoJSON and CSV; one that is called `site` or `area` is `site_2` or `area_2`
+    /// The attributes of the sites, which their cells have in GeoJSON, FlatGeobuf, GeoPackage and CSV; one that is called `site` or `area` is `site_2` or `area_2`
     /// there.
     pub features: Option<&'a Features>,
 }

@@ -72,6 +72,14 @@ pub enum Error {
     /// No format has this extension.
     #[error("{0}: no format has this extension")]
     UnknownExtension(String),
+    /// The format is not in this program, which was built without what it takes.
+    #[error("{format} files are not read or written by this program, which was built without {feature}")]
+    LeftOut {
+        /// The format.
+        format: Format,
+        /// The feature of the crate that has it.
+        feature: &'static str,
+    },
     /// The circumcentre of a triangle is no finite number.
     #[error("the circumcentre of triangle {triangle} is too far away to be written")]
     FarCentre {
@@ -149,7 +157,13 @@ impl Error {
             Self::PointsElsewhere => {
                 "read the points from the .node file of the same name, or put them into this file"
             }
+            Self::UnknownExtension(name) if is_of_others(name) => {
+                return Cow::Owned(format!("convert it with ogr2ogr -f GPKG out.gpkg {name}"));
+            }
             Self::UnknownExtension(_) => "name the format with --from or --to",
+            Self::LeftOut { .. } => {
+                "build it with that feature, or convert the file with ogr2ogr -f FlatGeobuf OUT.fgb IN"
+            }
             Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
             Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",
@@ -162,6 +176,14 @@ impl Error {
             }
         })
     }
+}
+
+/// Whether a name is that of a file of features in a format that is not read here, and that GDAL reads.
+fn is_of_others(name: &str) -> bool {
+    const OTHERS: [&str; 11] =
+        ["kml", "kmz", "gml", "tab", "mif", "gdb", "topojson", "parquet", "geoparquet", "dgn", "osm"];
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    OTHERS.iter().any(|other| extension.eq_ignore_ascii_case(other))
 }
 
 /// A message that may quote what others wrote, at most as long as is read.

@@ -303,6 +303,23 @@ impl<'a> Value<'a> {
         }
     }
 
+    /// A whole number: as near as numbers come where it is beyond the whole ones.
+    pub(crate) fn of_whole(number: u64) -> Self {
+        i64::try_from(number).map_or(Self::Number(number as f64), Self::Integer)
+    }
+
+    /// The value that a text of JSON stands for; the text itself where it is none.
+    pub(crate) fn of_json(text: &'a str) -> Self {
+        // A raw value is judged, and not taken apart.
+        let json = serde_json::from_str::<&serde_json::value::RawValue>(text);
+        json.map_or(Self::Text(text), |json| Self::of(json.get()))
+    }
+
+    /// Bytes, as a text of hexadecimal digits.
+    pub(crate) fn of_bytes(bytes: &[u8]) -> Self {
+        Self::Owned(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+    }
+
     /// The value that a field of a text stands for: a number if it is written as JSON writes one, and 64 bits hold it.
     pub(crate) fn of_field(field: &'a str) -> Self {
         if field.is_empty() {
@@ -336,7 +353,7 @@ impl<'a> Value<'a> {
 }
 
 /// A name with the least number from 2 after it that nothing has.
-fn numbered(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
+pub(crate) fn numbered(name: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut number = 2;
     loop {
         let own = format!("{name}_{number}");

@@ -76,6 +76,14 @@ pub enum Format {
     GeoJson,
     /// GeoJSON with a feature a line.
     GeoJsonLines,
+    /// FlatGeobuf.
+    FlatGeobuf,
+    /// GeoPackage.
+    GeoPackage,
+    /// Shapefiles, with what lies beside them.
+    Shapefile,
+    /// Drawings of CAD.
+    Dxf,
     /// Well-known text of geometries, one a line.
     Wkt,
     /// Well-known text of one collection that holds all geometries. It is written alone: reading tells by itself, and no extension is its.
@@ -153,6 +161,9 @@ impl Format {
         match self {
             Self::GeoJson if crs.known_name().is_some() || crs.is_plain_degrees() => Said::Whole,
             Self::GeoJson => Said::Otherwise,
+            Self::FlatGeobuf | Self::GeoPackage => {
+                when(crs.epsg.is_some() || crs.wkt.is_some() || crs.is_plain_degrees())
+            }
             Self::Wkb | Self::Ply | Self::Obj => when(crs.epsg.is_some()),
             Self::Tiff => when(crs.epsg.is_some() || crs.wkt.is_some() || crs.keys.is_some()),
             Self::Asc => when(crs.wkt.is_some()),
@@ -180,10 +191,20 @@ impl Format {
     /// ```
     pub fn keeps_attributes(self, contents: Contents) -> bool {
         match contents {
-            Contents::Cells | Contents::Answers => matches!(self, Self::GeoJson | Self::Text),
-            Contents::Triangles | Contents::Patches => self == Self::GeoJson,
+            Contents::Cells | Contents::Answers => self == Self::Text || self.has_layers(),
+            Contents::Triangles | Contents::Patches => self.has_layers(),
             _ => false,
         }
+    }
+
+    /// The extensions of the files beside one of this format that are read with it.
+    pub fn sides(self) -> &'static [&'static str] {
+        if self == Self::Shapefile { crate::formats::shapefile::SIDES } else { &[] }
+    }
+
+    /// Whether its files have features with attributes of all types.
+    fn has_layers(self) -> bool {
+        matches!(self, Self::GeoJson | Self::FlatGeobuf | Self::GeoPackage)
     }
 
     /// Refuses contents that files of this format do not hold.

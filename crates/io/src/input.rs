@@ -62,7 +62,7 @@ pub fn decompressed(mut source: Box<dyn Source>, format: Format) -> Result<Box<d
         Stream(Bounded::to(most_inflated(packed), MultiGzDecoder::new(source))),
     );
     match format {
-        Format::Las | Format::Npy | Format::Npz | Format::E57 | Format::Tiff => {
+        Format::Las | Format::Npy | Format::Npz | Format::E57 | Format::Tiff | Format::GeoPackage => {
             let mut bytes = Vec::new();
             inside.read_to_end(&mut bytes)?;
             Ok(Box::new(Cursor::new(bytes)))

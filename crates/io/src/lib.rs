@@ -69,6 +69,7 @@ use std::io::{BufRead, Seek};
 
 use chunks::Chunks;
 use delone::Triangulation;
+use formats::vector;
 
 /// What a user should know of a file that was written.
 pub type Remark = Option<String>;
@@ -100,6 +101,22 @@ pub struct ReadOptions {
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
     let reader = format.readers().points;
     reader.ok_or_else(|| format.without(Contents::Points, Direction::Read))?(source, options)
+}
+
+/// Reads the points of a file and of those beside it ([`Format::sides`]), which `beside` opens by their extension.
+///
+/// # Errors
+/// As [`read_points`]. A file that is not there is a remark.
+pub fn read_points_beside(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    beside: Beside,
+) -> Result<Cloud, Error> {
+    match format {
+        Format::Shapefile => formats::shapefile::read_points(source, options, Some(beside)),
+        _ => read_points(source, format, options),
+    }
 }
 
 /// Reads the points of a file in its order, about `most` at a time: `take` is given them, and may refuse to go on. What is
@@ -249,7 +266,7 @@ trait Shape {
     }
 }
 
-/// Reads the rings of polygons: those of GeoJSON, well-known text and well-known binary, or all points of another format as one ring.
+/// Reads the rings of polygons: those of formats that have polygons, or all points of another format as one ring.
 pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Rings, Error> {
     if let Some(read) = format.readers().polygons {
         return read(source);
@@ -259,8 +276,16 @@ pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Rings, Erro
     Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs })
 }
 
-/// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON, or as CSV
-/// with the columns `site,area,...,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
+/// Reads the rings of polygons of a file and what their system is from those beside it ([`Format::sides`]).
+pub fn read_rings_beside(source: Box<dyn Source>, format: Format, beside: Beside) -> Result<Rings, Error> {
+    match format {
+        Format::Shapefile => formats::shapefile::read_rings(source, Some(beside)),
+        _ => read_rings(source, format),
+    }
+}
+
+/// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON, FlatGeobuf or GeoPackage,
+/// or as CSV with the columns `site,area,...,wkt`; as well-known text, a geometry a line or one collection ([`Format::WktCollection`]), and well-known
 /// binary, one collection, without index and area; or as a picture whose longer side has `size` pixels.
 ///
 /// The rings are the same in all of them, bit for bit. A cell that is empty has its place: no geometry in GeoJSON, an empty
@@ -315,6 +340,7 @@ fn write_tiles(
         Format::Wkt | Format::WktCollection => {
             formats::cells::write_wkt(out, diagram, format == Format::WktCollection)?;
         }
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Cells(diagram))?,
         Format::Text => formats::cells::write_csv(out, diagram)?,
         Format::Wkb => formats::cells::write_wkb(out, diagram)?,
         Format::Svg | Format::Png => picture::write_cells(out, format, diagram, size)?,
@@ -338,6 +364,7 @@ pub fn write_points<const D: usize>(
         Format::Ply => ply::write_points(out, points)?,
         Format::Obj => obj::write_points(out, points)?,
         Format::GeoJson => geojson::write_points(out, points)?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Points(points))?,
         Format::Wkt | Format::WktCollection => {
             wkt::write_points(out, points, format == Format::WktCollection)?;
         }
@@ -347,13 +374,14 @@ pub fn write_points<const D: usize>(
     Ok(())
 }
 
-/// Writes a graph: as a `.poly` file with all attributes and markers, holes and regions; as GeoJSON or well-known text with its
+/// Writes a graph: as a `.poly` file with all attributes and markers, holes and regions; as GeoJSON, FlatGeobuf, GeoPackage or well-known text with its
 /// polygons, lines of all other segments, and points that no segment joins: in text a geometry a line, or one collection
 /// ([`Format::WktCollection`]).
 pub fn write_graph(out: &mut dyn std::io::Write, format: Format, graph: &Graph) -> Result<(), Error> {
     match format {
         Format::Poly => Ok(formats::poly::write_graph(out, graph)?),
         Format::GeoJson => Ok(formats::graphs::write_geojson(out, graph)?),
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Graphs::new(graph)),
         Format::Wkt | Format::WktCollection => {
             Ok(formats::graphs::write_wkt(out, graph, format == Format::WktCollection)?)
         }

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vtu, wkb, wkt};
+use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt};
 use crate::middles::{Middles, ordered};
 use crate::{
     Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Table, Trim, picture, write_solid,
@@ -42,7 +42,7 @@ pub struct Mesh<'a, T: Triangulation> {
     pub constraints: Option<&'a Constraints<'a>>,
     /// The region of each simplex, by its index.
     pub regions: Option<&'a [f64]>,
-    /// The attributes of the polygons that triangles are in, which GeoJSON has.
+    /// The attributes of the polygons that triangles are in, which GeoJSON, FlatGeobuf and GeoPackage have.
     pub features: Option<Rows<'a>>,
     /// Values of the points by id, which `.node` and `.poly` files have instead of heights.
     pub attributes: Option<&'a Attributes>,
@@ -326,6 +326,9 @@ impl Drawable for [f64; 2] {
             Format::Off => off::write(out, mesh)?,
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
+            Format::FlatGeobuf | Format::GeoPackage => {
+                vector::write(out, format, &vector::Triangles::of_mesh(mesh))?;
+            }
             Format::Poly => poly::write(out, mesh)?,
             Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,
             Format::Wkb => wkb::write(out, mesh)?,

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::io::Write;
 
-use crate::formats::{geojson, obj, ply, stl, vtu, wkb, wkt};
+use crate::formats::{geojson, obj, ply, stl, vector, vtu, wkb, wkt};
 use crate::picture::{Mark, Sketch, Tone, write_sketch};
 use crate::{Contents, Crs, Direction, Error, Format, Remark, Shape, Table, write_indices};
 
@@ -20,7 +20,7 @@ pub struct Patches {
     pub polygons: Vec<usize>,
     /// What the coordinates mean.
     pub crs: Option<Crs>,
-    /// The attributes of the polygons, and the row of each; triangles have them in GeoJSON.
+    /// The attributes of the polygons, and the row of each; triangles have them in GeoJSON, FlatGeobuf and GeoPackage.
     pub table: Table,
     /// See there.
     pub rows: Vec<Option<usize>>,
@@ -105,6 +105,9 @@ pub fn write_patches(
         Format::Stl => return Ok(stl::write(out, patches)?),
         Format::Vtu => vtu::write(out, patches)?,
         Format::GeoJson => geojson::write_polygons(out, patches)?,
+        Format::FlatGeobuf | Format::GeoPackage => {
+            vector::write(out, format, &vector::Triangles::of_patches(patches))?;
+        }
         Format::Wkt | Format::WktCollection => wkt::write(out, patches, format == Format::WktCollection)?,
         Format::Wkb => wkb::write(out, patches)?,
         Format::Svg | Format::Png => write_sketch(out, format, &patches.sketch(), patches.window(), size)?,

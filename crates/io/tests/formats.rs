@@ -158,7 +158,16 @@ fn what_is_written_is_in_the_table() {
 fn errors_name_what_holds_it() {
     let error = Format::Las.check(Contents::Cells, Direction::Written).expect_err("no cells");
     assert_eq!(error.to_string(), "Voronoi cells are not written to las files");
-    assert_eq!(error.help(), "Voronoi cells are written to: csv geojson wkt wkb svg png");
+    assert_eq!(error.help(), "Voronoi cells are written to: csv geojson fgb gpkg wkt wkb svg png");
+}
+
+#[test]
+fn formats_of_others_are_converted() {
+    let help = |name: &str| Format::of(Path::new(name)).expect_err("no format").help().into_owned();
+    assert_eq!(help("maps/a.KML"), "convert it with ogr2ogr -f GPKG out.gpkg maps/a.KML");
+    assert!(help("a.gdb").starts_with("convert it"));
+    assert_eq!(help("a.what"), "name the format with --from or --to");
+    assert_eq!("kml".parse::<Format>().expect_err("none").help(), "name the format with --from or --to");
 }
 
 /// The page of the book: a row for each format. `BLESS=1 cargo test -p delone-io --test all formats` writes it.

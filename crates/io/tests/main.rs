@@ -16,6 +16,7 @@ mod same_points;
 mod scene;
 mod stl;
 mod triangle;
+mod vectors;
 
 use delone_io::{Contents, Direction, Format};
 

@@ -22,7 +22,7 @@ use super::{DimArgs, InputArgs, WeightArgs, WktArgs};
 A face of the Delaunay triangulation has a value: the squared radius from which on balls around its corners meet in it; with weights, squared
 radii too, balls have the squared radius `alpha` plus weight, so that --alpha 0 is the shape of the given balls. Values are correctly
 rounded. The shape is the triangles (in space the tetrahedra) of at most that value.
-In the plane geojson, wkt and poly hold its outline, polygons with holes; all other formats its triangles, with the part that each belongs
+In the plane geojson, fgb, gpkg, wkt and poly hold its outline, polygons with holes; all other formats its triangles, with the part that each belongs
 to. In space files hold its closed surface, counter-clockwise seen from outside; npy and csv indices of input points. Where parts of the shape
 touch in a vertex or along an edge the surface is pinched there, which programs call not watertight, not a manifold: with --manifold sheets
 that touch have vertices of their own, in ply, obj and vtu; whoever joins vertices at one place, as readers of stl have to, pinches it again.

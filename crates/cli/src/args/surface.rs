@@ -56,7 +56,7 @@ pub(crate) enum DuplicatesName {
   delone dtm tile.laz --all-classes --cell 1 --max-edge 50 --clip area.geojson -o surface.npy
 
 Outputs by extension: tif (GeoTIFF, compressed), asc (ESRI), npy (float64, rows from north to south, NaN for no data) are the heights; png
-is a hillshade; geojson has contours, lines with their elevation. Cells begin at multiples of their size, values are those of centres.
+is a hillshade; geojson, fgb and gpkg have contours, lines with their elevation. Cells begin at multiples of their size, values are those of centres.
 Of LAS and LAZ files ground (class 2) is taken unless --class or --all-classes says otherwise; a folder stands for all such files in it.
 With --memory work is done in tiles on disk, beside the first output: the same values, bit for bit.
 
@@ -68,7 +68,7 @@ pub(crate) struct DtmArgs {
     #[arg(
         long, short, value_name = "OUT", required = true,
         help = format!(
-            "Output file ({} png geojson), or - for standard output; may be repeated",
+            "Output file ({} png geojson fgb gpkg), or - for standard output; may be repeated",
             formats::written(&[Contents::Rasters])
         )
     )]

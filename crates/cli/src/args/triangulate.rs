@@ -27,7 +27,7 @@ use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, WktArgs, le
   delone triangulate spheres.csv --columns x,y,z --radii r --dim 3 -o tetrahedra.npy
   delone triangulate points.npy --weights weights.npy -o triangles.npy
 
-x and y are triangulated; heights are kept. Segments of poly, geojson, wkt and wkb files and of --segments are edges of
+x and y are triangulated; heights are kept. Segments of poly, geojson, fgb, gpkg, wkt and wkb files and of --segments are edges of
 the triangulation, and what is inside is written, as --fill says. With --dim 3 npy, ele, vtu, msh and inp hold tetrahedra (the first three corners are
 seen counter-clockwise from the fourth), ply, obj, stl and pictures their hull. Indices are those of the input points,
 from 0.

@@ -95,16 +95,22 @@ fn keep_besides_apart(
     files::keep_names_apart(inputs, named.chain(besides.iter().map(PathBuf::as_path)))
 }
 
+/// Whether contours are written to files of a format as features.
+fn is_map(format: Format) -> bool {
+    let holds = |contents| format.holds(contents, Direction::Written);
+    holds(Contents::Contours) && !holds(Contents::Pictures)
+}
+
 fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
     let holds = |format: Format| {
-        format.holds(Contents::Rasters, Direction::Written) || matches!(format, Format::Png | Format::GeoJson)
+        format.holds(Contents::Rasters, Direction::Written) || format == Format::Png || is_map(format)
     };
     if let Some((path, format)) = outputs.iter().find(|output| !holds(output.1)) {
         let what = format!("{}: {format} is no format of terrain", path.display());
         let rasters = Format::with(&[Contents::Rasters], Direction::Written);
         return Err(Failure::usage(
             what,
-            format!("choose among {rasters} png (hillshade) geojson (contours)"),
+            format!("choose among {rasters} png (hillshade) geojson fgb gpkg (contours)"),
         ));
     }
     if args.memory.is_some() && args.method.is_bent() {
@@ -113,7 +119,7 @@ fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
             "choose one of them, or leave --memory out",
         ));
     }
-    if args.memory.is_some() && outputs.iter().any(|output| output.1 == Format::GeoJson) {
+    if args.memory.is_some() && outputs.iter().any(|output| is_map(output.1)) {
         return Err(Failure::usage(
             "contours need all triangles in memory",
             "leave --memory or the contours out, or make them of the raster with delone contours",
@@ -175,7 +181,7 @@ impl Job<'_> {
         stats.set("simplices", triangles);
         stats.set("hull", hull);
         stats.phase("build");
-        let maps: Vec<_> = self.outputs.iter().filter(|output| output.1 == Format::GeoJson).collect();
+        let maps: Vec<_> = self.outputs.iter().filter(|output| is_map(output.1)).collect();
         let mut contours = Vec::new();
         if !maps.is_empty() {
             let wrong = |error| Failure::usage(error, "give another --interval");
@@ -237,8 +243,7 @@ impl Job<'_> {
         values: impl Fn(&Grid) -> Result<Vec<f64>, Failure>,
     ) -> Result<(), Failure> {
         let about = About { grid, crs, nodata: self.args.nodata };
-        let rasters: Vec<_> =
-            self.outputs.iter().filter(|output| output.1 != Format::GeoJson).cloned().collect();
+        let rasters: Vec<_> = self.outputs.iter().filter(|output| !is_map(output.1)).cloned().collect();
         if rasters.is_empty() {
             stats.tell(self.quiet, ["triangle", "triangles"]);
             return Ok(());

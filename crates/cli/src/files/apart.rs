@@ -42,6 +42,31 @@ pub(super) fn open(path: &Path) -> std::io::Result<File> {
     Ok(file)
 }
 
+/// Opens what lies beside a file, by its extension, in capital letters where the file's own is. Nothing is beside standard input.
+pub(super) fn beside(path: &Path) -> impl FnMut(&str) -> Result<Box<dyn Source>, delone_io::Error> {
+    move |extension| {
+        let beside = side(path, extension);
+        let named = |error: std::io::Error| {
+            let what = format!("what is beside it in {}: {error}", beside.display());
+            delone_io::Error::from(std::io::Error::new(error.kind(), what))
+        };
+        if is_standard(path) {
+            return Err(named(std::io::ErrorKind::NotFound.into()));
+        }
+        source(&beside).map_err(named)
+    }
+}
+
+/// The name of a file beside another one.
+fn side(path: &Path, extension: &str) -> PathBuf {
+    let is_capital = |own: &std::ffi::OsStr| own.as_encoded_bytes().iter().all(u8::is_ascii_uppercase);
+    let capital = path.with_extension(extension.to_ascii_uppercase());
+    if path.extension().is_some_and(is_capital) && capital.exists() {
+        return capital;
+    }
+    path.with_extension(extension)
+}
+
 /// A file beside another one.
 pub(super) fn source(path: &Path) -> std::io::Result<Box<dyn Source>> {
     Ok(Box::new(BufReader::new(open(path)?)))
@@ -69,12 +94,20 @@ fn overwrites(path: &Path, other: &Path, does: &str) -> Failure {
 }
 
 /// What is read besides when a file is read.
-fn read_with(path: &Path) -> Option<PathBuf> {
-    if Format::of(path).ok()? != Format::Poly || is_standard(path) || is_special(path) {
-        return None;
+fn read_with(path: &Path) -> Vec<PathBuf> {
+    let Ok(format) = Format::of(path) else { return Vec::new() };
+    if is_standard(path) || is_special(path) {
+        return Vec::new();
     }
-    let source = decompressed(Box::new(BufReader::new(File::open(path).ok()?)), Format::Poly).ok()?;
-    has_points_beside(source).ok()?.then(|| path.with_extension("node"))
+    let mut besides: Vec<PathBuf> = format.sides().iter().map(|extension| side(path, extension)).collect();
+    let has_points = || {
+        let source = decompressed(Box::new(BufReader::new(File::open(path).ok()?)), Format::Poly).ok()?;
+        has_points_beside(source).ok()
+    };
+    if format == Format::Poly && has_points() == Some(true) {
+        besides.push(path.with_extension("node"));
+    }
+    besides
 }
 
 /// Refuses a command that would write over a file it reads, write a file twice, or where it cannot write.
@@ -92,7 +125,7 @@ pub(crate) fn keep_names_apart<'a>(
     inputs: &[&Path],
     outputs: impl IntoIterator<Item = &'a Path>,
 ) -> Result<(), Failure> {
-    let beside: Vec<PathBuf> = inputs.iter().filter_map(|path| read_with(path)).collect();
+    let beside: Vec<PathBuf> = inputs.iter().flat_map(|path| read_with(path)).collect();
     let mut known: Vec<(Known, &Path, &str)> = Vec::new();
     for &path in inputs.iter().chain(&beside.iter().map(PathBuf::as_path).collect::<Vec<_>>()) {
         known.push((Known::of(path, "/dev/stdin"), path, READS));

@@ -9,7 +9,9 @@ mod write;
 use std::io::{BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use delone_io::{Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed};
+use delone_io::{
+    Beside, Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed,
+};
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
 pub(crate) use attributes::{are_kept as are_attributes_kept, keep_attributes};
@@ -162,21 +164,23 @@ fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
 /// Reads the points of a command.
 pub(crate) fn points(args: &InputArgs, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
     let options = options(args, dimension);
-    read_all(args, quiet, |source, format| delone_io::read_points(source, format, &options))
+    read_all(args, quiet, |source, format, beside| {
+        delone_io::read_points_beside(source, format, &options, beside)
+    })
 }
 
 /// Reads all files of a command as one set.
 fn read_all(
     args: &InputArgs,
     quiet: bool,
-    read: impl Fn(Box<dyn Source>, Format) -> Result<Cloud, delone_io::Error>,
+    read: impl Fn(Box<dyn Source>, Format, Beside) -> Result<Cloud, delone_io::Error>,
 ) -> Result<Cloud, Failure> {
     let formats = formats(args)?;
     let mut all = Cloud::default();
     for (path, format) in args.input.iter().zip(formats) {
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
-        let mut cloud = read(source, format).map_err(failed)?;
+        let mut cloud = read(source, format, &mut apart::beside(path)).map_err(failed)?;
         heed(&mut cloud, path, Role::Input, quiet)?;
         all.join(cloud).map_err(failed)?;
         limits::check_points(all.xy.len(), path)?;
@@ -205,7 +209,10 @@ type Surface = (Vec<[f64; 2]>, Vec<f64>, Cloud);
 /// Reads the points of a command with their heights: points of any format, or cells of rasters. The cloud has the rest of what is told.
 pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<Surface, Failure> {
     let options = options(args, 3);
-    let mut all = read_all(args, quiet, |source, format| delone_io::read_surface(source, format, &options))?;
+    let mut all = read_all(args, quiet, |source, format, beside| match format.sides() {
+        [] => delone_io::read_surface(source, format, &options),
+        _ => delone_io::read_points_beside(source, format, &options, beside),
+    })?;
     need_heights(all.z.as_deref(), &args.label())?;
     Ok((std::mem::take(&mut all.xy), all.z.take().unwrap_or_default(), all))
 }
@@ -261,14 +268,11 @@ fn read_graph(
         let format = format(path, args.from, "--from")?;
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
+        let mut open = apart::beside(path);
         let mut beside = |extension: &str| {
-            let beside = path.with_extension(extension);
-            let named = |error: std::io::Error| {
-                std::io::Error::new(error.kind(), format!("its points in {}: {error}", beside.display()))
-            };
-            let points = apart::source(&beside).map_err(named)?;
-            besides.push(beside);
-            Ok(points)
+            let source = open(extension)?;
+            besides.push(path.with_extension(extension));
+            Ok(source)
         };
         let mut graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
         heed(&mut graph.cloud, path, role, quiet)?;
@@ -341,8 +345,8 @@ pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Clou
 pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<Cloud, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let mut cloud =
-        delone_io::read_points(source, format, options).map_err(|error| Failure::file(path, &error))?;
+    let cloud = delone_io::read_points_beside(source, format, options, &mut apart::beside(path));
+    let mut cloud = cloud.map_err(|error| Failure::file(path, &error))?;
     heed(&mut cloud, path, Role::Beside, quiet)?;
     Ok(cloud)
 }
@@ -359,7 +363,8 @@ pub(crate) fn holds_lines(path: &Path, format: Format) -> bool {
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let mut found = delone_io::read_rings(source, format).map_err(|error| Failure::file(path, &error))?;
+    let found = delone_io::read_rings_beside(source, format, &mut apart::beside(path));
+    let mut found = found.map_err(|error| Failure::file(path, &error))?;
     systems::heed(&mut found.crs, path, Role::Beside)?;
     Ok(found.rings)
 }

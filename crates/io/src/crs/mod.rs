@@ -83,6 +83,15 @@ impl Crs {
         })
     }
 
+    /// The system of which a file gives a number, a definition or both. The definition of a compound system tells the number of its
+    /// horizontal part better.
+    pub(crate) fn of_both(number: Option<u32>, definition: Option<Self>) -> Option<Self> {
+        match definition {
+            Some(crs) => Some(Self { epsg: crs.epsg.or(number), ..crs }),
+            None => number.map(Self::of_epsg),
+        }
+    }
+
     /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) or `urn:ogc:def:crs:EPSG::25832` stands for; or
     /// well-known text, which some files have as a name.
     pub fn of_name(name: &str) -> Option<Self> {

@@ -6,8 +6,8 @@ use super::Contents::{
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    e57, geojson, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly, raw, stl, text, triangle, vtk,
-    wkb, wkt,
+    dxf, e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly,
+    raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -279,6 +279,58 @@ pub(super) const TABLE: &[Row] = &[
         names: &["geojsonl"],
         also: &["geojsons", "ndjson"],
         readers: OF_GEOJSON,
+        writes: &[],
+    },
+    Row {
+        format: Format::FlatGeobuf,
+        title: "FlatGeobuf",
+        names: &["fgb"],
+        also: &["flatgeobuf"],
+        readers: Readers {
+            points: Some(flatgeobuf::read_points),
+            lines: Some(|source, options, _| flatgeobuf::read_graph(source, options)),
+            polygons: Some(flatgeobuf::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
+    },
+    Row {
+        format: Format::GeoPackage,
+        title: "GeoPackage",
+        names: &["gpkg"],
+        also: &["geopackage"],
+        readers: Readers {
+            points: Some(geopackage::read_points),
+            lines: Some(|source, options, _| geopackage::read_graph(source, options)),
+            polygons: Some(geopackage::read_rings),
+            ..Readers::NONE
+        },
+        writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
+    },
+    Row {
+        format: Format::Shapefile,
+        title: "shapefiles, with their .dbf, .cpg and .prj files",
+        names: &["shp"],
+        also: &["shapefile"],
+        readers: Readers {
+            points: Some(|source, options| shapefile::read_points(source, options, None)),
+            lines: Some(shapefile::read_graph),
+            polygons: Some(|source| shapefile::read_rings(source, None)),
+            ..Readers::NONE
+        },
+        writes: &[],
+    },
+    Row {
+        format: Format::Dxf,
+        title: "drawings, as text",
+        names: &["dxf"],
+        also: &[],
+        readers: Readers {
+            points: Some(dxf::read_points),
+            lines: Some(|source, options, _| dxf::read_graph(source, options)),
+            polygons: Some(dxf::read_rings),
+            ..Readers::NONE
+        },
         writes: &[],
     },
     Row {

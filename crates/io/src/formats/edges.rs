@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use delone::Coordinates;
 
-use super::{geojson, npy};
+use super::{geojson, npy, vector};
 use crate::{Contents, Crs, Direction, Error, Format};
 
 /// Edges to be written.
@@ -55,7 +55,7 @@ impl<P: Coordinates> Edges<'_, P> {
     }
 }
 
-/// Writes edges: npy (int64, two columns), text (from, to, length) or GeoJSON (a line each).
+/// Writes edges: npy (int64, two columns), text (from, to, length), GeoJSON, FlatGeobuf or GeoPackage (a line each).
 ///
 /// # Errors
 /// For other formats, and when writing fails.
@@ -71,6 +71,7 @@ pub fn write_edges(
         }
         Format::Text => edges.write_text(out)?,
         Format::GeoJson => edges.write_geojson(out)?,
+        Format::FlatGeobuf | Format::GeoPackage => vector::write(out, format, &vector::Edged(edges))?,
         _ => return Err(format.without(Contents::Edges, Direction::Written)),
     }
     Ok(())

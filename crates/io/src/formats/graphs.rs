@@ -11,15 +11,15 @@ use crate::Graph;
 
 /// The shapes of a graph, as indices of points.
 #[derive(Debug, Default, PartialEq)]
-struct Pieces {
+pub(super) struct Pieces {
     /// Polygons by their rings, which end where they begin.
-    polygons: Vec<Vec<Vec<usize>>>,
-    lines: Vec<Vec<usize>>,
-    alone: Vec<usize>,
+    pub(super) polygons: Vec<Vec<Vec<usize>>>,
+    pub(super) lines: Vec<Vec<usize>>,
+    pub(super) alone: Vec<usize>,
 }
 
 impl Pieces {
-    fn of(graph: &Graph) -> Self {
+    pub(super) fn of(graph: &Graph) -> Self {
         let mut pieces = Self::default();
         let mut in_ring = vec![false; graph.segments.len()];
         let mut last = None;
@@ -196,7 +196,9 @@ mod tests {
         let high =
             Graph { cloud: Cloud { z: Some((0..8).map(f64::from).collect()), ..sample().cloud }, ..sample() };
         for graph in [sample(), high, Graph::default()] {
-            for format in [Format::GeoJson, Format::Wkt, Format::WktCollection, Format::Poly] {
+            for format in
+                [Format::GeoJson, Format::FlatGeobuf, Format::Wkt, Format::WktCollection, Format::Poly]
+            {
                 let mut file = Vec::new();
                 write_graph(&mut file, format, &graph).expect("written");
                 if graph.cloud.xy.is_empty() && format == Format::Poly {

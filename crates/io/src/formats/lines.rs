@@ -52,6 +52,12 @@ impl Lines {
         Ok(None)
     }
 
+    /// The next line, whatever is on it.
+    pub(super) fn next_any(&mut self) -> Result<Option<Line<'_>>, Error> {
+        let is_there = self.advance()?;
+        Ok(is_there.then_some(Line { text: &self.text, number: self.number }))
+    }
+
     /// Reads the next line; false at the end of the file.
     fn advance(&mut self) -> Result<bool, Error> {
         if !self.read_line()? {

@@ -1,9 +1,12 @@
 //! The formats, one file each.
 
 pub(crate) mod cells;
+pub(crate) mod dxf;
 pub(crate) mod e57;
 pub(crate) mod edges;
+pub(crate) mod flatgeobuf;
 pub(crate) mod geojson;
+pub(crate) mod geopackage;
 pub(crate) mod gpx;
 pub(crate) mod graphs;
 pub(crate) mod inp;
@@ -21,10 +24,12 @@ pub(crate) mod pcd;
 pub(crate) mod ply;
 pub(crate) mod poly;
 pub(crate) mod raw;
+pub(crate) mod shapefile;
 mod shapes;
 pub(crate) mod stl;
 pub(crate) mod text;
 pub(crate) mod triangle;
+pub(crate) mod vector;
 pub(crate) mod voronoi;
 pub(crate) mod vtk;
 pub(crate) mod vtu;

@@ -98,6 +98,12 @@ pub(super) fn read_digits(word: &str, shapes: &mut Shapes) -> Result<Option<Crs>
     if reader.rest.is_empty() { Ok(system) } else { Err("there are digits after its geometry".to_owned()) }
 }
 
+/// Reads the one geometry that bytes stand for.
+#[cfg(feature = "geopackage")]
+pub(super) fn read_binary(bytes: &[u8], shapes: &mut Shapes) -> Result<(), String> {
+    Reader { rest: bytes, is_big: false }.geometry(shapes, None, DEEPEST).map(|_| ())
+}
+
 /// Collections in each other at most: nobody has more, and each takes a piece of the stack.
 const DEEPEST: u32 = 100;
 

@@ -1,0 +1,233 @@
+//! Entities: what their groups say, and which geometry that is.
+
+use crate::Error;
+use crate::error::excerpt;
+
+/// The groups of an entity.
+pub(super) struct Entity {
+    pub(super) kind: String,
+    pub(super) layer: String,
+    /// The name of a block.
+    pub(super) name: String,
+    /// The numbers, with their codes.
+    numbers: Vec<(i32, f64)>,
+    /// The vertices of a polyline that are entities of their own, and how many arcs begin at them.
+    vertices: Vec<[f64; 3]>,
+    arcs: usize,
+}
+
+/// A geometry.
+#[derive(Debug)]
+pub(super) enum Item {
+    Point { layer: String, at: [f64; 3], is_high: bool },
+    Line { layer: String, points: Vec<[f64; 3]>, is_closed: bool, is_high: bool },
+    Insert { layer: String, insert: Insert },
+}
+
+/// Where a block is inserted.
+#[derive(Debug)]
+pub(super) struct Insert {
+    pub(super) name: String,
+    pub(super) at: [f64; 3],
+    pub(super) scale: [f64; 3],
+    /// In degrees.
+    pub(super) angle: f64,
+    /// Columns and rows, and the steps between them.
+    pub(super) counts: [u32; 2],
+    pub(super) steps: [f64; 2],
+}
+
+/// What an entity is.
+pub(super) enum What {
+    Is(Item),
+    /// It is left out, and counted as that.
+    IsNot(String),
+}
+
+impl Item {
+    pub(super) fn layer(&self) -> &str {
+        match self {
+            Self::Point { layer, .. } | Self::Line { layer, .. } | Self::Insert { layer, .. } => layer,
+        }
+    }
+
+    pub(super) fn is_closed(&self) -> bool {
+        matches!(self, Self::Line { is_closed: true, .. })
+    }
+
+    /// Whether its positions have heights.
+    pub(super) fn is_high(&self) -> bool {
+        matches!(self, Self::Point { is_high: true, .. } | Self::Line { is_high: true, .. })
+    }
+}
+
+/// The kinds that have numbers which are read.
+const KINDS: [&str; 8] = ["POINT", "LINE", "LWPOLYLINE", "POLYLINE", "VERTEX", "3DFACE", "INSERT", "BLOCK"];
+
+/// Codes of groups.
+const NAME: i32 = 2;
+const LAYER: i32 = 8;
+const X: i32 = 10;
+const Y: i32 = 20;
+const Z: i32 = 30;
+const ELEVATION: i32 = 38;
+const SCALE: i32 = 41;
+const BULGE: i32 = 42;
+const STEPS: [i32; 2] = [44, 45];
+const ANGLE: i32 = 50;
+const ON_PAPER: i32 = 67;
+const FLAGS: i32 = 70;
+const COUNTS: [i32; 2] = [70, 71];
+const UP: i32 = 230;
+
+/// Flags of polylines and vertices.
+const CLOSED: u32 = 1;
+const IN_SPACE: u32 = 8;
+const MESHES: u32 = 16 | 64;
+const FRAME: u32 = 16;
+
+impl Entity {
+    pub(super) fn new(kind: String) -> Self {
+        Self {
+            kind,
+            layer: String::new(),
+            name: String::new(),
+            numbers: Vec::new(),
+            vertices: Vec::new(),
+            arcs: 0,
+        }
+    }
+
+    /// Takes a group.
+    pub(super) fn group(&mut self, code: i32, value: String, line: usize) -> Result<(), Error> {
+        match code {
+            NAME => self.name = value,
+            LAYER => self.layer = value,
+            10..=79 | 210..=239 if KINDS.contains(&self.kind.as_str()) => {
+                let number = value.parse().map_err(|_| Error::Line {
+                    line,
+                    what: format!("{:?} of {} is no number", excerpt(&value), self.kind),
+                })?;
+                self.numbers.push((code, number));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Takes a vertex of a polyline; those of the frame of a curve are none.
+    pub(super) fn vertex(&mut self, vertex: &Self) {
+        if vertex.flags() & FRAME == 0 {
+            self.vertices.push(vertex.corner(0).unwrap_or_default());
+            self.arcs += vertex.bulges();
+        }
+    }
+
+    fn number(&self, code: i32) -> Option<f64> {
+        self.numbers.iter().find(|number| number.0 == code).map(|number| number.1)
+    }
+
+    fn flags(&self) -> u32 {
+        self.number(FLAGS).unwrap_or_default() as u32
+    }
+
+    /// A corner, by its number, if there is one.
+    fn corner(&self, k: i32) -> Option<[f64; 3]> {
+        let [x, y] = [self.number(X + k)?, self.number(Y + k)?];
+        Some([x, y, self.number(Z + k).unwrap_or_default()])
+    }
+
+    fn bulges(&self) -> usize {
+        self.numbers.iter().filter(|&&(code, bulge)| code == BULGE && bulge != 0.0).count()
+    }
+
+    /// How many of its sides are arcs.
+    pub(super) fn arcs(&self) -> usize {
+        if self.kind == "LWPOLYLINE" { self.bulges() } else { self.arcs }
+    }
+
+    /// The geometry that it is.
+    pub(super) fn item(self) -> What {
+        if self.number(ON_PAPER).is_some_and(|paper| paper != 0.0) {
+            return What::IsNot(format!("{} on paper", self.kind));
+        }
+        // Coordinates of what is flat are those of its plane: seen from above, or from below with x to the left.
+        let in_space = self.kind == "POLYLINE" && self.flags() & IN_SPACE != 0;
+        let is_flat =
+            ["LWPOLYLINE", "INSERT"].contains(&self.kind.as_str()) || self.kind == "POLYLINE" && !in_space;
+        let up = self.number(UP).unwrap_or(1.0);
+        if is_flat && up.abs() != 1.0 {
+            return What::IsNot(format!("{} in a tilted plane", self.kind));
+        }
+        let sign = if is_flat && up < 0.0 { -1.0 } else { 1.0 };
+        self.placed(sign).map_or_else(What::IsNot, What::Is)
+    }
+
+    /// The geometry, with x and z times a sign; or what it is counted as.
+    fn placed(mut self, sign: f64) -> Result<Item, String> {
+        let turned = |[x, y, z]: [f64; 3]| [sign * x, y, sign * z];
+        let has_height = |code: i32| self.number(code).is_some();
+        let short = || format!("{} without a position", self.kind);
+        let line = |points: Vec<[f64; 3]>, is_closed, is_high, layer| Item::Line {
+            layer,
+            points: points.into_iter().map(turned).collect(),
+            is_closed,
+            is_high,
+        };
+        match self.kind.as_str() {
+            "POINT" => {
+                let (at, is_high) = (self.corner(0).ok_or_else(short)?, has_height(Z));
+                Ok(Item::Point { at, is_high, layer: self.layer })
+            }
+            "LINE" => {
+                let points = vec![self.corner(0).ok_or_else(short)?, self.corner(1).ok_or_else(short)?];
+                Ok(line(points, false, has_height(Z), self.layer))
+            }
+            "3DFACE" => {
+                let mut points: Vec<[f64; 3]> = (0..4).map_while(|k| self.corner(k)).collect();
+                points.dedup();
+                Ok(line(points, true, true, self.layer))
+            }
+            "LWPOLYLINE" => {
+                let height = self.number(ELEVATION);
+                let mut points: Vec<[f64; 3]> = Vec::new();
+                for &(code, number) in &self.numbers {
+                    match (code, points.last_mut()) {
+                        (X, _) => points.push([number, 0.0, height.unwrap_or_default()]),
+                        (Y, Some(point)) => point[1] = number,
+                        _ => {}
+                    }
+                }
+                Ok(line(points, self.flags() & CLOSED != 0, height.is_some(), self.layer))
+            }
+            "POLYLINE" if self.flags() & MESHES != 0 => Err("POLYLINE that is a mesh".to_owned()),
+            "POLYLINE" => {
+                let mut points = std::mem::take(&mut self.vertices);
+                // Of what is flat, the height is that of the polyline.
+                if let Some(height) = self.number(Z).filter(|_| self.flags() & IN_SPACE == 0) {
+                    points.iter_mut().for_each(|point| point[2] = height);
+                }
+                Ok(line(points, self.flags() & CLOSED != 0, true, self.layer))
+            }
+            "INSERT" => {
+                let counts = COUNTS.map(|code| self.number(code).map_or(1, |count| count as u32).max(1));
+                let scale = [0, 1, 2].map(|k| self.number(SCALE + k).unwrap_or(1.0));
+                let insert = Insert {
+                    at: turned(self.corner(0).ok_or_else(short)?),
+                    scale: turned(scale),
+                    angle: sign * self.number(ANGLE).unwrap_or_default(),
+                    counts,
+                    steps: STEPS.map(|code| self.number(code).unwrap_or_default()),
+                    name: self.name,
+                };
+                Ok(Item::Insert { layer: self.layer, insert })
+            }
+            _ => Err(self.kind),
+        }
+    }
+
+    /// The base point of a block.
+    pub(super) fn base(&self) -> [f64; 3] {
+        self.corner(0).unwrap_or_default()
+    }
+}

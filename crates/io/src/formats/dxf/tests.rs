@@ -1,0 +1,112 @@
+//! Drawings with entities of all kinds, blocks in blocks, and what is broken.
+
+use std::io::Cursor;
+
+use super::{read_graph, read_rings};
+use crate::{Error, Graph, ReadOptions};
+
+/// A drawing of blocks and entities, whose groups are apart by blanks: `10=1.5`.
+fn drawing(blocks: &str, entities: &str) -> String {
+    let groups = |text: &str| {
+        text.split_whitespace()
+            .map(|group| {
+                let (code, value) = group.split_once('=').unwrap_or(("0", group));
+                format!("{code:>3}\r\n{value}\r\n")
+            })
+            .collect::<String>()
+    };
+    groups(&format!(
+        "SECTION 2=HEADER 9=$ACADVER 1=AC1015 ENDSEC SECTION 2=BLOCKS {blocks} ENDSEC SECTION 2=ENTITIES {entities} ENDSEC EOF"
+    ))
+}
+
+fn read(text: String) -> Result<Graph, Error> {
+    let options = ReadOptions { attributes: true, ..ReadOptions::default() };
+    read_graph(Box::new(Cursor::new(text)), &options)
+}
+
+fn layers(graph: &Graph) -> Vec<String> {
+    let table = &graph.cloud.features.table;
+    let row = |i: usize| {
+        graph.cloud.features.row(i).map(|row| table.row(row).map(|cell| cell.1).collect::<String>())
+    };
+    (0..graph.cloud.xy.len()).map(|i| row(i).unwrap_or_default()).collect()
+}
+
+#[test]
+fn entities_of_all_kinds() {
+    let entities = "POINT 8=a 10=1 20=2 30=3 LINE 8=b 10=0 20=0 30=1 11=5 21=5 31=2 \
+        LWPOLYLINE 8=c 90=3 70=1 38=7 10=0 20=0 10=4 20=0 42=0.5 10=0 20=4 \
+        POLYLINE 8=d 66=1 70=8 10=0 20=0 30=0 VERTEX 8=d 10=1 20=1 30=9 VERTEX 8=d 10=2 20=1 30=8 SEQEND 8=d \
+        POLYLINE 8=e 70=0 30=6 VERTEX 10=1 20=1 30=0 42=1 VERTEX 10=2 20=2 30=0 VERTEX 70=16 10=9 20=9 SEQEND \
+        3DFACE 8=f 10=0 20=0 30=0 11=1 21=0 31=1 12=0 22=1 32=2 13=0 23=1 33=2 \
+        CIRCLE 8=g 10=0 20=0 40=1 CIRCLE 10=no TEXT 1=x LINE 67=1 10=0 20=0 11=1 21=1 \
+        LWPOLYLINE 10=1 20=2 210=0 220=0 230=-1 10=2 20=2 LWPOLYLINE 10=1 20=2 230=0.5 POLYLINE 70=64 VERTEX 10=1 20=1 SEQEND";
+    let graph = read(drawing("", entities)).expect("a drawing");
+    let z = |i: usize| graph.cloud.z.as_ref().map(|z| z[i]);
+    assert_eq!(graph.cloud.z, None, "the mirrored polyline has no height");
+    assert_eq!(z(0), None);
+    assert_eq!(graph.cloud.xy[0], [1.0, 2.0]);
+    assert_eq!(graph.cloud.xy[3..7], [[0.0, 0.0], [4.0, 0.0], [0.0, 4.0], [0.0, 0.0]]);
+    assert_eq!(graph.cloud.xy[11..15], [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]);
+    assert_eq!(graph.cloud.xy[15..], [[-1.0, 2.0], [-2.0, 2.0]]);
+    assert_eq!(layers(&graph)[..4], ["\"a\"", "\"b\"", "\"b\"", "\"c\""]);
+    assert_eq!((graph.segments.len(), graph.rings.len()), (1 + 3 + 1 + 1 + 3 + 1, 0));
+    let losses = graph.cloud.losses.join("; ");
+    assert!(losses.contains("2 arcs of polylines were taken as their chords"), "{losses}");
+    let left = "1 LINE on paper, 1 LWPOLYLINE in a tilted plane, 1 POLYLINE that is a mesh, 1 TEXT";
+    assert!(losses.contains("2 CIRCLE") && losses.contains(left), "{losses}");
+    let high = "POINT 10=1 20=2 30=3 POLYLINE 70=0 30=6 VERTEX 10=1 20=1 VERTEX 10=2 20=2 SEQEND";
+    assert_eq!(read(drawing("", high)).expect("heights").cloud.z, Some(vec![3.0, 6.0, 6.0]));
+    let closed = drawing("", "LWPOLYLINE 70=1 10=0 20=0 10=4 20=0 10=0 20=4 LINE 10=0 20=0 11=1 21=1");
+    let rings = read_rings(Box::new(Cursor::new(closed))).expect("a ring").rings;
+    assert_eq!(rings, [vec![[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]]);
+}
+
+#[test]
+fn blocks_are_where_they_are_inserted() {
+    let blocks = "BLOCK 8=0 2=Arm 10=1 20=0 30=0 LINE 8=0 10=1 20=0 11=3 21=0 POINT 8=own 10=1 20=0 ENDBLK 8=0 \
+        BLOCK 2=pair 10=0 20=0 INSERT 8=0 2=arm 10=10 20=0 50=90 ENDBLK";
+    let entities = "INSERT 8=top 2=PAIR 10=100 20=0 41=2 INSERT 8=row 2=arm 10=0 20=50 70=2 71=2 44=5 45=7 INSERT 2=gone 10=0 20=0";
+    let graph = read(drawing(blocks, entities)).expect("a drawing");
+    let expected = [[120.0, 0.0], [120.0, 2.0], [120.0, 0.0]];
+    assert_eq!(graph.cloud.xy[..3], expected);
+    assert_eq!(layers(&graph)[..3], ["\"top\"", "\"top\"", "\"own\""]);
+    let starts: Vec<_> = graph.cloud.xy[3..].iter().step_by(3).copied().collect();
+    assert_eq!(starts, [[0.0, 50.0], [5.0, 50.0], [0.0, 57.0], [5.0, 57.0]]);
+    assert!(graph.cloud.losses[0].contains("1 INSERT of what is no block"), "{:?}", graph.cloud.losses);
+}
+
+#[test]
+fn blocks_without_end_are_refused() {
+    let own = drawing("BLOCK 2=a INSERT 2=a 10=0 20=0 ENDBLK", "INSERT 2=a 10=0 20=0");
+    assert!(read(own).expect_err("a block in itself").to_string().contains("in each other"));
+    let many: String = (0..20)
+        .map(|i| format!("BLOCK 2=b{i} {} ENDBLK ", format!("INSERT 2=b{} 10=0 20=0 ", i + 1).repeat(20)))
+        .collect();
+    let error = read(drawing(&many, "INSERT 2=b0 10=0 20=0")).expect_err("more than any memory");
+    assert!(matches!(error, Error::Expands), "{error}");
+    let array = drawing("BLOCK 2=a ENDBLK", "INSERT 2=a 10=0 20=0 70=4000000000 71=4000000000");
+    assert!(matches!(read(array).expect_err("an endless array"), Error::Expands));
+}
+
+#[test]
+fn broken_drawings_are_named() {
+    for (text, what) in [
+        ("AutoCAD Binary DXF\r\n\u{1a}\0".to_owned(), "binary"),
+        ("  0\nLINE\n".to_owned(), "does not begin with a section"),
+        ("zero\nLINE\n".to_owned(), "\"zero\" stands where the code"),
+        ("  0\nSECTION\n  2".to_owned(), "between a code and its value"),
+        (drawing("", "POINT 10=x"), "\"x\" of POINT is no number"),
+        (drawing("", "").replace("EOF", "END"), "before the group that ends it"),
+        (String::new(), "before the group that ends it"),
+    ] {
+        let error = read(text).expect_err(what);
+        assert!(error.to_string().contains(what), "{error}");
+    }
+    let whole = drawing("BLOCK 2=a POINT 10=0 20=0 ENDBLK", "INSERT 2=a 10=0 20=0 POLYLINE VERTEX 10=1 20=1");
+    assert_eq!(read(whole.clone()).expect("two entities").cloud.xy, [[0.0, 0.0], [1.0, 1.0]]);
+    for length in 0..whole.len() - 5 {
+        assert!(read(whole[..length].to_owned()).is_err(), "cut to {length}");
+    }
+}
