@@ -56,6 +56,8 @@ pub enum Format {
     Las,
     /// E57 scans.
     E57,
+    /// Leica's scans as text.
+    Ptx,
     /// Stanford polygons.
     Ply,
     /// Wavefront.
