@@ -89,6 +89,8 @@ pub(crate) enum Mode {
     ReadMeshes,
     /// Readers: E57 scans.
     ReadE57,
+    /// Readers: FlatGeobuf, GeoPackage, shapefiles, drawings.
+    ReadMaps,
     /// The program on mutated files, with little memory, killed now and then.
     Program,
     /// All of these.
@@ -115,7 +117,7 @@ pub(crate) enum Mode {
 
 impl Mode {
     /// Those that `all` runs.
-    pub(crate) const REAL: [Self; 24] = [
+    pub(crate) const REAL: [Self; 25] = [
         Self::Plane,
         Self::Space,
         Self::Lives,
@@ -139,6 +141,7 @@ impl Mode {
         Self::ReadPly,
         Self::ReadMeshes,
         Self::ReadE57,
+        Self::ReadMaps,
         Self::Program,
     ];
 

@@ -95,6 +95,7 @@ pub(crate) fn case(mode: Mode, seed: u64) -> Box<dyn Case> {
         (Mode::ReadPly, _) => made::<files::Files<{ files::PLY }>>(seed),
         (Mode::ReadMeshes, _) => made::<files::Files<{ files::MESHES }>>(seed),
         (Mode::ReadE57, _) => made::<files::Files<{ files::E57 }>>(seed),
+        (Mode::ReadMaps, _) => made::<files::Files<{ files::MAPS }>>(seed),
         (Mode::Program, _) => made::<program::Program>(seed),
         (Mode::BrokenAnswer, _) => made::<broken::Answer>(seed),
         (Mode::BrokenPanic, _) => made::<broken::Panic>(seed),

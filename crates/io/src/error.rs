@@ -194,6 +194,14 @@ fn clipped(text: &str) -> String {
     }
 }
 
+/// Names that a message lists: the beginnings of the first ones, and how many more there are.
+pub(crate) fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    const MOST: usize = 10;
+    let more = names.len().saturating_sub(MOST);
+    let first = names.take(MOST).map(excerpt).collect::<Vec<_>>().join(", ");
+    if more > 0 { format!("{first} and {more} more") } else { first }
+}
+
 /// The beginning of a text that a message quotes.
 pub(crate) fn excerpt(text: &str) -> &str {
     match text.char_indices().nth(40) {

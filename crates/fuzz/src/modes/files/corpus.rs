@@ -8,9 +8,9 @@ use delone::surface::Grid;
 use delone_generators::Kind;
 use delone_io::{Crs, Format, Mesh, RasterInfo, RasterWriter, Sample, picture};
 
-use super::{ARRAYS, E57, JSON, LAS, MESHES, PLY, TEXT};
+use super::{ARRAYS, E57, JSON, LAS, MAPS, MESHES, PLY, TEXT};
 
-type Seeds = Vec<(Format, Vec<u8>)>;
+pub(super) type Seeds = Vec<(Format, Vec<u8>)>;
 
 /// Points of a file.
 const POINTS: usize = 40;
@@ -32,7 +32,7 @@ const HOSTILE: [(Format, &[u8]); 11] = [
 
 /// The files of a group.
 pub(super) fn of(group: usize) -> &'static Seeds {
-    static ALL: [OnceLock<Seeds>; 7] = [const { OnceLock::new() }; 7];
+    static ALL: [OnceLock<Seeds>; 8] = [const { OnceLock::new() }; 8];
     ALL[group].get_or_init(|| {
         let mut seeds = match group {
             TEXT => texts(),
@@ -41,6 +41,7 @@ pub(super) fn of(group: usize) -> &'static Seeds {
             LAS => tiles(),
             PLY => polygons(),
             MESHES => meshes(),
+            MAPS => super::maps::all(),
             _ => scans(),
         };
         let formats: Vec<Format> = seeds.iter().map(|seed| seed.0).collect();
@@ -50,7 +51,7 @@ pub(super) fn of(group: usize) -> &'static Seeds {
     })
 }
 
-fn points() -> Vec<[f64; 2]> {
+pub(super) fn points() -> Vec<[f64; 2]> {
     Kind::Uniform.points(POINTS, 1)
 }
 
@@ -59,7 +60,7 @@ fn in_space() -> Vec<[f64; 3]> {
 }
 
 /// What a writer of ours makes of some points.
-fn written(format: Format) -> (Format, Vec<u8>) {
+pub(super) fn written(format: Format) -> (Format, Vec<u8>) {
     let mut bytes = Vec::new();
     let outcome = delone_io::write_points(&mut bytes, format, &in_space());
     assert!(outcome.is_ok(), "{format} is written");
@@ -67,7 +68,7 @@ fn written(format: Format) -> (Format, Vec<u8>) {
 }
 
 /// What a writer of ours makes of a triangulation.
-fn mesh(format: Format) -> (Format, Vec<u8>) {
+pub(super) fn mesh(format: Format) -> (Format, Vec<u8>) {
     let crs = Crs::of_epsg(25_832);
     let mut bytes = Vec::new();
     let points = points();

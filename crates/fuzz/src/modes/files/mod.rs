@@ -2,6 +2,7 @@
 //! in a sentence; it may not panic, hang, or take memory that the file does not justify.
 
 mod corpus;
+mod maps;
 mod mutation;
 
 use std::fs;
@@ -21,8 +22,9 @@ pub(crate) const LAS: usize = 3;
 pub(crate) const PLY: usize = 4;
 pub(crate) const MESHES: usize = 5;
 pub(crate) const E57: usize = 6;
+pub(crate) const MAPS: usize = 7;
 /// How many there are.
-pub(crate) const GROUPS: usize = 7;
+pub(crate) const GROUPS: usize = 8;
 
 /// Memory that a reader may take: for its buffers and threads, and for each byte of the file.
 const ROOM: u64 = 256 << 20;
@@ -63,6 +65,7 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
     let options = |dimension, classes| ReadOptions {
         dimension,
         las: LasFilter { classes, ..LasFilter::default() },
+        attributes: dimension == 2,
         ..ReadOptions::default()
     };
     let mut said = Vec::new();
@@ -78,8 +81,11 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
             Err(error) => said.push(error.to_string()),
         }
     }
-    // What a .poly file has beside it may be as broken as the file.
-    let mut beside = |_: &str| source();
+    // What a file has beside it may be as broken as the file.
+    let mut beside = |extension: &str| match extension {
+        "dbf" => Ok(Box::new(Cursor::new(table_of(bytes).to_vec())) as Box<dyn Source>),
+        _ => source(),
+    };
     let graph = source()
         .and_then(|source| delone_io::read_graph(source, format, &options(2, vec![]), Some(&mut beside)));
     match graph {
@@ -110,6 +116,12 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
         Some(text) => Err(format!("a message of {} bytes", text.len())),
         None => Ok(()),
     }
+}
+
+/// The table that follows a `.shp` file in one of the seeds: where the head of that says that it ends.
+fn table_of(bytes: &[u8]) -> &[u8] {
+    let words = bytes.get(24..28).and_then(|words| words.try_into().ok()).map_or(0, u32::from_be_bytes);
+    bytes.get(2 * words as usize..).unwrap_or_default()
 }
 
 /// Whether points that are read in chunks are those that are read at once.

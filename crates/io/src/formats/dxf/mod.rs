@@ -14,7 +14,7 @@ use self::blocks::{Block, Blocks};
 use self::entity::{Entity, Item, What};
 use super::lines::Lines;
 use super::shapes::Shapes;
-use crate::error::excerpt;
+use crate::error::{excerpt, listed};
 use crate::{Cloud, Error, Graph, ReadOptions, Rings, Source, Value};
 
 /// Reads the positions of all entities, in their order.
@@ -150,7 +150,7 @@ fn read(
     if !drawing.left_out.is_empty() {
         let kinds: Vec<String> =
             drawing.left_out.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        losses.push(format!("entities were left out: {}", kinds.join(", ")));
+        losses.push(format!("entities were left out: {}", listed(kinds.iter().map(String::as_str))));
     }
     Ok((drawing.shapes, losses))
 }

@@ -4,6 +4,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension, Row};
 
 use super::database::{Database, MOST_IN_MEMORY, failed};
+use crate::error::listed;
 use crate::features::numbered;
 use crate::formats::shapes::Shapes;
 use crate::formats::wkb;
@@ -68,12 +69,11 @@ fn read(source: Box<dyn Source>, keeps_attributes: bool) -> Result<File, Error> 
             [] => return Err(wrong("it has no layer of features")),
             [_] => None,
             several => {
-                let names: Vec<&str> = several.iter().map(|layer| layer.table.as_str()).collect();
-                let tag = tag(several);
+                let names = several.iter().map(|layer| layer.table.as_str());
+                let (tag, count) = (tag(several), names.len());
                 file.remark = Some(format!(
-                    "{} layers were read as one, which the attribute {tag} names: {}",
-                    names.len(),
-                    names.join(", ")
+                    "{count} layers were read as one, which the attribute {tag} names: {}",
+                    listed(names)
                 ));
                 Some(tag)
             }

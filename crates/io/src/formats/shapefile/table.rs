@@ -5,6 +5,7 @@
 use std::io::Read;
 
 use super::wrong;
+use crate::error::{excerpt, listed};
 use crate::formats::shapes::Shapes;
 use crate::{Error, Source, Value};
 
@@ -113,7 +114,7 @@ impl Rows {
             return Err(cut());
         }
         let mut fields = Vec::new();
-        let mut losses = Vec::new();
+        let mut left_out = Vec::new();
         // The first byte tells whether a row is deleted.
         let mut begin = 1;
         for about in rest.chunks_exact(FIELD).take_while(|about| about[0] != END) {
@@ -130,12 +131,17 @@ impl Rows {
             if known || WHOLE.contains(&kind) {
                 fields.push(Field { name, kind, begin, end });
             } else {
-                let kind = char::from(kind).escape_default();
-                losses.push(format!("the attribute {name} is left out: it is of type {kind}"));
+                left_out.push(name);
             }
             begin = end;
         }
+        let mut losses = Vec::new();
+        if !left_out.is_empty() {
+            let names = listed(left_out.iter().map(String::as_str));
+            losses.push(format!("attributes are left out that are no text, number, date or truth: {names}"));
+        }
         if let Some(page) = unknown {
+            let page = excerpt(&page);
             losses.push(format!("letters may be wrong: code page {page} is read as UTF-8 or Latin-1"));
         }
         if width == 0 {
