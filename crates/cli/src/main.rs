@@ -76,7 +76,11 @@ fn main() -> ExitCode {
     message::be_strict(cli.strict);
     cli.epsg.into_iter().for_each(files::say_system);
     threads::start(cli.threads, quiet);
-    let result = match cli.command {
+    let mut command = cli.command;
+    if let Some(Err(failure)) = command.input().map(args::InputArgs::expand) {
+        return failure.report();
+    }
+    let result = match command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),
         Command::Tiles(args) => tiles::run(&args, quiet),
         Command::Dtm(args) => dtm::run(&args, quiet),

@@ -9,6 +9,7 @@ mod dtm;
 mod features;
 mod files;
 mod folder;
+mod folders;
 mod graph;
 mod inputs;
 mod limits;

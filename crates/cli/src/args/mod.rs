@@ -5,6 +5,7 @@ mod alpha;
 mod ask;
 #[cfg(feature = "experiments")]
 mod experiment;
+mod folders;
 mod formats;
 mod graph;
 mod las;
@@ -167,7 +168,7 @@ pub(crate) struct InputArgs {
     #[arg(
         value_name = "IN", required = true,
         help = format!(
-            "Files of points, or - for standard input: {}, each also with .gz. Several files are one set",
+            "Files of points, or - for standard input: {}, each also with .gz. Several files are one set; a folder stands for the las and laz files in it and below",
             formats::read(Contents::Points)
         )
     )]

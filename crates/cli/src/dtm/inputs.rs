@@ -11,40 +11,18 @@ use crate::message::Failure;
 /// Ground, of LAS classes.
 const GROUND: u8 = 2;
 
-/// The files of a command: those of folders, by name; and ground alone where nothing else is said.
-pub(super) fn resolve(args: &DtmArgs) -> Result<InputArgs, Failure> {
+/// The files of a command, and of these ground alone where nothing else is said.
+pub(super) fn resolve(args: &DtmArgs) -> InputArgs {
     let mut input = args.input.clone();
-    input.input.clear();
-    for path in &args.input.input {
-        if !path.is_dir() {
-            input.input.push(path.clone());
-            continue;
-        }
-        let failed = |error: std::io::Error| Failure::file(path, &error.into());
-        let entries: Vec<PathBuf> = std::fs::read_dir(path)
-            .map_err(failed)?
-            .map(|entry| entry.map(|entry| entry.path()))
-            .collect::<Result<_, _>>()
-            .map_err(failed)?;
-        let mut clouds: Vec<PathBuf> =
-            entries.into_iter().filter(|file| Format::of(file).ok() == Some(Format::Las)).collect();
-        if clouds.is_empty() {
-            let what = format!("{}: there is no las or laz file in this folder", path.display());
-            return Err(Failure::new(what, "name files, or a folder that has some"));
-        }
-        clouds.sort();
-        input.input.append(&mut clouds);
-    }
     if input.las.class.is_empty() && !args.all_classes && has_classes(&input) {
         input.las.class.push(GROUND);
     }
-    Ok(input)
+    input
 }
 
-/// Whether some file, or what a folder stands for, has classes of points.
+/// Whether some file has classes of points.
 fn has_classes(input: &InputArgs) -> bool {
-    let is_las =
-        |path: &PathBuf| path.is_dir() || input.from.or_else(|| Format::of(path).ok()) == Some(Format::Las);
+    let is_las = |path: &PathBuf| input.from.or_else(|| Format::of(path).ok()) == Some(Format::Las);
     input.input.iter().any(is_las)
 }
 

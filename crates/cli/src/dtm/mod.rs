@@ -42,7 +42,7 @@ const ROW: f64 = 64.0;
 const AT_ONCE: usize = 1 << 24;
 
 pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
-    let input = inputs::resolve(args)?;
+    let input = inputs::resolve(args);
     let mut inputs = input.paths();
     inputs.extend(args.breaklines.iter().chain(&args.flat).chain(&args.clip).map(PathBuf::as_path));
     let stats_path = args.input.stats.as_deref();

@@ -123,7 +123,8 @@ fn open_raw(path: &Path, what: &'static str, quiet: bool) -> Result<(Box<dyn Sou
     let mut file = apart::open(path).map_err(failed)?;
     let about = file.metadata().map_err(failed)?;
     if about.is_dir() {
-        return Err(Failure::new(format!("{} is a folder", path.display()), "name a file in it"));
+        let what = format!("{} is a folder, with no las or laz file in it", path.display());
+        return Err(Failure::new(what, "name a file in it"));
     }
     if !about.is_file() {
         // Nobody can go back in a pipe.

@@ -31,6 +31,7 @@ use delone_io::{Cloud, TemporaryFolder, followed, sync_folder};
 
 pub(crate) use describe::describe;
 pub(crate) use held::{Corner, Held};
+pub(crate) use manifest::NAME as MANIFEST;
 pub(crate) use verdict::check;
 pub(crate) use window::run as window;
 
