@@ -66,7 +66,7 @@ fn area(ring: &[[f64; 2]]) -> f64 {
 fn read(path: &str) -> Option<Set> {
     let format = delone_io::Format::of(Path::new(path)).ok()?;
     let file = BufReader::new(File::open(path).ok()?);
-    let rings = delone_io::read_rings(Box::new(file), format).ok()?;
+    let rings = delone_io::read_rings(Box::new(file), format).ok()?.rings;
     let mut set =
         Set { name: path.to_owned(), points: Vec::new(), segments: Vec::new(), polygons: Vec::new() };
     let sense = area(rings.first()?).is_sign_positive();

@@ -74,6 +74,7 @@ fn main() -> ExitCode {
     limits::start(cli.max_memory, cli.max_points, cli.max_output);
     signals::clean_up();
     message::be_strict(cli.strict);
+    cli.epsg.into_iter().for_each(files::say_system);
     threads::start(cli.threads, quiet);
     let result = match cli.command {
         Command::Triangulate(args) => in_room!(triangulate, args, quiet),

@@ -147,3 +147,40 @@ fn two_systems_are_an_error() {
         place.fail(line, 1, "EPSG:25833");
     }
 }
+
+#[test]
+fn systems_are_said_and_passed_on() {
+    let place = Place::new();
+    place.file("p.csv", "x,y,z\n0,0,1\n4,0,2\n0,4,3\n");
+    for (line, name) in [
+        ("voronoi p.csv", "urn:ogc:def:crs:EPSG::25832"),
+        ("triangulate p.csv", "urn:ogc:def:crs:EPSG::25832"),
+        ("contours p.csv --interval 1", "urn:ogc:def:crs:EPSG::25832"),
+        ("nearest p.csv --queries p.csv", "urn:ogc:def:crs:EPSG::25832"),
+    ] {
+        place.succeed(&format!("-q --epsg 25832+7837 {line} -o o.geojson"));
+        let all: Value = serde_json::from_str(&place.read("o.geojson")).expect("JSON");
+        assert_eq!(all["crs"]["properties"]["name"], name, "{line}");
+    }
+    // What is said counts, whatever files tell.
+    place.succeed("-q triangulate o.geojson --epsg EPSG:31467 -o t.geojson");
+    assert!(place.read("t.geojson").contains("EPSG::31467"));
+    // A definition without a number goes from file to file.
+    let wkt = r#"PROJCS[\"ours\",GEOGCS[\"WGS 84\"],UNIT[\"foot\",0.3048]]"#;
+    let points = r#""type":"MultiPoint","coordinates":[[0,0,1],[4,0,2],[0,4,3]]"#;
+    place.file(
+        "w.geojson",
+        format!(r#"{{"crs":{{"type":"name","properties":{{"name":"{wkt}"}}}},{points}}}"#),
+    );
+    place.succeed("-q --strict voronoi w.geojson -o c.geojson");
+    assert!(place.read("c.geojson").contains(wkt));
+    place.succeed("-q dtm w.geojson --cell 1 -o d.asc");
+    assert!(place.read("d.prj").contains("PROJCS[\"ours\""));
+    for wrong in ["0", "25832+1", "abc", "1+2+3", "99999"] {
+        place.fail(
+            &format!("triangulate p.csv --epsg {wrong} -o t.ply"),
+            2,
+            "it is no number from 1024 to 32766",
+        );
+    }
+}

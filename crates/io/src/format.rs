@@ -56,6 +56,8 @@ pub enum Format {
     Las,
     /// E57 scans.
     E57,
+    /// Leica's scans as text.
+    Ptx,
     /// Stanford polygons.
     Ply,
     /// Wavefront.
@@ -151,13 +153,15 @@ impl Format {
     ///
     /// let ours = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]").expect("a system");
     /// assert_eq!(Format::GeoJson.says(&Crs::of_epsg(25832)), Said::Whole);
-    /// assert_eq!(Format::GeoJson.says(&ours), Said::Otherwise);
+    /// assert_eq!(Format::GeoJson.says(&ours), Said::Whole);
+    /// let named = Crs { name: Some("ours".to_owned()), ..Crs::default() };
+    /// assert_eq!(Format::GeoJson.says(&named), Said::Otherwise);
     /// assert_eq!(Format::Vtu.says(&ours), Said::Not);
     /// ```
     pub fn says(self, crs: &Crs) -> Said {
         let when = |is_said: bool| if is_said { Said::Whole } else { Said::Not };
         match self {
-            Self::GeoJson if crs.epsg.is_some() || crs.is_plain_degrees() => Said::Whole,
+            Self::GeoJson if crs.known_name().is_some() || crs.is_plain_degrees() => Said::Whole,
             Self::GeoJson => Said::Otherwise,
             Self::FlatGeobuf | Self::GeoPackage => {
                 when(crs.epsg.is_some() || crs.wkt.is_some() || crs.is_plain_degrees())

@@ -121,3 +121,16 @@ fn polys_of_osmosis_are_polygons() {
         assert_eq!(error.to_string(), message);
     }
 }
+
+#[test]
+fn lines_of_gmsh() {
+    let head =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n7 1 1 0\n9 0 1 0\n$EndNodes\n";
+    let elements =
+        "$Elements\n4\n1 1 2 1 1 1 2\n2 8 2 1 1 2 7 9\n3 3 2 1 1 1 2 7 9\n4 15 2 1 1 1\n$EndElements\n";
+    let graph = good(Format::Msh, format!("{head}{elements}"));
+    assert_eq!((graph.segments, graph.is_border), (vec![[0, 1], [1, 2]], vec![true; 2]));
+    assert!(holds_lines(source(format!("{head}{elements}")), Format::Msh));
+    assert!(!holds_lines(source(head), Format::Msh));
+    assert_eq!(good(Format::Msh, head).cloud.xy.len(), 4);
+}

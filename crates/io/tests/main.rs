@@ -22,5 +22,6 @@ use delone_io::{Contents, Direction, Format};
 
 /// The formats that triangulations are written to.
 fn meshes(contents: Contents) -> impl Iterator<Item = Format> {
-    Format::all().filter(move |format| format.holds(contents, Direction::Written))
+    let is_there = |format: &Format| *format != Format::GeoPackage || cfg!(feature = "geopackage");
+    Format::all().filter(move |format| format.holds(contents, Direction::Written)).filter(is_there)
 }

@@ -98,7 +98,8 @@ class OrderVoronoi:
     ) -> list[list[NDArray[np.float64]]]:
         """All regions, clipped: for each its rings, counter-clockwise, holes clockwise; none for those outside.
 
-        `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
+        `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes; a polygon of
+        shapely or GeoJSON, or a column of them; or a box of four numbers, the least x and y and the largest. Without it
         regions are clipped to the box of the points, a twentieth larger. The diagram is not kept but made again for this.
         Sides up to the length `merge` are contracted, see `Voronoi`.
         """

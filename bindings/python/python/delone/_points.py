@@ -14,6 +14,7 @@ from numpy import ma
 from numpy.typing import ArrayLike, NDArray
 
 from . import _delone
+from ._geometries import coordinates
 
 _DOUBLE = np.dtype(np.float64)
 
@@ -26,6 +27,7 @@ def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
     """An array of real numbers of any shape.
 
     Arrays of objects are taken if all are real numbers, as columns of a DataFrame may be, and masked arrays if nothing is masked.
+    Points that are geometries are taken by x and y: columns of geopandas, shapely's points, mappings of GeoJSON.
 
     Raises TypeError for what holds no real numbers, ValueError for masked values and for rows of several lengths.
     """
@@ -33,6 +35,9 @@ def as_numbers(values: ArrayLike, what: str) -> NDArray[Any]:
         return values
     if ma.is_masked(values):
         raise ValueError(f"{what} is a masked array: give what counts, for example array[~array.mask.any(axis=1)].data")
+    places = coordinates(values, what)
+    if places is not None:
+        return places
     array: NDArray[Any] = np.asarray(values)
     if array.dtype.kind == "O":
         array = _unboxed(array, what)
@@ -99,9 +104,9 @@ def as_coordinates(values: ArrayLike, what: str) -> NDArray[Any]:
 
 def as_queries(xi: ArrayLike, columns: int, what: str = "xi") -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """Queries as rows, and the shape that their answers have: that of `xi` without its last axis."""
-    if np.asarray(xi).ndim == 0:
-        raise ShapeError(f"{what} must have {columns} coordinates in its last axis; it is no array but {xi!r}")
     array = as_numbers(xi, what)
+    if array.ndim == 0:
+        raise ShapeError(f"{what} must have {columns} coordinates in its last axis; it is no array but {xi!r}")
     if array.shape[-1] != columns:
         raise ValueError(f"{what} must have {columns} coordinates in its last axis; its shape is {array.shape}")
     return as_points(array.reshape(-1, columns), what, columns), array.shape[:-1]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _delone
+from ._geometries import as_mapping, box_of, column_of, geometry_type
 from ._points import as_choice, as_flag, as_points
 
 #: Rings of a polygon, as they are given.
@@ -92,7 +93,8 @@ def triangulate_polygons(
     Parameters
     ----------
     polygons
-        What holds polygons: a list, an array, geopandas' GeoSeries, a FeatureCollection. Each of them as for
+        What holds polygons: a list, an array, a FeatureCollection; geopandas' GeoSeries and GeoDataFrame, of which rows without a
+        polygon have no triangles. Each of them as for
         `triangulate_polygon`. Lists and arrays of shapely's geometries are fastest.
     fill, crossings : str
         As for `triangulate_polygon`. Errors name the polygon.
@@ -150,10 +152,10 @@ def _ring(ring: Any, what: str) -> NDArray[np.float64]:
 
 def _flat_of_shapely(given: list[Any]) -> _Flat | None:
     """Polygons of shapely without a look at each; `None` where others are among them."""
-    shapely = sys.modules.get("shapely")
-    kind = getattr(shapely, "Geometry", None)
-    if shapely is None or kind is None or not given or not all(isinstance(one, kind) for one in given):
+    kind = geometry_type()
+    if kind is None or not given or not all(isinstance(one, kind) for one in given):
         return None
+    shapely = sys.modules["shapely"]
     array = np.empty(len(given), dtype=object)
     array[:] = given
     if not np.isin(shapely.get_type_id(array), (3, 6)).all():
@@ -168,13 +170,18 @@ def _flat_of_shapely(given: list[Any]) -> _Flat | None:
 
 def _members(polygons: Any) -> list[Any]:
     """The polygons that something holds."""
+    polygons = column_of(polygons)
+    if geometry_type() is not None and not isinstance(polygons, geometry_type()) and hasattr(polygons, "geom_type"):
+        # A row of a column that has no polygon has no triangles.
+        nothing = sys.modules["shapely"].Polygon()
+        return [nothing if one is None else one for one in polygons]
     if not isinstance(polygons, (Mapping, list, tuple)) and hasattr(polygons, "__array__"):
         array = np.asarray(polygons)
         if array.dtype.kind != "O" and array.ndim < 3:
             raise TypeError(f"an array of the shape {array.shape} is no list of polygons; see triangulate_polygon for one")
         if array.ndim != 2:
             return list(array) if array.ndim else _members(array.item())
-    mapping = _mapping(polygons)
+    mapping = as_mapping(polygons)
     if mapping is None:
         if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
             raise TypeError(f"polygons must be a list of polygons, not {polygons!r}")
@@ -186,12 +193,21 @@ def _members(polygons: Any) -> list[Any]:
     raise TypeError(f"a {kind} is no list of polygons; see triangulate_polygon for one")
 
 
-def _mapping(given: Any) -> Mapping[str, Any] | None:
-    """A geometry as GeoJSON has it, if it is one."""
-    if isinstance(given, Mapping):
-        return given
-    found = getattr(given, "__geo_interface__", None)
-    return found if isinstance(found, Mapping) else None
+def rings_of_region(region: Any) -> _Rings | None:
+    """The rings of a region that is a box, a geometry or a column of geometries; None for arrays and lists of rings."""
+    box = box_of(region)
+    if box is not None:
+        return [box]
+    region = column_of(region)
+    if hasattr(region, "geom_type") and as_mapping(region) is not None and hasattr(region, "__len__"):
+        members = [member for member in region if member is not None]
+        return [ring for member in members for ring in _rings_of(member, "region")]
+    mapping = as_mapping(region)
+    if mapping is None:
+        return None
+    if mapping.get("type") == "FeatureCollection":
+        return [ring for member in _members(mapping) for ring in _rings_of(member, "region")]
+    return _rings_of_mapping(mapping, "region")
 
 
 def _required(mapping: Mapping[str, Any], name: str, what: str) -> Any:
@@ -203,7 +219,7 @@ def _required(mapping: Mapping[str, Any], name: str, what: str) -> Any:
 
 def _rings_of(given: Any, what: str) -> _Rings:
     """The rings of a polygon, not looked at yet; of all polygons of one geometry."""
-    mapping = _mapping(given)
+    mapping = as_mapping(given)
     if mapping is not None:
         return _rings_of_mapping(mapping, what)
     if given is None or isinstance(given, (str, bytes)) or not isinstance(given, (Iterable, np.ndarray)):
@@ -220,12 +236,12 @@ def _rings_of(given: Any, what: str) -> _Rings:
 def _rings_of_mapping(mapping: Mapping[str, Any], what: str) -> _Rings:
     kind = mapping.get("type")
     if kind == "Feature":
-        geometry = _mapping(mapping.get("geometry"))
+        geometry = as_mapping(mapping.get("geometry"))
         if geometry is None:
             raise TypeError(f"{what}: a Feature without a geometry")
         return _rings_of_mapping(geometry, what)
     if kind == "GeometryCollection":
-        members = [_mapping(member) for member in _required(mapping, "geometries", what)]
+        members = [as_mapping(member) for member in _required(mapping, "geometries", what)]
         return [ring for member in members for ring in _rings_of_mapping(member or {}, what)]
     if kind in ("Polygon", "MultiPolygon"):
         coordinates = _required(mapping, "coordinates", what)

@@ -17,6 +17,7 @@ from ._lists import lists
 from ._merge import as_merge, length_of, merged_centres
 from ._options import parse
 from ._points import as_flag, as_numbers, as_points
+from ._polygons import rings_of_region
 
 
 class Voronoi:
@@ -162,7 +163,8 @@ class Voronoi:
         """The cells of all points of the plane, clipped: for each point the rings of its cell, counter-clockwise, holes
         clockwise; none for duplicates.
 
-        `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes. Without it
+        `region` is a polygon of shape (m, 2), or a list of them, the first around the others, which are holes; a polygon of
+        shapely or GeoJSON, or a column of them; or a box of four numbers, the least x and y and the largest. Without it
         cells are clipped to the box of the points, a twentieth larger. Sides are contracted as `merge` says, and the corners of
         the polygon kept.
         """
@@ -196,6 +198,9 @@ def _rings(
             margin = max(float((high - low).max()) / 20, float(np.abs(high).max()) * 1e-9, 1e-300)
             (x0, y0), (x1, y1) = np.maximum(low - margin, -most), np.minimum(high + margin, most)
         return [np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])]
+    rings = rings_of_region(region)
+    if rings is not None:
+        return [as_points(ring, "region", 2) for ring in rings]
     given: Any = region
     if not isinstance(given, (list, tuple)):
         given = as_numbers(given, "region")

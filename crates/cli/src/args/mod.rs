@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use delone_io::{Contents, Format};
+use delone_io::{Contents, Crs, Format};
 
 pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
@@ -60,6 +60,10 @@ pub(crate) struct Cli {
     /// lines), or triangles of a mesh are not as they were to be. Otherwise a line on standard error says so.
     #[arg(long, global = true)]
     pub(crate) strict: bool,
+    /// The system of coordinates of the input by its EPSG number, perhaps with that of its heights (25832+7837), where files do not tell it or
+    /// are wrong; files beside the input have it if they tell none. Outputs say it; nothing is transformed.
+    #[arg(long, value_name = "NUMBER", global = true, value_parser = system)]
+    pub(crate) epsg: Option<Crs>,
     /// Threads at most [default: RAYON_NUM_THREADS, or as many as there are cores]. Results do not depend on it;
     /// the default constructions use them, in the plane and in space.
     #[arg(long, value_name = "N", global = true, value_parser = clap::value_parser!(u16).range(1..))]
@@ -213,6 +217,17 @@ fn ratio(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|x: &f64| (0.0..=1.0).contains(x))
         .ok_or_else(|| "a ratio is from 0 to 1".to_owned())
+}
+
+/// A system of coordinates by its number, and perhaps that of a system of heights.
+fn system(text: &str) -> Result<Crs, String> {
+    let is_number = |text: &str| text.parse().is_ok_and(|number: u32| (1024..=32766).contains(&number));
+    let bare = text.rsplit(':').next().unwrap_or_default();
+    let named = bare.split('+').count() <= 2 && bare.split('+').all(is_number);
+    named
+        .then(|| Crs::of_name(&format!("EPSG:{bare}")))
+        .flatten()
+        .ok_or_else(|| "it is no number from 1024 to 32766, nor two of them as in 25832+7837".to_owned())
 }
 
 /// A length in coordinate units.

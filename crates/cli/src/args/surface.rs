@@ -118,9 +118,6 @@ pub(crate) struct DtmArgs {
     /// The number for no data [default: -9999 in asc, NaN else].
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub(crate) nodata: Option<f64>,
-    /// The system of coordinates by its EPSG number, where files do not tell or are wrong.
-    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1024..=32766))]
-    pub(crate) epsg: Option<u32>,
     /// The distance of contours in height [default: about ten of them].
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true)]
     pub(crate) interval: Option<f64>,

@@ -13,7 +13,6 @@ use delone_io::{Contents, Crs, Format};
 use delone_predicates::orient2d;
 
 use super::lines;
-use crate::args::InputArgs;
 use crate::files;
 use crate::message::Failure;
 
@@ -30,7 +29,7 @@ impl Clip {
     /// Reads them; the points of a file without polygons are one ring.
     pub(super) fn read(path: &Path, quiet: bool) -> Result<Self, Failure> {
         let format = files::format_beside(path)?;
-        let graph = files::graph(&InputArgs::of(&[path.to_owned()]), None, quiet)?;
+        let graph = files::graph_beside(path, quiet)?;
         // Points of Triangle's graphs are a ring, whatever segments there are.
         if graph.rings.is_empty() && format != Format::Poly && files::holds_lines(path, format) {
             return Err(lines::no_polygon(path, &lines::give("polygons", Contents::Polygons)));

@@ -7,7 +7,7 @@ use delone::{Constrained2, Crossings, SegmentId};
 use delone_io::{Cloud, Contents, Crs, Direction, Format, Graph};
 
 use super::surface::of_points;
-use crate::args::{DtmArgs, DuplicatesName, InputArgs};
+use crate::args::{DtmArgs, DuplicatesName};
 use crate::files;
 use crate::message::{Failure, warn};
 
@@ -32,7 +32,7 @@ impl Lines {
         let mut lines = Self::default();
         let files = args.breaklines.iter().map(|path| (path, false));
         for (path, is_level) in files.chain(args.flat.iter().map(|path| (path, true))) {
-            let graph = files::graph(&InputArgs::of(std::slice::from_ref(path)), None, quiet)?;
+            let graph = files::graph_beside(path, quiet)?;
             if graph.segments.is_empty() {
                 let what = format!("{}: there is no line in it", path.display());
                 return Err(Failure::new(what, give("lines or polygons", Contents::Lines)));

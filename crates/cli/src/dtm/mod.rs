@@ -335,9 +335,6 @@ impl Job<'_> {
     }
 
     fn crs(&self, about: &Cloud) -> Option<Crs> {
-        if let Some(number) = self.args.epsg {
-            return Some(Crs::of_epsg(number));
-        }
         if about.crs.is_none() && self.outputs.iter().any(|output| output.1 == Format::Tiff) {
             warn(self.quiet, "the files do not tell their system of coordinates: name it with --epsg");
         }

@@ -16,6 +16,7 @@ use delone_io::{
 pub(crate) use apart::{keep_apart, keep_names_apart};
 pub(crate) use attributes::{are_kept as are_attributes_kept, keep_attributes};
 pub(crate) use sides::write_sides;
+pub(crate) use systems::{Role, say_system};
 pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
 
 use crate::args::InputArgs;
@@ -180,7 +181,7 @@ fn read_all(
         let failed = |error| Failure::file(path, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
         let mut cloud = read(source, format, &mut apart::beside(path)).map_err(failed)?;
-        heed(&mut cloud, path, quiet)?;
+        heed(&mut cloud, path, Role::Input, quiet)?;
         all.join(cloud).map_err(failed)?;
         limits::check_points(all.xy.len(), path)?;
         tell(&mut all, None, quiet);
@@ -189,10 +190,10 @@ fn read_all(
 }
 
 /// Tells what a file says besides its points, and keeps what outputs should say.
-fn heed(cloud: &mut Cloud, path: &Path, quiet: bool) -> Result<(), Failure> {
+pub(crate) fn heed(cloud: &mut Cloud, path: &Path, role: Role, quiet: bool) -> Result<(), Failure> {
     tell(cloud, Some(path), quiet);
     attributes::heed(cloud);
-    systems::heed(cloud.crs.as_ref(), path)
+    systems::heed(&mut cloud.crs, path, role)
 }
 
 /// Tells of a file, or of several that were joined, what a user should know; once.
@@ -230,7 +231,9 @@ pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Fa
     let (formats, [path]) = (formats(args)?, &args.input[..]) else { return Ok(None) };
     let Some(&format @ (Format::Tiff | Format::Asc)) = formats.first() else { return Ok(None) };
     let (source, _phase) = open(path, format, READING, quiet)?;
-    delone_io::read_raster(source, format).map(Some).map_err(|error| Failure::file(path, &error))
+    let mut raster = delone_io::read_raster(source, format).map_err(|error| Failure::file(path, &error))?;
+    systems::heed(&mut raster.crs, path, Role::Input)?;
+    Ok(Some(raster))
 }
 
 /// Reads the points and segments of a command.
@@ -238,10 +241,24 @@ pub(crate) fn graph(args: &InputArgs, segments: Option<&Path>, quiet: bool) -> R
     Ok(graph_with_points(args, segments, quiet)?.0)
 }
 
+/// Reads lines and polygons beside the input of a command.
+pub(crate) fn graph_beside(path: &Path, quiet: bool) -> Result<Graph, Failure> {
+    Ok(read_graph(&InputArgs::of(&[path.to_owned()]), None, Role::Beside, quiet)?.0)
+}
+
 /// The same, and says which files of points were read beside those that were named.
 pub(crate) fn graph_with_points(
     args: &InputArgs,
     segments: Option<&Path>,
+    quiet: bool,
+) -> Result<(Graph, Vec<PathBuf>), Failure> {
+    read_graph(args, segments, Role::Input, quiet)
+}
+
+fn read_graph(
+    args: &InputArgs,
+    segments: Option<&Path>,
+    role: Role,
     quiet: bool,
 ) -> Result<(Graph, Vec<PathBuf>), Failure> {
     let mut besides = Vec::new();
@@ -258,7 +275,7 @@ pub(crate) fn graph_with_points(
             Ok(source)
         };
         let mut graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
-        heed(&mut graph.cloud, path, quiet)?;
+        heed(&mut graph.cloud, path, role, quiet)?;
         all.join(graph).map_err(failed)?;
         limits::check_points(all.cloud.xy.len(), path)?;
         tell(&mut all.cloud, None, quiet);
@@ -330,7 +347,7 @@ pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<C
     let (source, _phase) = open(path, format, READING, quiet)?;
     let cloud = delone_io::read_points_beside(source, format, options, &mut apart::beside(path));
     let mut cloud = cloud.map_err(|error| Failure::file(path, &error))?;
-    heed(&mut cloud, path, quiet)?;
+    heed(&mut cloud, path, Role::Beside, quiet)?;
     Ok(cloud)
 }
 
@@ -347,8 +364,8 @@ pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Fail
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
     let found = delone_io::read_rings_beside(source, format, &mut apart::beside(path));
-    let found = found.map_err(|error| Failure::file(path, &error))?;
-    systems::heed(found.crs.as_ref(), path)?;
+    let mut found = found.map_err(|error| Failure::file(path, &error))?;
+    systems::heed(&mut found.crs, path, Role::Beside)?;
     Ok(found.rings)
 }
 

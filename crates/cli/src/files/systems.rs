@@ -1,7 +1,7 @@
 //! What coordinates mean is passed on, or a line says where it is not.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use delone_io::{Crs, Format, Said};
 
@@ -9,16 +9,33 @@ use crate::message::{Failure, lost, mislead};
 
 /// The system of what was read first, and the file.
 static SYSTEM: Mutex<Option<(Crs, PathBuf)>> = Mutex::new(None);
+/// The system that the command line says all inputs have.
+static SAID: OnceLock<Crs> = OnceLock::new();
 /// The outputs of the command.
 static OUTPUTS: Mutex<Vec<(PathBuf, Format)>> = Mutex::new(Vec::new());
 
-/// Keeps the system of an input.
+/// Inputs have this system from now on, whatever their files tell; files beside them have it if they tell none.
+pub(crate) fn say_system(crs: Crs) {
+    SAID.get_or_init(|| crs);
+}
+
+/// Whether a file is the input of a command, or beside it: a clip, queries, breaklines.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    Input,
+    Beside,
+}
+
+/// Keeps the system of a file, which may be the one that was said.
 ///
 /// # Errors
 /// If another input has another one.
-pub(super) fn heed(crs: Option<&Crs>, path: &Path) -> Result<(), Failure> {
+pub(super) fn heed(crs: &mut Option<Crs>, path: &Path, role: Role) -> Result<(), Failure> {
+    if let Some(said) = SAID.get().filter(|_| role == Role::Input || crs.is_none()) {
+        *crs = Some(said.clone());
+    }
     let mut system = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner);
-    match (&*system, crs) {
+    match (&*system, &*crs) {
         (Some((ours, first)), Some(theirs)) if !ours.agrees(theirs) => Err(Failure::new(
             format!("{}: its coordinates are {theirs}, those of {} {ours}", path.display(), first.display()),
             "transform one of them first: ogr2ogr, gdalwarp and pdal do so",

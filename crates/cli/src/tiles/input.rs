@@ -10,7 +10,7 @@ use super::manifest;
 use crate::args::TilesArgs;
 use crate::files;
 use crate::limits;
-use crate::message::{Failure, note};
+use crate::message::Failure;
 
 /// Points that are read at a time.
 const CHUNK: usize = 1 << 16;
@@ -83,8 +83,8 @@ impl<'a> Input<'a> {
                 return Err(failure);
             }
             let failed = |error| Failure::file(path, &error);
-            let about = found.map_err(failed)?;
-            about.remarks.iter().for_each(|remark| note(quiet, format_args!("{}: {remark}", path.display())));
+            let mut about = found.map_err(failed)?;
+            files::heed(&mut about, path, files::Role::Input, quiet)?;
             all.join(about).map_err(failed)?;
         }
         Ok(all)

@@ -92,11 +92,15 @@ impl Crs {
         }
     }
 
-    /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) or `urn:ogc:def:crs:EPSG::25832` stands for.
+    /// The system that a name such as `EPSG:25832`, `EPSG:25832+7837` (with heights) or `urn:ogc:def:crs:EPSG::25832` stands for; or
+    /// well-known text, which some files have as a name.
     pub fn of_name(name: &str) -> Option<Self> {
         let name = name.trim();
         if name.is_empty() {
             return None;
+        }
+        if name.contains('[') {
+            return Self::of_wkt(name);
         }
         if name.to_ascii_uppercase().contains("EPSG") {
             let number = name.rsplit([':', '/']).next().unwrap_or_default();
@@ -139,9 +143,10 @@ impl Crs {
         self.epsg == Some(4326) || self.name.as_deref() == Some("OGC:CRS84")
     }
 
-    /// The name that other programs understand, if there is a number.
-    pub(crate) fn urn(&self) -> Option<String> {
-        self.epsg.map(|number| format!("urn:ogc:def:crs:EPSG::{number}"))
+    /// The name that other programs understand: by its number, or else its definition.
+    pub(crate) fn known_name(&self) -> Option<String> {
+        let by_number = self.epsg.map(|number| format!("urn:ogc:def:crs:EPSG::{number}"));
+        by_number.or_else(|| self.wkt.clone())
     }
 }
 

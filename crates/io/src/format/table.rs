@@ -7,7 +7,7 @@ use super::Contents::{
 use super::{Contents, Format, Readers};
 use crate::formats::{
     dxf, e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly,
-    raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
+    ptx, raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -185,6 +185,14 @@ pub(super) const TABLE: &[Row] = &[
         names: &["e57"],
         also: &[],
         readers: Readers { points: Some(|source, _| e57::read(source)), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Ptx,
+        title: "scans as text",
+        names: &["ptx"],
+        also: &[],
+        readers: Readers { points: Some(|source, _| ptx::read(source)), ..Readers::NONE },
         writes: &[],
     },
     Row {
@@ -405,6 +413,8 @@ pub(super) const TABLE: &[Row] = &[
         also: &[],
         readers: Readers {
             points: Some(|source, _| msh::read_points(source)),
+            lines: Some(|source, _, _| msh::read_graph(source)),
+            has_lines: Some(msh::has_lines),
             triangles: Some(msh::read_simplices),
             tetrahedra: Some(msh::read_simplices),
             ..Readers::NONE

@@ -98,10 +98,13 @@ fn system(document: &GeoJson) -> Option<Crs> {
     Crs::of_name(members.as_ref()?.get("crs")?.get("properties")?.get("name")?.as_str()?)
 }
 
-/// The member that names a system.
+/// The member that names a system, or has its definition as a name, which GDAL understands.
 pub(crate) fn write_system(out: &mut dyn Write, crs: Option<&Crs>) -> io::Result<()> {
-    match crs.and_then(Crs::urn) {
-        Some(name) => write!(out, r#""crs":{{"type":"name","properties":{{"name":"{name}"}}}},"#),
+    match crs.and_then(Crs::known_name) {
+        Some(name) => {
+            let name = serde_json::Value::from(name);
+            write!(out, r#""crs":{{"type":"name","properties":{{"name":{name}}}}},"#)
+        }
         None => Ok(()),
     }
 }

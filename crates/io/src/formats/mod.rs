@@ -23,6 +23,7 @@ pub(crate) mod pairs;
 pub(crate) mod pcd;
 pub(crate) mod ply;
 pub(crate) mod poly;
+pub(crate) mod ptx;
 pub(crate) mod raw;
 pub(crate) mod shapefile;
 mod shapes;

@@ -11,7 +11,7 @@ use delone::Triangulation;
 use crate::Mesh;
 use crate::elements::{Elements, Group};
 
-pub(crate) use read::{read_points, read_simplices};
+pub(crate) use read::{has_lines, read_graph, read_points, read_simplices};
 
 /// Gmsh's numbers for elements, by dimension and order: lines, triangles, tetrahedra.
 const KINDS: [[u8; 2]; 4] = [[15, 15], [1, 8], [2, 9], [4, 11]];

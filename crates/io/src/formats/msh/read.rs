@@ -4,7 +4,7 @@
 use crate::error::excerpt;
 use crate::formats::lines::{Line, Lines};
 use crate::formats::triangle::AHEAD;
-use crate::{Cloud, Error, Source};
+use crate::{Cloud, Error, Graph, Source};
 
 /// Reads the points.
 pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
@@ -16,13 +16,36 @@ pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
     Ok(cloud)
 }
 
+/// Reads the points, and the lines between them as segments, which are borders.
+pub(crate) fn read_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    let (nodes, sides) = read_elements::<2>(source)?;
+    let mut cloud = Cloud::with_capacity(nodes.len(), true);
+    nodes.iter().for_each(|&(_, [x, y, z])| cloud.push([x, y], z));
+    let ends = |side: [u64; 2]| side.map(|end| end as usize);
+    let segments: Vec<[usize; 2]> = sides.unwrap_or_default().into_iter().map(ends).collect();
+    Ok(Graph { is_border: vec![true; segments.len()], segments, ..Graph::of_points(cloud) })
+}
+
+/// Whether there is a line in it.
+pub(crate) fn has_lines(source: Box<dyn Source>) -> bool {
+    read_elements::<2>(source).is_ok_and(|(_, sides)| sides.is_some_and(|sides| !sides.is_empty()))
+}
+
 /// Reads the triangles (N = 3) or tetrahedra (N = 4), of any order by their corners, as indices of the points. Elements of
 /// fewer corners are passed over, and so are tetrahedra where triangles are wanted.
 pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
+    read_elements(source)?.1.ok_or_else(|| Error::content("MSH: it has no $Elements"))
+}
+
+/// The elements of N corners, where there are elements.
+type Simplices<const N: usize> = Option<Vec<[u64; N]>>;
+
+/// Reads nodes, and elements after them.
+fn read_elements<const N: usize>(source: Box<dyn Source>) -> Result<(Nodes, Simplices<N>), Error> {
     let Some((nodes, mut reader)) = Reader::start(source)?.nodes()? else {
         return Err(Error::content("MSH: it has no $Nodes"));
     };
-    let tags: Vec<u64> = nodes.into_iter().map(|(tag, _)| tag).collect();
+    let tags: Vec<u64> = nodes.iter().map(|node| node.0).collect();
     while let Some(section) = reader.section()? {
         if section == "Elements" {
             let mut rows = Rows { tags: &tags, simplices: Vec::new() };
@@ -31,11 +54,11 @@ pub(crate) fn read_simplices<const N: usize>(source: Box<dyn Source>) -> Result<
                 Version::Four => reader.in_blocks(&mut rows)?,
             }
             reader.end("Elements")?;
-            return Ok(rows.simplices);
+            return Ok((nodes, Some(rows.simplices)));
         }
         reader.pass(&section)?;
     }
-    Err(Error::content("MSH: it has no $Elements"))
+    Ok((nodes, None))
 }
 
 #[derive(Clone, Copy)]
@@ -249,6 +272,8 @@ fn is_wanted<const N: usize>(line: &Line, kind: u32) -> Result<bool, Error> {
         1 | 8 | 26..=28 => 2,
         2 | 9 | 20..=25 => 3,
         4 | 11 | 29..=31 => 4,
+        // No corner of a line, whatever it is.
+        _ if N == 2 => 0,
         _ => return Err(line.error(format!("elements of kind {kind} are no triangles or tetrahedra"))),
     };
     Ok(corners == N)
