@@ -1,4 +1,4 @@
-"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas, shapely, Pillow,
+"""Reads what delone writes with programs that others wrote: meshio, trimesh, pyvista, geopandas (GDAL), shapely, Pillow,
 rasterio.
 
 Usage: python read_back.py DELONE FOLDER: the program, and a folder to work in. Every format is written from the same points,
@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import ezdxf
 import geopandas
 import laspy
 import meshio
@@ -263,3 +264,79 @@ for number, (kind, compress, predictor, tiled) in enumerate(kinds):
     assert np.array_equal(read[:, 2], values.ravel()[np.arange(130 * 90) != 3 * 130 + 5].astype(float)), kind
     assert geopandas.read_file(folder / "again.geojson").crs.to_epsg() == 25832
     print(f"delone reads GeoTIFF of {kind}, {compress}")
+
+# Features with attributes: what is written here is read by GDAL, with types, values, rings and systems.
+sites = known.assign(number=np.arange(len(points)), name=[f"Å {i}" for i in range(len(points))], size=points[:, 2] / 8)
+sites = sites.assign(even=sites.number % 2 == 0, where=None)
+sites.loc[::7, "where"] = "here"
+sites.to_file(folder / "sites.geojson")
+run("voronoi", "sites.geojson", "--clip", "hull", "-o", "sites.fgb", "-o", "sites.gpkg", "-o", "sites.json")
+cells = geopandas.read_file(folder / "sites.json")
+for kind in ["fgb", "gpkg"]:
+    read = geopandas.read_file(folder / f"sites.{kind}")
+    assert read.crs == known.crs and list(read.columns) == list(cells.columns), f"{kind}: {list(read.columns)}"
+    assert np.array_equal(shapely.to_wkb(read.geometry), shapely.to_wkb(cells.geometry)), f"rings in {kind}"
+    for column in read.columns.drop("geometry"):
+        assert read[column].equals(cells[column].astype(read[column].dtype)), f"{column} in {kind}"
+    assert [str(read[column].dtype) for column in ["site", "area", "size", "even"]] == ["int64", "float64", "float64", "bool"]
+    run("triangulate", "points.npy", "-o", f"mesh.{kind}")
+    mesh = geopandas.read_file(folder / f"mesh.{kind}")
+    rings = [np.array(polygon.exterior.coords)[:3] for polygon in mesh.geometry]
+    same(np.arange(3 * len(rings)).reshape(-1, 3), np.concatenate(rings), expected)
+    assert mesh.geometry.has_z.all() and mesh.crs is None
+    run("contours", "dem.tif", "--interval", 20, "--bands", "-o", f"bands.{kind}")
+    bands = geopandas.read_file(folder / f"bands.{kind}")
+    assert bands.crs.to_epsg() == 25832 and set(bands.geom_type) == {"MultiPolygon"}
+    assert np.array_equal(shapely.to_wkb(bands.geometry), shapely.to_wkb(geopandas.read_file(folder / "bands.geojson").geometry))
+    print(f"geopandas reads cells, triangles and contours in {kind}")
+
+# And what GDAL and ezdxf write is read here, with the same attributes: of polygons, triangles have them.
+squares = [shapely.box(x, x, x + 3, x + 3) for x in (0, 10, 20)]
+squares[0] = squares[0].difference(shapely.box(1, 1, 2, 2))
+squares[1] = shapely.MultiPolygon([squares[1], shapely.box(50, 0, 52, 2)])
+areas = geopandas.GeoDataFrame(
+    {
+        "name": ["Å", 'b "c"', None],
+        "count": [1, -(2**40), 3],
+        "size": [0.5, None, 1e9 + 0.125],
+        "good": [True, False, True],
+        "day": pandas.to_datetime(["2024-01-02", "1999-12-31", None]).date,
+    },
+    geometry=squares,
+    crs=25832,
+)
+about = ["name", "count", "size", "good", "day"]
+areas.to_file(folder / "areas.geojson")
+run("polygons", "areas.geojson", "-o", "areas-triangles.geojson")
+triangulated = geopandas.read_file(folder / "areas-triangles.geojson")
+assert len(triangulated) > 8 and abs(triangulated.area.sum() - areas.area.sum()) < 1e-9
+for kind in ["gpkg", "fgb", "shp"]:
+    # An index would put the features of FlatGeobuf into another order.
+    options = {"SPATIAL_INDEX": "NO"} if kind == "fgb" else {}
+    areas.to_file(folder / f"areas.{kind}", **options)
+    run("polygons", f"areas.{kind}", "-o", "again.geojson")
+    read = geopandas.read_file(folder / "again.geojson")
+    assert read.crs == areas.crs, f"the system of {kind}"
+    own = [read[read.polygon == number].iloc[0] for number in (0, 1, 3)]
+    assert abs(read.area.sum() - areas.area.sum()) < 1e-9, f"areas in {kind}"
+    for row, area in zip(own, areas.itertuples(), strict=True):
+        for column in about:
+            one, other = row[column], getattr(area, column)
+            both_missing = pandas.isna(one) and pandas.isna(other)
+            assert both_missing or str(one) == str(other) or one == other, f"{column} in {kind}: {one}, {other}"
+    print(f"delone reads areas.{kind}")
+drawing = ezdxf.new("R2010")
+space = drawing.modelspace()
+for x, y, z in points[:50]:
+    space.add_point((x, y, z), dxfattribs={"layer": "Höhen"})
+arm = drawing.blocks.new("arm", base_point=(1, 0))
+arm.add_line((1, 0), (3, 0))
+inserted = space.add_blockref("arm", (points[0, 0], points[0, 1]), dxfattribs={"xscale": 2, "rotation": 30})
+ends = [list(end)[:2] for line in inserted.virtual_entities() for end in (line.dxf.start, line.dxf.end)]
+drawing.saveas(folder / "other.dxf")
+run("triangulate", "other.dxf", "-o", "again.ply")
+read = meshio.read(folder / "again.ply").points
+assert np.array_equal(read[:50], points[:50]) and np.abs(read[50:, :2] - ends).max() < 1e-9
+run("voronoi", "other.dxf", "-o", "again.geojson")
+assert list(geopandas.read_file(folder / "again.geojson").layer[:50]) == ["Höhen"] * 50
+print("delone reads other.dxf")
