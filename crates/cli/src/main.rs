@@ -77,7 +77,8 @@ fn main() -> ExitCode {
     cli.epsg.into_iter().for_each(files::say_system);
     threads::start(cli.threads, quiet);
     let mut command = cli.command;
-    if let Some(Err(failure)) = command.input().map(args::InputArgs::expand) {
+    let may_be_tiles = matches!(command, Command::Info(_) | Command::Check(_));
+    if let Some(Err(failure)) = command.input().map(|input| input.expand(may_be_tiles)) {
         return failure.report();
     }
     let result = match command {

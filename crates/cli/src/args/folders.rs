@@ -38,12 +38,16 @@ impl Command {
 
 impl InputArgs {
     /// Puts the LAS and LAZ files of folders, nested ones too, in their place, by name; and the files that patterns stand for. A folder that
-    /// `delone tiles` made stays one.
-    pub(crate) fn expand(&mut self) -> Result<(), Failure> {
+    /// `delone tiles` made stays one for commands that know them.
+    pub(crate) fn expand(&mut self, may_be_tiles: bool) -> Result<(), Failure> {
+        let takes_folders = self.from.is_none_or(|format| format == Format::Las);
         for path in std::mem::take(&mut self.input) {
-            let mut inside = clouds(&path)?;
+            let mut inside = if takes_folders { clouds(&path)? } else { Vec::new() };
             if !inside.is_empty() {
                 self.input.append(&mut inside);
+            } else if path.is_dir() && !may_be_tiles {
+                let what = format!("{} is a folder, with no las or laz file in it", path.display());
+                return Err(Failure::new(what, "name a file in it"));
             } else if let Some(mut files) = alike(&path)? {
                 self.input.append(&mut files);
             } else {
