@@ -41,6 +41,9 @@ pub enum Error {
         /// The system of this file.
         theirs: String,
     },
+    /// The values of a raster are compressed in a way that is not read.
+    #[error("TIFF: values that are compressed with {0} are not read")]
+    Compression(String),
     /// A ring of a polygon does not end where it begins.
     #[error(
         "ring {ring} of polygon {polygon} is not closed: it begins at {:?} {:?} and ends at {:?} {:?}",
@@ -145,6 +148,7 @@ impl Error {
                 "check that the file is what its extension says, or name the format with --from"
             }
             Self::Systems { .. } => "transform one of them first",
+            Self::Compression(_) => "convert it with gdal_translate -co COMPRESS=DEFLATE",
             Self::OpenRing { .. } => "repeat the first position of the ring at its end",
             Self::PointsElsewhere => {
                 "read the points from the .node file of the same name, or put them into this file"

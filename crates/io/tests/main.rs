@@ -5,6 +5,7 @@ mod constrained;
 mod dialects;
 mod elements;
 mod formats;
+mod geotiff;
 mod gpx;
 mod graphs;
 mod las;

@@ -200,7 +200,9 @@ pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Fa
     let (formats, [path]) = (formats(args)?, &args.input[..]) else { return Ok(None) };
     let Some(&format @ (Format::Tiff | Format::Asc)) = formats.first() else { return Ok(None) };
     let (source, _phase) = open(path, format, READING, quiet)?;
-    delone_io::read_raster(source, format).map(Some).map_err(|error| Failure::file(path, &error))
+    let raster = delone_io::read_raster(source, format).map_err(|error| Failure::file(path, &error))?;
+    raster.remarks.iter().for_each(|remark| note(quiet, remark));
+    Ok(Some(raster))
 }
 
 /// Reads the points and segments of a command.

@@ -177,6 +177,8 @@ pub struct Raster {
     pub crs: Option<Crs>,
     /// The values row by row as the file has them; NaN where there is no data.
     pub values: Vec<f64>,
+    /// What users should know of how the file was read.
+    pub remarks: Vec<String>,
 }
 
 impl Raster {
@@ -192,7 +194,8 @@ impl Raster {
     /// # Ok::<(), delone_io::Error>(())
     /// ```
     pub fn into_points(self) -> Cloud {
-        let mut cloud = Cloud { crs: self.crs, z: Some(Vec::new()), ..Cloud::default() };
+        let mut cloud =
+            Cloud { crs: self.crs, z: Some(Vec::new()), remarks: self.remarks, ..Cloud::default() };
         let rows = self.values.chunks_exact(self.grid.columns().max(1));
         for (row, values) in rows.enumerate() {
             for (column, &value) in values.iter().enumerate().filter(|cell| !cell.1.is_nan()) {
@@ -218,7 +221,7 @@ fn placed(corner: [f64; 2], step: [f64; 2], columns: usize, rows: usize) -> Resu
         .map_err(|error| Error::content(format!("the place of the raster: {error}")))
 }
 
-/// Reads a raster: a GeoTIFF of any numbers (its first band, with its scale), an ASCII grid, or a NumPy array of shape (rows, columns).
+/// Reads a raster: a GeoTIFF of any numbers (the first band of its first page, with its scale and its mask), an ASCII grid, or a NumPy array of shape (rows, columns).
 /// Values that stand for no data become NaN. An array says nothing of where it is: its cells have one unit, and its last row is at
 /// the origin.
 ///

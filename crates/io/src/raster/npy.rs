@@ -42,5 +42,5 @@ impl<W: Write + Seek> Writer<W> {
 /// Reads an array.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     let (rows, columns, values) = npy::read_grid(source)?;
-    Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values })
+    Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values, remarks: Vec::new() })
 }

@@ -3,6 +3,11 @@
 //! Written here, strip by strip, because the directory comes last and nothing is kept of the values; read by the `tiff` crate, behind
 //! the fence.
 
+mod cells;
+mod compression;
+mod meaning;
+mod page;
+mod part;
 mod place;
 mod read;
 mod write;
@@ -23,6 +28,9 @@ mod tag {
     pub(super) const STRIP_SIZES: u16 = 279;
     pub(super) const PLANES: u16 = 284;
     pub(super) const PREDICTOR: u16 = 317;
+    pub(super) const TILE_WIDTH: u16 = 322;
+    pub(super) const TILE_LENGTH: u16 = 323;
+    pub(super) const TILES: u16 = 324;
     pub(super) const TILE_SIZES: u16 = 325;
     pub(super) const SAMPLE_FORMAT: u16 = 339;
     pub(super) const SCALE: u16 = 33_550;
