@@ -81,9 +81,6 @@ pub enum Error {
         /// Its number in the `.ele` file.
         triangle: usize,
     },
-    /// The format is finished where it begins, and this output goes forwards only.
-    #[error("{0} files are finished at their beginning: standard output, pipes and .gz go forwards only")]
-    NeedsAFile(Format),
     /// The format has square cells alone, in rows from north to south.
     #[error("the cells of {format} files are square, in rows from north to south, not {:?} by {:?}", step[0], step[1])]
     NotSquare {
@@ -155,7 +152,6 @@ impl Error {
             }
             Self::UnknownExtension(_) => "name the format with --from or --to",
             Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
-            Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",
             Self::Extent { .. } => "choose a larger cell, or write the raster in parts",
             Self::Rows { .. } => "give the values of whole rows, as many as the raster has",

@@ -12,7 +12,9 @@ use delone_io::{Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, 
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
 pub(crate) use sides::write_sides;
-pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
+pub(crate) use write::{
+    cannot_write, create, finish, folder_of, publish, scratch, write, write_mesh, write_own,
+};
 
 use crate::args::InputArgs;
 use crate::limits;

@@ -10,14 +10,11 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::ByteOrder;
 
 use super::compression::{self, unzstd};
+use super::directory::{LONG, SHORT};
 use super::page::Page;
 use super::read::broken;
 use super::tag;
 use crate::Error;
-
-/// Types of numbers in tags.
-const SHORT: u16 = 3;
-const LONG: u16 = 4;
 
 /// The numbers of a strip or tile with so many rows, row by row.
 pub(super) fn decode(page: &Page, bytes: &[u8], rows: usize) -> Result<DecodingResult, Error> {

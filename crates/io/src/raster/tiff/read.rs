@@ -19,10 +19,6 @@ use crate::input::most_inflated;
 use crate::raster::Raster;
 use crate::{Error, Source, guard};
 
-/// What a directory says of an image: that it is a smaller copy of another, or its mask.
-const REDUCED: u32 = 1;
-const MASK: u32 = 4;
-
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     guard::decode("TIFF", || File::open(source)?.read())
 }
@@ -66,11 +62,11 @@ impl File {
             next = directory.next();
             let kind = decoder
                 .read_directory_tags(&directory)
-                .find_tag_unsigned(Tag::NewSubfileType)
+                .find_tag_unsigned(Tag::from_u16_exhaustive(tag::KIND))
                 .map_err(broken)?;
             match kind.unwrap_or(0_u32) {
-                kind if kind & REDUCED != 0 => {}
-                kind if kind & MASK != 0 => masks.push(directory),
+                kind if kind & tag::REDUCED != 0 => {}
+                kind if kind & tag::MASK != 0 => masks.push(directory),
                 _ => {
                     images += 1;
                     first.get_or_insert(directory);
