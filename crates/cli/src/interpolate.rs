@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::{Grid, Interpolator, Outside, gradients};
 use delone::{Delaunay2, Delaunay3, Error, Surround};
-use delone_io::{Cloud, Contents, Format, Found, RasterInfo, RasterWriter, Sample, write_array};
+use delone_io::{Cloud, Contents, Format, Found, RasterInfo, RasterWriter, write_array};
 
 use crate::args::{InterpolateArgs, MethodName, OutsideName};
 use crate::message::Failure;
@@ -73,7 +73,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
             let found = Found::Numbers(&values);
             queries::write(&args.output, format, &queries, &of_queries, (&names(args), found))?;
         }
-        (_, Some(grid)) => write_raster(&args.output, format, grid, &about, &values, quiet)?,
+        (_, Some(grid)) => write_raster(args, format, grid, &about, &values, quiet)?,
     }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);
@@ -90,6 +90,7 @@ fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), F
     if args.grid.is_some() && args.value.len() > 1 {
         return Err(Failure::usage("a raster has one value", "give --value once, or places with --queries"));
     }
+    args.compress.check([format])?;
     if args.grid.is_none() {
         return queries::answer_format(&args.output, args.to).map(drop);
     }
@@ -200,14 +201,20 @@ fn values<R: Surround>(
 }
 
 fn write_raster(
-    path: &Path,
+    args: &InterpolateArgs,
     format: Format,
     grid: &Grid,
     about: &Cloud,
     values: &[f64],
     quiet: bool,
 ) -> Result<(), Failure> {
-    let info = RasterInfo { grid: *grid, crs: about.crs.clone(), nodata: None, sample: Sample::default() };
+    let path = &args.output;
+    let info = RasterInfo {
+        crs: about.crs.clone(),
+        compression: args.compress.into(),
+        scratch: files::scratch(path),
+        ..RasterInfo::new(*grid)
+    };
     let output = files::create(path)?;
     let write = || -> Result<(), delone_io::Error> {
         let mut writer = RasterWriter::create(output, format, &info)?;

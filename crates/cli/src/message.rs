@@ -47,8 +47,7 @@ impl Failure {
             Error::UnknownExtension(_) => error.to_string(),
             _ => format!("{}: {error}", path.display()),
         };
-        let usage =
-            matches!(error, Error::UnknownExtension(_) | Error::Unsupported { .. } | Error::NeedsAFile(_));
+        let usage = matches!(error, Error::UnknownExtension(_) | Error::Unsupported { .. });
         Self { message, help: error.help().into_owned(), status: if usage { 2 } else { 1 } }
     }
 

@@ -41,6 +41,9 @@ pub enum Error {
         /// The system of this file.
         theirs: String,
     },
+    /// The values of a raster are compressed in a way that is not read.
+    #[error("TIFF: values that are compressed with {0} are not read")]
+    Compression(String),
     /// A ring of a polygon does not end where it begins.
     #[error(
         "ring {ring} of polygon {polygon} is not closed: it begins at {:?} {:?} and ends at {:?} {:?}",
@@ -86,9 +89,6 @@ pub enum Error {
         /// Its number in the `.ele` file.
         triangle: usize,
     },
-    /// The format is finished where it begins, and this output goes forwards only.
-    #[error("{0} files are finished at their beginning: standard output, pipes and .gz go forwards only")]
-    NeedsAFile(Format),
     /// The format has square cells alone, in rows from north to south.
     #[error("the cells of {format} files are square, in rows from north to south, not {:?} by {:?}", step[0], step[1])]
     NotSquare {
@@ -153,6 +153,7 @@ impl Error {
                 "check that the file is what its extension says, or name the format with --from"
             }
             Self::Systems { .. } => "transform one of them first",
+            Self::Compression(_) => "convert it with gdal_translate -co COMPRESS=DEFLATE",
             Self::OpenRing { .. } => "repeat the first position of the ring at its end",
             Self::PointsElsewhere => {
                 "read the points from the .node file of the same name, or put them into this file"
@@ -165,7 +166,6 @@ impl Error {
                 "build it with that feature, or convert the file with ogr2ogr -f FlatGeobuf OUT.fgb IN"
             }
             Self::FarCentre { .. } => "leave out such flat triangles, or the Voronoi diagram",
-            Self::NeedsAFile(_) => "name a file, or choose asc or npy with --to",
             Self::NotSquare { .. } => "choose tif or npy, or a raster with square cells",
             Self::Extent { .. } => "choose a larger cell, or write the raster in parts",
             Self::Rows { .. } => "give the values of whole rows, as many as the raster has",

@@ -59,7 +59,7 @@ pub use output::{
 };
 pub use patches::{Patches, write_patches};
 pub use raster::{
-    ASC_NODATA, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
+    ASC_NODATA, Compression, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
     beside_raster_name, besides_of_raster, read_raster, read_surface,
 };
 pub use solid::{Solid, write_solid};

@@ -6,6 +6,7 @@ mod dialects;
 mod elements;
 mod features;
 mod formats;
+mod geotiff;
 mod gpx;
 mod graphs;
 mod las;

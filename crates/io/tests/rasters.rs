@@ -5,7 +5,8 @@ use std::path::Path;
 
 use delone::surface::Grid;
 use delone_io::{
-    Crs, Error, Format, Raster, RasterInfo, RasterWriter, ReadOptions, Sample, read_points, read_raster,
+    Compression, Crs, Error, Format, Raster, RasterInfo, RasterWriter, ReadOptions, Sample, read_points,
+    read_raster,
 };
 
 /// Heights with cells that have none.
@@ -76,6 +77,77 @@ fn threads_write_the_same_bytes() {
         pool.install(|| written(Format::Tiff, &RasterInfo::new(grid), &values, 1000))
     });
     assert!(one == three);
+}
+
+/// A directory of a file: where it is, and the tags of its entries with their number of values, and these or their place.
+type Directory = (usize, Vec<(u16, usize, usize)>);
+
+/// The directories of a small GeoTIFF in their order.
+fn directories(bytes: &[u8]) -> Vec<Directory> {
+    let long = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize;
+    let short = |at: usize| u16::from_le_bytes([bytes[at], bytes[at + 1]]);
+    let mut found = Vec::new();
+    let mut start = long(4);
+    while start != 0 {
+        let entries = (0..usize::from(short(start))).map(|k| start + 2 + 12 * k);
+        let entries: Vec<_> = entries.map(|at| (short(at), long(at + 4), long(at + 8))).collect();
+        let next = long(start + 2 + 12 * entries.len());
+        found.push((start, entries));
+        start = next;
+    }
+    found
+}
+
+/// What `validate_cloud_optimized_geotiff` of GDAL asks for: directories first, tiles, overviews before the raster.
+#[test]
+fn geotiff_is_optimized_for_clouds() {
+    let (columns, rows) = (1300, 1100);
+    let grid = Grid::new([0.0; 2], [1.0, -1.0], columns, rows).expect("a raster");
+    let values = values(columns, rows);
+    let mut files = Vec::new();
+    for compression in [Compression::Deflate, Compression::Lzw, Compression::None] {
+        let info = RasterInfo { compression, ..RasterInfo::new(grid) };
+        let bytes = written(Format::Tiff, &info, &values, 100);
+        let raster = read(Format::Tiff, &bytes).expect("a raster");
+        assert!(
+            raster.values.iter().zip(&values).all(|(a, b)| a.to_bits() == f64::from(*b as f32).to_bits())
+        );
+        let long = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize;
+        let directories = directories(&bytes);
+        assert_eq!(directories[0].0, 8);
+        assert!(directories.is_sorted_by(|a, b| a.0 < b.0));
+        let number = |entries: &[(u16, usize, usize)], tag| {
+            entries.iter().find(|entry| entry.0 == tag).map(|entry| entry.2)
+        };
+        let sizes: Vec<_> =
+            directories.iter().map(|d| [254, 256, 257, 322, 323].map(|tag| number(&d.1, tag))).collect();
+        let level = |kind, width, height| [kind, Some(width), Some(height), Some(512), Some(512)];
+        assert_eq!(sizes, [level(None, 1300, 1100), level(Some(1), 650, 550), level(Some(1), 325, 275)]);
+        // Tiles follow each other without gaps, from the smallest overview to the raster, and end with the file.
+        let mut position = None;
+        for (_, entries) in directories.iter().rev() {
+            let list = |tag| {
+                let &(_, count, at) = entries.iter().find(|entry| entry.0 == tag).expect("a list");
+                if count == 1 { vec![at] } else { (0..count).map(|k| long(at + 4 * k)).collect::<Vec<_>>() }
+            };
+            for (at, length) in list(324).into_iter().zip(list(325)) {
+                assert!(at > directories[2].0 && position.is_none_or(|position| position == at));
+                position = Some(at + length);
+            }
+        }
+        assert_eq!(position, Some(bytes.len()));
+        files.push(bytes.len());
+    }
+    assert!(files[0] < files[1] && files[1] < files[2]);
+    // Files that do not wait in memory are the same.
+    let folder = tempfile::tempdir().expect("a folder");
+    let grid = Grid::new([0.0; 2], [1.0, -1.0], 1600, 1400).expect("a raster");
+    let values: Vec<f64> = (0..1600 * 1400).map(f64::from).collect();
+    let info = RasterInfo { sample: Sample::F64, compression: Compression::None, ..RasterInfo::new(grid) };
+    let bytes = written(Format::Tiff, &info, &values, 1400);
+    let on_disk = RasterInfo { scratch: Some(folder.path().to_owned()), ..info };
+    assert!(bytes == written(Format::Tiff, &on_disk, &values, 99));
+    assert!(read(Format::Tiff, &bytes).expect("a raster").values == values);
 }
 
 #[test]

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use delone_io::{Contents, Format};
+use delone_io::{Compression, Contents, Format};
 
 use super::formats;
 use super::{DimArgs, InputArgs, length, tiles::size};
+use crate::message::Failure;
 
 /// How values between points come about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -47,6 +48,38 @@ pub(crate) enum DuplicatesName {
     Mean,
 }
 
+/// How GeoTIFF is compressed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CompressName {
+    /// Deflate, which is read everywhere.
+    #[default]
+    Deflate,
+    /// LZW: larger files, for old readers.
+    Lzw,
+    /// Numbers as they are.
+    None,
+}
+
+impl CompressName {
+    /// Refuses a compression for outputs that have none.
+    pub(crate) fn check(self, formats: impl IntoIterator<Item = Format>) -> Result<(), Failure> {
+        if self == Self::default() || formats.into_iter().any(|format| format == Format::Tiff) {
+            return Ok(());
+        }
+        Err(Failure::usage("--compress is for GeoTIFF", "leave it out, or name an output .tif"))
+    }
+}
+
+impl From<CompressName> for Compression {
+    fn from(name: CompressName) -> Self {
+        match name {
+            CompressName::Deflate => Self::Deflate,
+            CompressName::Lzw => Self::Lzw,
+            CompressName::None => Self::None,
+        }
+    }
+}
+
 /// Points with heights to a raster of terrain.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -55,7 +88,7 @@ pub(crate) enum DuplicatesName {
   delone dtm ground.csv --cell 1 --method natural --breaklines ridges.geojson -o dem.asc
   delone dtm tile.laz --all-classes --cell 1 --max-edge 50 --clip area.geojson -o surface.npy
 
-Outputs by extension: tif (GeoTIFF, compressed), asc (ESRI), npy (float64, rows from north to south, NaN for no data) are the heights; png
+Outputs by extension: tif (Cloud Optimized GeoTIFF), asc (ESRI), npy (float64, rows from north to south, NaN for no data) are the heights; png
 is a hillshade; geojson, fgb and gpkg have contours, lines with their elevation. Cells begin at multiples of their size, values are those of centres.
 Of LAS and LAZ files ground (class 2) is taken unless --class or --all-classes says otherwise; a folder stands for all such files in it.
 With --memory work is done in tiles on disk, beside the first output: the same values, bit for bit.
@@ -118,6 +151,9 @@ pub(crate) struct DtmArgs {
     /// The number for no data [default: -9999 in asc, NaN else].
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub(crate) nodata: Option<f64>,
+    /// How GeoTIFF is compressed.
+    #[arg(long, value_name = "HOW", default_value = "deflate")]
+    pub(crate) compress: CompressName,
     /// The distance of contours in height [default: about ten of them].
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true)]
     pub(crate) interval: Option<f64>,
@@ -158,6 +194,9 @@ pub(crate) struct InterpolateArgs {
     /// How values between points come about.
     #[arg(long, value_name = "METHOD", default_value = "natural")]
     pub(crate) method: MethodName,
+    /// How GeoTIFF is compressed.
+    #[arg(long, value_name = "HOW", default_value = "deflate")]
+    pub(crate) compress: CompressName,
     /// What there is outside of the hull.
     #[arg(long, value_name = "WHAT", default_value = "nothing")]
     pub(crate) outside: OutsideName,

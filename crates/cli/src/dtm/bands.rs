@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use delone::surface::Grid;
-use delone_io::{ASC_NODATA, Crs, Format, Light, Output, RasterInfo, RasterWriter, Sample, ShadeWriter};
+use delone_io::{ASC_NODATA, Compression, Crs, Format, Light, Output, RasterInfo, RasterWriter, ShadeWriter};
 
 use crate::files;
 use crate::message::{Failure, warn};
@@ -21,6 +21,7 @@ pub(super) struct About {
     pub(super) grid: Grid,
     pub(super) crs: Option<Crs>,
     pub(super) nodata: Option<f64>,
+    pub(super) compression: Compression,
 }
 
 /// Writes all rasters and hillshades, whole or not at all; says how many cells have a value.
@@ -32,21 +33,22 @@ pub(super) fn write(
     mut values: impl FnMut(&Grid) -> Result<Vec<f64>, Failure>,
 ) -> Result<u64, Failure> {
     let info = RasterInfo {
-        grid: about.grid,
         crs: about.crs.clone(),
         nodata: about.nodata,
-        sample: Sample::default(),
+        compression: about.compression,
+        ..RasterInfo::new(about.grid)
     };
     let mut sheets = Vec::new();
     for (path, format) in outputs {
         let failed = |error| files::cannot_write(path, error);
         let output = files::create(path)?;
-        sheets.push(match format {
-            Format::Png => {
-                Sheet::Shade(ShadeWriter::create(output, &about.grid, Light::default()).map_err(failed)?)
-            }
-            _ => Sheet::Raster(RasterWriter::create(output, *format, &info).map_err(failed)?),
-        });
+        let sheet = if *format == Format::Png {
+            ShadeWriter::create(output, &about.grid, Light::default()).map(Sheet::Shade)
+        } else {
+            let info = RasterInfo { scratch: files::scratch(path), ..info.clone() };
+            RasterWriter::create(output, *format, &info).map(Sheet::Raster)
+        };
+        sheets.push(sheet.map_err(failed)?);
     }
     // Text has a number for no data whether one is named or not.
     let is_text = outputs.iter().any(|output| output.1 == Format::Asc);

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use delone_io::{Cloud, Format, LAS_CLASSES, TemporaryFolder};
 
-use super::folder_of;
 use crate::args::{DtmArgs, DuplicatesName, InputArgs, TilesArgs};
+use crate::files;
 use crate::message::Failure;
 
 /// Ground, of LAS classes.
@@ -68,7 +68,7 @@ fn name(class: u8) -> String {
 
 /// A folder for tiles beside the first output that is a file; it goes with the work.
 pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TemporaryFolder, Failure> {
-    let folder = outputs.iter().map(|output| folder_of(&output.0)).next().unwrap_or(Path::new("."));
+    let folder = outputs.iter().map(|output| files::folder_of(&output.0)).next().unwrap_or(Path::new("."));
     TemporaryFolder::create(folder).map_err(|error| {
         let what = format!("cannot make a folder for tiles in {}: {error}", folder.display());
         Failure::new(what, "check the permissions and the room on the disk")

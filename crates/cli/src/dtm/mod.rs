@@ -113,6 +113,7 @@ fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
             format!("choose among {rasters} png (hillshade) geojson fgb gpkg (contours)"),
         ));
     }
+    args.compress.check(outputs.iter().map(|output| output.1))?;
     if args.memory.is_some() && args.method.is_bent() {
         return Err(Failure::usage(
             "--memory is for the methods linear, natural, laplace and nearest",
@@ -242,7 +243,7 @@ impl Job<'_> {
         stats: &mut Stats,
         values: impl Fn(&Grid) -> Result<Vec<f64>, Failure>,
     ) -> Result<(), Failure> {
-        let about = About { grid, crs, nodata: self.args.nodata };
+        let about = About { grid, crs, nodata: self.args.nodata, compression: self.args.compress.into() };
         let rasters: Vec<_> = self.outputs.iter().filter(|output| !is_map(output.1)).cloned().collect();
         if rasters.is_empty() {
             stats.tell(self.quiet, ["triangle", "triangles"]);
@@ -365,9 +366,4 @@ fn round(size: f64) -> f64 {
     }
     let power = 10f64.powf(size.log10().floor());
     [1.0, 2.0, 5.0, 10.0].into_iter().map(|k| k * power).find(|&x| x >= size).unwrap_or(size)
-}
-
-/// The folder that a path is in.
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

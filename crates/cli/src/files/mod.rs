@@ -17,7 +17,9 @@ pub(crate) use apart::{keep_apart, keep_names_apart};
 pub(crate) use attributes::{are_kept as are_attributes_kept, keep_attributes};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
-pub(crate) use write::{cannot_write, create, finish, publish, write, write_mesh, write_own};
+pub(crate) use write::{
+    cannot_write, create, finish, folder_of, publish, scratch, write, write_mesh, write_own,
+};
 
 use crate::args::InputArgs;
 use crate::limits;
@@ -234,6 +236,7 @@ pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Fa
     let (source, _phase) = open(path, format, READING, quiet)?;
     let mut raster = delone_io::read_raster(source, format).map_err(|error| Failure::file(path, &error))?;
     systems::heed(&mut raster.crs, path, Role::Input)?;
+    raster.remarks.iter().for_each(|remark| note(quiet, remark));
     Ok(Some(raster))
 }
 

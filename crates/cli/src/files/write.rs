@@ -1,7 +1,7 @@
 //! Outputs: each is written under a temporary name, and all of a command get their names in the end, or none.
 
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use delone_io::{Finished, Output, Remark, give_names};
@@ -23,6 +23,16 @@ pub(crate) fn publish(quiet: bool) -> Result<(), Failure> {
     attributes::tell(quiet);
     refuse_losses()?;
     give_names(finished).map_err(|(path, error)| cannot_write(&path, error.into()))
+}
+
+/// The folder that a path is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The folder for what waits on disk until an output can be written: that of the output, if it is a file.
+pub(crate) fn scratch(path: &Path) -> Option<PathBuf> {
+    (!is_standard(path) && !is_special(path)).then(|| folder_of(path).to_owned())
 }
 
 /// Begins an output that is no input.

@@ -16,7 +16,7 @@ pub fn limit_output(bytes: u64) {
 
 /// A writer whose bytes are counted.
 #[derive(Debug)]
-pub(super) struct Counted<W>(pub(super) W);
+pub(crate) struct Counted<W>(pub(crate) W);
 
 impl<W: Write> Write for Counted<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {

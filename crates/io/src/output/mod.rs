@@ -8,7 +8,7 @@ mod naming;
 mod staging;
 
 use std::fs::{self, File, Metadata, OpenOptions};
-use std::io::{self, BufWriter, Seek, SeekFrom, Stderr, Stdout, Write};
+use std::io::{self, BufWriter, Stderr, Stdout, Write};
 use std::path::{Path, PathBuf};
 
 use flate2::Compression;
@@ -20,7 +20,7 @@ pub use limit::limit_output;
 pub use naming::{Finished, give_names, wait_for_names};
 pub use staging::{TemporaryFolder, remove_unfinished};
 
-use limit::Counted;
+pub(crate) use limit::Counted;
 use naming::{How, Staged};
 
 /// Bytes that are gathered before they are written.
@@ -280,23 +280,11 @@ impl Write for Output {
     }
 }
 
-/// Files can be written anywhere; what is compressed, and what is no file, from its beginning to its end.
-impl Seek for Output {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        match (&mut self.writer, &self.place) {
-            (Writer::Plain(Sink::File(file)), Place::Staged(_) | Place::Durable(_)) => file.seek(to),
-            _ => {
-                Err(io::Error::new(io::ErrorKind::NotSeekable, "it is written from its beginning to its end"))
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::Output;
     use std::fs;
-    use std::io::{Seek, SeekFrom, Write};
+    use std::io::Write;
     use std::path::Path;
 
     fn write(path: &Path, content: &[u8]) {
@@ -320,21 +308,6 @@ mod tests {
         assert_eq!(fs::read(&path).expect("readable"), b"whole");
         assert!(Output::create(folder.path()).is_err());
         assert!(Output::create(&folder.path().join("no/such/folder.txt")).is_err());
-    }
-
-    #[test]
-    fn files_alone_can_be_written_anywhere() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let path = folder.path().join("out.txt");
-        let mut output = Output::create(&path).expect("writable");
-        output.write_all(b"12345").expect("written");
-        output.seek(SeekFrom::Start(1)).expect("a file");
-        output.write_all(b"xy").expect("written");
-        output.commit().expect("renamed");
-        assert_eq!(fs::read(&path).expect("readable"), b"1xy45");
-        assert!(Output::create(Path::new("-")).expect("there").stream_position().is_err());
-        let mut packed = Output::create(&folder.path().join("out.txt.gz")).expect("writable");
-        assert!(packed.stream_position().is_err());
     }
 
     #[cfg(unix)]

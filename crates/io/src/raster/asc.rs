@@ -2,7 +2,7 @@
 //!
 //! Format: Esri, "Esri ASCII raster format"; GDAL's `dx` and `dy` for cells that are not square are read, not written.
 
-use std::io::{BufRead, Seek, Write};
+use std::io::{BufRead, Write};
 
 use super::{Raster, RasterInfo, Sample, placed};
 use crate::error::excerpt;
@@ -21,7 +21,7 @@ pub(super) struct Writer<W> {
     text: Vec<u8>,
 }
 
-impl<W: Write + Seek> Writer<W> {
+impl<W: Write> Writer<W> {
     pub(super) fn create(mut out: W, info: &RasterInfo) -> Result<Self, Error> {
         let (grid, step) = (&info.grid, info.grid.step());
         if step[0] <= 0.0 || step[0] != -step[1] {
@@ -130,7 +130,7 @@ impl Head {
         }
         corner[1] += rows as f64 * step[1];
         let grid = placed(corner, [step[0], -step[1]], columns, rows)?;
-        Ok(Raster { grid, crs: None, values: Vec::new() })
+        Ok(Raster { grid, crs: None, values: Vec::new(), remarks: Vec::new() })
     }
 }
 

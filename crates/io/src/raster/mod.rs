@@ -1,6 +1,6 @@
 //! Rasters in files, a file a format: GeoTIFF, ESRI ASCII grids and NumPy arrays.
 //!
-//! Rows are written as they come, from memory for a few strips of them. Cells are areas: a value belongs to the centre of its cell,
+//! Rows are written as they come, from memory for a few of them. Cells are areas: a value belongs to the centre of its cell,
 //! and what the files say is where the corner of the first cell is. Cost: O(cells); compression is shared among the threads.
 
 mod asc;
@@ -9,7 +9,8 @@ mod npy;
 mod shade;
 mod tiff;
 
-use std::io::{Seek, Write};
+use std::io::Write;
+use std::path::PathBuf;
 
 use delone::surface::Grid;
 
@@ -45,6 +46,18 @@ impl Sample {
     }
 }
 
+/// How a GeoTIFF is compressed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Compression {
+    /// Deflate, which is read everywhere.
+    #[default]
+    Deflate,
+    /// LZW: larger files, for old readers.
+    Lzw,
+    /// Nothing: numbers as they are.
+    None,
+}
+
 /// What a file says of a raster besides its values.
 ///
 /// ```
@@ -66,16 +79,27 @@ pub struct RasterInfo {
     pub nodata: Option<f64>,
     /// The numbers of the values.
     pub sample: Sample,
+    /// The compression of a GeoTIFF.
+    pub compression: Compression,
+    /// A folder in which tiles of a large GeoTIFF wait until their places are known; the system's for temporary files where none is named.
+    pub scratch: Option<PathBuf>,
 }
 
 impl RasterInfo {
     /// A raster of numbers of 32 bits, of unknown coordinates, where NaN is no data.
     pub fn new(grid: Grid) -> Self {
-        Self { grid, crs: None, nodata: None, sample: Sample::default() }
+        Self {
+            grid,
+            crs: None,
+            nodata: None,
+            sample: Sample::default(),
+            compression: Compression::default(),
+            scratch: None,
+        }
     }
 }
 
-/// Writes a raster row by row, from memory for a few strips of rows.
+/// Writes a raster row by row, from memory for a few of them.
 ///
 /// ```
 /// use std::io::Cursor;
@@ -93,7 +117,7 @@ impl RasterInfo {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
-pub struct RasterWriter<W: Write + Seek> {
+pub struct RasterWriter<W: Write> {
     sheet: Sheet<W>,
     columns: usize,
     rows: usize,
@@ -103,18 +127,17 @@ pub struct RasterWriter<W: Write + Seek> {
 
 /// Writers of each format.
 #[derive(Debug)]
-enum Sheet<W: Write + Seek> {
+enum Sheet<W: Write> {
     Tiff(tiff::Writer<W>),
     Asc(asc::Writer<W>),
     Npy(npy::Writer<W>),
 }
 
-impl<W: Write + Seek> RasterWriter<W> {
-    /// Begins a file: an [`Output`](crate::Output), or anything else that is written to. GeoTIFF needs one that can be written
-    /// anywhere; the other formats only write forwards.
+impl<W: Write> RasterWriter<W> {
+    /// Begins a file: an [`Output`](crate::Output), or anything else that is written to, forwards only.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for other formats, [`Error::NeedsAFile`] for a GeoTIFF that goes forwards only, [`Error::NotSquare`] and
+    /// [`Error::Unsupported`] for other formats, [`Error::NotSquare`] and
     /// [`Error::Extent`] for rasters that the format does not hold, and those of the output.
     pub fn create(out: W, format: Format, info: &RasterInfo) -> Result<Self, Error> {
         let sheet = match format {
@@ -177,6 +200,8 @@ pub struct Raster {
     pub crs: Option<Crs>,
     /// The values row by row as the file has them; NaN where there is no data.
     pub values: Vec<f64>,
+    /// What users should know of how the file was read.
+    pub remarks: Vec<String>,
 }
 
 impl Raster {
@@ -192,7 +217,8 @@ impl Raster {
     /// # Ok::<(), delone_io::Error>(())
     /// ```
     pub fn into_points(self) -> Cloud {
-        let mut cloud = Cloud { crs: self.crs, z: Some(Vec::new()), ..Cloud::default() };
+        let mut cloud =
+            Cloud { crs: self.crs, z: Some(Vec::new()), remarks: self.remarks, ..Cloud::default() };
         let rows = self.values.chunks_exact(self.grid.columns().max(1));
         for (row, values) in rows.enumerate() {
             for (column, &value) in values.iter().enumerate().filter(|cell| !cell.1.is_nan()) {
@@ -218,7 +244,7 @@ fn placed(corner: [f64; 2], step: [f64; 2], columns: usize, rows: usize) -> Resu
         .map_err(|error| Error::content(format!("the place of the raster: {error}")))
 }
 
-/// Reads a raster: a GeoTIFF of any numbers (its first band, with its scale), an ASCII grid, or a NumPy array of shape (rows, columns).
+/// Reads a raster: a GeoTIFF of any numbers (the first band of its first page, with its scale and its mask), an ASCII grid, or a NumPy array of shape (rows, columns).
 /// Values that stand for no data become NaN. An array says nothing of where it is: its cells have one unit, and its last row is at
 /// the origin.
 ///

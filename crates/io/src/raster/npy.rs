@@ -1,6 +1,6 @@
 //! Rasters as NumPy arrays: float64 of shape (rows, columns), NaN where there is no data.
 
-use std::io::{Seek, Write};
+use std::io::Write;
 
 use super::{Raster, RasterInfo};
 use crate::formats::npy;
@@ -13,7 +13,7 @@ pub(super) struct Writer<W> {
     bytes: Vec<u8>,
 }
 
-impl<W: Write + Seek> Writer<W> {
+impl<W: Write> Writer<W> {
     pub(super) fn create(mut out: W, info: &RasterInfo) -> Result<Self, Error> {
         let (columns, rows) = (info.grid.columns(), info.grid.rows());
         if columns.checked_mul(rows).is_none_or(|cells| cells > isize::MAX as usize / 8) {
@@ -42,5 +42,5 @@ impl<W: Write + Seek> Writer<W> {
 /// Reads an array.
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     let (rows, columns, values) = npy::read_grid(source)?;
-    Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values })
+    Ok(Raster { grid: Raster::nowhere(columns, rows)?, crs: None, values, remarks: Vec::new() })
 }

@@ -1,282 +1,246 @@
-//! Writes a GeoTIFF: strips of 64 rows as they fill, compressed by as many threads as there are, and the directory in the end.
+//! Writes a Cloud Optimized GeoTIFF: all directories first, then the tiles of overviews, the smallest first, then those of the raster.
 //!
-//! Deflate with the predictor of floating point numbers (Adobe Photoshop TIFF Technical Note 3, 2005): bytes of equal weight of a row are
-//! put together and replaced by their differences, which of terrain takes a third of the room. BigTIFF where the values could pass
-//! four gigabytes. Costs memory for a strip a thread.
+//! Source: OGC 21-026 (Cloud Optimized GeoTIFF 1.0). Rows come from north to south, and a row of tiles is compressed by as many threads as
+//! there are, as soon as it is full. Overviews grow at the same time. Tiles wait in a temporary file, because overviews stand before the
+//! raster; small files wait in memory. BigTIFF where offsets need more than 32 bits.
+//!
+//! Costs memory for a row of tiles of each level (64 MiB where a raster has up to a million columns), and disk for the file twice.
 
-use std::io::{Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
 use rayon::prelude::*;
+use tempfile::SpooledTempFile;
 
+use super::directory::{Tag, directory, header};
+use super::halves::{half, halved};
+use super::tile::Shape;
 use super::{place, tag};
 use crate::crs::keys::encode;
+use crate::output::Counted;
 use crate::raster::{RasterInfo, Sample};
 use crate::{Error, Format};
 
-/// Rows of a strip, fewer where they would be more bytes than this.
-const ROWS: usize = 64;
-const STRIP: usize = 1 << 24;
-
-/// What a small file may have at most: offsets have 32 bits.
-const SMALL: f64 = 4.0e9;
-
-/// Types of numbers in tags.
-const TEXT: u16 = 2;
-const SHORT: u16 = 3;
-const LONG: u16 = 4;
-const DOUBLE: u16 = 12;
-const LONG8: u16 = 16;
+/// What a small file has at most: offsets have 32 bits.
+const SMALL: u64 = 4_000_000_000;
+/// Tiles of so many bytes wait in memory.
+const IN_MEMORY: usize = 1 << 24;
 
 /// Writes rows as they come.
 #[derive(Debug)]
 pub(in crate::raster) struct Writer<W> {
     out: W,
+    shape: Shape,
+    nodata: f64,
+    /// What the directories of all levels say, and what only that of the raster does.
+    common: Vec<Tag>,
+    own: Vec<Tag>,
+    /// The raster and its overviews.
+    levels: Vec<Level>,
+    /// Compressed tiles in the order in which they were made, and their bytes.
+    waiting: Counted<SpooledTempFile>,
+    length: u64,
+    /// Tiles that are compressed at once.
+    at_once: usize,
+    small: u64,
+}
+
+/// The raster, or an overview.
+#[derive(Debug)]
+struct Level {
     columns: usize,
     rows: usize,
-    strip_rows: usize,
-    sample: Sample,
-    nodata: f64,
-    is_big: bool,
-    tags: Vec<Tag>,
     /// Numbers of rows that are not compressed yet, as they are in memory.
-    waiting: Vec<u8>,
-    /// Strips that are compressed at once.
-    at_once: usize,
-    /// Where the next strip goes, and where those before it are, with their bytes.
-    position: u64,
-    strips: Vec<(u64, u64)>,
+    band: Vec<u8>,
+    /// A row that awaits the next one to be halved with.
+    upper: Option<Vec<f64>>,
+    /// Where tiles wait, and their bytes.
+    tiles: Vec<(u64, u64)>,
 }
 
-/// What the directory says of one thing.
-#[derive(Debug)]
-struct Tag {
-    number: u16,
-    kind: u16,
-    count: u64,
-    bytes: Vec<u8>,
-}
-
-impl Tag {
-    fn shorts(number: u16, values: &[u16]) -> Self {
-        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        Self { number, kind: SHORT, count: values.len() as u64, bytes }
-    }
-
-    fn long(number: u16, value: u32) -> Self {
-        Self { number, kind: LONG, count: 1, bytes: value.to_le_bytes().to_vec() }
-    }
-
-    fn doubles(number: u16, values: &[f64]) -> Self {
-        let bytes = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        Self { number, kind: DOUBLE, count: values.len() as u64, bytes }
-    }
-
-    fn text(number: u16, text: &str) -> Self {
-        let bytes = [text.as_bytes(), &[0]].concat();
-        Self { number, kind: TEXT, count: bytes.len() as u64, bytes }
-    }
-
-    /// Places in the file, or numbers of bytes.
-    fn places(number: u16, values: impl Iterator<Item = u64>, is_big: bool) -> Self {
-        let mut bytes = Vec::new();
-        let mut count = 0;
-        for value in values {
-            bytes.extend_from_slice(&value.to_le_bytes()[..if is_big { 8 } else { 4 }]);
-            count += 1;
-        }
-        Self { number, kind: if is_big { LONG8 } else { LONG }, count, bytes }
-    }
-}
-
-impl<W: Write + Seek> Writer<W> {
+impl<W: Write> Writer<W> {
     pub(in crate::raster) fn create(out: W, info: &RasterInfo) -> Result<Self, Error> {
-        Self::create_above(SMALL, out, info)
-    }
-
-    /// Begins a BigTIFF where there could be more bytes than `small`.
-    fn create_above(small: f64, mut out: W, info: &RasterInfo) -> Result<Self, Error> {
         let (columns, rows) = (info.grid.columns(), info.grid.rows());
         let extent = || Error::Extent { format: Format::Tiff, columns, rows };
-        let [width, length] =
-            [columns, rows].map(|n| u32::try_from(n).ok().filter(|&n| n > 0 && n < u32::MAX));
-        let (width, length) = width.zip(length).ok_or_else(extent)?;
-        if out.seek(SeekFrom::Start(0)).is_err() {
-            return Err(Error::NeedsAFile(Format::Tiff));
+        let is_size = |n: usize| u32::try_from(n).is_ok_and(|n| n > 0 && n < u32::MAX);
+        if !is_size(columns) || !is_size(rows) {
+            return Err(extent());
         }
-        let size = info.sample.size();
-        let strip_rows = (STRIP / (columns * size)).clamp(1, ROWS).min(rows);
-        // What is not compressible grows a little.
-        let is_big = info.grid.cells() * (size as f64) * 1.01 + 64.0 * (rows / strip_rows + 1) as f64 > small;
+        let shape = Shape::of(columns, rows, info.sample, info.compression);
+        let mut levels = vec![Level::new(columns, rows)];
+        while let Some(last) =
+            levels.last().filter(|last| last.columns > shape.width || last.rows > shape.height)
+        {
+            levels.push(Level::new(half(last.columns), half(last.rows)));
+        }
         let nodata = info.nodata.unwrap_or(f64::NAN);
         let nodata = match info.sample {
             Sample::F32 => f64::from(nodata as f32),
             Sample::F64 => nodata,
             Sample::U8 => nodata.round().clamp(0.0, 255.0),
         };
-        let predictor = if info.sample == Sample::U8 { 2 } else { 3 };
-        let mut tags = vec![
-            Tag::long(tag::WIDTH, width),
-            Tag::long(tag::LENGTH, length),
-            Tag::shorts(tag::BITS, &[8 * size as u16]),
-            Tag::shorts(tag::COMPRESSION, &[8]),
+        let mut common = vec![
+            Tag::shorts(tag::BITS, &[8 * info.sample.size() as u16]),
+            Tag::shorts(tag::COMPRESSION, &[shape.number()]),
             Tag::shorts(tag::MEANING, &[1]),
             Tag::shorts(tag::SAMPLES, &[1]),
-            Tag::long(tag::STRIP_ROWS, strip_rows as u32),
             Tag::shorts(tag::PLANES, &[1]),
-            Tag::shorts(tag::PREDICTOR, &[predictor]),
+            Tag::shorts(tag::PREDICTOR, &[shape.predictor()]),
+            Tag::long(tag::TILE_WIDTH, shape.width as u32),
+            Tag::long(tag::TILE_LENGTH, shape.height as u32),
             Tag::shorts(tag::SAMPLE_FORMAT, &[if info.sample == Sample::U8 { 1 } else { 3 }]),
         ];
-        tags.extend(
-            place::tags(&info.grid).into_iter().map(|(number, values)| Tag::doubles(number, &values)),
-        );
-        let keys = encode(info.crs.as_ref());
-        if !keys.numbers.is_empty() {
-            tags.push(Tag::shorts(tag::KEYS, &keys.numbers));
-        }
-        if !keys.doubles.is_empty() {
-            tags.push(Tag::doubles(tag::DOUBLES, &keys.doubles));
-        }
-        if !keys.texts.is_empty() {
-            tags.push(Tag::text(tag::TEXTS, &keys.texts));
-        }
         match info.nodata {
             None if info.sample == Sample::U8 => {}
-            _ if nodata.is_nan() => tags.push(Tag::text(tag::NO_DATA, "nan")),
-            _ => tags.push(Tag::text(tag::NO_DATA, &format!("{nodata:?}"))),
+            _ if nodata.is_nan() => common.push(Tag::text(tag::NO_DATA, "nan")),
+            _ => common.push(Tag::text(tag::NO_DATA, &format!("{nodata:?}"))),
         }
-        // Where the directory is, is known in the end.
-        let head: &[u8] = if is_big { b"II\x2b\0\x08\0\0\0\0\0\0\0\0\0\0\0" } else { b"II\x2a\0\0\0\0\0" };
-        out.write_all(head)?;
-        Ok(Self {
-            out,
-            columns,
-            rows,
-            strip_rows,
-            sample: info.sample,
-            nodata,
-            is_big,
-            tags,
-            waiting: Vec::new(),
-            at_once: rayon::current_num_threads().max(1),
-            position: head.len() as u64,
-            strips: Vec::new(),
-        })
+        let places = place::tags(&info.grid).into_iter();
+        let mut own: Vec<Tag> = places.map(|(number, values)| Tag::doubles(number, &values)).collect();
+        let keys = encode(info.crs.as_ref());
+        if !keys.numbers.is_empty() {
+            own.push(Tag::shorts(tag::KEYS, &keys.numbers));
+        }
+        if !keys.doubles.is_empty() {
+            own.push(Tag::doubles(tag::DOUBLES, &keys.doubles));
+        }
+        if !keys.texts.is_empty() {
+            own.push(Tag::text(tag::TEXTS, &keys.texts));
+        }
+        let waiting = Counted(match &info.scratch {
+            Some(folder) => tempfile::spooled_tempfile_in(IN_MEMORY, folder),
+            None => tempfile::spooled_tempfile(IN_MEMORY),
+        });
+        let at_once = 4 * rayon::current_num_threads().max(1);
+        Ok(Self { out, shape, nodata, common, own, levels, waiting, length: 0, at_once, small: SMALL })
     }
 
     /// Takes whole rows, the first of which is row `first`.
     pub(in crate::raster) fn write_rows(&mut self, values: &[f64], first: usize) -> Result<(), Error> {
-        let full = self.strip_rows * self.columns * self.sample.size() * self.at_once;
-        for (i, row) in values.chunks_exact(self.columns).enumerate() {
-            self.take(row, first + i)?;
-            if self.waiting.len() >= full {
-                self.flush()?;
-            }
-        }
-        Ok(())
+        let rows = values.chunks_exact(self.levels[0].columns);
+        rows.enumerate().try_for_each(|(i, row)| self.take(0, row, first + i))
     }
 
-    /// Takes a row.
-    fn take(&mut self, row: &[f64], number: usize) -> Result<(), Error> {
+    /// Takes a row of a level, and halves two.
+    fn take(&mut self, level: usize, row: &[f64], number: usize) -> Result<(), Error> {
+        let full = self.shape.height * row.len() * self.shape.sample.size();
+        self.push(level, row, number)?;
+        if self.levels[level].band.len() >= full {
+            self.flush(level)?;
+        }
+        if level + 1 == self.levels.len() {
+            return Ok(());
+        }
+        match self.levels[level].upper.take() {
+            None => {
+                self.levels[level].upper = Some(row.to_vec());
+                Ok(())
+            }
+            Some(upper) => self.take(level + 1, &halved(&upper, row), number / 2),
+        }
+    }
+
+    /// Puts the numbers of a row into the band of its level.
+    fn push(&mut self, level: usize, row: &[f64], number: usize) -> Result<(), Error> {
+        let band = &mut self.levels[level].band;
         for (column, &value) in row.iter().enumerate() {
             let value = if value.is_nan() { self.nodata } else { value };
-            match self.sample {
-                Sample::F64 => self.waiting.extend_from_slice(&value.to_le_bytes()),
+            match self.shape.sample {
+                Sample::F64 => band.extend_from_slice(&value.to_le_bytes()),
                 Sample::F32 => {
                     let near = value as f32;
                     if near.is_infinite() && value.is_finite() {
                         return Err(Error::Beyond { column, row: number, value });
                     }
-                    self.waiting.extend_from_slice(&near.to_le_bytes());
+                    band.extend_from_slice(&near.to_le_bytes());
                 }
-                Sample::U8 => self.waiting.push(value.round().clamp(0.0, 255.0) as u8),
+                Sample::U8 => band.push(value.round().clamp(0.0, 255.0) as u8),
             }
         }
         Ok(())
     }
 
-    /// Compresses and writes what is waiting.
-    fn flush(&mut self) -> Result<(), Error> {
-        let (size, width) = (self.sample.size(), self.columns * self.sample.size());
-        let compressed: Vec<std::io::Result<Vec<u8>>> = self
-            .waiting
-            .par_chunks_mut(self.strip_rows * width)
-            .map(|strip| {
-                let mut row = vec![0; width];
-                for numbers in strip.chunks_exact_mut(width) {
-                    predict(numbers, &mut row, size);
-                }
-                let mut encoder =
-                    ZlibEncoder::new(Vec::with_capacity(strip.len() / 2), Compression::default());
-                encoder.write_all(strip)?;
-                encoder.finish()
-            })
-            .collect();
-        self.waiting.clear();
-        for strip in compressed {
-            let strip = strip?;
-            self.out.write_all(&strip)?;
-            self.strips.push((self.position, strip.len() as u64));
-            self.position += strip.len() as u64;
+    /// Compresses the band of a level.
+    fn flush(&mut self, level: usize) -> Result<(), Error> {
+        let (shape, level) = (self.shape, &mut self.levels[level]);
+        let across = shape.across(level.columns);
+        for first in (0..across).step_by(self.at_once) {
+            let numbers = first..across.min(first + self.at_once);
+            let pack = |number| shape.pack(&level.band, level.columns, number);
+            let packed: Vec<io::Result<Vec<u8>>> = numbers.into_par_iter().map(pack).collect();
+            for tile in packed {
+                let tile = tile?;
+                self.waiting.write_all(&tile)?;
+                level.tiles.push((self.length, tile.len() as u64));
+                self.length += tile.len() as u64;
+            }
         }
+        level.band.clear();
         Ok(())
     }
 
-    /// Writes the directory, and where it is.
+    /// Ends all levels, and writes the file.
     pub(in crate::raster) fn finish(mut self) -> Result<W, Error> {
-        self.flush()?;
-        debug_assert_eq!(self.strips.len(), self.rows.div_ceil(self.strip_rows));
-        let is_big = self.is_big;
-        let mut tags = std::mem::take(&mut self.tags);
-        tags.push(Tag::places(tag::STRIPS, self.strips.iter().map(|strip| strip.0), is_big));
-        tags.push(Tag::places(tag::STRIP_SIZES, self.strips.iter().map(|strip| strip.1), is_big));
-        tags.sort_by_key(|tag| tag.number);
-        // What does not fit into an entry stands before the directory; all of it at even places.
-        let inline = if is_big { 8 } else { 4 };
-        let mut before = vec![0; (self.position % 2) as usize];
-        let mut entries = Vec::new();
-        for tag in &tags {
-            entries.extend(tag.number.to_le_bytes());
-            entries.extend(tag.kind.to_le_bytes());
-            entries.extend_from_slice(&tag.count.to_le_bytes()[..inline]);
-            let mut field = [0; 8];
-            if tag.bytes.len() <= inline {
-                field[..tag.bytes.len()].copy_from_slice(&tag.bytes);
-            } else {
-                field = (self.position + before.len() as u64).to_le_bytes();
-                before.extend_from_slice(&tag.bytes);
-                before.resize(before.len().next_multiple_of(2), 0);
+        for level in 0..self.levels.len() {
+            if !self.levels[level].band.is_empty() {
+                self.flush(level)?;
             }
-            entries.extend_from_slice(&field[..inline]);
+            if let Some(last) = self.levels[level].upper.take() {
+                self.take(level + 1, &halved(&last, &last), 0)?;
+            }
         }
-        let directory = self.position + before.len() as u64;
-        let count = (tags.len() as u64).to_le_bytes();
-        self.out.write_all(&before)?;
-        self.out.write_all(&count[..if is_big { 8 } else { 2 }])?;
-        self.out.write_all(&entries)?;
-        // No other directory follows.
-        self.out.write_all(&[0; 8][..inline])?;
-        self.out.seek(SeekFrom::Start(if is_big { 8 } else { 4 }))?;
-        self.out.write_all(&directory.to_le_bytes()[..inline])?;
-        self.out.seek(SeekFrom::End(0))?;
+        // Directories have as many bytes whatever places they name.
+        let is_big = self.head(0, false).len() as u64 + self.length > self.small;
+        let start = self.head(0, is_big).len() as u64;
+        self.out.write_all(&self.head(start, is_big))?;
+        for level in self.levels.iter().rev() {
+            for &(place, length) in &level.tiles {
+                self.waiting.seek(SeekFrom::Start(place))?;
+                io::copy(&mut (&mut self.waiting.0).take(length), &mut self.out)?;
+            }
+        }
         self.out.flush()?;
         Ok(self.out)
     }
+
+    /// The header and all directories of a file whose tiles begin at `start`.
+    fn head(&self, start: u64, is_big: bool) -> Vec<u8> {
+        // Levels are in the file from the smallest to the largest.
+        let mut position = start;
+        let mut starts: Vec<u64> =
+            self.levels.iter().rev().map(|level| level.advance(&mut position)).collect();
+        starts.reverse();
+        let mut head = header(is_big).to_vec();
+        for (k, (level, mut position)) in self.levels.iter().zip(starts).enumerate() {
+            let places = level.tiles.iter().map(|tile| {
+                position += tile.1;
+                position - tile.1
+            });
+            let mut tags = self.common.clone();
+            tags.push(Tag::places(tag::TILES, places, is_big));
+            tags.push(Tag::places(tag::TILE_SIZES, level.tiles.iter().map(|tile| tile.1), is_big));
+            tags.push(Tag::long(tag::WIDTH, level.columns as u32));
+            tags.push(Tag::long(tag::LENGTH, level.rows as u32));
+            if k == 0 {
+                tags.extend_from_slice(&self.own);
+            } else {
+                tags.push(Tag::long(tag::KIND, tag::REDUCED));
+            }
+            head.extend(directory(tags, head.len() as u64, k + 1 < self.levels.len(), is_big));
+        }
+        head
+    }
 }
 
-/// Replaces the numbers of a row by what compresses well: bytes of equal weight together, the highest first, each as the difference from
-/// the one before.
-fn predict(numbers: &mut [u8], row: &mut [u8], size: usize) {
-    let count = numbers.len() / size;
-    for (k, number) in numbers.chunks_exact(size).enumerate() {
-        for (weight, &byte) in number.iter().rev().enumerate() {
-            row[weight * count + k] = byte;
-        }
+impl Level {
+    fn new(columns: usize, rows: usize) -> Self {
+        Self { columns, rows, band: Vec::new(), upper: None, tiles: Vec::new() }
     }
-    numbers[0] = row[0];
-    for k in 1..row.len() {
-        numbers[k] = row[k].wrapping_sub(row[k - 1]);
+
+    /// Goes over the tiles in a file, and says where they begin.
+    fn advance(&self, position: &mut u64) -> u64 {
+        let start = *position;
+        *position += self.tiles.iter().map(|tile| tile.1).sum::<u64>();
+        start
     }
 }
 
@@ -284,17 +248,18 @@ fn predict(numbers: &mut [u8], row: &mut [u8], size: usize) {
 mod tests {
     use std::io::Cursor;
 
-    use super::Writer;
+    use super::{SMALL, Writer};
     use crate::raster::{RasterInfo, Sample, placed, tiff::read};
 
     #[test]
     fn large_files_are_read_as_small_ones() {
-        let grid = placed([10.0, 20.0], [0.5, -0.5], 70, 150).expect("a raster");
-        let values: Vec<f64> = (0..70 * 150).map(|i| f64::from(i).sqrt()).collect();
+        let grid = placed([10.0, 20.0], [0.5, -0.5], 700, 150).expect("a raster");
+        let values: Vec<f64> = (0..700 * 150).map(|i| f64::from(i).sqrt()).collect();
         for sample in [Sample::F64, Sample::F32, Sample::U8] {
             let info = RasterInfo { sample, ..RasterInfo::new(grid) };
-            let [small, big] = [f64::INFINITY, 0.0].map(|most| {
-                let mut writer = Writer::create_above(most, Cursor::new(Vec::new()), &info).expect("begun");
+            let [small, big] = [SMALL, 0].map(|most| {
+                let mut writer = Writer::create(Cursor::new(Vec::new()), &info).expect("begun");
+                writer.small = most;
                 writer.write_rows(&values, 0).expect("written");
                 writer.finish().expect("finished").into_inner()
             });
