@@ -14,6 +14,7 @@ mod dtm;
 #[cfg(feature = "experiments")]
 mod experiment;
 mod files;
+mod folders;
 mod furthest;
 mod generate;
 mod graph;
@@ -77,8 +78,7 @@ fn main() -> ExitCode {
     cli.epsg.into_iter().for_each(files::say_system);
     threads::start(cli.threads, quiet);
     let mut command = cli.command;
-    let may_be_tiles = matches!(command, Command::Info(_) | Command::Check(_));
-    if let Some(Err(failure)) = command.input().map(|input| input.expand(may_be_tiles)) {
+    if let Err(failure) = folders::expand(&mut command) {
         return failure.report();
     }
     let result = match command {

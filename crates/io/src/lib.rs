@@ -22,6 +22,7 @@ mod graph;
 mod guard;
 mod input;
 mod iteration;
+mod limit;
 mod mesh;
 mod middles;
 mod output;
@@ -52,10 +53,11 @@ pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing, Rings};
 pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
+pub use limit::limit_output;
 pub use mesh::{Constraints, Drawable, Mesh, Rows, write_mesh};
 pub use output::{
-    Finished, Output, TemporaryFolder, followed, give_names, limit_output, remove_unfinished, sync_file,
-    sync_folder, wait_for_names,
+    Finished, Output, TemporaryFolder, followed, give_names, remove_unfinished, sync_file, sync_folder,
+    wait_for_names,
 };
 pub use patches::{Patches, write_patches};
 pub use raster::{

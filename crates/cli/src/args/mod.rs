@@ -5,7 +5,6 @@ mod alpha;
 mod ask;
 #[cfg(feature = "experiments")]
 mod experiment;
-mod folders;
 mod formats;
 mod graph;
 mod las;

@@ -1,8 +1,8 @@
 //! FlatGeobuf: a header, perhaps an index, and then features, each a buffer of FlatBuffers. Read from front to back, a feature at a time;
 //! the index is passed over, and none is written.
 //!
-//! Source: <https://flatgeobuf.org/#specification>, version 3. Read and written by hand: the crate for it brings twenty others, and
-//! trusts the counts of a file.
+//! Source: <https://flatgeobuf.org/#specification>, version 3. Read and written by hand: the crate for it depends on geozero, geo-traits and one version of
+//! flatbuffers.
 
 mod read;
 mod tables;

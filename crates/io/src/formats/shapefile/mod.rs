@@ -1,7 +1,8 @@
 //! Shapefiles: geometries in `.shp`, and beside it their attributes in `.dbf`, how letters are meant in `.cpg`, the system in `.prj`. The
 //! index `.shx` is not needed: records are read one after another.
 //!
-//! Source: "ESRI Shapefile Technical Description", 1998. Read by hand: the crate for it allocates what a file claims.
+//! Source: "ESRI Shapefile Technical Description", 1998. Read by hand, a record at a time, so that memory stays in
+//! proportion to the file.
 
 mod rings;
 mod system;

@@ -16,7 +16,7 @@ use super::halves::{half, halved};
 use super::tile::Shape;
 use super::{place, tag};
 use crate::crs::keys::encode;
-use crate::output::Counted;
+use crate::limit::Counted;
 use crate::raster::{RasterInfo, Sample};
 use crate::{Error, Format};
 
