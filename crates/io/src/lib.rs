@@ -20,6 +20,7 @@ mod graph;
 mod guard;
 mod input;
 mod iteration;
+mod limit;
 mod mesh;
 mod middles;
 mod output;
@@ -48,15 +49,17 @@ pub use formats::voronoi::{write_voronoi_edge, write_voronoi_node};
 pub use graph::{Attributes, Graph, GraphRing};
 pub use input::{decompressed, trust_compressed};
 pub use iteration::{next_file, next_stem};
+pub use limit::limit_output;
 pub use mesh::{Constraints, Drawable, Mesh, write_mesh};
 pub use output::{
-    Finished, Output, TemporaryFolder, followed, give_names, limit_output, remove_unfinished, sync_file,
-    sync_folder, wait_for_names,
+    Finished, Output, TemporaryFolder, followed, give_names, remove_unfinished, sync_file, sync_folder,
+    wait_for_names,
 };
 pub use patches::{Patches, write_patches};
 pub use raster::{
-    ASC_NODATA, Compression, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
-    beside_raster_name, besides_of_raster, read_raster, read_surface,
+    ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
+    ReliefRows, Sample, ShadeWriter, beside_raster, beside_raster_name, besides_of_raster, read_raster,
+    read_raster_place, read_surface,
 };
 pub use solid::{Solid, write_solid};
 pub use trim::{Border, Cut, Trim};

@@ -3,7 +3,6 @@
 //! What is no file (a device, a pipe) is written straight; a name that points elsewhere is followed; a file keeps its
 //! mode and its owner, and, if it has several names, all of them.
 
-mod limit;
 mod naming;
 mod staging;
 
@@ -15,12 +14,11 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 
 use crate::format::is_gzip;
+use crate::limit::Counted;
 
-pub use limit::limit_output;
 pub use naming::{Finished, give_names, wait_for_names};
 pub use staging::{TemporaryFolder, remove_unfinished};
 
-pub(crate) use limit::Counted;
 use naming::{How, Staged};
 
 /// Bytes that are gathered before they are written.
