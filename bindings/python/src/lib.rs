@@ -59,6 +59,7 @@ fn package(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(terrain::paint, m)?)?;
     m.add_function(wrap_pyfunction!(terrain::contour_lines, m)?)?;
     m.add_function(wrap_pyfunction!(terrain::contour_bands, m)?)?;
+    m.add_function(wrap_pyfunction!(terrain::settled, m)?)?;
     m.add_function(wrap_pyfunction!(terrain::thin, m)?)?;
     m.add_function(wrap_pyfunction!(pool::after_fork, m)?)?;
     m.add_function(wrap_pyfunction!(hull::convex_hull, m)?)?;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use delone::surface::{Contours, Grid, Levels, Thinned, Thinning, rasterize};
+use delone::surface::{Contours, Duplicates, Grid, Levels, Thinned, Thinning, rasterize};
 use delone::{Ask, Bounds, Constrained2, Crossings, Error, Triangulation as Triangular, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -245,6 +245,31 @@ pub fn contour_bands<'py>(
     })?;
     let [rings, polygons, bands] = starts.map(|starts| PyArray1::from_vec(py, starts));
     Ok((table(py, 2, between)?, table(py, 2, points)?, rings, polygons, bands))
+}
+
+/// Heights after a rule for places at which there are several points: pairs of a point and the vertex that it equals.
+#[pyfunction]
+pub fn settled<'py>(
+    py: Python<'py>,
+    heights: PyReadonlyArray1<'py, f64>,
+    pairs: PyReadonlyArray2<'py, i32>,
+    rule: &str,
+) -> PyResult<Column<'py, f64>> {
+    let rule = match rule {
+        "lowest" => Duplicates::Lowest,
+        "first" => Duplicates::First,
+        "highest" => Duplicates::Highest,
+        "mean" => Duplicates::Mean,
+        other => return Err(PyValueError::new_err(format!("there is no rule {other:?}"))),
+    };
+    let mut heights = heights.to_vec()?;
+    let pairs = pairs.to_vec()?;
+    let index = |i: i32| usize::try_from(i).ok().filter(|&i| i < heights.len());
+    let pairs: Option<Vec<(usize, usize)>> =
+        pairs.as_chunks().0.iter().map(|&[point, vertex]| index(point).zip(index(vertex))).collect();
+    let pairs = pairs.ok_or_else(|| PyValueError::new_err("pairs of points that there are not"))?;
+    rule.settle(&mut heights, pairs);
+    Ok(PyArray1::from_vec(py, heights))
 }
 
 /// The points that are left, their triangles by their rows, and the largest error.

@@ -430,3 +430,19 @@ def test_values_on_the_border_and_beyond():
         assert np.isnan(f([[9.0, 9.0]])).all() and np.isfinite(beyond([[9.0, 9.0], [-50, 3]])).all()
     weights = delone.LinearNDInterpolator([[0, 0], [4, 0], [0, 4]], [0, 1, 2], outside="hull").weights([[1.0, -7.0]])
     assert weights.toarray().tolist() == [[0.75, 0.25, 0.0]]
+
+
+def test_duplicates_have_one_rule():
+    corners = [[0, 0], [4, 0], [4, 4], [0, 4], [2, 2], [2, 2], [2, 2]]
+    z = [0.0, 0.0, 0.0, 0.0, 7.0, 3.0, 8.0]
+    place, shape = (4 / 3, 0, 0, 0, -4 / 3, 4), (3, 3)
+    for rule, height in {"lowest": 3.0, "first": 7.0, "highest": 8.0, "mean": 6.0}.items():
+        for points in (corners, delone.Delaunay(corners), delone.ConstrainedDelaunay(corners, [[0, 1]], fill="all")):
+            values = delone.rasterize(points, z, place, shape, duplicates=rule)
+            assert values[1, 1] == pytest.approx(height, rel=1e-12)
+            assert delone.contours(points, z, levels=[height - 0.5], duplicates=rule)
+            assert not delone.contours(points, z, levels=[height + 0.5], duplicates=rule)
+    assert delone.rasterize(corners, z, place, shape)[1, 1] == pytest.approx(3.0, rel=1e-12)
+    assert z[4] == 7.0
+    with pytest.raises(ValueError, match="duplicates must be one of"):
+        delone.rasterize(corners, z, place, shape, duplicates="middle")

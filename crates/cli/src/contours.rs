@@ -6,7 +6,6 @@ use delone_io::{Contents, ContourMap, Format, write_contours};
 
 use crate::args::ContoursArgs;
 use crate::files;
-use crate::heights::settle_equal;
 use crate::message::Failure;
 use crate::progress::Phase;
 use crate::room::{self, Room};
@@ -19,14 +18,14 @@ pub(crate) fn run(args: &ContoursArgs, quiet: bool) -> Result<(), Failure> {
     let mut stats = Stats::start();
     let (points, mut heights, about) = files::surface(&args.input, quiet)?;
     stats.phase("read");
-    settle_equal(&points, &mut heights, args.duplicates);
+    args.duplicates.rule().settle_equal(&points, &mut heights);
     let label = args.input.label();
     let refused = |error| Failure::points(&label, &error);
     let d: Delaunay2 = room::build(&points, Delaunay2::FASTEST, &label, quiet)?;
     room::remark(&d, quiet);
     stats.phase("build");
     stats.triangulation(&d, d.counters());
-    let trim = room::trim(&d, args.max_edge, &mut stats);
+    let trim = room::trim_border(&d, &args.edges.border(), &mut stats, quiet);
     let phase = Phase::start(quiet, "drawing contours");
     let kept = |t: delone::TriangleId| trim.as_ref().is_none_or(|trim| trim.keeps(t.index()));
     let surface = Contours::of_triangles(&d, &heights, kept).map_err(refused)?;

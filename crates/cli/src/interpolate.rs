@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use delone::surface::{Grid, Interpolator, Outside, gradients};
 use delone::{Delaunay2, Delaunay3, Error, Surround};
-use delone_io::{Cloud, Contents, Format, Found, RasterInfo, RasterWriter, write_array};
+use delone_io::{Cloud, Contents, Crs, Format, Found, RasterInfo, RasterWriter, write_array};
 
 use crate::args::{InterpolateArgs, MethodName, OutsideName};
 use crate::message::Failure;
+use crate::place::Place;
 use crate::progress::Phase;
 use crate::room::{self, Room};
 use crate::stats::Stats;
@@ -21,6 +22,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let stats_path = args.input.stats.as_deref();
     let mut inputs = args.input.paths();
     inputs.extend(args.queries.as_deref());
+    inputs.extend(args.place.like.as_deref());
     let files_of_values: Vec<&Path> =
         args.value.iter().map(Path::new).filter(|path| path.is_file()).collect();
     inputs.extend(&files_of_values);
@@ -28,9 +30,11 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let format = files::format(&args.output, args.to, "--to")?;
     check(args, format, R::is_space())?;
     let mut stats = Stats::start();
+    let place = Place::read(&args.place, quiet)?;
     let (points, about) = room::read::<R>(&args.input, quiet)?;
+    let crs = place.crs(about.crs.clone())?;
     let label = args.input.label();
-    let table = table(args, &about, points.len(), quiet)?;
+    let mut table = table(args, &about, points.len(), quiet)?;
     let columns = table.len();
     let mut of_queries = Cloud::default();
     let (queries, grid) = match (&args.queries, args.grid) {
@@ -40,15 +44,19 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
             (queries, None)
         }
         (None, size) => {
-            let bounds = room::bounds(&points, &label)?;
-            let grid =
-                Grid::aligned(&bounds, size.unwrap_or(1.0)).map_err(|e| Failure::points(&label, &e))?;
+            let grid = match place.given() {
+                Some(grid) => grid,
+                None => place
+                    .grid(&place.area(&room::bounds(&points, &label)?), size.unwrap_or(1.0))
+                    .map_err(|error| Failure::points(&label, &error))?,
+            };
             (centres::<R>(&grid, &label)?, Some(grid))
         }
     };
     stats.phase("read");
     let d: R = room::build(&points, R::FASTEST, &label, quiet)?;
     stats.phase("build");
+    table.iter_mut().for_each(|values| args.duplicates.rule().settle(values, room::duplicates(&d)));
     room::remark(&d, quiet);
     let phase = Phase::start(quiet, "interpolating");
     let failed = |error: Error| match (&args.queries, &error) {
@@ -73,7 +81,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
             let found = Found::Numbers(&values);
             queries::write(&args.output, format, &queries, &of_queries, (&names(args), found))?;
         }
-        (_, Some(grid)) => write_raster(args, format, grid, &about, &values, quiet)?,
+        (_, Some(grid)) => write_raster(args, format, grid, crs.as_ref(), &values, quiet)?,
     }
     stats.phase("write");
     stats.tell(quiet, R::WORDS.simplex);
@@ -81,17 +89,18 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
 }
 
 fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), Failure> {
-    if args.grid.is_some() && is_space {
+    let is_raster = args.grid.is_some() || args.place.like.is_some();
+    if is_raster && is_space {
         return Err(Failure::usage(
-            "--grid is for the plane",
+            "rasters are for the plane",
             "give places with --queries, or leave --dim 3 out",
         ));
     }
-    if args.grid.is_some() && args.value.len() > 1 {
+    if is_raster && args.value.len() > 1 {
         return Err(Failure::usage("a raster has one value", "give --value once, or places with --queries"));
     }
     args.compress.check([format])?;
-    if args.grid.is_none() {
+    if !is_raster {
         return queries::answer_format(&args.output, args.to).map(drop);
     }
     files::check_formats(&[(args.output.clone(), format)], &[Contents::Rasters])
@@ -204,13 +213,13 @@ fn write_raster(
     args: &InterpolateArgs,
     format: Format,
     grid: &Grid,
-    about: &Cloud,
+    crs: Option<&Crs>,
     values: &[f64],
     quiet: bool,
 ) -> Result<(), Failure> {
     let path = &args.output;
     let info = RasterInfo {
-        crs: about.crs.clone(),
+        crs: crs.cloned(),
         compression: args.compress.into(),
         scratch: files::scratch(path),
         ..RasterInfo::new(*grid)
@@ -222,5 +231,5 @@ fn write_raster(
         files::finish(writer.finish()?)
     };
     write().map_err(|error| files::cannot_write(path, error))?;
-    files::write_sides(path, format, about.crs.as_ref(), quiet)
+    files::write_sides(path, format, grid, crs, quiet)
 }

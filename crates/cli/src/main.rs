@@ -18,7 +18,6 @@ mod folders;
 mod furthest;
 mod generate;
 mod graph;
-mod heights;
 mod hull;
 mod info;
 mod instances;
@@ -31,11 +30,13 @@ mod message;
 mod nearest;
 mod orders;
 mod outcome;
+mod place;
 mod polygons;
 mod powers;
 mod progress;
 mod queries;
 mod reduce;
+mod relief;
 mod replay;
 mod room;
 mod signals;
@@ -109,6 +110,7 @@ fn main() -> ExitCode {
         Command::Furthest(args) => furthest::run(&args, quiet),
         Command::Voronoi(args) => voronoi::run(&args, quiet),
         Command::Contours(args) => contours::run(&args, quiet),
+        Command::Relief(args) => relief::run(&args, quiet),
         Command::Simplify(args) => simplify::run(&args, quiet),
         Command::Replay(args) => in_room!(replay, args, quiet),
         #[cfg(feature = "experiments")]

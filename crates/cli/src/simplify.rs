@@ -4,12 +4,11 @@ use std::path::Path;
 
 use delone::Delaunay2;
 use delone::surface::{Thinned, Thinning};
-use delone_io::{Border, Cloud, Graph, Raster, picture, write_mesh};
+use delone_io::{Cloud, Graph, Raster, picture, write_mesh};
 
 use crate::args::{CrossingsName, GraphArgs, SimplifyArgs};
 use crate::constrained::{self, Constrained};
 use crate::files;
-use crate::heights::settle_equal;
 use crate::message::{Failure, grouped, say};
 use crate::progress::Phase;
 use crate::room::{self, Room};
@@ -58,7 +57,7 @@ pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
         room::remark(&d, quiet);
         stats.phase("build");
         stats.triangulation(&d, d.counters());
-        let trim = room::trim(&d, args.max_edge, &mut stats);
+        let trim = room::trim_border(&d, &args.edges.border(), &mut stats, quiet);
         let mesh = room::mesh(&d, &about.xy, about, trim.as_ref());
         let _phase = Phase::start(quiet, "writing");
         for (path, format) in &outputs {
@@ -69,7 +68,7 @@ pub(crate) fn run(args: &SimplifyArgs, quiet: bool) -> Result<(), Failure> {
         let fill = (constrained::usual(&args.input, &graph), false);
         let label = args.input.label();
         let c = Constrained::of(graph, CrossingsName::Refuse, fill, &label, &mut stats, quiet)?;
-        c.write(&outputs, &Border::long_edges(args.max_edge), &options, &mut stats, quiet)?;
+        c.write(&outputs, &args.edges.border(), &options, &mut stats, quiet)?;
     }
     stats.tell(quiet, Delaunay2::WORDS.simplex);
     stats.write(stats_path)
@@ -100,7 +99,7 @@ impl Given {
             let mut graph = files::graph(&args.input, args.segments.as_deref(), quiet)?;
             files::need_heights(graph.cloud.z.as_deref(), &args.input.label())?;
             if let Some(heights) = &mut graph.cloud.z {
-                settle_equal(&graph.cloud.xy, heights, args.duplicates);
+                args.duplicates.rule().settle_equal(&graph.cloud.xy, heights);
             }
             return Ok(Self::Points(Box::new(graph)));
         }
@@ -108,7 +107,7 @@ impl Given {
             return Ok(Self::Raster(raster));
         }
         let (xy, mut z, about) = files::surface(&args.input, quiet)?;
-        settle_equal(&xy, &mut z, args.duplicates);
+        args.duplicates.rule().settle_equal(&xy, &mut z);
         Ok(Self::Points(Box::new(Graph::of_points(Cloud { xy, z: Some(z), ..about }))))
     }
 

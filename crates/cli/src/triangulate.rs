@@ -58,10 +58,13 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &args.input.paths())?)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
-    let (points, about) = room::read::<R>(&args.input, quiet)?;
+    let (points, mut about) = room::read::<R>(&args.input, quiet)?;
     stats.phase("read");
     let d: R = room::build(&points, plan.algorithm, &args.input.label(), quiet)?;
     stats.phase("build");
+    if let Some(heights) = &mut about.z {
+        args.duplicates.rule().settle(heights, room::duplicates(&d));
+    }
     let name = |value: &dyn Fn() -> Option<clap::builder::PossibleValue>| {
         value().map(|value| value.get_name().to_owned())
     };

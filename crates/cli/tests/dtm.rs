@@ -20,7 +20,7 @@ fn array(bytes: &[u8]) -> (Vec<usize>, Vec<f64>) {
     (shape, values)
 }
 
-fn raster(place: &Place, name: &str) -> (usize, usize, Vec<f64>) {
+pub(crate) fn raster(place: &Place, name: &str) -> (usize, usize, Vec<f64>) {
     let (shape, values) = array(&fs::read(place.path(name)).expect("a raster"));
     (shape[0], shape[1], values)
 }
@@ -68,7 +68,7 @@ fn tiles_do_not_show() {
         let cell = (bounds.high[0] - bounds.low[0]).max(bounds.high[1] - bounds.low[1]) / 37.0;
         for (m, method) in ["linear", "natural", "laplace", "nearest"].into_iter().enumerate() {
             let rule = ["lowest", "first", "highest", "mean"][(k + m) % 4];
-            let long = if m % 2 == 0 { String::new() } else { format!("--max-edge {}", 9.0 * cell) };
+            let long = if m % 2 == 0 { String::new() } else { format!("--max-edge-anywhere {}", 9.0 * cell) };
             let common = format!("-q dtm p.csv --cell {cell} --method {method} --duplicates {rule} {long}");
             place.succeed(&format!("{common} -o a.npy -o a.asc"));
             for tile in [40, 150, 1000] {
@@ -231,7 +231,7 @@ fn lines_and_polygons() {
     assert!(told.contains("differ by up to 4"), "{told}");
     // Without long triangles at the border, or anywhere.
     place.file("p.csv", format!("{slope}60,5,0\n"));
-    for option in ["--carve 2", "--max-edge 2"] {
+    for option in ["--carve 2", "--max-edge 2", "--max-edge-anywhere 2"] {
         place.succeed(&format!("-q dtm p.csv --cell 1 {option} -o a.npy"));
         assert_eq!(raster(&place, "a.npy").2.iter().filter(|z| !z.is_nan()).count(), 100, "{option}");
     }

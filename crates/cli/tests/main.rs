@@ -21,6 +21,7 @@ mod outputs;
 mod outside;
 mod place;
 mod program;
+mod rasters;
 mod resume;
 mod segments;
 mod slivers;

@@ -16,8 +16,8 @@ use given::{Given, Map, Set, Shape, compare, integers, lattice, uniform};
 use table::{PLANE, Row, SPACE};
 
 /// Commands that give no geometry, or none of points that they are given.
-const OTHERS: [&str; 9] =
-    ["check", "completions", "experiment", "generate", "help", "info", "man", "reduce", "version"];
+const OTHERS: [&str; 10] =
+    ["check", "completions", "experiment", "generate", "help", "info", "man", "reduce", "relief", "version"];
 
 /// Shapes in an order of their own.
 fn outcome(row: &Row, set: &Set, map: Map, which: &[usize], words: &str) -> Vec<Shape> {

@@ -61,8 +61,9 @@ pub use output::{
 };
 pub use patches::{Patches, write_patches};
 pub use raster::{
-    ASC_NODATA, Compression, Light, Raster, RasterInfo, RasterWriter, Sample, ShadeWriter, beside_raster,
-    beside_raster_name, besides_of_raster, read_raster, read_surface,
+    ASC_NODATA, Compression, Light, Overviews, Raster, RasterInfo, RasterWriter, Relief, ReliefKind,
+    ReliefRows, Sample, ShadeWriter, beside_raster, beside_raster_name, besides_of_raster, read_raster,
+    read_raster_place, read_surface,
 };
 pub use solid::{Solid, write_solid};
 pub use trim::{Border, Cut, Trim};

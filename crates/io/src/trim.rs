@@ -18,6 +18,8 @@ pub struct Trim {
 pub struct Border {
     /// Simplices with a longer edge.
     pub longest: Option<f64>,
+    /// Whether simplices with a longer edge go wherever they are, not from the border inwards alone.
+    pub is_anywhere: bool,
     /// Triangles whose height over their longest edge is smaller than this part of it.
     pub slivers: Option<f64>,
 }
@@ -34,7 +36,7 @@ pub struct Cut {
 impl Border {
     /// Long edges alone.
     pub fn long_edges(longest: Option<f64>) -> Self {
-        Self { longest, slivers: None }
+        Self { longest, ..Self::default() }
     }
 }
 
@@ -67,15 +69,22 @@ impl Trim {
     ) -> Self {
         let facets = 0..=T::Point::COUNT;
         let at_border = |s: &T::Simplex| facets.clone().any(|k| t.across(*s, k).is_none());
+        let points = |s: T::Simplex| -> Vec<T::Point> {
+            t.corners(s).as_ref().iter().filter_map(|&v| t.position(v)).collect()
+        };
+        let is_long =
+            |points: &[T::Point]| rule.longest.is_some_and(|longest| longest_side(points) > longest);
         let mut waiting: VecDeque<T::Simplex> = t.simplices().filter(at_border).collect();
+        if rule.is_anywhere {
+            waiting.extend(t.simplices().filter(|&s| is_long(&points(s))));
+        }
         let mut trim = Self::new(t);
         while let Some(s) = waiting.pop_front() {
             if !trim.keeps(t.index(s)) {
                 continue;
             }
-            let corners = t.corners(s);
-            let points: Vec<T::Point> = corners.as_ref().iter().filter_map(|&v| t.position(v)).collect();
-            let is_long = rule.longest.is_some_and(|longest| longest_side(&points) > longest);
+            let points = points(s);
+            let is_long = is_long(&points);
             let is_flat = || rule.slivers.is_some_and(|ratio| slenderness(&points) < ratio);
             let is_sliver = !is_long && is_flat() && may_go_as_sliver(s);
             if is_long || is_sliver {
@@ -186,6 +195,14 @@ mod tests {
             .collect();
         let d = Delaunay2::from_points(&ring).expect("finite");
         assert_eq!(Trim::long_edges(&d, 2.0).count(), 0);
+        let anywhere = Border { is_anywhere: true, ..Border::long_edges(Some(2.0)) };
+        let trim = Trim::along_border(&d, &anywhere, |_| true);
+        let is_long = |t: &delone::TriangleId| {
+            let [a, b, c] = d.mesh().corners(*t).map(|v| d.point(v));
+            [[a, b], [b, c], [c, a]].iter().any(|[p, q]| (p[0] - q[0]).hypot(p[1] - q[1]) > 2.0)
+        };
+        assert!(trim.count() > 0);
+        assert!(d.triangle_ids().all(|t| trim.keeps(t.index()) != is_long(&t)));
     }
 
     #[test]

@@ -40,6 +40,7 @@ __all__ = [
     "neighbors_of",
     "paint",
     "proximity_graph",
+    "settled",
     "sides",
     "thin",
     "transforms",
@@ -283,6 +284,7 @@ def contour_bands(
     wanted: tuple[list[float] | None, float, float, float],
     mask: NDArray[np.bool_] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
+def settled(heights: NDArray[np.float64], pairs: NDArray[np.int32], rule: str) -> NDArray[np.float64]: ...
 def thin(
     points: NDArray[np.float64],
     heights: NDArray[np.float64],

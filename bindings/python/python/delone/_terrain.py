@@ -14,6 +14,7 @@ from ._delaunay import Delaunay
 from ._points import as_choice, as_flag, as_index, as_numbers, as_points, as_segments
 
 Transform = tuple[float, float, float, float, float, float]
+Rule = Literal["lowest", "first", "highest", "mean"]
 
 
 def rasterize(
@@ -25,6 +26,7 @@ def rasterize(
     cell: float | None = None,
     method: Literal["linear", "sibson", "laplace", "nearest"] = "linear",
     max_edge: float | None = None,
+    duplicates: Rule = "lowest",
     nodata: float = np.nan,
     dtype: DTypeLike = np.float64,
     as_xarray: bool = False,
@@ -50,6 +52,8 @@ def rasterize(
         How heights come about; all have values in the same cells.
     max_edge : float, optional
         Triangles with a longer edge are left out.
+    duplicates : "lowest", "first", "highest" or "mean"
+        Which height a place has at which there are several points.
     nodata : number
         What is in cells without a height.
     dtype : float64 or float32
@@ -87,7 +91,7 @@ def rasterize(
         rows, columns = _shape(shape)
     elif transform is not None or shape is not None:
         raise ValueError("cell is instead of transform and shape")
-    sheet, mask, heights, at = _sheet(points, z)
+    sheet, mask, heights, at = _sheet(points, z, duplicates)
     if isinstance(sheet, _delone.Constrained) and method_ != "linear":
         raise ValueError(f'method must be "linear" for a ConstrainedDelaunay, not {method_!r}')
     most = _positive(max_edge, "max_edge")
@@ -164,6 +168,7 @@ def contours(
     base: float = 0.0,
     bands: bool = False,
     max_edge: float | None = None,
+    duplicates: Rule = "lowest",
 ) -> list[Any]:
     """Lines of equal height, or the areas between them, of the surface that is linear in triangles.
 
@@ -183,6 +188,8 @@ def contours(
         Whether the areas below, between and above the levels are wanted instead of lines.
     max_edge : float, optional
         Triangles with a longer edge are left out.
+    duplicates : "lowest", "first", "highest" or "mean"
+        Which height a place has at which there are several points.
 
     Returns
     -------
@@ -211,7 +218,7 @@ def contours(
     if given is not None and given.ndim > 1:
         raise ValueError(f"levels must be a number or a list of numbers, not an array of the shape {given.shape}")
     most = _positive(max_edge, "max_edge")
-    sheet, mask, heights, _ = _sheet(points, z)
+    sheet, mask, heights, _ = _sheet(points, z, duplicates)
     wanted = (
         None if given is None else given.tolist(),
         0.0 if interval is None else float(interval),
@@ -291,21 +298,29 @@ def simplify(
 
 
 def _sheet(
-    points: ArrayLike | Delaunay | ConstrainedDelaunay, z: ArrayLike
+    points: ArrayLike | Delaunay | ConstrainedDelaunay, z: ArrayLike, rule: Rule
 ) -> tuple[_delone.Triangulation | _delone.Constrained, NDArray[np.bool_] | None, NDArray[np.float64], NDArray[np.float64]]:
     """A triangulation, which of its triangles count, heights and points."""
+    rule_ = as_choice(rule, ("lowest", "first", "highest", "mean"), "duplicates")
     if isinstance(points, ConstrainedDelaunay):
         mask = None if points.fill == "all" else np.ascontiguousarray(points.inside)
-        return points._core, mask, _heights(z, points.npoints), points.points
+        return points._core, mask, _settled(points._core, _heights(z, points.npoints), rule_), points.points
     if not isinstance(points, Delaunay):
         at = as_points(points, columns=2)
         heights = _heights(z, len(at))
-        return Delaunay(at)._core, None, heights, at
+        core = Delaunay(at)._core
+        return core, None, _settled(core, heights, rule_), at
     if points.furthest_site:
         raise ValueError("heights need a triangulation of nearest sites, not of furthest ones")
     if points.ndim != 2:
         raise ValueError("heights are at points of the plane: give x and y as points, and the heights as z")
-    return points._core, None, _heights(z, points.npoints), points.points
+    return points._core, None, _settled(points._core, _heights(z, points.npoints), rule_), points.points
+
+
+def _settled(core: _delone.Triangulation | _delone.Constrained, heights: NDArray[np.float64], rule: str) -> NDArray[np.float64]:
+    """Heights of vertices, where points equal these."""
+    pairs = core.duplicates()
+    return _delone.settled(heights, pairs, rule) if len(pairs) else heights
 
 
 def _heights(z: ArrayLike, count: int) -> NDArray[np.float64]:

@@ -3,12 +3,15 @@
 
 mod alpha;
 mod ask;
+mod edges;
 #[cfg(feature = "experiments")]
 mod experiment;
 mod formats;
 mod graph;
 mod las;
+mod light;
 mod mesh;
+mod place;
 mod points;
 mod polygons;
 mod proximity;
@@ -30,12 +33,15 @@ use delone_io::{Contents, Crs, Format};
 
 pub(crate) use alpha::AlphaArgs;
 pub(crate) use ask::{FurthestArgs, LocateArgs, NearestArgs, QueryArgs, ReplayArgs};
+pub(crate) use edges::EdgeArgs;
 #[cfg(feature = "experiments")]
 pub(crate) use experiment::ExperimentArgs;
 pub(crate) use formats::{IN_SPACE, IN_THE_PLANE};
 pub(crate) use graph::{CrossingsName, FillName, GraphArgs};
 use las::LasArgs;
+pub(crate) use light::{LightArgs, ReliefArgs, ReliefName};
 pub(crate) use mesh::{ColorName, KeepName, MeshArgs};
+pub(crate) use place::PlaceArgs;
 pub(crate) use points::{CheckArgs, GenerateArgs, InfoArgs, ReduceArgs};
 pub(crate) use polygons::{PolygonFill, PolygonsArgs};
 pub(crate) use proximity::{ProximityArgs, ProximityName};
@@ -115,6 +121,8 @@ pub(crate) enum Command {
     Voronoi(VoronoiArgs),
     /// Lines of equal height of points with heights or rasters, and the areas between them.
     Contours(ContoursArgs),
+    /// Hillshade, slope or aspect of a raster of heights.
+    Relief(ReliefArgs),
     /// Thin points with heights or rasters: a mesh of few of them that is near all others.
     Simplify(SimplifyArgs),
     /// Insert, remove, move and ask, as a text file says, one operation a line.

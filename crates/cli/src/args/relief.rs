@@ -6,7 +6,7 @@ use clap::Args;
 use delone_io::{Contents, Format};
 
 use super::formats;
-use super::{DuplicatesName, InputArgs, WktArgs, count, length};
+use super::{DuplicatesName, EdgeArgs, InputArgs, WktArgs, count};
 
 /// Contours.
 #[derive(Debug, Args)]
@@ -51,9 +51,8 @@ pub(crate) struct ContoursArgs {
     /// Write the areas between heights.
     #[arg(long)]
     pub(crate) bands: bool,
-    /// Leave out triangles with an edge longer than this, from the hull inwards.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub(crate) max_edge: Option<f64>,
+    #[command(flatten)]
+    pub(crate) edges: EdgeArgs,
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) size: u32,
@@ -98,7 +97,6 @@ pub(crate) struct SimplifyArgs {
     /// Write the indices of the points that are left, of rasters among the cells with data, row by row (npy csv).
     #[arg(long, value_name = "FILE")]
     pub(crate) kept: Option<PathBuf>,
-    /// Leave out triangles with an edge longer than this, from the hull inwards.
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub(crate) max_edge: Option<f64>,
+    #[command(flatten)]
+    pub(crate) edges: EdgeArgs,
 }

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use delone::surface::Duplicates;
 use delone_io::{Compression, Contents, Format};
 
 use super::formats;
-use super::{DimArgs, InputArgs, length, tiles::size};
+use super::{DimArgs, EdgeArgs, InputArgs, LightArgs, PlaceArgs, tiles::size};
 use crate::message::Failure;
 
 /// How values between points come about.
@@ -48,6 +49,18 @@ pub(crate) enum DuplicatesName {
     Mean,
 }
 
+impl DuplicatesName {
+    /// The rule of the library.
+    pub(crate) fn rule(self) -> Duplicates {
+        match self {
+            Self::Lowest => Duplicates::Lowest,
+            Self::First => Duplicates::First,
+            Self::Highest => Duplicates::Highest,
+            Self::Mean => Duplicates::Mean,
+        }
+    }
+}
+
 /// How GeoTIFF is compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CompressName {
@@ -87,9 +100,12 @@ impl From<CompressName> for Compression {
   delone dtm survey/ --cell 0.5 --memory 2G -o dem.tif
   delone dtm ground.csv --cell 1 --method natural --breaklines ridges.geojson -o dem.asc
   delone dtm tile.laz --all-classes --cell 1 --max-edge 50 --clip area.geojson -o surface.npy
+  delone dtm tile.laz --cell 1 --extent 500000,5400000,501000,5401000 -o dem.tif
+  delone dtm later.laz --like dem.tif -o later.tif
 
 Outputs by extension: tif (Cloud Optimized GeoTIFF), asc (ESRI), npy (float64, rows from north to south, NaN for no data) are the heights; png
-is a hillshade; geojson, fgb and gpkg have contours, lines with their elevation. Cells begin at multiples of their size, values are those of centres.
+is a hillshade; geojson, fgb and gpkg have contours, lines with their elevation. Cells begin at multiples of their size, or those from
+--origin, around the points or --extent; --like takes the cells of another raster. Values are those of centres.
 Of LAS and LAZ files ground (class 2) is taken unless --class or --all-classes says otherwise; a folder stands for all such files in it.
 With --memory work is done in tiles on disk, beside the first output: the same values, bit for bit.
 
@@ -110,8 +126,16 @@ pub(crate) struct DtmArgs {
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
     /// The side of a cell, in coordinate units [default: about one point a cell].
-    #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "SIZE",
+        allow_negative_numbers = true,
+        conflicts_with = "like",
+        help_heading = "Cells"
+    )]
     pub(crate) cell: Option<f64>,
+    #[command(flatten)]
+    pub(crate) place: PlaceArgs,
     /// How heights between points come about.
     #[arg(long, value_name = "METHOD", default_value = "linear")]
     pub(crate) method: MethodName,
@@ -121,12 +145,8 @@ pub(crate) struct DtmArgs {
     /// Which height counts where points have the same x and y.
     #[arg(long, value_name = "RULE", default_value = "lowest")]
     pub(crate) duplicates: DuplicatesName,
-    /// No heights in triangles with a longer edge.
-    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Borders")]
-    pub(crate) max_edge: Option<f64>,
-    /// The same, but only from the border inwards: gaps in the middle are filled.
-    #[arg(long, value_name = "LENGTH", value_parser = length, help_heading = "Borders", conflicts_with = "memory")]
-    pub(crate) carve: Option<f64>,
+    #[command(flatten)]
+    pub(crate) edges: EdgeArgs,
     /// Polygons around heights.
     #[arg(
         long, value_name = "FILE", help_heading = "Borders",
@@ -154,6 +174,8 @@ pub(crate) struct DtmArgs {
     /// How GeoTIFF is compressed.
     #[arg(long, value_name = "HOW", default_value = "deflate")]
     pub(crate) compress: CompressName,
+    #[command(flatten)]
+    pub(crate) light: LightArgs,
     /// The distance of contours in height [default: about ten of them].
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true)]
     pub(crate) interval: Option<f64>,
@@ -171,6 +193,7 @@ pub(crate) struct DtmArgs {
   delone interpolate stations.csv --value temperature --queries places.csv -o at-places.csv
   delone interpolate stations.csv --value temperature --value rain --queries places.npy --method natural -o values.npy
   delone interpolate stations.csv --value temperature --grid 100 -o temperature.tif
+  delone interpolate stations.csv --value temperature --like dem.tif -o temperature.tif
   delone interpolate sites.csv --dim 3 --value grade --queries blocks.csv -o grades.csv
 
 Of several values the answers are columns. Outside of the hull of the points there is NaN, unless --outside says otherwise: `nearest` goes
@@ -186,11 +209,25 @@ pub(crate) struct InterpolateArgs {
     #[arg(long, value_name = "COLUMN|FILE")]
     pub(crate) value: Vec<String>,
     /// File of places to interpolate at.
-    #[arg(long, value_name = "FILE", required_unless_present = "grid", conflicts_with = "grid")]
+    #[arg(
+        long, value_name = "FILE", required_unless_present_any = ["grid", "like"],
+        conflicts_with_all = ["grid", "like", "extent", "origin"]
+    )]
     pub(crate) queries: Option<PathBuf>,
     /// Interpolate at the centres of the cells of a raster, whose side this is.
-    #[arg(long, value_name = "SIZE", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "SIZE",
+        allow_negative_numbers = true,
+        conflicts_with = "like",
+        help_heading = "Cells"
+    )]
     pub(crate) grid: Option<f64>,
+    #[command(flatten)]
+    pub(crate) place: PlaceArgs,
+    /// Which value a place has at which there are several points.
+    #[arg(long, value_name = "RULE", default_value = "lowest")]
+    pub(crate) duplicates: DuplicatesName,
     /// How values between points come about.
     #[arg(long, value_name = "METHOD", default_value = "natural")]
     pub(crate) method: MethodName,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use delone::surface::Duplicates;
 use delone_io::Format;
 
 use super::{InputArgs, WktArgs, count};
@@ -67,8 +68,8 @@ pub(crate) struct TilesArgs {
     #[arg(long, value_name = "N", value_parser = count)]
     pub(crate) tile: Option<usize>,
     /// Which height counts where points are equal.
-    #[arg(skip = super::DuplicatesName::First)]
-    pub(crate) duplicates: super::DuplicatesName,
+    #[arg(skip = Duplicates::First)]
+    pub(crate) duplicates: Duplicates,
 }
 
 /// Cut a part, or an overview, out of a folder of tiles.

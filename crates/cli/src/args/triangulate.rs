@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use delone_io::{Border, Contents, Format};
 
 use super::formats;
-use super::{DimArgs, GraphArgs, InputArgs, StrategyArgs, WeightArgs, WktArgs, length};
+use super::{DimArgs, DuplicatesName, GraphArgs, InputArgs, StrategyArgs, WeightArgs, WktArgs, length};
 
 /// Triangulate points.
 #[derive(Debug, Args)]
@@ -51,6 +51,9 @@ pub(crate) struct TriangulateArgs {
     pub(crate) wkt: WktArgs,
     #[command(flatten)]
     pub(crate) dim: DimArgs,
+    /// In the plane, which height a place has at which there are several points.
+    #[arg(long, value_name = "RULE", default_value = "lowest")]
+    pub(crate) duplicates: DuplicatesName,
     /// Algorithm; the result is the same [default: divide-conquer in the plane, incremental in space].
     #[arg(long, value_name = "NAME")]
     pub(crate) algorithm: Option<AlgorithmName>,
@@ -87,7 +90,7 @@ pub(crate) struct TriangulateArgs {
 impl TriangulateArgs {
     /// What is left out along the border.
     pub(crate) fn border(&self) -> Border {
-        Border { longest: self.max_edge, slivers: self.drop_slivers }
+        Border { slivers: self.drop_slivers, ..Border::long_edges(self.max_edge) }
     }
 }
 

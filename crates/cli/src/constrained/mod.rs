@@ -5,6 +5,7 @@ mod values;
 
 use std::path::{Path, PathBuf};
 
+use delone::surface::Duplicates;
 use delone::{
     Constrained2, Counters, Crossings, Domains2, Fill, Merges, Seeds2, SegmentId, TriangleId, Triangulation,
     VertexId,
@@ -38,7 +39,8 @@ pub(crate) fn triangulate(args: &TriangulateArgs, quiet: bool) -> Result<(), Fai
     room::check_formats::<delone::Delaunay2>(&outputs)?;
     files::keep_attributes(Contents::Triangles);
     let mut stats = Stats::start();
-    let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
+    let rule = args.duplicates.rule();
+    let c = Constrained::read(&args.input, &args.graph, rule, &mut stats, quiet)?;
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         c.triangulation.check().map_err(|flaw| {
@@ -63,7 +65,8 @@ pub(crate) fn draw(
     quiet: bool,
 ) -> Result<(), Failure> {
     let mut stats = Stats::start();
-    let c = Constrained::read(&args.input, &args.graph, &mut stats, quiet)?;
+    let rule = Duplicates::default();
+    let c = Constrained::read(&args.input, &args.graph, rule, &mut stats, quiet)?;
     c.write(outputs, &Border::long_edges(args.max_edge), options, &mut stats, quiet)?;
     stats.tell(quiet, ["triangle", "triangles"]);
     stats.write(args.input.stats.as_deref())
@@ -86,10 +89,14 @@ impl Constrained {
     pub(crate) fn read(
         input: &InputArgs,
         args: &GraphArgs,
+        rule: Duplicates,
         stats: &mut Stats,
         quiet: bool,
     ) -> Result<Self, Failure> {
-        let graph = files::graph(input, args.segments.as_deref(), quiet)?;
+        let mut graph = files::graph(input, args.segments.as_deref(), quiet)?;
+        if let Some(heights) = &mut graph.cloud.z {
+            rule.settle_equal(&graph.cloud.xy, heights);
+        }
         stats.phase("read");
         let crossings = args.crossings.unwrap_or(CrossingsName::Refuse);
         let name = args.fill.unwrap_or_else(|| usual(input, &graph));

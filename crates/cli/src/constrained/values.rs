@@ -5,9 +5,7 @@
 use std::collections::BTreeMap;
 
 use delone::Constrained2;
-
-use crate::args::DuplicatesName;
-use crate::heights::Several;
+use delone::surface::{Duplicates, Several};
 
 /// The values of all points, rows of `width` of them: those given for the first points, and for points that were added on
 /// segments what these have there, linear between the given points; where segments differ, the mean. How far they differ
@@ -37,7 +35,7 @@ pub(crate) fn extended(
                     let (at, value) = (v.index() * width + k, along(c.point(*v), [p, q], ends));
                     if is_other {
                         widest = widest.max((value - values[at]).abs());
-                        let several = || Several::new(DuplicatesName::Mean, values[at]);
+                        let several = || Several::new(Duplicates::Mean, values[at]);
                         means.entry(at).or_insert_with(several).add(value);
                     } else {
                         values[at] = value;

@@ -4,7 +4,9 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use delone::surface::Grid;
-use delone_io::{ASC_NODATA, Compression, Crs, Format, Light, Output, RasterInfo, RasterWriter, ShadeWriter};
+use delone_io::{
+    ASC_NODATA, Compression, Crs, Format, Output, RasterInfo, RasterWriter, Relief, ShadeWriter,
+};
 
 use crate::files;
 use crate::message::{Failure, warn};
@@ -22,6 +24,8 @@ pub(super) struct About {
     pub(super) crs: Option<Crs>,
     pub(super) nodata: Option<f64>,
     pub(super) compression: Compression,
+    /// What pictures show.
+    pub(super) relief: Relief,
 }
 
 /// Writes all rasters and hillshades, whole or not at all; says how many cells have a value.
@@ -43,7 +47,7 @@ pub(super) fn write(
         let failed = |error| files::cannot_write(path, error);
         let output = files::create(path)?;
         let sheet = if *format == Format::Png {
-            ShadeWriter::create(output, &about.grid, Light::default()).map(Sheet::Shade)
+            ShadeWriter::create(output, &about.grid, about.crs.as_ref(), about.relief).map(Sheet::Shade)
         } else {
             let info = RasterInfo { scratch: files::scratch(path), ..info.clone() };
             RasterWriter::create(output, *format, &info).map(Sheet::Raster)
@@ -79,7 +83,7 @@ pub(super) fn write(
     }
     for (output, (path, format)) in done.into_iter().zip(outputs) {
         files::finish(output).map_err(|error| files::cannot_write(path, error))?;
-        files::write_sides(path, *format, about.crs.as_ref(), quiet)?;
+        files::write_sides(path, *format, &about.grid, about.crs.as_ref(), quiet)?;
     }
     if let Some(number) = nothing.filter(|_| hidden > 0) {
         let what = format!("{hidden} cells have the height {number}, which stands for no data");

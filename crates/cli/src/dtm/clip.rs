@@ -15,6 +15,7 @@ use delone_predicates::orient2d;
 use super::lines;
 use crate::files;
 use crate::message::Failure;
+use crate::place::check_crs;
 
 /// The rings of a polygon.
 type Rings = Vec<Vec<[f64; 2]>>;
@@ -48,7 +49,7 @@ impl Clip {
 
     /// Refuses a system of coordinates that is not that of the points.
     pub(super) fn check(&self, path: &Path, crs: Option<&Crs>) -> Result<(), Failure> {
-        lines::check_crs(path, crs, self.crs.as_ref())
+        check_crs(path, crs, self.crs.as_ref())
     }
 
     /// Takes the values of cells outside of all polygons.

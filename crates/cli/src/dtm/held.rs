@@ -12,7 +12,6 @@ use delone::surface::{Grid, Interpolator, Raster};
 use delone::{Around, Delaunay2, Surround, TriangleId};
 use rayon::prelude::*;
 
-use super::surface::exceeds;
 use crate::args::MethodName;
 use crate::message::Failure;
 use crate::tiles::{Corner, Held};
@@ -55,6 +54,14 @@ pub(super) fn values(
         margin = (2.0 * margin).max((range[1] - range[0]) / 8.0);
     }
     Ok(values)
+}
+
+/// Whether a triangle has an edge that is longer.
+fn exceeds(corners: [[f64; 2]; 3], longest: f64) -> bool {
+    (0..3).any(|k| {
+        let (p, q) = (corners[k], corners[(k + 1) % 3]);
+        (p[0] - q[0]).hypot(p[1] - q[1]) > longest
+    })
 }
 
 fn failed(error: &delone::Error) -> Failure {

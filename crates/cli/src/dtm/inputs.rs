@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use delone::surface::Duplicates;
 use delone_io::{Cloud, Format, LAS_CLASSES, TemporaryFolder};
 
-use crate::args::{DtmArgs, DuplicatesName, InputArgs, TilesArgs};
+use crate::args::{DtmArgs, InputArgs, TilesArgs};
 use crate::files;
 use crate::message::Failure;
 
@@ -87,6 +88,6 @@ pub(super) fn tiles(input: InputArgs) -> TilesArgs {
         neighbors: false,
         parquet: false,
         tile: None,
-        duplicates: DuplicatesName::First,
+        duplicates: Duplicates::First,
     }
 }

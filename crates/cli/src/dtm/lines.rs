@@ -1,15 +1,18 @@
 //! Breaklines and level polygons: read, and given heights where they have none.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use delone::surface::{Interpolator, Outside};
+use delone::surface::{Duplicates, Interpolator, Outside, Several};
 use delone::{Constrained2, Crossings, SegmentId};
 use delone_io::{Cloud, Contents, Crs, Direction, Format, Graph};
 
 use super::surface::of_points;
-use crate::args::{DtmArgs, DuplicatesName};
+use crate::args::DtmArgs;
+use crate::constrained::along;
 use crate::files;
 use crate::message::{Failure, warn};
+use crate::place::check_crs;
 
 /// All of them, one after the other.
 #[derive(Default)]
@@ -123,11 +126,35 @@ impl Lines {
         }
     }
 
+    /// The heights of lines where points of the cloud are on them: the first `count` vertices, which no end of a line equals. Of several
+    /// lines the rule chooses.
+    pub(super) fn heights_of_points_on(
+        &self,
+        c: &Constrained2,
+        count: usize,
+        rule: Duplicates,
+    ) -> BTreeMap<usize, Several> {
+        let mut found: BTreeMap<usize, Several> = BTreeMap::new();
+        for (s, &[a, b]) in self.segments.iter().enumerate() {
+            let Some(heights) = self.given[a].zip(self.given[b]) else { continue };
+            let chain = c.chain(SegmentId::new(s)).unwrap_or_default();
+            let Some(inner) = chain.len().checked_sub(1).and_then(|last| chain.get(1..last)) else {
+                continue;
+            };
+            for v in inner.iter().filter(|v| v.index() < count) {
+                let height = along(c.point(*v), [self.points[a], self.points[b]], heights.into());
+                let add = |several: &mut Several| several.add(height);
+                found.entry(v.index()).and_modify(add).or_insert_with(|| Several::new(rule, height));
+            }
+        }
+        found
+    }
+
     /// The height of each point, and of each level polygon.
     pub(super) fn heights(
         &self,
         cloud: &Cloud,
-        rule: DuplicatesName,
+        rule: Duplicates,
         label: &Path,
     ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
         let failed = |error| Failure::points(label, &error);
@@ -168,17 +195,6 @@ fn between(p: [f64; 2], q: [f64; 2], longest: f64) -> Vec<[f64; 2]> {
         places.reverse();
     }
     places
-}
-
-/// Refuses a system of coordinates that is not that of the points.
-pub(super) fn check_crs(path: &Path, ours: Option<&Crs>, theirs: Option<&Crs>) -> Result<(), Failure> {
-    if let (Some(ours), Some(theirs)) = (ours, theirs)
-        && ours.epsg.zip(theirs.epsg).is_some_and(|(a, b)| a != b)
-    {
-        let what = format!("{}: its coordinates are {theirs}, those of the points {ours}", path.display());
-        return Err(Failure::new(what, "transform one of them first"));
-    }
-    Ok(())
 }
 
 pub(super) fn no_polygon(path: &Path, help: &str) -> Failure {

@@ -22,6 +22,7 @@ use delone_io::{Cloud, Contents, ContourMap, Crs, Direction, Format, beside_rast
 use crate::args::{DtmArgs, MethodName, TilesArgs};
 use crate::files;
 use crate::message::{Failure, grouped, say, warn};
+use crate::place::Place;
 use crate::progress::Phase;
 use crate::room;
 use crate::stats::Stats;
@@ -44,14 +45,22 @@ const AT_ONCE: usize = 1 << 24;
 pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
     let input = inputs::resolve(args);
     let mut inputs = input.paths();
-    inputs.extend(args.breaklines.iter().chain(&args.flat).chain(&args.clip).map(PathBuf::as_path));
+    inputs.extend(
+        args.breaklines
+            .iter()
+            .chain(&args.flat)
+            .chain(&args.clip)
+            .chain(&args.place.like)
+            .map(PathBuf::as_path),
+    );
     let stats_path = args.input.stats.as_deref();
     let outputs = files::outputs(&args.output, args.to, stats_path, &inputs)?;
     check(args, &outputs)?;
     keep_besides_apart(&outputs, &inputs, stats_path)?;
     let clip = args.clip.as_deref().map(|path| Clip::read(path, quiet)).transpose()?;
+    let place = Place::read(&args.place, quiet)?;
     let mut stats = Stats::start();
-    let mut job = Job { args, outputs: &outputs, clip, label: input.label(), quiet };
+    let mut job = Job { args, outputs: &outputs, clip, place, label: input.label(), quiet };
     let in_chunks = input.input.iter().all(|path| {
         let format = input.from.or_else(|| Format::of(path).ok());
         path.is_file() && format.is_some_and(|format| format.holds(Contents::Pieces, Direction::Read))
@@ -63,7 +72,7 @@ pub(crate) fn run(args: &DtmArgs, quiet: bool) -> Result<(), Failure> {
                 output: folder.path().to_owned(),
                 memory,
                 heights: true,
-                duplicates: args.duplicates,
+                duplicates: args.duplicates.rule(),
                 tile: args.tile,
                 ..inputs::tiles(input)
             };
@@ -120,6 +129,12 @@ fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
             "choose one of them, or leave --memory out",
         ));
     }
+    if args.memory.is_some() && args.edges.max_edge.is_some() {
+        return Err(Failure::usage(
+            "--max-edge needs all triangles in memory: it goes from the hull inwards",
+            "take --max-edge-anywhere, or leave --memory out",
+        ));
+    }
     if args.memory.is_some() && outputs.iter().any(|output| is_map(output.1)) {
         return Err(Failure::usage(
             "contours need all triangles in memory",
@@ -147,6 +162,7 @@ struct Job<'a> {
     args: &'a DtmArgs,
     outputs: &'a [(PathBuf, Format)],
     clip: Option<Clip>,
+    place: Place<'a>,
     label: PathBuf,
     quiet: bool,
 }
@@ -155,16 +171,18 @@ impl Job<'_> {
     fn in_memory(&mut self, cloud: &Cloud, stats: &mut Stats) -> Result<(), Failure> {
         let Self { args, quiet, .. } = *self;
         inputs::check(cloud, &self.label, args)?;
-        let crs = self.crs(cloud);
+        let crs = self.crs(cloud)?;
         self.check_clip(crs.as_ref())?;
         let grid = self.grid(&room::bounds(&cloud.xy, &self.label)?, cloud.xy.len() as f64)?;
         let mut lines = Lines::read(args, crs.as_ref(), quiet)?;
         if args.method != MethodName::Linear {
-            lines.cut(grid.step()[0] / 4.0).map_err(|error| Failure::graph(&self.label, &error))?;
+            lines
+                .cut(grid.step()[0].min(-grid.step()[1]) / 4.0)
+                .map_err(|error| Failure::graph(&self.label, &error))?;
         }
         let phase = Phase::start(quiet, "triangulating");
         let mut kind = if lines.is_empty() {
-            let (d, heights) = surface::of_points(cloud, args.duplicates, &self.label)?;
+            let (d, heights) = surface::of_points(cloud, args.duplicates.rule(), &self.label)?;
             Kind::Points(Box::new(Surface::new(d, heights, args, Vec::new(), &self.label)?))
         } else {
             surface::with_lines(cloud, &lines, args, &self.label, stats, quiet)?
@@ -209,7 +227,7 @@ impl Job<'_> {
             // Says what is wrong with them.
             Surface::new(Delaunay2::new(), Vec::new(), args, Vec::new(), &self.label)?;
         }
-        let crs = self.crs(about);
+        let crs = self.crs(about)?;
         self.check_clip(crs.as_ref())?;
         let grid = self.grid(&held.bounds, count as f64)?;
         let free = (memory - (40 << 20)) as f64;
@@ -231,7 +249,7 @@ impl Job<'_> {
             bands = bands.into_iter().flat_map(|rows| split(held, &grid, rows, most)).collect();
         }
         self.rasters(grid, crs, &bands, stats, |window| {
-            held::values(held, args.method, args.max_edge, window)
+            held::values(held, args.method, args.edges.max_edge_anywhere, window)
         })
     }
 
@@ -243,7 +261,13 @@ impl Job<'_> {
         stats: &mut Stats,
         values: impl Fn(&Grid) -> Result<Vec<f64>, Failure>,
     ) -> Result<(), Failure> {
-        let about = About { grid, crs, nodata: self.args.nodata, compression: self.args.compress.into() };
+        let about = About {
+            grid,
+            crs,
+            nodata: self.args.nodata,
+            compression: self.args.compress.into(),
+            relief: self.args.light.hillshade(),
+        };
         let rasters: Vec<_> = self.outputs.iter().filter(|output| !is_map(output.1)).cloned().collect();
         if rasters.is_empty() {
             stats.tell(self.quiet, ["triangle", "triangles"]);
@@ -293,7 +317,11 @@ impl Job<'_> {
 
     /// The cells of the raster.
     fn grid(&self, bounds: &Bounds<2>, count: f64) -> Result<Grid, Failure> {
-        let size = [0, 1].map(|k| bounds.high[k] - bounds.low[k]);
+        if let Some(grid) = self.place.given() {
+            return Ok(grid);
+        }
+        let area = self.place.area(bounds);
+        let size = [0, 1].map(|k| area.high[k] - area.low[k]);
         let cell = self.args.cell.unwrap_or_else(|| round((size[0] * size[1] / count.max(1.0)).sqrt()));
         let refuse = |what: String| {
             Failure::new(
@@ -301,7 +329,7 @@ impl Job<'_> {
                 "name a --cell, or leave out points that are far away",
             )
         };
-        let grid = Grid::aligned(bounds, cell).map_err(|error| refuse(error.to_string()))?;
+        let grid = self.place.grid(&area, cell).map_err(|error| refuse(error.to_string()))?;
         if grid.cells() > MOST {
             return Err(refuse(format!(
                 "cells of {cell} would be {:e}: {} columns and {} rows; at most {MOST:e} are made",
@@ -319,10 +347,7 @@ impl Job<'_> {
         if cell > size[0].max(size[1]) {
             warn(
                 self.quiet,
-                format_args!(
-                    "a cell of {cell} is larger than the area of the points, {} x {}",
-                    size[0], size[1]
-                ),
+                format_args!("a cell of {cell} is larger than the area, {} x {}", size[0], size[1]),
             );
         }
         Ok(grid)
@@ -335,11 +360,12 @@ impl Job<'_> {
         }
     }
 
-    fn crs(&self, about: &Cloud) -> Option<Crs> {
-        if about.crs.is_none() && self.outputs.iter().any(|output| output.1 == Format::Tiff) {
+    fn crs(&self, about: &Cloud) -> Result<Option<Crs>, Failure> {
+        let crs = self.place.crs(about.crs.clone())?;
+        if crs.is_none() && self.outputs.iter().any(|output| output.1 == Format::Tiff) {
             warn(self.quiet, "the files do not tell their system of coordinates: name it with --epsg");
         }
-        about.crs.clone()
+        Ok(crs)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use delone::surface::{
-    ContourLine, Contours, Grid, Interpolator, Levels, Outside, Raster, gradients, rasterize,
+    ContourLine, Contours, Duplicates, Grid, Interpolator, Levels, Outside, Raster, gradients, rasterize,
 };
 use delone::{Constrained2, Crossings, Delaunay2, Refinement, Surround, Triangulation};
 use delone_io::{Cloud, Trim};
@@ -11,9 +11,8 @@ use delone_io::{Cloud, Trim};
 use super::level::{Level, level_triangles};
 use super::lines::Lines;
 use super::round;
-use crate::args::{DtmArgs, DuplicatesName, MethodName};
+use crate::args::{DtmArgs, MethodName};
 use crate::constrained::extended;
-use crate::heights::settle;
 use crate::message::{Failure, note, warn};
 use crate::stats::Stats;
 
@@ -25,8 +24,7 @@ pub(super) struct Surface<T: Triangulation> {
     pub(super) d: T,
     /// By the index of the vertex.
     pub(super) heights: Vec<f64>,
-    max_edge: Option<f64>,
-    carved: Option<Trim>,
+    trim: Option<Trim>,
     /// Level triangles, which stay so whatever the method.
     level: Vec<Level>,
     slopes: Vec<[f64; 2]>,
@@ -41,7 +39,7 @@ pub(super) enum Kind {
 /// Triangulates points alone. Vertices are numbered along a curve, so that what is near in the plane is near in memory.
 pub(super) fn of_points(
     cloud: &Cloud,
-    rule: DuplicatesName,
+    rule: Duplicates,
     label: &Path,
 ) -> Result<(Delaunay2, Vec<f64>), Failure> {
     let failed = |error| Failure::points(label, &error);
@@ -57,7 +55,7 @@ pub(super) fn of_points(
             near = found.simplex.or(near);
             pairs.extend(found.face().first().map(|v| (point, order[v.index()] as usize)));
         }
-        settle(&mut given, pairs, rule);
+        rule.settle(&mut given, pairs);
     }
     let heights = order.iter().map(|&i| given[i as usize]).collect();
     Ok((d, heights))
@@ -74,7 +72,7 @@ pub(super) fn with_lines(
 ) -> Result<Kind, Failure> {
     let failed = |error| Failure::graph(label, &error);
     let mut given = cloud.z.clone().unwrap_or_default();
-    let (line_heights, levels) = lines.heights(cloud, args.duplicates, label)?;
+    let (line_heights, levels) = lines.heights(cloud, args.duplicates.rule(), label)?;
     let first = given.len();
     given.extend(&line_heights);
     let points: Vec<[f64; 2]> = cloud.xy.iter().chain(&lines.points).copied().collect();
@@ -82,7 +80,10 @@ pub(super) fn with_lines(
     let mut c = Constrained2::with_crossings(&points, &segments, Crossings::Split).map_err(failed)?;
     // Lines say what the height is where points are too.
     let pairs: Vec<(usize, usize)> = c.duplicates().map(|pair| (pair.point, pair.vertex.index())).collect();
-    settle(&mut given, pairs.iter().copied().filter(|pair| pair.0 < first), args.duplicates);
+    let rule = args.duplicates.rule();
+    rule.settle(&mut given, pairs.iter().copied().filter(|pair| pair.0 < first));
+    let on_lines = lines.heights_of_points_on(&c, first, rule);
+    on_lines.into_iter().for_each(|(vertex, several)| given[vertex] = several.height());
     pairs.iter().filter(|pair| pair.0 >= first).for_each(|&(line, place)| given[place] = given[line]);
     let (mut heights, widest) = extended(&c, 1, &given, |_| None);
     let crossings = c.report().crossings;
@@ -146,19 +147,14 @@ impl<T: Triangulation<Point = [f64; 2]>> Surface<T> {
             let what = format!("{}: the points are on one line, which has no surface", label.display());
             return Err(Failure::new(what, "give points that span an area"));
         }
-        let carved = args.carve.map(|longest| Trim::long_edges(&d, longest));
-        Ok(Self { d, heights, max_edge: args.max_edge, carved, level, slopes: Vec::new() })
+        let border = args.edges.border();
+        let trim = border.longest.map(|_| Trim::along_border(&d, &border, |_| true));
+        Ok(Self { d, heights, trim, level, slopes: Vec::new() })
     }
 
     /// Whether a triangle is shown.
     pub(super) fn keeps(&self, s: T::Simplex) -> bool {
-        let is_carved = self.carved.as_ref().is_some_and(|trim| !trim.keeps(self.d.index(s)));
-        let is_long = |longest: f64| {
-            let corners = self.d.corners(s);
-            let [a, b, c] = *corners.as_ref() else { return true };
-            exceeds([a, b, c].map(|v| self.d.position(v).unwrap_or_default()), longest)
-        };
-        !is_carved && !self.max_edge.is_some_and(is_long)
+        self.trim.as_ref().is_none_or(|trim| trim.keeps(self.d.index(s)))
     }
 
     /// Gives cells with values that are in level triangles the heights of these.
@@ -174,14 +170,6 @@ impl<T: Triangulation<Point = [f64; 2]>> Surface<T> {
         let pairs = values.iter_mut().zip(levels).filter(|pair| !pair.1.is_nan() && !pair.0.is_nan());
         pairs.for_each(|(value, level)| *value = level);
     }
-}
-
-/// Whether a triangle has an edge that is longer.
-pub(super) fn exceeds(corners: [[f64; 2]; 3], longest: f64) -> bool {
-    (0..3).any(|k| {
-        let (p, q) = (corners[k], corners[(k + 1) % 3]);
-        (p[0] - q[0]).hypot(p[1] - q[1]) > longest
-    })
 }
 
 impl Kind {

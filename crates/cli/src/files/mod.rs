@@ -9,8 +9,9 @@ mod write;
 use std::io::{BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
+use delone::surface::Grid;
 use delone_io::{
-    Beside, Cloud, Contents, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed,
+    Beside, Cloud, Contents, Crs, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed,
 };
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
@@ -233,11 +234,23 @@ pub(crate) fn need_heights(heights: Option<&[f64]>, label: &Path) -> Result<(), 
 pub(crate) fn raster(args: &InputArgs, quiet: bool) -> Result<Option<Raster>, Failure> {
     let (formats, [path]) = (formats(args)?, &args.input[..]) else { return Ok(None) };
     let Some(&format @ (Format::Tiff | Format::Asc)) = formats.first() else { return Ok(None) };
+    read_raster(path, format, quiet).map(Some)
+}
+
+/// Reads a raster.
+pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Raster, Failure> {
     let (source, _phase) = open(path, format, READING, quiet)?;
     let mut raster = delone_io::read_raster(source, format).map_err(|error| Failure::file(path, &error))?;
     systems::heed(&mut raster.crs, path, Role::Input)?;
     raster.remarks.iter().for_each(|remark| note(quiet, remark));
-    Ok(Some(raster))
+    Ok(raster)
+}
+
+/// Reads where the cells of a raster are, and the system of its coordinates.
+pub(crate) fn place(path: &Path, quiet: bool) -> Result<(Grid, Option<Crs>), Failure> {
+    let format = format_beside(path)?;
+    let (source, _phase) = open(path, format, READING, quiet)?;
+    delone_io::read_raster_place(source, format).map_err(|error| Failure::file(path, &error))
 }
 
 /// Reads the points and segments of a command.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use delone::surface::Grid;
 use delone_io::{Crs, Format, beside_raster, besides_of_raster};
 
 use super::apart::refuse_read;
@@ -17,10 +18,11 @@ static STALE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 pub(crate) fn write_sides(
     path: &Path,
     format: Format,
+    grid: &Grid,
     crs: Option<&Crs>,
     quiet: bool,
 ) -> Result<(), Failure> {
-    let written = beside_raster(path, format, crs);
+    let written = beside_raster(path, format, grid, crs);
     if let Some((side, text)) = &written {
         super::write(side, |out| Ok(std::io::Write::write_all(out, text.as_bytes())?))?;
     }

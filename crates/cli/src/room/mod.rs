@@ -187,6 +187,11 @@ fn located<R: Room>(args: &StrategyArgs, default: LocateName) -> Result<Option<L
     Ok(Some(locate))
 }
 
+/// Points that equal an earlier one, with that one.
+pub(crate) fn duplicates(d: &impl Triangulation) -> impl Iterator<Item = (usize, usize)> {
+    d.duplicates().map(|pair| (pair.point, pair.vertex.index()))
+}
+
 /// Notes on what might surprise.
 pub(crate) fn remark(d: &impl Triangulation, quiet: bool) {
     let (points, duplicates) = (d.ids_given(), d.duplicates().count());

@@ -9,6 +9,7 @@ use std::hash::Hasher;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use delone::surface::{Duplicates, Several};
 use delone::tiles::{Cuts, Node};
 use delone_io::sync_file;
 use rayon::prelude::*;
@@ -17,8 +18,6 @@ use twox_hash::XxHash3_64;
 use super::input::hashed;
 use super::manifest::place;
 use super::own;
-use crate::args::DuplicatesName;
-use crate::heights::Several;
 use crate::message::Failure;
 
 /// Where the bucket of a tile is.
@@ -261,7 +260,7 @@ pub(super) fn cut_again(
     folder: &Path,
     cuts: &mut Cuts,
     buckets: &mut BTreeMap<Node, Filled>,
-    (has_heights, rule): (bool, DuplicatesName),
+    (has_heights, rule): (bool, Duplicates),
     most: u64,
     buffer: usize,
 ) -> Result<u64, Failure> {
@@ -313,7 +312,7 @@ fn height_of_all(
     folder: &Path,
     node: Node,
     filled: Filled,
-    rule: DuplicatesName,
+    rule: Duplicates,
 ) -> Result<Option<Several>, Failure> {
     let mut all: Option<Several> = None;
     each(folder, node, filled, true, &mut |part| {

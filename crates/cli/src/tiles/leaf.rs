@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use delone::surface::Duplicates;
 use delone::tiles::{Cuts, Node, Tile};
 use delone_io::write_array;
 use rayon::ThreadPool;
@@ -12,8 +13,6 @@ use super::buckets::{self, Content, Filled};
 use super::manifest::place;
 use super::node::Done;
 use super::sums::Sums;
-use crate::args::DuplicatesName;
-use crate::heights::settle;
 use crate::message::Failure;
 use crate::progress::Phase;
 
@@ -22,7 +21,7 @@ pub(super) fn all(
     folder: &Path,
     cuts: &Cuts,
     open: &[(Node, Filled)],
-    (has_heights, rule): (bool, DuplicatesName),
+    (has_heights, rule): (bool, Duplicates),
     workers: usize,
     quiet: bool,
 ) -> Result<(), Failure> {
@@ -71,7 +70,7 @@ fn one(
     folder: &Path,
     cuts: &Cuts,
     (node, filled): (Node, Filled),
-    (has_heights, rule): (bool, DuplicatesName),
+    (has_heights, rule): (bool, Duplicates),
 ) -> Result<(), Failure> {
     let Content { points, mut heights, ids } = buckets::read(folder, node, filled, has_heights)?;
     let bucket = buckets::bucket(folder, node);
@@ -79,7 +78,7 @@ fn one(
     drop(points);
     if has_heights {
         let pairs = tile.duplicates().iter().map(|pair| (pair.point, pair.vertex.index()));
-        settle(&mut heights, pairs, rule);
+        rule.settle(&mut heights, pairs);
     }
     let (vertices, order) = (tile.points(), tile.order());
     let mut sums = Sums::default();

@@ -26,6 +26,7 @@ mod window;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use delone::surface::Duplicates;
 use delone::tiles::{Cuts, Fingerprint, Node};
 use delone_io::{Cloud, TemporaryFolder, followed, sync_folder};
 
@@ -43,7 +44,7 @@ use node::Done;
 use seams::Joins;
 use sums::Written;
 
-use crate::args::{DuplicatesName, TilesArgs};
+use crate::args::TilesArgs;
 use crate::files;
 use crate::message::{Failure, grouped, note, say};
 use crate::progress::Phase;
@@ -232,7 +233,7 @@ fn distribute(
     folder: &Path,
     plan: &mut Manifest,
     input: &Input,
-    (budget, rule): (&Budget, DuplicatesName),
+    (budget, rule): (&Budget, Duplicates),
     quiet: bool,
 ) -> Result<(), Failure> {
     // Those of a run that was stopped while it filled them; of none of its tiles it can be known what it was made of.
@@ -271,7 +272,7 @@ fn triangulate(
     folder: &Path,
     plan: &Manifest,
     budget: &Budget,
-    rule: DuplicatesName,
+    rule: Duplicates,
     quiet: bool,
 ) -> Result<(), Failure> {
     let mut open = Vec::new();

@@ -291,7 +291,9 @@ pub(super) const PLANE: &[Row] = &[
     ("dtm --method natural", |g| terrain(g, "--method natural")),
     ("dtm --method laplace", |g| terrain(g, &format!("--method laplace --max-edge {}", g.part(0.3, 1)))),
     ("dtm --method nearest", |g| terrain(g, "--method nearest")),
-    ("dtm --method smooth", |g| terrain(g, &format!("--method smooth --carve {}", g.part(0.3, 1)))),
+    ("dtm --method smooth", |g| {
+        terrain(g, &format!("--method smooth --max-edge-anywhere {}", g.part(0.3, 1)))
+    }),
     ("dtm --method farin", |g| terrain(g, "--method farin")),
     ("dtm with lines", |g| {
         let z = g.set.steep / 2.0;

@@ -67,6 +67,22 @@ impl Grid {
     /// # Ok::<(), delone::Error>(())
     /// ```
     pub fn aligned(bounds: &Bounds<2>, size: f64) -> Result<Self, Error> {
+        Self::aligned_at(bounds, size, [0.0; 2])
+    }
+
+    /// The same cells, but for their edges, which are multiples of their size away from an origin.
+    ///
+    /// # Errors
+    /// Those of [`Grid::aligned`], and [`Error::Parameter`] for an origin that is not finite.
+    ///
+    /// ```
+    /// use delone::{Bounds, surface::Grid};
+    ///
+    /// let grid = Grid::aligned_at(&Bounds { low: [3.5, -2.0], high: [11.0, 7.1] }, 2.0, [0.5, -1.0])?;
+    /// assert_eq!((grid.columns(), grid.rows(), grid.corner()), (5, 6, [2.5, 9.0]));
+    /// # Ok::<(), delone::Error>(())
+    /// ```
+    pub fn aligned_at(bounds: &Bounds<2>, size: f64, origin: [f64; 2]) -> Result<Self, Error> {
         if !(size > 0.0 && size.is_finite()) {
             return Err(Error::Parameter {
                 name: "the size of a cell",
@@ -74,7 +90,11 @@ impl Grid {
                 range: "positive and finite",
             });
         }
-        let [low, high] = [bounds.low.map(|x| (x / size).floor()), bounds.high.map(|x| (x / size).ceil())];
+        if let Some(&value) = origin.iter().find(|x| !x.is_finite()) {
+            return Err(Error::Parameter { name: "the origin of cells", value, range: "finite" });
+        }
+        let [low, high] = [bounds.low, bounds.high].map(|end| [0, 1].map(|k| (end[k] - origin[k]) / size));
+        let (low, high) = (low.map(f64::floor), high.map(f64::ceil));
         let far = [low, high].concat().into_iter().find(|x| x.is_nan() || x.abs() > MOST);
         if let Some(value) = far {
             return Err(Error::Parameter {
@@ -85,7 +105,7 @@ impl Grid {
         }
         let count = |k: usize| (high[k] - low[k]).max(1.0) as usize;
         let first = [low[0] as i64, -((low[1] + count(1) as f64) as i64)];
-        Ok(Self { origin: [0.0; 2], step: [size, -size], first, columns: count(0), rows: count(1) })
+        Ok(Self { origin, step: [size, -size], first, columns: count(0), rows: count(1) })
     }
 
     /// Some of the columns and rows, with the same centres.

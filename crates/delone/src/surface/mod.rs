@@ -16,6 +16,7 @@
 mod border;
 mod bulk;
 mod contours;
+mod duplicates;
 mod gradients;
 mod grid;
 mod interpolator;
@@ -28,6 +29,7 @@ mod thin;
 
 pub use bulk::Weights;
 pub use contours::{ContourBand, ContourLine, Contours, Levels};
+pub use duplicates::{Duplicates, Several};
 pub use gradients::gradients;
 pub use grid::Grid;
 pub use interpolator::{Interpolator, Outside};

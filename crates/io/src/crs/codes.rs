@@ -73,7 +73,7 @@ const COMPOUND: &[(u16, u16)] = &[
     (20003, 20003), (20037, 20038), (20043, 20043),
 ];
 
-fn is_among(runs: &[(u16, u16)], code: u32) -> bool {
+pub(super) fn is_among(runs: &[(u16, u16)], code: u32) -> bool {
     let after = runs.partition_point(|run| u32::from(run.0) <= code);
     after.checked_sub(1).is_some_and(|at| code <= u32::from(runs[at].1))
 }

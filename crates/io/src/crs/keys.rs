@@ -3,6 +3,7 @@
 //! A projected system is in key 3072, a geographic one in 2048, heights are in 4096: never a number of both in one key, which
 //! no reader understands.
 
+use super::units::of_unit;
 use super::{Crs, GeoKeys, codes};
 
 /// The keys, by number: what the model is, whether cells are areas, names, systems.
@@ -80,6 +81,19 @@ fn own(numbers: &[u16], doubles: &[f64], texts: &[u8]) -> Option<Box<GeoKeys>> {
             texts: String::from_utf8_lossy(texts).trim_end_matches('\0').to_owned(),
         })
     })
+}
+
+impl GeoKeys {
+    /// The metres of a unit of length: by its number in one key, or its size in another.
+    pub(super) fn metres(&self, unit: u16, size: u16) -> Option<f64> {
+        let sized = || {
+            let entry = entry(&self.numbers, size).filter(|entry| entry[1] == DOUBLES)?;
+            let metres = f64::from_bits(*self.doubles.get(usize::from(entry[3]))?);
+            (metres > 0.0 && metres.is_finite()).then_some(metres)
+        };
+        let named = || of_unit(entry(&self.numbers, unit).filter(|entry| entry[1] == 0)?[3]);
+        named().or_else(sized)
+    }
 }
 
 /// Keys as they are, of a raster whose cells are areas.

@@ -2,6 +2,7 @@
 
 mod codes;
 pub(crate) mod keys;
+mod units;
 
 use std::fmt;
 

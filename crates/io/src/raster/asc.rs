@@ -2,11 +2,13 @@
 //!
 //! Format: Esri, "Esri ASCII raster format"; GDAL's `dx` and `dy` for cells that are not square are read, not written.
 
-use std::io::{BufRead, Write};
+use std::io::Write;
+
+use delone::surface::Grid;
 
 use super::{Raster, RasterInfo, Sample, placed};
 use crate::error::excerpt;
-use crate::{Error, Format, Source};
+use crate::{Crs, Error, Format, Source};
 
 /// What stands for no data where nothing else is said.
 pub const ASC_NODATA: f64 = -9999.0;
@@ -134,18 +136,35 @@ impl Head {
     }
 }
 
+/// The next line, if there is one.
+fn next<'a>(source: &mut dyn Source, line: &'a mut Vec<u8>, number: usize) -> Result<Option<&'a str>, Error> {
+    line.clear();
+    if source.read_until(b'\n', line)? == 0 {
+        return Ok(None);
+    }
+    let text = str::from_utf8(line);
+    text.map(Some).map_err(|_| Error::Line { line: number, what: "it is not text".to_owned() })
+}
+
+/// Where the cells are; the system is in no file of this format.
+pub(super) fn read_place(mut source: Box<dyn Source>) -> Result<(Grid, Option<Crs>), Error> {
+    let (mut head, mut line) = (Head::default(), Vec::new());
+    for number in 1.. {
+        match next(&mut *source, &mut line, number)? {
+            Some(text) if head.take(text, number)? || text.trim_ascii().is_empty() => {}
+            _ => break,
+        }
+    }
+    Ok((head.raster()?.grid, None))
+}
+
 /// Reads a grid; memory grows with the values that are really there.
 pub(crate) fn read(mut source: Box<dyn Source>) -> Result<Raster, Error> {
     let mut head = Head::default();
     let mut raster = None;
     let mut line = Vec::new();
     for number in 1.. {
-        line.clear();
-        if source.read_until(b'\n', &mut line)? == 0 {
-            break;
-        }
-        let text = str::from_utf8(&line)
-            .map_err(|_| Error::Line { line: number, what: "it is not text".to_owned() })?;
+        let Some(text) = next(&mut *source, &mut line, number)? else { break };
         if raster.is_none() && head.take(text, number)? {
             continue;
         }

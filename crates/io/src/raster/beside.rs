@@ -1,28 +1,44 @@
-//! What a raster's own file cannot say of its system of coordinates: in a file beside it, where other programs look for it.
+//! What a raster's own file cannot say of its place and its system of coordinates: in a file beside it, where other programs look for it.
 //!
-//! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids is ESRI's.
+//! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids and the world file `.pgw` beside pictures are ESRI's.
 
 use std::path::{Path, PathBuf};
+
+use delone::surface::Grid;
 
 use crate::crs::keys::encode;
 use crate::{Crs, Format};
 
-/// The file beside a raster that says what its coordinates mean, and its text; `None` where the raster's own file says all of
-/// it, or nothing is known.
+/// The file beside a raster that says what its coordinates mean, or of a picture where it is, and its text; `None` where the raster's own file
+/// says all of it, or nothing is known.
 ///
 /// ```
 /// use std::path::Path;
+/// use delone::surface::Grid;
 /// use delone_io::{Crs, Format, beside_raster};
 ///
+/// let grid = Grid::new([100.0, 200.0], [2.0, -2.0], 3, 4)?;
 /// let known = Crs::of_epsg(25832);
-/// assert_eq!(beside_raster(Path::new("dem.tif"), Format::Tiff, Some(&known)), None);
+/// assert_eq!(beside_raster(Path::new("dem.tif"), Format::Tiff, &grid, Some(&known)), None);
 /// let ours = Crs::of_wkt("PROJCS[\"ours\",UNIT[\"metre\",1]]").expect("a system");
-/// let (path, text) = beside_raster(Path::new("dem.tif"), Format::Tiff, Some(&ours)).expect("a file");
+/// let (path, text) = beside_raster(Path::new("dem.tif"), Format::Tiff, &grid, Some(&ours)).expect("a file");
 /// assert_eq!(path, Path::new("dem.tif.aux.xml"));
 /// assert!(text.contains("PROJCS[&quot;ours&quot;"));
+/// let (path, text) = beside_raster(Path::new("shade.png"), Format::Png, &grid, None).expect("a file");
+/// assert_eq!((path.as_path(), text.as_str()), (Path::new("shade.pgw"), "2.0\n0.0\n0.0\n-2.0\n101.0\n199.0\n"));
+/// # Ok::<(), delone::Error>(())
 /// ```
-pub fn beside_raster(path: &Path, format: Format, crs: Option<&Crs>) -> Option<(PathBuf, String)> {
-    let (crs, beside) = (crs?, beside_raster_name(path, format)?);
+pub fn beside_raster(
+    path: &Path,
+    format: Format,
+    grid: &Grid,
+    crs: Option<&Crs>,
+) -> Option<(PathBuf, String)> {
+    let beside = beside_raster_name(path, format)?;
+    if format == Format::Png {
+        return Some((beside, world(grid)));
+    }
+    let crs = crs?;
     let text = match format {
         Format::Tiff if encode(Some(crs)).are_complete => return None,
         Format::Tiff => {
@@ -46,8 +62,16 @@ pub fn beside_raster_name(path: &Path, format: Format) -> Option<PathBuf> {
             Some(path.with_file_name(name))
         }
         Format::Asc => Some(path.with_extension("prj")),
+        Format::Png => Some(path.with_extension("pgw")),
         _ => None,
     }
+}
+
+/// Where the pixels of a picture are, in six lines: the size of a pixel to the east, two of rotation, the size of a pixel to the next row, and
+/// the centre of the first pixel (Esri).
+fn world(grid: &Grid) -> String {
+    let ([dx, dy], [x, y]) = (grid.step(), grid.centre(0, 0));
+    format!("{dx:?}\n0.0\n0.0\n{dy:?}\n{x:?}\n{y:?}\n")
 }
 
 /// All files beside a raster that programs read with it: its system and statistics, overviews, mask; none beside standard output.
@@ -69,8 +93,10 @@ pub fn besides_of_raster(path: &Path, format: Format) -> Vec<PathBuf> {
         path.with_file_name(name)
     };
     let mut sides = [".aux.xml", ".ovr", ".msk"].map(with).to_vec();
-    if format == Format::Asc {
-        sides.push(path.with_extension("prj"));
+    match format {
+        Format::Asc => sides.push(path.with_extension("prj")),
+        Format::Png => sides.push(path.with_extension("pgw")),
+        _ => {}
     }
     sides
 }

@@ -6,7 +6,7 @@
 mod asc;
 mod beside;
 mod npy;
-mod shade;
+mod relief;
 mod tiff;
 
 use std::io::Write;
@@ -20,7 +20,7 @@ pub use asc::ASC_NODATA;
 pub(crate) use asc::read as read_asc;
 pub use beside::{beside_raster, beside_raster_name, besides_of_raster};
 pub(crate) use npy::read as read_npy;
-pub use shade::{Light, ShadeWriter};
+pub use relief::{Light, Relief, ReliefKind, ReliefRows, ShadeWriter};
 pub(crate) use tiff::read as read_tiff;
 
 /// The numbers that a GeoTIFF is written with. Text is written with as many digits as these need, and arrays of NumPy with 64 bits.
@@ -58,6 +58,16 @@ pub enum Compression {
     None,
 }
 
+/// What a cell of an overview of a GeoTIFF has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Overviews {
+    /// The mean of the cells below that have data.
+    #[default]
+    Means,
+    /// The value of the first of these: for angles and classes.
+    Firsts,
+}
+
 /// What a file says of a raster besides its values.
 ///
 /// ```
@@ -81,6 +91,8 @@ pub struct RasterInfo {
     pub sample: Sample,
     /// The compression of a GeoTIFF.
     pub compression: Compression,
+    /// The overviews of a GeoTIFF.
+    pub overviews: Overviews,
     /// A folder in which tiles of a large GeoTIFF wait until their places are known; the system's for temporary files where none is named.
     pub scratch: Option<PathBuf>,
 }
@@ -94,6 +106,7 @@ impl RasterInfo {
             nodata: None,
             sample: Sample::default(),
             compression: Compression::default(),
+            overviews: Overviews::default(),
             scratch: None,
         }
     }
@@ -254,6 +267,18 @@ fn placed(corner: [f64; 2], step: [f64; 2], columns: usize, rows: usize) -> Resu
 /// What is wrong with the file; [`Error::Unsupported`] for other formats.
 pub fn read_raster(source: Box<dyn Source>, format: Format) -> Result<Raster, Error> {
     format.readers().rasters.ok_or_else(|| format.without(Contents::Rasters, Direction::Read))?(source)
+}
+
+/// Reads where the cells of a raster are and what their coordinates mean, without its values.
+///
+/// # Errors
+/// What is wrong with the file; [`Error::Unsupported`] for formats that do not tell.
+pub fn read_raster_place(source: Box<dyn Source>, format: Format) -> Result<(Grid, Option<Crs>), Error> {
+    match format {
+        Format::Tiff => tiff::read_place(source),
+        Format::Asc => asc::read_place(source),
+        _ => Err(format.without(Contents::Rasters, Direction::Read)),
+    }
 }
 
 /// Reads points with heights, of whatever formats have them: as [`read_points`](crate::read_points), and an array of a shape that is not

@@ -15,6 +15,7 @@ mod tile;
 mod write;
 
 pub(crate) use read::read;
+pub(super) use read::read_place;
 pub(super) use write::Writer;
 
 /// The tags that say what a file has, by number.

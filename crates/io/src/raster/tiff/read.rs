@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::io::SeekFrom;
 
+use delone::surface::Grid;
 use tiff::decoder::{Decoder, DecodingResult, IfdDecoder};
 use tiff::tags::Tag;
 use tiff::{Directory, TiffError};
@@ -17,10 +18,19 @@ use super::{part, place, tag};
 use crate::crs::keys::{decode, is_point};
 use crate::input::most_inflated;
 use crate::raster::Raster;
-use crate::{Error, Source, guard};
+use crate::{Crs, Error, Source, guard};
 
 pub(crate) fn read(source: Box<dyn Source>) -> Result<Raster, Error> {
     guard::decode("TIFF", || File::open(source)?.read())
+}
+
+/// Where the cells are, and their system.
+pub(crate) fn read_place(source: Box<dyn Source>) -> Result<(Grid, Option<Crs>), Error> {
+    guard::decode("TIFF", || {
+        let mut file = File::open(source)?;
+        let page = Page::of(&mut file.decoder, &file.image, false)?;
+        file.place(&page)
+    })
 }
 
 /// What the crate says, as an error of ours.
@@ -88,10 +98,7 @@ impl File {
 
     fn read(mut self) -> Result<Raster, Error> {
         let page = Page::of(&mut self.decoder, &self.image, false)?;
-        let numbers = self.shorts(tag::KEYS);
-        let crs = decode(&numbers, &self.doubles(tag::DOUBLES), self.text(tag::TEXTS).as_bytes());
-        let [scale, tie, matrix] = [tag::SCALE, tag::TIE, tag::TRANSFORM].map(|number| self.doubles(number));
-        let grid = place::grid(&scale, &tie, &matrix, is_point(&numbers), [page.columns, page.rows])?;
+        let (grid, crs) = self.place(&page)?;
         let meaning = Meaning::of(&self.text(tag::NO_DATA), &self.text(tag::ABOUT))?;
         let mask = self.mask.as_ref().map(|mask| Page::of(&mut self.decoder, mask, true)).transpose()?;
         let mut values = Vec::new();
@@ -114,6 +121,15 @@ impl File {
             })?;
         }
         Ok(Raster { grid, crs, values, remarks: self.remarks })
+    }
+
+    /// Where the cells are, and their system.
+    fn place(&mut self, page: &Page) -> Result<(Grid, Option<Crs>), Error> {
+        let numbers = self.shorts(tag::KEYS);
+        let crs = decode(&numbers, &self.doubles(tag::DOUBLES), self.text(tag::TEXTS).as_bytes());
+        let [scale, tie, matrix] = [tag::SCALE, tag::TIE, tag::TRANSFORM].map(|number| self.doubles(number));
+        let grid = place::grid(&scale, &tie, &matrix, is_point(&numbers), [page.columns, page.rows])?;
+        Ok((grid, crs))
     }
 
     /// Decodes the strips or tiles of an image in their order; there is nothing of those that the file leaves out.

@@ -17,7 +17,7 @@ use super::tile::Shape;
 use super::{place, tag};
 use crate::crs::keys::encode;
 use crate::limit::Counted;
-use crate::raster::{RasterInfo, Sample};
+use crate::raster::{Overviews, RasterInfo, Sample};
 use crate::{Error, Format};
 
 /// What a small file has at most: offsets have 32 bits.
@@ -30,6 +30,7 @@ const IN_MEMORY: usize = 1 << 24;
 pub(in crate::raster) struct Writer<W> {
     out: W,
     shape: Shape,
+    overviews: Overviews,
     nodata: f64,
     /// What the directories of all levels say, and what only that of the raster does.
     common: Vec<Tag>,
@@ -111,7 +112,20 @@ impl<W: Write> Writer<W> {
             None => tempfile::spooled_tempfile(IN_MEMORY),
         });
         let at_once = 4 * rayon::current_num_threads().max(1);
-        Ok(Self { out, shape, nodata, common, own, levels, waiting, length: 0, at_once, small: SMALL })
+        let overviews = info.overviews;
+        Ok(Self {
+            out,
+            shape,
+            overviews,
+            nodata,
+            common,
+            own,
+            levels,
+            waiting,
+            length: 0,
+            at_once,
+            small: SMALL,
+        })
     }
 
     /// Takes whole rows, the first of which is row `first`.
@@ -135,7 +149,7 @@ impl<W: Write> Writer<W> {
                 self.levels[level].upper = Some(row.to_vec());
                 Ok(())
             }
-            Some(upper) => self.take(level + 1, &halved(&upper, row), number / 2),
+            Some(upper) => self.take(level + 1, &halved(&upper, row, self.overviews), number / 2),
         }
     }
 
@@ -185,7 +199,7 @@ impl<W: Write> Writer<W> {
                 self.flush(level)?;
             }
             if let Some(last) = self.levels[level].upper.take() {
-                self.take(level + 1, &halved(&last, &last), 0)?;
+                self.take(level + 1, &halved(&last, &last, self.overviews), 0)?;
             }
         }
         // Directories have as many bytes whatever places they name.

@@ -1,0 +1,140 @@
+//! Rasters as a user asks for them: where cells are, what lines and duplicates do to heights, relief.
+
+use std::fs;
+
+use delone_generators::Kind;
+
+use crate::dtm::raster;
+use crate::place::Place;
+
+/// Points exactly on a line are at the height of the line, whatever the method and wherever the line is cut.
+#[test]
+fn lines_keep_their_heights_over_points() {
+    let place = Place::new();
+    let slope: String =
+        (0..121).map(|i| format!("{},{},{}\n", 10 * (i % 11), 10 * (i / 11), i % 11)).collect();
+    place.file("p.csv", &slope);
+    place.file("river.geojson", r#"{"type":"LineString","coordinates":[[3.1,50,-5],[94.3,50,-5]]}"#);
+    for method in ["linear", "natural", "laplace"] {
+        place
+            .succeed(&format!("-q dtm p.csv --cell 4 --method {method} --breaklines river.geojson -o a.npy"));
+        let (_, columns, values) = raster(&place, "a.npy");
+        // The row of centres on the river. Natural neighbours look past the vertices of a line a little.
+        let along = &values[12 * columns..13 * columns];
+        let off = if method == "linear" { 1e-9 } else { 0.05 };
+        assert!(along[1..23].iter().all(|z| (z + 5.0).abs() < off), "{method}: {along:?}");
+    }
+    // Where several lines meet in a point the rule says which counts.
+    place.file(
+        "cross.geojson",
+        r#"{"type":"MultiLineString","coordinates":[[[5,50,-5],[95,50,-5]],[[50,5,3],[50,95,3]]]}"#,
+    );
+    for (rule, height) in [("lowest", -5.0), ("highest", 3.0), ("mean", -1.0), ("first", -5.0)] {
+        place.succeed(&format!(
+            "-q dtm p.csv --cell 4 --duplicates {rule} --breaklines cross.geojson -o a.npy"
+        ));
+        let (_, columns, values) = raster(&place, "a.npy");
+        assert_eq!(values[12 * columns + 12], height, "{rule}");
+    }
+}
+
+/// Cells are where they were asked for.
+#[test]
+fn cells_have_a_place() {
+    let place = Place::new();
+    let points = Kind::Uniform.points(200, 3);
+    let rows: String =
+        points.iter().map(|[x, y]| format!("{:?},{:?},{:?}\n", 9.0 * x, 7.0 * y, x + y)).collect();
+    place.file("p.csv", format!("x,y,z\n{rows}"));
+    for command in ["dtm p.csv --cell", "interpolate p.csv --columns x,y,z --method linear --grid"] {
+        place.succeed(&format!("-q {command} 0.5 --extent 1,2,4,6.2 -o a.asc"));
+        let head = |name: &str| {
+            let text = fs::read_to_string(place.path(name)).expect("text");
+            text.lines()
+                .take(5)
+                .map(|line| line.split(' ').next_back().unwrap_or_default().to_owned())
+                .collect()
+        };
+        let found: Vec<String> = head("a.asc");
+        assert_eq!(found, ["6", "9", "1.0", "2.0", "0.5"], "{command}");
+        place.succeed(&format!("-q {command} 0.5 --origin 0.25,-0.1 --extent 1,2,4,6.2 -o b.asc"));
+        let found: Vec<String> = head("b.asc");
+        assert_eq!(found, ["7", "9", "0.75", "1.9", "0.5"], "{command}");
+    }
+    // The cells of another raster, in tiles too.
+    place.succeed(
+        "-q dtm p.csv --cell 0.3 --origin 0.1,0.2 --extent -1,-1,5,4 --epsg 25832 -o like.tif -o a.npy",
+    );
+    for rest in ["", "--memory 64M --tile 60"] {
+        place.succeed(&format!("-q dtm p.csv --like like.tif {rest} -o b.tif -o b.npy"));
+        let [a, b] = ["like.tif", "b.tif"].map(|name| fs::read(place.path(name)).expect("a raster"));
+        assert!(a == b, "{rest}");
+    }
+    place.succeed("-q interpolate p.csv --columns x,y,z --method linear --like like.tif -o c.tif");
+    let [a, c] = ["like.tif", "c.tif"].map(|name| fs::read(place.path(name)).expect("a raster"));
+    assert!(a == c);
+    let told = "its coordinates are EPSG:25832, those of the points EPSG:25833";
+    place.fail("-q dtm p.csv --like like.tif --epsg 25833 -o b.tif", 1, told);
+    for wrong in ["--like like.tif --cell 1", "--like like.tif --extent 0,0,1,1", "--cell 1 --extent 1,1,0,0"]
+    {
+        place.fail(&format!("-q dtm p.csv {wrong} -o b.tif"), 2, "--");
+    }
+    place.fail("-q dtm p.csv --like p.csv -o b.tif", 2, "rasters");
+    place.fail(
+        "-q dtm p.csv --cell 1 --memory 64M --max-edge 3 -o b.tif",
+        2,
+        "--max-edge needs all triangles",
+    );
+    place.fail("-q dtm p.csv --cell 1 --compress lzw -o b.npy", 2, "--compress is for GeoTIFF");
+}
+
+/// Hillshades, slopes and aspects of rasters, in the units that their system has.
+#[test]
+fn relief_has_units() {
+    let place = Place::new();
+    let heights: String = (0..4).map(|_| "0 2 4 6\n").collect();
+    place.file("d.asc", format!("ncols 4\nnrows 4\nxllcorner 10\nyllcorner 45\ncellsize 2\n{heights}"));
+    let middle = |line: &str| {
+        place.succeed(&format!("-q relief d.asc {line} -o r.npy"));
+        raster(&place, "r.npy").2[5]
+    };
+    assert!((middle("--kind slope") - 45.0).abs() < 1e-9);
+    assert!((middle("--kind slope --z-factor 2") - 2f64.atan().to_degrees()).abs() < 1e-9);
+    assert!((middle("--kind aspect") - 270.0).abs() < 1e-9);
+    // Lit from the west at 45 degrees, straight on the slope.
+    assert!((middle("--azimuth 270") - 255.0).abs() < 1e-9);
+    assert!((middle("--azimuth 90") - 1.0).abs() < 1e-9);
+    // Two degrees are 150 kilometres, which two metres do not make steep.
+    assert!(middle("--kind slope --epsg 4326") < 0.001);
+    assert_eq!(middle("--kind slope --epsg 2992"), middle("--kind slope"));
+    place.succeed("-q relief d.asc --epsg 25832 -o r.tif -o r.png");
+    assert_eq!(
+        fs::read_to_string(place.path("r.pgw")).expect("a world file"),
+        "2.0\n0.0\n0.0\n-2.0\n11.0\n52.0\n"
+    );
+    place.succeed("-q relief r.tif --kind slope -o s.tif -o s.asc");
+    place.fail("-q relief d.asc --kind slope -o s.png", 2, "no format of this relief");
+    place.fail("-q relief d.asc --z-factor 0 -o s.tif", 2, "--z-factor");
+    place.file("p.csv", "0,0,1\n4,0,2\n4,4,1\n0,4,3\n");
+    place.succeed("-q dtm p.csv --cell 1 --z-factor 2 --multidirectional -o a.png");
+    assert!(place.path("a.pgw").exists());
+}
+
+/// One rule, and one default, for the height of a place with several points.
+#[test]
+fn duplicates_have_one_rule() {
+    let place = Place::new();
+    place.file("p.csv", "x,y,z\n0,0,1\n4,0,1\n4,4,1\n0,4,1\n2,2,7\n2,2,3\n2,2,8\n");
+    place.file("q.csv", "2,2\n");
+    for (rule, height) in [("", "3"), ("lowest", "3"), ("highest", "8"), ("mean", "6"), ("first", "7")] {
+        let rule = if rule.is_empty() { String::new() } else { format!("--duplicates {rule}") };
+        place.succeed(&format!(
+            "-q interpolate p.csv --columns x,y,z {rule} --queries q.csv --method linear -o v.csv"
+        ));
+        assert_eq!(fs::read_to_string(place.path("v.csv")).expect("text").trim(), height, "{rule}");
+        place.succeed(&format!("-q triangulate p.csv --columns x,y,z {rule} -o t.obj"));
+        let text = fs::read_to_string(place.path("t.obj")).expect("text");
+        let fifth = text.lines().filter(|line| line.starts_with("v ")).nth(4);
+        assert_eq!(fifth, Some(format!("v 2.0 2.0 {height}.0").as_str()), "{rule}: {text}");
+    }
+}
