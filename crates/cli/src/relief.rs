@@ -32,7 +32,7 @@ pub(crate) fn run(args: &ReliefArgs, quiet: bool) -> Result<(), Failure> {
     args.compress.check(outputs.iter().map(|output| output.1))?;
     let format = files::format(&args.input, args.from, "--from")?;
     let raster = files::read_raster(&args.input, format, quiet)?;
-    let crs = args.epsg.map(Crs::of_epsg).or_else(|| raster.crs.clone());
+    let crs = raster.crs.clone();
     let _phase = Phase::start(quiet, "shading");
     for (path, format) in &outputs {
         let output = files::create(path)?;

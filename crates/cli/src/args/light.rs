@@ -88,9 +88,6 @@ pub(crate) struct ReliefArgs {
     /// How GeoTIFF is compressed.
     #[arg(long, value_name = "HOW", default_value = "deflate")]
     pub(crate) compress: CompressName,
-    /// The system of coordinates by its EPSG number, where the file does not tell or is wrong.
-    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1024..=32766))]
-    pub(crate) epsg: Option<u32>,
 }
 
 impl ReliefArgs {
