@@ -83,8 +83,8 @@ def triangulate(polygons: Any, *, fill: str = "even-odd", crossings: str = "refu
     >>> from shapely.geometry import box
     >>> lots = geopandas.GeoDataFrame({"use": ["farm"]}, geometry=[box(0, 0, 2, 2)], index=["a7"])
     >>> triangles = delone.geo.triangulate(lots)
-    >>> triangles.use.tolist(), triangles.index.tolist(), triangles.area.sum()
-    (['farm', 'farm'], ['a7', 'a7'], 4.0)
+    >>> triangles.use.tolist(), triangles.index.tolist(), triangles.area.tolist()
+    (['farm', 'farm'], ['a7', 'a7'], [2.0, 2.0])
     """
     column = _column(polygons, "polygons")
     made = triangulate_polygons(column, fill=fill, crossings=crossings, ragged=True)
