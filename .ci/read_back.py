@@ -331,7 +331,9 @@ for x, y, z in points[:50]:
     space.add_point((x, y, z), dxfattribs={"layer": "Höhen"})
 arm = drawing.blocks.new("arm", base_point=(1, 0))
 arm.add_line((1, 0), (3, 0))
-inserted = space.add_blockref("arm", (points[0, 0], points[0, 1]), dxfattribs={"xscale": 2, "rotation": 30})
+# Beside all points: where two are, the lower height counts.
+place = points[0, :2] + 0.5
+inserted = space.add_blockref("arm", tuple(place.tolist()), dxfattribs={"xscale": 2, "rotation": 30})
 ends = [list(end)[:2] for line in inserted.virtual_entities() for end in (line.dxf.start, line.dxf.end)]
 drawing.saveas(folder / "other.dxf")
 run("triangulate", "other.dxf", "-o", "again.ply")
