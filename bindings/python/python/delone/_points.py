@@ -104,9 +104,9 @@ def as_coordinates(values: ArrayLike, what: str) -> NDArray[Any]:
 
 def as_queries(xi: ArrayLike, columns: int, what: str = "xi") -> tuple[NDArray[np.float64], tuple[int, ...]]:
     """Queries as rows, and the shape that their answers have: that of `xi` without its last axis."""
-    array = as_numbers(xi, what)
-    if array.ndim == 0:
+    if np.asarray(xi).ndim == 0 and coordinates(xi, what) is None:
         raise ShapeError(f"{what} must have {columns} coordinates in its last axis; it is no array but {xi!r}")
+    array = as_numbers(xi, what)
     if array.shape[-1] != columns:
         raise ValueError(f"{what} must have {columns} coordinates in its last axis; its shape is {array.shape}")
     return as_points(array.reshape(-1, columns), what, columns), array.shape[:-1]
