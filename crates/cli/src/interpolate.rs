@@ -32,7 +32,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let mut stats = Stats::start();
     let place = Place::read(&args.place, quiet)?;
     let (points, about) = room::read::<R>(&args.input, quiet)?;
-    let crs = place.crs(about.crs.clone())?;
+    let crs = place.crs(about.crs.as_ref());
     let label = args.input.label();
     let mut table = table(args, &about, points.len(), quiet)?;
     let columns = table.len();

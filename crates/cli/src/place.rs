@@ -1,7 +1,5 @@
 //! The cells of a raster that is asked for: around points, over an area, or those of another raster.
 
-use std::path::Path;
-
 use delone::Bounds;
 use delone::surface::Grid;
 use delone_io::Crs;
@@ -51,21 +49,8 @@ impl<'a> Place<'a> {
         Grid::aligned_at(area, cell, self.args.origin.unwrap_or_default())
     }
 
-    /// The system of the cells: that of the points, which must not be another one than that of the other raster.
-    pub(crate) fn crs(&self, points: Option<Crs>) -> Result<Option<Crs>, Failure> {
-        let (Some((_, theirs)), Some(path)) = (&self.like, &self.args.like) else { return Ok(points) };
-        check_crs(path, points.as_ref(), theirs.as_ref())?;
-        Ok(points.or_else(|| theirs.clone()))
+    /// The system of the cells: that of the points, or else of the other raster.
+    pub(crate) fn crs(&self, points: Option<&Crs>) -> Option<Crs> {
+        points.or_else(|| self.like.as_ref()?.1.as_ref()).cloned()
     }
-}
-
-/// Refuses a system of coordinates that is not that of the points.
-pub(crate) fn check_crs(path: &Path, ours: Option<&Crs>, theirs: Option<&Crs>) -> Result<(), Failure> {
-    if let (Some(ours), Some(theirs)) = (ours, theirs)
-        && ours.epsg.zip(theirs.epsg).is_some_and(|(a, b)| a != b)
-    {
-        let what = format!("{}: its coordinates are {theirs}, those of the points {ours}", path.display());
-        return Err(Failure::new(what, "transform one of them first"));
-    }
-    Ok(())
 }

@@ -50,6 +50,8 @@ pub struct Rings {
     pub rings: Vec<Vec<[f64; 2]>>,
     /// What the coordinates mean, where the file tells.
     pub crs: Option<Crs>,
+    /// What the file has and these rings have not.
+    pub losses: Vec<String>,
 }
 
 /// Rows of values, each of the same width.

@@ -72,6 +72,7 @@ use std::io::{BufRead, Seek};
 
 use chunks::Chunks;
 use delone::Triangulation;
+use formats::shapes::Purpose;
 use formats::vector;
 
 /// What a user should know of a file that was written.
@@ -102,8 +103,7 @@ pub struct ReadOptions {
 ///
 /// Coordinates are not judged here: NaN and infinities pass, and the library names them by index.
 pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOptions) -> Result<Cloud, Error> {
-    let reader = format.readers().points;
-    reader.ok_or_else(|| format.without(Contents::Points, Direction::Read))?(source, options)
+    read_with(source, format, options, None)
 }
 
 /// Reads the points of a file and of those beside it ([`Format::sides`]), which `beside` opens by their extension.
@@ -116,9 +116,20 @@ pub fn read_points_beside(
     options: &ReadOptions,
     beside: Beside,
 ) -> Result<Cloud, Error> {
-    match format {
-        Format::Shapefile => formats::shapefile::read_points(source, options, Some(beside)),
-        _ => read_points(source, format, options),
+    read_with(source, format, options, Some(beside))
+}
+
+fn read_with(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    beside: Option<Beside>,
+) -> Result<Cloud, Error> {
+    let readers = format.readers();
+    match (readers.shapes, readers.points) {
+        (Some(read), _) => Ok(read(source, options, beside, Purpose::Points)?.cloud()),
+        (None, Some(read)) => read(source, options),
+        (None, None) => Err(format.without(Contents::Points, Direction::Read)),
     }
 }
 
@@ -202,17 +213,18 @@ pub fn read_graph(
     beside: Option<Beside>,
 ) -> Result<Graph, Error> {
     let readers = format.readers();
-    match (readers.lines, readers.attributed) {
-        (Some(read), _) => read(source, options, beside),
-        (None, Some(read)) => read(source),
-        (None, None) => read_points(source, format, options).map(Graph::of_points),
+    match (readers.shapes, readers.lines, readers.attributed) {
+        (Some(read), ..) => read(source, options, beside, Purpose::Lines)?.graph(),
+        (None, Some(read), _) => read(source, options, beside),
+        (None, None, Some(read)) => read(source),
+        (None, None, None) => read_points(source, format, options).map(Graph::of_points),
     }
 }
 
 /// Whether a file is one of lines and polygons: its format is made for them, or there are some in it.
 pub fn holds_lines(source: Box<dyn Source>, format: Format) -> bool {
     let readers = format.readers();
-    readers.lines.is_some() && readers.has_lines.is_none_or(|is_there| is_there(source))
+    readers.has(Contents::Lines) && readers.has_lines.is_none_or(|is_there| is_there(source))
 }
 
 /// Reads segments alone, as indices of points from 0: text with two columns, a NumPy array of shape (m, 2), a `.poly` or an
@@ -271,20 +283,25 @@ trait Shape {
 
 /// Reads the rings of polygons: those of formats that have polygons, or all points of another format as one ring.
 pub fn read_rings(source: Box<dyn Source>, format: Format) -> Result<Rings, Error> {
-    if let Some(read) = format.readers().polygons {
-        return read(source);
-    }
+    read_rings_with(source, format, None)
+}
+
+fn read_rings_with(source: Box<dyn Source>, format: Format, beside: Option<Beside>) -> Result<Rings, Error> {
+    let readers = format.readers();
     let options = ReadOptions { dimension: 2, ..ReadOptions::default() };
-    let cloud = read_points(source, format, &options)?;
-    Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs })
+    match (readers.shapes, readers.polygons) {
+        (Some(read), _) => Ok(read(source, &options, beside, Purpose::Polygons)?.rings()),
+        (None, Some(read)) => read(source),
+        (None, None) => {
+            let cloud = read_points(source, format, &options)?;
+            Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs, losses: cloud.losses })
+        }
+    }
 }
 
 /// Reads the rings of polygons of a file and what their system is from those beside it ([`Format::sides`]).
 pub fn read_rings_beside(source: Box<dyn Source>, format: Format, beside: Beside) -> Result<Rings, Error> {
-    match format {
-        Format::Shapefile => formats::shapefile::read_rings(source, Some(beside)),
-        _ => read_rings(source, format),
-    }
+    read_rings_with(source, format, Some(beside))
 }
 
 /// Writes Voronoi cells, one for each site with its input index (`site`), the area of its cell and its attributes: as GeoJSON, FlatGeobuf or GeoPackage,

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use delone_io::Format;
+use delone_io::{Contents, Format};
 
+use super::formats;
 use super::{DimArgs, InputArgs, StrategyArgs};
 
 /// How queries are read and answers are written.
@@ -13,8 +14,14 @@ pub(crate) struct QueryArgs {
     /// File of points to ask for, in any format that points have.
     #[arg(long, value_name = "Q", required = true)]
     pub(crate) queries: PathBuf,
-    /// Output file, or - for standard output: npy has the answers alone (int64), csv and geojson the queries with their attributes too.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output file.
+    #[arg(
+        long, short, value_name = "OUT", required = true,
+        help = format!(
+            "Output file, or - for standard output: npy has the answers alone (int64), {} have the queries with their attributes too",
+            formats::written(&[Contents::Answers])
+        )
+    )]
     pub(crate) output: PathBuf,
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]
@@ -75,8 +82,14 @@ pub(crate) struct FurthestArgs {
     /// File of points to ask for, in any format that points have.
     #[arg(long, value_name = "Q", required = true)]
     pub(crate) queries: PathBuf,
-    /// Output file, or - for standard output: npy has the answers alone (int64), csv and geojson the queries with their attributes too.
-    #[arg(long, short, value_name = "OUT", required = true)]
+    /// Output file.
+    #[arg(
+        long, short, value_name = "OUT", required = true,
+        help = format!(
+            "Output file, or - for standard output: npy has the answers alone (int64), {} have the queries with their attributes too",
+            formats::written(&[Contents::Answers])
+        )
+    )]
     pub(crate) output: PathBuf,
     /// Format of the output, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -21,8 +21,14 @@ again; points that were added where sides cross follow. GeoJSON has the polygon 
 and VTK as its region.
 Exit status: 0 done, 1 bad data or failed work, 2 wrong usage.")]
 pub(crate) struct PolygonsArgs {
-    /// Files of polygons (geojson json fgb gpkg wkt wkb), or - for standard input. Several files are one list.
-    #[arg(value_name = "IN", required = true)]
+    /// Files of polygons.
+    #[arg(
+        value_name = "IN", required = true,
+        help = format!(
+            "Files of polygons ({}), or - for standard input. Several files are one list",
+            formats::read(Contents::Polygons)
+        )
+    )]
     pub(crate) input: Vec<PathBuf>,
     /// Format of the input, if its extension does not tell.
     #[arg(long, value_name = "FORMAT")]

@@ -9,13 +9,12 @@
 use std::path::Path;
 
 use delone::surface::Grid;
-use delone_io::{Contents, Crs, Format};
+use delone_io::{Contents, Format};
 use delone_predicates::orient2d;
 
 use super::lines;
 use crate::files;
 use crate::message::Failure;
-use crate::place::check_crs;
 
 /// The rings of a polygon.
 type Rings = Vec<Vec<[f64; 2]>>;
@@ -23,7 +22,6 @@ type Rings = Vec<Vec<[f64; 2]>>;
 /// Polygons to clip to.
 pub(super) struct Clip {
     polygons: Vec<Rings>,
-    crs: Option<Crs>,
 }
 
 impl Clip {
@@ -36,7 +34,7 @@ impl Clip {
             return Err(lines::no_polygon(path, &lines::give("polygons", Contents::Polygons)));
         }
         if graph.rings.is_empty() {
-            return Ok(Self { polygons: vec![vec![graph.cloud.xy]], crs: graph.cloud.crs });
+            return Ok(Self { polygons: vec![vec![graph.cloud.xy]] });
         }
         let ring = |sides: &[[usize; 2]]| sides.iter().map(|side| graph.cloud.xy[side[0]]).collect();
         let polygons = graph
@@ -44,12 +42,7 @@ impl Clip {
             .chunk_by(|a, b| a.polygon == b.polygon)
             .map(|rings| rings.iter().map(|r| ring(&graph.segments[r.segments.clone()])).collect())
             .collect();
-        Ok(Self { polygons, crs: graph.cloud.crs })
-    }
-
-    /// Refuses a system of coordinates that is not that of the points.
-    pub(super) fn check(&self, path: &Path, crs: Option<&Crs>) -> Result<(), Failure> {
-        check_crs(path, crs, self.crs.as_ref())
+        Ok(Self { polygons })
     }
 
     /// Takes the values of cells outside of all polygons.
@@ -120,7 +113,7 @@ mod tests {
             let polygons =
                 polygons.iter().map(|rings| rings.iter().map(|&ring| ring.clone()).collect()).collect();
             let mut values = vec![1.0; 64];
-            Clip { polygons, crs: None }.apply(&grid, &mut values);
+            Clip { polygons }.apply(&grid, &mut values);
             (values.iter().filter(|value| !value.is_nan()).count(), values)
         };
         let ((a, first), (b, second)) = (count(&[&[&lower]]), count(&[&[&upper]]));

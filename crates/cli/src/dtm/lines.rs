@@ -5,14 +5,13 @@ use std::path::Path;
 
 use delone::surface::{Duplicates, Interpolator, Outside, Several};
 use delone::{Constrained2, Crossings, SegmentId};
-use delone_io::{Cloud, Contents, Crs, Direction, Format, Graph};
+use delone_io::{Cloud, Contents, Direction, Format, Graph};
 
 use super::surface::of_points;
 use crate::args::DtmArgs;
 use crate::constrained::along;
 use crate::files;
 use crate::message::{Failure, warn};
-use crate::place::check_crs;
 
 /// All of them, one after the other.
 #[derive(Default)]
@@ -31,7 +30,7 @@ pub(super) struct Lines {
 
 impl Lines {
     /// Reads the files of a command.
-    pub(super) fn read(args: &DtmArgs, crs: Option<&Crs>, quiet: bool) -> Result<Self, Failure> {
+    pub(super) fn read(args: &DtmArgs, quiet: bool) -> Result<Self, Failure> {
         let mut lines = Self::default();
         let files = args.breaklines.iter().map(|path| (path, false));
         for (path, is_level) in files.chain(args.flat.iter().map(|path| (path, true))) {
@@ -40,7 +39,6 @@ impl Lines {
                 let what = format!("{}: there is no line in it", path.display());
                 return Err(Failure::new(what, give("lines or polygons", Contents::Lines)));
             }
-            check_crs(path, crs, graph.cloud.crs.as_ref())?;
             if is_level && graph.rings.is_empty() {
                 return Err(no_polygon(path, "give polygons, or --breaklines for lines"));
             }

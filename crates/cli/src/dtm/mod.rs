@@ -171,10 +171,9 @@ impl Job<'_> {
     fn in_memory(&mut self, cloud: &Cloud, stats: &mut Stats) -> Result<(), Failure> {
         let Self { args, quiet, .. } = *self;
         inputs::check(cloud, &self.label, args)?;
-        let crs = self.crs(cloud)?;
-        self.check_clip(crs.as_ref())?;
+        let crs = self.crs(cloud);
         let grid = self.grid(&room::bounds(&cloud.xy, &self.label)?, cloud.xy.len() as f64)?;
-        let mut lines = Lines::read(args, crs.as_ref(), quiet)?;
+        let mut lines = Lines::read(args, quiet)?;
         if args.method != MethodName::Linear {
             lines
                 .cut(grid.step()[0].min(-grid.step()[1]) / 4.0)
@@ -227,8 +226,7 @@ impl Job<'_> {
             // Says what is wrong with them.
             Surface::new(Delaunay2::new(), Vec::new(), args, Vec::new(), &self.label)?;
         }
-        let crs = self.crs(about)?;
-        self.check_clip(crs.as_ref())?;
+        let crs = self.crs(about);
         let grid = self.grid(&held.bounds, count as f64)?;
         let free = (memory - (40 << 20)) as f64;
         // A band has its values twice, and where neighbours are asked its points.
@@ -353,19 +351,12 @@ impl Job<'_> {
         Ok(grid)
     }
 
-    fn check_clip(&self, crs: Option<&Crs>) -> Result<(), Failure> {
-        match (&self.clip, &self.args.clip) {
-            (Some(clip), Some(path)) => clip.check(path, crs),
-            _ => Ok(()),
-        }
-    }
-
-    fn crs(&self, about: &Cloud) -> Result<Option<Crs>, Failure> {
-        let crs = self.place.crs(about.crs.clone())?;
+    fn crs(&self, about: &Cloud) -> Option<Crs> {
+        let crs = self.place.crs(about.crs.as_ref());
         if crs.is_none() && self.outputs.iter().any(|output| output.1 == Format::Tiff) {
             warn(self.quiet, "the files do not tell their system of coordinates: name it with --epsg");
         }
-        Ok(crs)
+        crs
     }
 }
 

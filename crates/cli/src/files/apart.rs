@@ -58,7 +58,7 @@ pub(super) fn beside(path: &Path) -> impl FnMut(&str) -> Result<Box<dyn Source>,
 }
 
 /// The name of a file beside another one.
-fn side(path: &Path, extension: &str) -> PathBuf {
+pub(super) fn side(path: &Path, extension: &str) -> PathBuf {
     let is_capital = |own: &std::ffi::OsStr| own.as_encoded_bytes().iter().all(u8::is_ascii_uppercase);
     let capital = path.with_extension(extension.to_ascii_uppercase());
     if path.extension().is_some_and(is_capital) && capital.exists() {

@@ -250,7 +250,10 @@ pub(crate) fn read_raster(path: &Path, format: Format, quiet: bool) -> Result<Ra
 pub(crate) fn place(path: &Path, quiet: bool) -> Result<(Grid, Option<Crs>), Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    delone_io::read_raster_place(source, format).map_err(|error| Failure::file(path, &error))
+    let place = delone_io::read_raster_place(source, format).map_err(|error| Failure::file(path, &error));
+    let (grid, mut crs) = place?;
+    systems::heed(&mut crs, path, Role::Beside)?;
+    Ok((grid, crs))
 }
 
 /// Reads the points and segments of a command.
@@ -288,7 +291,7 @@ fn read_graph(
         let mut open = apart::beside(path);
         let mut beside = |extension: &str| {
             let source = open(extension)?;
-            besides.push(path.with_extension(extension));
+            besides.push(apart::side(path, extension));
             Ok(source)
         };
         let mut graph = delone_io::read_graph(source, format, &options, Some(&mut beside)).map_err(failed)?;
@@ -382,6 +385,7 @@ pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Fail
     let (source, _phase) = open(path, format, READING, quiet)?;
     let found = delone_io::read_rings_beside(source, format, &mut apart::beside(path));
     let mut found = found.map_err(|error| Failure::file(path, &error))?;
+    found.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     systems::heed(&mut found.crs, path, Role::Beside)?;
     Ok(found.rings)
 }

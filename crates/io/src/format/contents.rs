@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::chunks::Chunks;
 use crate::formats::poly::Beside;
+use crate::formats::shapes::{Purpose, Shapes};
 use crate::{Cloud, Error, Graph, Raster, ReadOptions, Rings, Source};
 
 /// A kind of thing that a file holds.
@@ -130,11 +131,14 @@ type Whole = Box<dyn Source>;
 type Reader<T> = Option<fn(Whole) -> Result<T, Error>>;
 type PointReader = fn(Whole, &ReadOptions) -> Result<Cloud, Error>;
 type PieceReader = fn(Whole, &ReadOptions, &mut Chunks) -> Result<Cloud, Error>;
+type ShapeReader = fn(Whole, &ReadOptions, Option<Beside>, Purpose) -> Result<Shapes, Error>;
 type LineReader = fn(Whole, &ReadOptions, Option<Beside>) -> Result<Graph, Error>;
 
 /// The functions that read a format, where it has what they read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readers {
+    /// Of a format of geometries: its points, lines and polygons, read by one function.
+    pub(crate) shapes: Option<ShapeReader>,
     pub(crate) points: Option<PointReader>,
     pub(crate) pieces: Option<PieceReader>,
     pub(crate) lines: Option<LineReader>,
@@ -154,6 +158,7 @@ pub(crate) struct Readers {
 impl Readers {
     /// Of a format that is written alone.
     pub(crate) const NONE: Self = Self {
+        shapes: None,
         points: None,
         pieces: None,
         lines: None,
@@ -171,6 +176,7 @@ impl Readers {
     /// Whether there is one for such contents.
     pub(crate) fn has(&self, contents: Contents) -> bool {
         match contents {
+            Contents::Points | Contents::Lines | Contents::Polygons if self.shapes.is_some() => true,
             Contents::Points => self.points.is_some(),
             Contents::Pieces => self.pieces.is_some(),
             Contents::Lines => self.lines.is_some(),

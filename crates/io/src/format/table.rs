@@ -27,19 +27,13 @@ pub(super) struct Row {
 
 /// The readers of GeoJSON, which tell by themselves whether there is a feature a line.
 const OF_GEOJSON: Readers = Readers {
-    points: Some(geojson::read),
-    lines: Some(|source, options, _| geojson::read_graph(source, options)),
-    polygons: Some(geojson::read_rings),
+    shapes: Some(|source, options, _, purpose| geojson::read(source, options, purpose)),
     ..Readers::NONE
 };
 
 /// The readers of well-known text, which tell by themselves whether it is one collection.
-const OF_WKT: Readers = Readers {
-    points: Some(|source, _| wkt::read_points(source)),
-    lines: Some(|source, options, _| wkt::read_graph(source, options)),
-    polygons: Some(wkt::read_rings),
-    ..Readers::NONE
-};
+const OF_WKT: Readers =
+    Readers { shapes: Some(|source, options, _, _| wkt::read(source, options)), ..Readers::NONE };
 
 /// All formats, in the order in which they are listed.
 pub(super) const TABLE: &[Row] = &[
@@ -295,9 +289,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["fgb"],
         also: &["flatgeobuf"],
         readers: Readers {
-            points: Some(flatgeobuf::read_points),
-            lines: Some(|source, options, _| flatgeobuf::read_graph(source, options)),
-            polygons: Some(flatgeobuf::read_rings),
+            shapes: Some(|source, options, _, _| flatgeobuf::read(source, options)),
             ..Readers::NONE
         },
         writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
@@ -308,9 +300,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["gpkg"],
         also: &["geopackage"],
         readers: Readers {
-            points: Some(geopackage::read_points),
-            lines: Some(|source, options, _| geopackage::read_graph(source, options)),
-            polygons: Some(geopackage::read_rings),
+            shapes: Some(|source, options, _, _| geopackage::read(source, options)),
             ..Readers::NONE
         },
         writes: &[Points, Lines, Answers, Triangles, Cells, Edges, Patches, Contours],
@@ -321,9 +311,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["shp"],
         also: &["shapefile"],
         readers: Readers {
-            points: Some(|source, options| shapefile::read_points(source, options, None)),
-            lines: Some(shapefile::read_graph),
-            polygons: Some(|source| shapefile::read_rings(source, None)),
+            shapes: Some(|source, options, beside, _| shapefile::read(source, options, beside)),
             ..Readers::NONE
         },
         writes: &[],
@@ -334,9 +322,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["dxf"],
         also: &[],
         readers: Readers {
-            points: Some(dxf::read_points),
-            lines: Some(|source, options, _| dxf::read_graph(source, options)),
-            polygons: Some(dxf::read_rings),
+            shapes: Some(|source, options, _, purpose| dxf::read(source, options, purpose)),
             ..Readers::NONE
         },
         writes: &[],
@@ -363,9 +349,7 @@ pub(super) const TABLE: &[Row] = &[
         names: &["wkb"],
         also: &["ewkb"],
         readers: Readers {
-            points: Some(|source, _| wkb::read_points(source)),
-            lines: Some(|source, options, _| wkb::read_graph(source, options)),
-            polygons: Some(wkb::read_rings),
+            shapes: Some(|source, options, _, _| wkb::read(source, options)),
             ..Readers::NONE
         },
         writes: &[Points, Triangles, Cells, Patches],
@@ -376,8 +360,8 @@ pub(super) const TABLE: &[Row] = &[
         names: &["gpx"],
         also: &[],
         readers: Readers {
-            points: Some(gpx::read_points),
-            lines: Some(|source, options, _| gpx::read_graph(source, options)),
+            points: Some(|source, options| Ok(gpx::read(source, options)?.cloud())),
+            lines: Some(|source, options, _| gpx::read(source, options)?.graph()),
             ..Readers::NONE
         },
         writes: &[],

@@ -7,9 +7,9 @@ use geojson::feature::Id;
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 
 pub(crate) use self::properties::Properties;
-use super::shapes::Shapes;
+use super::shapes::{Purpose, Shapes};
 use crate::diagram::Tiles;
-use crate::{Cloud, Crs, Error, Graph, Mesh, ReadOptions, Rings, Shape, Source, Value};
+use crate::{Crs, Error, Mesh, ReadOptions, Shape, Source, Value};
 
 mod contours;
 mod coordinates;
@@ -17,39 +17,20 @@ mod properties;
 
 pub(crate) use contours::write_contours;
 
-/// Reads the positions of all geometries, in their order; the last of a ring, which is the first again, is left out.
-/// Several documents may follow each other, as in text sequences and lines of GeoJSON.
-pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
-    let (shapes, crs) = read_shapes(source, true, options.attributes)?;
-    Ok(Cloud { crs, ..shapes.cloud() })
-}
-
-/// Reads all geometries with the segments of their lines and rings.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let (shapes, crs) = read_shapes(source, false, options.attributes)?;
-    let mut graph = shapes.graph()?;
-    graph.cloud.crs = crs;
-    Ok(graph)
-}
-
-/// Reads the rings of all Polygon and MultiPolygon geometries.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
-    let (shapes, crs) = read_shapes(source, false, false)?;
-    Ok(Rings { rings: shapes.rings(), crs })
-}
-
-fn read_shapes(
+/// Reads all geometries, in their order. Several documents may follow each other, as in text sequences and lines of GeoJSON.
+pub(crate) fn read(
     mut source: Box<dyn Source>,
-    as_points: bool,
-    keeps_attributes: bool,
-) -> Result<(Shapes, Option<Crs>), Error> {
+    options: &ReadOptions,
+    purpose: Purpose,
+) -> Result<Shapes, Error> {
     if is_bare(&mut source)? {
-        return Ok((coordinates::read(source, as_points)?, None));
+        return coordinates::read(source, purpose == Purpose::Points);
     }
     let documents = parse(source)?;
-    let mut shapes = Shapes::new(keeps_attributes);
+    let mut shapes = Shapes::new(options.attributes);
     documents.iter().try_for_each(|document| collect_document(document, &mut shapes))?;
-    Ok((shapes, documents.iter().find_map(system)))
+    shapes.crs = documents.iter().find_map(system);
+    Ok(shapes)
 }
 
 /// Whether a file begins as an array does, not as a document.

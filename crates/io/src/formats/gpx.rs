@@ -5,24 +5,13 @@
 use roxmltree::{Document, Node};
 
 use super::shapes::Shapes;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Source, Value, xml};
+use crate::{Crs, Error, ReadOptions, Source, Value, xml};
 
 /// Longitude and latitude of WGS 84, which all files have.
 const EPSG: u32 = 4326;
 
-/// Reads all points.
-pub(crate) fn read_points(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
-    Ok(Cloud { crs: Some(Crs::of_epsg(EPSG)), ..read(source, options)?.cloud() })
-}
-
-/// Reads waypoints, and the segments of tracks and routes.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let mut graph = read(source, options)?.graph()?;
-    graph.cloud.crs = Some(Crs::of_epsg(EPSG));
-    Ok(graph)
-}
-
-fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
+/// Reads waypoints, and the lines of tracks and routes.
+pub(crate) fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;
     let text = str::from_utf8(&bytes).map_err(|_| Error::content("GPX: it is not text"))?;
@@ -31,6 +20,7 @@ fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Er
         return Err(Error::content("GPX: its root is not gpx"));
     }
     let mut shapes = Shapes::new(options.attributes);
+    shapes.crs = Some(Crs::of_epsg(EPSG));
     for node in document.descendants() {
         if is(&node, "wpt") {
             shapes.feature();

@@ -26,7 +26,7 @@ pub(crate) mod poly;
 pub(crate) mod ptx;
 pub(crate) mod raw;
 pub(crate) mod shapefile;
-mod shapes;
+pub(crate) mod shapes;
 pub(crate) mod stl;
 pub(crate) mod text;
 pub(crate) mod triangle;

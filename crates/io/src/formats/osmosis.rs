@@ -7,7 +7,7 @@
 
 use super::lines::Lines;
 use super::shapes::Shapes;
-use crate::{Crs, Error, Graph, Source};
+use crate::{Crs, Error, Source};
 
 /// Longitude and latitude of WGS 84, which all files have.
 const EPSG: u32 = 4326;
@@ -21,9 +21,10 @@ pub(super) fn is_one(source: &mut Box<dyn Source>) -> Result<bool, Error> {
 }
 
 /// Reads polygons.
-pub(super) fn read(source: Box<dyn Source>) -> Result<Graph, Error> {
+pub(super) fn read(source: Box<dyn Source>) -> Result<Shapes, Error> {
     let mut lines = Lines::new(source);
     let mut shapes = Shapes::default();
+    shapes.crs = Some(Crs::of_epsg(EPSG));
     let mut is_first = true;
     lines.next()?;
     loop {
@@ -52,7 +53,5 @@ pub(super) fn read(source: Box<dyn Source>) -> Result<Graph, Error> {
         }
         shapes.ring(start, true);
     }
-    let mut graph = shapes.graph()?;
-    graph.cloud.crs = Some(Crs::of_epsg(EPSG));
-    Ok(graph)
+    Ok(shapes)
 }

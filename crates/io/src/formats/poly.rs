@@ -8,7 +8,7 @@ use delone::{RegionSeed2, Triangulation};
 use super::lines::{Line, Lines};
 use super::osmosis;
 use super::triangle::{AHEAD, NodeRows, Nodes, count};
-use crate::{Cloud, Constraints, Error, Graph, GraphRing, Mesh, Rings, Source};
+use crate::{Cloud, Constraints, Error, Graph, Mesh, Rings, Source};
 
 /// What opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
@@ -16,7 +16,7 @@ pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
 /// Reads a graph. Where the file has no points, they are in the `.node` file beside it.
 pub(crate) fn read(mut source: Box<dyn Source>, beside: Option<Beside>) -> Result<Graph, Error> {
     if osmosis::is_one(&mut source)? {
-        return osmosis::read(source);
+        return osmosis::read(source)?.graph();
     }
     let mut lines = Lines::of_triangle(source);
     let mut nodes = Nodes::read(&mut lines, true)?;
@@ -54,7 +54,7 @@ pub fn has_points_beside(source: Box<dyn Source>) -> Result<bool, Error> {
 /// Reads the points alone.
 pub(crate) fn read_points(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
     if osmosis::is_one(&mut source)? {
-        return osmosis::read(source).map(|graph| graph.cloud);
+        return Ok(osmosis::read(source)?.graph()?.cloud);
     }
     let nodes = Nodes::read(&mut Lines::of_triangle(source), false)?;
     if nodes.cloud.xy.is_empty() { Err(Error::PointsElsewhere) } else { Ok(nodes.cloud) }
@@ -63,14 +63,9 @@ pub(crate) fn read_points(mut source: Box<dyn Source>) -> Result<Cloud, Error> {
 /// Reads the rings of polygons, or else all points as one ring.
 pub(crate) fn read_rings(mut source: Box<dyn Source>) -> Result<Rings, Error> {
     if osmosis::is_one(&mut source)? {
-        let graph = osmosis::read(source)?;
-        let ring = |ring: &GraphRing| {
-            graph.segments[ring.segments.clone()].iter().map(|side| graph.cloud.xy[side[0]]).collect()
-        };
-        let rings = graph.rings.iter().map(ring).collect();
-        return Ok(Rings { rings, crs: graph.cloud.crs.clone() });
+        return Ok(osmosis::read(source)?.rings());
     }
-    Ok(Rings { rings: vec![read_points(source)?.xy], crs: None })
+    Ok(Rings { rings: vec![read_points(source)?.xy], ..Rings::default() })
 }
 
 /// Reads segments alone. Where there are no points, the number of the first segment tells the base.

@@ -1,12 +1,20 @@
-//! What GeoJSON, well-known text and well-known binary have in common: positions, and lines and rings through them.
+//! What formats of geometries have in common: features with attributes, their positions, and lines and rings through them.
 
 use std::ops::Range;
 
-use crate::{Cloud, Error, Features, Graph, GraphRing, Table, Value};
+use crate::{Cloud, Crs, Error, Features, Graph, GraphRing, Rings, Table, Value};
+
+/// What geometries are read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    Points,
+    Lines,
+    Polygons,
+}
 
 /// The geometries of a file, in its order. The last position of a ring, which is the first again, is left out.
 #[derive(Debug, Default)]
-pub(super) struct Shapes {
+pub(crate) struct Shapes {
     xy: Vec<[f64; 2]>,
     /// The height of each, if it has one.
     z: Vec<Option<f64>>,
@@ -19,6 +27,11 @@ pub(super) struct Shapes {
     rows: Vec<u32>,
     /// Attributes are kept, not their names alone.
     keeps_attributes: bool,
+    /// What the coordinates mean, where the file tells.
+    pub(super) crs: Option<Crs>,
+    /// What a user might want to know of how the file was read, and what it has and these shapes have not.
+    pub(super) remarks: Vec<String>,
+    pub(super) losses: Vec<String>,
 }
 
 /// The heights of positions.
@@ -136,13 +149,14 @@ impl Shapes {
     }
 
     /// The rings of all polygons.
-    pub(super) fn rings(&self) -> Vec<Vec<[f64; 2]>> {
+    pub(crate) fn rings(self) -> Rings {
         let rings = self.parts.iter().filter(|part| matches!(part.kind, Kind::Ring { .. }));
-        rings.map(|part| self.xy[part.positions.clone()].to_vec()).collect()
+        let rings = rings.map(|part| self.xy[part.positions.clone()].to_vec()).collect();
+        Rings { rings, crs: self.crs, losses: self.losses }
     }
 
     /// All positions as points.
-    pub(super) fn cloud(self) -> Cloud {
+    pub(crate) fn cloud(self) -> Cloud {
         let shapes = self.parts();
         let mut cloud = self.points();
         if shapes > 0 {
@@ -153,7 +167,9 @@ impl Shapes {
 
     fn points(mut self) -> Cloud {
         let (xy, heights) = self.positions();
-        let mut cloud = Cloud { xy, features: Features::new(self.table, self.rows), ..Cloud::default() };
+        let features = Features::new(self.table, self.rows);
+        let (crs, remarks, losses) = (self.crs, self.remarks, self.losses);
+        let mut cloud = Cloud { xy, crs, features, remarks, losses, ..Cloud::default() };
         match heights {
             Heights::None => {}
             Heights::OfAll(heights) => cloud.z = Some(heights),
@@ -165,7 +181,7 @@ impl Shapes {
     }
 
     /// The positions with the segments between them: those of rings are borders.
-    pub(super) fn graph(mut self) -> Result<Graph, Error> {
+    pub(crate) fn graph(mut self) -> Result<Graph, Error> {
         let mut graph = Graph::default();
         for part in std::mem::take(&mut self.parts) {
             let Range { start, end } = part.positions;

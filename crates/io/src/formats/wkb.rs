@@ -7,52 +7,32 @@
 use std::io::{self, Read, Write};
 
 use super::shapes::Shapes;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Shape, Source};
+use crate::{Crs, Error, ReadOptions, Shape, Source};
 
-/// Reads the positions of all geometries, in their order.
-pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let (shapes, crs) = read(source, false)?;
-    Ok(Cloud { crs, ..shapes.cloud() })
-}
-
-/// Reads all geometries with the segments of their lines and rings.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let (shapes, crs) = read(source, options.attributes)?;
-    let mut graph = shapes.graph()?;
-    graph.cloud.crs = crs;
-    Ok(graph)
-}
-
-/// Reads the rings of all polygons.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
-    let (shapes, crs) = read(source, false)?;
-    Ok(Rings { rings: shapes.rings(), crs })
-}
-
-fn read(mut source: Box<dyn Source>, with_features: bool) -> Result<(Shapes, Option<Crs>), Error> {
+/// Reads all geometries, in their order.
+pub(crate) fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;
     let bytes = match digits(&bytes)? {
         Some(decoded) => decoded,
         None => bytes,
     };
-    let mut shapes = Shapes::new(with_features);
-    let mut crs: Option<Crs> = None;
+    let mut shapes = Shapes::new(options.attributes);
     let mut at = 0;
     while at < bytes.len() {
         let wrong = |what: String| Error::content(format!("WKB: the geometry at byte {at}: {what}"));
         let mut reader = Reader { rest: &bytes[at..], is_big: false };
         shapes.feature();
         let system = reader.geometry(&mut shapes, None, DEEPEST).map_err(wrong)?;
-        if let (Some(before), Some(now)) = (&crs, &system)
+        if let (Some(before), Some(now)) = (&shapes.crs, &system)
             && before != now
         {
             return Err(wrong(format!("its coordinates are {now}, those before it {before}")));
         }
-        crs = crs.or(system);
+        shapes.crs = shapes.crs.or(system);
         at = bytes.len() - reader.rest.len();
     }
-    Ok((shapes, crs))
+    Ok(shapes)
 }
 
 /// The bytes that a text of hexadecimal digits stands for, geometries on lines of their own or not; `None` if it is binary.

@@ -8,7 +8,7 @@ use std::io::{self, Read, Write};
 use super::shapes::Shapes;
 use super::wkb;
 use crate::error::excerpt;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Shape, Source};
+use crate::{Crs, Error, ReadOptions, Shape, Source};
 
 /// What geometries are called, and how deep their positions are in lists.
 const KINDS: [(&str, usize); 9] = [
@@ -32,27 +32,8 @@ const COLLECTION: &str = "GEOMETRYCOLLECTION";
 /// No geometry is in more collections.
 const DEEPEST: usize = 16;
 
-/// Reads the positions of all geometries, in their order.
-pub(crate) fn read_points(source: Box<dyn Source>) -> Result<Cloud, Error> {
-    let (shapes, crs) = read(source, false)?;
-    Ok(Cloud { crs, ..shapes.cloud() })
-}
-
-/// Reads all geometries with the segments of their lines and rings.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let (shapes, crs) = read(source, options.attributes)?;
-    let mut graph = shapes.graph()?;
-    graph.cloud.crs = crs;
-    Ok(graph)
-}
-
-/// Reads the rings of all polygons.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
-    let (shapes, crs) = read(source, false)?;
-    Ok(Rings { rings: shapes.rings(), crs })
-}
-
-fn read(mut source: Box<dyn Source>, with_features: bool) -> Result<(Shapes, Option<Crs>), Error> {
+/// Reads all geometries, in their order.
+pub(crate) fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
@@ -62,26 +43,25 @@ fn read(mut source: Box<dyn Source>, with_features: bool) -> Result<(Shapes, Opt
         what: "it is not UTF-8 text".to_owned(),
     })?;
     let mut reader = Reader { rest: text };
-    let mut shapes = Shapes::new(with_features);
-    let mut crs: Option<Crs> = None;
+    let mut shapes = Shapes::new(options.attributes);
     loop {
         reader.skip_remarks();
         let begin = reader.rest;
         if begin.is_empty() {
-            return Ok((shapes, crs));
+            return Ok(shapes);
         }
         shapes.feature();
         let system = match reader.one(&mut shapes) {
             Ok(system) => system,
             Err(what) => return Err(Error::Line { line: line(text.len() - reader.rest.len()), what }),
         };
-        if let (Some(before), Some(now)) = (&crs, &system)
+        if let (Some(before), Some(now)) = (&shapes.crs, &system)
             && before != now
         {
             let what = format!("its coordinates are {now}, those before it {before}");
             return Err(Error::Line { line: line(text.len() - begin.len()), what });
         }
-        crs = crs.or(system);
+        shapes.crs = shapes.crs.or(system);
     }
 }
 
@@ -335,7 +315,7 @@ pub(crate) fn write_points<const D: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::{is_geometry, read_graph, read_one};
+    use super::{is_geometry, read, read_one};
     use crate::ReadOptions;
     use crate::formats::shapes::{Heights, Shapes};
     use std::io::Cursor;
@@ -427,8 +407,10 @@ mod tests {
                 "ring 1 of polygon 0 is not closed: it begins at 0.0 0.0 and ends at 0.0 1.0",
             ),
         ] {
-            let error =
-                read_graph(Box::new(Cursor::new(text)), &ReadOptions::default()).expect_err(text).to_string();
+            let error = read(Box::new(Cursor::new(text)), &ReadOptions::default())
+                .and_then(Shapes::graph)
+                .expect_err(text)
+                .to_string();
             assert!(error.starts_with(message), "{error}");
         }
     }

@@ -13,30 +13,9 @@ use std::collections::BTreeMap;
 use self::blocks::{Block, Blocks};
 use self::entity::{Entity, Item, What};
 use super::lines::Lines;
-use super::shapes::Shapes;
+use super::shapes::{Purpose, Shapes};
 use crate::error::{excerpt, listed};
-use crate::{Cloud, Error, Graph, ReadOptions, Rings, Source, Value};
-
-/// Reads the positions of all entities, in their order.
-pub(crate) fn read_points(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
-    let (shapes, losses) = read(source, options.attributes, false)?;
-    let mut cloud = shapes.cloud();
-    cloud.losses.extend(losses);
-    Ok(cloud)
-}
-
-/// Reads all entities with the segments of their lines.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let (shapes, losses) = read(source, options.attributes, false)?;
-    let mut graph = shapes.graph()?;
-    graph.cloud.losses.extend(losses);
-    Ok(graph)
-}
-
-/// Reads the closed polylines.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
-    Ok(Rings { rings: read(source, false, true)?.0.rings(), crs: None })
-}
+use crate::{Error, ReadOptions, Source, Value};
 
 /// The pairs of a drawing.
 struct Pairs {
@@ -86,18 +65,19 @@ enum Section {
     Other,
 }
 
-fn read(
+/// Reads all entities, in their order.
+pub(crate) fn read(
     mut source: Box<dyn Source>,
-    keeps_attributes: bool,
-    closed_are_polygons: bool,
-) -> Result<(Shapes, Vec<String>), Error> {
+    options: &ReadOptions,
+    purpose: Purpose,
+) -> Result<Shapes, Error> {
     const BINARY: &[u8] = b"AutoCAD Binary DXF";
     if source.fill_buf()?.starts_with(BINARY) {
         return Err(Error::content("DXF: it is binary: save it as text, as ASCII DXF"));
     }
     let mut drawing = Drawing {
-        shapes: Shapes::new(keeps_attributes),
-        closed_are_polygons,
+        shapes: Shapes::new(options.attributes),
+        closed_are_polygons: purpose == Purpose::Polygons,
         blocks: Blocks::default(),
         block: None,
         polyline: None,
@@ -143,16 +123,16 @@ fn read(
         return Err(Error::Truncated("before the group that ends it, EOF".to_owned()));
     }
     drawing.end_polyline()?;
-    let mut losses = Vec::new();
+    let mut shapes = drawing.shapes;
     if drawing.arcs > 0 {
-        losses.push(format!("{} arcs of polylines were taken as their chords", drawing.arcs));
+        shapes.losses.push(format!("{} arcs of polylines were taken as their chords", drawing.arcs));
     }
     if !drawing.left_out.is_empty() {
         let kinds: Vec<String> =
             drawing.left_out.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
-        losses.push(format!("entities were left out: {}", listed(kinds.iter().map(String::as_str))));
+        shapes.losses.push(format!("entities were left out: {}", listed(kinds.iter().map(String::as_str))));
     }
-    Ok((drawing.shapes, losses))
+    Ok(shapes)
 }
 
 impl Drawing {

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use super::{read_graph, read_rings};
+use crate::formats::shapes::Purpose;
 use crate::{Error, Graph, ReadOptions};
 
 /// A drawing of blocks and entities, whose groups are apart by blanks: `10=1.5`.
@@ -22,7 +22,7 @@ fn drawing(blocks: &str, entities: &str) -> String {
 
 fn read(text: String) -> Result<Graph, Error> {
     let options = ReadOptions { attributes: true, ..ReadOptions::default() };
-    read_graph(Box::new(Cursor::new(text)), &options)
+    super::read(Box::new(Cursor::new(text)), &options, Purpose::Lines)?.graph()
 }
 
 fn layers(graph: &Graph) -> Vec<String> {
@@ -59,7 +59,10 @@ fn entities_of_all_kinds() {
     let high = "POINT 10=1 20=2 30=3 POLYLINE 70=0 30=6 VERTEX 10=1 20=1 VERTEX 10=2 20=2 SEQEND";
     assert_eq!(read(drawing("", high)).expect("heights").cloud.z, Some(vec![3.0, 6.0, 6.0]));
     let closed = drawing("", "LWPOLYLINE 70=1 10=0 20=0 10=4 20=0 10=0 20=4 LINE 10=0 20=0 11=1 21=1");
-    let rings = read_rings(Box::new(Cursor::new(closed))).expect("a ring").rings;
+    let rings = super::read(Box::new(Cursor::new(closed)), &ReadOptions::default(), Purpose::Polygons)
+        .expect("a ring")
+        .rings()
+        .rings;
     assert_eq!(rings, [vec![[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]]);
 }
 

@@ -8,7 +8,7 @@ mod read;
 mod tables;
 mod write;
 
-pub(crate) use read::{read_graph, read_points, read_rings};
+pub(crate) use read::read;
 pub(super) use write::write;
 
 /// How files begin: the version after the name is the one that counts, the last byte is that of a patch.

@@ -5,27 +5,7 @@ use std::io::{self, BufRead, Read};
 use super::tables::{BROKEN, Buffer, Table};
 use super::{MAGIC, column, crs, feature, geometry, header, kind};
 use crate::formats::shapes::Shapes;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Source, Value};
-
-/// Reads the positions of all features, in their order.
-pub(crate) fn read_points(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
-    let (shapes, crs) = read(source, options.attributes)?;
-    Ok(Cloud { crs, ..shapes.cloud() })
-}
-
-/// Reads all features with the segments of their lines and rings.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let (shapes, crs) = read(source, options.attributes)?;
-    let mut graph = shapes.graph()?;
-    graph.cloud.crs = crs;
-    Ok(graph)
-}
-
-/// Reads the rings of all polygons.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
-    let (shapes, crs) = read(source, false)?;
-    Ok(Rings { rings: shapes.rings(), crs })
-}
+use crate::{Crs, Error, ReadOptions, Source, Value};
 
 fn wrong(what: impl std::fmt::Display) -> Error {
     Error::content(format!("FlatGeobuf: {what}"))
@@ -48,7 +28,8 @@ struct Column {
     kind: u8,
 }
 
-fn read(mut source: Box<dyn Source>, keeps_attributes: bool) -> Result<(Shapes, Option<Crs>), Error> {
+/// Reads all features, in their order.
+pub(crate) fn read(mut source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
     let mut bytes = Vec::new();
     take(&mut source, 8, &mut bytes)?;
     if !bytes.starts_with(&MAGIC) {
@@ -61,7 +42,7 @@ fn read(mut source: Box<dyn Source>, keeps_attributes: bool) -> Result<(Shapes, 
     if io::copy(&mut (&mut source).take(header.index), &mut io::sink())? < header.index {
         return Err(Error::Truncated("inside of its index".to_owned()));
     }
-    let mut shapes = Shapes::new(keeps_attributes);
+    let mut shapes = Shapes::new(options.attributes);
     header.columns.iter().for_each(|column| shapes.attribute(&column.name, Value::Null));
     let mut number = 0;
     while buffer(&mut source, &mut bytes)? {
@@ -74,7 +55,8 @@ fn read(mut source: Box<dyn Source>, keeps_attributes: bool) -> Result<(Shapes, 
     if number < header.count {
         return Err(Error::Truncated(format!("after {number} of {} features", header.count)));
     }
-    Ok((shapes, header.crs))
+    shapes.crs = header.crs;
+    Ok(shapes)
 }
 
 /// Reads so many bytes, in memory as they come.

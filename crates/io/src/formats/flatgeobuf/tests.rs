@@ -3,12 +3,12 @@
 use std::io::Cursor;
 
 use super::tables::{Builder, OFFSET};
-use super::{MAGIC, column, crs, feature, geometry, header, kind, read_graph};
+use super::{MAGIC, column, crs, feature, geometry, header, kind};
 use crate::{Error, Graph, ReadOptions};
 
 fn read(bytes: Vec<u8>) -> Result<Graph, Error> {
     let options = ReadOptions { attributes: true, ..ReadOptions::default() };
-    read_graph(Box::new(Cursor::new(bytes)), &options)
+    super::read(Box::new(Cursor::new(bytes)), &options)?.graph()
 }
 
 /// The beginning of a file with an index of so many nodes.

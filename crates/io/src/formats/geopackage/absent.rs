@@ -2,20 +2,13 @@
 
 use std::io::Write;
 
+use crate::formats::shapes::Shapes;
 use crate::formats::vector::Layer;
-use crate::{Cloud, Error, Format, Graph, ReadOptions, Rings, Source};
+use crate::{Error, Format, ReadOptions, Source};
 
 const LEFT_OUT: Error = Error::LeftOut { format: Format::GeoPackage, feature: "geopackage" };
 
-pub(crate) fn read_points(_: Box<dyn Source>, _: &ReadOptions) -> Result<Cloud, Error> {
-    Err(LEFT_OUT)
-}
-
-pub(crate) fn read_graph(_: Box<dyn Source>, _: &ReadOptions) -> Result<Graph, Error> {
-    Err(LEFT_OUT)
-}
-
-pub(crate) fn read_rings(_: Box<dyn Source>) -> Result<Rings, Error> {
+pub(crate) fn read(_: Box<dyn Source>, _: &ReadOptions) -> Result<Shapes, Error> {
     Err(LEFT_OUT)
 }
 

@@ -15,8 +15,8 @@ mod tests;
 mod write;
 
 #[cfg(not(feature = "geopackage"))]
-pub(crate) use absent::{read_graph, read_points, read_rings, write};
+pub(crate) use absent::{read, write};
 #[cfg(feature = "geopackage")]
-pub(crate) use read::{read_graph, read_points, read_rings};
+pub(crate) use read::read;
 #[cfg(feature = "geopackage")]
 pub(crate) use write::write;

@@ -8,41 +8,10 @@ use crate::error::listed;
 use crate::features::numbered;
 use crate::formats::shapes::Shapes;
 use crate::formats::wkb;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Source, Value, guard};
-
-/// Reads the positions of all layers, in their order.
-pub(crate) fn read_points(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
-    let File { shapes, crs, remark } = read(source, options.attributes)?;
-    let mut cloud = Cloud { crs, ..shapes.cloud() };
-    cloud.remarks.extend(remark);
-    Ok(cloud)
-}
-
-/// Reads all layers with the segments of their lines and rings.
-pub(crate) fn read_graph(source: Box<dyn Source>, options: &ReadOptions) -> Result<Graph, Error> {
-    let File { shapes, crs, remark } = read(source, options.attributes)?;
-    let mut graph = shapes.graph()?;
-    graph.cloud.crs = crs;
-    graph.cloud.remarks.extend(remark);
-    Ok(graph)
-}
-
-/// Reads the rings of all polygons.
-pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
-    let File { shapes, crs, .. } = read(source, false)?;
-    Ok(Rings { rings: shapes.rings(), crs })
-}
+use crate::{Crs, Error, ReadOptions, Source, Value, guard};
 
 fn wrong(what: impl std::fmt::Display) -> Error {
     Error::content(format!("GeoPackage: {what}"))
-}
-
-/// What all layers have together.
-struct File {
-    shapes: Shapes,
-    crs: Option<Crs>,
-    /// The layers, if there are several.
-    remark: Option<String>,
 }
 
 /// A table of features.
@@ -60,18 +29,19 @@ struct Column {
     is_bool: bool,
 }
 
-fn read(source: Box<dyn Source>, keeps_attributes: bool) -> Result<File, Error> {
+/// Reads all layers, in their order.
+pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Shapes, Error> {
     guard::decode("GeoPackage", || {
         let mut database = Database::open(source, MOST_IN_MEMORY)?;
         let layers = layers(&database.connection)?;
-        let mut file = File { shapes: Shapes::new(keeps_attributes), crs: None, remark: None };
+        let mut shapes = Shapes::new(options.attributes);
         let tag = match &layers[..] {
             [] => return Err(wrong("it has no layer of features")),
             [_] => None,
             several => {
                 let names = several.iter().map(|layer| layer.table.as_str());
                 let (tag, count) = (tag(several), names.len());
-                file.remark = Some(format!(
+                shapes.remarks.push(format!(
                     "{count} layers were read as one, which the attribute {tag} names: {}",
                     listed(names)
                 ));
@@ -80,7 +50,7 @@ fn read(source: Box<dyn Source>, keeps_attributes: bool) -> Result<File, Error> 
         };
         for layer in &layers {
             let system = system(&database.connection, layer.system).map_err(failed)?;
-            if let (Some(ours), Some(theirs)) = (&file.crs, &system)
+            if let (Some(ours), Some(theirs)) = (&shapes.crs, &system)
                 && !ours.agrees(theirs)
             {
                 let table = &layer.table;
@@ -88,10 +58,10 @@ fn read(source: Box<dyn Source>, keeps_attributes: bool) -> Result<File, Error> 
                     "the coordinates of layer {table} are {theirs}, those before it {ours}"
                 )));
             }
-            file.crs = file.crs.or(system);
-            layer.read(&mut database, tag.as_deref(), &mut file.shapes)?;
+            shapes.crs = shapes.crs.or(system);
+            layer.read(&mut database, tag.as_deref(), &mut shapes)?;
         }
-        Ok(file)
+        Ok(shapes)
     })
 }
 

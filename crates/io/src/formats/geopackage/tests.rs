@@ -5,7 +5,6 @@ use std::io::{Cursor, Read};
 use rusqlite::{Connection, MAIN_DB};
 
 use super::database::{Database, MOST_IN_MEMORY};
-use super::read_graph;
 use crate::{Error, Graph, ReadOptions};
 
 /// What all layers need.
@@ -28,7 +27,7 @@ fn database(script: &str) -> Vec<u8> {
 
 fn read(bytes: Vec<u8>) -> Result<Graph, Error> {
     let options = ReadOptions { attributes: true, ..ReadOptions::default() };
-    read_graph(Box::new(Cursor::new(bytes)), &options)
+    super::read(Box::new(Cursor::new(bytes)), &options)?.graph()
 }
 
 fn layer(name: &str, system: u32) -> String {

@@ -13,51 +13,13 @@ use std::io::Read;
 use self::table::{Rows, State};
 use super::poly::Beside;
 use super::shapes::Shapes;
-use crate::{Cloud, Crs, Error, Graph, ReadOptions, Rings, Source};
+use crate::{Error, ReadOptions, Source};
 
 /// The extensions of what lies beside.
 pub(crate) const SIDES: &[&str] = &["dbf", "cpg", "prj"];
 
-/// Reads the positions of all records, in their order.
-pub(crate) fn read_points(
-    source: Box<dyn Source>,
-    options: &ReadOptions,
-    beside: Option<Beside>,
-) -> Result<Cloud, Error> {
-    let mut file = File::read(source, options.attributes, beside)?;
-    let mut cloud = std::mem::take(&mut file.shapes).cloud();
-    file.tell(&mut cloud);
-    Ok(cloud)
-}
-
-/// Reads all records with the segments of their lines and rings.
-pub(crate) fn read_graph(
-    source: Box<dyn Source>,
-    options: &ReadOptions,
-    beside: Option<Beside>,
-) -> Result<Graph, Error> {
-    let mut file = File::read(source, options.attributes, beside)?;
-    let mut graph = std::mem::take(&mut file.shapes).graph()?;
-    file.tell(&mut graph.cloud);
-    Ok(graph)
-}
-
-/// Reads the rings of all polygons.
-pub(crate) fn read_rings(source: Box<dyn Source>, beside: Option<Beside>) -> Result<Rings, Error> {
-    let file = File::read(source, false, beside)?;
-    Ok(Rings { rings: file.shapes.rings(), crs: file.crs })
-}
-
 fn wrong(what: impl std::fmt::Display) -> Error {
     Error::content(format!("Shapefile: {what}"))
-}
-
-/// What a file and those beside it have.
-struct File {
-    shapes: Shapes,
-    crs: Option<Crs>,
-    remarks: Vec<String>,
-    losses: Vec<String>,
 }
 
 /// Kinds of records; with heights they are ten further, with measures alone twenty.
@@ -68,78 +30,65 @@ const POLYGON: u32 = 5;
 const POINTS: u32 = 8;
 const PATCHES: u32 = 31;
 
-impl File {
-    fn read(
-        mut source: Box<dyn Source>,
-        keeps_attributes: bool,
-        mut beside: Option<Beside>,
-    ) -> Result<Self, Error> {
-        let mut file = Self {
-            shapes: Shapes::new(keeps_attributes),
-            crs: None,
-            remarks: Vec::new(),
-            losses: Vec::new(),
-        };
-        let mut open = |extension: &str| match &mut beside {
-            Some(beside) => beside(extension).ok(),
-            None => None,
-        };
-        let mut text = |extension: &str| {
-            /// No such file is longer.
-            const LONGEST: u64 = 1 << 16;
-            let mut bytes = Vec::new();
-            open(extension)?.take(LONGEST).read_to_end(&mut bytes).ok()?;
-            Some(String::from_utf8_lossy(&bytes).into_owned())
-        };
-        file.crs = text("prj").as_deref().and_then(system::read);
-        let page = text("cpg");
-        let mut rows = open("dbf").map(|table| Rows::open(table, page.as_deref())).transpose()?;
-        if rows.is_none() {
-            file.remarks.push("no .dbf file was found beside it, and so there are no attributes".to_owned());
-        }
-        rows.iter().for_each(|rows| rows.declare(&mut file.shapes));
-        check_head(&mut source)?;
-        let (mut content, mut deleted, mut patches, mut without) = (Vec::new(), 0_usize, 0_usize, 0_usize);
-        let mut number = 0_usize;
-        while record(&mut source, &mut content)? {
-            number += 1;
-            let state = rows.as_mut().map_or(Ok(State::There), Rows::next)?;
-            if state == State::Deleted {
-                deleted += 1;
-                continue;
-            }
-            file.shapes.feature();
-            match &rows {
-                Some(rows) if state == State::There => rows.take(&mut file.shapes),
-                _ => without += usize::from(rows.is_some()),
-            }
-            let mut record = Record { rest: &content };
-            let kind = record.count().map_err(|what| wrong(format!("record {number}: {what}")))?;
-            if kind == PATCHES {
-                patches += 1;
-                continue;
-            }
-            record.take(kind, &mut file.shapes).map_err(|what| wrong(format!("record {number}: {what}")))?;
-        }
-        let losses = [
-            (patches, "multipatches are left out: make polygons of them"),
-            (without, "records have no row in the .dbf file"),
-        ];
-        let told = losses.iter().filter(|loss| loss.0 > 0);
-        file.losses.extend(told.map(|(count, what)| format!("{count} {what}")));
-        if deleted > 0 {
-            file.remarks.push(format!("{deleted} records are deleted in the .dbf file, and left out"));
-        }
-        rows.iter().for_each(|rows| file.losses.extend(rows.losses()));
-        Ok(file)
+/// Reads all records, in their order.
+pub(crate) fn read(
+    mut source: Box<dyn Source>,
+    options: &ReadOptions,
+    mut beside: Option<Beside>,
+) -> Result<Shapes, Error> {
+    let mut shapes = Shapes::new(options.attributes);
+    let mut open = |extension: &str| match &mut beside {
+        Some(beside) => beside(extension).ok(),
+        None => None,
+    };
+    let mut text = |extension: &str| {
+        /// No such file is longer.
+        const LONGEST: u64 = 1 << 16;
+        let mut bytes = Vec::new();
+        open(extension)?.take(LONGEST).read_to_end(&mut bytes).ok()?;
+        Some(String::from_utf8_lossy(&bytes).into_owned())
+    };
+    shapes.crs = text("prj").as_deref().and_then(system::read);
+    let page = text("cpg");
+    let mut rows = open("dbf").map(|table| Rows::open(table, page.as_deref())).transpose()?;
+    if rows.is_none() {
+        shapes.remarks.push("no .dbf file was found beside it, and so there are no attributes".to_owned());
     }
-
-    /// Adds what there is besides positions.
-    fn tell(self, cloud: &mut Cloud) {
-        cloud.crs = self.crs;
-        cloud.remarks.extend(self.remarks);
-        cloud.losses.extend(self.losses);
+    rows.iter().for_each(|rows| rows.declare(&mut shapes));
+    check_head(&mut source)?;
+    let (mut content, mut deleted, mut patches, mut without) = (Vec::new(), 0_usize, 0_usize, 0_usize);
+    let mut number = 0_usize;
+    while record(&mut source, &mut content)? {
+        number += 1;
+        let state = rows.as_mut().map_or(Ok(State::There), Rows::next)?;
+        if state == State::Deleted {
+            deleted += 1;
+            continue;
+        }
+        shapes.feature();
+        match &rows {
+            Some(rows) if state == State::There => rows.take(&mut shapes),
+            _ => without += usize::from(rows.is_some()),
+        }
+        let mut record = Record { rest: &content };
+        let kind = record.count().map_err(|what| wrong(format!("record {number}: {what}")))?;
+        if kind == PATCHES {
+            patches += 1;
+            continue;
+        }
+        record.take(kind, &mut shapes).map_err(|what| wrong(format!("record {number}: {what}")))?;
     }
+    let losses = [
+        (patches, "multipatches are left out: make polygons of them"),
+        (without, "records have no row in the .dbf file"),
+    ];
+    let told = losses.iter().filter(|loss| loss.0 > 0);
+    shapes.losses.extend(told.map(|(count, what)| format!("{count} {what}")));
+    if deleted > 0 {
+        shapes.remarks.push(format!("{deleted} records are deleted in the .dbf file, and left out"));
+    }
+    rows.iter().for_each(|rows| shapes.losses.extend(rows.losses()));
+    Ok(shapes)
 }
 
 /// Reads the head: a hundred bytes, of which the first and the version are the same in all files.

@@ -2,7 +2,6 @@
 
 use std::io::{self, Cursor};
 
-use super::{read_graph, read_rings};
 use crate::{Error, Graph, ReadOptions, Source};
 
 /// A `.shp` file of these records.
@@ -66,7 +65,7 @@ fn read(records: &[Vec<u8>], table: Option<Vec<u8>>) -> Result<Graph, Error> {
         _ => Err(io::Error::from(io::ErrorKind::NotFound).into()),
     };
     let options = ReadOptions { attributes: true, ..ReadOptions::default() };
-    read_graph(Box::new(Cursor::new(file(records))), &options, Some(&mut beside))
+    super::read(Box::new(Cursor::new(file(records))), &options, Some(&mut beside))?.graph()
 }
 
 #[test]
@@ -99,7 +98,8 @@ fn records_of_all_kinds() {
     let line = bytes(13, &[1, 2, 0], &[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 7.0, 8.0]);
     assert_eq!(read(&[line], None).expect("a line").cloud.z, Some(vec![7.0, 8.0]));
     let alone = file(&[bytes(5, &[1, 5, 0], &square)]);
-    let rings = read_rings(Box::new(Cursor::new(alone)), None).expect("a ring");
+    let rings =
+        super::read(Box::new(Cursor::new(alone)), &ReadOptions::default(), None).expect("a ring").rings();
     assert_eq!((rings.rings[0].len(), rings.crs), (4, None));
 }
 
@@ -134,7 +134,7 @@ fn broken_files_are_named() {
     let whole = file(&[bytes(1, &[], &[1.0, 2.0])]);
     for length in 0..whole.len() {
         let cut = Box::new(Cursor::new(whole[..length].to_vec()));
-        assert_eq!(read_graph(cut, &ReadOptions::default(), None).is_ok(), length == 100, "cut to {length}");
+        assert_eq!(super::read(cut, &ReadOptions::default(), None).is_ok(), length == 100, "cut to {length}");
     }
     let patches = read(&[bytes(31, &[], &[])], None).expect("a remark");
     assert!(patches.cloud.losses[0].contains("multipatches"));

@@ -66,8 +66,8 @@ pub(crate) fn read_rings(source: Box<dyn Source>) -> Result<Rings, Error> {
     let table = table(source, &options, &mut Chunks::default(), Wanted::Shapes)?;
     let is_of_geometries = matches!(table.columns, Some(Columns::Geometry(_)));
     let (cloud, shapes) = table.end()?;
-    let rings = if is_of_geometries { shapes.rings() } else { vec![cloud.xy] };
-    Ok(Rings { rings, crs: cloud.crs })
+    let rings = if is_of_geometries { shapes.rings().rings } else { vec![cloud.xy] };
+    Ok(Rings { rings, crs: cloud.crs, losses: cloud.losses })
 }
 
 /// Whether the first lines tell of a column of geometries.
