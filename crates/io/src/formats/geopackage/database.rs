@@ -101,6 +101,10 @@ fn restrict(connection: &mut Connection, length: u64) -> rusqlite::Result<()> {
 /// An error of SQLite as one of ours.
 pub(super) fn failed(error: rusqlite::Error) -> Error {
     let what = match error.sqlite_error_code() {
+        Some(ErrorCode::DiskFull) => return std::io::Error::from(std::io::ErrorKind::StorageFull).into(),
+        Some(ErrorCode::SystemIoFailure | ErrorCode::CannotOpen | ErrorCode::ReadOnly) => {
+            return std::io::Error::other(format!("SQLite: {error}")).into();
+        }
         Some(ErrorCode::NotADatabase) => "it is no database of SQLite".to_owned(),
         Some(ErrorCode::OperationInterrupted) => "one of its views has no end".to_owned(),
         Some(ErrorCode::DatabaseCorrupt) => "its pages contradict themselves".to_owned(),
