@@ -73,7 +73,7 @@ fn cells_have_a_place() {
     place.succeed("-q interpolate p.csv --columns x,y,z --method linear --like like.tif -o c.tif");
     let [a, c] = ["like.tif", "c.tif"].map(|name| fs::read(place.path(name)).expect("a raster"));
     assert!(a == c);
-    let told = "its coordinates are EPSG:25832, those of the points EPSG:25833";
+    let told = "like.tif: its coordinates are EPSG:25832, those of p.csv EPSG:25833";
     place.fail("-q dtm p.csv --like like.tif --epsg 25833 -o b.tif", 1, told);
     for wrong in ["--like like.tif --cell 1", "--like like.tif --extent 0,0,1,1", "--cell 1 --extent 1,1,0,0"]
     {

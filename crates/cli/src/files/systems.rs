@@ -7,8 +7,8 @@ use delone_io::{Crs, Format, Said};
 
 use crate::message::{Failure, lost, mislead};
 
-/// The system of what was read first, and the file.
-static SYSTEM: Mutex<Option<(Crs, PathBuf)>> = Mutex::new(None);
+/// The system of the input that was read first, or of a file beside it until then.
+static SYSTEM: Mutex<Option<Known>> = Mutex::new(None);
 /// The system that the command line says all inputs have.
 static SAID: OnceLock<Crs> = OnceLock::new();
 /// The outputs of the command.
@@ -26,6 +26,13 @@ pub(crate) enum Role {
     Beside,
 }
 
+/// A system, and the file that has it.
+struct Known {
+    crs: Crs,
+    path: PathBuf,
+    role: Role,
+}
+
 /// Keeps the system of a file, which may be the one that was said.
 ///
 /// # Errors
@@ -35,17 +42,24 @@ pub(super) fn heed(crs: &mut Option<Crs>, path: &Path, role: Role) -> Result<(),
         *crs = Some(said.clone());
     }
     let mut system = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner);
-    match (&*system, &*crs) {
-        (Some((ours, first)), Some(theirs)) if !ours.agrees(theirs) => Err(Failure::new(
-            format!("{}: its coordinates are {theirs}, those of {} {ours}", path.display(), first.display()),
+    let Some(own) = crs else { return Ok(()) };
+    if let Some(known) = &*system
+        && !known.crs.agrees(own)
+    {
+        // The file beside the input is the one to transform, whichever was read first.
+        let own = Known { crs: own.clone(), path: path.to_owned(), role };
+        let is_first_wrong = known.role == Role::Beside && role == Role::Input;
+        let (wrong, right) = if is_first_wrong { (known, &own) } else { (&own, known) };
+        let [this, that] = [wrong, right].map(|known| known.path.display());
+        return Err(Failure::new(
+            format!("{this}: its coordinates are {}, those of {that} {}", wrong.crs, right.crs),
             "transform one of them first: ogr2ogr, gdalwarp and pdal do so",
-        )),
-        (None, Some(theirs)) => {
-            *system = Some((theirs.clone(), path.to_owned()));
-            Ok(())
-        }
-        _ => Ok(()),
+        ));
     }
+    if system.as_ref().is_none_or(|known| known.role == Role::Beside && role == Role::Input) {
+        *system = Some(Known { crs: own.clone(), path: path.to_owned(), role });
+    }
+    Ok(())
 }
 
 /// Keeps the outputs of the command.
@@ -60,7 +74,9 @@ pub(super) fn outputs() -> Vec<(PathBuf, Format)> {
 
 /// Says which outputs do not tell their system, or not to all readers.
 pub(super) fn tell(quiet: bool) {
-    let Some((crs, _)) = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner).take() else { return };
+    let Some(Known { crs, .. }) = SYSTEM.lock().unwrap_or_else(PoisonError::into_inner).take() else {
+        return;
+    };
     let outputs = outputs();
     let names = |said: Said| {
         let those = outputs.iter().filter(|(_, format)| format.says(&crs) == said);
