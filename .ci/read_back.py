@@ -243,6 +243,27 @@ for name in names.split():
     assert read.shape == points.shape and np.abs(read - points).max() <= precision, name
     print(f"delone reads {name}")
 
+# Lines of VTK's files are segments, and their triangles and tetrahedra are judged.
+corners = np.array([[0, 0, 0], [4, 0, 0], [4, 3, 0], [0, 3, 0], [1, 1, 0], [3, 2, 0], [2, 2.5, 0]], float)
+ring, path = [0, 1, 2, 3, 0], [4, 5, 6]
+ends = np.array([list(side) for chain in (ring, path) for side in zip(chain, chain[1:])])
+cells = {pyvista.CellType.LINE: ends, pyvista.CellType.TRIANGLE: np.array([[0, 1, 4], [1, 2, 5]])}
+drawn = pyvista.PolyData(corners, lines=np.hstack([[len(ring), *ring], [len(path), *path]]))
+drawn.field_data["who"], drawn.field_data["time"] = ["somebody", "x" * 70], np.array([1.5])
+for how in (True, False):
+    for thing, kind in ((drawn, "vtp"), (drawn, "vtk"), (pyvista.UnstructuredGrid(cells, corners), "vtu")):
+        thing.save(folder / f"lines.{kind}", binary=how)
+        run("triangulate", f"lines.{kind}", "-o", "again.poly")
+        rows = [line.split() for line in (folder / "again.poly").read_text().splitlines()]
+        read = {frozenset(map(int, row[1:3])) for row in rows[len(corners) + 2 :] if len(row) >= 3}
+        assert read == {frozenset(side) for side in ends.tolist()}, f"lines of {kind}: {read}"
+meshio.write(folder / "lines.vtk", meshio.Mesh(corners, [("line", ends)]), file_format="vtk42")
+run("triangulate", "lines.vtk", "-o", "again.poly")
+run("triangulate", "ball.npy", "--dim", 3, "-o", "again.vtu")
+pyvista.read(folder / "again.vtu").save(folder / "again.vtk")
+run("check", "again.vtk", "again.vtk", "--dim", 3)
+print("delone reads lines and tetrahedra of VTK's files")
+
 # Rasters of all kinds of numbers, in tiles and strips, with what GeoTIFF can say of them.
 cells = np.round(400 + 50 * np.sin(np.arange(90)[:, None] / 9) * np.cos(np.arange(130) / 7))
 place = rasterio.transform.from_origin(637_000, 849_700, 2, 2)

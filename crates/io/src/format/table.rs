@@ -35,6 +35,16 @@ const OF_GEOJSON: Readers = Readers {
 const OF_WKT: Readers =
     Readers { shapes: Some(|source, options, _, _| wkt::read(source, options)), ..Readers::NONE };
 
+/// The readers of VTK's files of XML.
+const OF_VTK: Readers = Readers {
+    points: Some(|source, _| vtk::read_xml(source)),
+    lines: Some(|source, _, _| vtk::read_xml_graph(source)),
+    has_lines: Some(vtk::has_xml_lines),
+    triangles: Some(vtk::read_xml_simplices),
+    tetrahedra: Some(vtk::read_xml_simplices),
+    ..Readers::NONE
+};
+
 /// All formats, in the order in which they are listed.
 pub(super) const TABLE: &[Row] = &[
     Row {
@@ -240,7 +250,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "VTK's unstructured grids",
         names: &["vtu"],
         also: &[],
-        readers: Readers { points: Some(|source, _| vtk::read_xml(source)), ..Readers::NONE },
+        readers: OF_VTK,
         writes: &[Triangles, SecondOrder, Tetrahedra, Surfaces, Patches],
     },
     Row {
@@ -248,7 +258,7 @@ pub(super) const TABLE: &[Row] = &[
         title: "VTK's surfaces",
         names: &["vtp"],
         also: &[],
-        readers: Readers { points: Some(|source, _| vtk::read_xml(source)), ..Readers::NONE },
+        readers: OF_VTK,
         writes: &[],
     },
     Row {
@@ -256,7 +266,14 @@ pub(super) const TABLE: &[Row] = &[
         title: "VTK's legacy files",
         names: &["vtk"],
         also: &[],
-        readers: Readers { points: Some(|source, _| vtk::read_legacy(source)), ..Readers::NONE },
+        readers: Readers {
+            points: Some(|source, _| vtk::read_legacy(source)),
+            lines: Some(|source, _, _| vtk::read_legacy_graph(source)),
+            has_lines: Some(vtk::has_legacy_lines),
+            triangles: Some(vtk::read_legacy_simplices),
+            tetrahedra: Some(vtk::read_legacy_simplices),
+            ..Readers::NONE
+        },
         writes: &[],
     },
     Row {

@@ -1,0 +1,140 @@
+//! Cells of VTK's files, as far as they are lines, triangles or tetrahedra.
+
+use std::ops::Range;
+
+use super::broken;
+use crate::Error;
+
+/// VTK's number of chains of segments.
+pub(super) const POLYLINE: u8 = 4;
+/// VTK's number of polygons.
+pub(super) const POLYGON: u8 = 7;
+/// VTK's number of strips of triangles.
+pub(super) const STRIP: u8 = 6;
+
+/// What a cell is to us.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Family {
+    /// Points, of which there is a list already.
+    Points,
+    /// Segments from each point to the next.
+    Chain,
+    /// A simplex of so many corners, which are its first points.
+    Simplex(usize),
+    /// A triangle if it has three points.
+    Polygon,
+    Other,
+}
+
+impl Family {
+    /// By VTK's number of the kind (`vtkCellType.h`): linear, quadratic, Lagrange's, Bezier's.
+    fn of(kind: u8) -> Self {
+        match kind {
+            1 | 2 => Self::Points,
+            POLYLINE => Self::Chain,
+            3 | 21 | 35 | 68 | 75 => Self::Simplex(2),
+            5 | 22 | 34 | 69 | 76 => Self::Simplex(3),
+            10 | 24 | 71 | 78 => Self::Simplex(4),
+            POLYGON => Self::Polygon,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// Cells: their kinds, where the corners of each end, and the corners as indices of all points.
+#[derive(Default)]
+pub(super) struct Cells {
+    kinds: Vec<u8>,
+    ends: Vec<usize>,
+    corners: Vec<u64>,
+}
+
+impl Cells {
+    /// Adds cells of a piece with the points `points`, from which its corners count.
+    pub(super) fn add(
+        &mut self,
+        kinds: &[f64],
+        ends: &[f64],
+        corners: &[f64],
+        points: Range<usize>,
+    ) -> Result<(), Error> {
+        if kinds.len() != ends.len() {
+            return Err(broken(format!("{} kinds of {} cells", kinds.len(), ends.len())));
+        }
+        let (first, mut start) = (self.corners.len(), 0);
+        for (i, (&kind, &end)) in kinds.iter().zip(ends).enumerate() {
+            let end = whole(end).filter(|end| (start..=corners.len()).contains(end));
+            let end = end.ok_or_else(|| broken(format!("cell {i} ends outside of the list of corners")))?;
+            let kind = whole(kind).and_then(|kind| u8::try_from(kind).ok());
+            self.kinds.push(kind.ok_or_else(|| broken(format!("cell {i} is of no kind")))?);
+            self.ends.push(first + end);
+            for &corner in &corners[start..end] {
+                let index = whole(corner).filter(|&corner| corner < points.len());
+                let index = index
+                    .ok_or_else(|| broken(format!("cell {i} has a corner {corner}, which is no point")))?;
+                self.corners.push((points.start + index) as u64);
+            }
+            start = end;
+        }
+        Ok(())
+    }
+
+    /// The family of each cell, and its points.
+    fn iter(&self) -> impl Iterator<Item = (Family, &[u64])> {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        let ranges = starts.zip(&self.ends).map(|(start, &end)| &self.corners[start..end]);
+        self.kinds.iter().map(|&kind| Family::of(kind)).zip(ranges)
+    }
+
+    pub(super) fn has_lines(&self) -> bool {
+        self.iter().any(|(family, points)| match family {
+            Family::Chain | Family::Simplex(2) => points.len() > 1,
+            _ => false,
+        })
+    }
+
+    /// The segments of all lines.
+    pub(super) fn segments(&self) -> Vec<[usize; 2]> {
+        let mut segments = Vec::new();
+        for (family, points) in self.iter() {
+            let chain = match family {
+                Family::Chain => points,
+                // Other nodes follow the ends.
+                Family::Simplex(2) => points.get(..2).unwrap_or_default(),
+                _ => continue,
+            };
+            segments.extend(chain.windows(2).map(|side| [side[0] as usize, side[1] as usize]));
+        }
+        segments
+    }
+
+    /// The simplices of N corners. Cells of fewer corners are passed over, and so are tetrahedra where triangles are wanted.
+    pub(super) fn simplices<const N: usize>(&self) -> Result<Vec<[u64; N]>, Error> {
+        let mut simplices = Vec::new();
+        for (i, (family, points)) in self.iter().enumerate() {
+            let width = match family {
+                Family::Points | Family::Chain => continue,
+                Family::Simplex(width) => width,
+                Family::Polygon if points.len() == 3 => 3,
+                Family::Polygon | Family::Other => {
+                    let what = format!(
+                        "cell {i} (of VTK's kind {}, with {} points) is no triangle or tetrahedron",
+                        self.kinds[i],
+                        points.len()
+                    );
+                    return Err(broken(what));
+                }
+            };
+            if width == N {
+                let corners = points.first_chunk().copied();
+                simplices.push(corners.ok_or_else(|| broken(format!("cell {i} has too few corners")))?);
+            }
+        }
+        Ok(simplices)
+    }
+}
+
+/// A number that counts something.
+fn whole(number: f64) -> Option<usize> {
+    (number >= 0.0 && number < 2.0_f64.powi(53) && number.fract() == 0.0).then_some(number as usize)
+}

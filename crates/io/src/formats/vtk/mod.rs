@@ -1,0 +1,70 @@
+//! VTK's files: the legacy format (`.vtk`, in `legacy.rs`), and XML (`.vtu`, `.vtp`, in `xml.rs`). Points; and of the cells
+//! lines, triangles and tetrahedra, of any order by their corners. Lines are segments, and no borders.
+
+mod cells;
+mod legacy;
+#[cfg(test)]
+mod tests;
+mod xml;
+
+use crate::error::excerpt;
+use crate::{Cloud, Error, Graph, Source};
+use cells::Cells;
+
+/// A reader of points, and of cells too if they are wanted.
+type Read = fn(Box<dyn Source>, bool) -> Result<(Cloud, Cells), Error>;
+
+/// Reads the points of a legacy file.
+pub(crate) fn read_legacy(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    Ok(legacy::read(source, false)?.0)
+}
+
+/// Reads the points of all pieces of an XML file.
+pub(crate) fn read_xml(source: Box<dyn Source>) -> Result<Cloud, Error> {
+    Ok(xml::read(source, false)?.0)
+}
+
+/// Reads the points of a legacy file, and its lines as segments.
+pub(crate) fn read_legacy_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    graph(legacy::read, source)
+}
+
+/// Reads the points of an XML file, and its lines as segments.
+pub(crate) fn read_xml_graph(source: Box<dyn Source>) -> Result<Graph, Error> {
+    graph(xml::read, source)
+}
+
+/// Whether there is a line in a legacy file.
+pub(crate) fn has_legacy_lines(source: Box<dyn Source>) -> bool {
+    legacy::read(source, true).is_ok_and(|(_, cells)| cells.has_lines())
+}
+
+/// Whether there is a line in an XML file.
+pub(crate) fn has_xml_lines(source: Box<dyn Source>) -> bool {
+    xml::read(source, true).is_ok_and(|(_, cells)| cells.has_lines())
+}
+
+/// Reads the triangles (N = 3) or tetrahedra (N = 4) of a legacy file, as indices of the points.
+pub(crate) fn read_legacy_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
+    legacy::read(source, true)?.1.simplices()
+}
+
+/// Reads the triangles (N = 3) or tetrahedra (N = 4) of an XML file, as indices of the points.
+pub(crate) fn read_xml_simplices<const N: usize>(source: Box<dyn Source>) -> Result<Vec<[u64; N]>, Error> {
+    xml::read(source, true)?.1.simplices()
+}
+
+fn graph(read: Read, source: Box<dyn Source>) -> Result<Graph, Error> {
+    let (cloud, cells) = read(source, true)?;
+    let segments = cells.segments();
+    Ok(Graph { is_border: vec![false; segments.len()], segments, ..Graph::of_points(cloud) })
+}
+
+fn broken(what: impl std::fmt::Display) -> Error {
+    Error::content(format!("VTK: {what}"))
+}
+
+/// A number of an array that is text.
+fn number(word: &str) -> Result<f64, Error> {
+    word.parse().map_err(|_| broken(format!("{:?} is no number", excerpt(word))))
+}
