@@ -310,6 +310,22 @@ for kind in ["fgb", "gpkg"]:
     assert bands.crs.to_epsg() == 25832 and set(bands.geom_type) == {"MultiPolygon"}
     assert np.array_equal(shapely.to_wkb(bands.geometry), shapely.to_wkb(geopandas.read_file(folder / "bands.geojson").geometry))
     print(f"geopandas reads cells, triangles and contours in {kind}")
+# Lines are a layer beside the triangles: edges that cover each line, with its attributes.
+ways = geopandas.GeoDataFrame(
+    {"name": ["high", "low"], "lanes": [2, 1]},
+    geometry=[shapely.LineString([(0, 0), (10, 1), (20, 0)]), shapely.LineString([(0, 5), (20, 6)])],
+    crs=25832,
+)
+ways.to_file(folder / "ways.gpkg")
+for command in (["triangulate"], ["mesh", "--max-area", 9]):
+    run(*command, "ways.gpkg", "-o", "edges.gpkg")
+    edges = geopandas.read_file(folder / "edges.gpkg", layer="lines")
+    assert edges.crs == ways.crs and set(edges.geom_type) == {"LineString"} and edges.lanes.dtype == "int64"
+    for row in ways.itertuples():
+        found = edges[(edges.name == row.name) & (edges.lanes == row.lanes)]
+        assert abs(found.length.sum() - row.geometry.length) < 1e-9 and row.geometry.hausdorff_distance(found.union_all()) < 1e-9
+    assert len(edges) == sum(edges.name.isin(ways.name)) and len(geopandas.read_file(folder / "edges.gpkg", layer="triangles")) > 3
+print("geopandas reads lines with their attributes")
 
 # And what GDAL and ezdxf write is read here, with the same attributes: of polygons, triangles have them.
 squares = [shapely.box(x, x, x + 3, x + 3) for x in (0, 10, 20)]

@@ -73,6 +73,40 @@ fn what_is_left_out_is_said() {
     place.fail("-q --strict voronoi twice.csv -o d.csv", 1, "sites that equal an earlier one");
 }
 
+#[test]
+fn attributes_of_lines_and_points_that_triangles_do_not_have_are_said() {
+    let place = Place::new();
+    let line = |name: &str, way: &str| {
+        format!(
+            r#"{{"type":"Feature","properties":{{"name":"{name}"}},"geometry":{{"type":"LineString","coordinates":{way}}}}}"#
+        )
+    };
+    let file = |features: &[String]| {
+        format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(","))
+    };
+    let mut features = vec![line("high", "[[0,0],[10,1],[20,0]]"), line("low", "[[0,5],[20,6]]")];
+    place.file("roads.geojson", file(&features));
+    for command in ["triangulate", "mesh --max-area 9"] {
+        let said =
+            text(&place.run(&format!("{command} roads.geojson -o r.geojson -o r.fgb -o r.gpkg")).stderr);
+        for name in ["r.geojson", "r.fgb"] {
+            assert!(
+                said.contains(&format!("note: {name}: the attributes of lines are left out: name")),
+                "{said}"
+            );
+        }
+        assert!(!said.contains("r.gpkg:"), "{said}");
+        place.succeed(&format!("-q {command} roads.geojson -o s.gpkg"));
+    }
+    place.fail("-q --strict triangulate roads.geojson -o s.geojson", 1, "of lines are left out");
+    place.succeed("--strict triangulate roads.geojson -o t.gpkg");
+    let point =
+        r#"{"type":"Feature","properties":{"name":"here"},"geometry":{"type":"Point","coordinates":[3,3]}}"#;
+    features.push(point.to_owned());
+    place.file("more.geojson", file(&features));
+    place.fail("-q --strict triangulate more.geojson -o u.gpkg", 1, "of points are left out: name");
+}
+
 const MATERIALS: &str = r#"{"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"material":"clay"},"geometry":{"type":"Polygon","coordinates":[[[0,0],[2,0],[2,2],[0,2],[0,0]]]}},
 {"type":"Feature","properties":{"material":"sand"},"geometry":{"type":"MultiPolygon","coordinates":[[[[2,0],[5,0],[5,2],[2,2],[2,0]]],[[[7,0],[8,0],[7,1],[7,0]]]]}}]}"#;

@@ -195,6 +195,8 @@ impl Format {
         match contents {
             Contents::Cells | Contents::Answers => self == Self::Text || self.has_layers(),
             Contents::Triangles | Contents::Patches => self.has_layers(),
+            // Those of the input beside triangles, which want a layer of their own.
+            Contents::Lines => self == Self::GeoPackage,
             _ => false,
         }
     }

@@ -5,7 +5,10 @@ use std::io::Write;
 
 use delone::{Coordinates, Corners, RegionSeed2, Triangulation, VertexId};
 
-use crate::formats::{geojson, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt};
+use crate::formats::vector::Layer;
+use crate::formats::{
+    geojson, geopackage, inp, msh, npy, obj, off, ply, poly, stl, triangle, vector, vtu, wkb, wkt,
+};
 use crate::middles::{Middles, ordered};
 use crate::{
     Attributes, Contents, Crs, Direction, Error, Format, Remark, Shape, Table, Trim, picture, write_solid,
@@ -56,12 +59,12 @@ pub struct Mesh<'a, T: Triangulation> {
     pub second_order: bool,
 }
 
-/// A row of a table for each simplex, by its index.
+/// A row of a table for each simplex, by its index, or for each constraint.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
     /// The table.
     pub table: &'a Table,
-    /// The row of each simplex, if it has one.
+    /// The row of each, if it has one.
     pub of: &'a [Option<usize>],
 }
 
@@ -93,6 +96,8 @@ pub struct Constraints<'a> {
     pub edges: &'a [[VertexId; 2]],
     /// A number for each of them.
     pub markers: Option<&'a [i64]>,
+    /// The attributes of the lines that they are on, which GeoPackage has in a layer of its own, `lines`.
+    pub features: Option<Rows<'a>>,
     /// Points in areas that are left out.
     pub holes: &'a [[f64; 2]],
     /// Points in areas that have an attribute.
@@ -188,6 +193,15 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
             let marker = marker.filter(|&marker| marker != 0).unwrap_or(i64::from(is_border));
             is_side.then_some((ends, marker))
         })
+    }
+
+    /// The edges on lines that have attributes, with the rows of these.
+    pub(crate) fn lines(&self) -> Vec<([VertexId; 2], usize)> {
+        let Some(constraints) = self.constraints else { return Vec::new() };
+        let of = constraints.features.map_or(&[][..], |features| features.of);
+        let rows = constraints.edges.iter().zip(of).filter_map(|(&ends, &row)| Some((ordered(ends), row?)));
+        let rows: HashMap<[VertexId; 2], usize> = rows.collect();
+        self.constraint_edges().iter().filter_map(|&ends| Some((ends, *rows.get(&ordered(ends))?))).collect()
     }
 
     /// The constraints that are edges of what is not left out.
@@ -326,8 +340,12 @@ impl Drawable for [f64; 2] {
             Format::Off => off::write(out, mesh)?,
             Format::Stl => return Ok(stl::write(out, mesh)?),
             Format::GeoJson => geojson::write(out, mesh)?,
-            Format::FlatGeobuf | Format::GeoPackage => {
-                vector::write(out, format, &vector::Triangles::of_mesh(mesh))?;
+            Format::FlatGeobuf => vector::write(out, format, &vector::Triangles::of_mesh(mesh))?,
+            Format::GeoPackage => {
+                let (triangles, lines) = (vector::Triangles::of_mesh(mesh), vector::LinesOf::new(mesh));
+                let with_lines: [&dyn vector::Layer; 2] = [&triangles, &lines];
+                let layers = if lines.count() > 0 { &with_lines[..] } else { &with_lines[..1] };
+                geopackage::write(out, layers)?;
             }
             Format::Poly => poly::write(out, mesh)?,
             Format::Wkt | Format::WktCollection => wkt::write(out, mesh, format == Format::WktCollection)?,

@@ -1,6 +1,6 @@
 //! Points with segments: read, triangulated, told of and written.
 
-mod polygons;
+pub(crate) mod features;
 mod values;
 
 use std::path::{Path, PathBuf};
@@ -130,7 +130,8 @@ impl Constrained {
         };
         let mut inside = triangulation.domains_within(&fill, is_border).map_err(refused)?;
         triangulation.claim(&mut inside, &graph.regions).map_err(refused)?;
-        let polygons = polygons::claim(&triangulation, &graph, &mut inside);
+        let polygons = features::claim(&triangulation, &graph, &mut inside);
+        files::heed_unshown(features::unshown(&graph));
         drop(phase);
         stats.phase("build");
         let heights = graph.cloud.z.as_deref().map(|given| {
@@ -205,9 +206,12 @@ impl Constrained {
         stats.set("left_out", trim.count());
         let edges: Vec<[VertexId; 2]> = c.constraints().collect();
         let markers = graph.markers.as_deref().map(|markers| self.markers(markers));
+        let lines = features::of_lines(c, graph);
+        let of_lines = lines.as_ref().map(|of| Rows { table: &graph.cloud.features.table, of });
         let constraints = Constraints {
             edges: &edges,
             markers: markers.as_deref(),
+            features: of_lines,
             holes: &graph.holes,
             regions: &graph.regions,
         };

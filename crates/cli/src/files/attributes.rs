@@ -13,9 +13,19 @@ struct Known {
     with: Option<Contents>,
     /// The names of all that were read.
     names: Vec<String>,
+    unshown: Unshown,
 }
 
-static KNOWN: Mutex<Known> = Mutex::new(Known { with: None, names: Vec::new() });
+/// Whether things beside the polygons of an input have attributes, which triangles do not show.
+#[derive(Clone, Copy)]
+pub(crate) struct Unshown {
+    pub(crate) lines: bool,
+    /// Points that are on no line.
+    pub(crate) points: bool,
+}
+
+static KNOWN: Mutex<Known> =
+    Mutex::new(Known { with: None, names: Vec::new(), unshown: Unshown { lines: false, points: false } });
 
 /// So many names are told.
 const MOST_NAMES: usize = 12;
@@ -31,6 +41,11 @@ pub(crate) fn are_kept() -> bool {
     let with = KNOWN.lock().unwrap_or_else(PoisonError::into_inner).with;
     let have_room = |with| outputs().iter().any(|(_, format)| format.keeps_attributes(with));
     with.is_some_and(|with| with == Contents::Triangles || have_room(with))
+}
+
+/// The outputs of the command are triangles; they are said to be without attributes of lines and points, if these have any.
+pub(crate) fn heed_unshown(unshown: Unshown) {
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner).unshown = unshown;
 }
 
 /// Keeps the names of the attributes of an input.
@@ -53,13 +68,22 @@ pub(super) fn tell(quiet: bool) {
     if names.len() > MOST_NAMES {
         *names.last_mut().expect("there are more") = "...";
     }
-    let is_without = |format: Format| match known.with {
-        Some(with) => has_places(format) && !format.keeps_attributes(with),
-        None => has_places(format),
+    let whose = |format: Format| {
+        if !has_places(format) {
+            None
+        } else if known.with.is_none_or(|with| !format.keeps_attributes(with)) {
+            Some("the input")
+        } else if known.unshown.lines && !format.keeps_attributes(Contents::Lines) {
+            Some("lines")
+        } else {
+            known.unshown.points.then_some("points")
+        }
     };
-    for (path, _) in outputs().iter().filter(|(_, format)| is_without(*format)) {
-        let what = format!("the attributes of the input are left out: {}", names.join(", "));
-        lost(quiet, format_args!("{}: {what}", path.display()));
+    for (path, format) in outputs() {
+        if let Some(whose) = whose(format) {
+            let what = format!("the attributes of {whose} are left out: {}", names.join(", "));
+            lost(quiet, format_args!("{}: {what}", path.display()));
+        }
     }
 }
 

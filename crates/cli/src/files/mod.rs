@@ -15,7 +15,7 @@ use delone_io::{
 };
 
 pub(crate) use apart::{keep_apart, keep_names_apart};
-pub(crate) use attributes::{are_kept as are_attributes_kept, keep_attributes};
+pub(crate) use attributes::{Unshown, are_kept as are_attributes_kept, heed_unshown, keep_attributes};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
 pub(crate) use write::{

@@ -19,6 +19,7 @@ use delone_io::{
 };
 
 use crate::args::{ColorName, FillName, MeshArgs, triangle_table};
+use crate::constrained::features;
 use crate::constrained::{Constrained, along, extended};
 use crate::files;
 use crate::message::{Failure, answer, is_strict, note};
@@ -183,16 +184,19 @@ impl Made {
         };
         let markers = has_markers.then(|| markers::of(c, graph, domains));
         let mut edges: Vec<[VertexId; 2]> = Vec::new();
-        let mut edge_markers = Vec::new();
+        let lines = features::of_lines(c, graph);
+        let (mut edge_markers, mut edge_rows) = (Vec::new(), Vec::new());
         for (i, [v, w]) in c.constraints().enumerate() {
             if let (Some(v), Some(w)) = (kept.name(v), kept.name(w)) {
                 edges.push([v, w]);
                 edge_markers.extend(markers.as_ref().map(|markers| markers.edges[i]));
+                edge_rows.extend(lines.as_ref().map(|lines| lines[i]));
             }
         }
         let constraints = Constraints {
             edges: &edges,
             markers: has_markers.then_some(&edge_markers[..]),
+            features: lines.is_some().then_some(Rows { table: &graph.cloud.features.table, of: &edge_rows }),
             holes: &self.seeds.holes,
             regions: &self.seeds.regions,
         };

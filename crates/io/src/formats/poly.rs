@@ -240,7 +240,7 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
     mesh: &Mesh<T>,
 ) -> io::Result<()> {
     NodeRows::of_mesh(mesh).write(out)?;
-    let Some(&Constraints { edges, markers, holes, regions }) = mesh.constraints else {
+    let Some(&Constraints { edges, markers, holes, regions, .. }) = mesh.constraints else {
         let border = mesh.edges().filter(|edge| edge.1);
         let segments: Vec<_> = border.map(|(ends, _)| ends.map(|v| v.index())).collect();
         let markers = vec![1; segments.len()];

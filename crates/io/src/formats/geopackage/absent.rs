@@ -12,6 +12,6 @@ pub(crate) fn read(_: Box<dyn Source>, _: &ReadOptions) -> Result<Shapes, Error>
     Err(LEFT_OUT)
 }
 
-pub(crate) fn write(_: &mut dyn Write, _: &impl Layer) -> Result<(), Error> {
+pub(crate) fn write(_: &mut dyn Write, _: &[&dyn Layer]) -> Result<(), Error> {
     Err(LEFT_OUT)
 }

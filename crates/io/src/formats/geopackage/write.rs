@@ -1,4 +1,4 @@
-//! A layer as GeoPackage: in a database on the disk, which is copied to the output in the end.
+//! Layers as GeoPackage: in a database on the disk, which is copied to the output in the end.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -39,22 +39,29 @@ INSERT INTO gpkg_spatial_ref_sys VALUES ('Undefined Cartesian SRS', -1, 'NONE', 
 const NO_SYSTEM: &str = r#"INSERT INTO gpkg_spatial_ref_sys VALUES ('Undefined SRS', 99999, 'GDAL', 99999,
  'LOCAL_CS["Undefined SRS",LOCAL_DATUM["unknown",32767],UNIT["unknown",0],AXIS["Easting",EAST],AXIS["Northing",NORTH]]', NULL)"#;
 
-/// Writes a layer.
-pub(crate) fn write(out: &mut dyn Write, layer: &impl Layer) -> Result<(), Error> {
+/// Writes layers, which are all in the system of the first.
+pub(crate) fn write(out: &mut dyn Write, layers: &[&dyn Layer]) -> Result<(), Error> {
     let file = tempfile::NamedTempFile::new()?;
     let connection = Connection::open(file.path()).map_err(failed)?;
-    fill(&connection, layer)?;
+    fill(&connection, layers)?;
     connection.close().map_err(|(_, error)| failed(error))?;
     io::copy(&mut File::open(file.path())?, out)?;
     Ok(())
 }
 
-fn fill(connection: &Connection, layer: &impl Layer) -> Result<(), Error> {
+fn fill(connection: &Connection, layers: &[&dyn Layer]) -> Result<(), Error> {
     const FAST: &str =
         "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = EXCLUSIVE; BEGIN;";
     connection.execute_batch(FAST).map_err(failed)?;
     connection.execute_batch(TABLES).map_err(failed)?;
-    let system = write_system(connection, layer.crs()).map_err(failed)?;
+    let crs = layers.first().and_then(|layer| layer.crs());
+    let system = write_system(connection, crs).map_err(failed)?;
+    layers.iter().try_for_each(|layer| add(connection, *layer, system))?;
+    connection.execute_batch("COMMIT").map_err(failed)
+}
+
+/// Writes a layer as a table in the system of so many.
+fn add(connection: &Connection, layer: &dyn Layer, system: u32) -> Result<(), Error> {
     let (columns, form, is_high) = (layer.columns(), layer.form(), layer.is_high());
     let table = quoted(layer.name());
     let [key, geometry] = OURS;
@@ -110,7 +117,7 @@ fn fill(connection: &Connection, layer: &impl Layer) -> Result<(), Error> {
             params![name, geometry, name_of(form), system, heights],
         )
         .map_err(failed)?;
-    connection.execute_batch("COMMIT").map_err(failed)
+    Ok(())
 }
 
 /// The names of the columns: SQLite does not tell capital letters from small ones.

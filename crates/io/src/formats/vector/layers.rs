@@ -1,12 +1,14 @@
 //! What there is to write, as layers: with the properties that GeoJSON has.
 
-use delone::{Coordinates, Ring, Triangulation};
+use delone::{Coordinates, Ring, Triangulation, VertexId};
 
 use super::{Column, Form, Geometry, Kind, Layer, Take, beside, cells};
 use crate::diagram::Tiles;
 use crate::formats::graphs::Pieces;
 use crate::formats::in_space;
-use crate::{Answers, ColumnType, ContourMap, Crs, Edges, Error, Found, Graph, Mesh, Patches, Shape, Value};
+use crate::{
+    Answers, ColumnType, ContourMap, Crs, Edges, Error, Found, Graph, Mesh, Patches, Shape, Table, Value,
+};
 
 /// A number that is written, where it is one.
 fn finite(number: f64) -> Value<'static> {
@@ -323,6 +325,63 @@ impl<P: Coordinates> Layer for Edged<'_, '_, P> {
             geometry.end_line();
             let vertices = format!("{edge:?}");
             take(&geometry, &mut in_order([Value::Json(&vertices), finite(length)]))?;
+        }
+        Ok(())
+    }
+}
+
+/// The edges of a triangulation that are on lines with attributes, and these.
+pub(crate) struct LinesOf<'a, T: Triangulation> {
+    mesh: &'a Mesh<'a, T>,
+    edges: Vec<([VertexId; 2], usize)>,
+}
+
+impl<'a, T: Triangulation> LinesOf<'a, T> {
+    pub(crate) fn new(mesh: &'a Mesh<'a, T>) -> Self {
+        Self { mesh, edges: mesh.lines() }
+    }
+
+    fn table(&self) -> Option<&Table> {
+        Some(self.mesh.constraints?.features?.table)
+    }
+}
+
+impl<T: Triangulation> Layer for LinesOf<'_, T> {
+    fn name(&self) -> &'static str {
+        "lines"
+    }
+
+    fn columns(&self) -> Vec<Column> {
+        beside(vec![Column::new("vertices", ColumnType::Text)], self.table())
+    }
+
+    fn form(&self) -> Option<Form> {
+        Some(Form { kind: Kind::Line, is_multiple: false })
+    }
+
+    fn is_high(&self) -> bool {
+        self.mesh.heights.is_some()
+    }
+
+    fn crs(&self) -> Option<&Crs> {
+        self.mesh.crs
+    }
+
+    fn count(&self) -> usize {
+        self.edges.len()
+    }
+
+    fn each(&self, take: Take) -> Result<(), Error> {
+        let positions: Vec<_> = self.mesh.positions().collect();
+        let mut geometry = Geometry::default();
+        for &(edge, row) in &self.edges {
+            let edge = edge.map(|v| v.index());
+            geometry.clear(Kind::Line);
+            geometry.positions.extend(edge.map(|i| positions[i]));
+            geometry.end_line();
+            let vertices = format!("{edge:?}");
+            let theirs = cells(self.table(), Some(row), 1);
+            take(&geometry, &mut in_order([Value::Json(&vertices)]).chain(theirs))?;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use std::io::Write;
 use super::{flatgeobuf, geopackage};
 use crate::{ColumnType, Crs, Error, Format, Table, Value};
 
-pub(crate) use layers::{Answered, Cells, Edged, Graphs, Points, Triangles};
+pub(crate) use layers::{Answered, Cells, Edged, Graphs, LinesOf, Points, Triangles};
 
 /// A column of a layer.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,7 +174,7 @@ pub(crate) trait Layer {
 /// Writes a layer in a format of layers.
 pub(crate) fn write(out: &mut dyn Write, format: Format, layer: &impl Layer) -> Result<(), Error> {
     match format {
-        Format::GeoPackage => geopackage::write(out, layer),
+        Format::GeoPackage => geopackage::write(out, &[layer]),
         _ => flatgeobuf::write(out, layer),
     }
 }

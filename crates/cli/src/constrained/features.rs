@@ -1,0 +1,47 @@
+//! Features of the input in its triangulation: polygons as regions, lines as edges.
+
+use std::collections::BTreeSet;
+
+use delone::{Constrained2, Domains2};
+use delone_io::Graph;
+
+use crate::files::Unshown;
+
+/// Gives each part the polygon that it is in, of several the last, by the row of its attributes; the value of a polygon is the number of its
+/// feature in the input, from 1. Seeds of regions go first, and polygons without rows are none. Tells how many there are.
+pub(super) fn claim(c: &Constrained2, graph: &Graph, inside: &mut Domains2) -> usize {
+    let mut rows = vec![None; graph.segments.len()];
+    for ring in &graph.rings {
+        rows[ring.segments.clone()].fill(graph.row_of(ring));
+    }
+    let distinct: BTreeSet<usize> = rows.iter().flatten().copied().collect();
+    let Some(last) = distinct.last().filter(|_| graph.regions.is_empty()) else { return 0 };
+    let numbers: Vec<f64> = (0..=*last).map(|row| (row + 1) as f64).collect();
+    c.claim_polygons(inside, |segment| rows.get(segment.index()).copied().flatten(), &numbers);
+    distinct.len()
+}
+
+/// The row of the attributes of each constraint, in the order of these: of the first line on it that has any. Nothing if no line has.
+pub(crate) fn of_lines(c: &Constrained2, graph: &Graph) -> Option<Vec<Option<usize>>> {
+    let rows = rows_of_lines(graph);
+    let of = |e| c.covering(e).iter().find_map(|one| rows.get(one.segment.index()).copied().flatten());
+    rows.iter().any(Option::is_some).then(|| c.constraint_edges().map(of).collect())
+}
+
+/// The row of each segment that is no side of a polygon.
+fn rows_of_lines(graph: &Graph) -> Vec<Option<usize>> {
+    let row = |&[start, _]: &[usize; 2]| graph.cloud.features.row(start);
+    let mut rows: Vec<Option<usize>> = graph.segments.iter().map(row).collect();
+    graph.rings.iter().for_each(|ring| rows[ring.segments.clone()].fill(None));
+    rows
+}
+
+/// The attributes that triangles do not have: those of lines, and of points that no segment ends at.
+pub(crate) fn unshown(graph: &Graph) -> Unshown {
+    let mut ends = vec![false; graph.cloud.xy.len()];
+    graph.segments.as_flattened().iter().for_each(|&end| ends[end] = true);
+    Unshown {
+        lines: rows_of_lines(graph).iter().any(Option::is_some),
+        points: (0..ends.len()).any(|i| !ends[i] && graph.cloud.features.row(i).is_some()),
+    }
+}
