@@ -205,7 +205,7 @@ fn compare(args: &Args) {
                 for entry in &mut entries {
                     measure(entry, &points, run == 0, args.patience);
                     // Small sets come many times over: what counts is not the first time.
-                    for _ in 1..MANY.div_ceil(size.max(1)) {
+                    for _ in 1..POINTS_A_RUN.div_ceil(size.max(1)) {
                         measure(entry, &points, false, args.patience);
                     }
                 }
@@ -241,8 +241,8 @@ fn meshes(args: &Args, names: &[String]) -> bool {
     args.size.iter().filter(|size| !run(size)).count() == 0
 }
 
-/// Small sets are built so often that this many points are built in a run.
-const MANY: usize = 20_000;
+/// Points that are triangulated in one timed run: smaller sets are built repeatedly.
+const POINTS_A_RUN: usize = 20_000;
 
 /// The points of a file.
 fn read(path: &str) -> Option<Vec<[f64; 2]>> {

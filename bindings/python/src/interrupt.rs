@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::pool::{FEW, alone, generation, pool, shared};
+use crate::pool::{SERIAL_ITEMS, alone, generation, pool, shared};
 
 /// How often to look for signals.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -97,7 +97,7 @@ pub fn while_wanted<T: Send + 'static>(
     points: usize,
     work: impl FnOnce(&Wanted) -> T + Send + 'static,
 ) -> PyResult<T> {
-    if points < FEW {
+    if points < SERIAL_ITEMS {
         return Ok(py.detach(|| work(&Wanted(None))));
     }
     let Some(pool) = py.detach(pool) else {

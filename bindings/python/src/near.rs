@@ -4,8 +4,8 @@
 use delone::Coordinates;
 use rayon::prelude::*;
 
-/// Fewer are taken as they come.
-const FEW: usize = 64;
+/// Queries, up to which they are answered in the order given; more are first sorted along a curve. Results are the same.
+const UNSORTED_QUERIES: usize = 64;
 /// Bits of the cells along an axis.
 const BITS: u32 = 16;
 
@@ -19,7 +19,7 @@ pub struct Near<P> {
 impl<P: Coordinates + Send + Sync> Near<P> {
     /// Sorts them, by the threads of whoever calls if there are many.
     pub fn new(queries: Vec<P>) -> Self {
-        if queries.len() < FEW || u32::try_from(queries.len()).is_err() {
+        if queries.len() < UNSORTED_QUERIES || u32::try_from(queries.len()).is_err() {
             return Self { queries, places: Vec::new() };
         }
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -39,7 +39,7 @@ impl<P: Coordinates + Send + Sync> Near<P> {
             (key, place as u32)
         };
         let mut keys: Vec<(u64, u32)> = queries.iter().enumerate().map(key).collect();
-        if keys.len() < crate::pool::FEW {
+        if keys.len() < crate::pool::SERIAL_ITEMS {
             keys.sort_unstable();
         } else {
             keys.par_sort_unstable();

@@ -9,7 +9,7 @@ use crate::constrained::work;
 use crate::errors::error_in;
 use crate::interrupt::interruptible;
 use crate::memory::TRIANGULATION;
-use crate::pool::FEW;
+use crate::pool::SERIAL_ITEMS;
 use crate::triangulation::coordinates;
 
 /// Points, triangles by the indices of points of their polygon, and where both begin for each polygon.
@@ -43,7 +43,7 @@ pub fn triangulate_polygons<'py>(
         let ring = |pair: &[usize]| &corners[pair[0]..pair[1]];
         let of_one = |pair: &[usize]| rings[pair[0]..=pair[1]].windows(2).map(ring).collect::<Vec<_>>();
         let given: Vec<Vec<&[[f64; 2]]>> = polygons.windows(2).map(of_one).collect();
-        let done = if size < FEW {
+        let done = if size < SERIAL_ITEMS {
             given.iter().map(|rings| how.triangulate(rings)).collect()
         } else {
             how.triangulate_all(&given)

@@ -14,8 +14,8 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Work on fewer items is done where it is asked for: the library cuts it into one part, and asks for no threads.
-pub const FEW: usize = 20_000;
+/// Items, up to which the calling thread does the work: the library would cut it into one part anyway.
+pub const SERIAL_ITEMS: usize = 20_000;
 
 /// The pool of a generation, and the slot of the next one.
 struct Slot {

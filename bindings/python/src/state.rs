@@ -13,13 +13,13 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::{LONG, Wanted, in_pieces, interruptible, size_of_queries, while_wanted};
 use crate::memory::room_for_neighbors;
-use crate::pool::{FEW, generation};
+use crate::pool::{SERIAL_ITEMS, generation};
 use crate::shared::Shared;
 
 /// Queries that one task answers.
 pub const QUERIES: usize = 1024;
-/// Of so many points a sample, which a question may ask for at any time, is large enough for threads.
-const MANY: usize = 500_000;
+/// Vertices, from which on a question after the first counts as long: it may have to improve the sample, with threads.
+const PARALLEL_SAMPLE_POINTS: usize = 500_000;
 
 /// Rows of indices.
 pub type Rows<'py> = Bound<'py, PyArray2<i32>>;
@@ -183,7 +183,7 @@ impl<T: Triangular + 'static, R: Send + Sync + 'static> State<T, R> {
     ) -> PyResult<A> {
         let asking = shared.read_when(py, Self::asking)?;
         // What finds answers is worth threads, and any question may have to make it better.
-        let few = if asking.is_first { FEW } else { MANY };
+        let few = if asking.is_first { SERIAL_ITEMS } else { PARALLEL_SAMPLE_POINTS };
         let size = if asking.state.vertex_count() >= few { LONG } else { size };
         while_wanted(py, size, move |wanted| {
             if asking.is_first {

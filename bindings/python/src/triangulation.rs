@@ -10,12 +10,12 @@ use pyo3::prelude::*;
 use crate::errors::python_error;
 use crate::interrupt::{interruptible, size_of_points};
 use crate::memory::TRIANGULATION;
-use crate::pool::{FEW, shared};
+use crate::pool::{SERIAL_ITEMS, shared};
 use crate::shared::Shared;
 use crate::state::{Rows, State, table};
 
 /// Simplices whose centres one task finds.
-const CENTRES: usize = FEW / 2;
+const CENTRES: usize = SERIAL_ITEMS / 2;
 
 /// What was given, as Python has it: a change of the triangulation and of this is one, however its caller fares.
 pub struct Given {

@@ -3,12 +3,12 @@
 import {DeloneError, shown} from "./errors.js";
 
 /** More points than this no triangulation holds. */
-const MOST = 2 ** 29;
+const MAX_POINTS = 2 ** 29;
 
 function checkLength(length, what) {
   if (!Number.isInteger(length) || length < 0) throw new DeloneError("length", `Invalid typed array length: ${length}`);
-  if (length > MOST * what) {
-    throw new DeloneError("too-many-points", `${length / what} points are more than the ${MOST} that one triangulation holds`);
+  if (length > MAX_POINTS * what) {
+    throw new DeloneError("too-many-points", `${length / what} points are more than the ${MAX_POINTS} that one triangulation holds`);
   }
   return length;
 }

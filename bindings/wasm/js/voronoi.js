@@ -7,7 +7,7 @@ import {joinedTo, planeOf} from "./plane.js";
 import {drawn, drawPolygon} from "./path.js";
 
 /** Cells with so many corners are not made again for each neighbour. */
-const LARGE = 32;
+const INDEXED_RING = 32;
 
 export class Voronoi {
   #made = {version: -1};
@@ -93,7 +93,7 @@ export class Voronoi {
     const known = large.get(i);
     if (known) return known;
     const ring = this.#ring(i);
-    if (ring.length < LARGE) return {ring};
+    if (ring.length < INDEXED_RING) return {ring};
     const cell = {ring, names: new Set(ring.map((p, k) => `${p},${after(ring, k)}`))};
     large.set(i, cell);
     return cell;

@@ -39,7 +39,7 @@ const NOT_INSTALLED: i32 = 3;
 
 /// Below so many points runs are repeated in one child, and the kernel would be most of the time of some: whether the C library
 /// maps and unmaps memory for each run depends on what a process did before. So there it keeps what it has, for all engines.
-const SMALL: usize = 10_000;
+const KEPT_MEMORY_POINTS: usize = 10_000;
 
 /// How the C library of Linux is told to.
 const KEEPING: [(&str, &str); 2] =
@@ -62,7 +62,7 @@ impl Folder {
     /// With the input in it.
     pub fn of(input: &Input) -> Result<Self, String> {
         let path = env::temp_dir().join(format!("delone-compare-{}", std::process::id()));
-        let folder = Self { path, is_small: input.points.len() < SMALL };
+        let folder = Self { path, is_small: input.points.len() < KEPT_MEMORY_POINTS };
         std::fs::create_dir_all(&folder.path).map_err(|error| error.to_string())?;
         write_points(&folder.path, "points.npy", &input.points)?;
         write_points(&folder.path, "holes.npy", &input.holes)?;

@@ -46,8 +46,8 @@ struct Entry {
     failure: Option<String>,
 }
 
-/// Below so many triangles peak memory is that of pages, not of a mesh.
-const FEW: usize = 10_000;
+/// Triangles, from which on peak memory is reported; below, it is that of pages and not of a mesh.
+const MEASURED_TRIANGLES: usize = 10_000;
 
 /// All engines on all inputs at all angles. False if an engine of ours is wrong.
 pub fn run(plan: &Plan) -> bool {
@@ -159,7 +159,7 @@ fn report(input: &Input, angle: f64, entries: &[Entry]) {
         let triangles = sample.triangles;
         let ratio = reference.map_or("-".to_owned(), |other| format!("{:.3}", steiner as f64 / other as f64));
         let seconds = median(samples, |sample| sample.seconds).unwrap_or(f64::NAN);
-        let bytes = median(samples, |sample| sample.bytes / triangles as f64).filter(|_| triangles >= FEW);
+        let bytes = median(samples, |sample| sample.bytes / triangles as f64).filter(|_| triangles >= MEASURED_TRIANGLES);
         let bytes = bytes.map_or("-".to_owned(), |bytes| format!("{bytes:.0}"));
         let remark = match (&verdict.wrong, verdict.below) {
             (Some(why), _) => format!("WRONG: {why}"),

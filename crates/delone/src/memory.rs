@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bytemuck::Zeroable;
 
-/// Smaller arrays come from memory that was used before.
-const LARGE: usize = 4 << 20;
+/// Bytes, from which on an array gets fresh pages from the system; smaller arrays come from the allocator.
+const FRESH_BYTES: usize = 4 << 20;
 
 /// An empty vector with room for so many items, on large pages if there are any.
 pub(crate) fn room_for<T>(count: usize) -> Vec<T> {
@@ -27,7 +27,7 @@ pub(crate) fn room_for<T>(count: usize) -> Vec<T> {
 /// As many values whose bytes are zero. Fresh pages are, so nothing is written, and those who fill the array are the first to
 /// touch it.
 pub(crate) fn zeroed<T: Zeroable + Clone>(count: usize) -> Vec<T> {
-    if count < LARGE / size_of::<T>() {
+    if count < FRESH_BYTES / size_of::<T>() {
         // To ask for zeros takes longer than to write a few.
         let mut items = Vec::with_capacity(count);
         items.resize(count, T::zeroed());
@@ -92,7 +92,7 @@ pub(crate) fn extend_in_parts<T: Send>(
 /// Asks for large pages where nothing has been written yet.
 fn advise<T>(items: &mut [T]) {
     let bytes = size_of_val(items);
-    if bytes < LARGE {
+    if bytes < FRESH_BYTES {
         return;
     }
     #[cfg(all(target_os = "linux", not(miri)))]
@@ -113,7 +113,7 @@ fn advise<T>(items: &mut [T]) {
 
 #[cfg(test)]
 mod tests {
-    use super::{LARGE, make_room, room_for, zeroed};
+    use super::{FRESH_BYTES, make_room, room_for, zeroed};
 
     #[cfg(feature = "rayon")]
     #[test]
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn zeros_are_zero() {
-        for count in [0, 1, 1000, LARGE / 8 - 1, LARGE / 8, LARGE / 8 + 513] {
+        for count in [0, 1, 1000, FRESH_BYTES / 8 - 1, FRESH_BYTES / 8, FRESH_BYTES / 8 + 513] {
             let items: Vec<u64> = zeroed(count);
             assert!(items.len() == count && items.iter().all(|&item| item == 0));
         }
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn advice_changes_nothing() {
-        for count in [0, 1, 1000, LARGE / 8 - 1, LARGE / 8, LARGE / 8 + 513] {
+        for count in [0, 1, 1000, FRESH_BYTES / 8 - 1, FRESH_BYTES / 8, FRESH_BYTES / 8 + 513] {
             let mut items: Vec<u64> = room_for(count);
             let at = items.as_ptr();
             assert!(items.is_empty() && items.capacity() >= count);

@@ -30,8 +30,8 @@ use crate::points::{Position2, Position3, check_count, check_finite, finite};
 
 /// Points a leaf, at most.
 const LEAF: usize = 8;
-/// Fewer are not worth another thread.
-const MANY: usize = 1 << 14;
+/// Points, above which a subtree is built by another thread; below, starting the thread costs more.
+const PARALLEL_POINTS: usize = 1 << 14;
 /// So many levels the largest tree has.
 const LEVELS: usize = 32;
 
@@ -310,7 +310,7 @@ fn split<const D: usize>(points: &mut [Named<D>], subtree: Subtree, splits: &[At
         splits[node].store(points[middle].0[axis].to_bits(), Relaxed);
     }
     let axis = (axis + 1) % D;
-    let is_large = points.len() > MANY;
+    let is_large = points.len() > PARALLEL_POINTS;
     let (low, high) = points.split_at_mut(middle);
     let mut low = || split(low, Subtree { node: 2 * node, axis, start, count }, splits);
     let mut high = || split(high, Subtree { node: 2 * node + 1, axis, start: start + middle, count }, splits);

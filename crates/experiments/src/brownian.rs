@@ -13,7 +13,7 @@ use super::{Error, Findings, Options, decades, timed};
 /// Steps of a motion: as many as in the paper, but few of many points.
 const STEPS: usize = 100;
 const FEW_STEPS: usize = 10;
-const MANY: usize = 1_000_000;
+const SHORT_RUN_POINTS: usize = 1_000_000;
 /// What the paper found: points, nanoseconds a point and step and triangles visited by spatial sort, and by hints.
 const PUBLISHED: [(usize, [f64; 4]); 5] = [
     (1_000, [780.0, 3.81, 730.0, 2.77]),
@@ -60,7 +60,7 @@ fn brownian(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
             Kind::Uniform.points(n, seed).into_iter().map(|p| p.map(|x| x * side)).collect();
         let mut hints = Hints2::from_points(&points, HintOrder::Spatial { seed })?;
         let mut moving = Moving2::from_points(&points)?;
-        let steps = if n < MANY { STEPS } else { FEW_STEPS };
+        let steps = if n < SHORT_RUN_POINTS { STEPS } else { FEW_STEPS };
         let [mut sort, mut by_sort, mut follow, mut by_hint, mut automatic] = <[Trials; 5]>::default();
         let mut rebuilt = 0;
         let each = |total: f64| total / n as f64;

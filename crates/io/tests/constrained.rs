@@ -50,6 +50,7 @@ impl Scene {
             markers: Some(&MARKERS),
             holes: &[[1.5, 1.5]],
             regions: &seeds,
+            ..Constraints::default()
         };
         let mesh = Mesh {
             base: 1,

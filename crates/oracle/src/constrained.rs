@@ -15,8 +15,8 @@ use num_bigint::BigInt;
 use crate::brute::normalized;
 use crate::exact::{Point2, in_circle, integers, sign};
 
-/// The most points for which everything is tried.
-pub const MOST: usize = 40;
+/// The largest number of points for which the definition is tried.
+pub const MAX_POINTS: usize = 40;
 
 /// The distinct points in lexicographic order, with the side of each from the line through each two others.
 struct Vertices {
@@ -42,7 +42,7 @@ impl Vertices {
         points.sort_by(|p, q| p.partial_cmp(q).expect("finite"));
         points.dedup();
         let n = points.len();
-        assert!(n <= MOST, "the definition is tried on at most {MOST} points, not {n}");
+        assert!(n <= MAX_POINTS, "the definition is tried on at most {MAX_POINTS} points, not {n}");
         let exact: Vec<[BigInt; 2]> = integers(&points).into_iter().map(|p| p.map(|x| x * 3)).collect();
         let mut sides = vec![0; n * n * n];
         for i in 0..n {
@@ -126,7 +126,7 @@ impl Vertices {
 /// coordinates, the lesser end first, sorted.
 ///
 /// # Panics
-/// With more than [`MOST`] distinct points.
+/// With more than [`MAX_POINTS`] distinct points.
 pub fn constraints(points: &[Point2], segments: &[[usize; 2]]) -> Vec<[Point2; 2]> {
     let vertices = Vertices::new(points);
     vertices.pieces(points, segments).into_iter().map(|piece| piece.map(|v| vertices.points[v])).collect()
@@ -136,7 +136,7 @@ pub fn constraints(points: &[Point2], segments: &[[usize; 2]]) -> Vec<[Point2; 2
 /// go through points and have no length. Triangles in the form of [`crate::brute::normalized`].
 ///
 /// # Panics
-/// With more than [`MOST`] distinct points, and if two of the pieces of the segments cross.
+/// With more than [`MAX_POINTS`] distinct points, and if two of the pieces of the segments cross.
 pub fn triangulation(points: &[Point2], segments: &[[usize; 2]]) -> Vec<[Point2; 3]> {
     let vertices = Vertices::new(points);
     let constraints = vertices.pieces(points, segments);

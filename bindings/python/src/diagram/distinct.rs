@@ -4,7 +4,7 @@
 
 use rayon::prelude::*;
 
-use crate::pool::FEW;
+use crate::pool::SERIAL_ITEMS;
 
 /// An integer for a number that is none other's, in the order of numbers; both zeros have the same.
 fn key(x: f64) -> u64 {
@@ -18,7 +18,7 @@ pub fn distinct<const D: usize>(rows: &[[f64; D]], kept: Option<&[bool]>) -> (Ve
     let first = |(row, at): (usize, &[f64; D])| (key(at[0]), row as u32);
     let mut order: Vec<(u64, u32)> =
         rows.iter().enumerate().filter(|&(row, _)| is_kept(row)).map(first).collect();
-    if order.len() < FEW {
+    if order.len() < SERIAL_ITEMS {
         order.sort_unstable();
     } else {
         order.par_sort_unstable();

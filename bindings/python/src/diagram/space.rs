@@ -4,14 +4,14 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 use super::{Ragged, Ridges};
-use crate::pool::{FEW, shared};
+use crate::pool::{SERIAL_ITEMS, shared};
 
 /// The ridges across edges: around each edge the vertices in turn, equal ones once, and -1 where the ring is open. Those of fewer than
 /// three are left out. On all threads that there are, in parts that are joined in their order.
 pub fn ridges(corners: &[[i32; 4]], across: &[[i32; 4]], which: &[i32]) -> Ridges {
     let mesh = Rows { corners, across };
     let parts: Vec<Range<usize>> =
-        (0..corners.len()).step_by(FEW).map(|start| start..corners.len().min(start + FEW)).collect();
+        (0..corners.len()).step_by(SERIAL_ITEMS).map(|start| start..corners.len().min(start + SERIAL_ITEMS)).collect();
     let Ok(parts) = shared(&parts, 1, |part| Ok::<_, Infallible>(ridges_from(&mesh, part.clone(), which)));
     let mut all = Ridges { pairs: Vec::new(), vertices: Ragged::new() };
     for part in parts {

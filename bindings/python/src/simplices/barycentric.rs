@@ -2,14 +2,14 @@
 //!
 //! A map is NaN unless coordinates are right to a 50th for all points of the simplex. The determinant and its minors are sums of
 //! products. Rounding changes a minor by less than 2.5 eps, the determinant by less than 4 eps of the sum of the sizes of these; the
-//! first ones together are below the second one, divided by the sides. With [`MOST`] for eps times these sizes times the largest
+//! first ones together are below the second one, divided by the sides. With [`MAX_SHIFT`] for eps times these sizes times the largest
 //! coordinates, of which sides are at most twice, that is 2 * 2.5 + 2 * 4 thousandths, and four more for the rounding of what is
 //! done with a map.
 
 use crate::powers::{exponent, largest, times_power};
 
-/// What a change of a point's coordinates in their last place may do to a barycentric coordinate, at most.
-const MOST: f64 = 1.0 / 1000.0;
+/// The largest shift of a barycentric coordinate that a change of a point in its last place may cause. A map that allows more is NaN.
+const MAX_SHIFT: f64 = 1.0 / 1000.0;
 
 /// A map, and the corner that it is from.
 type Map<const D: usize, const W: usize> = [[f64; D]; W];
@@ -56,7 +56,7 @@ fn map<const D: usize, const W: usize>(corners: &[[f64; D]; W], minors: Minors<D
         std::array::from_fn(|i| f64::EPSILON * largest(corners.map(|corner| corner[i])));
     let moved = |row: &[f64; D]| (0..D).map(|i| row[i].abs() * last_place[i]).sum::<f64>();
     // Products that have underflowed are not known to the last bit.
-    let is_sound = sums.iter().all(|row| moved(row) < MOST)
+    let is_sound = sums.iter().all(|row| moved(row) < MAX_SHIFT)
         && determinant.abs() > 1e-250
         && maps.as_flattened().iter().all(|x| x.is_finite());
     if !is_sound {

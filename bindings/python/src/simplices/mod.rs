@@ -12,10 +12,10 @@ use pyo3::prelude::*;
 
 use crate::arrays::{indices, rows};
 use crate::interrupt::interruptible;
-use crate::pool::{FEW, shared};
+use crate::pool::{SERIAL_ITEMS, shared};
 
 /// Simplices that one task looks at: so many take about a millisecond.
-const TASK: usize = FEW / 2;
+const TASK: usize = SERIAL_ITEMS / 2;
 
 /// The simplices across from each corner, -1 where there is none; each facet belongs to at most two.
 #[pyfunction]

@@ -39,8 +39,8 @@ struct Search {
 }
 
 impl Search {
-    /// So many vertices are met before the boxes are asked.
-    const FEW: usize = 64;
+    /// Vertices that a search visits one by one; after these it asks the boxes of the tree.
+    const UNBOXED_VERTICES: usize = 64;
 
     fn is_empty<const D: usize>(
         &mut self,
@@ -57,7 +57,7 @@ impl Search {
         for v in edge {
             self.met.insert(v);
         }
-        let (mut k, most) = (0, self.looked + Self::FEW);
+        let (mut k, most) = (0, self.looked + Self::UNBOXED_VERTICES);
         while let Some(&v) = self.queue.get(k) {
             k += 1;
             for &w in net.neighbors(v) {

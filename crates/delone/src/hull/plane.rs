@@ -124,9 +124,9 @@ pub(crate) fn corners(points: &[[f64; 2]]) -> Vec<usize> {
 
 /// The points that are not strictly inside of the octagon of the extreme points in eight directions.
 fn outer(points: &[[f64; 2]]) -> Vec<usize> {
-    /// Below this number sorting is as fast.
-    const FEW: usize = 64;
-    if points.len() < FEW {
+    /// Points, below which none is pruned: sorting them all is as fast.
+    const UNPRUNED_POINTS: usize = 64;
+    if points.len() < UNPRUNED_POINTS {
         return (0..points.len()).collect();
     }
     // Rounded or not, these are points: what is left of every side of their polygon is inside of their hull.

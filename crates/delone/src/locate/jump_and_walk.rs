@@ -85,20 +85,21 @@ impl JumpAndWalk {
 
 /// The places that have been drawn, hashed by linear probing; those of small samples without a memory to be asked for.
 struct Drawn {
-    few: [Place; Self::FEW],
+    few: [Place; Self::INLINE_SLOTS],
     many: Vec<Place>,
     /// The number of slots, a power of two, at most half full; 1 if nothing is remembered.
     slots: usize,
 }
 
 impl Drawn {
-    const FEW: usize = 32;
+    /// Slots of a table that is stored in place; a larger table is allocated.
+    const INLINE_SLOTS: usize = 32;
 
     /// Remembers at most so many; nothing, if that is zero.
     fn new(most: usize) -> Self {
         let slots = (2 * most).next_power_of_two();
-        let many = if slots > Self::FEW { vec![Place::GHOST; slots] } else { Vec::new() };
-        Self { few: [Place::GHOST; Self::FEW], many, slots }
+        let many = if slots > Self::INLINE_SLOTS { vec![Place::GHOST; slots] } else { Vec::new() };
+        Self { few: [Place::GHOST; Self::INLINE_SLOTS], many, slots }
     }
 
     /// Remembers a place, unless it has been drawn before.

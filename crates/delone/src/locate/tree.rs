@@ -29,8 +29,8 @@ const LEAF: usize = 2;
 const DEPTH: u32 = 3;
 /// Leaves below a line.
 const LEAVES: usize = 1 << DEPTH;
-/// From this many levels of lines the lines below are asked for ahead; those further up stay in the cache.
-const AHEAD: u32 = 3;
+/// Levels of lines above the leaves that are prefetched; the levels above them stay in the cache.
+const PREFETCHED_LEVELS: u32 = 3;
 
 /// A subtree of inner nodes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -167,7 +167,7 @@ impl<H: Copy + Send + Sync> Tree<H> {
             let below = line << depth..(line + 1) << depth;
             if level == self.height {
                 below.for_each(|k| prefetch(&self.lowest, k));
-            } else if level + AHEAD > self.height {
+            } else if level + PREFETCHED_LEVELS > self.height {
                 below.for_each(|k| prefetch(&self.upper, first + width + k));
             }
             let splits = &self.upper[first + line].splits;

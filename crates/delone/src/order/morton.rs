@@ -22,11 +22,11 @@ use crate::memory::zeroed;
 use crate::parallel;
 use crate::points::{Bounds, survey};
 
-/// Sets up to this size get no keys.
-const FEW: usize = 12;
+/// Points, up to which a set is sorted without keys.
+const UNKEYED_POINTS: usize = 12;
 
-/// Larger sets get keys as long as the passes of the sort allow: points along a curve are still in cells of their own.
-const MANY: usize = 1 << 15;
+/// Points, from which on keys are as long as the passes of the sort allow: points along a curve then stay in cells of their own.
+const LONG_KEY_POINTS: usize = 1 << 15;
 
 /// Points in Morton order, without duplicates.
 pub(crate) struct Sorted {
@@ -120,7 +120,7 @@ impl<'a> Sorter<'a> {
         let key_box = KeyBox { start: self.start + to.start, end: self.start + to.end, cells, depth };
         self.boxes.push(key_box);
         if bits == 0 {
-            let mut run = [([0.0; 2], 0); FEW];
+            let mut run = [([0.0; 2], 0); UNKEYED_POINTS];
             for (k, (item, &p)) in run.iter_mut().zip(points).enumerate() {
                 *item = (p, indices.map_or(k as u32, |indices| indices[k]));
             }
@@ -347,11 +347,11 @@ impl Sorted {
 
 /// The bits an axis of the keys of so many points, at most sixteen.
 fn key_bits(n: usize) -> u32 {
-    if n <= FEW {
+    if n <= UNKEYED_POINTS {
         return 0; // one cell, sorted by comparison
     }
     let enough = (n.next_power_of_two().ilog2() + 3).div_ceil(2).min(16);
-    if n < MANY { enough } else { (radix::passes(2 * enough) * radix::DIGIT_BITS / 2).min(16) }
+    if n < LONG_KEY_POINTS { enough } else { (radix::passes(2 * enough) * radix::DIGIT_BITS / 2).min(16) }
 }
 
 /// Moves bit i to bit 2i.

@@ -56,8 +56,8 @@ pub(crate) fn deal<T>(items: &mut [T], seed: u64, put_in_order: impl Fn(&mut [T]
     put_in_order(rest);
 }
 
-/// Below this size the order inside a cell does not matter.
-const SMALL: usize = 4;
+/// Points, up to which a cell of the curve is not cut further: their order does not matter.
+const UNORDERED_POINTS: usize = 4;
 
 /// Sorts indices of points along the curve.
 fn along_curve(points: &[[f64; 2]], indices: &mut [u32]) {
@@ -66,7 +66,7 @@ fn along_curve(points: &[[f64; 2]], indices: &mut [u32]) {
 
 /// Sorts one cell. The curve runs first along `axis`; an axis whose flag is set runs downwards.
 fn cell(points: &[[f64; 2]], indices: &mut [u32], axis: usize, down: [bool; 2]) {
-    if indices.len() <= SMALL {
+    if indices.len() <= UNORDERED_POINTS {
         return;
     }
     let other = 1 - axis;

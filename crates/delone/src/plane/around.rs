@@ -12,8 +12,8 @@ use crate::locate::Start;
 use crate::points::finite;
 use crate::triangulation::Found;
 
-/// Walks from a hint that are longer cost more than the search for a better one.
-const NEAR: usize = 12;
+/// Steps, after which a walk from a hint is given up and the point is located anew.
+const HINTED_STEPS: usize = 12;
 
 impl Surround for Delaunay2 {
     fn find_near(&self, near: Option<TriangleId>, q: [f64; 2]) -> Result<Found<TriangleId>, Error> {
@@ -66,7 +66,7 @@ impl Delaunay2 {
 
     /// Where a point is in general, from the edge that a walk ended at.
     fn find_from(&self, last: Option<EdgeId>, q: [f64; 2]) -> Found<TriangleId> {
-        let spot = last.and_then(|e| self.base.spot_within(Start::Hint(e, 0), q, NEAR, &mut ()));
+        let spot = last.and_then(|e| self.base.spot_within(Start::Hint(e, 0), q, HINTED_STEPS, &mut ()));
         let spot = spot.map_or_else(|| self.spot(q, &mut ()).spot, |found| found.0);
         match spot {
             Spot::Triangle(t) if self.mesh().is_ghost(t) => Found::beyond(&[]),
@@ -86,7 +86,7 @@ impl Delaunay2 {
         let mut edge = near.edge(0);
         let ([mut a, mut b, mut c], [mut ab, mut bc, mut ca]) = self.seen(edge, hub);
         let mut behind = hub.side(&a, &b, ab);
-        for _ in 0..NEAR {
+        for _ in 0..HINTED_STEPS {
             let sides = [behind, hub.side(&b, &c, bc), hub.side(&c, &a, ca)];
             let crossed;
             if sides[0].is_negative() {

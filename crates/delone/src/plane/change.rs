@@ -336,10 +336,10 @@ pub(super) struct Upkeep {
 }
 
 impl Upkeep {
-    /// The steps of a walk that are nobody's fault.
-    const USUAL: usize = 12;
-    /// Below this number of vertices everything is near everything.
-    const SMALL: usize = 32;
+    /// Steps of a walk that are considered normal. Only further steps count towards laying out memory anew.
+    const NORMAL_WALK_STEPS: usize = 12;
+    /// Vertices, up to which memory is never laid out anew: all of it is in the cache.
+    const CACHED_VERTICES: usize = 32;
 
     pub(super) fn renew(&mut self, vertices: usize) {
         *self = Self { then: vertices, debt: 0, ..*self };
@@ -347,15 +347,15 @@ impl Upkeep {
 
     #[inline]
     fn walked(&mut self, steps: usize) {
-        self.debt += 1 + steps.saturating_sub(Self::USUAL);
+        self.debt += 1 + steps.saturating_sub(Self::NORMAL_WALK_STEPS);
     }
 
     /// Whether there are twice as many vertices, or walks have cost as much as a new layout would. Data that
     /// come in cluster by cluster are served too.
     #[inline]
     fn is_old(&self, vertices: usize) -> bool {
-        let then = self.then.max(Self::SMALL);
-        vertices > 2 * then || (self.debt > 8 * then && vertices > Self::SMALL)
+        let then = self.then.max(Self::CACHED_VERTICES);
+        vertices > 2 * then || (self.debt > 8 * then && vertices > Self::CACHED_VERTICES)
     }
 }
 
@@ -373,16 +373,18 @@ mod tests {
         assert_eq!((upkeep.then, upkeep.debt, upkeep.laid_out), (100, 0, 7));
         assert!(!upkeep.is_old(200) && upkeep.is_old(201));
         // A walk of usual length costs one step, any other what it takes longer.
-        upkeep.walked(Upkeep::USUAL);
+        upkeep.walked(Upkeep::NORMAL_WALK_STEPS);
         upkeep.walked(0);
         assert_eq!(upkeep.debt, 2);
-        upkeep.walked(Upkeep::USUAL + 797);
+        upkeep.walked(Upkeep::NORMAL_WALK_STEPS + 797);
         assert_eq!(upkeep.debt, 800);
         assert!(!upkeep.is_old(100));
         upkeep.walked(1);
-        assert!(upkeep.is_old(100) && !upkeep.is_old(Upkeep::SMALL));
+        assert!(upkeep.is_old(100) && !upkeep.is_old(Upkeep::CACHED_VERTICES));
         upkeep.renew(0);
-        assert!(!upkeep.is_old(2 * Upkeep::SMALL) && upkeep.is_old(2 * Upkeep::SMALL + 1));
+        assert!(
+            !upkeep.is_old(2 * Upkeep::CACHED_VERTICES) && upkeep.is_old(2 * Upkeep::CACHED_VERTICES + 1)
+        );
     }
 
     /// Hints each time that vertices have doubled; layouts too, but none for what stays in the cache.

@@ -59,10 +59,10 @@ impl Layer {
     /// ahead is asked for, as corners may be anywhere in memory.
     #[inline]
     fn clear_sides(&self, t: usize) -> u8 {
-        /// As many triangles as pass while memory answers.
-        const AHEAD: usize = 24;
+        /// Triangles between the one that is tested and the one that is prefetched.
+        const PREFETCH_DISTANCE: usize = 24;
         let mesh = &self.mesh;
-        if let Some(record) = mesh.edges.get(4 * (t + AHEAD)..4 * (t + AHEAD) + 3) {
+        if let Some(record) = mesh.edges.get(4 * (t + PREFETCH_DISTANCE)..4 * (t + PREFETCH_DISTANCE) + 3) {
             record.iter().for_each(|edge| prefetch(&self.points, edge.origin.index()));
         }
         let t = TriangleId::new(t);

@@ -119,11 +119,10 @@ impl Clone for Hints {
 }
 
 impl Hints {
-    /// A walk from a hint that takes more steps is given up, if there are levels. On evenly spread points it takes four on
-    /// average.
-    const MOST: usize = 64;
-    /// The same along the hull, where mostly the first edge is the nearest one.
-    const MOST_ALONG_HULL: usize = 16;
+    /// Steps, after which a walk from a hint is given up if there are levels. On evenly spread points it takes four on average.
+    const HINTED_STEPS: usize = 64;
+    /// Steps along the hull, after which it is given up: mostly the first edge is the nearest one.
+    const HINTED_STEPS_ALONG_HULL: usize = 16;
     /// A walk that takes more steps is long.
     const LONG: usize = 300;
 
@@ -148,7 +147,7 @@ impl Hints {
     #[inline]
     pub(super) fn spot<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize, Start) {
         let start = self.tree.start(layer, q, tally);
-        let most = self.most(Self::MOST);
+        let most = self.most(Self::HINTED_STEPS);
         let (spot, steps) = match layer.spot_within(start, q, most, tally) {
             Some(found) => found,
             None => self.rescue(layer, q, tally),
@@ -163,7 +162,7 @@ impl Hints {
     #[cold]
     fn rescue<T: Tally>(&self, layer: &Layer, q: [f64; 2], tally: &mut T) -> (Spot, usize) {
         let (spot, steps) = layer.spot(self.levels(layer).start(layer, q, tally), q, tally);
-        (spot, steps + Self::MOST)
+        (spot, steps + Self::HINTED_STEPS)
     }
 
     /// The hull edge that is nearest to a point beyond that of a ghost.
@@ -174,7 +173,7 @@ impl Hints {
         q: [f64; 2],
         tally: &mut T,
     ) -> EdgeId {
-        let most = self.most(Self::MOST_ALONG_HULL);
+        let most = self.most(Self::HINTED_STEPS_ALONG_HULL);
         let (edge, steps) = layer.nearest_hull_edge(ghost, q, most);
         (0..steps).for_each(|_| tally.visited());
         if steps > most {

@@ -33,8 +33,8 @@ use crate::tally::Tally;
 const REMOVED: usize = 12;
 /// So many flips a vertex may be needed before something is wrong with the hull.
 const FLIPS: usize = 20;
-/// How many places ahead memory is asked.
-const AHEAD: usize = 24;
+/// Vertices or triangles between the one in work and the one that is prefetched.
+const PREFETCH_DISTANCE: usize = 24;
 
 /// So many triangles are looked at together.
 const BLOCK: usize = 16;
@@ -193,8 +193,8 @@ impl Moving2 {
         let tasks = starts.zip(parallel::split_at(&mut self.goals, &ends)).collect();
         parallel::map(tasks, |(start, goals): (usize, &mut [[f64; 2]])| {
             for (place, goal) in (start..).zip(goals) {
-                if place + AHEAD < layer.points.len() {
-                    prefetch(positions, name(place + AHEAD).index());
+                if place + PREFETCH_DISTANCE < layer.points.len() {
+                    prefetch(positions, name(place + PREFETCH_DISTANCE).index());
                 }
                 // A free place goes nowhere.
                 *goal = positions.get(name(place).index()).copied().unwrap_or(positions[0]);
@@ -384,10 +384,10 @@ fn edges_to_flip(
 /// Asks for what lies elsewhere, across a cut of the order, and will be looked at some triangles later.
 #[inline]
 fn ask_ahead(mesh: &Mesh2, points: &[[f64; 2]], t: usize) {
-    for record in mesh.edges.get(4 * (t + 2 * AHEAD)..).into_iter().flatten().take(3) {
+    for record in mesh.edges.get(4 * (t + 2 * PREFETCH_DISTANCE)..).into_iter().flatten().take(3) {
         prefetch(&mesh.edges, record.twin.index());
     }
-    for record in mesh.edges.get(4 * (t + AHEAD)..).into_iter().flatten().take(3) {
+    for record in mesh.edges.get(4 * (t + PREFETCH_DISTANCE)..).into_iter().flatten().take(3) {
         if let Some(beyond) = mesh.edges.get(record.twin.previous().index()) {
             prefetch(points, beyond.origin.index());
         }

@@ -10,8 +10,8 @@ use crate::mesh::tetrahedra::FACETS;
 use crate::points::finite;
 use crate::triangulation::Found;
 
-/// Walks from a hint that are longer cost more than the search for a better one.
-const NEAR: usize = 24;
+/// Steps, after which a walk from a hint is given up and the point is located anew.
+const HINTED_STEPS: usize = 24;
 
 impl Surround for Delaunay3 {
     fn find_near(&self, near: Option<TetrahedronId>, q: [f64; 3]) -> Result<Found<TetrahedronId>, Error> {
@@ -19,7 +19,7 @@ impl Surround for Delaunay3 {
         let near = near.filter(|&t| self.mesh().is_cell(t) && self.dimension() == Dimension::Space);
         let filter = self.base.filter_with(q);
         let view = View { filter: &filter, ..self.base.view() };
-        let t = match near.and_then(|t| view.walk_within(t, q, NEAR)) {
+        let t = match near.and_then(|t| view.walk_within(t, q, HINTED_STEPS)) {
             found @ Some(_) => found,
             None => self.walk_to(q, &mut ()),
         };

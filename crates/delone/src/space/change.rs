@@ -15,8 +15,8 @@ use crate::points;
 use crate::points::{Position3, finite};
 use crate::tally::Tally;
 
-/// Below this number of vertices everything is near everything.
-const SMALL: usize = 32;
+/// Vertices, up to which hints are not made anew: any hint is near.
+const UNHINTED_VERTICES: usize = 32;
 
 impl Delaunay3 {
     /// Inserts a point. Its id is the number of ids given before.
@@ -251,7 +251,7 @@ impl Delaunay3 {
     /// New hints, if there are twice as many vertices as when they were made.
     fn renew_hints(&mut self) {
         let count = self.vertex_count();
-        if self.locate == Locate::Tree && count > 2 * self.hinted.max(SMALL) {
+        if self.locate == Locate::Tree && count > 2 * self.hinted.max(UNHINTED_VERTICES) {
             self.locator.take();
             self.hinted = count;
         }

@@ -37,8 +37,8 @@ const FILLED: usize = 8;
 const SMALL_SET: usize = 16;
 /// Steps by hints after a repair that gave up, at most: one after the first, then twice as many and one more each time.
 const PAUSE: u32 = 31;
-/// How many tetrahedra ahead memory is asked.
-const AHEAD: usize = 12;
+/// Tetrahedra between the one that is tested and the one that is prefetched.
+const PREFETCH_DISTANCE: usize = 12;
 /// Marks while holes are made: to go, and in the hole at hand.
 const TO_GO: u8 = 1;
 const GOING: u8 = 2;
@@ -216,10 +216,10 @@ fn find_bad(layer: &mut Layer, bad: &mut Vec<TetrahedronId>) -> Option<()> {
 #[inline]
 fn ask_ahead(layer: &Layer, t: TetrahedronId) {
     let cells = &layer.mesh.cells;
-    for across in cells.get(t.index() + 2 * AHEAD).into_iter().flat_map(|cell| cell.across) {
+    for across in cells.get(t.index() + 2 * PREFETCH_DISTANCE).into_iter().flat_map(|cell| cell.across) {
         prefetch(cells, across.tetrahedron().index());
     }
-    for across in cells.get(t.index() + AHEAD).into_iter().flat_map(|cell| cell.across) {
+    for across in cells.get(t.index() + PREFETCH_DISTANCE).into_iter().flat_map(|cell| cell.across) {
         if let Some(beyond) = cells.get(across.tetrahedron().index()) {
             prefetch(&layer.points, beyond.corners[across.corner()].index());
         }

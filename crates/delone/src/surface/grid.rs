@@ -8,8 +8,8 @@ use std::ops::Range;
 use crate::error::Error;
 use crate::points::Bounds;
 
-/// More cells along an axis could not be told from their neighbours.
-const MOST: f64 = 4_503_599_627_370_496.0;
+/// The largest number of cells along an axis, 2^52: the centres of more could not be told from their neighbours.
+const MAX_CELLS_ALONG: f64 = 4_503_599_627_370_496.0;
 
 /// The cells of a raster: columns along x and rows along y, each of one size. A value belongs to the centre of its cell. In the
 /// units of the points. Rows go from north to south where the step along y is negative, which is what files of rasters expect.
@@ -46,7 +46,7 @@ impl Grid {
         if let Some(&value) = step.iter().find(|x| !x.is_finite() || **x == 0.0) {
             return refuse("the size of a cell", value, "finite and not zero");
         }
-        if let Some(count) = [columns, rows].into_iter().find(|&n| n as f64 > MOST) {
+        if let Some(count) = [columns, rows].into_iter().find(|&n| n as f64 > MAX_CELLS_ALONG) {
             return refuse("the number of columns or rows", count as f64, "at most 2^52");
         }
         Ok(Self { origin: corner, step, first: [0; 2], columns, rows })
@@ -95,7 +95,7 @@ impl Grid {
         }
         let [low, high] = [bounds.low, bounds.high].map(|end| [0, 1].map(|k| (end[k] - origin[k]) / size));
         let (low, high) = (low.map(f64::floor), high.map(f64::ceil));
-        let far = [low, high].concat().into_iter().find(|x| x.is_nan() || x.abs() > MOST);
+        let far = [low, high].concat().into_iter().find(|x| x.is_nan() || x.abs() > MAX_CELLS_ALONG);
         if let Some(value) = far {
             return Err(Error::Parameter {
                 name: "the number of cells from the origin",

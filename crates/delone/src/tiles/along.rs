@@ -14,8 +14,8 @@ use crate::space::{self, InOrder3};
 pub(super) trait Along<const D: usize, const C: usize>: Sized {
     /// What knows a simplex. Those that are near have numbers that are near.
     type Id: Copy + Ord;
-    /// How many points there may be.
-    const MOST: usize;
+    /// The largest number of points.
+    const POINT_LIMIT: usize;
 
     /// Of finite points, not more than may be.
     fn of(points: &[[f64; D]]) -> Result<Self, Error>;
@@ -88,7 +88,7 @@ pub(super) trait Along<const D: usize, const C: usize>: Sized {
 
 impl Along<2, 3> for InOrder {
     type Id = TriangleId;
-    const MOST: usize = MAX_POINTS;
+    const POINT_LIMIT: usize = MAX_POINTS;
 
     fn of(points: &[[f64; 2]]) -> Result<Self, Error> {
         Ok(plane::in_order(points))
@@ -150,7 +150,7 @@ impl Along<2, 3> for InOrder {
 
 impl Along<3, 4> for InOrder3 {
     type Id = TetrahedronId;
-    const MOST: usize = MAX_POINTS_IN_SPACE;
+    const POINT_LIMIT: usize = MAX_POINTS_IN_SPACE;
 
     fn of(points: &[[f64; 3]]) -> Result<Self, Error> {
         space::in_order(points)

@@ -112,7 +112,7 @@ fn gather<A: Along<D, C>, const D: usize, const C: usize>(
     region: &Region<D>,
 ) -> Result<Gathered<D>, Error> {
     let count = borders.iter().map(|border| border.points.len()).sum();
-    check_count(count, A::MOST)?;
+    check_count(count, A::POINT_LIMIT)?;
     let (mut starts, mut points) = (Vec::with_capacity(borders.len()), Vec::with_capacity(count));
     for (index, border) in borders.iter().enumerate() {
         border.check().map_err(|problem| Error::Border { index, problem })?;

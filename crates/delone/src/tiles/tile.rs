@@ -83,7 +83,7 @@ pub(super) fn certified<A: Along<D, C>, const D: usize, const C: usize>(
     points: &[[f64; D]],
     region: &Region<D>,
 ) -> Result<(A, Vec<A::Id>), Error> {
-    check_count(points.len(), A::MOST)?;
+    check_count(points.len(), A::POINT_LIMIT)?;
     let (bounds, are_finite) = survey(points);
     if !are_finite {
         check_finite(points.iter().copied())?;

@@ -10,8 +10,8 @@ use super::{QUERIES, SETS};
 use crate::trials::Trials;
 use crate::{Error, Findings, Options, sizes, timed};
 
-/// The largest set.
-const MOST: usize = 100_000;
+/// The largest set, in points.
+const LARGEST_SET: usize = 100_000;
 
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let title = "Locations and constructions by levels alone, phase 3 by circles, ratio 30 (Devillers 1998, Theorems 6 and 7): \
@@ -28,7 +28,7 @@ pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), 
     ];
     let mut table = options.table("tuning-theorem", title, &heads);
     for (kind, name) in SETS {
-        for n in sizes(1_000, options.largest.min(MOST)) {
+        for n in sizes(1_000, options.largest.min(LARGEST_SET)) {
             let mut trials: [Trials; 4] = Default::default();
             for seed in options.seeds() {
                 trials.iter_mut().zip(measure(kind, n, seed)?).for_each(|(trial, value)| trial.add(value));

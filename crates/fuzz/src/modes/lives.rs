@@ -12,8 +12,8 @@ use crate::engine::{Engine, strategies};
 use crate::nasty::{self, once_in, pick};
 use crate::oracle::delaunay::{delaunay, span};
 
-/// Up to so many vertices every triangulation is compared with the definition, more with one made anew.
-const FEW: usize = 9;
+/// Vertices, up to which every triangulation is compared with the definition; a larger one with a triangulation made anew.
+const DEFINED_VERTICES: usize = 9;
 
 /// See the module.
 pub(crate) struct Lives<E, const D: usize>(PhantomData<E>);
@@ -120,7 +120,7 @@ impl<const D: usize> Model<D> {
             return Err(format!("vertex {i} is at {:?}", engine.at(VertexId::new(i))));
         }
         let points = self.points();
-        let expected = if points.len() <= FEW {
+        let expected = if points.len() <= DEFINED_VERTICES {
             delaunay(&points)
         } else {
             E::build(&points).map_err(|error| error.to_string())?.simplices()

@@ -9,8 +9,8 @@ use crate::engine::Engine;
 use crate::nasty::{self, nudged, once_in, pick};
 use crate::oracle::delaunay::{delaunay, span};
 
-/// Up to so many points all instances are compared with the definition, more with a construction.
-const FEW: usize = 9;
+/// Points, up to which all instances are compared with the definition; more of them with a construction.
+const DEFINED_POINTS: usize = 9;
 
 /// See the module.
 pub(crate) struct Motion<const D: usize>;
@@ -93,7 +93,7 @@ fn paths<const D: usize>(random: &mut Random) -> Vec<Path<D>> {
 
 /// Compares what a way gave for an instance.
 fn judged<E: Engine<D>, const D: usize>(found: &E, frame: &[[f64; D]], name: &str, step: usize) -> Judgement {
-    let expected = if frame.len() <= FEW {
+    let expected = if frame.len() <= DEFINED_POINTS {
         delaunay(frame)
     } else {
         E::build(frame).map_err(|error| error.to_string())?.simplices()

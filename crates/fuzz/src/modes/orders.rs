@@ -13,8 +13,8 @@ use crate::nasty::{self, once_in};
 use crate::oracle::exact::{integers, squared};
 use crate::oracle::rings::{Ring, tile};
 
-/// Up to so many points all orders are judged and changes made; of more the first orders.
-const FEW: usize = 10;
+/// Points, up to which all orders are judged and changes made; of more points the first orders.
+const ALL_ORDERS_POINTS: usize = 10;
 /// The largest order that is judged of more points.
 const FIRST: usize = 4;
 /// Points asked about in each set.
@@ -30,8 +30,8 @@ impl Attack for Orders {
         match random.below(24) {
             0 => wheel(random),
             1 => nasty::points(random, 34),
-            2..8 => nasty::everyday(random, FEW),
-            _ => nasty::points(random, FEW),
+            2..8 => nasty::everyday(random, ALL_ORDERS_POINTS),
+            _ => nasty::points(random, ALL_ORDERS_POINTS),
         }
     }
 
@@ -49,7 +49,7 @@ impl Attack for Orders {
         let alone = Algorithm2::Incremental { seed };
         let third = Delaunay2::with_algorithm(points, alone).map_err(failed)?;
         same(&first, &third).map_err(|wrong| format!("one by one: {wrong}"))?;
-        if points.len() <= FEW { live(points, second, &mut random) } else { Ok(()) }
+        if points.len() <= ALL_ORDERS_POINTS { live(points, second, &mut random) } else { Ok(()) }
     }
 }
 
@@ -90,11 +90,11 @@ fn live(points: &[[f64; 2]], mut d: Delaunay2, random: &mut Random) -> Judgement
                 (2, Some(v)) => {
                     what += &format!(" move {v:?} to {p:?}: {:?},", d.move_to(v, p));
                 }
-                (3, _) if alive.len() + 2 < FEW => {
+                (3, _) if alive.len() + 2 < ALL_ORDERS_POINTS => {
                     d.extend(&[p, known, p], step as u64).map_err(failed)?;
                     what += &format!(" extend by {:?},", [p, known, p]);
                 }
-                _ if alive.len() < FEW => {
+                _ if alive.len() < ALL_ORDERS_POINTS => {
                     what += &format!(" insert {p:?}: {:?},", d.insert(p).map_err(failed)?);
                 }
                 _ => {}
@@ -175,7 +175,7 @@ impl Truth {
                 return Err(format!("order {k} of {n} points is not refused"));
             }
         }
-        for k in (1..=n).filter(|&k| n <= FEW || k <= FIRST) {
+        for k in (1..=n).filter(|&k| n <= ALL_ORDERS_POINTS || k <= FIRST) {
             let order = d.order(k).map_err(|error| format!("order {k}: {error}"))?;
             self.judge_order(&order, &sites).map_err(|wrong| format!("order {k}: {wrong}"))?;
         }
@@ -316,7 +316,7 @@ fn same(d: &Delaunay2, other: &Delaunay2) -> Judgement {
     if d.vertex_count() != other.vertex_count() {
         return Err(format!("{} vertices instead of {}", other.vertex_count(), d.vertex_count()));
     }
-    let most = if d.vertex_count() <= FEW { d.vertex_count() } else { FIRST };
+    let most = if d.vertex_count() <= ALL_ORDERS_POINTS { d.vertex_count() } else { FIRST };
     for k in 1..=most {
         let [expected, found] = [d, other].map(|d| d.order(k).map(|order| everything(d, &order)));
         if found != expected {

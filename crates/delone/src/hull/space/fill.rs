@@ -12,13 +12,13 @@ use delone_predicates::{Sign, orient3d};
 use super::Hull3;
 use crate::mesh::Dimension;
 
-/// Up to so many neighbours ears are faster than a hull.
-const FEW: usize = 16;
+/// Neighbours, up to which a hole is filled by ears; with more of them a hull is faster.
+const EAR_NEIGHBORS: usize = 16;
 
 /// The triangles that take the place of a corner with a ring of neighbours, seen from the corner; each from its least neighbour, sorted. None
 /// if there are no such, as for points that are not those of the hull.
 pub(super) fn fill(points: &[[f64; 3]], v: usize, ring: &[usize]) -> Option<Vec<[usize; 3]>> {
-    let ears = if ring.len() <= FEW { ears(points, ring) } else { None };
+    let ears = if ring.len() <= EAR_NEIGHBORS { ears(points, ring) } else { None };
     let mut fill = ears.or_else(|| seen(points, v, ring))?;
     for triangle in &mut fill {
         let least = (0..3).min_by_key(|&k| triangle[k]).unwrap_or(0);

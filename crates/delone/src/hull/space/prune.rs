@@ -11,8 +11,8 @@ use super::quickhull::Quickhull;
 use super::shell::Shell;
 use super::start::Start;
 
-/// With fewer points nothing is gained.
-const FEW: usize = 4000;
+/// Points, from which on interior points are pruned; with fewer of them pruning gains nothing.
+const PRUNED_POINTS: usize = 4000;
 /// So many points tell whether most are corners.
 const TASTE: usize = 256;
 /// More columns would not be in the cache.
@@ -20,7 +20,7 @@ const MOST_CELLS: usize = 128;
 
 /// The indices of points that may be corners of the hull, in order; none if they may be all.
 pub(super) fn candidates(points: &[[f64; 3]]) -> Option<Vec<u32>> {
-    if points.len() < FEW || facets(&hull(every(points, points.len() / TASTE))?) > TASTE {
+    if points.len() < PRUNED_POINTS || facets(&hull(every(points, points.len() / TASTE))?) > TASTE {
         return None;
     }
     // Of a ball, a sample of m leaves 3 n / sqrt(m) points, and k cells along an axis leave 6 n / k.

@@ -218,8 +218,8 @@ impl Mesh3 {
 
     /// The tetrahedra at a place, ghosts included, into a buffer. O(d log d) for d of them.
     pub(crate) fn star(&self, place: Place, star: &mut Vec<TetrahedronId>) {
-        /// Up to so many, looking through the list is the fastest way to know whether one is in it.
-        const FEW: usize = 48;
+        /// Tetrahedra, up to which membership in the star is decided by scanning it; a larger star is sorted.
+        const SCANNED_STAR: usize = 48;
         star.clear();
         let first = self.incident[place.index()];
         if first == TetrahedronId::NONE {
@@ -236,7 +236,7 @@ impl Mesh3 {
                 if corner == place {
                     continue;
                 }
-                if star.len() < FEW {
+                if star.len() < SCANNED_STAR {
                     if !star.contains(&next) {
                         star.push(next);
                     }

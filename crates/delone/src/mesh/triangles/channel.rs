@@ -23,10 +23,12 @@ pub(crate) struct Channel {
     pending: Vec<Part<()>>,
 }
 
-/// Whether anything may hang into a channel from a border, which then comes back to the vertex that it hangs from.
+/// Whether the border of a channel may pass a vertex twice: an edge then hangs into the channel from it.
 fn may_hang(border: &[BorderEdge]) -> bool {
-    const FEW: usize = 16;
-    border.len() > FEW || (1..border.len()).any(|i| border[..i].iter().any(|&(v, _)| v == border[i].0))
+    /// Vertices, up to which repetitions are searched, in quadratic time; a longer border is assumed to have one.
+    const SCANNED_BORDER: usize = 16;
+    border.len() > SCANNED_BORDER
+        || (1..border.len()).any(|i| border[..i].iter().any(|&(v, _)| v == border[i].0))
 }
 
 impl Mesh2 {

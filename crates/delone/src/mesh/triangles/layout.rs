@@ -58,8 +58,8 @@ impl Room {
     }
 }
 
-/// How many vertices ahead memory is asked.
-const AHEAD: usize = 8;
+/// Vertices between the one that is moved and the one that is prefetched.
+const PREFETCH_DISTANCE: usize = 8;
 /// Where a triangle goes that is free, or has no new slot yet; what comes to a slot that stays free.
 const NONE: u32 = u32::MAX;
 
@@ -95,7 +95,10 @@ impl Mesh2 {
         for (slot, &t) in moves.from.iter().enumerate() {
             prefetch(
                 &self.edges,
-                moves.from.get(slot + AHEAD * room.own()).map_or(0, |&t| (t as usize).wrapping_mul(4)),
+                moves
+                    .from
+                    .get(slot + PREFETCH_DISTANCE * room.own())
+                    .map_or(0, |&t| (t as usize).wrapping_mul(4)),
             );
             let mut records = [HalfEdge::UNUSED; 4];
             if t != NONE {
@@ -133,7 +136,7 @@ impl Moves {
         let own = room.own();
         let mut moves = Self { to: filled(NONE, mesh.slot_count()), from: filled(NONE, own * order.len()) };
         for (i, &place) in order.iter().enumerate() {
-            if let Some(next) = order.get(i + AHEAD) {
+            if let Some(next) = order.get(i + PREFETCH_DISTANCE) {
                 prefetch(&mesh.edges, mesh.incident[next.index()].index());
             }
             let mut slots = own * i..own * (i + 1);

@@ -131,7 +131,7 @@ impl<'a> Bands<'a> {
             } else if dot(r) <= 0.0 {
                 span(r) / 2.0
             } else {
-                ((q[0] * r[1] - q[1] * r[0]).abs() - SMALL * size) / span(along)
+                ((q[0] * r[1] - q[1] * r[0]).abs() - PRODUCT_ROUNDING * size) / span(along)
             };
             let is_told = size > TINY && distance.is_finite();
             least = least.min(if is_told { distance } else { 0.0 });
@@ -145,8 +145,8 @@ impl<'a> Bands<'a> {
 /// Below it products of differences may have lost more than roundings.
 const TINY: f64 = 1e-290;
 
-/// Far more than the roundings of a product of differences, in parts of it.
-const SMALL: f64 = f64::from_bits((1023 - 40) << 52);
+/// A bound above the rounding errors of a product of differences, relative to it: 2^-40, where six roundings make less than 2^-50.
+const PRODUCT_ROUNDING: f64 = f64::from_bits((1023 - 40) << 52);
 
 /// The length of a vector, at most its square root of two times as much.
 fn span([x, y]: [f64; 2]) -> f64 {
@@ -178,11 +178,11 @@ impl Band {
         let from = |q: [f64; 2]| [0, 1].map(|k| q[k] - self.ends[end][k]);
         let (d, u) = (from(p), from(self.ends[1 - end]));
         // Sixteen times as wide as it is, for all that is rounded and all that is moved.
-        let slope = (16.0 * span(self.width) / near).max(SMALL);
+        let slope = (16.0 * span(self.width) / near).max(PRODUCT_ROUNDING);
         let size = span(d) * span(u);
         let is_told = slope < 0.5 && size > TINY && size.is_finite();
         let (cross, dot) = (d[0] * u[1] - d[1] * u[0], d[0] * u[0] + d[1] * u[1]);
-        is_told && (cross.abs() > slope * size || dot < -SMALL * size)
+        is_told && (cross.abs() > slope * size || dot < -PRODUCT_ROUNDING * size)
     }
 
     /// Whether an edge may come into it: false only if it surely does not.
@@ -203,7 +203,7 @@ impl Band {
             let size = span(d) * span(along);
             let cross = along[0] * d[1] - along[1] * d[0];
             let is_told = size > TINY && size.is_finite();
-            if is_told && cross.abs() > 2.0 * span(self.width) * span(along) + SMALL * size {
+            if is_told && cross.abs() > 2.0 * span(self.width) * span(along) + PRODUCT_ROUNDING * size {
                 cross
             } else {
                 0.0

@@ -44,8 +44,8 @@ type Numbered = ([Place; 2], u32);
 
 /// Seed of the order of segments; the result does not depend on it.
 const ANY_SEED: u64 = 1;
-/// Segments ahead whose ends are asked of memory, and whose stars then.
-const AHEAD: [usize; 2] = [16, 8];
+/// Segments between the one that is inserted and those whose ends, and whose stars, are prefetched.
+const PREFETCH_DISTANCES: [usize; 2] = [16, 8];
 /// Positions that are asked for along with an end.
 const WINDOW: usize = 256;
 
@@ -312,10 +312,10 @@ impl<'a> Ahead<'a> {
     /// Before segment `i` is looked at.
     #[inline]
     fn stars(&self, mesh: &Mesh2, i: usize) {
-        for end in self.ends(i + AHEAD[0]).into_iter().flatten() {
+        for end in self.ends(i + PREFETCH_DISTANCES[0]).into_iter().flatten() {
             prefetch(&mesh.incident, end);
         }
-        for end in self.ends(i + AHEAD[1]).into_iter().flatten() {
+        for end in self.ends(i + PREFETCH_DISTANCES[1]).into_iter().flatten() {
             prefetch(&mesh.edges, mesh.incident[end].index());
         }
     }
@@ -324,7 +324,7 @@ impl<'a> Ahead<'a> {
     #[inline]
     fn ways(&mut self, layer: &Layer, i: usize) {
         self.stars(&layer.mesh, i);
-        let Some([a, b]) = self.ends(i + AHEAD[1]) else { return };
+        let Some([a, b]) = self.ends(i + PREFETCH_DISTANCES[1]) else { return };
         let (first, end) = (a.min(b).saturating_sub(WINDOW / 4), a.min(b) + WINDOW);
         if end < self.asked {
             self.asked = 0; // another round

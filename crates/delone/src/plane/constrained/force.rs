@@ -22,8 +22,8 @@ use crate::mesh::triangles::channel::Channel;
 use crate::mesh::triangles::surgery::BorderEdge;
 use crate::plane::layer::Layer;
 
-/// From this many vertices on a side has a triangulation of its own; below, looking at all of them takes less.
-const LARGE: usize = 64;
+/// Vertices of a border, above which each side has a triangulation of its own; below, scanning all of them is faster.
+const PATCHED_BORDER: usize = 64;
 
 /// An edge of a segment.
 pub(super) struct Laid {
@@ -89,7 +89,7 @@ impl Layer {
         let mut patch = None;
         let e = self.mesh.fill_channel([a, end], channel, |border, first, last| {
             if (first, last) == (0, border.len() - 1) {
-                patch = (border.len() > LARGE).then(|| Patch::new(points, border)).flatten();
+                patch = (border.len() > PATCHED_BORDER).then(|| Patch::new(points, border)).flatten();
             }
             let known = patch.as_ref().and_then(|patch| patch.apex(first, last));
             known.unwrap_or_else(|| apex(points, &filter, border, first, last))

@@ -4,7 +4,7 @@
 //! dimensional Delaunay triangulation: speed-up by low degrees optimization", CGTA 2011. Only the vertices on the
 //! border of the hole matter, because whatever was empty of them stays empty of the others.
 //!
-//! Cost, for degree d: up to [`SMALL`], a search for the apex of each side among the rest of the border, at
+//! Cost, for degree d: up to [`SCANNED_DEGREE`], a search for the apex of each side among the rest of the border, at
 //! most d^2 / 2 tests and hardly more than d for the usual six, in buffers that are kept; above that, O(d log d) by
 //! dividing and conquering the border. The ghost vertex is a vertex of the border like others, so the hull is no
 //! special case.
@@ -24,8 +24,8 @@ use crate::points::Bounds;
 use crate::prefetch::prefetch;
 use crate::tally::Tally;
 
-/// The largest degree at which looking at all candidates is cheaper than building.
-const SMALL: usize = 24;
+/// The largest degree of a removed vertex at which all candidates for an apex are scanned; a larger star is triangulated.
+const SCANNED_DEGREE: usize = 24;
 
 /// A hole is filled by so many triangles less than the star had; these, the first ones, are given back.
 const LESS: usize = 2;
@@ -143,7 +143,7 @@ impl<K: Kernel> Hole<K> {
 
     /// Fills the hole with the triangles of its border.
     pub(in crate::plane) fn fill<T: Tally>(&mut self, mesh: &mut Mesh2, sites: &Sites<K>, tally: &mut T) {
-        if self.border.len() <= SMALL || K::HIDES {
+        if self.border.len() <= SCANNED_DEGREE || K::HIDES {
             let site = |&(v, _): &BorderEdge| if v.is_ghost() { Site::<K>::default() } else { sites.at(v) };
             self.sites.clear();
             self.sites.extend(self.border.iter().map(site));

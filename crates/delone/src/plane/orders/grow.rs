@@ -17,7 +17,7 @@
 //! Cost: O(1) expected for each circle on evenly spread sites, nearly all polygons having three or four corners; O(d log d)
 //! for a region with d neighbours at worst; O(k) more for the sites of a region.
 
-use super::MOST;
+use super::MAX_CIRCLES;
 use crate::error::Error;
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::memory::room_for;
@@ -81,8 +81,8 @@ impl Complex {
                 hole.border.push((self.mesh.tail(side), outside));
             }
             let count = hole.border.len() - 2;
-            if mesh.slot_count() + count > MOST {
-                return Err(Error::TooManyCircles { most: MOST, inside: self.order });
+            if mesh.slot_count() + count > MAX_CIRCLES {
+                return Err(Error::TooManyCircles { most: MAX_CIRCLES, inside: self.order });
             }
             hole.triangles.clear();
             // The first one tells only what the hole lies in: where two sides meet nothing is filled.

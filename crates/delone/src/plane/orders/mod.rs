@@ -26,8 +26,8 @@ use crate::ids::VertexId;
 use crate::mesh::Dimension;
 use circle::Circle;
 
-/// The largest number of circles of one order, old and new: four 32-bit edge indices each.
-const MOST: usize = 1 << 30;
+/// The largest number of circles of one order, old and new: each has four 32-bit indices of edges.
+const MAX_CIRCLES: usize = 1 << 30;
 
 /// The Voronoi diagram of one order.
 ///

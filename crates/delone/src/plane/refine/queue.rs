@@ -135,7 +135,8 @@ impl Queue {
         loop {
             let (_, class) = self.classes.get_mut(self.first)?;
             if let Some(task) = class.pop(points) {
-                let soon = class.sorted.len().checked_sub(AHEAD).and_then(|at| class.sorted.get(at));
+                let soon =
+                    class.sorted.len().checked_sub(PREFETCH_DISTANCE).and_then(|at| class.sorted.get(at));
                 soon.into_iter().for_each(|task| ahead(task.edge));
                 return Some(task);
             }
@@ -162,7 +163,7 @@ impl Class {
 
     #[inline]
     fn pop(&mut self, points: &[[f64; 2]]) -> Option<Task> {
-        if self.sorted.is_empty() && self.heap.len() > MANY {
+        if self.sorted.is_empty() && self.heap.len() > SORTED_TASKS {
             std::mem::swap(&mut self.sorted, &mut self.heap);
             // Ties are few: by themselves they leave the sort without a call.
             self.sorted.sort_unstable_by_key(|task| Reverse(task.key));
@@ -203,10 +204,10 @@ impl Class {
     }
 }
 
-/// So many tasks ahead memory is asked for their triangles.
-const AHEAD: usize = 4;
-/// So many tasks of a class are sorted rather than taken from a heap.
-const MANY: usize = 32;
+/// Tasks between the one in work and the one whose triangle is prefetched.
+const PREFETCH_DISTANCE: usize = 4;
+/// Tasks of a class, above which they are sorted at once; fewer are taken from a heap.
+const SORTED_TASKS: usize = 32;
 /// Children of a node of the heap: four are on one or two lines of the cache.
 const ARITY: usize = 4;
 

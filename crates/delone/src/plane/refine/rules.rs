@@ -13,9 +13,9 @@ const NARROWEST: f64 = 20.0;
 /// Off-centres are this part of the way: what is made passes with room to spare (Shewchuk's choice).
 const SHORT: f64 = 0.95;
 
-/// Without a largest number of new vertices so many may serve angles: a gap as narrow as a rounding error would take more than
-/// there is memory for. It is this number, or so many times that of the points; and so many more for each one that sizes ask for.
-const MANY: usize = 1 << 21;
+/// The default limit of new vertices that serve angles, where the caller sets none: a gap as narrow as a rounding error would take
+/// more than memory holds. The limit is the larger of this number and a multiple of the number of points, and grows with sizes.
+const MAX_VERTICES_FOR_ANGLES: usize = 1 << 21;
 const EACH: usize = 64;
 const AROUND: usize = 16;
 
@@ -77,7 +77,9 @@ impl<'a> Rules<'a> {
             conforming: wanted.conforming,
             longest_constraint: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             most: wanted.max_vertices.map_or(before.room, |most| most.min(before.room)),
-            for_angles: wanted.max_vertices.map_or_else(|| MANY.max(EACH * before.given), |_| before.room),
+            for_angles: wanted
+                .max_vertices
+                .map_or_else(|| MAX_VERTICES_FOR_ANGLES.max(EACH * before.given), |_| before.room),
             keep: wanted.keep,
             squared_longest: wanted.max_edge.map_or(f64::INFINITY, |length| length * length),
             has_sizes: has_fields || wanted.max_edge.is_some() || areas.iter().any(|area| area.is_finite()),

@@ -13,9 +13,9 @@ use delone_predicates::lexicographic;
 use crate::ids::{EdgeId, TriangleId};
 use crate::plane::layer::Layer;
 
-/// Squares outside of this range are not trusted.
-const LEAST: f64 = 1e-280;
-const MOST: f64 = 1e280;
+/// The range of squared lengths whose products neither overflow nor lose digits. Outside of it there is no shape, and the caller decides otherwise.
+const LEAST_SQUARE: f64 = 1e-280;
+const GREATEST_SQUARE: f64 = 1e280;
 /// Products of squares, which leave the range of numbers sooner, are trusted here.
 const PRODUCTS: Range<f64> = 1e-290..1e290;
 
@@ -52,7 +52,7 @@ impl Shape {
             Self { shortest: t.edge(0), points, squares: [ab, bc, ca] }
         };
         let [least, second, third] = shape.squares;
-        (least > LEAST && second < MOST && third < MOST).then_some(shape)
+        (least > LEAST_SQUARE && second < GREATEST_SQUARE && third < GREATEST_SQUARE).then_some(shape)
     }
 
     /// The scalar and the vector product of the sides at the corner across the shortest edge.

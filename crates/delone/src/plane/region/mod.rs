@@ -19,8 +19,8 @@ use clip::{Ring, clip, sides};
 use sweep::nesting;
 use tree::{Node, Relation};
 
-/// Parts with more corners than this are first cut to the box around a cell.
-const MANY: usize = 16;
+/// Corners of a part, above which it is first cut to the box around the cell.
+const UNCUT_CORNERS: usize = 16;
 
 /// A region of the plane with a border of straight sides.
 #[derive(Clone, Debug)]
@@ -195,7 +195,7 @@ impl Region2 {
             Line::Below(1, high[1]),
         ];
         for line in lines {
-            if part.iter().map(Vec::len).sum::<usize>() > MANY {
+            if part.iter().map(Vec::len).sum::<usize>() > UNCUT_CORNERS {
                 part = clip(part, line);
             }
         }
@@ -236,7 +236,7 @@ fn validate_corners(ring: usize, corners: &[[f64; 2]]) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MANY, Region2, enlarged};
+    use super::{Region2, UNCUT_CORNERS, enlarged};
     use crate::plane::region::clip::sides;
     use crate::plane::region::tree::Relation;
 
@@ -295,8 +295,8 @@ mod tests {
             let part = region.around(&[cell]).expect("not inside");
             part.iter().map(Vec::len).sum::<usize>()
         };
-        assert_eq!([near(12), near(MANY as u32)], [12, MANY]);
-        assert!(near(400) <= MANY, "{}", near(400));
+        assert_eq!([near(12), near(UNCUT_CORNERS as u32)], [12, UNCUT_CORNERS]);
+        assert!(near(400) <= UNCUT_CORNERS, "{}", near(400));
     }
 
     #[test]

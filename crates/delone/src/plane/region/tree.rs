@@ -9,8 +9,8 @@ use delone_predicates::{Line, Spot, orient2d};
 
 use super::clip::{Corner, Ring, clip};
 
-/// Up to this number of sides a box is not cut further.
-const FEW: usize = 8;
+/// Sides, up to which a box is not cut further.
+const LEAF_SIDES: usize = 8;
 /// The deepest box.
 const DEEPEST: u32 = 48;
 
@@ -48,7 +48,7 @@ impl Node {
         let is_side = |corner: &&Corner| corner.side.is_some();
         let count = |rings: &[Ring]| rings.iter().flatten().filter(is_side).count();
         let side_count = count(&rings);
-        if side_count <= FEW || depth == DEEPEST {
+        if side_count <= LEAF_SIDES || depth == DEEPEST {
             return Self { rings, full: false, halves: None };
         }
         // Where to cut is no decision about the polygon, so roughly is enough.
@@ -161,7 +161,7 @@ fn keeps_off([p, q]: [[f64; 2]; 2], low: [f64; 2], high: [f64; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{FEW, Node, keeps_off};
+    use super::{LEAF_SIDES, Node, keeps_off};
     use crate::plane::region::clip::{Corner, sides};
 
     /// The sides of all smallest boxes.
@@ -187,8 +187,12 @@ mod tests {
 
     #[test]
     fn a_few_sides_are_not_cut() {
-        assert!(Node::new(vec![sides(&ellipse(FEW as u32, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_none());
-        assert!(Node::new(vec![sides(&ellipse(FEW as u32 + 1, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_some());
+        assert!(
+            Node::new(vec![sides(&ellipse(LEAF_SIDES as u32, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_none()
+        );
+        assert!(
+            Node::new(vec![sides(&ellipse(LEAF_SIDES as u32 + 1, [0.0; 2], [5.0, 1.0]), 0)]).halves.is_some()
+        );
     }
 
     /// Most teeth of a comb aslant are on both sides of every cut: it is left as it is.
@@ -258,7 +262,7 @@ mod tests {
             let upright: Vec<[f64; 2]> = comb.iter().rev().map(|&[x, y]| [y, x]).collect();
             for ring in [comb, upright] {
                 let found = most(&Node::new(vec![sides(&ring, 0)]));
-                assert!(found <= FEW, "{found} sides in a box, {teeth} teeth");
+                assert!(found <= LEAF_SIDES, "{found} sides in a box, {teeth} teeth");
             }
         }
     }

@@ -17,8 +17,8 @@ use crate::plane::layer::insert::Spot;
 use crate::points::{Position2, check_weights, finite};
 use crate::under::heaviest_first;
 
-/// Below so many vertices any hint will do.
-const SMALL: usize = 32;
+/// Vertices, up to which hints are not made anew: any hint is near.
+const UNHINTED_VERTICES: usize = 32;
 
 impl Regular2 {
     /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average, and O(log n)
@@ -183,7 +183,7 @@ impl Regular2 {
 
     fn renew_hints(&mut self) {
         let count = self.vertex_count();
-        if count > 2 * self.hinted.max(SMALL) {
+        if count > 2 * self.hinted.max(UNHINTED_VERTICES) {
             self.hints.take();
             self.hinted = count;
         }

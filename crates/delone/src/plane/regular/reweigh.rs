@@ -25,17 +25,18 @@ use crate::prefetch::prefetch;
 use crate::regular::Reweighed;
 use crate::under::heaviest_first;
 
-/// One edge in so many may be wrong before building anew is faster; the first so many always may.
-const WRONG: usize = 10;
-const FEW: usize = 16;
-/// One site in so many may fall again before building anew is faster, whatever they fall into; the first so many always may.
-const FALLING: usize = 16;
+/// The inverse of the share of edges that may be wrong before building anew is faster.
+const WRONG_SHARE: usize = 10;
+/// Wrong edges, or sites that fall again, that are repaired however small the set is.
+const ALLOWED_EDGES: usize = 16;
+/// The inverse of the share of sites that may fall again before building anew is faster, wherever they fall.
+const FALLING_SHARE: usize = 16;
 /// So many flips a vertex may be needed before building anew is faster.
 const FLIPS: usize = 4;
 /// So many triangles are looked at together.
 const BLOCK: usize = 16;
-/// How many triangles ahead memory is asked.
-const AHEAD: usize = 12;
+/// Triangles between the one that is tested and the one that is prefetched.
+const PREFETCH_DISTANCE: usize = 12;
 
 /// A site that falls again, and an edge near it.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +69,7 @@ impl Regular2 {
             return Ok(Reweighed::Rebuilt);
         };
         self.take_surfacing(&mut loose);
-        if loose.len() > (self.vertex_count() + loose.len()) / FALLING + FEW {
+        if loose.len() > (self.vertex_count() + loose.len()) / FALLING_SHARE + ALLOWED_EDGES {
             self.build_anew(loose);
             return Ok(Reweighed::Rebuilt);
         }
@@ -182,14 +183,14 @@ impl Regular2 {
 /// Which edges are tested is decided without branches, which would go the wrong way half of the time.
 fn wrong_edges(layer: &Layer<Power>) -> Option<Vec<EdgeId>> {
     let mesh = &layer.mesh;
-    let most = 3 * mesh.vertex_count() / WRONG + FEW;
+    let most = 3 * mesh.vertex_count() / WRONG_SHARE + ALLOWED_EDGES;
     let mut wrong = Vec::new();
     let mut edges = [EdgeId::NONE; 3 * BLOCK];
     let slots = mesh.slot_count();
     for first in (0..slots).step_by(BLOCK) {
         let mut count = 0;
         for t in (first..slots.min(first + BLOCK)).map(TriangleId::new) {
-            let ahead = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+            let ahead = mesh.edges.get(4 * (t.index() + PREFETCH_DISTANCE)..).into_iter().flatten().take(3);
             for record in ahead.filter(|record| record.twin != EdgeId::NONE) {
                 prefetch(&mesh.edges, record.twin.index());
             }

@@ -5,7 +5,7 @@
 //!
 //! Cost: O(n).
 
-use super::clip::{AHEAD, Cellular};
+use super::clip::{Cellular, PREFETCH_DISTANCE};
 use crate::ids::Place;
 use crate::mesh::triangles::HalfEdge;
 use crate::plane::layer::Layer;
@@ -27,7 +27,8 @@ impl Centres {
         let mut points = Vec::with_capacity(slots);
         let mut inside = Vec::with_capacity(if within.is_some() { slots } else { 0 });
         let triangles = layer.mesh.edges.chunks_exact(4);
-        let ahead = layer.mesh.edges.chunks_exact(4).skip(AHEAD).map(Some).chain(std::iter::repeat(None));
+        let ahead =
+            layer.mesh.edges.chunks_exact(4).skip(PREFETCH_DISTANCE).map(Some).chain(std::iter::repeat(None));
         for (corners, ahead) in triangles.zip(ahead) {
             // Corners lie wherever they lay in the input.
             for corner in ahead.filter(|_| prefetch::HELPS).into_iter().flatten() {

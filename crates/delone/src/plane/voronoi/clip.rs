@@ -21,8 +21,8 @@ use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::{Kernel, NearestSites, Power, Site};
 use crate::prefetch::{self, prefetch};
 
-/// How many triangles ahead memory is asked.
-pub(super) const AHEAD: usize = 16;
+/// Triangles between the one in work and the one that is prefetched.
+pub(super) const PREFETCH_DISTANCE: usize = 16;
 
 impl Voronoi2<'_> {
     /// Clips all cells to a region. Sites may be outside of it. The clipped cells tile the region.
@@ -126,10 +126,10 @@ fn clip_all<K: Cellular>(
 fn ask_ahead<K: Cellular>(layer: &Layer<K>, centres: &[[f64; 2]], t: TriangleId) {
     let mesh = &layer.mesh;
     // Stars reach across to triangles that lie elsewhere, and to the next ones beyond.
-    for record in mesh.edges.get(4 * (t.index() + 2 * AHEAD)..).into_iter().flatten().take(3) {
+    for record in mesh.edges.get(4 * (t.index() + 2 * PREFETCH_DISTANCE)..).into_iter().flatten().take(3) {
         prefetch(&mesh.edges, record.twin.index());
     }
-    let next = mesh.edges.get(4 * (t.index() + AHEAD)..).into_iter().flatten().take(3);
+    let next = mesh.edges.get(4 * (t.index() + PREFETCH_DISTANCE)..).into_iter().flatten().take(3);
     for record in next.filter(|record| !K::HIDES || record.twin != EdgeId::NONE) {
         prefetch(centres, record.twin.triangle().index());
         for beyond in [record.twin.next(), record.twin.previous()] {

@@ -18,8 +18,8 @@ use crate::points::Bounds;
 use crate::points::Position3;
 use crate::sorting;
 
-/// Fewer points are not worth it.
-const MANY: usize = 1 << 14;
+/// Sites, from which on the set is cut into parts for threads; cutting fewer costs more than it gains.
+const CUT_SITES: usize = 1 << 14;
 /// The sizes of the thin samples.
 const THIN: [usize; 2] = [512, 4096];
 /// The number of dense samples.
@@ -29,8 +29,8 @@ const WIDE: f64 = 0.7;
 /// The share of points that may be triangulated twice for two parts, and for more.
 const TWICE_FOR_TWO: f64 = 0.1;
 const TWICE: f64 = 0.05;
-/// More cuts, one after the other, make more parts than there are threads.
-const MOST: u32 = 8;
+/// The largest number of cuts, one after another: more would make more parts than there are threads.
+const MAX_CUTS: u32 = 8;
 
 /// Points, and a weight for each if there are weights.
 pub(super) struct Sites<'a, P, W> {
@@ -77,8 +77,8 @@ pub(super) struct Run<W> {
 
 /// Cuts sites into runs; into one if more would not pay.
 pub(super) fn cut<P: Position3, W: Lift>(sites: Sites<'_, P, W>) -> Vec<Run<W>> {
-    let share = if sites.len() < MANY { 1.0 } else { share_at_cut(sites) };
-    let cuts = if share > TWICE_FOR_TWO { 0 } else { ((TWICE / share) as u32).clamp(1, MOST) };
+    let share = if sites.len() < CUT_SITES { 1.0 } else { share_at_cut(sites) };
+    let cuts = if share > TWICE_FOR_TWO { 0 } else { ((TWICE / share) as u32).clamp(1, MAX_CUTS) };
     divide(sites, (0..sites.len() as u32).collect(), cuts, Vec::new())
 }
 

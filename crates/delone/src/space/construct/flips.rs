@@ -45,8 +45,8 @@ mod tests;
 /// The vertex at infinity.
 const GHOST: u32 = u32::MAX;
 
-/// Tetrahedra that can be numbered, but for those of one flip.
-const MOST: usize = u32::MAX as usize - 8;
+/// The largest number of tetrahedra whose indices fit, with room for those of one flip.
+const MAX_TETRAHEDRA: usize = u32::MAX as usize - 8;
 
 /// Makes all sites of a layer vertices, but for those that others hide or equal. Names are left alone. `None` if there is no
 /// room.
@@ -271,7 +271,7 @@ impl<'a, W: Lift> Flips<'a, W> {
             if self.is_hit(cell.across[i], q) && !self.flip(t, i, tally) {
                 waiting.push(t);
             }
-            if self.cells.len() > MOST {
+            if self.cells.len() > MAX_TETRAHEDRA {
                 return None;
             }
         }

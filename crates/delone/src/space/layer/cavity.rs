@@ -24,11 +24,11 @@ const INSIDE: u8 = 1;
 const OUTSIDE: u8 = 2;
 const WAITING: u8 = 3;
 
-/// Borders of more facets are glued by sorting: the table grows with the square of their number.
-const MANY: usize = 2000;
+/// Facets of a border, above which they are glued by sorting: the table grows with the square of their number.
+const TABLED_FACETS: usize = 2000;
 
-/// Memory is asked for so many vertices at least: hardly any border has more.
-const FEW: usize = 64;
+/// The least side of the table, in vertices: hardly any border has more.
+const LEAST_TABLE: usize = 64;
 
 /// Buffers that are kept between insertions.
 #[derive(Clone, Debug, Default)]
@@ -220,7 +220,7 @@ impl Cavity {
             memory.marks[t.index()] = 0;
             memory.cells[t.index()] = Tetrahedron { corners: [v, a, b, c], across: [g; 4] };
         }
-        if self.border.len() > MANY {
+        if self.border.len() > TABLED_FACETS {
             self.glue_by_sorting(memory);
         } else {
             self.glue_by_table(memory);
@@ -235,7 +235,7 @@ impl Cavity {
         let side = (self.border.len() / 2 + 3).next_power_of_two();
         let width = side.trailing_zeros();
         if self.table.len() < side * side {
-            let most = side.max(FEW);
+            let most = side.max(LEAST_TABLE);
             self.table.resize(most * most, FacetId::NONE);
             self.vertices.reserve(most);
         }

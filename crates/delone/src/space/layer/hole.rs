@@ -16,8 +16,8 @@ use crate::mesh::tetrahedra::Tetrahedron;
 use crate::order;
 use crate::space::construct;
 
-/// Up to so many vertices any order of insertion will do.
-const FEW: usize = 40;
+/// Vertices, up to which a hole is triangulated in any order of insertion.
+const UNORDERED_VERTICES: usize = 40;
 
 /// Buffers that are kept between holes.
 #[derive(Clone, Debug, Default)]
@@ -85,7 +85,7 @@ impl Hole {
     pub(in crate::space) fn triangulate<W: Lift>(&mut self, layer: &Layer<W>, fill: &mut Layer<W>) {
         fill.restart(self.vertices.iter().map(|&p| layer.site(p)));
         self.order.clear();
-        if self.vertices.len() <= FEW {
+        if self.vertices.len() <= UNORDERED_VERTICES {
             self.order.extend(0..self.vertices.len() as u32);
         } else {
             let along = order::space::hilbert(self.vertices.len(), &|i| fill.points[i as usize]);

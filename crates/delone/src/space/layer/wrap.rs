@@ -22,8 +22,8 @@ use crate::ids::{FacetId, Place, TetrahedronId};
 use crate::mesh::tetrahedra::{FACETS, Mesh3, Tetrahedron};
 use crate::prefetch::prefetch;
 
-/// Holes of more tetrahedra are triangulated apart, which takes less than the square of their size.
-const MANY: usize = 200;
+/// Tetrahedra of a hole, up to which it is gift-wrapped; a larger hole is triangulated apart, which avoids the square of its size.
+const WRAPPED_TETRAHEDRA: usize = 200;
 
 /// Buffers that are kept between holes.
 #[derive(Clone, Debug, Default)]
@@ -59,7 +59,7 @@ impl Facet {
 impl Wrap {
     /// Whether the star of a vertex may be filled so: it is not large, and the vertex is inside of the hull.
     pub(in crate::space) fn suits(mesh: &Mesh3, star: &[TetrahedronId]) -> bool {
-        star.len() <= MANY && !star.iter().any(|&t| mesh.is_ghost(t))
+        star.len() <= WRAPPED_TETRAHEDRA && !star.iter().any(|&t| mesh.is_ghost(t))
     }
 
     /// How many tetrahedra the last filling has.

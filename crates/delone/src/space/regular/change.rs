@@ -15,10 +15,10 @@ use crate::regular::Reweighed;
 use crate::under::heaviest_first;
 use delone_predicates::Site;
 
-/// One site in so many may have another weight before building anew is faster.
-const MANY: usize = 16;
-/// Below so many vertices any hint will do.
-const SMALL: usize = 32;
+/// The inverse of the share of sites whose weights may change before building anew is faster.
+const REWEIGHED_SHARE: usize = 16;
+/// Vertices, up to which hints are not made anew: any hint is near.
+const UNHINTED_VERTICES: usize = 32;
 
 impl Regular3 {
     /// Adds a site. It has an id of its own, hidden or not ([`Self::is_hidden`]), unless it equals a vertex. O(log n) on average on
@@ -91,7 +91,7 @@ impl Regular3 {
         let alive: Vec<(VertexId, Site<3>)> = alive.collect();
         let differs = |&&(v, (_, weight)): &&(VertexId, Site<3>)| weight != weights[v.index()];
         let settled = alive.iter().filter(differs).count();
-        if settled <= alive.len() / MANY {
+        if settled <= alive.len() / REWEIGHED_SHARE {
             for &(v, _) in alive.iter().filter(differs) {
                 self.set_weight(v, weights[v.index()])?;
             }
@@ -221,7 +221,7 @@ impl Regular3 {
 
     fn renew_hints(&mut self) {
         let count = self.vertex_count();
-        if count > 2 * self.hinted.max(SMALL) {
+        if count > 2 * self.hinted.max(UNHINTED_VERTICES) {
             self.hints.take();
             self.hinted = count;
         }

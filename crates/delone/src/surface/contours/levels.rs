@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 
-/// More levels nobody looks at.
-const MOST: f64 = 1e6;
+/// The largest number of contour levels. More are refused, as a mistyped interval.
+const MAX_LEVELS: f64 = 1e6;
 
 /// Heights in increasing order, each once.
 ///
@@ -49,7 +49,7 @@ impl Levels {
         let [first, last] = [((low - base) / interval).floor(), ((high - base) / interval).floor() + 1.0];
         let count = last - first + 1.0;
         // Beyond 2^53 multiples cannot be told from their neighbours.
-        if count.is_nan() || count > MOST || first.abs().max(last.abs()) > 9e15 {
+        if count.is_nan() || count > MAX_LEVELS || first.abs().max(last.abs()) > 9e15 {
             return refuse("the number of levels of contours", count, "at most 1,000,000");
         }
         let level = |k: usize| base + (first + k as f64) * interval;

@@ -8,8 +8,8 @@ use super::sheet::{Edge, Sheet, edge};
 use crate::error::Error;
 use delone_predicates::lexicographic;
 
-/// More points nobody draws.
-const MOST: u64 = 1 << 31;
+/// The largest number of points of all contours. More are refused before memory is taken.
+const MAX_CONTOUR_POINTS: u64 = 1 << 31;
 
 /// A surface cut at levels.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl<'a> Cut<'a> {
             count += u64::from(high - low);
             cut.first.push(count);
         }
-        if count > MOST {
+        if count > MAX_CONTOUR_POINTS {
             return Err(Error::Parameter {
                 name: "the number of points of the contours",
                 value: count as f64,

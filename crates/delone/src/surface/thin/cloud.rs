@@ -13,8 +13,8 @@ use delone_predicates::{Filter, lexicographic};
 use super::plane::{self, Plane, Worst};
 use super::{Found, Samples, Triple, Verdict};
 
-/// Boxes of fewer boxes than this are entered unless the triangle is long and thin: to ask where they are takes as long.
-const FEW: usize = 16;
+/// Boxes below a box, up to which it is entered without a test, unless the triangle is long and thin: the test would take as long.
+const ENTERED_BOXES: usize = 16;
 
 /// Points of a box that has no boxes.
 const LEAF: usize = 16;
@@ -84,7 +84,7 @@ impl Cloud {
                 return None;
             }
             // Any triangle may have no more than a corner on a line of points that is all along its box.
-            let is_asked = is_slanted || i < leaves / FEW && both != around;
+            let is_asked = is_slanted || i < leaves / ENTERED_BOXES && both != around;
             if is_asked && (0..3).any(is_beyond) {
                 return None;
             }

@@ -28,8 +28,8 @@ const ROUNDING: f64 = f64::from_bits((1023 - 48) << 52);
 /// Cells that are measured at once.
 const LANES: usize = 4;
 
-/// From so many columns and rows on a triangle is looked at in blocks.
-const LARGE: i32 = 16;
+/// Columns and rows of a triangle, from which on it is scanned by blocks.
+const BLOCKED_SIZE: i32 = 16;
 
 /// See the module.
 #[derive(Debug)]
@@ -314,7 +314,7 @@ impl Samples for Lattice<'_> {
     fn worst(&self, corners: Triple, floor: f64) -> Option<(f64, u32)> {
         let Some((plane, sides)) = self.triangle(corners) else { return self.worst_along(corners, floor) };
         let mut worst = Worst::above(floor);
-        if sides.size().iter().all(|&size| size >= LARGE) {
+        if sides.size().iter().all(|&size| size >= BLOCKED_SIZE) {
             self.by_blocks(&plane, &sides, &mut worst);
         } else {
             sides.each(|part| self.measure(&plane, part, &mut worst));
