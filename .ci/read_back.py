@@ -16,6 +16,7 @@ import laspy
 import meshio
 import numpy as np
 import pandas
+import pyogrio
 import pyvista
 import rasterio
 import shapely
@@ -302,6 +303,11 @@ for kind in ["fgb", "gpkg"]:
     assert [str(read[column].dtype) for column in ["site", "area", "size", "even"]] == ["int64", "float64", "float64", "bool"]
     run("triangulate", "points.npy", "-o", f"mesh.{kind}")
     mesh = geopandas.read_file(folder / f"mesh.{kind}")
+    indexed = pyogrio.read_info(folder / f"mesh.{kind}")["capabilities"]["fast_spatial_filter"]
+    assert indexed == (kind == "gpkg"), f"the index of {kind}"
+    middle = shapely.box(*(mesh.total_bounds.reshape(2, 2).mean(axis=0) + [[-9, -9], [9, 9]]).ravel())
+    near = geopandas.read_file(folder / f"mesh.{kind}", bbox=middle.bounds)
+    assert 0 < len(near) == mesh.intersects(middle).sum() < len(mesh), f"a part of {kind}"
     rings = [np.array(polygon.exterior.coords)[:3] for polygon in mesh.geometry]
     same(np.arange(3 * len(rings)).reshape(-1, 3), np.concatenate(rings), expected)
     assert mesh.geometry.has_z.all() and mesh.crs is None
@@ -310,6 +316,12 @@ for kind in ["fgb", "gpkg"]:
     assert bands.crs.to_epsg() == 25832 and set(bands.geom_type) == {"MultiPolygon"}
     assert np.array_equal(shapely.to_wkb(bands.geometry), shapely.to_wkb(geopandas.read_file(folder / "bands.geojson").geometry))
     print(f"geopandas reads cells, triangles and contours in {kind}")
+# Programs that change the layer keep its index true.
+more = bands.iloc[:1].translate(1e6)
+pyogrio.write_dataframe(more.to_frame("geometry"), folder / "bands.gpkg", layer="contours", append=True)
+added = geopandas.read_file(folder / "bands.gpkg", bbox=tuple(more.total_bounds))
+assert len(added) == 1 and pyogrio.read_info(folder / "bands.gpkg")["features"] == len(bands) + 1, "a feature more"
+print("GDAL adds a feature to a GeoPackage")
 # Lines are a layer beside the triangles: edges that cover each line, with its attributes.
 ways = geopandas.GeoDataFrame(
     {"name": ["high", "low"], "lanes": [2, 1]},

@@ -190,7 +190,10 @@ read or written. `delone COMMAND --help` lists the formats of a command.
         let [read, written] = [Direction::Read, Direction::Written].map(|direction| held(format, direction));
         page += &format!("| {} | {} | {read} | {written} |\n", names.join(" "), format.title());
     }
-    page
+    page + "
+Layers of GeoPackage have a spatial index (the extension `gpkg_rtree_index`). FlatGeobuf is written without one: it would stand before
+the features and in their order, so that all would have to be kept until the last is known. `ogr2ogr indexed.fgb cells.fgb` makes one.
+"
 }
 
 /// The rows of the README that name formats.

@@ -1,5 +1,6 @@
 //! FlatGeobuf: a header, perhaps an index, and then features, each a buffer of FlatBuffers. Read from front to back, a feature at a time;
-//! the index is passed over, and none is written.
+//! the index is passed over. None is written: it would stand before the features and in their order along a curve, so that all would have
+//! to be kept until the last is known.
 //!
 //! Source: <https://flatgeobuf.org/#specification>, version 3. Read and written by hand: the crate for it depends on geozero, geo-traits and one version of
 //! flatbuffers.

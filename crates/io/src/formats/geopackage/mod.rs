@@ -8,6 +8,8 @@ mod absent;
 #[cfg(feature = "geopackage")]
 mod database;
 #[cfg(feature = "geopackage")]
+mod index;
+#[cfg(feature = "geopackage")]
 mod read;
 #[cfg(all(test, feature = "geopackage"))]
 mod tests;

@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use rusqlite::{Connection, MAIN_DB};
 
 use super::database::{Database, MOST_IN_MEMORY};
-use crate::{Error, Graph, ReadOptions};
+use crate::{Edges, Error, Format, Graph, ReadOptions, write_edges};
 
 /// What all layers need.
 const HEAD: &str = "CREATE TABLE gpkg_geometry_columns (table_name, column_name, geometry_type_name, srs_id, z, m);
@@ -127,4 +127,65 @@ fn what_is_no_geopackage_is_named() {
     Cursor::new(&whole).take(whole.len() as u64 / 2).read_to_end(&mut beginning).expect("memory");
     assert!(read(beginning).is_err());
     assert!(MOST_IN_MEMORY > whole.len() as u64);
+}
+
+/// Lines from a curve that is dense in places: what the index finds is what a look at each finds, and SQLite finds its nodes right.
+#[test]
+fn layers_are_written_with_an_index() {
+    // One node, a full one, two, and three levels of them.
+    for count in [0_usize, 1, 51, 52, 103, 6000] {
+        let points: Vec<[f64; 2]> = (0..=count)
+            .map(|i| [(i as f64).sin().powi(5) * 1e3, (i as f64 * 0.7).cos() * 1e-3 + 5e6])
+            .collect();
+        let pairs: Vec<[usize; 2]> = (0..count).map(|i| [i, i + 1]).collect();
+        let mut bytes = Vec::new();
+        let edges = Edges { points: &points, pairs: &pairs, crs: None };
+        write_edges(&mut bytes, Format::GeoPackage, &edges).expect("memory");
+        let mut written = Connection::open_in_memory().expect("memory");
+        written.deserialize_read_exact(MAIN_DB, &bytes[..], bytes.len(), true).expect("a database");
+        let verdict: String = written
+            .query_row("SELECT rtreecheck('rtree_edges_geom')", [], |row| row.get(0))
+            .expect("an index");
+        assert_eq!(verdict, "ok", "{count}");
+        let within = "SELECT id FROM rtree_edges_geom WHERE minx <= ? AND maxx >= ? AND miny <= ? AND maxy >= ? ORDER BY id";
+        let mut within = written.prepare(within).expect("a table");
+        for [x, y, side] in
+            [[0.0, 5e6, 1e9], [0.0, 5e6, 0.1], [500.0, 5e6, 1.0], [-999.0, 5e6, 100.0], [0.0, 0.0, 1.0]]
+        {
+            let window = [x + side, x - side, y + side, y - side];
+            let ids = within.query_map(window, |row| row.get::<_, i64>(0)).expect("rows");
+            let ids: Vec<i64> = ids.map(|id| id.expect("a number")).collect();
+            let [east, west, north, south] = window;
+            // Boxes are of single precision, rounded outwards: near five millions their sides are halves.
+            let (inner, outer) = (|low: f64, high: f64| low <= high, |low: f64, high: f64| low <= high + 0.5);
+            let found = |meets: fn(f64, f64) -> bool| -> Vec<i64> {
+                let meets = |pair: &[usize; 2]| {
+                    let [p, q] = pair.map(|i| points[i]);
+                    let [low, high] = [f64::min, f64::max].map(|pick| [0, 1].map(|k| pick(p[k], q[k])));
+                    meets(low[0], east)
+                        && meets(west, high[0])
+                        && meets(low[1], north)
+                        && meets(south, high[1])
+                };
+                (0..count).filter(|&i| meets(&pairs[i])).map(|i| i as i64 + 1).collect()
+            };
+            let (needed, allowed) = (found(inner), found(outer));
+            assert!(needed.iter().all(|id| ids.binary_search(id).is_ok()), "{count}, {window:?}");
+            assert!(ids.iter().all(|id| allowed.binary_search(id).is_ok()), "{count}, {window:?}");
+        }
+        let extension: String = written
+            .query_row("SELECT extension_name FROM gpkg_extensions WHERE table_name = 'edges'", [], |row| {
+                row.get(0)
+            })
+            .expect("a row");
+        assert_eq!(extension, "gpkg_rtree_index");
+        let triggers: i64 = written
+            .query_row(
+                "SELECT count(*) FROM sqlite_master WHERE type = 'trigger' AND tbl_name = 'edges'",
+                [],
+                |row| row.get(0),
+            )
+            .expect("a number");
+        assert_eq!(triggers, 6);
+    }
 }

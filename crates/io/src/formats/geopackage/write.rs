@@ -6,6 +6,7 @@ use std::io::{self, Write};
 use rusqlite::{Connection, params};
 
 use super::database::failed;
+use super::index::Index;
 use super::read::quoted;
 use crate::features::numbered;
 use crate::formats::vector::{self, Column, Form, Geometry, Kind, Layer};
@@ -30,6 +31,8 @@ CREATE TABLE gpkg_geometry_columns (table_name TEXT NOT NULL, column_name TEXT N
  CONSTRAINT pk_geom_cols PRIMARY KEY (table_name, column_name), CONSTRAINT uk_gc_table_name UNIQUE (table_name),
  CONSTRAINT fk_gc_tn FOREIGN KEY (table_name) REFERENCES gpkg_contents(table_name),
  CONSTRAINT fk_gc_srs FOREIGN KEY (srs_id) REFERENCES gpkg_spatial_ref_sys (srs_id));
+CREATE TABLE gpkg_extensions (table_name TEXT, column_name TEXT, extension_name TEXT NOT NULL, definition TEXT NOT NULL,
+ scope TEXT NOT NULL, CONSTRAINT ge_tce UNIQUE (table_name, column_name, extension_name));
 INSERT INTO gpkg_spatial_ref_sys VALUES ('Undefined Cartesian SRS', -1, 'NONE', -1, 'undefined', NULL),
  ('Undefined geographic SRS', 0, 'NONE', 0, 'undefined', NULL),
  ('WGS 84 geodetic', 4326, 'EPSG', 4326, 'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]],AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AXIS["Latitude",NORTH],AXIS["Longitude",EAST],AUTHORITY["EPSG","4326"]]', NULL);
@@ -80,19 +83,24 @@ fn add(connection: &Connection, layer: &dyn Layer, system: u32) -> Result<(), Er
     let mut insert =
         connection.prepare(&format!("INSERT INTO {table} VALUES (NULL, ?{places})")).map_err(failed)?;
     let mut bounds: Option<[[f64; 2]; 2]> = None;
+    let mut index = Index::default();
     let mut blob = Vec::new();
     layer.each(&mut |geometry, values| {
         insert.clear_bindings();
+        let own = geometry.positions.iter().fold(None, |known, &[x, y, _]| Some(widened(known, [x, y])));
         if geometry.count() > 0 {
             blob.clear();
-            write_geometry(&mut blob, geometry, Form::of(geometry, form), is_high, system)?;
-            bounds = geometry.positions.iter().fold(bounds, |known, &[x, y, _]| Some(widened(known, [x, y])));
+            write_geometry(&mut blob, geometry, Form::of(geometry, form), is_high, system, own)?;
             insert.raw_bind_parameter(1, &blob[..]).map_err(failed)?;
         }
         for (place, value) in values {
             bind(&mut insert, place + 2, columns[place].kind, &value).map_err(failed)?;
         }
         insert.raw_execute().map_err(failed)?;
+        if let Some(own) = own {
+            index.add(connection.last_insert_rowid(), own);
+            bounds = own.iter().fold(bounds, |known, &corner| Some(widened(known, corner)));
+        }
         Ok(())
     })?;
     let [low, high] = bounds.map_or([[None; 2]; 2], |bounds| bounds.map(|corner| corner.map(Some)));
@@ -117,7 +125,7 @@ fn add(connection: &Connection, layer: &dyn Layer, system: u32) -> Result<(), Er
             params![name, geometry, name_of(form), system, heights],
         )
         .map_err(failed)?;
-    Ok(())
+    index.write(connection, name, OURS).map_err(failed)
 }
 
 /// The names of the columns: SQLite does not tell capital letters from small ones.
@@ -205,15 +213,14 @@ fn write_geometry(
     form: Form,
     is_high: bool,
     system: u32,
+    bounds: Option<[[f64; 2]; 2]>,
 ) -> io::Result<()> {
     const LITTLE_ENDIAN: u8 = 1;
     const WITH_BOX: u8 = 1 << 1;
     let is_point = form.kind == Kind::Point && !form.is_multiple;
     out.write_all(&[b'G', b'P', 0, LITTLE_ENDIAN | if is_point { 0 } else { WITH_BOX }])?;
     out.write_all(&system.to_le_bytes())?;
-    if !is_point && let Some(&[x, y, _]) = geometry.positions.first() {
-        let [low, high] =
-            geometry.positions.iter().fold([[x, y]; 2], |known, &[x, y, _]| widened(Some(known), [x, y]));
+    if !is_point && let Some([low, high]) = bounds {
         let numbers = [low[0], high[0], low[1], high[1]];
         numbers.iter().for_each(|x| out.extend(x.to_le_bytes()));
     }
