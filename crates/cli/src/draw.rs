@@ -1,5 +1,6 @@
 //! `delone draw`: pictures.
 
+use delone::surface::Duplicates;
 use delone::{Coordinates, Delaunay2, HintOrder, Hints2, VertexId};
 use delone_io::{Contents, Cut, Trim, picture, write_mesh};
 
@@ -39,7 +40,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
         return constrained::draw(args, &outputs, &options, quiet);
     }
     let mut stats = Stats::start();
-    let (points, about) = room::read::<R>(&args.input, quiet)?;
+    let (points, mut about) = room::read::<R>(&args.input, quiet)?;
     stats.phase("read");
     if args.hints {
         options.links = links(&points, args)?;
@@ -52,6 +53,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     room::remark(&d, quiet);
     stats.phase("build");
     stats.triangulation(&d, d.counters());
+    room::settle(Duplicates::default(), &d, &mut about);
     let cut = cut.map(|cut| Trim::beyond(&d, &cut));
     let trim = cut.or_else(|| room::trim(&d, args.max_edge, &mut stats));
     let mesh = room::mesh(&d, &points, &about, trim.as_ref());

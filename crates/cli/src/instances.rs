@@ -31,7 +31,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
     let mut records = Vec::new();
     for (input, outputs) in inputs.iter().zip(all.chunks(each)) {
         let one = InputArgs { input: vec![input.to_path_buf()], ..args.input.clone() };
-        let (points, about) = room::read::<R>(&one, quiet)?;
+        let (points, mut about) = room::read::<R>(&one, quiet)?;
         stats.phase("read");
         let mut work = Work::default();
         {
@@ -48,6 +48,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, centres: &Path, quiet: bool) 
             let name = input.display();
             note(quiet, format_args!("{name}: far from the centres: walks from hints were given up"));
         }
+        room::settle(args.duplicates.rule(), hints.current(), &mut about);
         outcome::finish(args, outputs, hints.current(), &points, &about, &mut stats, quiet)?;
         let mut record: Map<String, Value> =
             COUNTS.into_iter().map(|key| (key.to_owned(), stats.get(key))).collect();

@@ -11,13 +11,15 @@ use crate::args::{ReliefArgs, ReliefName};
 use crate::files;
 use crate::message::Failure;
 use crate::progress::Phase;
+use crate::stats::Stats;
 
 /// What stands for no data in hillshades, and in slopes and aspects.
 const NO_SHADE: f64 = 0.0;
 const NO_ANGLE: f64 = -9999.0;
 
 pub(crate) fn run(args: &ReliefArgs, quiet: bool) -> Result<(), Failure> {
-    let outputs = files::outputs(&args.output, args.to, None, &[&args.input])?;
+    let stats_path = args.stats.as_deref();
+    let outputs = files::outputs(&args.output, args.to, stats_path, &[&args.input])?;
     let is_shade = args.kind == ReliefName::Hillshade;
     let holds = |format: Format| {
         format.holds(Contents::Rasters, Direction::Written) || is_shade && format == Format::Png
@@ -31,9 +33,15 @@ pub(crate) fn run(args: &ReliefArgs, quiet: bool) -> Result<(), Failure> {
     }
     args.compress.check(outputs.iter().map(|output| output.1))?;
     let format = files::format(&args.input, args.from, "--from")?;
+    let mut stats = Stats::start();
     let raster = files::read_raster(&args.input, format, quiet)?;
+    stats.phase("read");
+    stats.set("cells", raster.grid.cells());
+    stats.set("columns", raster.grid.columns());
+    stats.set("rows", raster.grid.rows());
+    stats.set("no_data", raster.values.iter().filter(|z| z.is_nan()).count());
     let crs = raster.crs.clone();
-    let _phase = Phase::start(quiet, "shading");
+    let phase = Phase::start(quiet, "shading");
     for (path, format) in &outputs {
         let output = files::create(path)?;
         let written = if *format == Format::Png {
@@ -44,7 +52,9 @@ pub(crate) fn run(args: &ReliefArgs, quiet: bool) -> Result<(), Failure> {
         written.and_then(files::finish).map_err(|error| files::cannot_write(path, error))?;
         files::write_sides(path, *format, &raster.grid, crs.as_ref(), quiet)?;
     }
-    Ok(())
+    drop(phase);
+    stats.phase("write");
+    stats.write(stats_path)
 }
 
 /// Writes a picture.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
-use crate::args::{AlgorithmName, LocateName, TriangulateArgs};
+use crate::args::{AlgorithmName, DuplicatesName, LocateName, TriangulateArgs};
 use crate::message::Failure;
 use crate::room::{self, Room};
 use crate::stats::Stats;
@@ -16,6 +16,12 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
     }
     if args.drop_slivers.is_some() && R::is_space() {
         return Err(Failure::usage("--drop-slivers is for the plane", "leave it or --dim 3 out"));
+    }
+    if args.duplicates != DuplicatesName::default() && R::is_space() {
+        return Err(Failure::usage(
+            "--duplicates is for heights, in the plane: in space equal points have one height",
+            "leave it or --dim 3 out",
+        ));
     }
     if args.fingerprint {
         refuse_beside_fingerprint::<R>(args)?;
@@ -62,9 +68,7 @@ pub(crate) fn run<R: Room>(args: &TriangulateArgs, quiet: bool) -> Result<(), Fa
     stats.phase("read");
     let d: R = room::build(&points, plan.algorithm, &args.input.label(), quiet)?;
     stats.phase("build");
-    if let Some(heights) = &mut about.z {
-        args.duplicates.rule().settle(heights, room::duplicates(&d));
-    }
+    room::settle(args.duplicates.rule(), &d, &mut about);
     let name = |value: &dyn Fn() -> Option<clap::builder::PossibleValue>| {
         value().map(|value| value.get_name().to_owned())
     };

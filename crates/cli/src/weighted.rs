@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use delone::surface::Duplicates;
 use delone::{Regular, Triangulation};
 use delone_io::{Border, Cloud, Format, picture, write_mesh};
 
@@ -28,7 +29,8 @@ pub(crate) fn triangulate<R: Room>(args: &TriangulateArgs, quiet: bool) -> Resul
     let outputs = args.wkt.of(files::outputs(&args.output, args.to, stats_path, &inputs)?)?;
     room::check_formats::<R>(&outputs)?;
     let mut stats = Stats::start();
-    let r = Weighted::<R>::read_for(algorithm, &args.input, &args.weights, &mut stats, quiet)?;
+    let mut r = Weighted::<R>::read_for(algorithm, &args.input, &args.weights, &mut stats, quiet)?;
+    r.settle(args.duplicates.rule());
     if args.check {
         let _phase = Phase::start(quiet, "checking");
         r.triangulation.check().map_err(|flaw| {
@@ -56,7 +58,8 @@ pub(crate) fn draw<R: Room>(
     quiet: bool,
 ) -> Result<(), Failure> {
     let mut stats = Stats::start();
-    let r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
+    let mut r = Weighted::<R>::read(&args.input, &args.weights, &mut stats, quiet)?;
+    r.settle(Duplicates::default());
     r.write(outputs, &Border::long_edges(args.max_edge), options, &mut stats, quiet)?;
     stats.tell(quiet, R::WORDS.simplex);
     stats.write(args.input.stats.as_deref())
@@ -96,6 +99,13 @@ impl<R: Room> Weighted<R> {
         stats.triangulation(&triangulation, triangulation.counters());
         stats.set("hidden", hidden);
         Ok(Self { triangulation, points, about })
+    }
+
+    /// Gives the vertex of each place the height of the place, whichever of the points there it is: the heaviest.
+    fn settle(&mut self, rule: Duplicates) {
+        let Some(heights) = &mut self.about.z else { return };
+        let points: Vec<[f64; 2]> = self.points.iter().map(|p| [p.as_ref()[0], p.as_ref()[1]]).collect();
+        rule.settle_at(&points, self.triangulation.vertices().map(|v| v.index()), heights);
     }
 
     /// Writes all outputs.

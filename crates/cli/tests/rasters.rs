@@ -112,7 +112,12 @@ fn relief_has_units() {
         fs::read_to_string(place.path("r.pgw")).expect("a world file"),
         "2.0\n0.0\n0.0\n-2.0\n11.0\n52.0\n"
     );
-    place.succeed("-q relief r.tif --kind slope -o s.tif -o s.asc");
+    place.succeed("-q relief r.tif --kind slope -o s.tif -o s.asc --stats s.json");
+    let stats = fs::read_to_string(place.path("s.json")).expect("statistics");
+    let stats: serde_json::Value = serde_json::from_str(&stats).expect("JSON");
+    assert_eq!((&stats["columns"], &stats["rows"], &stats["no_data"]), (&4.into(), &4.into(), &0.into()));
+    assert!(stats["seconds"]["write"].as_f64().is_some_and(|seconds| seconds > 0.0));
+    place.fail("-q relief r.tif -o s.tif --stats s.tif", 2, "s.tif");
     place.fail("-q relief d.asc --kind slope -o s.png", 2, "no format of this relief");
     place.fail("-q relief d.asc --z-factor 0 -o s.tif", 2, "--z-factor");
     place.file("p.csv", "0,0,1\n4,0,2\n4,4,1\n0,4,3\n");
@@ -137,5 +142,17 @@ fn duplicates_have_one_rule() {
         let text = fs::read_to_string(place.path("t.obj")).expect("text");
         let fifth = text.lines().filter(|line| line.starts_with("v ")).nth(4);
         assert_eq!(fifth, Some(format!("v 2.0 2.0 {height}.0").as_str()), "{rule}: {text}");
+        // The same from hints; with weights the vertex is the heaviest, not the first, and the others keep what they have.
+        for (more, vertex) in [("--hints p.csv", 4), ("--weights w.csv", 5)] {
+            place.file("w.csv", "0\n0\n0\n0\n0\n1\n0\n");
+            place.succeed(&format!("-q triangulate p.csv --columns x,y,z {rule} {more} -o t.obj"));
+            let text = fs::read_to_string(place.path("t.obj")).expect("text");
+            let found: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).skip(4).collect();
+            let mut expected = ["7", "3", "8"];
+            expected[vertex - 4] = height;
+            assert_eq!(found, expected.map(|z| format!("v 2.0 2.0 {z}.0")), "{rule} {more}");
+        }
     }
+    place.file("s.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,1\n");
+    place.fail("triangulate s.csv --dim 3 --duplicates mean -o t.npy", 2, "--duplicates is for heights");
 }

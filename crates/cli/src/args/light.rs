@@ -88,6 +88,9 @@ pub(crate) struct ReliefArgs {
     /// How GeoTIFF is compressed.
     #[arg(long, value_name = "HOW", default_value = "deflate")]
     pub(crate) compress: CompressName,
+    /// Write what was counted and timed, and on how many threads at most, to a JSON file.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) stats: Option<PathBuf>,
 }
 
 impl ReliefArgs {

@@ -8,6 +8,7 @@ mod space;
 
 use std::path::{Path, PathBuf};
 
+use delone::surface::Duplicates;
 use delone::{
     Bounds, Change, Coordinates, Counters, Dimension, Error, Graph, Imprecise, Locate, Regular,
     Triangulation, Verdict, VertexId,
@@ -190,6 +191,13 @@ fn located<R: Room>(args: &StrategyArgs, default: LocateName) -> Result<Option<L
 /// Points that equal an earlier one, with that one.
 pub(crate) fn duplicates(d: &impl Triangulation) -> impl Iterator<Item = (usize, usize)> {
     d.duplicates().map(|pair| (pair.point, pair.vertex.index()))
+}
+
+/// Gives places with several points their heights.
+pub(crate) fn settle(rule: Duplicates, d: &impl Triangulation, about: &mut Cloud) {
+    if let Some(heights) = &mut about.z {
+        rule.settle(heights, duplicates(d));
+    }
 }
 
 /// Notes on what might surprise.

@@ -129,22 +129,47 @@ impl Duplicates {
         means.into_iter().for_each(|(place, several)| heights[place] = several.height());
     }
 
-    /// The same for points of which nobody knows yet which are equal. O(n log n).
+    /// The same for points of which nobody knows yet which are equal; the first of a place gets its height. O(n log n).
     pub fn settle_equal(self, points: &[[f64; 2]], heights: &mut [f64]) {
-        // Minus zero is zero.
-        let key = |i: usize| points[i].map(|x| x + 0.0);
-        let compare = |i: usize, j: usize| {
-            let ([x, y], [u, v]) = (key(i), key(j));
-            x.total_cmp(&u).then(y.total_cmp(&v))
-        };
-        let mut order: Vec<usize> = (0..points.len()).collect();
-        order.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
-        let runs = order.chunk_by(|&i, &j| compare(i, j).is_eq());
-        let mut pairs: Vec<(usize, usize)> =
-            runs.flat_map(|run| run[1..].iter().map(|&point| (point, run[0]))).collect();
-        pairs.sort_unstable();
-        self.settle(heights, pairs);
+        self.settle(heights, equal(points));
     }
+
+    /// The same where not the first of equal points is the vertex but another, as with weights: all `vertices` get the heights of their
+    /// places. O(n log n).
+    pub fn settle_at(
+        self,
+        points: &[[f64; 2]],
+        vertices: impl IntoIterator<Item = usize>,
+        heights: &mut [f64],
+    ) {
+        let pairs = equal(points);
+        if pairs.is_empty() {
+            return;
+        }
+        let mut settled = heights.to_vec();
+        self.settle(&mut settled, pairs.iter().copied());
+        for vertex in vertices {
+            let pair = pairs.binary_search_by_key(&vertex, |pair| pair.0);
+            heights[vertex] = settled[pair.map_or(vertex, |k| pairs[k].1)];
+        }
+    }
+}
+
+/// The points that equal an earlier one, with the first of these, by increasing index.
+fn equal(points: &[[f64; 2]]) -> Vec<(usize, usize)> {
+    // Minus zero is zero.
+    let key = |i: usize| points[i].map(|x| x + 0.0);
+    let compare = |i: usize, j: usize| {
+        let ([x, y], [u, v]) = (key(i), key(j));
+        x.total_cmp(&u).then(y.total_cmp(&v))
+    };
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
+    let runs = order.chunk_by(|&i, &j| compare(i, j).is_eq());
+    let mut pairs: Vec<(usize, usize)> =
+        runs.flat_map(|run| run[1..].iter().map(|&point| (point, run[0]))).collect();
+    pairs.sort_unstable();
+    pairs
 }
 
 #[cfg(test)]
@@ -192,5 +217,10 @@ mod tests {
         let mut heights = [3.0, 5.0, 1.0, 8.0, 4.0];
         Duplicates::Lowest.settle_equal(&points, &mut heights);
         assert_eq!(heights, [1.0, 4.0, 1.0, 8.0, 4.0]);
+        let mut heights = [3.0, 5.0, 1.0, 8.0, 4.0];
+        Duplicates::Highest.settle_at(&points, [2, 3, 4], &mut heights);
+        assert_eq!(heights, [3.0, 5.0, 3.0, 8.0, 5.0]);
+        Duplicates::First.settle_at(&points, [2, 1], &mut heights);
+        assert_eq!(heights, [3.0, 5.0, 3.0, 8.0, 5.0]);
     }
 }
