@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use delone::surface::{Contours, Duplicates, Grid, Levels, Thinned, Thinning, rasterize};
+use delone::surface::{Border, Contours, Duplicates, Grid, Levels, Thinned, Thinning, Trim, rasterize};
 use delone::{Ask, Bounds, Constrained2, Crossings, Error, Triangulation as Triangular, VertexId};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -33,34 +33,37 @@ type Lines<'py> = (Column<'py, f64>, Points<'py>, Column<'py, i64>, Column<'py, 
 /// Lower and upper levels; points of all rings; where rings begin among points, polygons among rings, bands among polygons.
 type Bands<'py> = (Points<'py>, Points<'py>, Column<'py, i64>, Column<'py, i64>, Column<'py, i64>);
 
-/// Which triangles count: those that a mask by row has, if none of their edges is longer than so much.
+/// The longest edge that triangles may have, and whether longer ones go wherever they are, not from the hull inwards alone.
+type Longest = Option<(f64, bool)>;
+
+/// Which triangles count: those that a mask by row has, without long ones.
 struct Keep<'a> {
     rows: &'a [i32],
     mask: Option<&'a [bool]>,
-    most: f64,
+    trim: Option<Trim>,
 }
 
-impl Keep<'_> {
-    fn has<T: Triangular<Point = [f64; 2]>>(&self, d: &T, s: T::Simplex) -> bool {
-        let row = || usize::try_from(self.rows[d.index(s)]).ok();
-        if self.mask.is_some_and(|mask| !row().and_then(|row| mask.get(row).copied()).unwrap_or(false)) {
-            return false;
-        }
-        let corners = d.corners(s);
-        let corners = corners.as_ref();
-        let at = |k: usize| d.position(corners[k % corners.len()]).unwrap_or_default();
-        let length = |k: usize| {
-            let [a, b] = [at(k), at(k + 1)];
-            (a[0] - b[0]).hypot(a[1] - b[1])
-        };
-        self.most == f64::INFINITY || (0..corners.len()).all(|k| length(k) <= self.most)
+impl<'a> Keep<'a> {
+    fn of<T: Triangular>(d: &T, rows: &'a [i32], mask: Option<&'a [bool]>, longest: Longest) -> Self {
+        let trim = longest.map(|(longest, is_anywhere)| {
+            let border = Border { is_anywhere, ..Border::long_edges(Some(longest)) };
+            Trim::along_border(d, &border, |_| true)
+        });
+        Self { rows, mask, trim }
+    }
+
+    fn has<T: Triangular>(&self, d: &T, s: T::Simplex) -> bool {
+        let index = d.index(s);
+        let row = || usize::try_from(self.rows[index]).ok();
+        let is_in = |mask: &[bool]| row().and_then(|row| mask.get(row).copied()).unwrap_or(false);
+        self.mask.is_none_or(is_in) && self.trim.as_ref().is_none_or(|trim| trim.keeps(index))
     }
 }
 
 /// A raster of heights. `place` is the corner of the first cell and the steps, or with `cell`, for cells aligned to multiples of it, the
 /// least and the largest coordinates; `size` is the number of columns and of rows then.
 #[pyfunction]
-#[pyo3(signature = (sheet, method, heights, place, size, cell=None, mask=None, max_edge=None))]
+#[pyo3(signature = (sheet, method, heights, place, size, cell=None, mask=None, longest=None))]
 #[expect(clippy::too_many_arguments)]
 pub fn paint<'py>(
     py: Python<'py>,
@@ -71,7 +74,7 @@ pub fn paint<'py>(
     size: [usize; 2],
     cell: Option<f64>,
     mask: Option<PyReadonlyArray1<'py, bool>>,
-    max_edge: Option<f64>,
+    longest: Longest,
 ) -> PyResult<Painted<'py>> {
     let [x0, y0, x1, y1] = place;
     let grid = match cell {
@@ -84,12 +87,11 @@ pub fn paint<'py>(
     room(numbers.saturating_mul(8), "a raster of so many cells")?;
     let size = size_of_queries(columns * rows + heights.len(), 1);
     let (heights, mask) = (heights.to_vec()?, mask.map(|mask| mask.to_vec()).transpose()?);
-    let most = max_edge.unwrap_or(f64::INFINITY);
     let values = match &sheet {
         Sheet::Delaunay(triangulation) => {
             let method = method.to_owned();
             State::asked(plane(triangulation)?, py, size, move |state, _| {
-                let mut values = linear(state, &heights, &grid, mask.as_deref(), most)?;
+                let mut values = linear(state, &heights, &grid, mask.as_deref(), longest)?;
                 if method != "linear" {
                     let f = interpolator(&state.triangulation, &method, "fill")?;
                     f.fill(&grid, &heights, &mut values).map_err(python_error)?;
@@ -99,7 +101,7 @@ pub fn paint<'py>(
         }
         Sheet::Constrained(triangulation) => {
             State::asked(triangulation.shared(), py, size, move |state, _| {
-                linear(state, &heights, &grid, mask.as_deref(), most)
+                linear(state, &heights, &grid, mask.as_deref(), longest)
             })?
         }
     };
@@ -114,10 +116,10 @@ fn linear<T: Ask<Point = [f64; 2]> + 'static, R: Send + Sync + 'static>(
     heights: &[f64],
     grid: &Grid,
     mask: Option<&[bool]>,
-    most: f64,
+    longest: Longest,
 ) -> PyResult<Vec<f64>> {
     let d = &state.triangulation;
-    let keep = Keep { rows: state.rows(), mask, most };
+    let keep = Keep::of(d, state.rows(), mask, longest);
     rasterize(d, heights, grid, |s| keep.has(d, s)).map_err(python_error)
 }
 
@@ -138,7 +140,7 @@ pub struct Wanted {
     #[pyo3(item(2))]
     base: f64,
     #[pyo3(item(3))]
-    max_edge: f64,
+    longest: Longest,
 }
 
 impl Wanted {
@@ -181,7 +183,7 @@ fn traced_of<T: Ask<Point = [f64; 2], Corners = [VertexId; 3]> + 'static, S: Sen
     make: impl FnOnce(&Contours, &Levels) -> Result<R, Error>,
 ) -> PyResult<R> {
     let d = &state.triangulation;
-    let keep = Keep { rows: state.rows(), mask, most: wanted.max_edge };
+    let keep = Keep::of(d, state.rows(), mask, wanted.longest);
     let surface = Contours::of_triangles(d, heights, |s| keep.has(d, s)).map_err(python_error)?;
     let levels = match &wanted.levels {
         Some(levels) => Levels::given(levels),

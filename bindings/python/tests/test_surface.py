@@ -188,6 +188,48 @@ def test_rasters():
     assert np.allclose(south_up[::-1], whole, equal_nan=True, atol=1e-9)
 
 
+def left_out(tri, longest, anywhere):
+    """The triangles that go for their length, by definition: next to nothing or to one that went, or wherever they are."""
+    corners = tri.points[tri.simplices]
+    is_long = (np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2) > longest).any(axis=1)
+    gone = is_long & anywhere
+    while True:
+        beside = ((tri.neighbors < 0) | gone[tri.neighbors]).any(axis=1)
+        if (gone >= (is_long & beside)).all():
+            return gone
+        gone |= is_long & beside
+
+
+@pytest.mark.parametrize("is_constrained", [False, True])
+@pytest.mark.parametrize("anywhere", [False, True])
+def test_long_triangles(anywhere, is_constrained):
+    """A lake in the middle of many points, a bay, and a point far away."""
+    shapely = pytest.importorskip("shapely")
+    points = random_points(3000, 2) * 40
+    dry = np.linalg.norm(points - 20, axis=1) > 8
+    dry &= np.linalg.norm(points - [40, 10], axis=1) > 9
+    points = np.vstack([points[dry], [[20, 90]]])
+    z, longest = plane(points), 3.0
+    if is_constrained:
+        tri = delone.ConstrainedDelaunay(points, [[0, 1]], fill="all", crossings="split")
+    else:
+        tri = delone.Delaunay(points)
+    gone = left_out(tri, longest, anywhere)
+    assert 0 < gone.sum() < len(gone) and (gone != left_out(tri, longest, not anywhere)).any()
+    which = {"max_edge_anywhere" if anywhere else "max_edge": longest}
+    if not is_constrained:
+        whole, transform = delone.rasterize(tri, z, cell=0.5)
+        rows, columns = np.indices(whole.shape)
+        at = np.stack([transform[2] + (columns + 0.5) / 2, transform[5] - (rows + 0.5) / 2], axis=-1)
+        found = tri.find_simplex(at)
+        expected = np.where((found < 0) | gone[found], np.nan, whole)
+        assert np.array_equal(delone.rasterize(points, z, transform, whole.shape, **which), expected, equal_nan=True)
+    bands = delone.contours(tri, z, interval=5.0, bands=True, **which)
+    area = shapely.area(shapely.polygons(tri.points[tri.simplices[~gone]])).sum()
+    assert abs(sum(shapely.geometry.shape(band).area for band in bands) - area) < 1e-8
+    assert len(delone.contours(tri, z, interval=5.0, **which)) > 0
+
+
 def test_rasters_with_affine_and_xarray():
     affine, xarray = pytest.importorskip("affine"), pytest.importorskip("xarray")
     points = random_points(100, 2) * 10
@@ -224,6 +266,8 @@ def test_rasters_that_are_refused():
         ("size of a cell", dict(transform=(0, 0, 0, 0, -1, 0), shape=(2, 2))),
         ("size of a cell", dict(cell=-1)),
         ("max_edge must be positive", dict(cell=1, max_edge=0)),
+        ("max_edge_anywhere must be positive", dict(cell=1, max_edge_anywhere=-1)),
+        ("not both", dict(cell=1, max_edge=1, max_edge_anywhere=1)),
         ("method must be", dict(cell=1, method="smooth")),
     ]:
         with pytest.raises(ValueError, match=match):

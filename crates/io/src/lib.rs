@@ -30,7 +30,6 @@ mod patches;
 pub mod picture;
 mod raster;
 mod solid;
-mod trim;
 mod xml;
 
 pub use answers::{Answers, Found, write_answers};
@@ -40,6 +39,7 @@ pub use cloud::Cloud;
 pub use columns::{Column, write_columns};
 pub use contours::{ContourMap, write_contours};
 pub use crs::{Crs, GeoKeys};
+pub use delone::surface::{Border, Cut, Trim};
 pub use diagram::{Diagram, OrderDiagram};
 pub use error::Error;
 pub use features::{ColumnType, Features, Table, Value};
@@ -66,7 +66,6 @@ pub use raster::{
     read_raster_place, read_surface,
 };
 pub use solid::{Solid, write_solid};
-pub use trim::{Border, Cut, Trim};
 
 use std::io::{BufRead, Seek};
 

@@ -270,18 +270,18 @@ def paint(
     size: tuple[int, int],
     cell: float | None = None,
     mask: NDArray[np.bool_] | None = None,
-    max_edge: float | None = None,
+    longest: tuple[float, bool] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], list[float], list[float]]: ...
 def contour_lines(
     sheet: Triangulation | Constrained,
     heights: NDArray[np.float64],
-    wanted: tuple[list[float] | None, float, float, float],
+    wanted: tuple[list[float] | None, float, float, tuple[float, bool] | None],
     mask: NDArray[np.bool_] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64], NDArray[np.bool_]]: ...
 def contour_bands(
     sheet: Triangulation | Constrained,
     heights: NDArray[np.float64],
-    wanted: tuple[list[float] | None, float, float, float],
+    wanted: tuple[list[float] | None, float, float, tuple[float, bool] | None],
     mask: NDArray[np.bool_] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]: ...
 def settled(heights: NDArray[np.float64], pairs: NDArray[np.int32], rule: str) -> NDArray[np.float64]: ...

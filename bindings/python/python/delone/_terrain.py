@@ -26,6 +26,7 @@ def rasterize(
     cell: float | None = None,
     method: Literal["linear", "sibson", "laplace", "nearest"] = "linear",
     max_edge: float | None = None,
+    max_edge_anywhere: float | None = None,
     duplicates: Rule = "lowest",
     nodata: float = np.nan,
     dtype: DTypeLike = np.float64,
@@ -51,7 +52,9 @@ def rasterize(
     method : "linear", "sibson", "laplace" or "nearest"
         How heights come about; all have values in the same cells.
     max_edge : float, optional
-        Triangles with a longer edge are left out.
+        Triangles with a longer edge are left out, from the hull inwards: gaps in the middle stay filled.
+    max_edge_anywhere : float, optional
+        Instead: triangles with a longer edge are left out wherever they are.
     duplicates : "lowest", "first", "highest" or "mean"
         Which height a place has at which there are several points.
     nodata : number
@@ -94,16 +97,16 @@ def rasterize(
     sheet, mask, heights, at = _sheet(points, z, duplicates)
     if isinstance(sheet, _delone.Constrained) and method_ != "linear":
         raise ValueError(f'method must be "linear" for a ConstrainedDelaunay, not {method_!r}')
-    most = _positive(max_edge, "max_edge")
+    longest = _longest(max_edge, max_edge_anywhere)
     if cell is None:
-        values, xs, ys, _, _ = _delone.paint(sheet, method_, heights, (c, f, a, e), (columns, rows), None, mask, most)
+        values, xs, ys, _, _ = _delone.paint(sheet, method_, heights, (c, f, a, e), (columns, rows), None, mask, longest)
         made: Transform = (a, 0.0, c, 0.0, e, f)
     else:
         if not len(at):
             raise ValueError("no points, so no cells; give transform and shape for an empty raster")
         size = float(cell)
         place = (*at.min(axis=0).tolist(), *at.max(axis=0).tolist())
-        values, xs, ys, corner, step = _delone.paint(sheet, method_, heights, place, (0, 0), size, mask, most)
+        values, xs, ys, corner, step = _delone.paint(sheet, method_, heights, place, (0, 0), size, mask, longest)
         made = (step[0], 0.0, corner[0], 0.0, step[1], corner[1])
     if not np.isnan(nodata):
         values[np.isnan(values)] = nodata
@@ -169,6 +172,8 @@ def contours(
     bands: bool = False,
     max_edge: float | None = None,
     duplicates: Rule = "lowest",
+    *,
+    max_edge_anywhere: float | None = None,
 ) -> list[Any]:
     """Lines of equal height, or the areas between them, of the surface that is linear in triangles.
 
@@ -187,7 +192,9 @@ def contours(
     bands : bool
         Whether the areas below, between and above the levels are wanted instead of lines.
     max_edge : float, optional
-        Triangles with a longer edge are left out.
+        Triangles with a longer edge are left out, from the hull inwards: gaps in the middle stay filled.
+    max_edge_anywhere : float, optional
+        Instead: triangles with a longer edge are left out wherever they are.
     duplicates : "lowest", "first", "highest" or "mean"
         Which height a place has at which there are several points.
 
@@ -217,13 +224,13 @@ def contours(
     given = None if levels is None else np.atleast_1d(as_numbers(levels, "levels")).astype(np.float64)
     if given is not None and given.ndim > 1:
         raise ValueError(f"levels must be a number or a list of numbers, not an array of the shape {given.shape}")
-    most = _positive(max_edge, "max_edge")
+    longest = _longest(max_edge, max_edge_anywhere)
     sheet, mask, heights, _ = _sheet(points, z, duplicates)
     wanted = (
         None if given is None else given.tolist(),
         0.0 if interval is None else float(interval),
         float(base),
-        np.inf if most is None else most,
+        longest,
     )
     if bands:
         between, corners, rings, polygons, starts = _delone.contour_bands(sheet, heights, wanted, mask)
@@ -357,13 +364,17 @@ def _shape(shape: tuple[int, int]) -> tuple[int, int]:
     return rows, columns
 
 
-def _positive(value: float | None, what: str) -> float | None:
-    if value is None:
-        return None
-    number = float(value)
-    if not number > 0:
-        raise ValueError(f"{what} must be positive, not {value!r}")
-    return number
+def _longest(max_edge: float | None, max_edge_anywhere: float | None) -> tuple[float, bool] | None:
+    """The longest edge that triangles may have, and whether longer ones go wherever they are."""
+    if max_edge is not None and max_edge_anywhere is not None:
+        raise ValueError("give max_edge or max_edge_anywhere, not both")
+    for name, value in (("max_edge", max_edge), ("max_edge_anywhere", max_edge_anywhere)):
+        if value is not None:
+            number = float(value)
+            if not number > 0:
+                raise ValueError(f"{name} must be positive, not {value!r}")
+            return number, name == "max_edge_anywhere"
+    return None
 
 
 def _cut(rows: NDArray[np.float64], starts: NDArray[np.int64]) -> list[NDArray[np.float64]]:

@@ -9,6 +9,7 @@
 //! | lines of equal height, and what is between them | [`Contours`] at [`Levels`] | linear in triangles and points of lines |
 //! | another raster | that first, which says which cells have values; then [`Interpolator::fill`] | |
 //! | lines of equal height, and the areas between | [`Contours`] at [`Levels`] | O(k log k) for k points |
+//! | what of it is shown, without long triangles or slivers along its border | [`Trim`] by a [`Border`] | O(n) |
 //! | few of the points, near all of them | [`Thinning`] | O(log n) for each that is chosen, and what is in its star |
 //!
 //! Which triangle a point is in and who its neighbours are is exact; values are rounded.
@@ -26,6 +27,7 @@ mod raster;
 mod real;
 mod smooth;
 mod thin;
+mod trim;
 
 pub use bulk::Weights;
 pub use contours::{ContourBand, ContourLine, Contours, Levels};
@@ -35,3 +37,4 @@ pub use grid::Grid;
 pub use interpolator::{Interpolator, Outside};
 pub use raster::{Raster, rasterize};
 pub use thin::{Thinned, Thinning};
+pub use trim::{Border, Cut, Trim};
