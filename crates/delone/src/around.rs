@@ -6,7 +6,7 @@
 
 use std::fmt::Debug;
 
-use delone_predicates::Spoke;
+use delone_predicates::SeenCorner;
 
 use crate::error::Error;
 use crate::ids::{EdgeId, VertexId};
@@ -47,7 +47,7 @@ pub struct Around<T: Triangulation + ?Sized> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ring {
     pub(crate) vertices: Vec<VertexId>,
-    pub(crate) spokes: Vec<Spoke>,
+    pub(crate) corners_seen: Vec<SeenCorner>,
     /// All of them, counter-clockwise.
     pub(crate) order: Vec<u32>,
     /// The cavity.
@@ -69,7 +69,7 @@ pub(crate) struct Side {
 impl Ring {
     fn clear(&mut self) {
         self.vertices.clear();
-        self.spokes.clear();
+        self.corners_seen.clear();
         self.order.clear();
         self.triangles.clear();
         self.pending.clear();

@@ -106,10 +106,11 @@ mod book {
 
 mod alpha;
 mod around;
+mod closest;
 mod duplicates;
 mod error;
-mod foot;
 mod graphs;
+mod hidden;
 mod hull;
 mod ids;
 mod joining;
@@ -131,7 +132,6 @@ pub mod surface;
 mod tally;
 pub mod tiles;
 mod triangulation;
-mod under;
 mod verdict;
 mod vertex_map;
 mod weight;

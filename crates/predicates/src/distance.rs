@@ -55,10 +55,10 @@ pub fn compare_with_radius(q: Point2, a: Point2, radius: f64) -> Ordering {
 ///
 /// O(1).
 #[inline]
-pub fn segment_keeps_away(q: Point2, [a, b]: [Point2; 2], reach: Reach) -> bool {
+pub fn segment_keeps_away(q: Point2, [a, b]: [Point2; 2], reach: SearchLimit) -> bool {
     let limit = match reach {
-        Reach::To(p) => squared(q, p),
-        Reach::Radius(radius) => radius * radius,
+        SearchLimit::To(p) => squared(q, p),
+        SearchLimit::Radius(radius) => radius * radius,
     };
     // The nearest point is an end, or on the line.
     if !angle(a, q, b).is_positive() {
@@ -80,17 +80,17 @@ pub fn segment_keeps_away(q: Point2, [a, b]: [Point2; 2], reach: Reach) -> bool 
         && height * height * (1.0 - 4.0 * ERROR) > limit * length
 }
 
-/// How far a search reaches around a point.
+/// The limit of a search around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reach {
-    /// As far as this point, which is not looked for.
+pub enum SearchLimit {
+    /// Points nearer than this one.
     To(Point2),
-    /// So far, that distance included.
+    /// Points up to this distance, which is included.
     Radius(f64),
 }
 
-impl Reach {
-    /// Whether a point is out of reach.
+impl SearchLimit {
+    /// Whether point `a` is beyond the limit.
     fn is_short_of(self, q: Point2, a: Point2) -> bool {
         match self {
             Self::To(p) => compare_distances(q, a, p).is_ge(),

@@ -23,7 +23,6 @@
 //! ```
 
 mod ball;
-mod bundle;
 mod cell;
 mod centre;
 mod clear;
@@ -34,7 +33,7 @@ mod disks;
 mod distance;
 mod exact;
 mod filter;
-mod hub;
+mod fixed_point;
 mod in_box;
 mod in_circle;
 mod in_sphere;
@@ -53,21 +52,21 @@ mod power;
 mod side_in_plane;
 mod sign;
 mod sphere_centre;
+mod sphere_pencil;
 #[cfg(test)]
 mod stages;
 mod within;
 
-pub use bundle::{Ball, Bundle};
 pub use cell::segment_rounds_to;
 pub use centre::{centre_direction, centre_side};
 pub use clear::{keeps_clear, keeps_clear_of_sites};
 pub use disks::{DiskPair, End, Stretch};
 pub use distance::{
-    Reach, angle, angle3, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3,
-    is_surely_further, segment_keeps_away,
+    SearchLimit, angle, angle3, compare_distances, compare_distances3, compare_with_radius,
+    compare_with_radius3, is_surely_further, segment_keeps_away,
 };
 pub use filter::{Filter, Filter3, Grid};
-pub use hub::{Hub, Spoke};
+pub use fixed_point::{FixedPoint, SeenCorner};
 pub use in_box::SiteRef;
 pub use in_circle::{in_circle, in_circle_with_ties};
 pub use in_sphere::{in_sphere, in_sphere_with_ties};
@@ -89,6 +88,7 @@ pub use power::{
 pub use side_in_plane::side_in_plane;
 pub use sign::Sign;
 pub use sphere_centre::circumcentre3;
+pub use sphere_pencil::{Ball, SpherePencil};
 pub use within::{stays_within, stays_within3};
 
 /// A point of the plane: x, then y. Both finite.

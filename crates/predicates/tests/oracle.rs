@@ -3,10 +3,10 @@
 use delone_generators::Random;
 use delone_oracle::{exact, share};
 use delone_predicates::{
-    Bundle, Filter, Filter3, Four, Grid, Hub, Pencil, Plane, Point2, Point3, Sign, angle, centre_direction,
-    centre_side, compare_distances, compare_distances3, compare_with_radius, compare_with_radius3, in_circle,
-    in_circle_with_ties, in_sphere, in_sphere_with_ties, is_surely_further, lexicographic, lexicographic3,
-    orient2d, orient3d,
+    Filter, Filter3, FixedPoint, Four, Grid, Pencil, Plane, Point2, Point3, Sign, SpherePencil, angle,
+    centre_direction, centre_side, compare_distances, compare_distances3, compare_with_radius,
+    compare_with_radius3, in_circle, in_circle_with_ties, in_sphere, in_sphere_with_ties, is_surely_further,
+    lexicographic, lexicographic3, orient2d, orient3d,
 };
 
 /// A family of hostile tuples of four points.
@@ -201,23 +201,23 @@ fn pencils_with_static_filters_are_exact() {
 #[test]
 fn what_is_asked_about_a_hub_is_exact() {
     tuples(10, 60_000, |name, [a, b, c, centre]| {
-        let hub = Hub::new(centre);
-        let [at_a, at_b, at_c] = [a, b, c].map(|p| hub.spoke(p));
+        let fixed = FixedPoint::new(centre);
+        let [at_a, at_b, at_c] = [a, b, c].map(|p| fixed.corner(p));
         let crosses @ [bc, ca, ab] = [at_b.cross(&at_c), at_c.cross(&at_a), at_a.cross(&at_b)];
         for (p, q, side) in [
-            (a, b, hub.side(&at_a, &at_b, ab)),
-            (c, a, hub.side(&at_c, &at_a, ca)),
-            (c, b, hub.side(&at_c, &at_b, -bc)),
+            (a, b, fixed.side(&at_a, &at_b, ab)),
+            (c, a, fixed.side(&at_c, &at_a, ca)),
+            (c, b, fixed.side(&at_c, &at_b, -bc)),
         ] {
             assert_eq!(side, sign(exact::orient2d(p, q, centre)), "{name}: {p:?} {q:?} {centre:?}");
         }
         let expected = sign(exact::in_circle(a, b, c, centre));
         assert_eq!(
-            hub.in_circle([&at_a, &at_b, &at_c], crosses),
+            fixed.in_circle([&at_a, &at_b, &at_c], crosses),
             expected,
             "{name}: {a:?} {b:?} {c:?} {centre:?}"
         );
-        let turned = hub.in_circle([&at_b, &at_a, &at_c], [-ca, -bc, -ab]);
+        let turned = fixed.in_circle([&at_b, &at_a, &at_c], [-ca, -bc, -ab]);
         assert_eq!(turned, -expected, "{name}: {a:?} {b:?} {c:?} {centre:?}");
     });
 }
@@ -407,7 +407,7 @@ fn in_sphere_is_exact() {
             assert_eq!(filter.orient3d(a, b, c, d), orient3d(a, b, c, d), "{name}: {five:?}, in a box");
             let both = filter.in_spheres([[&a, &b, &c, &d], [&b, &a, &c, &d]], &e);
             assert_eq!(both, [sign(perturbed), -sign(perturbed)], "{name}: {five:?}, two at once");
-            let bundle = Bundle::new([a, b, c].map(|p| (p, 0.0)));
+            let bundle = SpherePencil::new([a, b, c].map(|p| (p, 0.0)));
             let turn = bundle.side((d, 0.0), &filter);
             assert!(
                 turn.is_none_or(|turn| turn == orient3d(a, b, c, d)),

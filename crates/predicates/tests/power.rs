@@ -3,7 +3,7 @@
 use delone_generators::Random;
 use delone_oracle::power::{Lifted, compare, has_nearest_centre};
 use delone_predicates::{
-    Bundle, Filter3, Grid, Line, Sign, Site, Spot, compare_powers, in_circle, in_power_circle,
+    Filter3, Grid, Line, Sign, Site, SpherePencil, Spot, compare_powers, in_circle, in_power_circle,
     in_power_circle_with_ties, in_power_interval, in_power_sphere, in_power_sphere_with_ties, in_sphere,
     orient2d, orient3d, power_centre,
 };
@@ -134,7 +134,7 @@ fn the_test_in_space_is_exact_and_canonical() {
         assert_eq!(filter.in_power_sphere([p, q, r, s], t), expected(true), "{name}: {sites:?}");
         let both = filter.in_power_spheres([[p, q, r, s], [q, p, r, s]], t);
         assert_eq!(both, [expected(true), -expected(true)], "{name}: {sites:?}");
-        let bundle = Bundle::new([a, b, c]);
+        let bundle = SpherePencil::new([a, b, c]);
         assert!(bundle.side(d, &filter).is_none_or(|side| side == turn), "{name}: {sites:?}");
         if let Some(side) = bundle.through(d).side(e, &filter) {
             told += 1;

@@ -10,7 +10,7 @@
 
 use delone_predicates::lexicographic;
 
-use crate::foot::distance_bound;
+use crate::closest::distance_bound;
 use crate::powers::power_below;
 use crate::tally::Tally;
 

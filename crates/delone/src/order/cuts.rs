@@ -6,8 +6,8 @@
 
 use bytemuck::Zeroable;
 
+use super::exponents::Exponents;
 use super::quantize::Quantizer;
-use super::shells::Shells;
 
 /// Runs of equal keys up to this length are sorted by comparison; longer ones get keys of their own.
 pub(super) const SHORT_RUN: usize = 32;
@@ -32,7 +32,7 @@ pub(super) enum Cells {
     /// Cells of a square.
     Square(Quantizer),
     /// Blocks around the origin, of all sizes: what is in one has a box of its own.
-    Shells(Shells),
+    Exponents(Exponents),
 }
 
 impl KeyBox {
@@ -47,7 +47,7 @@ impl KeyBox {
         match &self.cells {
             Cells::One => [0.0; 2],
             Cells::Square(quantizer) => quantizer.block([depth.div_ceil(2), depth / 2]),
-            Cells::Shells(shells) => shells.block(depth),
+            Cells::Exponents(exponents) => exponents.block(depth),
         }
     }
 

@@ -1,12 +1,12 @@
 //! Permutations of points: the orders in which algorithms visit them. Knows coordinates, no mesh.
 
 pub(crate) mod cuts;
+mod exponents;
 pub(crate) mod morton;
 pub(crate) mod plane;
 pub(crate) mod quantize;
 mod radix;
 pub(crate) mod random;
-mod shells;
 pub(crate) mod space;
 
 /// In which order centres are inserted, and instances after them.

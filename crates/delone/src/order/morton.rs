@@ -6,7 +6,7 @@
 //! Keys have three bits more than log2 n, and as many more as radix passes of the same number can take; a few points have
 //! none. Skewed data collapse into few cells; there a run of equal keys is sorted again in its own bounding box,
 //! recursively. A nested box is at least 2^5 times smaller than the one around it, so 2100 / 5 is a bound on the depth
-//! for any doubles; where boxes would nest that deep, at the origin, exponents are the keys (`shells.rs`). Equal points meet in
+//! for any doubles; where boxes would nest that deep, at the origin, exponents are the keys (`exponents.rs`). Equal points meet in
 //! the end, and all but the first given are set aside as duplicates.
 //!
 //! Cost: O(n) passes for data spread evenly, O(n log n) for any data of bounded exponent range.
@@ -15,9 +15,9 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::cuts::{Cells, Cut, KeyBox, SHORT_RUN};
+use super::exponents::{self, Exponents};
 use super::quantize::Quantizer;
 use super::radix;
-use super::shells::{self, Shells};
 use crate::memory::zeroed;
 use crate::parallel;
 use crate::points::{Bounds, survey};
@@ -61,7 +61,7 @@ pub(crate) fn sort(points: &[[f64; 2]], bounds: &Bounds<2>) -> Sorted {
         sorter.runs(0..n, &key_box);
         let Sorter { boxes, removed, duplicates, .. } = sorter;
         (sorted.boxes, sorted.duplicates) = (boxes, duplicates);
-        // Shells are given boxes at once, with others on both sides of those inside.
+        // Exponents are given boxes at once, with others on both sides of those inside.
         let mut order: Vec<u64> =
             sorted.boxes.iter().enumerate().map(|(k, b)| (b.start as u64) << 32 | k as u64).collect();
         if !order.is_sorted() {
@@ -111,9 +111,9 @@ impl<'a> Sorter<'a> {
         to: Range<usize>,
     ) -> KeyBox {
         let bits = key_bits(points.len());
-        let shells = if bits > 0 { Shells::around(points, bounds, bits) } else { None };
-        let (cells, depth) = match (shells, Quantizer::new(bounds.low, bounds.high, bits)) {
-            (Some(shells), _) => (Cells::Shells(shells), shells::DEPTHS),
+        let exponents = if bits > 0 { Exponents::around(points, bounds, bits) } else { None };
+        let (cells, depth) = match (exponents, Quantizer::new(bounds.low, bounds.high, bits)) {
+            (Some(exponents), _) => (Cells::Exponents(exponents), exponents::DEPTHS),
             (None, Some(quantizer)) => (Cells::Square(quantizer), 2 * bits),
             (None, None) => (Cells::One, 2 * bits),
         };
@@ -135,23 +135,25 @@ impl<'a> Sorter<'a> {
                 let [column, row] = quantizer.cell(points[i]);
                 entry(spread(column) << 1 | spread(row), i)
             }),
-            Cells::Shells(shells) => parallel::collect(points.len(), |i| entry(shells.key(points[i]), i)),
+            Cells::Exponents(exponents) => {
+                parallel::collect(points.len(), |i| entry(exponents.key(points[i]), i))
+            }
         };
-        let key_bits = if let Cells::Shells(_) = cells { Shells::KEY_BITS } else { depth };
+        let key_bits = if let Cells::Exponents(_) = cells { Exponents::KEY_BITS } else { depth };
         radix::sort(&mut entries, key_bits);
         self.put_all_in_order(&key_box, &entries, points, indices, to);
-        if let Cells::Shells(shells) = cells {
-            self.inner_boxes(key_box, shells, &entries);
+        if let Cells::Exponents(exponents) = cells {
+            self.inner_boxes(key_box, exponents, &entries);
         }
         key_box
     }
 
-    /// The boxes nested in a box of shells, by its sorted entries.
-    fn inner_boxes(&mut self, outer: KeyBox, shells: Shells, entries: &[u64]) {
-        for (inner, [first, last]) in (1..).map_while(|k| shells.nth_box(k)) {
+    /// The boxes nested in a box of exponents, by its sorted entries.
+    fn inner_boxes(&mut self, outer: KeyBox, exponents: Exponents, entries: &[u64]) {
+        for (inner, [first, last]) in (1..).map_while(|k| exponents.nth_box(k)) {
             let start = outer.start + entries.partition_point(|entry| entry >> 32 < u64::from(first));
             let end = outer.start + entries.partition_point(|entry| entry >> 32 <= u64::from(last));
-            let inner_box = KeyBox { start, end, cells: Cells::Shells(inner), ..outer };
+            let inner_box = KeyBox { start, end, cells: Cells::Exponents(inner), ..outer };
             match self.boxes.last_mut() {
                 // Nothing is between the two.
                 Some(around) if around.start == start && around.end == end => *around = inner_box,
@@ -204,9 +206,9 @@ impl<'a> Sorter<'a> {
         let pairs = entries[from + skipped - 1..].windows(2);
         let keys = pairs.map(|pair| [pair[0], pair[1]].map(|entry| (entry >> 32) as u32));
         let cuts = self.cuts[to].iter_mut().skip(skipped).zip(keys);
-        if let Cells::Shells(shells) = key_box.cells {
+        if let Cells::Exponents(exponents) = key_box.cells {
             cuts.for_each(|(cut, [left, right])| {
-                let depth = shells.cut(left, right) % shells::DEPTHS;
+                let depth = exponents.cut(left, right) % exponents::DEPTHS;
                 *cut = if left == right { Cut::SAME_CELL } else { Cut::at(depth) };
             });
         } else {
@@ -244,7 +246,7 @@ impl<'a> Sorter<'a> {
     /// The same one after the other.
     fn runs_of_part(&mut self, within: Range<usize>, key_box: &KeyBox) {
         let depth = key_box.depth;
-        let all_have_boxes = matches!(key_box.cells, Cells::Shells(_));
+        let all_have_boxes = matches!(key_box.cells, Cells::Exponents(_));
         let mut at = within.start + 1;
         while let Some(found) =
             self.cuts[at.min(within.end)..within.end].iter().position(|&cut| cut == Cut::SAME_CELL)

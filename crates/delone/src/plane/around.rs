@@ -1,6 +1,6 @@
 //! What surrounds a point of the plane: the triangles whose circles hold it.
 
-use delone_predicates::{Hub, Sign, Spoke};
+use delone_predicates::{FixedPoint, SeenCorner, Sign};
 
 use super::Delaunay2;
 use super::layer::insert::Spot;
@@ -18,7 +18,7 @@ const HINTED_STEPS: usize = 12;
 impl Surround for Delaunay2 {
     fn find_near(&self, near: Option<TriangleId>, q: [f64; 2]) -> Result<Found<TriangleId>, Error> {
         let q = finite(q)?;
-        match self.inside_near(near, &Hub::new(q)) {
+        match self.inside_near(near, &FixedPoint::new(q)) {
             Ok(seed) => Ok(self.inside(seed)),
             Err(last) => Ok(self.find_from(last, q)),
         }
@@ -32,17 +32,17 @@ impl Surround for Delaunay2 {
     ) -> Result<Found<TriangleId>, Error> {
         let q = finite(q)?;
         around.clear();
-        let hub = Hub::new(q);
-        let last = match self.inside_near(near, &hub) {
+        let fixed = FixedPoint::new(q);
+        let last = match self.inside_near(near, &fixed) {
             Ok(seed) => {
-                self.dig(seed, &hub, around);
+                self.dig(seed, &fixed, around);
                 return Ok(self.inside(seed));
             }
             Err(last) => last,
         };
         let found = self.find_from(last, q);
         if let (Some(t), 2..) = (found.simplex, found.face().len()) {
-            self.dig(t.edge(0), &hub, around);
+            self.dig(t.edge(0), &fixed, around);
         }
         Ok(found)
     }
@@ -57,10 +57,10 @@ impl Delaunay2 {
 
     /// The corners of a triangle from the origin of an edge on, as seen from a point, and the cross product of each with the next.
     #[inline]
-    fn seen(&self, edge: EdgeId, hub: &Hub) -> ([Spoke; 3], [f64; 3]) {
+    fn seen(&self, edge: EdgeId, fixed: &FixedPoint) -> ([SeenCorner; 3], [f64; 3]) {
         let (mesh, points) = (&self.base.mesh, &self.base.points);
         let [a, b, c] =
-            [mesh.tail(edge), mesh.head(edge), mesh.tip(edge)].map(|p| hub.spoke(points[p.index()]));
+            [mesh.tail(edge), mesh.head(edge), mesh.tip(edge)].map(|p| fixed.corner(points[p.index()]));
         ([a, b, c], [a.cross(&b), b.cross(&c), c.cross(&a)])
     }
 
@@ -77,17 +77,17 @@ impl Delaunay2 {
     /// Walks to a triangle that a point is strictly inside of: what there mostly is, and needs no more decisions.
     /// An edge of it; or of where the walk ended, if it began.
     #[inline]
-    fn inside_near(&self, near: Option<TriangleId>, hub: &Hub) -> Result<EdgeId, Option<EdgeId>> {
+    fn inside_near(&self, near: Option<TriangleId>, fixed: &FixedPoint) -> Result<EdgeId, Option<EdgeId>> {
         let (mesh, points) = (&self.base.mesh, &self.base.points);
         let near = near.filter(|&t| mesh.is_triangle(t)).ok_or(None)?;
         if mesh.is_tagged || mesh.is_ghost(near) || !self.base.spanned {
             return Err(Some(near.edge(0)));
         }
         let mut edge = near.edge(0);
-        let ([mut a, mut b, mut c], [mut ab, mut bc, mut ca]) = self.seen(edge, hub);
-        let mut behind = hub.side(&a, &b, ab);
+        let ([mut a, mut b, mut c], [mut ab, mut bc, mut ca]) = self.seen(edge, fixed);
+        let mut behind = fixed.side(&a, &b, ab);
         for _ in 0..HINTED_STEPS {
-            let sides = [behind, hub.side(&b, &c, bc), hub.side(&c, &a, ca)];
+            let sides = [behind, fixed.side(&b, &c, bc), fixed.side(&c, &a, ca)];
             let crossed;
             if sides[0].is_negative() {
                 crossed = edge;
@@ -106,7 +106,7 @@ impl Delaunay2 {
             if tip.is_ghost() {
                 return Err(Some(edge));
             }
-            c = hub.spoke(points[tip.index()]);
+            c = fixed.corner(points[tip.index()]);
             (bc, ca) = (b.cross(&c), c.cross(&a));
             behind = Sign::Positive;
         }
@@ -115,14 +115,14 @@ impl Delaunay2 {
 
     /// Depth first in counter-clockwise order, so that the border comes in its cyclic order. No vertex is inside of the cavity: no
     /// triangle is met twice.
-    fn dig(&self, seed: EdgeId, hub: &Hub, around: &mut Around<Self>) {
+    fn dig(&self, seed: EdgeId, fixed: &FixedPoint, around: &mut Around<Self>) {
         let (mesh, points) = (&self.base.mesh, &self.base.points);
         let Around { ring, cavity, border, .. } = &mut *around;
         cavity.push(seed.triangle());
         ring.triangles.push([0, 1, 2]);
         ring.vertices.extend([mesh.origin(seed), mesh.destination(seed), mesh.apex(seed)]);
-        let (corners, [ab, bc, ca]) = self.seen(seed, hub);
-        ring.spokes.extend(corners);
+        let (corners, [ab, bc, ca]) = self.seen(seed, fixed);
+        ring.corners_seen.extend(corners);
         let mut put = |edge, ends, cross| ring.pending.push(Side { edge: mesh.twin(edge), ends, cross });
         put(seed.previous(), [2, 0], ca);
         put(seed.next(), [1, 2], bc);
@@ -130,28 +130,28 @@ impl Delaunay2 {
         while let Some(mut side) = ring.pending.pop() {
             loop {
                 let Side { edge, ends: [from, to], cross } = side;
-                let [a, b] = [from, to].map(|k| &ring.spokes[k as usize]);
+                let [a, b] = [from, to].map(|k| &ring.corners_seen[k as usize]);
                 let ends = || [from, to].map(|k| ring.vertices[k as usize]);
                 let tip = mesh.tip(edge);
                 if tip.is_ghost() {
-                    if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (hub.centre(), ())) {
+                    if NearestSites::contains_beyond((b.end(), ()), (a.end(), ()), (fixed.centre(), ())) {
                         return around.stop_at_hull();
                     }
                     border.push((ends(), mesh.twin(edge).triangle()));
                     break;
                 }
-                let c = hub.spoke(points[tip.index()]);
+                let c = fixed.corner(points[tip.index()]);
                 let (ac, cb) = (a.cross(&c), c.cross(b));
                 // The corners are counter-clockwise as b, a and c.
-                if !hub.in_circle([b, a, &c], [ac, cb, -cross]).is_positive() {
+                if !fixed.in_circle([b, a, &c], [ac, cb, -cross]).is_positive() {
                     border.push((ends(), edge.triangle()));
                     break;
                 }
-                let number = ring.spokes.len() as u32;
+                let number = ring.corners_seen.len() as u32;
                 cavity.push(edge.triangle());
                 ring.triangles.push([from, number, to]);
                 ring.vertices.push(mesh.name(tip));
-                ring.spokes.push(c);
+                ring.corners_seen.push(c);
                 let [right, left] = [edge.next(), edge.previous()].map(|e| mesh.twin(e));
                 ring.pending.push(Side { edge: left, ends: [number, to], cross: cb });
                 side = Side { edge: right, ends: [from, number], cross: ac };

@@ -3,7 +3,7 @@
 //! Source: Ericson, "Real-time collision detection", 2005, section 5.1, for triangles. Cost: O(1).
 
 use super::natural::{apart, scale, three};
-use crate::foot::{dot, on_edge, on_triangle};
+use crate::closest::{dot, on_edge, on_triangle};
 use crate::space::{NearestFace, nearest_face};
 use crate::triangulation::{Coordinates, Triangulation};
 
@@ -89,7 +89,7 @@ pub(super) fn nearest<P: Coordinates>(q: P, corners: &[P]) -> Nearest<P> {
 #[cfg(test)]
 mod tests {
     use super::nearest;
-    use crate::foot::distance;
+    use crate::closest::distance;
 
     #[test]
     fn the_nearest_point_is_on_a_corner_a_side_or_inside() {

@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 use super::faces::Faces;
 use super::sides::{Sides, value};
 use super::start::turn;
-use crate::foot::{cross, dot, minus};
+use crate::closest::{cross, dot, minus};
 
 /// No face yet.
 const NONE: usize = usize::MAX;

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use delone_predicates::{are_collinear3, lexicographic3, orient2d, orient3d};
 
 use super::super::plane;
-use crate::foot::cross;
+use crate::closest::cross;
 use crate::mesh::Dimension;
 
 /// The orientation of three points seen along an axis.

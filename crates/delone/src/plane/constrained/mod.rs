@@ -32,10 +32,10 @@ mod patch;
 mod polygons;
 mod refined;
 mod segments;
-mod sight;
 mod split;
 mod trace;
 mod triangulation;
+mod visibility;
 
 use std::sync::OnceLock;
 

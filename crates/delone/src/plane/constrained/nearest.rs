@@ -9,7 +9,7 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use delone_predicates::{Reach, compare_with_radius, segment_keeps_away};
+use delone_predicates::{SearchLimit, compare_with_radius, segment_keeps_away};
 
 use super::Constrained2;
 use crate::error::Error;
@@ -55,9 +55,9 @@ impl Search<'_> {
     fn keeps_away(&self, edge: [Place; 2]) -> bool {
         let point = |v: Place| self.points[v.index()];
         let reach = match (self.wanted, self.found.last()) {
-            (Ok(count), Some(&last)) if self.found.len() == count => Reach::To(point(last)),
+            (Ok(count), Some(&last)) if self.found.len() == count => SearchLimit::To(point(last)),
             (Ok(_), _) => return false,
-            (Err(radius), _) => Reach::Radius(radius),
+            (Err(radius), _) => SearchLimit::Radius(radius),
         };
         segment_keeps_away(self.q, edge.map(point), reach)
     }

@@ -29,7 +29,7 @@ use super::Built;
 use super::builder::Builder;
 use super::leaf::Leaf;
 use super::merge::{Merging, Part};
-use super::near::{Near, SIZES, finest_step, grid_of};
+use super::rescaled::{Rescaled, SIZES, finest_step, grid_of};
 use crate::ids::{Duplicate, Place, TriangleId, VertexId};
 use crate::memory::zeroed;
 use crate::mesh::triangles::{HalfEdge, Mesh2};
@@ -132,7 +132,7 @@ pub(super) fn build<K: Merging>(
     let mut builder = Builder::<K>::new(ordered, weights, 0, &mut edges, &mut leaving);
     if n > 0 {
         let grid = grid_of(ordered.as_flattened(), finest_step(boxes, scale));
-        let near = if K::HIDES { None } else { Near::of(ordered, boxes, scale) };
+        let near = if K::HIDES { None } else { Rescaled::of(ordered, boxes, scale) };
         Tree { cuts, boxes, scale, grid, near: near.as_ref() }.build(0, LEVELS, &mut builder);
     }
     let counters = builder.counters;
@@ -147,7 +147,7 @@ struct Tree<'a> {
     /// What coordinates have been multiplied with since the boxes were made.
     scale: f64,
     grid: Option<Grid>,
-    near: Option<&'a Near>,
+    near: Option<&'a Rescaled>,
 }
 
 /// Halves of halves are on the stack, and far points can make thousands of them: deeper than this, one thread goes on.

@@ -6,8 +6,8 @@ mod divide_and_conquer;
 pub(super) mod incremental;
 mod leaf;
 mod merge;
-mod near;
 mod number;
+mod rescaled;
 mod weighted;
 
 pub(crate) use divide_and_conquer::{InOrder, in_order};

@@ -3,7 +3,7 @@
 //!
 //! The contract: for points in general position, which the perturbation makes of all, the triangles in conflict with a new
 //! point are connected, and star-shaped around it. Where no site hides another ([`Kernel::HIDES`]) no vertex is inside of
-//! the cavity: n edges of its border stand where n - 2 triangles were. Under a kernel that hides sites (circles with weights)
+//! the cavity: n edges of its border stand where n - 2 triangles were. HiddenSites a kernel that hides sites (circles with weights)
 //! a vertex inside of a cavity is one that the new site hides, a new site without a cavity is hidden itself, and what a removal
 //! sets free has to be looked for among the hidden: `cavity`, `remove` and `check` say where they count on that.
 

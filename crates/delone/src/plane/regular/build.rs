@@ -8,6 +8,7 @@
 
 use super::Regular2;
 use super::settle::Settled;
+use crate::hidden::HiddenSites;
 use crate::ids::{Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
 use crate::mesh::{Mesh2, Names};
@@ -16,7 +17,6 @@ use crate::plane::construct::{Weighted, weighted};
 use crate::plane::layer::Layer;
 use crate::plane::layer::kernel::Power;
 use crate::tally::{Counters, Tally, Work};
-use crate::under::Under;
 
 /// Triangulates sites, all finite and not too many, by divide and conquer.
 pub(super) fn divide_and_conquer(given: &[[f64; 2]], given_weights: &[f64]) -> Regular2 {
@@ -38,7 +38,7 @@ pub(super) fn divide_and_conquer(given: &[[f64; 2]], given_weights: &[f64]) -> R
     let below: Vec<(VertexId, Place)> =
         below.map(|k| (VertexId::new(ids[k] as usize), Place::new(k))).collect();
     below.iter().for_each(|&(id, _)| layer.mesh.names().release(id));
-    let mut under = Under::new(below);
+    let mut under = HiddenSites::new(below);
     for (k, &(i, position)) in others.iter().enumerate() {
         let is_equal = layer.weights[first_other + k] == layer.weights[position.index()];
         let vertex = Some(layer.mesh.name(position)).filter(|v| is_equal && !v.is_ghost());
@@ -63,7 +63,7 @@ pub(super) fn incremental(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Re
 }
 
 /// Inserts what is at every place. Those that are no vertices lose their place's name.
-fn insert_all<T: Tally>(layer: &mut Layer<Power>, seed: u64, tally: &mut T) -> Under<TriangleId> {
+fn insert_all<T: Tally>(layer: &mut Layer<Power>, seed: u64, tally: &mut T) -> HiddenSites<TriangleId> {
     let mut hidden = Vec::new();
     // Those that equal a vertex, with its place.
     let mut equal: Vec<(VertexId, Place, Place)> = Vec::new();
@@ -92,7 +92,7 @@ fn insert_all<T: Tally>(layer: &mut Layer<Power>, seed: u64, tally: &mut T) -> U
     let mut sites: Vec<(VertexId, Place)> = hidden.into_iter().map(|p| (names.of(p), p)).collect();
     sites.iter().for_each(|&(id, _)| names.release(id));
     sites.extend(equal.iter().map(|&(id, place, _)| (id, place)));
-    let mut under = Under::new(sites);
+    let mut under = HiddenSites::new(sites);
     for (id, _, w) in equal {
         // A vertex once, which may be hidden since.
         under.set_equal(id, Some(layer.mesh.name(w)).filter(|v| !v.is_ghost()));

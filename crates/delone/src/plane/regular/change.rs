@@ -10,12 +10,12 @@
 use super::Regular2;
 use super::settle::Settled;
 use crate::error::Error;
+use crate::hidden::heaviest_first;
 use crate::ids::{Inserted, MAX_POINTS, Place, VertexId};
 use crate::locate::{Start, Strategy, Walk};
 use crate::mesh::Names;
 use crate::plane::layer::insert::Spot;
 use crate::points::{Position2, check_weights, finite};
-use crate::under::heaviest_first;
 
 /// Vertices, up to which hints are not made anew: any hint is near.
 const UNHINTED_VERTICES: usize = 32;

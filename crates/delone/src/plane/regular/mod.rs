@@ -23,6 +23,7 @@ use std::sync::OnceLock;
 use delone_predicates::compare_powers;
 
 use crate::error::Error;
+use crate::hidden::HiddenSites;
 use crate::ids::{Duplicate, EdgeId, MAX_POINTS, Place, TriangleId, VertexId};
 use crate::locate::tree::Tree;
 use crate::locate::{Start, Strategy};
@@ -33,7 +34,6 @@ use crate::plane::layer::kernel::Power;
 use crate::plane::locate::Location2;
 use crate::points::{Position2, check_count, check_finite, check_weights, finite};
 use crate::tally::{Counters, Work};
-use crate::under::Under;
 pub use areas::Prescribed2;
 pub use power::{Jacobian2, Power2};
 
@@ -66,7 +66,7 @@ pub use power::{Jacobian2, Power2};
 #[derive(Clone, Debug)]
 pub struct Regular2 {
     base: Layer<Power>,
-    under: Under<TriangleId>,
+    under: HiddenSites<TriangleId>,
     counters: Counters,
     hints: OnceLock<Tree<EdgeId>>,
     /// The number of vertices when the hints were made.
@@ -77,7 +77,7 @@ impl Default for Regular2 {
     fn default() -> Self {
         Self {
             base: Layer::default(),
-            under: Under::default(),
+            under: HiddenSites::default(),
             counters: Counters::Incremental(Work::default()),
             hints: OnceLock::new(),
             hinted: 0,

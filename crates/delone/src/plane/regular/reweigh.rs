@@ -15,6 +15,7 @@ use delone_predicates::orient2d;
 
 use super::{Regular2, build};
 use crate::error::Error;
+use crate::hidden::heaviest_first;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::locate::{Start, Walk};
 use crate::mesh::Mesh2;
@@ -23,7 +24,6 @@ use crate::plane::layer::kernel::{Kernel, Power};
 use crate::points::check_weights;
 use crate::prefetch::prefetch;
 use crate::regular::Reweighed;
-use crate::under::heaviest_first;
 
 /// The inverse of the share of edges that may be wrong before building anew is faster.
 const WRONG_SHARE: usize = 10;

@@ -13,7 +13,7 @@
 //!
 //! Cost: O(t d) for d vertices and t tetrahedra of the filling: 16 and 20 on average, where points are spread evenly.
 
-use delone_predicates::{Bundle, Site};
+use delone_predicates::{Site, SpherePencil};
 
 use super::Layer;
 use super::hole::turned;
@@ -130,9 +130,9 @@ impl Wrap {
     fn apex<W: Lift>(&self, layer: &Layer<W>, facet: Facet) -> Option<usize> {
         let corners @ [a, b, c] = facet.numbers();
         let filter = &layer.filter;
-        let bundle = Bundle::new(corners.map(|n| self.sites[n]));
+        let pencil = SpherePencil::new(corners.map(|n| self.sites[n]));
         let is_inner = |&n: &usize| {
-            bundle.side(self.sites[n], filter).map_or_else(
+            pencil.side(self.sites[n], filter).map_or_else(
                 || {
                     let [a, b, c, p] = [a, b, c, n].map(|n| self.sites[n].0);
                     filter.orient3d(a, b, c, p).is_positive()
@@ -142,7 +142,7 @@ impl Wrap {
         };
         let mut others = (0..self.sites.len()).filter(|n| !corners.contains(n));
         let mut best = others.find(is_inner)?;
-        let mut ball = bundle.through(self.sites[best]);
+        let mut ball = pencil.through(self.sites[best]);
         for n in others {
             let side = ball.side(self.sites[n], filter).unwrap_or_else(|| {
                 let view = layer.view();
@@ -151,7 +151,7 @@ impl Wrap {
             });
             if side.is_positive() {
                 best = n;
-                ball = bundle.through(self.sites[n]);
+                ball = pencil.through(self.sites[n]);
             }
         }
         Some(best)

@@ -3,12 +3,12 @@
 //! What is hidden once stays so, because more sites only lower the hull of the lifted ones: nothing is kept for it.
 
 use super::Regular3;
+use crate::hidden::HiddenSites;
 use crate::ids::{Place, VertexId};
 use crate::mesh::Names;
 use crate::space::construct::{self, Rest, flips};
 use crate::space::layer::Layer;
 use crate::tally::Work;
-use crate::under::Under;
 
 /// Triangulates sites, all finite and not too many. `None` if there would be too many tetrahedra.
 pub(super) fn build(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<Regular3> {
@@ -38,7 +38,7 @@ pub(in crate::space) fn assemble((mut layer, rest): (Layer<f64>, Rest)) -> Regul
     let mut sites: Vec<(VertexId, Place)> = rest.hidden.into_iter().map(|p| (names.of(p), p)).collect();
     sites.iter().for_each(|&(id, _)| names.release(id));
     sites.extend(equal.iter().map(|&(id, place, _)| (id, place)));
-    let mut under = Under::new(sites);
+    let mut under = HiddenSites::new(sites);
     for (id, _, w) in equal {
         under.set_equal(id, Some(names.of(w)).filter(|v| !v.is_ghost()));
     }

@@ -8,11 +8,11 @@
 
 use super::Regular3;
 use crate::error::Error;
+use crate::hidden::heaviest_first;
 use crate::ids::{Inserted, MAX_POINTS_IN_SPACE, Place, TetrahedronId, VertexId};
 use crate::locate::{Start, Strategy};
 use crate::points::{Position3, check_weights, finite};
 use crate::regular::Reweighed;
-use crate::under::heaviest_first;
 use delone_predicates::Site;
 
 /// The inverse of the share of sites whose weights may change before building anew is faster.

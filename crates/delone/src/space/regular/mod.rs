@@ -19,13 +19,13 @@ use delone_predicates::{compare_powers, lexicographic3};
 use super::layer::Layer;
 use super::locate::Location3;
 use crate::error::Error;
+use crate::hidden::HiddenSites;
 use crate::ids::{Duplicate, MAX_TETRAHEDRA, Place, TetrahedronId, VertexId};
 use crate::locate::tree::Tree;
 use crate::locate::{Ground, Nearest, Start, Strategy};
 use crate::mesh::{Dimension, Mesh3};
 use crate::points::{Position3, check_in_space, check_weights, finite};
 use crate::tally::{Counters, Work};
-use crate::under::Under;
 
 /// The regular triangulation of sites with weights in space. See the [crate's words](crate#names) for what it has in common with
 /// [`crate::Delaunay3`].
@@ -53,7 +53,7 @@ use crate::under::Under;
 #[derive(Clone, Debug, Default)]
 pub struct Regular3 {
     base: Layer<f64>,
-    under: Under<TetrahedronId>,
+    under: HiddenSites<TetrahedronId>,
     work: Work,
     hints: OnceLock<Tree<TetrahedronId>>,
     /// The number of vertices when the hints were made.

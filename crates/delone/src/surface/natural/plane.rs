@@ -46,7 +46,7 @@ impl Cell {
             self.sort(ring);
         }
         let Self { order, cavity, plain, double, .. } = self;
-        let points = order.iter().map(|&i| ring.spokes[i as usize].end());
+        let points = order.iter().map(|&i| ring.corners_seen[i as usize].end());
         // Mostly nothing has to be scaled.
         let scale = if size > 2f64.powi(-60) && size < 2f64.powi(60) {
             [1.0; 2]
@@ -78,7 +78,7 @@ impl Cell {
         let Self { order, numbers, .. } = self;
         let (mut start, mut least) = (0, [f64::INFINITY; 2]);
         for (k, &i) in ring.order.iter().enumerate() {
-            let p = ring.spokes[i as usize].end();
+            let p = ring.corners_seen[i as usize].end();
             if p[0] < least[0] || (p[0] == least[0] && p[1] < least[1]) {
                 (start, least) = (k, p);
             }
@@ -91,7 +91,7 @@ impl Cell {
         let mut size = 0.0f64;
         for (number, &i) in order.iter().enumerate() {
             numbers[i as usize] = number as u32;
-            let [x, y] = ring.spokes[i as usize].from_centre();
+            let [x, y] = ring.corners_seen[i as usize].from_centre();
             size = size.max(x.abs()).max(y.abs());
         }
         size

@@ -1,5 +1,5 @@
-//! All spheres through three points: the language of who looks for the point whose sphere is empty, as [`crate::Pencil`]
-//! is in the plane.
+//! The pencil of spheres through three points, for searches of the point whose sphere is empty; [`crate::Pencil`] does the same
+//! in the plane.
 //!
 //! For points a, b, c and a candidate p let b', c', p' be the differences to a, each with its square as a fourth entry. The
 //! in-sphere determinant of a, b, c, p and q is that of the rows b', c', p', q'. The six minors of b' and c' are the
@@ -17,7 +17,7 @@ type Row = [f64; 4];
 
 /// The spheres through three points, or all that are orthogonal to three sites.
 #[derive(Clone, Copy, Debug)]
-pub struct Bundle {
+pub struct SpherePencil {
     origin: Site<3>,
     /// The minors of two rows in columns xy, xz, yz, xl, yl, zl.
     minors: [f64; 6],
@@ -37,7 +37,7 @@ fn row((p, w): Site<3>, (o, v): Site<3>) -> Row {
     [x, y, z, x * x + y * y + z * z - (w - v)]
 }
 
-impl Bundle {
+impl SpherePencil {
     /// The spheres through three points. Without weights all weights are zero.
     #[inline]
     pub fn new([a, b, c]: [Site<3>; 3]) -> Self {

@@ -1,4 +1,4 @@
-//! The sites that are no vertices: hidden by others, or equal to one.
+//! Sites that are not vertices: hidden by others, or equal to a vertex.
 //!
 //! Each keeps its place, and from the first change on the simplex above which it lies, so that what a change may let
 //! surface is found where it happens.
@@ -22,7 +22,7 @@ struct Below<C> {
 
 /// See the module. A simplex is a `C`.
 #[derive(Clone, Debug)]
-pub(crate) struct Under<C> {
+pub(crate) struct HiddenSites<C> {
     sites: BTreeMap<VertexId, Below<C>>,
     /// Those whose simplex is known, by simplex.
     cells: BTreeSet<(C, VertexId)>,
@@ -32,13 +32,13 @@ pub(crate) struct Under<C> {
     pub(crate) are_known: bool,
 }
 
-impl<C> Default for Under<C> {
+impl<C> Default for HiddenSites<C> {
     fn default() -> Self {
         Self { sites: BTreeMap::new(), cells: BTreeSet::new(), equals: BTreeSet::new(), are_known: false }
     }
 }
 
-impl<C: Copy + Ord> Under<C> {
+impl<C: Copy + Ord> HiddenSites<C> {
     /// Some sites, whose simplices are not known.
     pub(crate) fn new(mut sites: Vec<(VertexId, Place)>) -> Self {
         sites.sort_unstable();

@@ -21,7 +21,7 @@ pub(super) const DEPTHS: u32 = BLADES * LEVELS;
 
 /// Squares around the origin.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shells {
+pub(super) struct Exponents {
     /// The biased exponent of the largest coordinate.
     largest: u32,
     /// The cuts of all levels.
@@ -29,7 +29,7 @@ pub(super) struct Shells {
     extent: [f64; 2],
 }
 
-impl Shells {
+impl Exponents {
     /// For many points of which each middle quarter of a sample has more magnitudes than a quarter of the bits of a key.
     /// `None` for others.
     pub(super) fn around(points: &[[f64; 2]], bounds: &Bounds<2>, bits: u32) -> Option<Self> {
@@ -121,19 +121,19 @@ fn exponents(p: [f64; 2]) -> [u32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::Shells;
+    use super::Exponents;
     use crate::points::Bounds;
     use delone_generators::Kind;
 
-    fn shells(points: &[[f64; 2]]) -> Option<Shells> {
-        Shells::around(points, &Bounds::of(points.iter().copied()), 10)
+    fn exponents(points: &[[f64; 2]]) -> Option<Exponents> {
+        Exponents::around(points, &Bounds::of(points.iter().copied()), 10)
     }
 
     #[test]
     fn only_many_magnitudes_have_shells() {
         for &kind in Kind::ALL {
             let points = kind.points(10_000, 1);
-            assert_eq!(shells(&points).is_some(), kind.is_extreme(), "{}", kind.name());
+            assert_eq!(exponents(&points).is_some(), kind.is_extreme(), "{}", kind.name());
         }
     }
 
@@ -143,15 +143,15 @@ mod tests {
         for kind in [Kind::HugeSpan, Kind::Octaves, Kind::Hub, Kind::NestedInstance] {
             let mut points = kind.points(300, 2);
             points.extend([[0.0, 0.0], [-0.0, 5e-324], [f64::MAX, f64::MIN], [0.0, -f64::MAX]]);
-            let shells = shells(&points).expect("magnitudes");
+            let exponents = exponents(&points).expect("magnitudes");
             for (p, q) in points.iter().flat_map(|p| points.iter().map(move |q| (*p, *q))) {
-                let (left, right) = (shells.key(p), shells.key(q));
+                let (left, right) = (exponents.key(p), exponents.key(q));
                 if left < right {
-                    let depth = shells.cut(left, right);
-                    assert!(depth < shells.depth);
+                    let depth = exponents.cut(left, right);
+                    assert!(depth < exponents.depth);
                     let axis = depth as usize % 2;
                     assert!(p[axis] < q[axis], "{p:?} {q:?}");
-                    let block = shells.block(depth);
+                    let block = exponents.block(depth);
                     assert!((0..2).all(|k| (p[k] - q[k]).abs() <= block[k]), "{p:?} {q:?} {block:?}");
                 }
             }

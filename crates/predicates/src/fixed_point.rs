@@ -1,4 +1,4 @@
-//! All that one point is asked about: the language of who looks for the circles that hold it.
+//! In-circle tests of many triangles against one fixed point, with differences and cross products cached.
 //!
 //! With everything relative to the point, and the cross product of each edge known from the triangle before it, a triangle more takes two
 //! cross products and three products for its circle. Distances bound the permanents of the determinants: half of the sum of the squared
@@ -10,21 +10,21 @@ use crate::in_circle::in_circle_exact;
 use crate::orient::orient2d_exact;
 use crate::{Point2, Sign};
 
-/// A point that decisions are about.
+/// The fixed point of many decisions.
 #[derive(Clone, Copy, Debug)]
-pub struct Hub {
+pub struct FixedPoint {
     centre: Point2,
 }
 
-/// Another point, as seen from it.
+/// Another point, relative to the fixed one.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Spoke {
+pub struct SeenCorner {
     end: Point2,
     from_centre: Point2,
     square: f64,
 }
 
-impl Spoke {
+impl SeenCorner {
     /// The point.
     #[inline]
     pub fn end(&self) -> Point2 {
@@ -46,7 +46,7 @@ impl Spoke {
     }
 }
 
-impl Hub {
+impl FixedPoint {
     /// Around this point.
     #[inline]
     pub fn new(centre: Point2) -> Self {
@@ -61,14 +61,14 @@ impl Hub {
 
     /// What is seen of another point.
     #[inline]
-    pub fn spoke(&self, end: Point2) -> Spoke {
+    pub fn corner(&self, end: Point2) -> SeenCorner {
         let [x, y] = [end[0] - self.centre[0], end[1] - self.centre[1]];
-        Spoke { end, from_centre: [x, y], square: x * x + y * y }
+        SeenCorner { end, from_centre: [x, y], square: x * x + y * y }
     }
 
     /// `orient2d(a, b, centre)`, given `a.cross(b)`.
     #[inline]
-    pub fn side(&self, a: &Spoke, b: &Spoke, cross: f64) -> Sign {
+    pub fn side(&self, a: &SeenCorner, b: &SeenCorner, cross: f64) -> Sign {
         if let Some(sign) = orient2d_of_lengths(cross, a.square + b.square) {
             count(Predicate::Orient2d, Stage::Filter);
             return sign;
@@ -78,7 +78,7 @@ impl Hub {
 
     /// `in_circle(a, b, c, centre)`, given the cross products of b and c, of c and a, and of a and b.
     #[inline]
-    pub fn in_circle(&self, [a, b, c]: [&Spoke; 3], crosses: [f64; 3]) -> Sign {
+    pub fn in_circle(&self, [a, b, c]: [&SeenCorner; 3], crosses: [f64; 3]) -> Sign {
         if let Some(sign) = in_circle_of_lengths([a.square, b.square, c.square], crosses) {
             count(Predicate::InCircle, Stage::Filter);
             return sign;

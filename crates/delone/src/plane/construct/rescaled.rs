@@ -1,4 +1,4 @@
-//! Boxes that are too large or too small for the filters of floating point, seen from near.
+//! Boxes rescaled by powers of two, where they are too large or too small for the filters of floating point.
 //!
 //! A power of two changes no decision, and brings the products of a box back into the range where they are sure. One power for
 //! all points does so for a set of any size (`order/quantize.rs`); where boxes of all sizes are nested, each needs its own.
@@ -18,14 +18,14 @@ pub(super) const SIZES: Range<f64> = 8.3e-25..1.6e60;
 
 /// The points of boxes that are too large or too small for filters, multiplied by a power of two for each box: those in which
 /// no other box is nested, where most of the work is.
-pub(super) struct Near {
+pub(super) struct Rescaled {
     /// All points. Those of other boxes are as they were.
     pub(super) points: Vec<[f64; 2]>,
     /// For each box the power, 1 if it is as it was.
     pub(super) powers: Vec<f64>,
 }
 
-impl Near {
+impl Rescaled {
     /// `None` if there is no such box.
     pub(super) fn of(ordered: &[[f64; 2]], boxes: &[KeyBox], scale: f64) -> Option<Self> {
         let power = |(i, b): (usize, &KeyBox)| {
@@ -89,7 +89,7 @@ mod tests {
         for kind in [Kind::Octaves, Kind::Nested, Kind::Hub] {
             let points = kind.points(20_000, 1);
             let sorted = morton::sort(&points, &survey(&points).0);
-            let near = Near::of(&sorted.points, &sorted.boxes, 1.0).expect("boxes out of range");
+            let near = Rescaled::of(&sorted.points, &sorted.boxes, 1.0).expect("boxes out of range");
             let mut scaled = 0;
             for (i, (key_box, power)) in sorted.boxes.iter().zip(&near.powers).enumerate() {
                 if sorted.boxes.get(i + 1).is_some_and(|next| next.start < key_box.end) {
@@ -112,7 +112,7 @@ mod tests {
     fn what_would_be_rounded_is_left() {
         let points = [[0.0, 0.0], [1e300, 5e-324], [2e300, 1e300], [1e300, 3e300]];
         let sorted = morton::sort(&points, &survey(&points).0);
-        let near = Near::of(&sorted.points, &sorted.boxes, 1.0).expect("too large");
+        let near = Rescaled::of(&sorted.points, &sorted.boxes, 1.0).expect("too large");
         assert_eq!((near.points, near.powers), (sorted.points, vec![1.0]));
     }
 
@@ -120,6 +120,6 @@ mod tests {
     fn usual_sizes_need_nothing() {
         let points = Kind::named("uniform").expect("a kind").points(1000, 1);
         let sorted = morton::sort(&points, &survey(&points).0);
-        assert!(Near::of(&sorted.points, &sorted.boxes, 1.0).is_none());
+        assert!(Rescaled::of(&sorted.points, &sorted.boxes, 1.0).is_none());
     }
 }
