@@ -359,6 +359,15 @@ areas.to_file(folder / "areas.geojson")
 run("polygons", "areas.geojson", "-o", "areas-triangles.geojson")
 triangulated = geopandas.read_file(folder / "areas-triangles.geojson")
 assert len(triangulated) > 8 and abs(triangulated.area.sum() - areas.area.sum()) < 1e-9
+for command in [("polygons",), ("triangulate",), ("mesh", "--max-area", 0.5)]:
+    run(command[0], "areas.geojson", *command[1:], "-o", "areas.vtu", "-o", "areas-triangles.geojson")
+    table = geopandas.read_file(folder / "areas-triangles.geojson")
+    by_meshio, by_vtk = meshio.read(folder / "areas.vtu").cell_data, pyvista.read(folder / "areas.vtu").cell_data
+    assert set(by_meshio) == set(by_vtk.keys()) == {"region", "count", "size"}, f"{set(by_meshio)}"
+    for column in ["count", "size"]:
+        assert np.array_equal(by_meshio[column][0], table[column].astype(float), equal_nan=True), f"{column} by meshio"
+        assert np.array_equal(by_vtk[column], table[column].astype(float), equal_nan=True), f"{column} by VTK"
+print("meshio and pyvista read attributes of triangles")
 for kind in ["gpkg", "fgb", "shp"]:
     # An index would put the features of FlatGeobuf into another order.
     options = {"SPATIAL_INDEX": "NO"} if kind == "fgb" else {}

@@ -1,5 +1,7 @@
 //! Attributes go with their features from file to file, and what is left out is said.
 
+use std::fs;
+
 use serde_json::Value;
 
 use crate::place::{Place, text};
@@ -141,6 +143,79 @@ fn polygons_are_regions() {
     let regions: Vec<Value> =
         properties(&place, "t.geojson").iter().map(|all| all["region"].clone()).collect();
     assert!(regions.contains(&Value::from(1.0)) && regions.contains(&Value::from(2.0)), "{regions:?}");
+}
+
+/// Grids of VTK have arrays of numbers: what is none of these is told.
+#[test]
+fn grids_have_numbers() {
+    let place = Place::new();
+    let numbered = MATERIALS
+        .replace(
+            r#""material":"clay""#,
+            r#""material":"clay","density":1.75,"layer":3,"a<\"b":null,"code":9007199254740993"#,
+        )
+        .replace(
+            r#""material":"sand""#,
+            r#""material":"sand","density":null,"layer":-4,"a<\"b":2,"region":8"#,
+        );
+    place.file("m.geojson", numbered);
+    for command in ["triangulate m.geojson", "mesh m.geojson --max-area 0.25", "polygons m.geojson"] {
+        let output = place.run(&format!("{command} -o t.geojson -o t.vtu"));
+        let said = text(&output.stderr);
+        assert!(
+            said.contains(
+                "t.vtu: arrays have numbers alone: these attributes are left out: material, code\n"
+            ),
+            "{said}"
+        );
+        let triangles = properties(&place, "t.geojson");
+        let grid = fs::read(place.path("t.vtu")).expect("a file");
+        let head = String::from_utf8_lossy(&grid).into_owned();
+        for (name, array) in [
+            ("density", "density"),
+            ("layer", "layer"),
+            ("a<\"b", "a&lt;&quot;b"),
+            ("region_2", "region_2"),
+            ("region", "region"),
+        ] {
+            let (_, rest) =
+                head.split_once(&format!("Name=\"{array}\" format=\"appended\" offset=\"")).expect(name);
+            let offset: usize = rest.split('"').next().and_then(|text| text.parse().ok()).expect(name);
+            let begin = b"\"raw\">\n_";
+            let start =
+                grid.windows(begin.len()).position(|bytes| bytes == begin).expect("data") + begin.len();
+            let bytes = &grid[start + offset..];
+            let (length, values) = bytes.split_at(8);
+            assert_eq!(u64::from_le_bytes(length.try_into().expect("eight")), 8 * triangles.len() as u64);
+            let values =
+                values.chunks_exact(8).map(|bytes| f64::from_le_bytes(bytes.try_into().expect("eight")));
+            for (value, triangle) in values.zip(&triangles) {
+                match triangle[name].as_f64() {
+                    Some(known) => assert_eq!(value, known, "{name}"),
+                    None if name == "region" => {}
+                    None => assert!(value.is_nan(), "{name}"),
+                }
+            }
+        }
+    }
+    place.fail(
+        "-q --strict triangulate m.geojson -o s.vtu",
+        1,
+        "these attributes are left out: material, code",
+    );
+    // Lines are no triangles, which have nothing of theirs.
+    place.file(
+        "lines.geojson",
+        r#"{"type":"Feature","properties":{"k":1},"geometry":{"type":"LineString","coordinates":[[0,0],[4,0],[4,4]]}}"#,
+    );
+    for command in ["triangulate", "mesh"] {
+        let output = place.run(&format!("{command} lines.geojson -o l.geojson -o l.vtu"));
+        let said = text(&output.stderr);
+        assert!(
+            said.contains("l.geojson: the attributes") && said.contains("l.vtu: the attributes"),
+            "{said}"
+        );
+    }
 }
 
 #[test]

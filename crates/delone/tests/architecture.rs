@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 /// The rooms of the library, bottom to top, in floors. A room may use those on lower floors, and its own inside; rooms on
 /// the same floor do not know each other.
 const FLOORS: &[&[&str]] = &[
-    &["ids", "prefetch", "memory", "sorting", "sets", "powers", "foot", "tally", "verdict"],
-    &["error", "parallel", "vertex_map", "weight", "duplicates", "under", "regular"],
+    &["ids", "prefetch", "memory", "sorting", "sets", "powers", "closest", "tally", "verdict"],
+    &["error", "parallel", "vertex_map", "weight", "duplicates", "hidden", "regular"],
     &["points"],
     &["order"],
     &["mesh"],

@@ -217,6 +217,18 @@ impl Table {
         types.into_iter().map(|known| known.unwrap_or(ColumnType::Text)).collect()
     }
 
+    /// The numbers of a column by row, NaN where there is none; nothing where there are other values, or whole numbers that are none of
+    /// double precision.
+    pub(crate) fn numbers(&self, column: usize) -> Option<Vec<f64>> {
+        let number = |row| match self.value(row, column) {
+            Value::Null => Some(f64::NAN),
+            Value::Number(number) => Some(number),
+            Value::Integer(whole) => Some(whole as f64).filter(|&number| number as i128 == i128::from(whole)),
+            _ => None,
+        };
+        (0..self.len()).map(number).collect()
+    }
+
     /// The place of a column, which is added if there is none of this name.
     pub fn column(&mut self, name: &str) -> usize {
         if let Some(&place) = self.places.get(name) {

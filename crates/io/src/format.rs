@@ -194,7 +194,7 @@ impl Format {
     pub fn keeps_attributes(self, contents: Contents) -> bool {
         match contents {
             Contents::Cells | Contents::Answers => self == Self::Text || self.has_layers(),
-            Contents::Triangles | Contents::Patches => self.has_layers(),
+            Contents::Triangles | Contents::Patches => self == Self::Vtu || self.has_layers(),
             // Those of the input beside triangles, which want a layer of their own.
             Contents::Lines => self == Self::GeoPackage,
             _ => false,

@@ -168,6 +168,12 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
         Some(self.simplices().map(of))
     }
 
+    /// The row of each simplex that is not left out, in the table of the features.
+    pub(crate) fn feature_rows(&self) -> impl Iterator<Item = Option<usize>> + '_ {
+        let of = |s| self.features?.of.get(self.triangulation.index(s)).copied().flatten();
+        self.simplices().map(of)
+    }
+
     /// The markers of constraints, by the ends of these in order; those that have none are 0.
     fn constraint_markers(&self) -> HashMap<[VertexId; 2], i64> {
         let Constraints { edges, markers, .. } = self.constraints.copied().unwrap_or_default();
@@ -297,8 +303,7 @@ impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {
     }
 
     fn rows(&self) -> impl Iterator<Item = Option<usize>> {
-        let of = |s| self.features?.of.get(self.triangulation.index(s)).copied().flatten();
-        self.simplices().map(of)
+        self.feature_rows()
     }
 }
 
@@ -400,10 +405,48 @@ pub fn write_mesh<T: Triangulation<Point: Drawable>>(
         Format::Ele => triangle::write_ele(out, mesh)?,
         Format::Neigh => triangle::write_neigh(out, mesh)?,
         Format::Edge => triangle::write_edge(out, mesh)?,
-        Format::Vtu => vtu::write_mesh(out, mesh)?,
+        Format::Vtu => return Ok(vtu::write_mesh(out, mesh)?),
         Format::Msh => msh::write(out, mesh)?,
         Format::Inp => inp::write(out, mesh)?,
         _ => return T::Point::write_triangles(out, format, mesh, options),
     }
     Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Cut, Trim};
+    use delone::{Delaunay2, Delaunay3};
+
+    #[test]
+    fn strips_are_trimmed() {
+        // A strip of unit squares, and a point far away.
+        let mut points: Vec<[f64; 2]> = (0..12).map(|i| [f64::from(i % 6), f64::from(i / 6)]).collect();
+        points.push([3.0, 50.0]);
+        let d = Delaunay2::from_points(&points).expect("finite");
+        let trim = Trim::long_edges(&d, 2.0);
+        let mesh = Mesh { trim: Some(&trim), ..Mesh::new(&d, &points) };
+        assert_eq!((mesh.simplex_count(), mesh.triangles().count()), (10, 10));
+        assert!(mesh.triangles().flatten().all(|i| i < 12));
+        assert_eq!(mesh.edges().count(), 21);
+        assert_eq!(mesh.edges().filter(|edge| edge.1).count(), 12);
+    }
+
+    #[test]
+    fn bodies_are_trimmed_and_cut() {
+        // A cube, and a point far above.
+        let mut points: Vec<[f64; 3]> = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(f64::from)).collect();
+        points.push([0.5, 0.5, 9.0]);
+        let d = Delaunay3::from_points(&points).expect("finite");
+        let trim = Trim::long_edges(&d, 2.0);
+        let mesh = Mesh { trim: Some(&trim), ..Mesh::new(&d, &points) };
+        // The top is laid open.
+        let solid = mesh.solid();
+        assert_eq!((solid.faces.len(), solid.laid_open.iter().filter(|&&open| open).count()), (12, 2));
+        assert_eq!(mesh.edges().filter(|edge| edge.1).count(), 18);
+        let cut = Cut { normal: [0.0, 0.0, 1.0], offset: 1.0 };
+        assert_eq!(Trim::beyond(&d, &cut).count(), trim.count());
+        assert_eq!(Trim::beyond(&d, &Cut { offset: -1.0, ..cut }).count(), d.tetrahedron_count());
+    }
 }

@@ -20,7 +20,8 @@ pub struct Patches {
     pub polygons: Vec<usize>,
     /// What the coordinates mean.
     pub crs: Option<Crs>,
-    /// The attributes of the polygons, and the row of each; triangles have them in GeoJSON, FlatGeobuf and GeoPackage.
+    /// The attributes of the polygons, and the row of each; triangles have them in GeoJSON, FlatGeobuf and GeoPackage, and
+    /// of VTK those that are numbers.
     pub table: Table,
     /// See there.
     pub rows: Vec<Option<usize>>,
@@ -103,7 +104,7 @@ pub fn write_patches(
         Format::Ply => ply::write(out, patches)?,
         Format::Obj => obj::write(out, patches)?,
         Format::Stl => return Ok(stl::write(out, patches)?),
-        Format::Vtu => vtu::write(out, patches)?,
+        Format::Vtu => return Ok(vtu::write(out, patches)?),
         Format::GeoJson => geojson::write_polygons(out, patches)?,
         Format::FlatGeobuf | Format::GeoPackage => {
             vector::write(out, format, &vector::Triangles::of_patches(patches))?;

@@ -93,7 +93,7 @@ pub fn write_solid(
         Format::Ply => ply::write(out, solid)?,
         Format::Obj => obj::write(out, solid)?,
         Format::Stl => return Ok(stl::write(out, solid)?),
-        Format::Vtu => vtu::write(out, solid)?,
+        Format::Vtu => return Ok(vtu::write(out, solid)?),
         Format::Svg | Format::Png => picture::write_solid(out, format, solid, options)?,
         _ => return Err(format.without(Contents::Surfaces, Direction::Written)),
     }

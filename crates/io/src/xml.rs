@@ -35,6 +35,22 @@ pub(crate) fn check(text: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
+/// A text as XML has it, without what XML cannot hold.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            c if c.is_control() && !c.is_whitespace() => {}
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
 #[cfg(test)]
 mod tests {
     use super::{MOST_ATTRIBUTES, parse};

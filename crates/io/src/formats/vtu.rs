@@ -5,50 +5,109 @@ use std::io::{self, Write};
 use delone::Triangulation;
 
 use crate::middles::Middles;
-use crate::{Mesh, Shape};
+use crate::xml::escaped;
+use crate::{ColumnType, Mesh, Remark, Shape, Table};
 
 /// VTK's numbers for a triangle, for a tetrahedron, and for a triangle of second order, by their nodes.
 const KINDS: [(usize, u8); 3] = [(3, 5), (4, 10), (6, 22)];
 
-pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<()> {
+/// So many columns of attributes are written at most: each is an array of all cells.
+const MOST_COLUMNS: usize = 256;
+
+pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remark> {
     let (points, cells) = (shape.positions().count(), shape.triangles().count());
-    let grid = Grid { points, heights: shape.heights(), cells, width: 3 };
-    grid.write(out, shape.positions(), shape.triangles(), shape.region_values())
+    let attributes = Attributes::of(shape.table(), || shape.rows().collect());
+    let grid = Grid { points, heights: shape.heights(), cells, width: 3, attributes: &attributes };
+    grid.write(out, shape.positions(), shape.triangles(), shape.region_values())?;
+    Ok(attributes.remark())
 }
 
 /// Writes a mesh of simplices; the middles of edges after the points, if triangles have them as nodes.
-pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<()> {
+pub(crate) fn write_mesh<T: Triangulation>(out: &mut dyn Write, mesh: &Mesh<T>) -> io::Result<Remark> {
     let (points, cells) = (mesh.points.len(), mesh.simplex_count());
-    let grid = Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH };
-    if !mesh.second_order {
-        return grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values());
+    let attributes =
+        Attributes::of(mesh.features.map(|features| features.table), || mesh.feature_rows().collect());
+    let grid =
+        Grid { points, heights: mesh.heights, cells, width: Mesh::<T>::WIDTH, attributes: &attributes };
+    if mesh.second_order {
+        let middles = Middles::of(mesh);
+        let positions: Vec<[f64; 3]> = mesh.positions().collect();
+        let positions = middles.points(&positions);
+        let heights = mesh.heights.map(|heights| middles.values(1, heights));
+        let grid = Grid { points: positions.len(), heights: heights.as_deref(), width: 6, ..grid };
+        let rows = mesh.simplices().map(|s| mesh.nodes(s, Some(&middles)));
+        grid.write(out, positions.into_iter(), rows, mesh.region_values())?;
+    } else {
+        grid.write(out, mesh.positions(), mesh.rows(), mesh.region_values())?;
     }
-    let middles = Middles::of(mesh);
-    let positions: Vec<[f64; 3]> = mesh.positions().collect();
-    let positions = middles.points(&positions);
-    let heights = mesh.heights.map(|heights| middles.values(1, heights));
-    let grid = Grid { points: positions.len(), heights: heights.as_deref(), cells, width: 6 };
-    let rows = mesh.simplices().map(|s| mesh.nodes(s, Some(&middles)));
-    grid.write(out, positions.into_iter(), rows, mesh.region_values())
+    Ok(attributes.remark())
 }
 
-/// What a file holds: so many points, a value for each, and so many cells of so many corners, perhaps in regions.
-pub(crate) struct Grid<'a> {
-    pub(crate) points: usize,
-    pub(crate) heights: Option<&'a [f64]>,
-    pub(crate) cells: usize,
-    pub(crate) width: usize,
+/// The attributes of cells that are numbers, and which others there are.
+#[derive(Default)]
+struct Attributes<'a> {
+    table: Option<&'a Table>,
+    /// The row of each cell.
+    rows: Vec<Option<usize>>,
+    /// Columns, and the names of their arrays.
+    columns: Vec<(usize, String)>,
+    left_out: Vec<&'a str>,
+}
+
+impl<'a> Attributes<'a> {
+    fn of(table: Option<&'a Table>, rows: impl FnOnce() -> Vec<Option<usize>>) -> Self {
+        let Some(table) = table.filter(|table| !table.names().is_empty()) else { return Self::default() };
+        let mut found = Self { table: Some(table), rows: rows(), ..Self::default() };
+        let names = table.names_beside(&["region"]);
+        for (column, (name, kind)) in names.into_iter().zip(table.types()).enumerate() {
+            let is_number = matches!(kind, ColumnType::Integer | ColumnType::Number);
+            if is_number && found.columns.len() < MOST_COLUMNS && table.numbers(column).is_some() {
+                found.columns.push((column, name));
+            } else {
+                found.left_out.push(&table.names()[column]);
+            }
+        }
+        found
+    }
+
+    /// The values of a column by cell.
+    fn values(&self, column: usize) -> impl Iterator<Item = f64> {
+        let numbers = self.table.and_then(|table| table.numbers(column)).unwrap_or_default();
+        self.rows.iter().map(move |row| row.and_then(|row| numbers.get(row).copied()).unwrap_or(f64::NAN))
+    }
+
+    fn remark(&self) -> Remark {
+        const MOST_NAMES: usize = 9;
+        let mut names = self.left_out.clone();
+        if names.len() > MOST_NAMES {
+            names.truncate(MOST_NAMES);
+            names.push("...");
+        }
+        (!names.is_empty()).then(|| {
+            format!("arrays have numbers alone: these attributes are left out: {}", names.join(", "))
+        })
+    }
+}
+
+/// What a file holds: so many points, a value for each, and so many cells of so many corners, perhaps in regions, with attributes.
+#[derive(Clone, Copy)]
+struct Grid<'a> {
+    points: usize,
+    heights: Option<&'a [f64]>,
+    cells: usize,
+    width: usize,
+    attributes: &'a Attributes<'a>,
 }
 
 impl Grid<'_> {
-    pub(crate) fn write(
+    fn write(
         &self,
         out: &mut dyn Write,
         positions: impl Iterator<Item = [f64; 3]>,
         corners: impl Iterator<Item: IntoIterator<Item = usize>>,
         regions: Option<impl Iterator<Item = f64>>,
     ) -> io::Result<()> {
-        let Self { points, heights, cells, width } = *self;
+        let Self { points, heights, cells, width, attributes } = *self;
         let kind = KINDS.into_iter().find(|kind| kind.0 == width).map_or(0, |kind| kind.1);
         // Each array is preceded by its length in eight bytes.
         let mut end = 0;
@@ -77,9 +136,19 @@ impl Grid<'_> {
             let array = r#"<DataArray type="Float64" Name="height" format="appended""#;
             writeln!(out, r#"<PointData Scalars="height">{array} offset="{}"/></PointData>"#, offsets[1])?;
         }
-        if regions.is_some() {
-            let array = r#"<DataArray type="Float64" Name="region" format="appended""#;
-            writeln!(out, r#"<CellData Scalars="region">{array} offset="{}"/></CellData>"#, offsets[5])?;
+        if regions.is_some() || !attributes.columns.is_empty() {
+            write!(out, "<CellData{}>", if regions.is_some() { r#" Scalars="region""# } else { "" })?;
+            let named = |name: &str, offset: usize| {
+                let name = escaped(name);
+                format!(r#"<DataArray type="Float64" Name="{name}" format="appended" offset="{offset}"/>"#)
+            };
+            if regions.is_some() {
+                write!(out, "{}", named("region", offsets[5]))?;
+            }
+            for (_, name) in &attributes.columns {
+                write!(out, "{}", named(name, place(8 * cells)))?;
+            }
+            writeln!(out, "</CellData>")?;
         }
         writeln!(
             out,
@@ -99,6 +168,9 @@ impl Grid<'_> {
         array(out, cells, (0..cells).map(|_| [kind]))?;
         if let Some(regions) = regions {
             array(out, cells, regions.map(f64::to_le_bytes))?;
+        }
+        for &(column, _) in &attributes.columns {
+            array(out, cells, attributes.values(column).map(f64::to_le_bytes))?;
         }
         writeln!(out, "\n</AppendedData>\n</VTKFile>")
     }

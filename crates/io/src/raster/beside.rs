@@ -43,7 +43,7 @@ pub fn beside_raster(
         Format::Tiff if encode(Some(crs)).are_complete => return None,
         Format::Tiff => {
             let definition = crs.wkt.clone().or_else(|| Some(format!("EPSG:{}", crs.epsg?)))?;
-            format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", escaped(&definition))
+            format!("<PAMDataset>\n  <SRS>{}</SRS>\n</PAMDataset>\n", crate::xml::escaped(&definition))
         }
         _ => format!("{}\n", crs.wkt.as_ref()?),
     };
@@ -99,20 +99,4 @@ pub fn besides_of_raster(path: &Path, format: Format) -> Vec<PathBuf> {
         _ => {}
     }
     sides
-}
-
-/// A text as XML has it, without what XML cannot hold.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            c if c.is_control() && !c.is_whitespace() => {}
-            c => escaped.push(c),
-        }
-    }
-    escaped
 }
