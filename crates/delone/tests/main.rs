@@ -15,6 +15,7 @@ mod graphs;
 mod hints;
 mod hull;
 mod hull_merged;
+mod language;
 mod locate;
 mod members;
 mod metamorphic;

@@ -7,6 +7,10 @@
 //! algorithm and the threads do not show; adding a constraint and taking it away changes nothing; and what is inside of a closed
 //! chain of constraints does not depend on what is outside.
 //!
+//! `trace` follows a segment from both ends, `force` makes it an edge, `patch` triangulates large sides of a crossed channel. `build`
+//! inserts many segments in Morton order, and `overlaps` skips shared parts. `passes`, `crossings`, `band` and `split` serve segments
+//! that cross. `segments` tells which segments cover an edge. `domains` tells inside from outside; `visibility` answers lines of sight.
+//!
 //! Sources: Lee & Lin, "Generalized Delaunay triangulation for planar graphs", DCG 1986; Chew, "Constrained Delaunay
 //! triangulations", Algorithmica 1989; Shewchuk & Brown, CGTA 2015.
 //!

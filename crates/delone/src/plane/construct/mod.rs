@@ -1,4 +1,11 @@
 //! Bulk construction in the plane. Every algorithm gives the same set of triangles.
+//!
+//! Divide and conquer is the default. `order/morton.rs` sorts points by Morton keys and gives the *cut* between each two neighbors; the
+//! cuts form the recursion tree. The points at positions `lo..=hi` own the triangles `2 lo..=2 hi - 2`, and a merge uses the two
+//! between its parts. So nothing is allocated, neighbors are near in memory, and threads share nothing. `leaf` writes up to four points
+//! from tables. `merge` is the rising bubble of Guibas and Stolfi (1985) on ghost triangles. `number` puts vertices to their places.
+//! Boxes out of the range of the filters are scaled by powers of two (`rescaled`). Runs of equal keys get keys in their own box; at the
+//! origin, where boxes of doubles nest a thousand deep, exponents serve as keys (`order/exponents.rs`).
 
 mod builder;
 mod by_flips;

@@ -4,6 +4,11 @@
 //! edges to Delaunay edges, Voronoi vertices (circumcentres) to triangles, so the diagram takes no memory and is always that of the
 //! triangulation as it is: after insertions, removals and motions too.
 //!
+//! A cell inside of its region is a list of circumcenters; any other cell is cut out of the region by bisectors (`clip`). Until the end,
+//! a corner is a point of the input or the exact meeting of two lines, so that cells tile. Each coordinate is rounded once. Rounding
+//! keeps order, so a short side may vanish but seldom turns over. Each ring is tested for simplicity (`region/rings.rs`); where one
+//! fails, corners that nearly coincide become one in all cells (`contract`).
+//!
 //! Combinatorics are exact. Coordinates are correctly rounded: see [`delone_predicates::circumcentre`].
 //!
 //! Cost: O(1) for a vertex or an edge, O(d) for a cell with d neighbours.

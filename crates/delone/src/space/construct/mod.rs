@@ -3,6 +3,10 @@
 //! Source: Amenta, Choi & Rote, "Incremental constructions con BRIO", SoCG 2003. Points are kept in memory in the order of
 //! the curve, so neighbours in space are neighbours in memory.
 //!
+//! Large sets are cut in halves by coordinates (`cut`) and triangulated apart in slices of the final arrays (`part`). A tetrahedron
+//! stays if its sphere avoids the boxes of all other parts. The rest is a hole, filled with the triangulation of its vertices (`apart`).
+//! Cuts depend on the points alone. With weights, spheres must avoid the heaviest site beyond the cut.
+//!
 //! Cost: O(n log n) expected where the triangulation has O(n) tetrahedra, as on evenly spread points; in the worst
 //! case the triangulation itself is of size O(n^2).
 
