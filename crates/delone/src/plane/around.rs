@@ -1,4 +1,4 @@
-//! What surrounds a point of the plane: the triangles whose circles hold it.
+//! The surroundings of a point of the plane: the triangles whose circles contain it.
 
 use delone_predicates::{FixedPoint, SeenCorner, Sign};
 

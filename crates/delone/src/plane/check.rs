@@ -15,7 +15,7 @@ use super::layer::kernel::Kernel;
 use crate::ids::{Duplicate, EdgeId, Place, TriangleId, VertexId};
 use crate::mesh::{Dimension, Mesh2, MeshFlaw2};
 
-/// What is wrong with a triangulation, one sentence each.
+/// A flaw of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw2 {

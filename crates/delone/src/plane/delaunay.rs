@@ -191,12 +191,12 @@ impl Delaunay2 {
         self.duplicates.iter(|v| self.mesh().contains(v))
     }
 
-    /// What the construction did.
+    /// Counters of the construction.
     pub fn counters(&self) -> Counters {
         self.counters
     }
 
-    /// What the points span.
+    /// The dimension of the span of the points.
     pub fn dimension(&self) -> Dimension {
         self.mesh().dimension()
     }

@@ -213,7 +213,7 @@ impl Search<'_> {
 struct Cover {
     /// All before its beginning and all after its end is covered; the ends are not.
     left: Stretch,
-    /// Those that cover neither end.
+    /// Disks that cover neither end.
     inner: Vec<[End; 2]>,
 }
 

@@ -68,7 +68,7 @@ impl Flips {
         self.mesh.slot_count() - 1
     }
 
-    /// What it takes.
+    /// The memory of the history, in bytes.
     #[cfg(feature = "histories")]
     pub(super) fn bytes(&self) -> usize {
         self.mesh.bytes() + size_of_val(&*self.points)
@@ -92,7 +92,7 @@ impl Flips {
         }
     }
 
-    /// The same where also the point may be a dummy, for a that is none.
+    /// Decides where the point may be a dummy too, and `a` is none.
     #[cfg(feature = "histories")]
     pub(super) fn turn(&self, a: Place, b: Place, c: Place) -> Sign {
         match (is_dummy(b), is_dummy(c)) {

@@ -37,7 +37,7 @@ use crate::tally::Tally;
 const STEPS: usize = 40;
 const SOME: usize = 10_000;
 
-/// What is known of imprecise points before an instance comes.
+/// Imprecise points, preprocessed for their instances.
 ///
 /// ```
 /// use delone::{HintOrder, Hints2};

@@ -137,7 +137,7 @@ impl Hints {
         *self.spent.get_mut() = 0;
     }
 
-    /// So many steps may be taken: any number, where there are no levels.
+    /// The largest number of steps: any number, where there are no levels.
     #[inline]
     fn most(&self, with_levels: usize) -> usize {
         if self.levels.get().is_some() { with_levels } else { usize::MAX }
@@ -245,7 +245,7 @@ impl Strategy<Layer> for Hints {
 }
 
 impl Delaunay2 {
-    /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
+    /// Memory of the triangulation and of the structure of its strategy. Makes the structure if need be.
     pub fn footprint(&self) -> Footprint {
         let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
         match self.locator() {

@@ -31,12 +31,12 @@ use crate::tally::Tally;
 
 /// One vertex in so many may be removed before building anew is faster.
 const REMOVED: usize = 12;
-/// So many flips a vertex may be needed before something is wrong with the hull.
+/// Flips a vertex, above which the hull must have folded over itself and all is built anew.
 const FLIPS: usize = 20;
 /// Vertices or triangles between the one in work and the one that is prefetched.
 const PREFETCH_DISTANCE: usize = 24;
 
-/// So many triangles are looked at together.
+/// Triangles that are tested together.
 const BLOCK: usize = 16;
 
 /// How a step was made.
@@ -405,7 +405,7 @@ fn is_to_flip(mesh: &Mesh2, points: &[[f64; 2]], filter: &Filter, e: EdgeId) -> 
     filter.in_circle(at(a), at(b), at(c), at(d)).is_positive()
 }
 
-/// The same at the hull.
+/// Decides at the hull.
 #[cold]
 fn is_hull_to_flip([a, b, c, d]: [Place; 4], points: &[[f64; 2]]) -> bool {
     let turns_left = |p: Place, q: Place, r: Place| {

@@ -23,7 +23,7 @@ use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 use crate::points::{Position2, finite};
 use crate::tally::Tally;
 
-/// So many points of the rectangle are looked for at most.
+/// The largest number of points of the rectangle that are located.
 const ROUNDS: usize = 64;
 
 /// A closed rectangle along the axes.

@@ -48,7 +48,7 @@ struct Star {
     upper: u32,
 }
 
-/// What has become of triangles.
+/// The later versions of triangles.
 #[derive(Clone, Debug, Default)]
 struct Kept {
     /// For each present triangle its number among those kept.
@@ -214,7 +214,7 @@ mod tests {
     use crate::Delaunay2;
     use crate::plane::versions::Versions;
 
-    /// What is found contains the point, in its inside or on its border: no walk would be needed. For the history of all
+    /// The triangle found contains the point, inside or on its border: no walk would be needed. For the history of all
     /// triangles too.
     #[test]
     fn histories_lead_to_a_triangle_that_contains_the_point() {

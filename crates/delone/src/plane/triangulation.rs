@@ -1,4 +1,4 @@
-//! What the triangulation of the plane has in common with others.
+//! The common traits of triangulations for the plane.
 
 use std::ops::Range;
 
@@ -86,7 +86,7 @@ impl Triangulation for Delaunay2 {
 }
 
 impl Delaunay2 {
-    /// What was found, in vertices.
+    /// The result of a location, in vertices.
     pub(super) fn found(&self, location: Location2) -> Found<TriangleId> {
         let mesh = self.mesh();
         let finite = |edges: &mut dyn Iterator<Item = EdgeId>| {

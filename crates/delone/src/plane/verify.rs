@@ -50,7 +50,7 @@ pub enum Objection2 {
         /// The corner of that triangle inside the circle.
         point: usize,
     },
-    /// The same with weights: a power is less than that of the corners.
+    /// A triangle with weights: the power of a site is less than that of the corners.
     #[error(
         "triangle {triangle} is not regular: point {point}, a corner of triangle {neighbor}, is nearer to its power circle than its \
          corners are"

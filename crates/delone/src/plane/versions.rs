@@ -24,7 +24,7 @@ pub(super) struct Versions {
 }
 
 impl Versions {
-    /// Those of no vertices.
+    /// Versions without vertices.
     pub(super) fn new() -> Self {
         Self { flips: Flips::new(), history: History::default(), places: Vec::new() }
     }

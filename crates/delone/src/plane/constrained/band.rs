@@ -153,7 +153,7 @@ fn span([x, y]: [f64; 2]) -> f64 {
     x.abs() + y.abs()
 }
 
-/// What is as near to a segment as the cells of points in its box are wide, and a little more.
+/// The band around a segment, a little wider than the cells of points in its box.
 struct Band {
     ends: [[f64; 2]; 2],
     low: [f64; 2],
@@ -251,7 +251,7 @@ mod tests {
     use crate::plane::constrained::ConstraintReport2;
     use crate::plane::constrained::build::constrained;
 
-    /// What is touched, by definition, and after how many looks.
+    /// The number of touched vertices, by definition, and the number of tests.
     fn judge(points: Vec<[f64; 2]>, segments: &[[usize; 2]]) -> (usize, usize) {
         let (graph, ends, _) = constrained(points, segments, &mut ConstraintReport2::default());
         let (mut bands, mut count) = (Bands::new(&graph), 0);

@@ -27,7 +27,7 @@ use crate::points::{Position2, check_count, check_finite};
 use crate::prefetch::prefetch;
 use crate::sorting;
 
-/// What happens where two segments cross.
+/// The treatment of two segments that cross.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Crossings {
     /// It is an error: a crossing may be a mistake in the data, and to split it moves geometry a little.
@@ -90,7 +90,7 @@ impl Constrained2 {
         Self::assemble(parallel::collect(points.len(), |i| points[i].xy()), segments, crossings)
     }
 
-    /// The same with coordinates that it may keep.
+    /// Constructs the triangulation from coordinates that it may keep.
     pub(in crate::plane) fn assemble(
         points: Vec<[f64; 2]>,
         segments: &[[usize; 2]],
@@ -231,7 +231,7 @@ pub(super) fn constrain(
     refused
 }
 
-/// What became of a segment.
+/// The outcome for a segment.
 #[derive(Clone, Copy)]
 enum Became {
     Edge,

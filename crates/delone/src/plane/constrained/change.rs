@@ -13,7 +13,7 @@ use crate::mesh::Mesh2;
 use crate::plane::layer::insert::Spot;
 use crate::points::{Position2, finite};
 
-/// What becomes of segments that end at a vertex that is removed.
+/// The treatment of segments that end at a removed vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SegmentEnds {
     /// It is an error, and nothing changes.

@@ -10,7 +10,7 @@ use super::{Constrained2, Covering2, overlaps};
 use crate::ids::{EdgeId, Place};
 use crate::plane::check::Flaw2;
 
-/// What is wrong with a constrained triangulation, one sentence each.
+/// A flaw of a constrained triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConstrainedFlaw2 {
@@ -26,7 +26,7 @@ pub enum ConstrainedFlaw2 {
     /// A constraint is covered by no segment.
     #[error("edge {0:?} is a constraint, and no segment covers it")]
     Stray(EdgeId),
-    /// What is remembered of the segments that cover an edge is wrong.
+    /// The table of segments that cover an edge is wrong.
     #[error("the segments that cover edge {0:?} are not those remembered")]
     Cover(EdgeId),
 }
@@ -63,7 +63,7 @@ impl Constrained2 {
         self.cover.get().map_or(Ok(()), |cover| self.check_cover(cover))
     }
 
-    /// What is remembered must be what there is.
+    /// Compares the table of covering segments with the mesh.
     fn check_cover(&self, cover: &Cover) -> Result<(), ConstrainedFlaw2> {
         let mesh = self.mesh();
         let mut covered: Vec<(EdgeId, SegmentId, bool)> = Vec::new();

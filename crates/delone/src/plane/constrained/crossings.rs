@@ -22,7 +22,7 @@ pub(super) struct Crossing {
     pub(super) second: u32,
 }
 
-/// What segments meet on their way through a triangulation.
+/// The crossings that segments meet on their way through a triangulation.
 #[derive(Debug, Default)]
 pub(super) struct Met {
     pub(super) crossings: Vec<Crossing>,

@@ -1,4 +1,4 @@
-//! What is inside: parts of the hull, bounded by constraints, and what each of them is.
+//! Inside and outside: the parts of the hull that constraints bound, and the domain of each.
 //!
 //! A flood over edges that are no constraints gives the parts. Across a constraint the winding number changes by the segments
 //! that cover it, those in one direction less those in the other; their number decides parity. So one search from infinity over
@@ -16,22 +16,22 @@ use crate::plane::Location2;
 use crate::points::finite;
 use crate::sorting;
 
-/// What is inside.
+/// The rule for what is inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Fill<'a> {
     /// Everything in the hull.
     #[default]
     All,
-    /// What an odd number of segments is around. Rings may come in any direction; where segments do not close, the way to
+    /// Inside is what an odd number of segments surrounds. Rings may come in any direction; where segments do not close, the way to
     /// infinity across the fewest of them counts.
     EvenOdd,
-    /// What segments wind around in sum, counter-clockwise less clockwise.
+    /// Inside is where the winding number of the segments is not zero.
     NonZero,
-    /// What is left of the hull without holes, given by a point in each, and without what no constraint parts from the
+    /// Inside is the hull without its holes, given by a point in each, and without the parts that no constraint separates from the
     /// outside; as Triangle has it.
     Seeds(&'a Seeds2),
-    /// What these parts say, with their regions. They are parts of this triangulation as it is: a mesh that is refined again keeps what
+    /// Inside is as in these parts, with their regions. They are parts of this triangulation as it is: a mesh that is refined again keeps what
     /// it has, as its borders may have bent past seeds, or away from the hull; and where it could not be better, no vertex is added.
     Parts(&'a Domains2),
 }
@@ -81,11 +81,11 @@ pub struct Domains2 {
     pub(in crate::plane) regions: Vec<Known>,
     /// Pairs of regions that claim one part; the first one has it.
     rivals: Vec<[usize; 2]>,
-    /// What is known of each vertex, by id, if the triangulation was refined.
+    /// The origin of each vertex, by id, if the triangulation was refined.
     pub(in crate::plane) origins: Vec<Origin>,
 }
 
-/// What is known of a region.
+/// A region.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::plane) struct Known {
     pub(super) attribute: f64,
@@ -291,7 +291,7 @@ impl Constrained2 {
         Domains2 { of, parts, ..Domains2::default() }
     }
 
-    /// What changes across each constraint edge from its right to its left. Only segments that are borders count.
+    /// The change of the winding number across each constraint edge, from its right to its left. Only segments that are borders count.
     fn weights(&self, is_border: impl Fn(SegmentId) -> bool) -> Vec<Weight> {
         let borders = self.segments().map(|(s, _)| s).filter(|&s| is_border(s));
         let pieces = borders.flat_map(|s| self.places_of(s));

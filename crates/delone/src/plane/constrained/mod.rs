@@ -90,7 +90,7 @@ pub struct Constrained2 {
     has_chains: bool,
 }
 
-/// What became of the segments that a triangulation was built of. Where crossings were split, their pieces are counted.
+/// Counts of the segments that a triangulation was built from. Where crossings were split, their pieces are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ConstraintReport2 {
@@ -127,7 +127,7 @@ impl Constrained2 {
         self.graph.named.unwrap_or(self.graph.base.points)
     }
 
-    /// What became of the segments of the construction.
+    /// Counts of the segments of the construction.
     pub fn report(&self) -> &ConstraintReport2 {
         &self.report
     }
@@ -206,7 +206,7 @@ impl Constrained2 {
         self.graph.duplicates()
     }
 
-    /// What the points span.
+    /// The dimension of the span of the points.
     pub fn dimension(&self) -> Dimension {
         self.graph.dimension()
     }

@@ -19,11 +19,11 @@ use crate::plane::nearest::nearer;
 use crate::points::{Position2, finite};
 use crate::tally::Tally;
 
-/// What a search has found and how far it still has to look.
+/// A search: its results so far, and its limit.
 struct Search<'a> {
     points: &'a [[f64; 2]],
     q: [f64; 2],
-    /// So many vertices are wanted, or all within the radius.
+    /// The number of vertices wanted, or the radius within which all are.
     wanted: Result<usize, f64>,
     /// Nearest first; all within the radius in no special order.
     found: Vec<Place>,

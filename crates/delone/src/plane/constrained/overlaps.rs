@@ -27,7 +27,7 @@ pub(super) fn sorted([v, w]: [Place; 2]) -> Ends {
     [v.min(w), v.max(w)]
 }
 
-/// What is known of segments that share edges, while they are laid.
+/// Segments that share edges, while they are inserted.
 #[derive(Default)]
 pub(super) struct Overlaps {
     /// Edges that were met more than once.

@@ -17,7 +17,7 @@ pub(super) struct Patch {
     layer: Layer,
     /// For each vertex of the border its place in the patch.
     places: Vec<Place>,
-    /// The same backwards, sorted: a vertex may be on the border more than once.
+    /// The positions of each vertex on the border, sorted: a vertex may be on it more than once.
     occurrences: Vec<(Place, usize)>,
 }
 

@@ -34,7 +34,7 @@ pub struct Polygons2 {
     /// Whether what rings wind around in sum is inside, counter-clockwise less clockwise, rather than what an odd number of
     /// rings is around.
     pub nonzero: bool,
-    /// What happens where sides cross.
+    /// The treatment of sides that cross.
     pub crossings: Crossings,
 }
 

@@ -1,5 +1,5 @@
-//! What refinement needs of a constrained triangulation: its triangles put into domains, and afterwards names for new vertices
-//! and chains for segments that were split.
+//! A constrained triangulation before and after refinement: triangles are put into domains, then new vertices get names,
+//! and split segments get chains.
 //!
 //! While it is refined all is known by places. Segments need not be known then: new vertices on a constraint have two constraint
 //! edges each, so these lead to the ends of the input edge that was split.
@@ -16,7 +16,7 @@ use crate::ids::{MAX_POINTS, Place, TriangleId, VertexId};
 use crate::plane::layer::Layer;
 use crate::sorting;
 
-/// What a refinement knows of a vertex, for the next one.
+/// The origin of a vertex, which the next refinement asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::plane) struct Origin {
     /// The ends of the constraint that it was put on; twice itself for a vertex that was there before, the ghost for a free one.
@@ -25,7 +25,7 @@ pub(in crate::plane) struct Origin {
     pub(in crate::plane) scale: f64,
 }
 
-/// What is remembered while a triangulation is refined.
+/// The state of a triangulation while it is refined.
 #[derive(Debug)]
 pub(in crate::plane) struct Before {
     /// The vertices along the segments that are no single edge.

@@ -45,7 +45,7 @@ pub(super) struct Segments {
 }
 
 impl Segments {
-    /// Those of no length are not there.
+    /// A table without the segments of no length.
     pub(super) fn new(mut ends: Vec<[VertexId; 2]>, bent: BTreeMap<SegmentId, Vec<VertexId>>) -> Self {
         ends.iter_mut().filter(|ends| ends[0] == ends[1]).for_each(|ends| *ends = [VertexId::GHOST; 2]);
         Self { ends, bent }
@@ -56,7 +56,7 @@ impl Segments {
         self.ends.get(s.index()).copied().filter(|ends| !ends[0].is_ghost())
     }
 
-    /// Those that are there.
+    /// The segments, with their ends.
     pub(super) fn iter(&self) -> impl Iterator<Item = (SegmentId, [VertexId; 2])> + '_ {
         let all = self.ends.iter().enumerate();
         all.map(|(i, &ends)| (SegmentId::new(i), ends)).filter(|(_, ends)| !ends[0].is_ghost())

@@ -116,7 +116,7 @@ fn round(graph: &Delaunay2, edges: &[Ends], met: &Met, points: &mut Vec<[f64; 2]
     places.iter().map(vertex_at).collect()
 }
 
-/// What lies on the edges of a round: an edge, and a vertex inside of it, in the order from its lesser end.
+/// A vertex inside of an edge of this round; those of an edge are in order from its lesser end.
 struct On<'a> {
     graph: &'a Delaunay2,
     edges: &'a [Ends],

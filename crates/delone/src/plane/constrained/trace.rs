@@ -1,4 +1,4 @@
-//! What a segment between two vertices meets: the first edge at an end, the triangles on the way, a vertex exactly on it.
+//! The trace of a segment between two vertices: the first edge at an end, the triangles on the way, vertices exactly on it.
 //!
 //! Exact. Cost: the smaller degree of both ends to begin, because both stars are turned through at once; two orientation
 //! tests a triangle there, one for each triangle that is crossed.

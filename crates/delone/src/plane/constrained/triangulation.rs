@@ -1,4 +1,4 @@
-//! What constrained triangulations have in common with others.
+//! The common traits of triangulations for constrained ones.
 
 use super::Constrained2;
 use super::check::ConstrainedFlaw2;

@@ -1,4 +1,4 @@
-//! What is seen from a vertex: for those who look for paths among obstacles.
+//! Visibility from a vertex, for shortest paths among obstacles.
 //!
 //! Cost: the degree of the vertex, and O(1) for each edge crossed on the way.
 

@@ -1,4 +1,4 @@
-//! What divide and conquer writes: the edge records and hull links of a run of positions.
+//! The output of divide and conquer: the edge records and hull links of a run of positions.
 
 use crate::ids::{EdgeId, Place, TriangleId};
 use crate::mesh::triangles::HalfEdge;

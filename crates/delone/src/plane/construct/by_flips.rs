@@ -57,7 +57,7 @@ fn random_order(count: usize, seed: u64) -> Vec<u32> {
     order
 }
 
-/// What is known of the points while they are inserted. Point i is at place i + [`DUMMIES`].
+/// The points while they are inserted. Point i is at place i + [`DUMMIES`].
 struct Build {
     /// For each point the index that stands for it, if it was inserted: the first of equal points given is their vertex.
     stands: Vec<u32>,

@@ -86,7 +86,7 @@ impl InOrder {
         (Built { points, mesh, duplicates: Vec::new(), counters }, indices)
     }
 
-    /// The same with vertices at the places of their indices among all points, its fixed edges kept.
+    /// Moves vertices to the places of their indices among all points; fixed edges stay.
     pub(in crate::plane) fn numbered(self, points: Vec<[f64; 2]>) -> Built {
         let Self { mut mesh, indices, duplicates, counters, .. } = self;
         mesh.move_vertices(points.len(), |position| Place::new(indices[position.index()] as usize));
@@ -94,7 +94,7 @@ impl InOrder {
     }
 }
 
-/// The same as `triangulate`, in the order of memory.
+/// Triangulates like `triangulate`, but in the order of memory.
 pub(crate) fn in_order(points: &[[f64; 2]]) -> InOrder {
     let Sorted { points, indices, cuts, boxes, duplicates } = morton::sort(points, &survey(points).0);
     let (edges, counters) = build::<NearestSites>(&points, &[], &cuts, &boxes);
@@ -144,7 +144,7 @@ pub(super) fn build<K: Merging>(
 struct Tree<'a> {
     cuts: &'a [Cut],
     boxes: &'a [KeyBox],
-    /// What coordinates have been multiplied with since the boxes were made.
+    /// The factor of all coordinates since the boxes were made.
     scale: f64,
     grid: Option<Grid>,
     near: Option<&'a Rescaled>,
@@ -153,7 +153,7 @@ struct Tree<'a> {
 /// Halves of halves are on the stack, and far points can make thousands of them: deeper than this, one thread goes on.
 const LEVELS: u32 = 128;
 
-/// What threads share of a box.
+/// The part of a box that threads share.
 struct Work<'a> {
     index: usize,
     cells: &'a Cells<'a>,
@@ -473,7 +473,7 @@ mod tests {
         assert!(boxes.len() > 10, "{} boxes", boxes.len());
     }
 
-    /// What only one of many threads meets counts.
+    /// Counters include steps that only one of many threads makes.
     #[test]
     fn grids_hold_all_coordinates() {
         let mut coordinates: Vec<f64> = (0..100_000).map(f64::from).collect();

@@ -11,7 +11,7 @@ use super::merge::{Merging, Part};
 use crate::ids::{Place, TriangleId};
 use crate::mesh::triangles::HalfEdge;
 
-/// What became of a few points.
+/// The triangulation of a few points.
 pub(super) enum Leaf {
     Part(Part),
     /// Three of them are collinear: nothing was written.

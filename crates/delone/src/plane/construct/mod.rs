@@ -61,7 +61,7 @@ pub enum Algorithm2 {
     },
 }
 
-/// What comes out of a construction, with the points given.
+/// The result of a construction, with the points given.
 pub(super) struct Built {
     pub(super) points: Vec<[f64; 2]>,
     pub(super) mesh: Mesh2,

@@ -77,7 +77,7 @@ impl Cavity {
         self.triangles.iter().for_each(|&t| mesh.unmark(t));
     }
 
-    /// What the last insertion did: its new triangles, the first of which were those of the cavity but for the last
+    /// The result of the last insertion: its new triangles, the first of which were those of the cavity but for the last
     /// two; and for each new triangle the border edge of the cavity that it stands on: where it starts, and its
     /// twin outside.
     pub(in crate::plane) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {

@@ -42,7 +42,7 @@ impl<K: Kernel> Layer<K> {
         (self.spot_in(goal.triangle, q), goal.steps)
     }
 
-    /// The same by a visibility walk from a hint or anywhere, unless that takes more steps than `most`.
+    /// Locates by a visibility walk from a hint or from anywhere, unless that takes more steps than `most`.
     #[inline]
     pub(in crate::plane) fn spot_within<T: Tally>(
         &self,
@@ -59,7 +59,7 @@ impl<K: Kernel> Layer<K> {
         (goal.steps <= most).then(|| (self.spot_in(goal.triangle, q), goal.steps))
     }
 
-    /// What falls into a triangle or beyond it may be one of its corners.
+    /// The vertex, if a point located in a triangle or beyond it is one of its corners.
     #[inline]
     fn spot_in(&self, triangle: TriangleId, q: [f64; 2]) -> Spot {
         let equal = |v: &Place| !v.is_ghost() && self.points[v.index()] == q;

@@ -1,4 +1,4 @@
-//! What decides whether a triangle is in conflict with a point: the one thing in which triangulations of the plane differ that
+//! Kernels: the test whether a triangle is in conflict with a point. It is the only difference between triangulations of the plane that
 //! are made of cavities.
 //!
 //! The contract: for points in general position, which the perturbation makes of all, the triangles in conflict with a new
@@ -16,9 +16,9 @@ use delone_predicates::{
 use crate::ids::Place;
 use crate::weight::Weight;
 
-/// What decides.
+/// A test for conflicts.
 pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'static {
-    /// What a site has beside its point: nothing, or a weight.
+    /// The data of a site beside its point: nothing, or a weight.
     type Weight: Weight;
 
     /// Whether a site may hide another one, so that this is no vertex.
@@ -27,13 +27,13 @@ pub(in crate::plane) trait Kernel: Copy + Debug + Default + Send + Sync + 'stati
     /// Whether the circle of a finite triangle contains a site, in the sense of the kernel.
     fn contains(a: Site<Self>, b: Site<Self>, c: Site<Self>, q: Site<Self>) -> bool;
 
-    /// The same for three sites on a line: whether the segment from u to v goes if there is a vertex at q.
+    /// Decides for three sites on a line whether the segment from u to v goes if there is a vertex at q.
     #[inline]
     fn contains_on_line(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {
         strictly_between(u.0, v.0, q.0)
     }
 
-    /// The same for the half-plane on the left of a hull edge seen from outside, with what the edge itself contains: the circle of
+    /// Decides for the half-plane on the left of a hull edge seen from outside, with the inside of the edge itself: the circle of
     /// a ghost.
     #[inline]
     fn contains_beyond(u: Site<Self>, v: Site<Self>, q: Site<Self>) -> bool {

@@ -39,7 +39,7 @@ fn vertex(slot: u32) -> Option<Place> {
     Some(Place::new(slot.checked_sub(1)? as usize))
 }
 
-/// Those above have higher ranks.
+/// The rank of a slot: slots above have higher ranks.
 fn rank(slot: u32) -> u64 {
     SplitMix(slot.into()).next()
 }

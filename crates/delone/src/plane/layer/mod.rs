@@ -51,7 +51,7 @@ pub(in crate::plane) struct Layer<K: Kernel = NearestSites> {
     pub(in crate::plane) spanned: bool,
     /// The vertices in order, where all are on one line and somebody has searched it.
     line: OnceLock<Line>,
-    /// What decides conflicts.
+    /// The test for conflicts.
     kernel: PhantomData<K>,
 }
 
@@ -68,7 +68,7 @@ impl<K: Kernel> Layer<K> {
         Self::with_weights(mesh, points, weights)
     }
 
-    /// The same with weights.
+    /// A layer of points with weights.
     pub(in crate::plane) fn with_weights(
         mesh: Mesh2,
         points: Vec<[f64; 2]>,
@@ -99,7 +99,7 @@ impl<K: Kernel> Layer<K> {
         self.line.take();
     }
 
-    /// What it takes, buffers not counted.
+    /// Memory in bytes, buffers not counted.
     pub(in crate::plane) fn bytes(&self) -> usize {
         self.mesh.bytes() + size_of_val(&*self.points)
     }
@@ -259,7 +259,7 @@ impl<K: Kernel> Ground for Layer<K> {
     }
 }
 
-/// What walks ask.
+/// Questions of walks.
 impl<K: Kernel> Layer<K> {
     /// Asks memory for the triangle of an edge, and for its corners where they are likely to be.
     #[inline]

@@ -98,7 +98,7 @@ impl<K: Kernel> Layer<K> {
 }
 
 impl<K: Kernel> Hole<K> {
-    /// What the last removal from the plane did: the triangles that fill the hole, and for each edge of its border where it
+    /// The result of the last removal from the plane: the triangles that fill the hole, and for each edge of its border where it
     /// starts, and its twin outside.
     pub(in crate::plane) fn last(&self) -> (&[TriangleId], &[BorderEdge]) {
         (self.triangles.get(LESS..).unwrap_or_default(), &self.border)

@@ -1,4 +1,4 @@
-//! What the Delaunay tree must know of the plane.
+//! The plane as the Delaunay tree sees it.
 
 use delone_predicates::{Sign, orient2d};
 

@@ -1,4 +1,4 @@
-//! What was grown, put into an order that tells nothing of how it was: regions sorted by their sites, circles by their regions,
+//! A canonical order of grown regions: regions are sorted by their sites, circles by their regions,
 //! the corners of each region from its first circle on.
 //!
 //! Cost: O(r k log r) for r regions of k sites.
@@ -94,7 +94,7 @@ impl Loose {
     }
 }
 
-/// What sorts items by a number below a limit, and where that is equal by a comparison: few are equal, so that is O(n).
+/// Sorts items by a number below a limit, and ties by a comparison: few are equal, so that is O(n).
 fn in_order(
     items: usize,
     limit: usize,

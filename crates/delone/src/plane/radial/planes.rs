@@ -67,7 +67,7 @@ impl Plane {
     }
 }
 
-/// What is known at a seat beside the neighbour.
+/// The data of a seat beside the neighbour.
 #[derive(Clone, Copy, Debug)]
 struct Row {
     /// Whose plane it is.

@@ -15,7 +15,7 @@ use crate::ids::{EdgeId, Place, TriangleId};
 use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{NearestSites, Sites};
 
-/// What a walk meets.
+/// The end of a walk.
 enum Met {
     /// The triangle that the point is in.
     Triangle(TriangleId),

@@ -25,7 +25,7 @@ const PAUSE: usize = 1024;
 /// A vertex nearer than this part of a scale is refused.
 const PART: f64 = 1.0 / 64.0;
 
-/// What is known of a vertex.
+/// A vertex during refinement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     /// The ends of the input constraint that it lies on; twice itself for an input vertex, the ghost for a free one, and then
@@ -51,7 +51,7 @@ impl Known {
         Some(Self { on: [a?, b?], scale })
     }
 
-    /// The same for the next refinement.
+    /// The origin of the vertex, for the next refinement.
     pub(super) fn origin(&self, mesh: &Mesh2) -> Origin {
         let name = |p: Place| if p.is_ghost() { VertexId::GHOST } else { mesh.name(p) };
         Origin { on: self.on.map(name), scale: self.scale }
@@ -92,12 +92,12 @@ pub(super) struct Mesher<'a> {
     pub(super) left: Vec<([Place; 3], Reason)>,
 }
 
-/// What a refinement did.
+/// The result of a refinement.
 #[derive(Debug)]
 pub(super) struct Done {
     /// The new vertices that there are, in the order in which they came.
     pub(super) new: Vec<Place>,
-    /// What is known of all, by place.
+    /// All vertices, by place.
     pub(super) known: Vec<Known>,
     /// Why triangles were left, by their corners from the shortest edge on.
     pub(super) left: Vec<([Place; 3], Reason)>,
@@ -231,7 +231,7 @@ impl<'a> Mesher<'a> {
         }
     }
 
-    /// What is wrong with a triangle.
+    /// The fault of a triangle.
     #[inline]
     fn task_of(&self, t: TriangleId) -> Option<(Task, Shape)> {
         let mesh = &self.layer.mesh;

@@ -39,13 +39,13 @@ pub enum Keep {
     /// All may.
     #[default]
     Nothing,
-    /// Those with the mesh on one side only.
+    /// Constraints with the mesh on one side only.
     Border,
     /// All.
     Constraints,
 }
 
-/// What is wanted of a mesh, and how it is made.
+/// The criteria of a mesh, and how it is made.
 ///
 /// ```
 /// use delone::{Constrained2, Fill, Refinement};
@@ -84,7 +84,7 @@ pub struct Refined2 {
     /// inwards, what is between it and its old line, thinner than a unit in the last place, is in no part; asked anew by another
     /// rule, [`Constrained2::domains`] knows nothing of that. So a mesh that is refined again is filled by [`Fill::Parts`].
     pub domains: Domains2,
-    /// What was done, and what could not be done.
+    /// Counts of what was done, and what could not be done.
     pub report: RefinementReport2,
 }
 
@@ -109,7 +109,7 @@ impl Default for Refinement<'_> {
     }
 }
 
-/// What the next refinement is to know of each vertex.
+/// The origin of each vertex, for the next refinement.
 fn origins(c: &Constrained2, done: &Done) -> Vec<Origin> {
     let mesh = c.mesh();
     let unknown = Known::free(0.0).origin(mesh);
@@ -170,7 +170,7 @@ impl<'a> Refinement<'a> {
         Self { size_at: Some(length), ..self }
     }
 
-    /// So many new vertices at most.
+    /// Sets the largest number of new vertices.
     #[must_use]
     pub fn max_vertices(self, count: usize) -> Self {
         Self { max_vertices: Some(count), ..self }
@@ -188,8 +188,8 @@ impl<'a> Refinement<'a> {
         Self { conforming, ..self }
     }
 
-    /// So many rounds of smoothing afterwards (see `smooth` in the source): angles become larger, and what was asked for still
-    /// holds, because what smoothing made too large is refined once more.
+    /// Sets the number of rounds of smoothing afterwards (see `smooth` in the source). Angles become larger, and the criteria still
+    /// hold, because triangles that smoothing made too large are refined once more.
     #[must_use]
     pub fn smooth(self, rounds: usize) -> Self {
         Self { smoothing: rounds, ..self }
@@ -208,7 +208,7 @@ impl<'a> Refinement<'a> {
         Self { watch: Some(watch), ..self }
     }
 
-    /// What is inside. Where the hull is its border that becomes a constraint.
+    /// Sets the rule for what is inside. Where the hull is the border, it becomes a constraint.
     #[must_use]
     pub fn fill(self, fill: Fill<'a>) -> Self {
         Self { fill, ..self }

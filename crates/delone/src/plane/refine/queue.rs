@@ -1,4 +1,4 @@
-//! What is to be mended, in an order that is a function of the geometry: so the mesh is one of the input, whatever the order of
+//! The queue of faults. Its order is a function of the geometry, so the mesh depends on the input alone, whatever the order of
 //! the points, and whatever memory looks like.
 //!
 //! Constraints come first, then triangles with a small angle, then those that are too large. Among equals short edges come
@@ -17,7 +17,7 @@ use delone_predicates::lexicographic;
 use crate::ids::{EdgeId, Place};
 use crate::points::Bounds;
 
-/// What is wrong: what comes first is mended first.
+/// A kind of fault. Kinds are mended in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Fault {
     /// A constraint with a vertex too near to it.
@@ -41,7 +41,7 @@ pub(super) struct Task {
 }
 
 impl Task {
-    /// What is wrong.
+    /// The kind of fault.
     pub(super) fn fault(&self) -> Fault {
         match self.key >> CLASS {
             0 => Fault::Constraint,

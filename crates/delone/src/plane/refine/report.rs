@@ -1,4 +1,4 @@
-//! What a refinement did, and what it could not do.
+//! The report of a refinement.
 
 use crate::ids::TriangleId;
 
@@ -47,7 +47,7 @@ pub struct Unrefined2 {
 /// Degrees of a class of the histogram of angles.
 pub(super) const BIN: usize = 10;
 
-/// What a refinement did, and what it could not do. Angles are in degrees.
+/// The work of a refinement, and what it could not do. Angles are in degrees.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RefinementReport2 {

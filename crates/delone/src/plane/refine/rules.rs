@@ -1,4 +1,4 @@
-//! What is wanted of a mesh, as numbers that are quick to ask.
+//! The criteria of a mesh, as numbers that are fast to compare.
 
 use std::cell::Cell;
 

@@ -1,4 +1,4 @@
-//! What is measured of a triangle: its shortest edge, whether the angle across it is too small, and where a new vertex mends it.
+//! Measures of a triangle: its shortest edge, whether the angle across it is too small, and where a new vertex mends it.
 //!
 //! Numbers here are rounded, and decide nothing about topology. Where an angle is judged the bound of all roundings is on the
 //! side of refining: an angle that is called good is at least the bound.

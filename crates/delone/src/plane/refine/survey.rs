@@ -1,4 +1,4 @@
-//! What came out of a refinement, measured over all triangles.
+//! Measures of all triangles after a refinement.
 //!
 //! Cost: O(1) a triangle.
 

@@ -17,7 +17,7 @@ use delone_predicates::{Line, Sign, Spot};
 #[derive(Clone, Copy, Debug)]
 pub(in crate::plane) struct Corner {
     pub(in crate::plane) spot: Spot,
-    /// What the edge lies on, the polygon on its left.
+    /// The line of the edge, with the polygon on its left.
     pub(in crate::plane) line: Line,
     /// Which side of the region the edge is on, if it is on the border.
     pub(in crate::plane) side: Option<usize>,
@@ -219,7 +219,7 @@ mod tests {
         }
     }
 
-    /// What is left of a square, as it is: not as the meeting of lines that go through its corners.
+    /// Corners of a square stay as they are: no meeting of lines replaces them.
     #[test]
     fn corners_on_a_cut_stay_corners() {
         let spots = |half: Line| {
@@ -233,7 +233,7 @@ mod tests {
         assert_eq!(spots(Line::Bisector([0.0, 0.0], [4.0, 4.0])), SQUARE.map(Spot::Point));
     }
 
-    /// What was cut once stays the same.
+    /// A cut that is repeated changes nothing.
     #[test]
     fn a_second_cut_changes_nothing() {
         let (site, mut cell) = ([1.0, 1.0], vec![sides(&SQUARE, 0)]);

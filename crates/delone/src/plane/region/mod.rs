@@ -152,7 +152,7 @@ impl Region2 {
         [self.low, self.high]
     }
 
-    /// What tells whether several rings of a cell are its border.
+    /// The test whether several rings of a cell are its border.
     pub(in crate::plane) fn are_border(&self) -> fn(&[Vec<[f64; 2]>]) -> bool {
         self.are_border
     }

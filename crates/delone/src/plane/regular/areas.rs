@@ -23,7 +23,7 @@ const LARGEST: f64 = 1e300;
 /// A step is halved so often at most.
 const HALVINGS: usize = 40;
 
-/// What came of prescribed areas.
+/// The result of a search for prescribed areas.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prescribed2 {

@@ -48,7 +48,7 @@ pub(super) fn divide_and_conquer(given: &[[f64; 2]], given_weights: &[f64]) -> R
     Regular2 { hinted: layer.mesh.vertex_count, base: layer, under, counters, ..Regular2::default() }
 }
 
-/// The same by insertion.
+/// Builds by insertion.
 pub(super) fn incremental(points: &[[f64; 2]], weights: &[f64], seed: u64) -> Regular2 {
     let along = order::plane::curve(points);
     let sorted = along.iter().map(|&i| points[i as usize]).collect();

@@ -101,7 +101,7 @@ impl Regular2 {
         Self::from_parts(&points, &weights)
     }
 
-    /// The same for points and weights apart.
+    /// Triangulates points and weights that are given apart.
     ///
     /// # Errors
     /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
@@ -110,7 +110,7 @@ impl Regular2 {
         Ok(build::divide_and_conquer(&P::all(points), weights))
     }
 
-    /// The same by insertion one by one, in a random order that the seed decides and that does not show in the triangles.
+    /// Triangulates by insertion one by one, in a random order from the seed. The order does not show in the triangles.
     /// O(n log n) expected.
     ///
     /// # Errors
@@ -129,7 +129,7 @@ impl Regular2 {
         check_weights(weights)
     }
 
-    /// What construction took.
+    /// Counters of the construction.
     pub fn counters(&self) -> Counters {
         self.counters
     }
@@ -139,7 +139,7 @@ impl Regular2 {
         &self.base.mesh
     }
 
-    /// What the sites span; hidden ones span nothing more.
+    /// The dimension of the span of the sites; hidden sites add nothing to it.
     pub fn dimension(&self) -> Dimension {
         self.mesh().dimension()
     }

@@ -31,9 +31,9 @@ const WRONG_SHARE: usize = 10;
 const ALLOWED_EDGES: usize = 16;
 /// The inverse of the share of sites that may fall again before building anew is faster, wherever they fall.
 const FALLING_SHARE: usize = 16;
-/// So many flips a vertex may be needed before building anew is faster.
+/// Flips a vertex, above which building anew is faster.
 const FLIPS: usize = 4;
-/// So many triangles are looked at together.
+/// Triangles that are tested together.
 const BLOCK: usize = 16;
 /// Triangles between the one that is tested and the one that is prefetched.
 const PREFETCH_DISTANCE: usize = 12;
@@ -236,7 +236,7 @@ impl Obstacle {
     }
 }
 
-/// What prevents the flip of an edge.
+/// The obstacle to the flip of an edge.
 fn obstacle(layer: &Layer<Power>, e: EdgeId) -> Option<Obstacle> {
     let [a, b, c, d] = corners_around(&layer.mesh, e);
     // The hull is straight at the other end, or no site would be in conflict.

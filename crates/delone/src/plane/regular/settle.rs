@@ -12,7 +12,7 @@ use crate::plane::layer::insert::Spot;
 use crate::plane::layer::kernel::{Kernel, Power};
 use crate::tally::Tally;
 
-/// What became of a site.
+/// The outcome for a site.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Settled {
     Vertex,

@@ -29,7 +29,7 @@ pub(in crate::plane) struct Builder<'a> {
     exact: Vec<bool>,
 }
 
-/// What a ring has of the region.
+/// The relation of a ring to the region.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// It is a border of it, or has some of its corners: nothing was rounded.

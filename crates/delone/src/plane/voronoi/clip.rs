@@ -209,7 +209,7 @@ fn borders<K: Cellular>(layer: &Layer<K>, place: Place) -> impl Iterator<Item = 
     others.map(move |w| K::border(site, layer.site(w)))
 }
 
-/// What lines leave of a region.
+/// The rest of a region after cuts by lines.
 pub(super) fn cut_by(region: &Region2, lines: impl Iterator<Item = Line> + Clone) -> Vec<clip::Ring> {
     let cut = |mut rings: Vec<clip::Ring>| {
         for line in lines.clone() {

@@ -30,13 +30,13 @@ type Point = [f64; 2];
 type Side = [u32; 2];
 /// The rings of a cell, as vertices.
 type Parts = Vec<Vec<u32>>;
-/// What becomes of a ring; nothing if it stays.
+/// The new form of a ring; nothing if it stays.
 type Rewriting<'r> = dyn Fn(&Mending<'_>, &[u32]) -> Option<Vec<u32>> + 'r;
 
 /// Cells, and those that changed.
 struct Mending<'a> {
     cells: &'a Cells2,
-    /// What tells whether several rings are all of a border.
+    /// The test whether several rings are a whole border.
     are_border: fn(&[Vec<Point>]) -> bool,
     /// The places of the corners of the region, and of those on its border, sorted.
     region: Vec<Point>,
@@ -128,7 +128,7 @@ impl Mending<'_> {
         contains(&self.region, self.at(v))
     }
 
-    /// What has become of a cell, if it changed.
+    /// The new form of a cell, if it changed.
     #[inline(never)]
     fn found(&self, id: u32) -> Result<usize, usize> {
         self.changed.binary_search_by_key(&id, |changed| changed.0)
@@ -234,7 +234,7 @@ impl Mending<'_> {
         }
     }
 
-    /// What the rings of a cell ask for: sides to be contracted, and corners for sides. Nothing if they are its border.
+    /// The requests of the rings of a cell: sides to contract, and corners to insert into sides. Nothing if they are its border.
     fn wishes(&self, rings: &[&[u32]], joins: &mut Vec<Side>, inserts: &mut Vec<Near>) {
         let places: Vec<Vec<Point>> = rings.iter().map(|ring| self.places(ring)).collect();
         let is_good = match &places[..] {

@@ -166,7 +166,7 @@ impl Cells2 {
     }
 }
 
-/// What becomes of a ring: nothing without three corners.
+/// The new form of a ring: nothing without three corners.
 fn moved(ring: &[u32], to: &[u32]) -> Vec<u32> {
     let mut moved: Vec<u32> = ring.iter().map(|&v| to[v as usize]).collect();
     moved.dedup();
