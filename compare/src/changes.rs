@@ -15,7 +15,7 @@ type Points = [[f64; 2]];
 /// The operations, in their order.
 const OPERATIONS: [&str; 4] = ["insert", "locate", "nearest", "remove"];
 
-/// What an engine did.
+/// The run of an engine.
 pub struct Run {
     /// Seconds for each operation.
     seconds: [f64; 4],

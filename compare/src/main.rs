@@ -107,7 +107,7 @@ struct Args {
     patience: f64,
 }
 
-/// What is known of an engine on a set.
+/// The results of an engine on a set.
 struct Entry {
     engine: &'static Engine,
     times: Vec<Duration>,

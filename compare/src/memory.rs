@@ -58,7 +58,7 @@ fn measured(n: usize, work: impl FnOnce() -> Option<()>) -> Option<()> {
     Some(())
 }
 
-/// What the work gives, and the bytes of the peak above what was resident before.
+/// The result of the work, and its peak of memory in bytes above the memory resident before.
 pub fn above<T>(work: impl FnOnce() -> T) -> Option<(T, f64)> {
     forget()?;
     let before = resident()?;

@@ -17,7 +17,7 @@ const LEVELS: u32 = 4;
 /// Ticks of the system's clock in a second, as Linux tells them.
 const TICKS: f64 = 100.0;
 
-/// What a run found.
+/// The result of a run.
 struct Found {
     seconds: f64,
     fingerprint: Fingerprint,

@@ -16,7 +16,7 @@ const SAMPLE: usize = 64;
 /// Levels of cuts that one join goes over.
 const LEVELS: u32 = 3;
 
-/// What a run found.
+/// The result of a run.
 struct Found {
     seconds: f64,
     bytes: f64,

@@ -140,7 +140,7 @@ impl Alpha {
 }
 
 impl Alpha {
-    /// What is made of all complexes.
+    /// Runs work on all complexes.
     fn of<A: Send + 'static>(
         &self,
         py: Python<'_>,

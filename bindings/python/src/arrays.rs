@@ -39,7 +39,7 @@ pub fn rows<'a, T: numpy::Element, const W: usize>(
     Ok(array.as_slice()?.as_chunks().0)
 }
 
-/// The same of indices of so many things, from a least one, which may be -1.
+/// Reads rows of indices below `count`, from a least one, which may be -1.
 pub fn indices<'a, const W: usize>(
     array: &'a PyReadonlyArray2<'_, i32>,
     least: i32,

@@ -21,7 +21,7 @@ pub const SEGMENT: usize = 60;
 /// Lines of sight that one task follows.
 const SIGHTS: usize = 256;
 
-/// What changes with a triangulation.
+/// The data that change with a triangulation.
 pub struct Record {
     /// Segment ids given so far.
     segment_ids: usize,
@@ -35,7 +35,7 @@ pub type Made = State<Constrained2, Record>;
 #[pyclass(module = "delone._delone", frozen)]
 pub struct Constrained(Shared<Made>);
 
-/// What was counted as the segments were made constraints, by name.
+/// Counts from when segments became constraints, by name.
 type Report = Vec<(&'static str, usize)>;
 /// For each triangle its part; for each part whether it is inside, its winding number, and its region or -1; and pairs of
 /// regions in one part.

@@ -9,7 +9,7 @@ pub fn python_error(error: Error) -> PyErr {
     error_in(None, error)
 }
 
-/// The same with the polygon that is to blame before its words.
+/// The exception of an error, with the polygon at fault before its words.
 pub fn error_in(polygon: Option<usize>, error: Error) -> PyErr {
     let place = polygon.map(|polygon| format!("polygon {polygon}: ")).unwrap_or_default();
     let words = format!("{place}{error}");

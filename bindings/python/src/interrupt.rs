@@ -53,7 +53,7 @@ pub fn in_pieces<I: Sync, A: Send, E: Send>(
     joined(wanted, items, |piece| shared(piece, task, &answer))
 }
 
-/// The same of what answers pieces.
+/// Runs work that answers pieces, and joins the answers.
 pub fn joined<I, A, E>(
     wanted: &Wanted,
     items: &[I],
@@ -91,7 +91,7 @@ pub fn interruptible<T: Send + 'static>(
     while_wanted(py, points, |_| work())
 }
 
-/// The same of work that can end sooner when nobody wants its result.
+/// Runs work that can end early when nobody wants its result.
 pub fn while_wanted<T: Send + 'static>(
     py: Python<'_>,
     points: usize,

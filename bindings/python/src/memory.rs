@@ -6,7 +6,7 @@ use std::hint::black_box;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
-/// What work takes for a point, in bytes: measured on a million points, and half as much again. By dimension.
+/// Memory of work for a point, in bytes, by dimension: measured on a million points, and half as much again.
 pub struct Need([usize; 2]);
 
 pub const TRIANGULATION: Need = Need([160, 430]);
@@ -24,7 +24,7 @@ impl Need {
         self.check_with(dimension, points, 0)
     }
 
-    /// The same with so many bytes more for what else there is.
+    /// Checks with `more` bytes in addition.
     pub fn check_with(&self, dimension: usize, points: usize, more: usize) -> PyResult<()> {
         let bytes = points.saturating_mul(self.0[dimension - 2]).saturating_add(more);
         let mut room = Vec::<u8>::new();

@@ -25,7 +25,7 @@ type Table<'py, T> = Bound<'py, PyArray2<T>>;
 #[pyclass(module = "delone._delone", frozen)]
 pub struct Mesh(Arc<Content>);
 
-/// What is shared with work in the background.
+/// The content, shared with work in the background.
 struct Content {
     made: Constrained2,
     refined: Refined2,
@@ -36,7 +36,7 @@ struct Content {
     given: usize,
 }
 
-/// What is inside, and what is wanted of it.
+/// The rule for the inside, and the criteria of the mesh.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Wishes<'py> {
@@ -59,7 +59,7 @@ pub struct Wishes<'py> {
     of: Option<Bound<'py, Constrained>>,
 }
 
-/// The same without Python.
+/// The plan without Python objects.
 #[derive(Clone)]
 struct Plan {
     fill: String,
@@ -217,7 +217,7 @@ impl Mesh {
 }
 
 impl Mesh {
-    /// What is made of all of it.
+    /// Runs work on all of it.
     fn of<A: Send + 'static>(
         &self,
         py: Python<'_>,
@@ -282,7 +282,7 @@ impl<'py> Wishes<'py> {
         })?
     }
 
-    /// What of it is plain, and the rest.
+    /// Separates the plain options from the rest.
     fn plan(self) -> PyResult<(Plan, Option<Bound<'py, PyAny>>)> {
         let region =
             |row: &[f64]| RegionSeed2 { at: [row[0], row[1]], attribute: 0.0, max_area: Some(row[2]) };

@@ -27,7 +27,7 @@ pub struct Neighbors {
     points: OnceLock<Arc<[f64]>>,
 }
 
-/// What is made of the answers to queries, of so many neighbours each at most; the same for either dimension.
+/// Arrays of the answers to queries, of at most `k` neighbours each, for either dimension.
 macro_rules! answers {
     ($self:ident, $py:ident, $queries:ident, $each:expr, $tree:ident, $q:ident => $answer:expr, $make:expr) => {
         match &$self.tree {
@@ -157,7 +157,7 @@ impl Neighbors {
     }
 }
 
-/// What is made of the answers to queries, in their order. The first error that any query has.
+/// Collects the answers to queries in their order, or the first error of any query.
 fn answers<Q: Coordinates + Send + Sync + 'static, A: Send, B: Send + 'static>(
     py: Python<'_>,
     queries: Vec<Q>,

@@ -25,7 +25,7 @@ struct Regions {
     sites: Vec<i32>,
 }
 
-/// What is left of a diagram without its triangulation.
+/// A diagram without its triangulation.
 struct Arrays {
     sites: Vec<i32>,
     bounded: Vec<bool>,

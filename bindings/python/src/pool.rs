@@ -98,7 +98,7 @@ fn is_many<I>(items: &[I], task: usize) -> bool {
     items.len() >= 2 * task
 }
 
-/// What work says of all items, in their order, in tasks of as many if they are enough; the first error of any. For work on a
+/// Runs work on all items in their order, in tasks of several if there are enough, or gives the first error of any. For work on a
 /// thread of the pool.
 pub fn shared<I: Sync, A: Send, E: Send>(
     items: &[I],

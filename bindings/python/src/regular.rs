@@ -24,7 +24,7 @@ enum Core {
 #[pyclass(module = "delone._delone", frozen)]
 pub struct Regular(Core);
 
-/// The same for either dimension.
+/// Runs an expression for either dimension.
 macro_rules! either {
     ($core:expr, $held:ident => $body:expr) => {
         match $core {

@@ -1,4 +1,4 @@
-//! What several threads of Python ask at once, and one may change: changes wait for those who ask, and those who ask for changes.
+//! Content that several threads of Python read at once and one may change: changes wait for readers, and readers for changes.
 //!
 //! Whoever asks owns a share of the content, and whoever changes owns all of it, so that either may go on in the background after
 //! Ctrl-C: the content comes back when a change ends, however its caller fared.
@@ -54,7 +54,7 @@ impl<T: Send + Sync + 'static> Shared<T> {
         self.read_when(py, |content| Ok(Some(Arc::clone(content))))
     }
 
-    /// What is made of it, as soon as it can be.
+    /// Runs work on it, as soon as it can be read.
     pub fn read_when<G>(
         &self,
         py: Python<'_>,

@@ -79,7 +79,7 @@ impl<'py> Asked<'py> {
         Self { function, error: RefCell::new(None), count: Cell::new(0) }
     }
 
-    /// What it says of a place; NaN, which is no bound, after an exception.
+    /// The length at a place; NaN, which is no bound, after an exception.
     pub fn length(&self, at: [f64; 2]) -> f64 {
         if self.error.borrow().is_some() {
             return f64::NAN;

@@ -89,7 +89,7 @@ impl<T: Triangular + 'static, R: Send + Sync + 'static> State<T, R> {
         self.triangulation.ids_given().max(self.triangulation.slot_count() / 7)
     }
 
-    /// What is made of all of it.
+    /// Runs work on all of it.
     pub fn make<A: Send + 'static>(
         self: Arc<Self>,
         py: Python<'_>,

@@ -130,7 +130,7 @@ fn plane(triangulation: &Triangulation) -> PyResult<&Shared<State<delone::Delaun
     }
 }
 
-/// What contours are made of, and at which levels.
+/// The source of contours, and their levels.
 #[derive(FromPyObject)]
 pub struct Wanted {
     #[pyo3(item(0))]

@@ -185,7 +185,7 @@ impl PyFingerprint {
     }
 }
 
-/// What [`triangulate_tile`] gives: vertices, their rows in the input, final triangles, rows of duplicates with those that they equal,
+/// The result of [`triangulate_tile`]: vertices, their rows in the input, final triangles, rows of duplicates with those that they equal,
 /// the fingerprint of the final triangles, the border.
 type Made<'py> = (Table<'py, f64>, List<'py, i64>, Table<'py, u32>, Table<'py, i64>, PyFingerprint, PyBorder);
 

@@ -17,11 +17,11 @@ use crate::state::{Rows, State, table};
 /// Simplices whose centres one task finds.
 const CENTRES: usize = SERIAL_ITEMS / 2;
 
-/// What was given, as Python has it: a change of the triangulation and of this is one, however its caller fares.
+/// The points given, as Python has them: a change of the triangulation and of this is one, however its caller fares.
 pub struct Given {
     /// An array of all points, which is never written.
     pub points: Py<PyAny>,
-    /// Those that were removed, increasing.
+    /// The removed ones, increasing.
     removed: Vec<usize>,
 }
 
@@ -44,7 +44,7 @@ pub struct Triangulation {
     pub core: Core,
 }
 
-/// The same for either dimension.
+/// Runs an expression for either dimension.
 macro_rules! either {
     ($core:expr, $held:ident => $body:expr) => {
         match $core {

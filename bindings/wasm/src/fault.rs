@@ -1,4 +1,4 @@
-//! What went wrong, as a code and numbers; `js/errors.js` has the words, by the same codes.
+//! Faults, as a code and numbers; `js/errors.js` has the words, by the same codes.
 
 use std::cell::Cell;
 
@@ -88,7 +88,7 @@ export! {
         LAST.get().code
     }
 
-    /// What is known of the last fault.
+    /// A number of the last fault.
     fn fault_fact(k: usize) -> f64 {
         LAST.get().facts.get(k).copied().unwrap_or_default()
     }

@@ -6,7 +6,7 @@ use crate::fault::Fault;
 
 /// Bytes for a point: triangulating it, and the arrays that are handed out. Measured by `test/memory.test.mjs`, and some more.
 pub const TRIANGULATION: usize = 200;
-/// The same for its cell.
+/// Bytes for a cell of a point.
 pub const CELLS: usize = 200;
 /// For a point with a weight, and its cell.
 #[cfg(feature = "weights")]

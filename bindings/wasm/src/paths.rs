@@ -17,7 +17,7 @@ fn strategy(number: u32) -> Locate {
     }
 }
 
-/// What a search looked at: triangles, the ends of hull edges, and vertices, by their corners.
+/// The trace of a search: triangles, the ends of hull edges, and vertices, by their corners.
 #[derive(Default)]
 struct Path {
     corners: Vec<f64>,

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use crate::fault::{Fault, answer};
 
-/// What JavaScript has written, and what it is to read.
+/// Arrays that JavaScript has written, and arrays for it to read.
 #[derive(Default)]
 pub struct Tray {
     pub points: Vec<[f64; 2]>,

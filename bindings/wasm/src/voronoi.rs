@@ -21,7 +21,7 @@ fn polygon() -> Result<Region2, Fault> {
     Ok(Region2::polygon(&rings)?)
 }
 
-/// So many points in a row have their rings near each other.
+/// Points in a row whose rings are stored together.
 const GROUP: usize = 4096;
 
 /// Rings by point, coordinates in a row.
@@ -32,7 +32,7 @@ struct Rings {
     /// For each point where its ring starts and ends.
     spans: Vec<[u32; 2]>,
     corners: Vec<[f64; 2]>,
-    /// Those that have no room, counted on beyond the others: an array that has to grow for a few of them would take twice the memory.
+    /// Rings that have no room, counted on beyond the others: an array that grows for a few of them would take twice the memory.
     others: Vec<[f64; 2]>,
     /// For each group where the next ring goes, and where its room ends.
     rooms: Vec<[usize; 2]>,

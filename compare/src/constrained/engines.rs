@@ -8,7 +8,7 @@ use crate::engines::{Indexed, POOLS, indexed, timed};
 #[cfg(cgal)]
 use std::ptr;
 
-/// What came out: triangles as indices of the input, only if they are wanted.
+/// The result: triangles as indices of the input, only if they are wanted.
 pub struct Output {
     pub time: Duration,
     pub triangles: Vec<[usize; 3]>,

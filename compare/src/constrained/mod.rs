@@ -16,7 +16,7 @@ use delone_oracle::certificate::{Flaw, certify};
 use engines::{ENGINES, Engine, Output};
 pub use polygons::run as polygons;
 
-/// What all engines are given.
+/// The input of all engines.
 pub struct Set {
     name: String,
     points: Vec<[f64; 2]>,
@@ -85,7 +85,7 @@ fn read(path: &str) -> Option<Set> {
     Some(set)
 }
 
-/// What is known of an engine on a graph.
+/// The results of an engine on a graph.
 struct Entry {
     engine: &'static Engine,
     times: Vec<Duration>,

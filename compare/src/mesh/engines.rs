@@ -8,7 +8,7 @@ use delone::{Constrained2, Fill, Refinement, Seeds2};
 use super::judge::Mesh;
 use crate::engines::timed;
 
-/// What an engine is asked for.
+/// The task of an engine.
 pub struct Task {
     pub points: Vec<[f64; 2]>,
     pub segments: Vec<[usize; 2]>,
@@ -18,7 +18,7 @@ pub struct Task {
     pub angle: f64,
 }
 
-/// What it gave: the mesh is asked for when time and memory are known.
+/// The result: the mesh is fetched after time and memory are measured.
 pub struct Refined {
     pub time: Duration,
     /// How many triangles it says that it could not refine, if it says so.
@@ -78,7 +78,7 @@ fn delone(task: &Task) -> Result<Refined, String> {
 /// Up to so many Steiner points for each point; its own default is 10.
 const BUDGET: usize = 20;
 
-/// What is inside is what an odd number of segments is around, or all; where segments do not close, or have the inside on both
+/// Inside is what an odd number of segments surrounds, or all; where segments do not close, or have the inside on both
 /// sides, its rule may find nothing.
 fn spade(task: &Task) -> Result<Refined, String> {
     use spade::{

@@ -1,4 +1,4 @@
-//! What all engines refine: distinct points, segments that meet in points only, and a point in each hole.
+//! The input of all engines: distinct points, segments that meet in points only, and a point in each hole.
 
 use std::collections::BTreeSet;
 use std::fs::File;

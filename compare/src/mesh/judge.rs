@@ -15,16 +15,16 @@ pub struct Mesh {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// What is known of a mesh.
+/// The measures of a mesh.
 #[derive(Clone, Default)]
 pub struct Verdict {
     /// Triangles that have an angle below the bound.
     pub below: usize,
-    /// Those of them at a small angle of the input, which nobody can avoid.
+    /// Bad triangles at a small angle of the input, which nobody can avoid.
     pub excused: usize,
     /// The smallest angle of all: degrees.
     pub smallest: f64,
-    /// What is wrong with it as a mesh of the inside.
+    /// Its fault as a mesh of the inside.
     pub wrong: Option<String>,
 }
 

@@ -21,7 +21,7 @@ use judge::{Verdict, judge};
 use summary::{Row, Summary};
 use wedges::Wedges;
 
-/// What is measured.
+/// The measurements to make.
 pub struct Plan<'a> {
     /// Graphs by name, or files.
     pub names: &'a [String],
@@ -38,7 +38,7 @@ pub struct Plan<'a> {
     pub limit: Duration,
 }
 
-/// What is known of an engine on an input at an angle.
+/// The results of an engine on an input at an angle.
 struct Entry {
     engine: &'static Engine,
     samples: Vec<Sample>,
@@ -124,7 +124,7 @@ fn median(samples: &[Sample], value: impl Fn(&Sample) -> f64) -> Option<f64> {
     values.get(values.len() / 2).copied()
 }
 
-/// What counts in the end: meshes of the inside, whether or not all angles are as they should.
+/// The row of an entry in the summary: meshes of the inside, whether or not all angles are reached.
 fn row(input: &Input, angle: f64, entry: &Entry) -> Option<Row> {
     let first = entry.samples.first()?;
     (entry.failure.is_none() && entry.verdict.wrong.is_none()).then(|| Row {

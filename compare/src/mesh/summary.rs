@@ -1,4 +1,4 @@
-//! What counts in the end: points and time of each engine beside Triangle's and CGAL's, over all inputs and angles.
+//! The summary: points and time of each engine beside Triangle's and CGAL's, over all inputs and angles.
 
 use super::engines::TRIANGLE;
 

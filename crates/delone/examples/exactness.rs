@@ -19,7 +19,7 @@ fn rounded([a, b, c]: [[f64; 2]; 3]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The same by the triangle of the points, which there is unless they are on a line.
+/// The area by the triangulation of the points, which has a triangle unless they are on a line.
 fn exact(points: [[f64; 2]; 3]) -> Result<f64, delone::Error> {
     let d = Delaunay2::from_points(&points)?;
     // The triangle is counter-clockwise: are its corners in the order of the points?

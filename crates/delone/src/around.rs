@@ -1,4 +1,4 @@
-//! What surrounds a point: the simplices whose circles hold it, found without a change. A new vertex there would take their
+//! The surroundings of a point: the simplices whose circles contain it, found without a change. A new vertex there would take their
 //! place; their corners are its natural neighbours.
 //!
 //! Source: Sibson, "A vector identity for the Dirichlet tessellation", 1980, for the neighbours; Bowyer and Watson, 1981, for the
@@ -30,7 +30,7 @@ pub trait Surround: Ask {
     ) -> Result<Found<Self::Simplex>, Error>;
 }
 
-/// What surrounds a point, in buffers that are kept from one question to the next.
+/// The surroundings of a point, in buffers that the next question uses again.
 #[derive(Clone, Debug)]
 pub struct Around<T: Triangulation + ?Sized> {
     pub(crate) cavity: Vec<T::Simplex>,
@@ -39,7 +39,7 @@ pub struct Around<T: Triangulation + ?Sized> {
     pub(crate) seen: Seen,
     /// Sides of simplices that are to be looked at.
     pub(crate) pending: Vec<(T::Simplex, usize)>,
-    /// The same in the plane, by numbers.
+    /// The surroundings in the plane, by numbers.
     pub(crate) ring: Ring,
 }
 

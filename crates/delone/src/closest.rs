@@ -27,11 +27,11 @@ pub(crate) fn distance<const N: usize>(q: [f64; 3], corners: [[f64; 3]; N]) -> f
     dot(miss, miss).sqrt()
 }
 
-/// What [`distance`] may lack, as a part of the largest difference of coordinates: differences, weights and their sums are rounded, each by half
+/// The error of [`distance`], relative to the largest difference of coordinates: differences, weights and their sums are rounded, each by half
 /// a last place, at most eleven in all.
 const ROUNDING: f64 = 6.0 * f64::EPSILON;
 
-/// What it may lack where squares are below the range of numbers.
+/// Its error where squares underflow.
 const UNDERFLOW: f64 = 1e-150;
 
 /// A bound of the distance of a point from an edge or a triangle: not below it, and above it by rounding alone.

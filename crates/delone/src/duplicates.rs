@@ -13,7 +13,7 @@ pub(crate) struct Duplicates {
 }
 
 impl Duplicates {
-    /// Those of a construction.
+    /// The duplicates of a construction.
     pub(crate) fn new(found: Vec<Duplicate>) -> Self {
         Self { found, moved: BTreeMap::new() }
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with what was asked for: what, and where.
+//! Errors of requests, with the place of the fault.
 
 use crate::ids::VertexId;
 
@@ -180,13 +180,13 @@ pub enum Error {
         ring: usize,
         /// The corner of the ring, from 0.
         corner: usize,
-        /// What is wrong there.
+        /// The fault there.
         problem: RegionProblem,
     },
     /// The bound that a mesh is to keep somewhere is NaN, zero or negative.
     #[error("the size wanted at ({}, {}) is {value}; it must be positive", .at[0], .at[1])]
     Size {
-        /// What was said.
+        /// The value given.
         value: f64,
         /// Where.
         at: [f64; 2],
@@ -206,7 +206,7 @@ pub enum Error {
     Cut {
         /// The number of the node.
         node: u32,
-        /// What is wrong with it.
+        /// The fault.
         problem: &'static str,
     },
     /// The border of a tile that is none, or that does not belong to the others.
@@ -214,7 +214,7 @@ pub enum Error {
     Border {
         /// Which of the borders, from 0.
         index: usize,
-        /// What is wrong with it.
+        /// The fault.
         problem: BorderProblem,
     },
     /// Somebody wanted to stop.
@@ -227,7 +227,7 @@ pub enum Error {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// The range allowed.
         range: &'static str,
     },
 }
@@ -241,7 +241,7 @@ fn short(value: f64) -> String {
     }
 }
 
-/// What is said of other pairs.
+/// The words for further pairs.
 fn others(count: usize) -> String {
     match count {
         0 | 1 => String::new(),
@@ -250,7 +250,7 @@ fn others(count: usize) -> String {
     }
 }
 
-/// What can be wrong with the border of a tile.
+/// A fault of the border of a tile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BorderProblem {
@@ -312,7 +312,7 @@ pub enum BorderProblem {
     },
 }
 
-/// What can be wrong with the border of a region.
+/// A fault of the border of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionProblem {

@@ -24,9 +24,9 @@ struct Below<C> {
 #[derive(Clone, Debug)]
 pub(crate) struct HiddenSites<C> {
     sites: BTreeMap<VertexId, Below<C>>,
-    /// Those whose simplex is known, by simplex.
+    /// The sites whose simplex is known, by simplex.
     cells: BTreeSet<(C, VertexId)>,
-    /// Those that equal a vertex, by vertex.
+    /// The sites that equal a vertex, by vertex.
     equals: BTreeSet<(VertexId, VertexId)>,
     /// Whether those of all are known.
     pub(crate) are_known: bool,
@@ -63,12 +63,12 @@ impl<C: Copy + Ord> HiddenSites<C> {
         known.chain(unknown)
     }
 
-    /// Those that are hidden.
+    /// The hidden sites.
     pub(crate) fn hidden(&self) -> impl Iterator<Item = VertexId> + '_ {
         self.sites.iter().filter(|(_, site)| site.equal.is_none()).map(|(&id, _)| id)
     }
 
-    /// Those that equal a vertex.
+    /// The sites that equal a vertex.
     pub(crate) fn duplicates(&self) -> impl Iterator<Item = Duplicate> + '_ {
         self.sites
             .iter()
@@ -90,7 +90,7 @@ impl<C: Copy + Ord> HiddenSites<C> {
         self.equals = self.duplicates_by_vertex().collect();
     }
 
-    /// What equals one vertex equals another one from now on.
+    /// Makes all duplicates of one vertex duplicates of another.
     pub(crate) fn equal_instead(&mut self, old: VertexId, new: VertexId) {
         let all = (old, VertexId::new(0))..=(old, VertexId::GHOST);
         let ids: Vec<VertexId> = self.equals.range(all).map(|&(_, id)| id).collect();

@@ -72,7 +72,7 @@ pub struct Duplicate {
     pub vertex: VertexId,
 }
 
-/// What became of an inserted point.
+/// The outcome of an insertion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inserted {
     /// It is a vertex now.

@@ -113,7 +113,7 @@ impl<'a, P: Coordinates> Numbered<'a, P> {
         self.numbers.iter().map(|&number| self.indices[number as usize]).collect()
     }
 
-    /// The same places with ranks, given by index: of two that become one that of the lower rank stays.
+    /// Gives the places ranks, by index: of two that become one, the place of the lower rank stays.
     pub(crate) fn ranked(self, rank: impl Fn(usize) -> u8) -> Self {
         let ranks: Vec<u8> = self.indices.iter().map(|&i| rank(i as usize)).collect();
         let mut order: Vec<u32> = (0..ranks.len() as u32).collect();

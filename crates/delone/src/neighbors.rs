@@ -32,7 +32,7 @@ use crate::points::{Position2, Position3, check_count, check_finite, finite};
 const LEAF: usize = 8;
 /// Points, above which a subtree is built by another thread; below, starting the thread costs more.
 const PARALLEL_POINTS: usize = 1 << 14;
-/// So many levels the largest tree has.
+/// Levels of the largest tree.
 const LEVELS: usize = 32;
 
 /// A set of points of the plane that is asked for those near others. Answers are indices of points.
@@ -49,7 +49,7 @@ const LEVELS: usize = 32;
 /// ```
 pub type Neighbors2 = Neighbors<2>;
 
-/// The same in space.
+/// A tree of points in space.
 pub type Neighbors3 = Neighbors<3>;
 
 /// See [`Neighbors2`] and [`Neighbors3`].

@@ -56,7 +56,7 @@ pub(crate) fn map<T: Send, R: Send>(tasks: Vec<T>, work: impl Fn(T) -> R + Send 
     tasks.into_iter().map(work).collect()
 }
 
-/// The same for tasks that so many items are shared among: one after the other if threads are not worth it.
+/// Runs tasks that share `count` items: one after the other if there are too few items for threads.
 pub(crate) fn share<T: Send, R: Send>(
     items: usize,
     tasks: Vec<T>,
@@ -104,7 +104,7 @@ pub(crate) fn filled<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
     collect(count, |_| value)
 }
 
-/// The same where the memory of a large page is long in coming: for arrays of hundreds of bytes a point.
+/// Fills an array in small pages, because large pages take long to get: for arrays of hundreds of bytes a point.
 pub(crate) fn filled_in_small_pages<T: Copy + Send + Sync>(value: T, count: usize) -> Vec<T> {
     collect_into(Vec::with_capacity(count), count, |_| value)
 }

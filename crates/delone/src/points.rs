@@ -1,4 +1,4 @@
-//! What can be given as a point, whether it is finite, and the box around many.
+//! Accepted types of points, tests that they are finite, and the box around many.
 
 use std::borrow::Cow;
 

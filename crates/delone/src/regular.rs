@@ -1,8 +1,8 @@
-//! What regular triangulations of the plane and of space say alike: what is wrong with one, and how it took other weights.
+//! Common types of regular triangulations in the plane and in space: flaws, and the outcome of new weights.
 
 use crate::ids::VertexId;
 
-/// What is wrong with a regular triangulation, one sentence each. `F` is what may be wrong with any triangulation.
+/// A flaw of a regular triangulation. `F` is a flaw of any triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegularFlaw<F> {

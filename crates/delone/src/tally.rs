@@ -1,4 +1,4 @@
-//! What an operation did, counted only for those who ask: `()` counts nothing and costs nothing.
+//! Observers of operations. `()` observes nothing and costs nothing.
 
 /// Receives one call for each step of an operation.
 pub trait Tally {
@@ -17,9 +17,9 @@ pub trait Tally {
     fn created(&mut self, _count: usize) {}
     /// Triangles were destroyed, ghosts included.
     fn destroyed(&mut self, _count: usize) {}
-    /// What follows is done on this level of a hierarchy; 0 is the triangulation itself.
+    /// Reports that the next steps are on this level of a hierarchy; 0 is the triangulation itself.
     fn level(&mut self, _level: usize) {}
-    /// What follows belongs to this phase of a search.
+    /// Reports that the next steps belong to this phase of a search.
     fn phase(&mut self, _phase: Phase) {}
     /// Another part of the operation did this.
     fn add(&mut self, _other: &Self)
@@ -109,7 +109,7 @@ impl Tally for Work {
     }
 }
 
-/// What an algorithm did, for those who measure.
+/// Counts of an algorithm's steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Counters {
@@ -136,7 +136,7 @@ impl Counters {
     }
 }
 
-/// What divide and conquer did.
+/// Counts of the steps of divide and conquer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Merges {

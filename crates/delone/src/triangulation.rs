@@ -1,4 +1,4 @@
-//! What every kind of triangulation is, what can be asked of it and what can be changed.
+//! Traits of all kinds of triangulations: their simplices, queries and changes.
 //!
 //! Whatever stands on these traits (files, pictures, the program, the Python package) works for a new kind as soon as it has
 //! them. The types themselves have more, and say it in their own words: [`crate::Delaunay2`] has triangles and edges,
@@ -67,10 +67,10 @@ pub trait Triangulation: Debug + Send + Sync {
     type Corners: Corners;
     /// The corners of a facet: an edge in the plane, a triangle in space.
     type Facet: Corners;
-    /// What can be wrong.
+    /// The flaws that a check finds.
     type Flaw: std::error::Error + Send + Sync + 'static;
 
-    /// What the points span.
+    /// The dimension of the span of the points.
     fn dimension(&self) -> Dimension;
 
     /// The number of ids given so far: points of the input and of all insertions, which the largest id is below. It is the size
@@ -214,7 +214,7 @@ pub trait Regular: Triangulation + Clone + Default {
     /// Triangulates them by insertion one by one, in an order that the seed decides.
     fn with_seed(points: &[Self::Point], weights: &[f64], seed: u64) -> Result<Self, Error>;
 
-    /// What construction took.
+    /// Counters of the construction.
     fn counters(&self) -> Counters;
 
     /// Point and weight of a site, hidden or not; none if it was removed or never given.
@@ -241,7 +241,7 @@ pub trait Regular: Triangulation + Clone + Default {
 
 /// Points that are nearly known beforehand: an order and a hint for each, found once.
 pub trait Imprecise: Sized + Send + Sync {
-    /// What an instance is made into.
+    /// The triangulation of an instance.
     type Triangulation: Change;
 
     /// Finds order and hints.
@@ -256,7 +256,7 @@ pub trait Imprecise: Sized + Send + Sync {
         instance: &[<Self::Triangulation as Triangulation>::Point],
     ) -> Result<&Self::Triangulation, Error>;
 
-    /// The same by hints, and tells each step.
+    /// Triangulates by hints, and reports each step.
     fn triangulate_observed<O: Tally>(
         &mut self,
         instance: &[<Self::Triangulation as Triangulation>::Point],

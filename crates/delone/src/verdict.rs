@@ -1,6 +1,6 @@
-//! What is right about simplices from elsewhere that are a Delaunay triangulation.
+//! Verdicts on simplices from other programs.
 
-/// What `verify` found of triangles or tetrahedra that are a Delaunay triangulation.
+/// The verdict of `verify` on triangles or tetrahedra that are a Delaunay triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Verdict {

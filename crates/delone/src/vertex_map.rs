@@ -1,4 +1,4 @@
-//! What users know of vertices, beside the triangulation.
+//! User data of vertices, beside the triangulation.
 
 use std::ops::{Index, IndexMut};
 

@@ -1,4 +1,4 @@
-//! What a site has besides its point: nothing, or a weight.
+//! The data of a site besides its point: nothing, or a weight.
 //!
 //! Triangulations keep weights by place, beside their points. Those without weights keep `()`, which takes no memory, and is
 //! never looked up.

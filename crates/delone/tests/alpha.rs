@@ -307,7 +307,7 @@ fn solid_parts<const N: usize>(simplices: &[[VertexId; N]]) -> usize {
     parts
 }
 
-/// What covers all vertices in few parts, tried at every value.
+/// The least radius that covers all vertices in few parts, against a trial of every value.
 #[test]
 fn the_optimal_radius_is_the_least() {
     let mut random = Random::new(6);

@@ -25,7 +25,7 @@ const FLOORS: &[&[&str]] = &[
 const DECIDE: [&str; 9] =
     ["neighbors", "graphs", "hull", "alpha", "around", "plane", "space", "tiles", "surface"];
 
-/// What writes the records of triangles: surgery, and the bulk construction in its own arrays.
+/// The files that write the records of triangles: surgery, and the bulk construction in its own arrays.
 const SURGEONS: [&str; 3] = ["mesh/triangles", "plane/construct/builder.rs", "plane/construct/number.rs"];
 
 /// Names that say nothing about what is inside.

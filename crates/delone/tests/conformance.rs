@@ -46,7 +46,7 @@ fn triangles(d: &Delaunay2) -> Vec<[[f64; 2]; 3]> {
     brute::normalized(d.triangles().map(|corners| corners.map(|v| d.point(v))))
 }
 
-/// Those that are not slow on any large set: walks from the last of random points are.
+/// The algorithms that are not slow on any large set: walks from the last of random points are.
 fn scalable_algorithms() -> Vec<Algorithm2> {
     let scalable = |algorithm: &Algorithm2| match algorithm {
         Algorithm2::Located { locate, .. } => {

@@ -55,7 +55,7 @@ impl Counts {
     }
 }
 
-/// What is next to points that are nearly on a line, and far from them along it, has nothing but slivers between: there a
+/// Queries beside points that are nearly on a line, and far from them along it, have nothing but slivers between: there a
 /// query may visit many, if seldom.
 fn beside_a_line(name: &str, n: usize) -> u64 {
     if ["near-line", "two parabolas"].contains(&name) { n as u64 } else { 0 }

@@ -15,7 +15,7 @@ fn pairs(edges: impl IntoIterator<Item = [VertexId; 2]>) -> Pairs {
     edges.into_iter().map(sorted).collect()
 }
 
-/// What both triangulations have.
+/// The operations of both triangulations.
 trait Graphs<const D: usize>: Change<Point = [f64; D]> {
     fn edges_of(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, Error>;
 
@@ -206,7 +206,7 @@ fn the_set_alone_decides() {
     }
 }
 
-/// Those that are worth more than one thread.
+/// Sets that are worth more than one thread.
 #[test]
 fn threads_do_not_show() {
     let in_pool = |threads: usize, work: &(dyn Fn() -> Vec<Vec<[VertexId; 2]>> + Sync)| {

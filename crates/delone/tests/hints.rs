@@ -317,7 +317,7 @@ fn moving_points_are_repaired_or_rebuilt_into_the_canonical_triangulation() {
     assert_eq!(moving.triangulation().points(), [[0.0, 0.0], [1.0, 0.0]]);
 }
 
-/// What cannot be repaired: equal points that part, lines that bend, all that there is turned over.
+/// Motions that cannot be repaired: equal points that part, lines that bend, a set that is turned over.
 #[test]
 fn motions_between_dimensions_are_rebuilt() {
     let square = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];

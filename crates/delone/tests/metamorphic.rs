@@ -1,4 +1,4 @@
-//! What scaling, permuting, repeating and turning do to every operation that gives geometry: what they must, and nothing else.
+//! Scaling, permuting, repeating and turning change the result of every operation as they must, and in no other way.
 //!
 //! Each operation of the table takes a set with weights, heights and a unit of length, and gives shapes (lists of points) and measures
 //! (numbers with the power of the unit that they are in). Scaled by a power of two, all numbers are the same but for that power, to the
@@ -335,7 +335,7 @@ const SPACE: &[Operation<3>] = &[
     }),
 ];
 
-/// The same set in other units, another order, or turned.
+/// A set in other units, in another order, or turned.
 fn changed<const D: usize>(
     set: &Set<D>,
     map: impl Fn([f64; D]) -> [f64; D],

@@ -289,7 +289,7 @@ fn what_a_random_order_creates() {
     }
 }
 
-/// The same beside a triangulation that changes: the versions go on where a search has ended.
+/// Versions beside a triangulation that changes: they go on where a search has ended.
 #[test]
 fn versions_go_on_as_points_come() {
     let (mut points, new) = (uniform(3_000), Kind::Uniform.points(2_000, 99));

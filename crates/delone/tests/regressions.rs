@@ -38,7 +38,7 @@ fn points_that_change_places_on_a_sphere_come_to_an_end() {
     assert!(repaired > 100, "only {repaired} were repaired");
 }
 
-/// What a step looks at grows as the number of vertices that are removed, not as that times the degree of a hub.
+/// The work of a step grows with the number of removed vertices, not with that times the degree of a hub.
 #[test]
 fn a_hub_does_not_slow_motion_down() {
     for n in [2000, 8000, 32_000] {

@@ -41,7 +41,7 @@ fn in_plane(random: &mut Random, n: usize) -> Vec<Site<2>> {
         .collect()
 }
 
-/// The same in space.
+/// Random sites in space.
 fn in_space(random: &mut Random, n: usize) -> Vec<Site<3>> {
     let family = random.below(8);
     let square = |p: [f64; 3]| p.iter().map(|x| x * x).sum::<f64>();

@@ -120,7 +120,7 @@ fn weights_bring_back_the_point_in_space() {
     }
 }
 
-/// What the cell of the point takes is what cells lose.
+/// The area of the new cell equals the area that the other cells lose.
 #[test]
 fn sibson_is_what_cells_lose() {
     for kind in [Kind::Uniform, Kind::Clusters, Kind::Grid, Kind::Circle] {

@@ -96,7 +96,7 @@ fn many_threads_give_the_canonical_triangulation() {
     }
 }
 
-/// The same in space.
+/// All bits of a triangulation in space.
 fn bits3(d: &Delaunay3) -> impl PartialEq + use<> {
     let mesh = d.mesh();
     let cells: Vec<_> = d.tetrahedron_ids().map(|t| (t, mesh.corners(t), mesh.adjacent(t))).collect();

@@ -10,7 +10,7 @@ use delone_oracle::{all_cases, brute, some_of};
 
 type Triangle = [[f64; 2]; 3];
 
-/// What tiles and joins find.
+/// The result of tiles and joins.
 struct Found {
     triangles: Vec<Triangle>,
     fingerprint: Fingerprint,
@@ -34,7 +34,7 @@ fn in_tiles(points: &[[f64; 2]], cuts: &Cuts, levels: u32) -> Found {
     by_rules(points, cuts, levels, |region| region, |border| border)
 }
 
-/// The same where tiles are told other regions than their own, and borders are changed.
+/// Runs tiles and joins with regions other than their own, and with changed borders.
 fn by_rules(
     points: &[[f64; 2]],
     cuts: &Cuts,
@@ -198,10 +198,10 @@ fn borders_are_small() {
     assert_eq!(found.triangles.len(), 2 * points.len() - 2 - found.hull);
 }
 
-/// What is not done as it is said gives other triangles: each rule is needed.
+/// Each rule is needed: without it there are other triangles.
 #[test]
 fn every_rule_is_needed() {
-    /// Those of a border that are corners of open triangles.
+    /// The vertices of a border that are corners of open triangles.
     fn without_hull(border: Border) -> Border {
         let is_open = |v: &usize| border.open.iter().flatten().any(|&w| w as usize == *v);
         let kept: Vec<usize> = (0..border.points.len()).filter(is_open).collect();

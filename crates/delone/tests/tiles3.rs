@@ -11,7 +11,7 @@ use delone_oracle::{all_cases, some_of};
 type Point = [f64; 3];
 type Tetrahedron = [Point; 4];
 
-/// What tiles and joins find.
+/// The result of tiles and joins.
 struct Found {
     tetrahedra: Vec<Tetrahedron>,
     fingerprint: Fingerprint,
@@ -35,7 +35,7 @@ fn in_tiles(points: &[Point], cuts: &Cuts<3>, levels: u32) -> Found {
     by_rules(points, cuts, levels, |region| region, |border| border)
 }
 
-/// The same where tiles are told other regions than their own, and borders are changed.
+/// Runs tiles and joins with regions other than their own, and with changed borders.
 fn by_rules(
     points: &[Point],
     cuts: &Cuts<3>,
@@ -262,10 +262,10 @@ fn borders_are_small() {
     assert_eq!(found.fingerprint, Fingerprint::of(&whole));
 }
 
-/// What is not done as it is said gives other tetrahedra: each rule is needed.
+/// Each rule is needed: without it there are other tetrahedra.
 #[test]
 fn every_rule_is_needed() {
-    /// Those of a border that are corners of open tetrahedra.
+    /// The vertices of a border that are corners of open tetrahedra.
     fn without_hull(border: Border3) -> Border3 {
         let is_open = |v: &usize| border.open.iter().flatten().any(|&w| w as usize == *v);
         let kept: Vec<usize> = (0..border.points.len()).filter(is_open).collect();

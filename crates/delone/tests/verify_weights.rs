@@ -1,4 +1,4 @@
-//! What is said of simplices of points with weights: ties that others break in another way are right, all else that differs is not.
+//! Verdicts on simplices of points with weights: ties that others break in another way are right, other differences are not.
 
 use delone::plane::verify::Objection2;
 use delone::space::verify::Objection3;

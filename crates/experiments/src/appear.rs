@@ -1,4 +1,4 @@
-//! What ever appears while points are inserted one by one.
+//! Simplices that ever appear while points are inserted one by one.
 
 use delone::{Change, Delaunay2, VertexId};
 

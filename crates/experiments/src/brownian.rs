@@ -14,7 +14,7 @@ use super::{Error, Findings, Options, decades, timed};
 const STEPS: usize = 100;
 const FEW_STEPS: usize = 10;
 const SHORT_RUN_POINTS: usize = 1_000_000;
-/// What the paper found: points, nanoseconds a point and step and triangles visited by spatial sort, and by hints.
+/// The paper's figures: points, nanoseconds a point and step and triangles visited by spatial sort, and by hints.
 const PUBLISHED: [(usize, [f64; 4]); 5] = [
     (1_000, [780.0, 3.81, 730.0, 2.77]),
     (10_000, [780.0, 3.68, 690.0, 2.77]),
@@ -99,7 +99,7 @@ fn brownian(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error>
     Ok(())
 }
 
-/// What the automatic mover needs in the plane and in space, beside a construction from nothing.
+/// The time of the automatic mover in the plane and in space, beside a construction from nothing.
 fn by_displacement(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let seed = options.seed;
     let heads = ["points", "displacement", "ns", "from nothing: ns", "ratio of ns", "how"];

@@ -16,7 +16,7 @@ use super::{Error, Findings, Options};
 const POINTS: usize = 300;
 const ORDERS: usize = 10;
 
-/// What happened at the insertion of the r-th point, summed over orders.
+/// The work at the insertion of the r-th point, summed over orders.
 #[derive(Clone, Copy, Default)]
 struct Step {
     /// Sizes of the conflicts of the new triangles: the left side of (1).

@@ -46,7 +46,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     Ok(Findings { tables: vec![table], plots: Vec::new() })
 }
 
-/// What ever was, tests and triangles visited a query; what is left, and tests after a half has gone.
+/// Counts all simplices ever made, tests and triangles visited a query; then the rest, and tests after a half has gone.
 fn follow<D: Change>(
     points: Vec<D::Point>,
     ever: impl Fn(&D) -> usize,

@@ -9,7 +9,7 @@ use delone_generators::{Kind, Random};
 use super::trials::Trials;
 use super::{Error, Findings, Options, decades, timed};
 
-/// So many vertices are removed, or a half.
+/// Vertices that are removed, unless half of the set is fewer.
 const REMOVED: usize = 20_000;
 
 pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {

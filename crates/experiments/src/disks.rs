@@ -32,7 +32,7 @@ pub(crate) fn run(options: &Options<'_>) -> Result<Findings, Error> {
     Ok(findings)
 }
 
-/// What the proof of Theorem 3 bounds, measured: all constants of the linear expected cost.
+/// Measures the bounds in the proof of Theorem 3: all constants of the linear expected cost.
 fn claims(options: &Options<'_>) -> Result<Table, Error> {
     let mut table = options.table(
         "disks-claims",
@@ -122,7 +122,7 @@ fn visited(centres: &[[f64; 2]], instance: &[[f64; 2]], seed: u64) -> Result<(f6
     Ok((work.visited as f64 / centres.len() as f64, hints.gave_up()))
 }
 
-/// The same in space.
+/// Tetrahedra visited, in space.
 fn visited_in_space(centres: &[[f64; 3]], instance: &[[f64; 3]], seed: u64) -> Result<f64, Refusal> {
     let mut work = Work::default();
     Hints3::from_points(centres, HintOrder::Random { seed })?.triangulate_observed(instance, &mut work)?;

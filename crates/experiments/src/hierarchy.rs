@@ -35,7 +35,7 @@ const PAPER: [(Kind, &str, [[f64; 4]; 3]); 5] = [
 
 /// A mode that is expected to visit more triangles is not run, and called long as in the paper.
 const LONG: f64 = 1e10;
-/// What is expected to visit more is run once.
+/// Visits, above which an expected run is made once.
 const ONCE: f64 = 5e8;
 const WAYS: [&str; 8] =
     ["walk", "MSZ", "hierarchy", "hierarchy+MSZ", "tree", "history", "conflict lists", "divide&conquer"];

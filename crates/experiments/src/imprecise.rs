@@ -30,7 +30,7 @@ const WALKING: usize = 5;
 /// that has the goal beyond it. What is in between shows which of both saves triangles.
 const STRAIGHT: [&str; 2] = ["one Hilbert curve, straight", "spatial sort, straight"];
 
-/// What the paper found for so many points: nanoseconds a point by the methods above without our sample (the last is Triangle),
+/// The paper's figures for a number of points: nanoseconds a point by the methods above without our sample (the last is Triangle),
 /// triangles visited, nanoseconds to preprocess, and instances that amortise it.
 struct Published {
     points: usize,
@@ -74,7 +74,7 @@ const SPACE: [Published; 3] = [
 /// by spatial sort.
 const SCAN: [Published; 0] = [];
 
-/// What a method needs for one point: nanoseconds, and triangles visited if it walks.
+/// The cost of a method for one point: nanoseconds, and triangles visited if it walks.
 #[derive(Clone, Default)]
 struct Cost {
     ns: Trials,
@@ -88,7 +88,7 @@ impl Cost {
     }
 }
 
-/// What the methods cost, in their order, and nanoseconds a point to preprocess in spatial order.
+/// The costs of the methods, in their order, and nanoseconds a point to preprocess in spatial order.
 #[derive(Default)]
 struct Row {
     costs: [Cost; METHODS.len()],
@@ -249,7 +249,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// What a first instance costs by hints, in new memory as by the other methods; visits are counted in a second one.
+/// The cost of a first instance by hints, in new memory as by the other methods; visits are counted in a second one.
 fn by_hints<H>(
     n: usize,
     hints: &mut H,

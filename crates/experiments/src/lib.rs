@@ -35,7 +35,7 @@ use rayon::ThreadPool;
 pub use plot::Plot;
 pub use table::{Table, Watch};
 
-/// What an experiment found.
+/// The findings of an experiment.
 #[derive(Debug, Default)]
 pub struct Findings {
     /// Tables, at least one, none of them empty.
@@ -48,7 +48,7 @@ pub struct Findings {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// What was asked for is below the smallest set.
+    /// The limit asked for is below the smallest set.
     #[error("--largest {largest} is below {smallest}, the smallest set of this experiment")]
     TooSmall {
         /// The largest set allowed.
@@ -118,7 +118,7 @@ type Run = fn(&Options<'_>) -> Result<Findings, Error>;
 pub struct Experiment {
     /// Its name.
     pub name: &'static str,
-    /// What it shows, in a line.
+    /// A line about it.
     pub about: &'static str,
     /// The smallest `largest` with which no table is empty.
     pub smallest: usize,
@@ -284,7 +284,7 @@ fn decades(first: usize, largest: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(first), |n| n.checked_mul(10)).take_while(move |&n| n <= largest)
 }
 
-/// What a piece of work gives, and the seconds it takes.
+/// The result of a piece of work, and its seconds.
 fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
     let result = work();

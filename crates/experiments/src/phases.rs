@@ -1,4 +1,4 @@
-//! What searches in a hierarchy do, by level and phase.
+//! Steps of searches in a hierarchy, by level and phase.
 
 use delone::{Phase, Tally, Work};
 

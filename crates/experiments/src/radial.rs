@@ -17,7 +17,7 @@ use super::{Error, Findings, Options, decades, timed};
 const QUERIES: usize = 20_000;
 /// The law is fitted to sizes up to this one.
 const FITTED: usize = 10_000;
-/// So many points from a seed.
+/// Makes `n` points from a seed.
 type Make = fn(usize, u64) -> Vec<[f64; 2]>;
 /// Sets, and queries among them.
 const SETS: [(&str, Make, Make); 3] = [

@@ -16,7 +16,7 @@ use super::{Error, Findings, Options, sizes};
 /// The set whose points have weights.
 const WITH_WEIGHTS: &str = "ball, with weights";
 
-/// So many points from a seed.
+/// Makes `n` points from a seed.
 type Make = fn(usize, u64) -> Vec<[f64; 3]>;
 
 /// The largest radius of a site with a weight, in sides of the cube that is its share: more than half of many are hidden.
@@ -91,7 +91,7 @@ fn plain(points: &[[f64; 3]], seed: u64) -> Result<([u64; 3], Work), Error> {
     Ok((counts, d.counters().work().unwrap_or_default()))
 }
 
-/// The same of points in a ball with random radii.
+/// Counts for points in a ball with random radii.
 fn weighted(points: &[[f64; 3]], seed: u64) -> Result<([u64; 3], Work), Error> {
     let mut random = Random::new(seed);
     let side = (4.0 / 3.0 * PI / points.len() as f64).cbrt();

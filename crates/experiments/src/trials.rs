@@ -32,7 +32,7 @@ impl Trials {
         self.deviation() / (self.values.len().max(1) as f64).sqrt()
     }
 
-    /// The same quantity in another unit.
+    /// The quantity in another unit.
     pub(crate) fn over(&self, unit: f64) -> Self {
         self.values.iter().map(|value| value / unit).collect()
     }

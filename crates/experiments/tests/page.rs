@@ -61,7 +61,7 @@ fn numbers(page: &str) -> Vec<Number<'_>> {
     numbers
 }
 
-/// What the results say.
+/// The number in the results.
 fn result(number: &Number<'_>) -> Result<String, String> {
     let table = table(number.file)?;
     let column = table[0].iter().position(|head| head == number.column).ok_or("no such column")?;
@@ -153,7 +153,7 @@ fn every_row_is_held() {
     assert!(held > 100, "the page has rows");
 }
 
-/// What stands in backticks.
+/// The words in backticks.
 fn quoted(page: &str) -> BTreeSet<&str> {
     page.split('`').skip(1).step_by(2).collect()
 }

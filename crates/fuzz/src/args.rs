@@ -1,4 +1,4 @@
-//! What can be asked for on the command line.
+//! The options of the command line.
 
 use clap::{Parser, ValueEnum};
 
@@ -6,7 +6,7 @@ use clap::{Parser, ValueEnum};
 #[derive(Clone, Debug, Parser)]
 #[command(name = "delone-fuzz", version)]
 pub(crate) struct Options {
-    /// What to attack.
+    /// The mode: what to attack.
     pub(crate) mode: Mode,
     /// Decides all cases.
     #[arg(long, default_value_t = 1)]
@@ -40,7 +40,7 @@ pub(crate) struct Options {
     pub(crate) first: u64,
 }
 
-/// What is attacked.
+/// A mode of attack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Mode {
     /// Small sets in the plane against the definition.
@@ -116,7 +116,7 @@ pub(crate) enum Mode {
 }
 
 impl Mode {
-    /// Those that `all` runs.
+    /// The modes that `all` runs.
     pub(crate) const REAL: [Self; 25] = [
         Self::Plane,
         Self::Space,
@@ -173,7 +173,7 @@ pub(crate) fn indices(text: &str) -> Result<Vec<usize>, String> {
     Ok(all)
 }
 
-/// The same written, for increasing indices.
+/// Writes increasing indices.
 pub(crate) fn written(indices: &[usize]) -> String {
     let runs = indices.chunk_by(|i, j| i + 1 == *j);
     let text: Vec<String> = runs

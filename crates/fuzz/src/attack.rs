@@ -9,7 +9,7 @@ pub(crate) type Judgement = Result<(), String>;
 
 /// A way to attack.
 pub(crate) trait Attack {
-    /// What the input is a list of.
+    /// An item of the input.
     type Item: Clone + Debug;
 
     /// A random input. It must not call the engine: the supervisor makes the input of a crash, too.

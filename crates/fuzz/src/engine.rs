@@ -62,7 +62,7 @@ pub(crate) fn strategies(seed: u64) -> [Locate; 12] {
     ]
 }
 
-/// What both engines can.
+/// The operations of both engines.
 pub(crate) trait Engine<const D: usize>: Clone + Sized {
     const STRATEGIES: usize;
 
@@ -74,7 +74,7 @@ pub(crate) trait Engine<const D: usize>: Clone + Sized {
     fn span(&self) -> isize;
     /// As the oracle has them.
     fn simplices(&self) -> Simplices<D>;
-    /// What the engine's own check says.
+    /// The verdict of the engine's own check.
     fn is_sound(&self) -> Result<(), String>;
     fn twins(&self) -> Vec<(usize, usize)>;
     fn alive(&self) -> Vec<VertexId>;

@@ -16,7 +16,7 @@ const SHRINKING: Duration = Duration::from_secs(90);
 /// A part of an input hangs after this share of the limit.
 const IMPATIENCE: f64 = 0.25;
 
-/// What became of a worker.
+/// The end of a worker.
 #[derive(Debug, Default)]
 struct Outcome {
     /// The number and the seed of the last case begun.

@@ -15,7 +15,7 @@ use crate::cases::{Case, case, seed_of};
 
 /// When the case at hand began, in milliseconds after the start, plus one; zero between cases.
 static BEGAN: AtomicU64 = AtomicU64::new(0);
-/// What the first panic of the case said.
+/// The message of the first panic of the case.
 static PANIC: Mutex<String> = Mutex::new(String::new());
 
 /// Runs one case or many.
@@ -103,7 +103,7 @@ fn watch(start: Instant, limit: Duration) {
     }
 }
 
-/// What all threads of this process have had of the processors, where the system tells.
+/// The processor time of all threads of this process, where the system tells.
 fn processor_time() -> Option<Duration> {
     /// Ticks of the system in a second, for all programs that it tells.
     const TICKS: u64 = 100;

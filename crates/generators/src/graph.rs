@@ -14,7 +14,7 @@ kinds! {
         let segments = short_segments(&points, 1.0, n / 10, r);
         (points, segments)
     };
-    /// The same on an integer grid of at least 16 n places: some points are equal, some are on segments.
+    /// A planar graph on an integer grid of at least 16 n places: some points are equal, some are on segments.
     PlanarGrid = "planar-grid", |n, r| {
         let side = (4.0 * (n as f64).sqrt()).ceil().max(1.0) as usize;
         let side = side.next_power_of_two();

@@ -37,7 +37,7 @@ fn side([ax, ay]: [i128; 2], [bx, by]: [i128; 2], [cx, cy]: [i128; 2]) -> i128 {
     ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).signum()
 }
 
-/// So many segments between points in the square from the origin to `extent`, a power of two of whose 2^-53 all
+/// `count` segments between points in the square from the origin to `extent`, a power of two of whose 2^-53 all
 /// coordinates are multiples. They are several mean distances of points long, and none crosses another; they may meet in
 /// points and lie on one another. Fewer, if there is no room.
 pub(crate) fn short_segments(

@@ -37,7 +37,7 @@ fn determinant(rows: &[Vec<BigInt>]) -> BigInt {
     expansion(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
-/// The same of rows that are borrowed, as nearly all of a test's time is spent here.
+/// The determinant of borrowed rows, because nearly all of a test's time is spent here.
 fn expansion(rows: &[&[BigInt]]) -> BigInt {
     match rows {
         [row] => row[0].clone(),
@@ -103,7 +103,7 @@ pub fn in_circle_unperturbed(a: Point2, b: Point2, c: Point2, d: Point2) -> i8 {
     sign(&determinant(&lifted(&[a, b, c, d])))
 }
 
-/// The same with heights x^2 + y^2 + e_i, where e_i is infinitesimal and infinitely larger for
+/// The in-circle test with heights x^2 + y^2 + e_i, where e_i is infinitesimal and infinitely larger for
 /// lexicographically larger points: the sign of the first non-zero term of the expansion in the e_i.
 pub fn in_circle(a: Point2, b: Point2, c: Point2, d: Point2) -> i8 {
     let points = [a, b, c, d];
@@ -136,7 +136,7 @@ pub fn in_sphere_unperturbed(a: Point3, b: Point3, c: Point3, d: Point3, e: Poin
     -sign(&determinant(&lifted3(&[a, b, c, d, e])))
 }
 
-/// The same with infinitesimal heights, as [`in_circle`] has them.
+/// The in-sphere test with infinitesimal heights, as in [`in_circle`].
 pub fn in_sphere(a: Point3, b: Point3, c: Point3, d: Point3, e: Point3) -> i8 {
     let points = [a, b, c, d, e];
     let rows = lifted3(&points);

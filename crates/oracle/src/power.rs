@@ -107,7 +107,7 @@ impl Lifted {
         Self { rows: points.iter().zip(weights).map(lift).collect(), ranks }
     }
 
-    /// What the points span.
+    /// The dimension of the span of the points.
     pub fn dimension(&self) -> usize {
         self.rows.first().map_or(0, |row| row.len() - 1)
     }

@@ -170,7 +170,7 @@ impl<L: Lane> Ball<L> {
         Self { high, low, radius: radius * L::all(ENLARGED * ENLARGED) + L::all(UNDERFLOW) }
     }
 
-    /// What the numbers in the ball may be rounded to: the least and the most.
+    /// The least and the greatest number that a number in the ball may be rounded to.
     #[inline]
     pub(crate) fn bounds(&self) -> [L; 2] {
         // The sums with the low part are rounded.
@@ -187,7 +187,7 @@ impl Ball<f64> {
         Self { high, low, radius }
     }
 
-    /// What all numbers in the ball are rounded to, if that is one. No negative zero.
+    /// The number that all numbers in the ball are rounded to, if it is one. No negative zero.
     #[inline]
     pub(crate) fn nearest(&self) -> Option<f64> {
         let [least, most] = self.bounds();

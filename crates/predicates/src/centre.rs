@@ -7,7 +7,7 @@ use crate::{Point2, Sign, exact};
 pub(crate) const ERROR: f64 = 20.0 * (f64::EPSILON / 2.0);
 /// Below this magnitude an underflow could be as large as the error bound.
 const SMALLEST: f64 = 1e-280;
-/// What an underflow in a product with `w` is multiplied by may be so many times the size of the terms: the product is
+/// The factor of an underflow in a product with `w` may be this multiple of the size of the terms: the product is
 /// off by at most 2^-1075, and 2^-1000 leaves it below 2^-20 of the error bound.
 pub(crate) const LOST: f64 = f64::from_bits((1023 - 1000) << 52);
 

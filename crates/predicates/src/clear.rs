@@ -72,7 +72,7 @@ pub(crate) fn sphere([a, b, c, d]: [Point3; 4]) -> Option<Sphere> {
     Some(Sphere { centre, radius, off })
 }
 
-/// The same for the power sphere of four sites, and sites in the box that weigh at most `most`: whether certainly none of
+/// Tests the power sphere of four sites, and sites in the box that weigh at most `most`: whether certainly none of
 /// these is below the hyperplane through the lifted corners or on it. O(1).
 ///
 /// ```

@@ -54,7 +54,7 @@ mod on {
         COUNTS[predicate as usize][stage as usize].fetch_add(1, Ordering::Relaxed);
     }
 
-    /// What has been counted since the process started or since the last call, which starts anew.
+    /// Counts since the process started or since the last call, which resets them.
     pub fn take() -> Counts {
         let mut counts = Counts::default();
         for (row, cells) in counts.0.iter_mut().zip(&COUNTS) {

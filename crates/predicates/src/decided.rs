@@ -1,4 +1,4 @@
-//! What each stage decides by itself. An answer that is right but late is seen by no comparison with the exact one: a
+//! Tests of the share that each stage decides by itself. An answer that is right but late is seen by no comparison with the exact one: a
 //! filter that never tells, or integers that never fit, only cost time. Here the stages are asked one by one.
 
 use std::cmp::Ordering;

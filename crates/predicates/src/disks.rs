@@ -52,7 +52,7 @@ pub struct End {
     value: Interval,
 }
 
-/// What is asked of a third disk.
+/// The question about a third disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Question {
     /// Where is d_k > d + e?
@@ -61,7 +61,7 @@ enum Question {
     Blocked,
 }
 
-/// What both stages calculate with. A sign may be unknown.
+/// The arithmetic of both stages. A sign may be unknown.
 trait Number: Sized {
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;

@@ -139,7 +139,7 @@ pub fn angle(o: Point2, a: Point2, b: Point2) -> Sign {
     told(x + y, x.abs() + y.abs()).unwrap_or_else(|| exact::angle(o, a, b))
 }
 
-/// The same in space.
+/// The sign of the angle at `o` between `a` and `b`, in space.
 ///
 /// ```
 /// use delone_predicates::{Sign, angle3};
@@ -149,7 +149,7 @@ pub fn angle3(o: Point3, a: Point3, b: Point3) -> Sign {
     angle_at(o, a, b)
 }
 
-/// The same in any dimension.
+/// The sign of the angle in any dimension.
 #[inline]
 pub(crate) fn angle_at<const D: usize>(o: [f64; D], a: [f64; D], b: [f64; D]) -> Sign {
     let (mut dot, mut size) = (0.0, 0.0);

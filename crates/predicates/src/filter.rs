@@ -26,7 +26,7 @@ const ORIENT_BOUND: f64 = (3.0 + 16.0 * U) * U;
 /// Three-term lifted in-circle determinant: 10u times its permanent.
 const IN_CIRCLE_BOUND: f64 = (10.0 + 96.0 * U) * U;
 
-/// The same from squared lengths: half of 3u, and of 10u all, with room for the rounding of the squares and their products too.
+/// The bound from squared lengths: half of 3u, and all of 10u, with room for the rounding of the squares and their products too.
 const ORIENT_BOUND_OF_LENGTHS: f64 = (1.5 + 32.0 * U) * U;
 const IN_CIRCLE_BOUND_OF_LENGTHS: f64 = (10.0 + 192.0 * U) * U;
 

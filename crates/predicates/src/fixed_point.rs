@@ -59,7 +59,7 @@ impl FixedPoint {
         self.centre
     }
 
-    /// What is seen of another point.
+    /// The cached differences of another point.
     #[inline]
     pub fn corner(&self, end: Point2) -> SeenCorner {
         let [x, y] = [end[0] - self.centre[0], end[1] - self.centre[1]];

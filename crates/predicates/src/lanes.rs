@@ -20,7 +20,7 @@ impl Lanes {
         self.0
     }
 
-    /// The same number twice.
+    /// One number in both lanes.
     #[inline]
     pub(crate) fn splat(x: f64) -> Self {
         Self([x, x])

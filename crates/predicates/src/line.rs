@@ -319,7 +319,7 @@ fn side_filter(first: &Line, second: &Line, third: &Line) -> Option<Sign> {
     Some(outside_of(value, SIDE_BOUND * permanent + FLOOR)? * turn)
 }
 
-/// What floating point decides by itself, and from where on: an answer that is right but late is seen by no comparison
+/// Tests of the share that floating point decides by itself: an answer that is right but late is seen by no comparison
 /// with the exact one.
 #[cfg(test)]
 mod tests;

@@ -38,7 +38,7 @@ pub struct Lune<const D: usize> {
     v: [f64; D],
 }
 
-/// What differences of coordinates are multiplied by, so that those of a segment's ends are near to one.
+/// The factor of differences of coordinates that brings those of a segment's ends near to one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Scale {
     /// A power of two, at most one: of what is long, before it is subtracted, or the difference might be too large.

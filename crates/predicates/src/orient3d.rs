@@ -19,7 +19,7 @@ pub fn orient3d(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {
     orient3d_filter(a, b, c, d).unwrap_or_else(|| exact::orient3d(a, b, c, d))
 }
 
-/// The same for points that are moved by infinitesimal steps, so that it is zero only where nothing moves off a line.
+/// The orientation of points that are moved by infinitesimal steps: it is zero only where nothing moves off a line.
 ///
 /// `d` is moved along x, much less along y, and much less again along z. What is given for `c` is its first point, moved by a part of
 /// the way to the second, a much smaller part of that to the third, and so on; all that is much more than what `d` is moved.
@@ -45,7 +45,7 @@ pub fn orient3d_moved(a: Point3, b: Point3, c: &[Point3], d: Point3) -> Sign {
     sides.chain(normals).find(|sign| !sign.is_zero()).unwrap_or(Sign::Zero)
 }
 
-/// The same as [`orient3d`], out of line, for points of which a static filter could not tell.
+/// [`orient3d`] out of line, for points where a static filter gave no answer.
 #[cold]
 #[inline(never)]
 pub(crate) fn orient3d_near(a: Point3, b: Point3, c: Point3, d: Point3) -> Sign {

@@ -132,7 +132,7 @@ impl RadiusScale {
         [self.rounded(&first, least[0], most[0]), self.rounded(&second, least[1], most[1])]
     }
 
-    /// What the squared radius may be rounded to, in the units of this scale: the least and the most, or what is not a number.
+    /// The least and the greatest number that the squared radius may be rounded to, in the units of this scale; or NaN.
     #[inline]
     fn bounds<T: Copy, L: Lane, const D: usize, const N: usize>(
         self,

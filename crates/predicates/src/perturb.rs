@@ -30,7 +30,7 @@ pub(crate) fn in_circle_perturbed(a: Point2, b: Point2, c: Point2, d: Point2) ->
     }
 }
 
-/// The same for points with weights, whose determinant is zero though one of them may be on the line of two others.
+/// The rule for points with weights, whose determinant is zero though one of them may be on the line of two others.
 pub(crate) fn in_power_circle_perturbed([a, b, c, d]: [Point2; 4]) -> Sign {
     let mut descending = [(a, 0), (b, 1), (c, 2), (d, 3)];
     descending.sort_unstable_by(|p, q| lexicographic(q.0, p.0));

@@ -33,7 +33,7 @@ pub fn in_power_circle(a: Site<2>, b: Site<2>, c: Site<2>, d: Site<2>) -> Sign {
     in_power_circle_filter(a, b, c, d).unwrap_or_else(|| in_power_circle_exact(a, b, c, d))
 }
 
-/// The same without the perturbation: zero for ties.
+/// [`in_power_circle`] without the perturbation: zero for ties.
 pub fn in_power_circle_with_ties(a: Site<2>, b: Site<2>, c: Site<2>, d: Site<2>) -> Sign {
     in_power_circle_filter(a, b, c, d).unwrap_or_else(|| exact::in_power_circle([a, b, c, d]))
 }
@@ -47,7 +47,7 @@ fn in_power_circle_exact(a: Site<2>, b: Site<2>, c: Site<2>, d: Site<2>) -> Sign
     }
 }
 
-/// The same one dimension lower, for three sites on a line of the plane: whether the lifted `q` is below the line through the
+/// The power test one dimension lower, for three sites on a line of the plane: whether the lifted `q` is below the line through the
 /// lifted `a` and `b`, at any place of it. Ties are broken by the same perturbation.
 ///
 /// The points must be collinear and `a` and `b` distinct; zero is returned only where `q` is at one of them with its weight.
@@ -82,7 +82,7 @@ pub fn in_power_sphere(a: Site<3>, b: Site<3>, c: Site<3>, d: Site<3>, e: Site<3
     in_power_sphere_filter([a, b, c, d, e]).unwrap_or_else(|| in_power_sphere_exact([a, b, c, d, e]))
 }
 
-/// The same without the perturbation: zero for ties.
+/// [`in_power_sphere`] without the perturbation: zero for ties.
 pub fn in_power_sphere_with_ties(a: Site<3>, b: Site<3>, c: Site<3>, d: Site<3>, e: Site<3>) -> Sign {
     in_power_sphere_filter([a, b, c, d, e]).unwrap_or_else(|| exact::in_power_sphere([a, b, c, d, e]))
 }

@@ -27,7 +27,7 @@ pub struct SpherePencil {
 #[derive(Clone, Copy, Debug)]
 pub struct Ball {
     origin: Site<3>,
-    /// What each entry of a row counts.
+    /// The factor of each entry of a row.
     factors: Row,
 }
 

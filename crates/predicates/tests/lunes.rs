@@ -74,8 +74,8 @@ fn lunes_of_space_are_exact() {
     lunes::<3>(2, 1500);
 }
 
-/// What is told to be away is outside of the ball about the middle, whose border has the height sqrt(2 beta - 1) of half the
-/// length there; and what is plainly outside is told.
+/// A point told to be away is outside of the ball about the middle, whose border has the height sqrt(2 beta - 1) of half the
+/// length there; and points plainly outside are told.
 #[test]
 fn only_what_is_outside_of_the_ball_is_away() {
     for (beta, height) in [(1.0, 1.0), (1.625, 1.5), (2.5, 2.0), (5.0, 3.0), (50.5, 10.0)] {
@@ -91,7 +91,7 @@ fn only_what_is_outside_of_the_ball_is_away() {
     }
 }
 
-/// What is told to be clear of a box has no point of it inside; and most boxes that are far away are told.
+/// A lune told to be clear of a box has no point of it inside; and most boxes that are far away are told.
 fn boxes<const D: usize>(seed: u64, rounds: usize) {
     let (mut clear, mut held) = (0, 0);
     for kind in 0..6 {

@@ -26,7 +26,7 @@ impl Ragged {
         Self { starts: vec![0], items: Vec::new() }
     }
 
-    /// What the row that is not ended yet has.
+    /// The entries of the row that is not ended yet.
     fn row(&self) -> &[i64] {
         let start = self.starts.last().map_or(0, |&start| start as usize);
         &self.items[start..]

@@ -10,8 +10,10 @@ use crate::pool::{SERIAL_ITEMS, shared};
 /// three are left out. On all threads that there are, in parts that are joined in their order.
 pub fn ridges(corners: &[[i32; 4]], across: &[[i32; 4]], which: &[i32]) -> Ridges {
     let mesh = Rows { corners, across };
-    let parts: Vec<Range<usize>> =
-        (0..corners.len()).step_by(SERIAL_ITEMS).map(|start| start..corners.len().min(start + SERIAL_ITEMS)).collect();
+    let parts: Vec<Range<usize>> = (0..corners.len())
+        .step_by(SERIAL_ITEMS)
+        .map(|start| start..corners.len().min(start + SERIAL_ITEMS))
+        .collect();
     let Ok(parts) = shared(&parts, 1, |part| Ok::<_, Infallible>(ridges_from(&mesh, part.clone(), which)));
     let mut all = Ridges { pairs: Vec::new(), vertices: Ragged::new() };
     for part in parts {
@@ -21,7 +23,7 @@ pub fn ridges(corners: &[[i32; 4]], across: &[[i32; 4]], which: &[i32]) -> Ridge
     all
 }
 
-/// The same across those edges of which the first tetrahedron is one of some.
+/// Ridges across the edges whose first tetrahedron is in a range.
 fn ridges_from(mesh: &Rows, tetrahedra: Range<usize>, which: &[i32]) -> Ridges {
     let (mut pairs, mut vertices) = (Vec::new(), Ragged::new());
     let mut ring = Vec::new();

@@ -1,4 +1,4 @@
-//! What follows from the corners of simplices: neighbours, a simplex of each point, maps to barycentric coordinates, planes of lifted
+//! Arrays derived from the corners of simplices: neighbours, a simplex of each point, maps to barycentric coordinates, planes of lifted
 //! simplices. Arrays in, arrays out.
 
 mod barycentric;
@@ -119,7 +119,7 @@ pub fn lifted_equations<'py>(
     }
 }
 
-/// What follows from the coordinates of the corners of each simplex, on all threads if there are many.
+/// Computes a value from the coordinates of the corners of each simplex, on all threads if there are many.
 pub fn of_corners<const D: usize, const W: usize, A: Send + 'static>(
     py: Python<'_>,
     points: &PyReadonlyArray2<'_, f64>,

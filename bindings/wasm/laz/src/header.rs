@@ -11,7 +11,7 @@ const POINTS_A_BYTE: u64 = 4096;
 /// Before the data of a record of variable length.
 const RECORD_HEAD: usize = 54;
 
-/// What of a header is needed.
+/// The part of a header that is needed.
 pub struct Header {
     /// Where points begin.
     pub start: usize,
@@ -26,7 +26,7 @@ pub struct Header {
     pub laszip: Option<Vec<u8>>,
 }
 
-/// So many bytes from a place on.
+/// `N` bytes from a place on.
 pub fn bytes<const N: usize>(file: &[u8], at: usize) -> Result<[u8; N], Fault> {
     let end = at.checked_add(N).ok_or(Fault::Truncated)?;
     file.get(at..end).and_then(|bytes| bytes.try_into().ok()).ok_or(Fault::Truncated)

@@ -16,7 +16,7 @@ use laz::{DecompressionSelection, LazVlr};
 
 use header::Header;
 
-/// What is wrong with a file; `js/laz.js` has the words, by the same numbers.
+/// A fault of a file; `js/laz.js` has the words, by the same numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// It is of another kind.

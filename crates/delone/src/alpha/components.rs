@@ -1,4 +1,4 @@
-//! What hangs together, and the least radius at which a shape has few parts.
+//! Connected components, and the least radius at which a shape has few of them.
 //!
 //! Source of the second: the question of CGAL's `find_optimal_alpha`; here the simplices come one by one in the order of the filtration, so
 //! that the answer is the least value that has what is asked for, though the number of parts goes up and down.

@@ -76,7 +76,7 @@ struct Faces<const N: usize> {
 }
 
 impl<const N: usize> Faces<N> {
-    /// Those that are there at `alpha`; none for NaN.
+    /// The faces at `alpha`; none for NaN.
     fn until(&self, alpha: f64) -> &[[VertexId; N]] {
         &self.corners[..self.values.partition_point(|&value| value <= alpha)]
     }
@@ -106,7 +106,7 @@ impl Face {
     }
 }
 
-/// What is there at some squared radius, in each dimension in the order of the filtration, corners by increasing id.
+/// The faces at some squared radius: in each dimension in the order of the filtration, corners by increasing id.
 #[derive(Clone, Copy, Debug)]
 pub struct Complex<'a> {
     /// The vertices.
@@ -130,7 +130,7 @@ impl Complex<'_> {
 }
 
 impl<const D: usize> Alpha<D> {
-    /// What is there at a squared radius, and what has it exactly. O(log n).
+    /// The faces at a squared radius, those of exactly this radius included. O(log n).
     pub fn complex(&self, alpha: f64) -> Complex<'_> {
         Complex {
             vertices: self.vertices.until(alpha),

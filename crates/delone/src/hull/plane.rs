@@ -68,7 +68,7 @@ impl Hull2 {
         Ok(Self { corners })
     }
 
-    /// What the points span: a hull of less than the plane has no facets.
+    /// The dimension of the span of the points: a hull of less than the plane has no facets.
     pub fn dimension(&self) -> Dimension {
         match self.corners.len() {
             0 => Dimension::Empty,

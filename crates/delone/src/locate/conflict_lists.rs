@@ -11,7 +11,7 @@ use super::history::{Fork, Observer};
 use crate::ids::TriangleId;
 use crate::tally::Tally;
 
-/// What lists and histories must know of the geometry.
+/// The geometry as lists and histories see it.
 pub(crate) trait Branch {
     /// The point with this number.
     fn numbered(&self, point: u32) -> [f64; 2];

@@ -14,7 +14,7 @@ use super::conflict_lists::Branch;
 use crate::ids::TriangleId;
 use crate::tally::Tally;
 
-/// What took the place of a triangle.
+/// The triangles that replaced a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fork {
     /// The three triangles around a new point.
@@ -45,7 +45,7 @@ pub(crate) struct History {
 
 #[cfg(feature = "histories")]
 impl History {
-    /// What it takes.
+    /// Memory in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.forks)
     }
@@ -59,7 +59,7 @@ impl History {
         self.forks[old.index()] = 2 * new[0].index() as u32 + u32::from(new.len() == 3);
     }
 
-    /// What took the place of a triangle, unless it is present.
+    /// The triangles that replaced a triangle, unless it is present.
     pub(crate) fn fork(&self, t: TriangleId) -> Option<Fork> {
         let fork = self.forks.get(t.index()).copied().filter(|fork| *fork != 0)?;
         let new = |k: u32| TriangleId::new((fork / 2 + k) as usize);

@@ -22,7 +22,7 @@ struct Sample<L> {
 /// Where the last descent came through.
 #[derive(Clone, Debug)]
 struct Trail<L: Ground> {
-    /// What it led to, as long as no level has changed since.
+    /// The point that it led to, as long as no level has changed since.
     goal: Option<L::Point>,
     /// For each sample that it went through, the highest first, where the goal falls.
     hints: Vec<L::Hint>,
@@ -67,7 +67,7 @@ impl<L: Level> Levels<L> {
         self.samples.iter().map(|sample| sample.ground.vertex_count()).collect()
     }
 
-    /// What all levels take, given what one triangulation does.
+    /// Memory of all levels, given that of one triangulation.
     pub(crate) fn bytes(&self, ground: impl Fn(&L) -> usize) -> usize {
         self.samples.iter().map(|sample| ground(&sample.ground) + sample.links.bytes()).sum()
     }

@@ -78,7 +78,7 @@ impl Links {
         self.hash(self.up.len());
     }
 
-    /// What they take.
+    /// Memory in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.down) + size_of_val(&*self.up)
     }

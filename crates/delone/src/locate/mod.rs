@@ -57,7 +57,7 @@ pub enum Locate {
     /// A descent through all triangles that ever were. Removal is an error. This and the next two are the tree in the plane
     /// without the feature `histories`.
     History,
-    /// The same without the triangles that came and went in one insertion: those that an insertion left are searched by
+    /// A history without the triangles that came and went in one insertion. The triangles that an insertion left are searched by
     /// binary search around the new vertex. Removal is an error.
     Stars,
     /// A search by circles through all triangles that ever were; those of a vertex that is removed are forgotten.
@@ -75,7 +75,7 @@ impl Locate {
     }
 }
 
-/// What a strategy of location keeps.
+/// The memory of a strategy of location.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Footprint {
@@ -183,7 +183,7 @@ pub(crate) trait Strategy<G: Ground> {
     /// Where to start the walk to `q`.
     fn start<T: Tally>(&self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint>;
 
-    /// The same for a point that will be inserted if it is no vertex yet: the way may be remembered.
+    /// Proposes a start for a point that will be inserted if it is no vertex yet: the way may be remembered.
     fn start_to_insert<T: Tally>(&mut self, ground: &G, q: G::Point, tally: &mut T) -> Start<G::Hint> {
         self.start(ground, q, tally)
     }

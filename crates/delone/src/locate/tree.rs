@@ -152,7 +152,7 @@ impl<H: Copy + Send + Sync> Tree<H> {
         self.split::<G>(high, self.child(node, true, G::DIMENSIONS));
     }
 
-    /// What it takes.
+    /// Memory in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.upper) + size_of_val(&*self.lowest)
     }

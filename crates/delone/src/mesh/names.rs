@@ -56,7 +56,7 @@ impl Names {
         self.places.len()
     }
 
-    /// What both tables take.
+    /// Memory of both tables, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.of) + size_of_val(&*self.places)
     }

@@ -24,7 +24,7 @@ pub(crate) struct KeyBox {
     pub(super) depth: u32,
 }
 
-/// What the keys of a box tell apart.
+/// The resolution of the keys of a box.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Cells {
     /// Nothing: the box is a single point, or has a few.

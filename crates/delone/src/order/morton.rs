@@ -184,7 +184,7 @@ impl<'a> Sorter<'a> {
         });
     }
 
-    /// The same from one of the entries on: three plain loops, because the points come from everywhere in memory and nothing
+    /// Orders from one of the entries on, by three plain loops, because the points come from everywhere in memory and nothing
     /// should stand in the way of fetching many at once.
     fn put_in_order(
         &mut self,
@@ -243,7 +243,7 @@ impl<'a> Sorter<'a> {
         }
     }
 
-    /// The same one after the other.
+    /// Finds the runs of a part, one after the other.
     fn runs_of_part(&mut self, within: Range<usize>, key_box: &KeyBox) {
         let depth = key_box.depth;
         let all_have_boxes = matches!(key_box.cells, Cells::Exponents(_));

@@ -1,4 +1,4 @@
-//! What surrounds a point of space: the tetrahedra whose spheres hold it.
+//! The surroundings of a point of space: the tetrahedra whose spheres contain it.
 
 use super::Delaunay3;
 use super::layer::arena::View;

@@ -13,7 +13,7 @@ use super::layer::kernel::Lift;
 use crate::ids::{Duplicate, FacetId, Place, TetrahedronId, VertexId};
 use crate::mesh::{Dimension, MeshFlaw3};
 
-/// What is wrong with a triangulation of space, one sentence each.
+/// A flaw of a triangulation of space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Flaw3 {

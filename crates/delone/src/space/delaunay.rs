@@ -141,7 +141,7 @@ impl Delaunay3 {
         }
     }
 
-    /// What the construction did, if it was by [`Self::with_algorithm`].
+    /// Counters of the construction, if it was by [`Self::with_algorithm`].
     pub fn counters(&self) -> Counters {
         Counters::Incremental(self.work)
     }
@@ -152,7 +152,7 @@ impl Delaunay3 {
         &self.base.mesh
     }
 
-    /// What the points span.
+    /// The dimension of the span of the points.
     pub fn dimension(&self) -> Dimension {
         self.base.dimension()
     }
@@ -263,7 +263,7 @@ impl Delaunay3 {
     }
 }
 
-/// What was built, or that there would be too many tetrahedra.
+/// The result, or the error that there would be too many tetrahedra.
 fn with_room<T>(built: Option<T>) -> Result<T, Error> {
     built.ok_or(Error::TooManyTetrahedra { most: MAX_TETRAHEDRA })
 }

@@ -42,7 +42,7 @@ impl<T: Tally> Tally for Steps<'_, T> {
     }
 }
 
-/// What is known of imprecise points in space before an instance comes.
+/// Imprecise points in space, preprocessed for their instances.
 ///
 /// ```
 /// use delone::{HintOrder, Hints3};

@@ -91,7 +91,7 @@ impl Strategy<Layer> for Locator {
 }
 
 impl Delaunay3 {
-    /// What the triangulation and the structure of its strategy take. Makes the structure if need be.
+    /// Memory of the triangulation and of the structure of its strategy. Makes the structure if need be.
     pub fn footprint(&self) -> Footprint {
         let mut footprint = Footprint { base: self.base.bytes(), ..Footprint::default() };
         match self.locator() {

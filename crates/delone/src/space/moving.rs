@@ -33,7 +33,7 @@ const GONE: usize = 3;
 /// One tetrahedron in so many may be filled, counted each time that its hole is: holes that grow into each other are filled again and
 /// again (one in four: a step that gives up took 2.1 constructions of 100,000 points; one in sixteen: small steps give up).
 const FILLED: usize = 8;
-/// So many tetrahedra more, for sets of a few points.
+/// Tetrahedra that may be replaced in addition, for sets of a few points.
 const SMALL_SET: usize = 16;
 /// Steps by hints after a repair that gave up, at most: one after the first, then twice as many and one more each time.
 const PAUSE: u32 = 31;
@@ -226,15 +226,15 @@ fn ask_ahead(layer: &Layer, t: TetrahedronId) {
     }
 }
 
-/// What mending works on.
+/// The state of mending.
 struct Mend<'a> {
     layer: &'a mut Layer,
     hole: &'a mut Hole,
     fill: &'a mut Layer,
     lost: &'a mut Vec<(Place, TetrahedronId)>,
-    /// So many tetrahedra may still go.
+    /// Tetrahedra that may still go.
     room: usize,
-    /// So many may still be filled, each as often as its hole is filled anew.
+    /// Tetrahedra that may still be filled, each counted as often as its hole is filled anew.
     work: usize,
 }
 

@@ -1,4 +1,4 @@
-//! What the triangulation of space has in common with others.
+//! The common traits of triangulations for space.
 
 use std::ops::Range;
 
@@ -84,7 +84,7 @@ impl Triangulation for Delaunay3 {
 }
 
 impl Delaunay3 {
-    /// What was found, in vertices.
+    /// The result of a location, in vertices.
     pub(super) fn found(&self, location: Location3) -> Found<TetrahedronId> {
         let mesh = self.mesh();
         let is_spanned = self.dimension() == Dimension::Space;

@@ -55,7 +55,7 @@ pub enum Objection3 {
         /// The corner of that tetrahedron inside the sphere.
         point: usize,
     },
-    /// The same with weights: a power is less than that of the corners.
+    /// A tetrahedron with weights: the power of a site is less than that of the corners.
     #[error(
         "tetrahedron {tetrahedron} is not regular: point {point}, a corner of tetrahedron {neighbor}, is nearer to its power sphere \
          than its corners are"

@@ -7,7 +7,7 @@ use crate::closest::{dot, on_edge, on_triangle};
 use crate::space::{NearestFace, nearest_face};
 use crate::triangulation::{Coordinates, Triangulation};
 
-/// What is computed to be on the border is rounded, more than once if it was turned or converted: a point outside that is no further away than
+/// The rounding of points on the border, more than once if they were turned or converted: a point outside that is no further away than
 /// this part of the largest coordinate is on the border. 2^-48, the last sixteenth of what a number tells of 53 bits.
 const ROUNDING: f64 = 3.552_713_678_800_501e-15;
 

@@ -88,7 +88,7 @@ impl<T: Surround> Interpolator<'_, T> {
         Ok(all)
     }
 
-    /// What is made of each point, in their order.
+    /// Computes a value for each point, in their order.
     fn each<R: Send>(
         &self,
         points: &[T::Point],
@@ -121,7 +121,7 @@ impl<T: Ask<Point = [f64; 2]> + Surround> Interpolator<'_, T> {
         self.fill_with(grid, mask, |own, q| own.value(q, values))
     }
 
-    /// The same of any surface.
+    /// Fills a raster with the values of any surface.
     ///
     /// # Errors
     /// What `surface` returns.

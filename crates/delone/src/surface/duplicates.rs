@@ -23,7 +23,7 @@ pub enum Duplicates {
     Mean,
 }
 
-/// What a rule makes of the heights of one place, whatever their order.
+/// The height of one place by a rule, whatever the order of its heights.
 #[derive(Clone, Debug)]
 pub struct Several {
     rule: Duplicates,
@@ -55,7 +55,7 @@ impl Several {
         }
     }
 
-    /// What the rule makes of them.
+    /// The height by the rule.
     pub fn height(self) -> f64 {
         if self.rule == Duplicates::Mean { self.sum.rounded() / self.count as f64 } else { self.height }
     }
@@ -129,12 +129,12 @@ impl Duplicates {
         means.into_iter().for_each(|(place, several)| heights[place] = several.height());
     }
 
-    /// The same for points of which nobody knows yet which are equal; the first of a place gets its height. O(n log n).
+    /// Settles points before equal ones are known; the first point of a place gets its height. O(n log n).
     pub fn settle_equal(self, points: &[[f64; 2]], heights: &mut [f64]) {
         self.settle(heights, equal(points));
     }
 
-    /// The same where not the first of equal points is the vertex but another, as with weights: all `vertices` get the heights of their
+    /// Settles points where not the first of equal points is the vertex, as with weights: all `vertices` get the heights of their
     /// places. O(n log n).
     pub fn settle_at(
         self,

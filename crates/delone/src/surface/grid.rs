@@ -70,7 +70,7 @@ impl Grid {
         Self::aligned_at(bounds, size, [0.0; 2])
     }
 
-    /// The same cells, but for their edges, which are multiples of their size away from an origin.
+    /// Covers the bounds by cells whose edges are multiples of their size away from an origin.
     ///
     /// # Errors
     /// Those of [`Grid::aligned`], and [`Error::Parameter`] for an origin that is not finite.

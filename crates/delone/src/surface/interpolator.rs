@@ -12,7 +12,7 @@ use crate::ids::VertexId;
 use crate::sorting;
 use crate::triangulation::{Ask, Found};
 
-/// What there is outside of the hull.
+/// The values outside of the hull.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Outside {
     /// Nothing.
@@ -264,7 +264,7 @@ impl<'t, T: Ask> Interpolator<'t, T> {
         Ok((!weights.is_empty()).then(|| blend(weights, |v| values[v])))
     }
 
-    /// The same of many values at each vertex, a row for each, into a row; whether there are any.
+    /// Interpolates many values at each vertex, a row for each, into a row; tells whether there are any.
     ///
     /// # Errors
     /// As [`Self::value`].

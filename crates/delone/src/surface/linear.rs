@@ -41,7 +41,7 @@ fn shares_in_double(dimension: usize, q: [f64; 3], points: &[[f64; 3]], scale: [
     shares::<Double>(dimension, q, points, scale).0.map(Real::value)
 }
 
-/// What each corner has, and a bound of the error of their sum in units of the last place.
+/// The weight of each corner, and a bound of the error of their sum in units of the last place.
 fn shares<R: Real>(
     dimension: usize,
     q: [f64; 3],

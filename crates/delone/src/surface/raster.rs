@@ -286,7 +286,7 @@ impl Side {
         self.mean(y)
     }
 
-    /// The same where ends are further apart, or nearer to each other, than differences and what they divide can be.
+    /// Computes it where ends are too far apart, or too near to each other, for plain differences and quotients.
     #[cold]
     fn mean(&self, y: f64) -> Meeting<'_> {
         let [first, second] = self.values;

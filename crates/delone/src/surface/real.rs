@@ -50,7 +50,7 @@ fn sum(a: f64, b: f64) -> Double {
     Double(s, (a - (s - t)) + (b - t))
 }
 
-/// The same for |a| >= |b|.
+/// a| >= |b|.|The sum of two numbers with |a| >= |b|.|a| >= |b|.
 fn sum_of_ordered(a: f64, b: f64) -> Double {
     let s = a + b;
     Double(s, b - (s - a))

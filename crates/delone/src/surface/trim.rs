@@ -1,4 +1,4 @@
-//! What is left out of a triangulation that is shown.
+//! Trimming: simplices that are left out of a triangulation where it is shown.
 
 use std::collections::VecDeque;
 
@@ -13,7 +13,7 @@ pub struct Trim {
     slivers: usize,
 }
 
-/// What is left out along the border.
+/// The rule for simplices along the border.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Border {
     /// Simplices with a longer edge.
@@ -29,7 +29,7 @@ pub struct Border {
 pub struct Cut {
     /// The side that is taken away.
     pub normal: [f64; 3],
-    /// What the scalar product of the normal and a point of the plane is.
+    /// The scalar product of the normal and a point of the plane.
     pub offset: f64,
 }
 

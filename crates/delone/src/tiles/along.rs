@@ -1,4 +1,4 @@
-//! What tiles and joins ask of the triangulations that they are made of, in the plane and in space, and the search for what is open.
+//! Triangulations as tiles and joins see them, in the plane and in space, and the search for open simplices.
 //!
 //! Cost of the search: O(k) certificates for k open simplices, and a byte a simplex.
 
@@ -12,7 +12,7 @@ use crate::space::{self, InOrder3};
 
 /// A triangulation with its vertices along a curve, of points with `D` coordinates and simplices with `C` corners.
 pub(super) trait Along<const D: usize, const C: usize>: Sized {
-    /// What knows a simplex. Those that are near have numbers that are near.
+    /// The id of a simplex. Ids of near simplices are near.
     type Id: Copy + Ord;
     /// The largest number of points.
     const POINT_LIMIT: usize;

@@ -1,4 +1,4 @@
-//! What a tile, or a group of them, leaves to be decided with others.
+//! Borders: the simplices of a tile, or of a group of tiles, that a join decides.
 
 use super::along::Along;
 use crate::error::BorderProblem;
@@ -8,7 +8,7 @@ use crate::error::BorderProblem;
 /// As bytes it is 24 for a point, 12 for a triangle and 32 more; [`Self::to_bytes`].
 pub type Border = BorderOf<2, 3>;
 
-/// The same in space: the open tetrahedra, their corners and those of the hull. See [`super::join3`].
+/// The border of a tile in space: the open tetrahedra, their corners and those of the hull. See [`super::join3`].
 ///
 /// As bytes it is 32 for a point, 16 for a tetrahedron and 32 more.
 pub type Border3 = BorderOf<3, 4>;

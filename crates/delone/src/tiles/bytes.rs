@@ -9,7 +9,7 @@ use crate::error::BorderProblem;
 
 const HEAD: usize = 24;
 
-/// What borders begin with.
+/// The first bytes of borders.
 const MAGIC: [(usize, &[u8; 8]); 2] = [(2, b"DELONEB1"), (3, b"DELON3B1")];
 
 impl<const D: usize, const C: usize> BorderOf<D, C> {

@@ -211,7 +211,7 @@ impl<const D: usize> Cuts<D> {
         self.cut_of(node).and_then(|_| node.halves())
     }
 
-    /// What a node is cut into after so many cuts below each other; tiles that are met before are among them. From low to high, none
+    /// The parts of a node after `levels` cuts below each other; tiles that are met before are among them. From low to high, none
     /// if it is not cut. Whoever joins takes them instead of its halves, so that fewer points are triangulated again and again.
     pub fn parts(&self, node: Node, levels: u32) -> Vec<Node> {
         let mut parts: Vec<Node> = Vec::new();

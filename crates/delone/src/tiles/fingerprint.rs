@@ -1,4 +1,4 @@
-//! The same short number for the same set of triangles, whoever found them, in whatever order and numbering.
+//! Fingerprints: a short number of a set of triangles, independent of their order and numbering.
 //!
 //! Coordinates are hashed, corners combined symmetrically, triangles summed. So it is a function of the set alone, sums of parts add
 //! up to that of the whole, and no triangulation has to be in memory.

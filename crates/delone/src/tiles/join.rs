@@ -9,18 +9,18 @@ use crate::plane::InOrder;
 use crate::points::check_count;
 use crate::space::InOrder3;
 
-/// What joining borders gives.
+/// The result of a join of borders.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seam {
     /// The triangles that are final now and were not before, counter-clockwise, by the ids that the borders give.
     pub triangles: Vec<[u64; 3]>,
     /// Their fingerprint.
     pub fingerprint: Fingerprint,
-    /// What is still to be decided. Of the plane as a whole it is the hull, and nothing is open.
+    /// The rest that further joins decide. Of the whole plane it is the hull, and nothing is open.
     pub border: Border,
 }
 
-/// What joining borders in space gives.
+/// The result of a join of borders in space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Seam3 {
     /// The tetrahedra that are final now and were not before, in positive order: the first three corners are seen counter-clockwise
@@ -28,7 +28,7 @@ pub struct Seam3 {
     pub tetrahedra: Vec<[u64; 4]>,
     /// Their fingerprint.
     pub fingerprint: Fingerprint,
-    /// What is still to be decided. Of space as a whole it is the hull, and nothing is open.
+    /// The rest that further joins decide. Of the whole space it is the hull, and nothing is open.
     pub border: Border3,
 }
 
@@ -125,7 +125,7 @@ fn gather<A: Along<D, C>, const D: usize, const C: usize>(
     Ok((starts, points))
 }
 
-/// The same corners by increasing index: no two simplices of a triangulation have the same.
+/// Sorts corners by index: no two simplices of a triangulation have equal corners.
 fn sorted<const C: usize>(mut corners: [u32; C]) -> [u32; C] {
     corners.sort_unstable();
     corners

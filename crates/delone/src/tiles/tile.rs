@@ -72,7 +72,7 @@ impl Tile {
         fingerprint(self.points(), self.finals())
     }
 
-    /// What is to be joined with the borders of other tiles. It names each vertex of it, given its index, as others shall know it.
+    /// The border, to be joined with those of other tiles. `name` gives the global name of a vertex by its index.
     pub fn border(&self, name: impl Fn(u32) -> u64) -> Border {
         Border::of(&self.along, &self.open, name)
     }

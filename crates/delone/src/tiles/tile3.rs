@@ -1,4 +1,4 @@
-//! The same in space: the tetrahedra of one region's points, and which of them are final.
+//! Tiles in space: the tetrahedra of one region's points, and which of them are final.
 //!
 //! Borders grow with the surface of tiles, so tiles of space should be few and large.
 //!
@@ -84,7 +84,7 @@ impl Tile3 {
         fingerprint(self.points(), self.finals())
     }
 
-    /// What is to be joined with the borders of other tiles. It names each vertex of it, given its index, as others shall know it.
+    /// The border, to be joined with those of other tiles. `name` gives the global name of a vertex by its index.
     pub fn border(&self, name: impl Fn(u32) -> u64) -> Border3 {
         Border3::of(&self.along, &self.open, name)
     }

@@ -1,4 +1,4 @@
-//! What must be true of any refined mesh.
+//! The judge of refined meshes.
 
 use std::collections::BTreeSet;
 

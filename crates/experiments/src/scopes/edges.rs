@@ -25,7 +25,7 @@ pub(super) fn a(k: usize) -> f64 {
     2.0 / ((k + 1) * (k + 2)) as f64
 }
 
-/// The same with a third one before: b_k.
+/// The probability with a third point before: b_k.
 pub(super) fn b(k: usize) -> f64 {
     a(k) - a(k + 1)
 }
@@ -82,7 +82,7 @@ fn scope_and_probability(sweep: &[bool]) -> (usize, f64) {
     (scope, probability)
 }
 
-/// The same probability by the remark after formula (4): a(l) + a(r) - a(l + r), and the weights of all squares above the path.
+/// The probability by the remark after formula (4): a(l) + a(r) - a(l + r), and the weights of all squares above the path.
 fn by_squares(sweep: &[bool]) -> f64 {
     let left = sweep.iter().filter(|is_left| **is_left).count();
     let right = sweep.len() - left;

@@ -122,7 +122,7 @@ fn skew_lines(n: usize) -> Vec<[f64; 3]> {
     (0..n).map(|i| if i < half { [at(i), 0.0, 0.0] } else { [0.0, at(i - half), 1.0] }).collect()
 }
 
-/// What appears in all beside the final size and the sum of Theorem 4.7 over the sizes of samples.
+/// The number that appears in all, beside the final size and the sum of Theorem 4.7 over the sizes of samples.
 fn samples(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {
     let mut table = options.table(
         "scopes-samples",

@@ -16,7 +16,7 @@ const RATIO: f64 = 40.0;
 const QUERIES: usize = 400;
 const SETS: u64 = 25;
 
-/// What the formulas of the paper take for the edges crossed on a walk. §4.2 derives 2 sqrt(n) / sqrt(pi) of them, but §4.4 and
+/// The number of edges crossed on a walk in the formulas of the paper. §4.2 derives 2 sqrt(n) / sqrt(pi) of them, but §4.4 and
 /// §4.5 count half as many.
 #[derive(Clone, Copy)]
 pub(super) enum Edges {
@@ -39,7 +39,7 @@ fn walk(n: f64, edges: Edges) -> f64 {
     17.0 + edges.slope() * n.sqrt()
 }
 
-/// The same from the nearest of n^(1/3).
+/// The cost of a walk from the nearest of n^(1/3) samples.
 fn sample(n: f64, edges: Edges) -> f64 {
     17.0 + n.cbrt() * (edges.slope() + 5.0)
 }
@@ -54,7 +54,7 @@ fn two_levels(n: f64, edges: Edges) -> f64 {
     walk(n / RATIO, edges) + 15.0 + walk(RATIO, edges)
 }
 
-/// What is compared: by formula, and as a mode of the hierarchy.
+/// A way to compare: by formula, and as a mode of the hierarchy.
 type Way = (&'static str, fn(f64, Edges) -> f64, Hierarchy);
 
 pub(super) fn run(options: &Options<'_>, findings: &mut Findings) -> Result<(), Error> {

@@ -77,7 +77,7 @@ pub(super) fn run(name: &str, largest: usize) -> Findings {
     run_on(name, largest, 2, &[])
 }
 
-/// The same so many times, on the points of a model where it takes one.
+/// Runs an experiment `trials` times, on the points of a model where it takes one.
 pub(super) fn run_on(name: &str, largest: usize, trials: usize, model: &[[f64; 3]]) -> Findings {
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let options = Options { largest, trials, seed: 1, model, threads: &threads, watch: None };

@@ -1,4 +1,4 @@
-//! What the papers prove and measure, asserted on the tables that experiments make of small sets: a file a paper.
+//! Claims and measurements of the papers, asserted on the tables that experiments make of small sets: a file a paper.
 //!
 //! Where a paper gives a number, it is the bound; where it gives only an order of growth, a constant with a margin stands here,
 //! and is asserted at each size of the table.

@@ -9,7 +9,7 @@ use crate::oracle::delaunay::{Simplices, delaunay, span};
 use crate::oracle::exact::{integers, orientation};
 use crate::oracle::hull::corners2;
 
-/// What is wrong with a triangulation of some points, if anything.
+/// The first fault of a triangulation of some points, if any.
 pub(crate) fn compare<E: Engine<D>, const D: usize>(
     made: &E,
     span: isize,
@@ -57,7 +57,7 @@ pub(crate) fn judge<E: Engine<D> + Send, const D: usize>(points: &[[f64; D]], se
     self::compare(&made, span, &expected, "shuffled")
 }
 
-/// What the plane's engine says besides: orientations, and the hull with all vertices on it.
+/// Judges the hull of the plane's engine: orientations, and all vertices on it.
 pub(crate) fn judge_hull(points: &[[f64; 2]]) -> Judgement {
     let d = Delaunay2::from_points(points).map_err(|error| error.to_string())?;
     for t in d.triangles() {

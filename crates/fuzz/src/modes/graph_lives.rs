@@ -23,7 +23,7 @@ pub(crate) enum Event {
     Part(usize),
 }
 
-/// What must be there, by id.
+/// The expected points and segments, by id.
 #[derive(Default)]
 struct Model {
     places: Vec<Option<Point>>,

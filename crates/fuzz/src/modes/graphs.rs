@@ -20,7 +20,7 @@ const MANY_ROUNDS: usize = 12;
 /// See the module.
 pub(crate) struct Graphs;
 
-/// What a graph is made of. Segments bring points of their own, so that any part of the list is a graph.
+/// An item of a graph. Segments bring points of their own, so that any part of the list is a graph.
 #[derive(Clone, Debug)]
 pub(crate) enum Item {
     Point(Point),
@@ -116,7 +116,7 @@ fn judge_crossings(points: &[Point], segments: &[[usize; 2]], pairs: &[[usize; 2
     Ok(())
 }
 
-/// The same segments in another order and direction, some of them twice; points in another order.
+/// Shuffles a graph: segments in another order and direction, some of them twice; points in another order.
 fn shuffled(points: &[Point], segments: &[[usize; 2]], random: &mut Random) -> (Vec<Point>, Vec<[usize; 2]>) {
     let mut order: Vec<usize> = (0..points.len()).collect();
     random.shuffle(&mut order);

@@ -29,7 +29,7 @@ pub(crate) enum Event<const D: usize> {
     Ask { q: [f64; D], other: [f64; D], radius: f64, k: usize },
 }
 
-/// What must be there: for each id given its place, if it is a vertex.
+/// The expected vertices: for each id given its place, if it is a vertex.
 struct Model<const D: usize> {
     places: Vec<Option<[f64; D]>>,
 }

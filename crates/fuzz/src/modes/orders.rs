@@ -114,13 +114,13 @@ fn live(points: &[[f64; 2]], mut d: Delaunay2, random: &mut Random) -> Judgement
     Ok(())
 }
 
-/// What holds of the distinct ones of some points.
+/// Truths about the distinct ones of some points.
 struct Truth {
     points: Vec<[f64; 2]>,
     circles: Circles,
     /// Points, and for each all sites by their distance from it.
     queries: Vec<([f64; 2], Vec<usize>)>,
-    /// What cells are clipped to: the lower left corner and the upper right one.
+    /// The rectangle that cells are clipped to: its lower left corner and its upper right one.
     rectangle: [[f64; 2]; 2],
 }
 

@@ -1,4 +1,4 @@
-//! What a triangulation answers, against the definition of each question.
+//! Answers of a triangulation, against the definition of each question.
 
 use delone::VertexId;
 use num_bigint::BigInt;
@@ -54,7 +54,7 @@ pub(crate) fn judge<E: Engine<D>, const D: usize>(
     }
 }
 
-/// What was answered wrongly.
+/// The wrong answers.
 struct Answers(Vec<String>);
 
 impl Answers {

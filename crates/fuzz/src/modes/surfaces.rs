@@ -113,7 +113,7 @@ fn places<const D: usize>(points: &[[f64; D]], random: &mut Random) -> Vec<[f64;
     all
 }
 
-/// What is outside by no more than 2^-48 of the largest coordinate is on the border; twice that for the sums here.
+/// Points outside by no more than 2^-48 of the largest coordinate are on the border; twice that for the sums here.
 const BORDER: f64 = 2.0 / (1_u64 << 48) as f64;
 
 /// Weights of a place: of both triangulations the same, none outside, of natural neighbours alone.
@@ -259,7 +259,7 @@ fn judge_raster(
     Ok(())
 }
 
-/// The same contours from both triangulations, inside of the points' box, and bands with the area of all triangles.
+/// Judges that both triangulations give equal contours inside of the points' box, and bands with the area of all triangles.
 fn judge_contours(
     d: &Delaunay2,
     heights: &[f64],

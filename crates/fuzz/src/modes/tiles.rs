@@ -41,7 +41,7 @@ impl Attack for Spatial {
     }
 }
 
-/// What a tile tells: the indices of its vertices among the points, what is final, and the border, named by these indices.
+/// The result of a tile: the indices of its vertices among the points, what is final, and the border, named by these indices.
 struct Told<const D: usize, const C: usize> {
     order: Vec<u32>,
     finals: Vec<[u32; C]>,

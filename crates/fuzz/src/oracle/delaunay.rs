@@ -14,7 +14,7 @@ pub(crate) fn distinct<const D: usize>(points: &[[f64; D]]) -> Vec<[f64; D]> {
     sorted
 }
 
-/// What points span: nothing is -1, a point 0, a line 1.
+/// The dimension of the span of points: nothing is -1, a point 0, a line 1.
 pub(crate) fn span<const D: usize>(points: &[[f64; D]]) -> isize {
     if points.is_empty() { -1 } else { axes(&integers(points)).len() as isize }
 }

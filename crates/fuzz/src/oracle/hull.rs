@@ -18,7 +18,7 @@ pub(crate) fn corners2(points: &[[f64; 2]]) -> Vec<usize> {
     cycle(&exact, &kept, |i| points[i])
 }
 
-/// The same for any integer points with two coordinates, with an order for the first of the cycle.
+/// The hull of integer points with two coordinates, with an order for the first of the cycle.
 fn cycle<T: PartialOrd>(exact: &[Vector], kept: &[usize], key: impl Fn(usize) -> T) -> Vec<usize> {
     let least = |among: &[usize]| among.iter().copied().reduce(|i, j| if key(j) < key(i) { j } else { i });
     let is_side = |i: usize, j: usize| {

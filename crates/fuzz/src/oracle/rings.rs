@@ -25,7 +25,7 @@ const NARROW: f64 = 64.0;
 /// And where the sine of the angle at a corner is less.
 const LEAST_SINE: f64 = 1e-4;
 
-/// What of a side along an axis is nothing beside it: 2^-900.
+/// The share of a side along an axis that is nothing beside it: 2^-900.
 const LEAST_SHARE: f64 = f64::from_bits(123 << 52);
 
 /// The sides of rings, ring by ring.

@@ -15,7 +15,7 @@ pub(super) struct Interval {
 const ALL: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
 impl Interval {
-    /// What rounding to the nearest can have put off by half a step, or all where something left the range.
+    /// Widens bounds by the half step of rounding to nearest, or to all numbers where something left the range.
     fn outwards(low: f64, high: f64) -> Self {
         if low.is_finite() && high.is_finite() {
             Self { low: low.next_down(), high: high.next_up() }
@@ -50,7 +50,7 @@ impl Interval {
         Self::outwards(self.low.max(0.0).sqrt(), self.high.max(0.0).sqrt())
     }
 
-    /// What is in both, which hold the same number.
+    /// The intersection of two intervals that contain the same number.
     fn and(&self, other: &Self) -> Self {
         Self { low: self.low.max(other.low), high: self.high.min(other.high) }
     }

@@ -57,7 +57,7 @@ fn stretches_hold_what_the_definition_holds() {
     }
 }
 
-/// What floating point tells is what integers tell, and integers agree with themselves the other way around.
+/// Floating point agrees with integers wherever it answers, and integers agree with themselves in reverse.
 #[test]
 fn stages_agree() {
     let mut random = Random::new(6);

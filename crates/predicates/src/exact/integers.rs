@@ -20,7 +20,7 @@ fn align<const N: usize>(coordinates: &[f64; N]) -> Option<[i64; N]> {
     Some(aligned)
 }
 
-/// The same for any number and of any size; what is zero is left as it is.
+/// Aligns any number of coordinates of any size; zeros stay as they are.
 pub(crate) fn align_into(coordinates: &[f64], aligned: &mut [i64]) -> Option<()> {
     let scale = coordinates.iter().map(|&x| decode(x).1).min().unwrap_or(0);
     for (out, &x) in aligned.iter_mut().zip(coordinates) {

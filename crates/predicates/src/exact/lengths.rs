@@ -16,7 +16,7 @@ fn flat<const D: usize, const N: usize>(points: [[f64; D]; N]) -> [f64; 12] {
     flat
 }
 
-/// The same as integers on their common scale, if they fit.
+/// The coordinates as integers on their common scale, if they fit.
 fn aligned(flat: &[f64; 12]) -> Option<[i64; 12]> {
     let mut aligned = [0; 12];
     align_into(flat, &mut aligned)?;
@@ -103,7 +103,7 @@ mod tests {
         assert_eq!(ball(low, high, high, 2f64.powi(73) * 1.75), Sign::Positive);
     }
 
-    /// The same answers on either side of what fits.
+    /// Equal answers on both sides of the limit of integers.
     #[test]
     fn factors_of_any_size() {
         for power in [-1074, -1000, -127, -126, -53, -1, 0, 1, 73, 74, 200, 971] {

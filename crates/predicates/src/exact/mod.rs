@@ -199,7 +199,7 @@ fn decode(x: f64) -> (i64, i32) {
 mod tests {
     use super::{decode, expansions_hold, integers, space, wide};
 
-    /// What fits is not handed on to slower arithmetic.
+    /// Operands that fit are not handed on to slower arithmetic.
     #[test]
     fn integers_take_what_fits() {
         let flat = [1.0, 2.0, 7.0, 3.0, 4.0, 9.0, 5.0, 8.0];

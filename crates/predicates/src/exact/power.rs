@@ -108,7 +108,7 @@ pub(crate) struct Scaled {
     pub(crate) scale: i32,
 }
 
-/// The same for numbers of any size.
+/// Puts numbers of any size on one scale.
 pub(crate) fn on_one_scale(numbers: &[f64], weights: &[f64]) -> Scaled {
     let ((numbers, scale), (weights, weight_scale)) = (big::integers(numbers), big::integers(weights));
     // Zeros alone have any scale.
@@ -125,7 +125,7 @@ pub(crate) fn on_one_scale(numbers: &[f64], weights: &[f64]) -> Scaled {
     }
 }
 
-/// What [`rows`] gives, for numbers of any size.
+/// The result of [`rows`], for numbers of any size.
 pub(crate) struct Rows {
     pub(crate) differences: Vec<Vec<BigInt>>,
     pub(crate) lifts: Vec<BigInt>,

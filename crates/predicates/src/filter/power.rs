@@ -48,7 +48,7 @@ pub(crate) fn in_power_sphere_filter([a, b, c, d, e]: [Site<3>; 5]) -> Option<Si
 }
 
 impl Filter3 {
-    /// The same as [`Self::for_box`] for points with weights that differ by at most `spread`. The grid must hold the square roots
+    /// As [`Self::for_box`], but for points with weights that differ by at most `spread`. The grid must hold the square roots
     /// of what all weights are multiples of, or be `None`.
     pub fn for_sites(extent: [f64; 3], spread: f64, grid: Option<Grid>) -> Self {
         let volume = extent[0] * extent[1] * extent[2];

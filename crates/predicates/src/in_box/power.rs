@@ -1,4 +1,4 @@
-//! The same for points with weights.
+//! Filters by boxes for points with weights.
 
 use crate::lanes::Lanes;
 

@@ -21,7 +21,7 @@ const LEAST_SHARE: f64 = 1.0 / 4096.0;
 pub(crate) const TERMS_BOUND: f64 = 4.02;
 /// The error of d, in u of its products.
 pub(crate) const AREA_BOUND: f64 = 5.02;
-/// What an underflow may take from the terms of a numerator is nothing beside their bound with this added.
+/// Added to the bound of a numerator's terms, it covers what an underflow may take from them.
 const TERMS_FLOOR: f64 = 1e-300;
 
 /// The centre of the circle through three points that are not collinear. In coordinate units, correctly rounded: each coordinate

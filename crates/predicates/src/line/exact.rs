@@ -117,7 +117,7 @@ mod tests {
     use super::small;
     use crate::Line;
 
-    /// What fits 61 bits does not need big integers, and what does not is not cut off.
+    /// Numbers that fit 61 bits do not need big integers, and others are not cut off.
     #[test]
     fn lines_that_fit_are_small() {
         let (p, q) = ([1.0, 2.0], [0.25, 1e15]);

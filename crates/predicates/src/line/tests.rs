@@ -1,4 +1,4 @@
-//! What floating point tells of lines by itself, and from where on it does not.
+//! Tests of the share of lines that floating point decides by itself.
 
 use delone_generators::Random;
 
@@ -176,7 +176,7 @@ fn turns_are_told_from_their_bound_on() {
     assert!(told > 300 && not > 300, "{told} {not}");
 }
 
-/// What may be lost below the smallest numbers is allowed for.
+/// Bounds allow for underflow.
 #[test]
 fn nothing_is_told_from_what_underflows() {
     let (right, up) =
@@ -210,7 +210,7 @@ fn nothing_is_told_from_what_underflows() {
     assert_eq!(meeting(&other, &far, [far.fixed(0), other.fixed(1)]), Some([3.0, 0.0]));
 }
 
-/// What floating point says is the nearest place, and balls too; what they do not say is little.
+/// Floating point and balls give the nearest place wherever they answer, and they mostly do.
 #[test]
 fn meetings_are_told_only_where_they_are_sure() {
     let mut random = Random::new(3);

@@ -1,4 +1,4 @@
-//! What floating point cannot tell: integers of a few words where coordinates fit 60 bits and weights the square of that, big ones for
+//! The exact stage: integers of a few words where coordinates fit 60 bits and weights the square of that, big integers for
 //! the rest, and for radii.
 //!
 //! Differences take 61 bits and a sign, lifts 125, minors 123; |n|^2 248, (h v - k u) 188 and n x q 186: degree six takes 375 bits.

@@ -1,4 +1,4 @@
-//! What floating point can tell of who is inside: the sign of an expression that is negative inside.
+//! The filter of the inside: the sign of an expression that is negative inside.
 //!
 //! Bounds are relative to sums of magnitudes, which Cauchy's inequality and that of the means bound by squared lengths: with U, V, Q
 //! the squared lengths of u, v, q and H the sizes of lifts, |q . u| <= (Q + U) / 2, the terms of |u x v|^2 are at most 2 U V, and those of

@@ -26,7 +26,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Those in a hull, over so many cells along each axis; nothing where cells could not be told apart, or where the facets have more
+    /// The columns in a hull, over `cells` cells along each axis; nothing where cells could not be told apart, or where the facets have more
     /// lines in their boxes than may be looked at.
     pub(super) fn inside(hull: &Shell, cells: usize, most_looks: usize) -> Option<Self> {
         let [x, y, z] = hull.limits;

@@ -28,7 +28,7 @@ impl Faces {
         Self { starts: vec![0, corners.len()], corners }
     }
 
-    /// Those of a shell, sorted, with other names of points.
+    /// The faces of a shell, sorted, with other names of points.
     pub(super) fn of(shell: &Shell, name: impl Fn(usize) -> usize) -> Self {
         let Shell { points, facets, .. } = shell;
         let mut joiner = Joiner {
@@ -68,7 +68,7 @@ impl Faces {
         self.starts[face]..self.starts[face + 1]
     }
 
-    /// The same faces with other names of points, sorted; and for each of these the index that it had.
+    /// Renames the points and sorts the faces; gives the earlier index of each.
     pub(super) fn renamed(mut self, name: impl Fn(usize) -> usize) -> (Self, Vec<u32>) {
         self.corners.iter_mut().for_each(|i| *i = name(*i));
         let mut order: Vec<(u64, u32)> =

@@ -28,7 +28,7 @@ pub(super) fn fill(points: &[[f64; 3]], v: usize, ring: &[usize]) -> Option<Vec<
     Some(fill)
 }
 
-/// The same by ears, in any order; none where four are in one plane.
+/// Fills by ears, in any order; none where four points are in one plane.
 fn ears(points: &[[f64; 3]], ring: &[usize]) -> Option<Vec<[usize; 3]>> {
     let mut rest = ring.to_vec();
     let mut fill = Vec::with_capacity(ring.len());
@@ -54,7 +54,7 @@ fn ears(points: &[[f64; 3]], ring: &[usize]) -> Option<Vec<[usize; 3]>> {
     Some(fill)
 }
 
-/// The same by the hull of the neighbours.
+/// Fills by the hull of the neighbours.
 fn seen(points: &[[f64; 3]], v: usize, ring: &[usize]) -> Option<Vec<[usize; 3]>> {
     // In order of their indices, as the hull of all of them has them.
     let mut around = ring.to_vec();

@@ -155,7 +155,7 @@ impl HullHistory3 {
         Ok(is_outside)
     }
 
-    /// What the construction did: facets visited by descents, created and destroyed.
+    /// Counters of the construction: facets visited by descents, created and destroyed.
     pub fn counters(&self) -> Counters {
         Counters::Incremental(self.work)
     }

@@ -139,7 +139,7 @@ fn left(
     left
 }
 
-/// What was left out.
+/// Points that were left out.
 struct Out<'a> {
     points: &'a [[f64; 3]],
     length: f64,

@@ -91,7 +91,7 @@ impl Hull3 {
         Self::named(points, |i| i)
     }
 
-    /// The same with names of the points, in their order.
+    /// Builds with names of the points, in their order.
     fn named(points: &[[f64; 3]], name: impl Fn(usize) -> usize) -> Self {
         let named = |corners: Vec<usize>| corners.into_iter().map(&name).collect::<Vec<_>>();
         match Start::of(points) {
@@ -152,7 +152,7 @@ impl Hull3 {
         merge::merged(self, &P::all(points), length)
     }
 
-    /// What the points span: a hull of less than space has no facets.
+    /// The dimension of the span of the points: a hull of less than space has no facets.
     pub fn dimension(&self) -> Dimension {
         self.span
     }

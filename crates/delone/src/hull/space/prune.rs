@@ -1,4 +1,4 @@
-//! What is surely inside, left out before it costs anything.
+//! Pruning: points that are surely inside are left out before they cost anything.
 //!
 //! Source: Akl & Toussaint, "A fast convex hull algorithm", IPL 1978: what is inside of the hull of a few points is no corner.
 //! Here these are the corners of the hull of a sample, and what is tested are columns inside of that hull (`columns.rs`), which takes
@@ -13,7 +13,7 @@ use super::start::Start;
 
 /// Points, from which on interior points are pruned; with fewer of them pruning gains nothing.
 const PRUNED_POINTS: usize = 4000;
-/// So many points tell whether most are corners.
+/// Points of the sample that tells whether most points are corners.
 const TASTE: usize = 256;
 /// More columns would not be in the cache.
 const MOST_CELLS: usize = 128;

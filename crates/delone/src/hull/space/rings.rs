@@ -12,7 +12,7 @@ use super::sides::{Sides, value};
 pub(super) struct Rings(Vec<Vec<usize>>);
 
 impl Rings {
-    /// Those of facets that close a surface, with corners below a number; each from its least neighbour.
+    /// The rings of facets that close a surface, with corners below a number; each begins with its least neighbour.
     pub(super) fn of(count: usize, facets: &[[usize; 3]]) -> Self {
         let sides = Sides::of(count, facets.iter().flat_map(turns));
         let ring = |v: usize| {

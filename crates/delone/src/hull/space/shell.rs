@@ -51,7 +51,7 @@ pub(super) struct Shell {
     pub(super) facets: Vec<Facet>,
     /// Facets whose place may be taken.
     pub(super) free: Vec<u32>,
-    /// What the last point saw.
+    /// The facets that the last point saw.
     pub(super) seen: Vec<u32>,
     /// Its border.
     pub(super) horizon: Vec<Horizon>,

@@ -24,7 +24,7 @@ use crate::ids::Place;
 use crate::order::random::SplitMix;
 use crate::tally::Tally;
 
-/// What the tree must know of the geometry: `N` corners make a triangle, or a tetrahedron.
+/// The geometry as the tree sees it: `N` corners make a triangle or a tetrahedron.
 pub(crate) trait Simplices<const N: usize>: Ground {
     /// Whether a point is in the circle of corners in positive order, one of which may be at infinity. All of `root` is in
     /// the hull.

@@ -20,7 +20,7 @@ use super::{DelaunayTree, Facet, NONE, Simplices};
 /// A facet of a node: the node, and the corner across.
 type Side = (u32, usize);
 
-/// What the time of the vertex is lived again with.
+/// The state of a removal, in which the time since the vertex came is replayed.
 struct Fill<const N: usize> {
     /// All nodes of the star, ever.
     star: BTreeSet<u32>,
@@ -119,7 +119,7 @@ impl<P: Copy + PartialEq, const N: usize> DelaunayTree<P, N> {
         }
     }
 
-    /// What is across a facet of the border outside, when the site x comes: the node of the star, the node outside.
+    /// The node outside across a facet of the border, at the time of site x: `p` is the node of the star.
     fn outside(&self, p: u32, x: Option<u32>, facet: &Facet<N>, fill: &Fill<N>) -> Option<(u32, Side)> {
         let s = *fill.border.get(facet)?;
         let k = self.nodes[s as usize].corner(p)?;

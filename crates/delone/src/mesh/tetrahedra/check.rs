@@ -5,7 +5,7 @@
 use super::Mesh3;
 use crate::ids::{FacetId, Place, TetrahedronId, VertexId};
 
-/// What is wrong with a mesh of tetrahedra, one sentence each.
+/// A flaw of a mesh of tetrahedra.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFlaw3 {

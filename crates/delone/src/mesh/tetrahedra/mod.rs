@@ -129,7 +129,7 @@ impl Mesh3 {
 
 /// From inside, by place.
 impl Mesh3 {
-    /// What tetrahedra, stars and names take.
+    /// Memory of tetrahedra, stars and names, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let Self { cells, incident, marks, names, .. } = self;
         size_of_val(&**cells) + size_of_val(&**incident) + size_of_val(&**marks) + names.bytes()

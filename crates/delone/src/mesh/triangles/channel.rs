@@ -10,7 +10,7 @@ use super::Mesh2;
 use super::surgery::{BorderEdge, Part};
 use crate::ids::{EdgeId, Place, TriangleId};
 
-/// What a segment crosses between two vertices: the borders of what is on its left and on its right, both without the
+/// The channel of a segment between two vertices: the borders of the polygons on its left and on its right, both without the
 /// segment itself, counter-clockwise, and the triangles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Channel {

@@ -5,7 +5,7 @@
 use super::Mesh2;
 use crate::ids::{EdgeId, Place, TriangleId, VertexId};
 
-/// What is wrong with a mesh, one sentence each.
+/// A flaw of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshFlaw2 {

@@ -1,4 +1,4 @@
-//! The same mesh at other places: neighbours in the plane become neighbours in memory again.
+//! Layout: a mesh moves to other places, so that neighbours in the plane are neighbours in memory again.
 //!
 //! A mesh that changes loses its order in memory. Given an order of its vertices, each goes to an even place with
 //! a free one after it, and with it go up to four triangles of its star, to the four slots that belong to the two
@@ -48,7 +48,7 @@ impl Room {
         }
     }
 
-    /// What goes to each place, given what there is by rank; free places get a copy of their neighbour's.
+    /// Spreads values by rank over the places; free places get a copy of their neighbour's value.
     pub(crate) fn spread<T: Copy>(
         self,
         by_rank: impl ExactSizeIterator<Item = T>,

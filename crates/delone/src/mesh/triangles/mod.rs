@@ -53,7 +53,7 @@ pub(crate) struct HalfEdge {
 }
 
 impl HalfEdge {
-    /// What the fourth record of a triangle without mark and tags holds, and the records of a triangle not built yet.
+    /// The fourth record of a triangle without mark and tags, and all records of a triangle not built yet.
     pub(crate) const UNUSED: Self = Self { origin: Place::GHOST, twin: EdgeId::NONE };
 }
 
@@ -98,7 +98,7 @@ impl Mesh2 {
         self.name(self.tip(e))
     }
 
-    /// The same edge in the other direction, of the triangle on the other side.
+    /// The twin: the edge in the other direction, of the triangle on the other side.
     #[inline]
     pub fn twin(&self, e: EdgeId) -> EdgeId {
         self.edges[e.index()].twin
@@ -147,7 +147,7 @@ impl Mesh2 {
         self.edges.len() / 4
     }
 
-    /// What the vertices span. O(1).
+    /// The dimension of the span of the vertices. O(1).
     pub fn dimension(&self) -> Dimension {
         match self.vertex_count {
             0 => Dimension::Empty,
@@ -191,7 +191,7 @@ impl Mesh2 {
         self.free = Slots::default();
     }
 
-    /// What triangles and stars take.
+    /// Memory of triangles and stars, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&*self.edges) + size_of_val(&*self.incident)
     }

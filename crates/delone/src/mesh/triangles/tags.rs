@@ -1,4 +1,4 @@
-//! What a triangle remembers beside its corners: a mark while a cavity is dug, which of its edges are fixed, and the domain
+//! Tags of a triangle: a mark while a cavity is dug, which of its edges are fixed, and the domain
 //! that it is in. All are in its fourth record, on the cache line that is read anyway.
 //!
 //! Every operation of [`super::surgery`] and [`super::line`] carries tags along: an edge stays fixed as long as it is there,
@@ -15,13 +15,13 @@ pub(crate) struct Tags(u32);
 const EDGES: u32 = 0b111;
 
 impl Tags {
-    /// Those of a new triangle in the same domain: no edge is fixed.
+    /// The tags of a new triangle in the same domain: no edge is fixed.
     #[inline]
     pub(super) fn of_domain(self) -> Self {
         Self(self.0 & !EDGES)
     }
 
-    /// What is written of them, without a mark.
+    /// The tags as they are written, without a mark.
     #[inline]
     pub(super) fn record(self) -> HalfEdge {
         HalfEdge { origin: Place::GHOST, twin: EdgeId::from_bits(!self.0) }

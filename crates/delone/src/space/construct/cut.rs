@@ -109,7 +109,7 @@ fn share_at_cut<P: Position3, W: Lift>(sites: Sites<'_, P, W>) -> f64 {
     if thin > TWICE_FOR_TWO { thin } else { thin.max(dense_share(sites, cut, &mut random)) }
 }
 
-/// What samples of two sizes let expect: as the share changed from the one to the other it goes on.
+/// The share that samples of two sizes predict: the change from one to the other is extrapolated.
 fn thin_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, random: &mut SplitMix) -> f64 {
     let [few, many] = THIN.map(|count| {
         let sample = (0..count).map(|_| random.below(sites.len()) as u32).collect();
@@ -122,7 +122,7 @@ fn thin_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, rando
     many * (many / few).min(1.0).powf(steps)
 }
 
-/// What all points of some boxes on the cut let expect. A box is put at a random point near the cut; so each point is in as
+/// The share that all points of some boxes on the cut predict. A box is put at a random point near the cut; so each point is in as
 /// many of them as there are points in its column. All, if no box can tell.
 fn dense_share<P: Position3, W: Lift>(sites: Sites<'_, P, W>, cut: &Cut<W>, random: &mut SplitMix) -> f64 {
     let &Cut { axis, at, .. } = cut;

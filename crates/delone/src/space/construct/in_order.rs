@@ -27,7 +27,7 @@ pub(crate) fn in_order(points: &[[f64; 3]]) -> Result<InOrder3, Error> {
 }
 
 impl InOrder3 {
-    /// What was built, with the places of duplicates and of what was made up taken out.
+    /// The result without the places of duplicates and of invented points.
     fn of((layer, duplicates): (Layer, Vec<Duplicate>)) -> Self {
         let spans = layer.dimension() == Dimension::Space;
         let Layer { mut mesh, mut points, .. } = layer;

@@ -64,7 +64,7 @@ fn with_duplicates((mut layer, rest): (Layer, Rest)) -> (Layer, Vec<Duplicate>) 
     (layer, duplicates)
 }
 
-/// The same for points with weights, one for each if there are weights, and says what is no vertex. Names are those of all.
+/// Triangulates points with weights, one for each if there are any, and lists the sites that are no vertices. Names are those of all.
 pub(super) fn triangulate_sites<P: Position3, W: Lift, T: Tally + Default + Send>(
     points: impl AsRef<[P]>,
     weights: Vec<W>,
@@ -75,7 +75,7 @@ pub(super) fn triangulate_sites<P: Position3, W: Lift, T: Tally + Default + Send
     triangulate_runs(points, weights, runs, seed, tally)
 }
 
-/// The same by flips in random order.
+/// Triangulates by flips in random order.
 pub(super) fn by_flips<T: Tally>(
     points: &[[f64; 3]],
     seed: u64,
@@ -97,7 +97,7 @@ fn scaled_points<P: Position3>(points: &[P]) -> Option<(Vec<[f64; 3]>, f64)> {
     points.iter().all(|p| p.xyz().iter().all(|x| (4.0 * x).is_finite())).then_some(scaled)
 }
 
-/// The same for sites that are cut already.
+/// Triangulates sites that are cut already.
 fn triangulate_runs<P: Position3, W: Lift, T: Tally + Default + Send>(
     points: impl AsRef<[P]>,
     weights: Vec<W>,
@@ -149,7 +149,7 @@ pub(super) fn build<W: Lift, T: Tally>(
     Some(())
 }
 
-/// The same for sites of which some may be hidden. Names are left alone.
+/// Inserts sites of which some may be hidden. Names are left alone.
 fn begin_and_insert<W: Lift, T: Tally>(layer: &mut Layer<W>, order: &[u32], tally: &mut T) -> Option<Rest> {
     let first = layer.begin(order)?;
     let mut rest = Rest::default();
@@ -167,9 +167,9 @@ fn begin_and_insert<W: Lift, T: Tally>(layer: &mut Layer<W>, order: &[u32], tall
 /// The places whose sites are no vertices.
 #[derive(Debug, Default)]
 pub(super) struct Rest {
-    /// Those that equal a vertex, with it.
+    /// Sites that equal a vertex, with that vertex.
     pub(super) equal: Vec<(Place, Place)>,
-    /// Those that others hide.
+    /// Sites that others hide.
     pub(super) hidden: Vec<Place>,
 }
 

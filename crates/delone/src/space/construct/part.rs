@@ -38,16 +38,16 @@ pub(super) struct Part<'a, W> {
     /// Slots that were used at some time.
     used: usize,
     free: Vec<TetrahedronId>,
-    /// What is no vertex.
+    /// Sites that are no vertices.
     rest: Rest,
 }
 
-/// What a part has to say about itself, with the ids of the whole.
+/// The summary of a part, with the ids of the whole.
 pub(super) struct Done {
     /// The slots that were never used, and those that are free again.
     pub(super) unused: Range<usize>,
     pub(super) free: Vec<TetrahedronId>,
-    /// What is no vertex.
+    /// Sites that are no vertices.
     pub(super) rest: Rest,
     /// The border, and its vertices.
     pub(super) border: Vec<TetrahedronId>,
@@ -170,7 +170,7 @@ impl<'a, W: Lift> Part<'a, W> {
         !W::keeps_clear(self.cells[t.index()].corners.map(|p| view.site(p)), other)
     }
 
-    /// The same for a ghost: some of the box may be beyond its facet, or in the plane of the facet and in its circle, which
+    /// Tests a ghost: some of the box may be beyond its facet, or in the plane of the facet and in its circle, which
     /// the sphere of the tetrahedron inside cuts out.
     fn may_be_beyond(&self, ghost: TetrahedronId, other: &Region<W>) -> bool {
         let Tetrahedron { corners: [a, b, c, _], across } = self.cells[ghost.index()];

@@ -9,7 +9,7 @@ use crate::mesh::tetrahedra::Tetrahedron;
 use crate::prefetch::prefetch;
 use crate::tally::{Phase, Tally};
 
-/// What decisions look at.
+/// The data that decisions read.
 #[derive(Clone, Copy)]
 pub(in crate::space) struct View<'a, W> {
     pub(in crate::space) cells: &'a [Tetrahedron],
@@ -21,7 +21,7 @@ pub(in crate::space) struct View<'a, W> {
     pub(in crate::space) filter: &'a Filter3,
 }
 
-/// What an insertion writes, too.
+/// The data that an insertion reads and writes.
 pub(in crate::space) struct Memory<'a, W> {
     pub(in crate::space) cells: &'a mut [Tetrahedron],
     /// For each tetrahedron a mark, zero between operations.
@@ -91,7 +91,7 @@ impl<W: Lift> View<'_, W> {
         if corners[3].is_ghost() { self.is_beyond_hull(t, q) } else { self.is_in_sphere(corners, q) }
     }
 
-    /// The same for two.
+    /// Tests two tetrahedra against `q` at once, as two calls of `conflicts` would.
     #[inline]
     pub(in crate::space) fn both_conflict(
         &self,
@@ -112,7 +112,7 @@ impl<W: Lift> View<'_, W> {
         W::in_sphere(self.filter, self.sites(corners), q).is_positive()
     }
 
-    /// The same for a ghost.
+    /// Tests a ghost: whether `q` is beyond its facet of the hull.
     fn is_beyond_hull(&self, t: TetrahedronId, q: SiteRef<'_, W>) -> bool {
         let Tetrahedron { corners: [a, b, c, _], across } = self.cells[t.index()];
         let side = self.filter.orient3d(*self.at(a), *self.at(b), *self.at(c), *q.0);
@@ -155,7 +155,7 @@ impl<W: Lift> View<'_, W> {
         }
     }
 
-    /// The same from a tetrahedron that may be far: none if it takes more steps than `most`.
+    /// Walks from a tetrahedron that may be far; nothing if it takes more steps than `most`.
     pub(in crate::space) fn walk_within(
         &self,
         from: TetrahedronId,

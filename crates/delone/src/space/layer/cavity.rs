@@ -115,7 +115,7 @@ impl Cavity {
         self.hidden.truncate(count);
     }
 
-    /// Those of them that are on no new tetrahedron: what was theirs is another's, or free.
+    /// Finds the vertices of the cavity that are on no new tetrahedron: the new site hides them.
     fn find_hidden<W>(&mut self, memory: &mut Memory<'_, W>) {
         let Memory { cells, incident, .. } = memory;
         self.hidden.retain(|&p| !cells[incident[p.index()].index()].corners.contains(&p));
@@ -261,7 +261,7 @@ impl Cavity {
         }
     }
 
-    /// The same for a border of any size.
+    /// Glues a border of any size.
     #[cold]
     fn glue_by_sorting<W>(&mut self, memory: &mut Memory<'_, W>) {
         let mut edges = Vec::with_capacity(3 * self.cells.len());

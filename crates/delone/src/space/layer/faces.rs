@@ -1,4 +1,4 @@
-//! What there is of each dimension: tetrahedra, facets, edges, and the facets of the hull.
+//! Faces of each dimension: tetrahedra, facets, edges, and the facets of the hull.
 //!
 //! Cost: O(1) for each that is met, ghosts and both sides of a facet counted; edges O(d log d) for a vertex of degree d.
 

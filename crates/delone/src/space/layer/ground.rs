@@ -1,4 +1,4 @@
-//! What strategies of location ask of a triangulation of space.
+//! The triangulation of space as strategies of location see it.
 
 use std::cmp::Ordering;
 

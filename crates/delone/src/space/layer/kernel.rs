@@ -1,4 +1,4 @@
-//! What decides whether a tetrahedron is in conflict with a site: spheres of points, or power spheres of points with weights.
+//! Kernels: the test whether a tetrahedron is in conflict with a site, by spheres of points, or power spheres of points with weights.
 //!
 //! Without weights no site hides another, and a cavity has no vertex inside. With weights ([`Lift::HIDES`]) a vertex inside of a
 //! cavity is one that the new site hides, and a site without a cavity is hidden itself.
@@ -11,7 +11,7 @@ use crate::weight::Weight;
 /// A site whose point is not copied: copies are read in other pieces than they are written, and that waits.
 pub(in crate::space) type SiteRef<'a, W> = (&'a [f64; 3], W);
 
-/// What a site has besides its point, and the tests that it changes.
+/// The data of a site besides its point, and the tests that depend on it.
 pub(in crate::space) trait Lift: Weight {
     /// Whether a site may hide another one, so that this is no vertex.
     const HIDES: bool;
@@ -25,7 +25,7 @@ pub(in crate::space) trait Lift: Weight {
     /// The in-sphere test.
     fn in_sphere(filter: &Filter3, corners: [SiteRef<'_, Self>; 4], q: SiteRef<'_, Self>) -> Sign;
 
-    /// The same for sites that no filter knows.
+    /// Tests sites that no filter covers.
     fn is_in_sphere(corners: [([f64; 3], Self); 4], q: ([f64; 3], Self)) -> bool;
 
     /// Two at once.

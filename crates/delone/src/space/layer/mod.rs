@@ -48,7 +48,7 @@ pub(in crate::space) struct Layer<W: Lift = ()> {
     pub(in crate::space) cavity: Cavity,
     pub(in crate::space) hole: Hole,
     wrap: Option<Box<Wrap>>,
-    /// What holes are filled with.
+    /// The layer that fills holes.
     pub(in crate::space) fill: Option<Box<Layer<W>>>,
 }
 
@@ -68,7 +68,7 @@ impl<W: Lift> Layer<W> {
         Self::with_weights(points, weights)
     }
 
-    /// The same with weights.
+    /// A layer of points with weights.
     pub(in crate::space) fn with_weights(points: Vec<[f64; 3]>, weights: Vec<W>) -> Self {
         let mesh = Mesh3 { incident: vec![TetrahedronId::NONE; points.len()], ..Mesh3::default() };
         let mut layer = Self { mesh, points, weights, ..Self::default() };
@@ -157,12 +157,12 @@ impl<W: Lift> Layer<W> {
         self.mesh.cells().next().unwrap_or(TetrahedronId::NONE)
     }
 
-    /// What it takes, buffers not counted.
+    /// Memory in bytes, buffers not counted.
     pub(in crate::space) fn bytes(&self) -> usize {
         self.mesh.bytes() + size_of_val(&*self.points)
     }
 
-    /// What decisions look at.
+    /// The data that decisions read.
     #[inline]
     pub(in crate::space) fn view(&self) -> View<'_, W> {
         View { cells: &self.mesh.cells, points: &self.points, weights: &self.weights, filter: &self.filter }

@@ -17,7 +17,7 @@ use crate::ids::{Place, TetrahedronId};
 use crate::mesh::Dimension;
 use crate::tally::Tally;
 
-/// What became of the hole that a star left.
+/// The outcome for the hole that a star left.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Filled {
     All,

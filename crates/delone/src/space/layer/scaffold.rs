@@ -17,7 +17,7 @@ use crate::order;
 use crate::space::construct;
 
 impl<W: Lift> Layer<W> {
-    /// What the vertices span.
+    /// The dimension of the span of the vertices.
     pub(in crate::space) fn dimension(&self) -> Dimension {
         match (self.mesh.vertex_count, self.scaffold.len()) {
             (0, _) => Dimension::Empty,

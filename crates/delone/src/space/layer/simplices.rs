@@ -1,4 +1,4 @@
-//! What histories must know of space.
+//! Space as histories see it.
 
 use delone_predicates::{Sign, are_collinear3, orient3d};
 

@@ -17,7 +17,7 @@ pub(super) fn build(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<R
     Some(Regular3 { work, ..assemble(built) })
 }
 
-/// The same by flips in random order.
+/// Builds by flips in random order.
 pub(super) fn by_flips(points: &[[f64; 3]], weights: &[f64], seed: u64) -> Option<Regular3> {
     let mut layer = Layer::with_weights(points.to_vec(), weights.to_vec());
     layer.mesh.names = Names::identical(points.len(), |_| true);

@@ -77,7 +77,7 @@ impl Regular3 {
         Self::from_parts(&points, &weights)
     }
 
-    /// The same for points and weights apart.
+    /// Triangulates points and weights that are given apart.
     ///
     /// # Errors
     /// As [`Self::from_sites`], and [`Error::Length`] if there are more of one than of the other.
@@ -85,7 +85,7 @@ impl Regular3 {
         Self::with_seed(points, weights, 0)
     }
 
-    /// The same with a random order of insertion that the seed decides and that does not show in the tetrahedra.
+    /// Triangulates in a random order of insertion from the seed. The order does not show in the tetrahedra.
     ///
     /// # Errors
     /// As [`Self::from_parts`].
@@ -94,7 +94,7 @@ impl Regular3 {
         with_room(build::build(&P::all(points), weights, seed))
     }
 
-    /// The same one by one in random order by bistellar flips, each site traced through all tetrahedra that ever were, as
+    /// Triangulates one by one in random order by bistellar flips, each site traced through all tetrahedra that ever were, as
     /// [`crate::Algorithm3::Flips`]: for study. What it did is in [`Self::counters`].
     ///
     /// # Errors
@@ -104,7 +104,7 @@ impl Regular3 {
         with_room(build::by_flips(&P::all(points), weights, seed))
     }
 
-    /// What construction took.
+    /// Counters of the construction.
     pub fn counters(&self) -> Counters {
         Counters::Incremental(self.work)
     }
@@ -114,7 +114,7 @@ impl Regular3 {
         &self.base.mesh
     }
 
-    /// What the sites span; hidden ones span nothing more.
+    /// The dimension of the span of the sites; hidden sites add nothing to it.
     pub fn dimension(&self) -> Dimension {
         self.base.dimension()
     }

@@ -1,4 +1,4 @@
-//! What a regular triangulation has in common with others: files and pictures are made of that.
+//! The common traits of triangulations for regular ones; files and pictures stand on them.
 
 use super::Regular3;
 use crate::error::Error;

@@ -219,7 +219,7 @@ impl Parts {
         parts
     }
 
-    /// What stands for the set of a part.
+    /// The representative of the set of a part.
     fn root(&mut self, cut: &Cut<'_>, t: u32, band: u32) -> u32 {
         self.sets.find((self.first[t as usize] + u64::from(band - cut.bands_of(t)[0])) as u32)
     }

@@ -9,7 +9,7 @@
 
 use super::super::real::{Double, Real, dot};
 
-/// What is known of one neighbour.
+/// One neighbour.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     /// From the vertex to the neighbour, the longest coordinate between one and two.
@@ -26,7 +26,7 @@ pub(super) fn power(x: f64) -> f64 {
     f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & EXPONENT)
 }
 
-/// What fits best.
+/// The best fit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     /// The gradient.

@@ -35,7 +35,7 @@ const NOISE_LIMIT: f64 = 1_048_576.0;
 /// Squared lengths between 2^-900 and 2^900 have all their bits, and so have quotients of two of them.
 const SQUARES: std::ops::Range<f64> = 1.183_052_186_166_774_8e-271..8.452_712_498_170_644e270;
 
-/// The same between 2^-450 and 2^450 in space, where weights are made of fourth powers of lengths.
+/// The range in space, 2^-450 to 2^450, because weights there are made of fourth powers of lengths.
 const SQUARES_IN_SPACE: std::ops::Range<f64> = 3.439_552_567_074_349_4e-136..2.907_354_897_182_427_6e135;
 
 /// The gradients at all vertices, by the index of the vertex: values per unit of length along each axis. Zero for ids that are no
@@ -191,7 +191,7 @@ fn solve(mut m: [[f64; 4]; 3], axes: usize, least: f64) -> Option<[f64; 3]> {
     solution.iter().all(|x| x.is_finite()).then_some(solution)
 }
 
-/// The same in twice the precision, among slivers and near the ends of the numbers; `None` where neighbours span nothing.
+/// Fits in twice the precision, among slivers and near the ends of the range; `None` where neighbours span nothing.
 #[cold]
 fn careful<T: Surround>(d: &T, v: VertexId, values: &[f64]) -> Option<[f64; 3]> {
     let axes = T::Point::COUNT;

@@ -26,7 +26,7 @@ use crate::ids::VertexId;
 use crate::powers::power_below;
 use crate::triangulation::{Coordinates, Triangulation};
 
-/// What is measured.
+/// The measure of a neighbour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     /// The size of facets over the distance.
@@ -86,7 +86,7 @@ pub(super) fn apart(a: f64, b: f64) -> f64 {
     if a.abs().max(b.abs()) > 1.0 { (a / 4.0 - b / 4.0).abs() } else { (a - b).abs() }
 }
 
-/// What a distance, or a quarter of it, is to be multiplied with, before and after differences are taken, so that no power of it leaves the
+/// The factors of a distance, or of a quarter of it, before and after differences are taken, so that no power of it leaves the
 /// range of numbers.
 pub(super) fn scale(size: f64) -> [f64; 2] {
     let before = if size > 2f64.powi(1000) { 2f64.powi(-100) } else { 1.0 };

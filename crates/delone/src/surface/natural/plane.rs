@@ -201,7 +201,7 @@ fn facets<R: Real>([ax, ay]: [R; 2], [bx, by]: [R; 2]) -> ([R; 2], f64) {
     ([at_b * over, at_a * over], size * over.value().abs() * doubt(squares, over.value()))
 }
 
-/// What neighbours have of the triangle between two of them and the point, to be taken away, and a bound of the errors.
+/// The parts of the triangle between two neighbours and the point, to be subtracted, and a bound of their errors.
 #[inline]
 fn new_areas<R: Real>([ax, ay]: [R; 2], [bx, by]: [R; 2]) -> ([R; 2], f64) {
     let (dx, dy) = (bx - ax, by - ay);

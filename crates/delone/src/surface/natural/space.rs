@@ -204,7 +204,7 @@ fn sum<R: Real>(local: &mut Local<R>, cavity: &[[u32; 4]], border: &[[u32; 3]], 
     }
 }
 
-/// What each end of an edge has of the tetrahedron, up to a factor that is the same for all: the dual times the length.
+/// The part of the tetrahedron that belongs to each edge, up to a common factor: the dual times the length.
 fn pieces<R: Real>(p: [[R; 3]; 4], sums: [R; 6]) -> [R; 6] {
     std::array::from_fn(|edge| {
         let along = minus(p[EDGES[edge][1]], p[EDGES[edge][0]]);

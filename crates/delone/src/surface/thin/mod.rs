@@ -38,7 +38,7 @@ use lattice::{HIGHEST, Lattice};
 use mesh::{Mesh, NONE};
 use plane::LOW;
 
-/// What higher heights than [`HIGHEST`] are multiplied with, and all others with them: 2^-64.
+/// The factor of all heights if one exceeds [`HIGHEST`]: 2^-64.
 const LOWERED: f64 = f64::from_bits((1023 - 64) << 52);
 
 /// Three samples: the corners of a triangle.
@@ -50,7 +50,7 @@ trait Samples: Sync {
     type Entry: Copy + Ord + Send + Sync;
     /// The entry of a sample with a positive error in a triangle.
     fn entry(&self, error: f64, sample: u32, triangle: u32) -> Self::Entry;
-    /// What an entry was made of.
+    /// The result that an entry was made of.
     fn found(&self, entry: &Self::Entry) -> Found;
     /// The numbers are below this one.
     fn count(&self) -> usize;
@@ -75,7 +75,7 @@ struct Found {
     triangle: u32,
 }
 
-/// What was found when all samples of some triangles were measured once more.
+/// The result of measuring all samples of some triangles once more.
 struct Verdict<'a> {
     allowed: f64,
     /// The largest error so far.
@@ -118,7 +118,7 @@ pub struct Thinning {
     max_points: usize,
 }
 
-/// What is left of the points.
+/// The points that are left.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thinned {
     /// The points that are left, by their indices in the input, cells of a raster row by row: those that there were to begin with (the
@@ -349,7 +349,7 @@ fn junctions(points: &[[f64; 2]], segments: &[[usize; 2]]) -> Result<Vec<usize>,
     Ok((0..points.len()).filter(|&i| edges[i] > 4).collect())
 }
 
-/// What floating point decides in a box of this size, for coordinates on a lattice or not.
+/// The filter of a box of this size, for coordinates on a lattice or not.
 fn filter(width: f64, height: f64, coordinates: &[f64]) -> Filter {
     Filter::for_box(width, height, Steps::of(coordinates))
 }

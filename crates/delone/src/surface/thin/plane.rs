@@ -31,7 +31,7 @@ impl Plane {
         Self::of_sorted(c.map(|corner| corner.0), c.map(|corner| corner.1), thinnest)
     }
 
-    /// The same from corners that come in an order of their own.
+    /// Makes a plane from corners in any order.
     #[inline]
     pub(super) fn of_sorted([p, q, r]: [[f64; 2]; 3], [z, zq, zr]: [f64; 3], thinnest: f64) -> Option<Self> {
         let [a, b] = [[q[0] - p[0], q[1] - p[1]], [r[0] - p[0], r[1] - p[1]]];

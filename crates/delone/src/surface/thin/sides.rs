@@ -15,7 +15,7 @@ struct Side {
     column: i32,
     rest: i32,
     rows: i32,
-    /// What a row adds to both.
+    /// The increment of both for a row.
     step: [i32; 2],
 }
 

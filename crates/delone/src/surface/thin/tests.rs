@@ -1,4 +1,4 @@
-//! What is left is near all points, as an independent triangulation sees it, and is what rounds by definition choose.
+//! Tests of thinning: the rest is near all points by an independent triangulation, and is what rounds by definition choose.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 

@@ -59,7 +59,7 @@ fn in_space() -> Vec<[f64; 3]> {
     points().iter().map(|&[x, y]| [1000.0 * x, 1000.0 * y, 100.0 * x * y]).collect()
 }
 
-/// What a writer of ours makes of some points.
+/// A file of some points by a writer of ours.
 pub(super) fn written(format: Format) -> (Format, Vec<u8>) {
     let mut bytes = Vec::new();
     let outcome = delone_io::write_points(&mut bytes, format, &in_space());
@@ -67,7 +67,7 @@ pub(super) fn written(format: Format) -> (Format, Vec<u8>) {
     (format, bytes)
 }
 
-/// What a writer of ours makes of a triangulation.
+/// A file of a triangulation by a writer of ours.
 pub(super) fn mesh(format: Format) -> (Format, Vec<u8>) {
     let crs = Crs::of_epsg(25_832);
     let mut bytes = Vec::new();
@@ -262,7 +262,7 @@ const GRAPHS: [(Format, &str); 4] = [
     (Format::Ele, "2 6 1\n1 1 2 3 4 5 6 0.5\n2 2 3 4 5 6 7 1.5\n"),
 ];
 
-/// What Gmsh wrote before it had entities.
+/// A file of Gmsh from before it had entities.
 const OLD_GMSH: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 5 \"plate\"\n$EndPhysicalNames\n$Nodes\n4\n\
     10 0 0 0\n20 1 0 0.5\n30 1 1 0\n25 0 1 0\n$EndNodes\n$Elements\n4\n1 15 2 0 1 10\n2 1 2 0 1 10 20\n3 2 2 5 1 10 20 30\n\
     4 4 2 0 1 10 20 30 25\n$EndElements\n";

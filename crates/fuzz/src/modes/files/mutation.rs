@@ -15,11 +15,11 @@ pub(crate) enum Mutation {
     Text { place: f64, text: &'static str, over: bool },
     /// The file ends here.
     Cut { place: f64 },
-    /// So many bytes are missing.
+    /// Bytes are missing.
     Remove { place: f64, bytes: usize },
-    /// So many bytes are there again, so many times.
+    /// Bytes are repeated.
     Repeat { place: f64, bytes: usize, times: usize },
-    /// So many bytes are those of another place.
+    /// Bytes are overwritten by those of another place.
     Copy { from: f64, to: f64, bytes: usize },
     /// The rest is that of another file.
     Splice { place: f64, other: usize, from: f64 },

@@ -1,4 +1,4 @@
-//! What must be true of a mesh, over integers. Where the engine rounds what it measures (areas, lengths, cosines) a few units in
+//! The judge of meshes, over integers. Where the engine rounds what it measures (areas, lengths, cosines) a few units in
 //! the last place are left to it; topology, counts and what is kept are judged without any.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,11 +23,11 @@ pub(super) struct Case<'a> {
     pub(super) after: &'a Constrained2,
     pub(super) wish: &'a Wish,
     pub(super) fill: Fill<'a>,
-    /// What is known of the vertices of before.
+    /// The lines of the vertices from before.
     pub(super) lines: &'a Lines,
 }
 
-/// What is said of a mesh, as far as it must not depend on the order of the input: triangles inside, and those left with reasons.
+/// The part of a mesh that must not depend on the order of the input: triangles inside, and those left with reasons.
 type Said = (Vec<[Point; 3]>, Vec<([Point; 3], Reason)>, [usize; 3], [u64; 2]);
 
 pub(super) fn said(c: &Constrained2, refined: &Refined2) -> Said {
@@ -106,7 +106,7 @@ fn is_measurable(t: [Point; 3]) -> bool {
     sides(t).into_iter().all(|side| (1e-280..1e280).contains(&square(side)))
 }
 
-/// What a cosine may be rounded by, from a bound: less than one on the side of what is asked, more on the other.
+/// Compares angles with a bound; `slack` allows for the rounding of a cosine.
 fn has_angles([a, b, c]: [Point; 3], degrees: f64, slack: f64) -> bool {
     let cosine = degrees.to_radians().cos();
     let bound = cosine * cosine * (1.0 + slack);
@@ -236,7 +236,7 @@ impl Case<'_> {
         Ok(())
     }
 
-    /// What is to be kept is there.
+    /// Judges that everything to be kept is there.
     fn judge_kept(&self, refined: &Refined2) -> Judgement {
         let is_split = |e: &[VertexId; 2]| !self.after.constraints().any(|edge| edge == *e);
         if self.wish.keep == Keep::Constraints
@@ -371,7 +371,7 @@ impl Case<'_> {
     }
 }
 
-/// So many units in the last place of the largest coordinate a new vertex may be beside its constraint.
+/// The largest distance of a new vertex from its constraint, in units in the last place of the largest coordinate.
 const BEND: f64 = 4.0;
-/// What a quotient of squares may be rounded by.
+/// The largest rounding error of a quotient of squares.
 const ROUNDED: f64 = 1e-13;

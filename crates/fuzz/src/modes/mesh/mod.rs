@@ -90,7 +90,7 @@ fn good_stays(c: &Constrained2, refined: &Refined2, wish: &Wish) -> Judgement {
     Ok(())
 }
 
-/// What is inside is refined again, as it is.
+/// Refines the inside again, as it is.
 fn refine_again(c: &Constrained2, refined: &Refined2, wish: &Wish, lines: &Lines) -> Judgement {
     let mut d = c.clone();
     let fill = Fill::Parts(&refined.domains);

@@ -1,4 +1,4 @@
-//! What is asked of a mesh, at random.
+//! Random criteria of a mesh.
 
 use std::cell::Cell;
 
@@ -23,7 +23,7 @@ impl Field {
     }
 }
 
-/// What is asked of a mesh.
+/// The criteria of a mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Wish {
     pub(super) min_angle: f64,
@@ -111,12 +111,12 @@ impl Wish {
         [own, self.max_area].into_iter().flatten().reduce(f64::min)
     }
 
-    /// The same for what another one has inside.
+    /// These criteria, with the inside of other ones.
     pub(super) fn inside_of(self, other: &Self) -> Self {
         Self { fill: other.fill, seeds: other.seeds.clone(), ..self }
     }
 
-    /// The same with an angle that is easier.
+    /// These criteria, with an angle that is easier.
     pub(super) fn easier(&self) -> Self {
         Self { min_angle: 0.5 * self.min_angle, smooth: 0, stop: None, ..self.clone() }
     }

@@ -60,7 +60,7 @@ fn parts_are_joined_to_the_one_triangulation() {
     assert!(joined > 40, "{joined}");
 }
 
-/// What both are, with all that is hidden.
+/// Compares both, with all hidden sites.
 fn assert_equal([apart, whole]: &[Regular3; 2], what: &str) {
     apart.check().unwrap_or_else(|flaw| panic!("{what}: {flaw}"));
     assert_eq!(cells(apart.mesh()), cells(whole.mesh()), "{what}");

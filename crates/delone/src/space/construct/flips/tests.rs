@@ -8,7 +8,7 @@ use crate::space::delaunay::Delaunay3;
 use crate::space::regular::Regular3;
 use crate::tally::Work;
 
-/// What there is to compare: vertices, and tetrahedra, those at the scaffold too.
+/// The result to compare: the number of vertices, and the tetrahedra, those at the scaffold too.
 fn made<W: Lift>(layer: &Layer<W>) -> (usize, Vec<[usize; 4]>) {
     let index = |p: Place| layer.mesh.names.of(p).index();
     let sorted = |t: TetrahedronId| {
@@ -68,7 +68,7 @@ fn weights(points: &[[f64; 3]], family: usize, random: &mut Random) -> Vec<f64> 
     points.iter().map(&mut weight).map(|w| if w.is_finite() { w } else { f64::MAX }).collect()
 }
 
-/// The same for sites with weights, and what they hide.
+/// Judges sites with weights, and counts the hidden ones.
 fn judge(points: &[[f64; 3]], weights: &[f64], seed: u64, what: &str) -> usize {
     let (layer, rest) = flipped(points, weights, seed);
     assert_eq!(check_geometry(&layer), Ok(()), "{what}: {points:?} {weights:?}");
