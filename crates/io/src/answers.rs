@@ -16,15 +16,15 @@ pub struct Answers<'a, P> {
     pub queries: &'a [P],
     /// Their attributes.
     pub features: &'a Features,
-    /// What the coordinates mean; formats that can say it do.
+    /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
-    /// What the answers to a query are called, one after another.
+    /// The names of the answers to a query, in their order.
     pub names: &'a [String],
     /// The answers to all queries.
     pub found: Found<'a>,
 }
 
-/// What was found, a row for each query.
+/// The answers, a row for each query.
 #[derive(Clone, Copy, Debug)]
 pub enum Found<'a> {
     /// Indices, -1 where there is none.

@@ -10,9 +10,9 @@ pub struct Cloud {
     pub xy: Vec<[f64; 2]>,
     /// z, where the file has it: one a point.
     pub z: Option<Vec<f64>>,
-    /// What the coordinates mean, where the file tells.
+    /// The system of coordinates, where the file tells.
     pub crs: Option<Crs>,
-    /// What the file calls the first point where it numbers them: 0 or 1.
+    /// The number of the first point where the file numbers them: 0 or 1.
     pub base: usize,
     /// LAS classes and how many points of the file have them, those left out included.
     pub classes: Vec<(u8, u64)>,
@@ -20,9 +20,9 @@ pub struct Cloud {
     pub flags: [u64; 4],
     /// The attributes of the points, by the features that they are of.
     pub features: Features,
-    /// What a user might want to know of how the file was read: which columns were taken, what was left out.
+    /// Remarks on how the file was read: which columns were taken, what was left out.
     pub remarks: Vec<String>,
-    /// What the file has and these points have not.
+    /// Contents of the file that these points lack.
     pub losses: Vec<String>,
 }
 

@@ -28,7 +28,7 @@ pub struct ContourMap<'a> {
     pub lines: &'a [ContourLine],
     /// The bands, drawn below the lines.
     pub bands: &'a [ContourBand],
-    /// What the coordinates mean.
+    /// The system of coordinates.
     pub crs: Option<&'a Crs>,
 }
 

@@ -13,7 +13,7 @@ pub struct Diagram<'a, T> {
     pub triangulation: &'a T,
     /// Their cells.
     pub cells: &'a Cells2,
-    /// What the coordinates mean; formats that can say it do.
+    /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
     /// The attributes of the sites, which their cells have in GeoJSON, FlatGeobuf, GeoPackage and CSV; one that is called `site` or `area` is `site_2` or `area_2`
     /// there.
@@ -25,15 +25,15 @@ pub struct Diagram<'a, T> {
 pub struct OrderDiagram<'a> {
     /// The regions.
     pub diagram: &'a OrderK2<'a>,
-    /// What they are clipped to.
+    /// The clipped cells.
     pub cells: &'a OrderCells2,
-    /// What the coordinates mean; formats that can say it do.
+    /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
 }
 
-/// What is written of any diagram: polygons that tile, with what they are of.
+/// A diagram to be written: polygons that tile, each of a site or a set of sites.
 pub(crate) trait Tiles {
-    /// What knows one of them.
+    /// The id of a polygon.
     type Tile: Copy;
 
     /// All of them, those of which nothing is left too.
@@ -45,19 +45,19 @@ pub(crate) trait Tiles {
     /// The area of one.
     fn area(&self, tile: Self::Tile) -> f64;
 
-    /// What the property is called that tells what one is of.
+    /// The name of the property that tells the site or sites.
     fn property(&self) -> &'static str;
 
     /// Writes what one is of, as a value of JSON.
     fn write_value(&self, out: &mut dyn Write, tile: Self::Tile) -> io::Result<()>;
 
-    /// The same in words, for people and for columns.
+    /// The site or sites in words, for people and for columns.
     fn title(&self, tile: Self::Tile) -> String;
 
     /// The sites, each with the tile that it is drawn on.
     fn sites(&self) -> impl Iterator<Item = (Self::Tile, [f64; 2])>;
 
-    /// What the coordinates mean.
+    /// The system of coordinates.
     fn crs(&self) -> Option<&Crs>;
 
     /// The attributes of the sites, where they are known.
@@ -70,7 +70,7 @@ pub(crate) trait Tiles {
         None
     }
 
-    /// Those of which something is left.
+    /// Polygons that are not empty.
     fn present(&self) -> impl Iterator<Item = Self::Tile> {
         self.tiles().filter(|&tile| self.rings(tile).next().is_some())
     }

@@ -14,7 +14,7 @@ use crate::middles::Middles;
 /// The corners of the facet of a tetrahedron opposite to each corner, counter-clockwise seen from outside.
 pub(crate) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
-/// What is written, with nodes by the indices of their points, from 0.
+/// Elements to be written, with nodes by the indices of their points, from 0.
 #[derive(Debug)]
 pub(crate) struct Elements {
     /// The dimension of the cells, 2 or 3.
@@ -108,7 +108,7 @@ impl Elements {
     }
 }
 
-/// What elements have in common.
+/// The numbers that elements share.
 trait Number: Copy {
     fn order(&self, other: &Self) -> Ordering;
     /// The number in a name: digits, letters and hyphens alone, because other characters mean something in some formats.

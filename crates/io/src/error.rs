@@ -1,4 +1,4 @@
-//! What can go wrong with a file: what, and where in it.
+//! Errors of files, with the place in the file.
 
 use std::borrow::Cow;
 
@@ -22,7 +22,7 @@ pub enum Error {
     Line {
         /// Counted from 1.
         line: usize,
-        /// What is wrong with it.
+        /// The fault.
         what: String,
     },
     /// The file ends too early.
@@ -67,7 +67,7 @@ pub enum Error {
     Unsupported {
         /// The format.
         format: Format,
-        /// What it does not hold.
+        /// The contents that it does not hold.
         contents: Contents,
         /// Whether it was to be read or written.
         direction: Direction,
@@ -141,7 +141,7 @@ impl Error {
         Self::Content(what.into())
     }
 
-    /// What the user can do about it.
+    /// Advice to the user.
     pub fn help(&self) -> Cow<'static, str> {
         Cow::Borrowed(match self {
             Self::Truncated(_) => "copy or download it again: it is shorter than it says",

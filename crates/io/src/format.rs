@@ -121,7 +121,7 @@ impl Format {
         extension.parse().map_err(|_| Error::UnknownExtension(path.display().to_string()))
     }
 
-    /// What it is, in a few words.
+    /// A description in a few words.
     pub fn title(self) -> &'static str {
         self.row().title
     }

@@ -48,9 +48,9 @@ pub struct GraphRing {
 pub struct Rings {
     /// The rings of all polygons, one after another.
     pub rings: Vec<Vec<[f64; 2]>>,
-    /// What the coordinates mean, where the file tells.
+    /// The system of coordinates, where the file tells.
     pub crs: Option<Crs>,
-    /// What the file has and these rings have not.
+    /// Contents of the file that these rings lack.
     pub losses: Vec<String>,
 }
 

@@ -22,7 +22,7 @@ pub fn trust_compressed(is_trusted: bool) {
     IS_TRUSTED.store(is_trusted, Ordering::Relaxed);
 }
 
-/// So many bytes may be inflated from so many.
+/// The largest number of bytes that `packed` bytes may inflate to.
 pub(crate) fn most_inflated(packed: u64) -> u64 {
     let is_trusted = IS_TRUSTED.load(Ordering::Relaxed);
     if is_trusted { u64::MAX } else { packed.saturating_mul(EXPANSION).max(HARMLESS) }

@@ -74,10 +74,10 @@ use delone::Triangulation;
 use formats::shapes::Purpose;
 use formats::vector;
 
-/// What a user should know of a file that was written.
+/// A remark on a file that was written.
 pub type Remark = Option<String>;
 
-/// What a format may be read from: files, and standard input once it is in memory.
+/// A source of a format: a file, or standard input once it is in memory.
 pub trait Source: BufRead + Seek + Send + Sync {}
 
 impl<T: BufRead + Seek + Send + Sync> Source for T {}
@@ -250,7 +250,7 @@ pub fn read_areas(source: Box<dyn Source>, format: Format) -> Result<Vec<Option<
     format.readers().areas.ok_or_else(|| format.without(Contents::Areas, Direction::Read))?(source)
 }
 
-/// What formats of triangles in space ask for.
+/// Triangles as formats of surfaces see them.
 trait Shape {
     /// The coordinates of the points, zero where there is no height.
     fn positions(&self) -> impl Iterator<Item = [f64; 3]>;
@@ -266,7 +266,7 @@ trait Shape {
     fn region_values(&self) -> Option<impl Iterator<Item = f64>> {
         None::<std::iter::Empty<f64>>
     }
-    /// What the coordinates mean.
+    /// The system of coordinates.
     fn crs(&self) -> Option<&Crs> {
         None
     }

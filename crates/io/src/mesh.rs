@@ -35,11 +35,11 @@ pub struct Mesh<'a, T: Triangulation> {
     pub points: &'a [T::Point],
     /// In the plane, the height of each of them.
     pub heights: Option<&'a [f64]>,
-    /// What the coordinates mean; formats that can say it do.
+    /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
-    /// What the first point is called in Triangle's formats, 0 or 1.
+    /// The number of the first point in Triangle's formats, 0 or 1.
     pub base: usize,
-    /// What is left out.
+    /// Simplices that are left out.
     pub trim: Option<&'a Trim>,
     /// The edges that were asked for.
     pub constraints: Option<&'a Constraints<'a>>,
@@ -141,7 +141,7 @@ impl<'a, T: Triangulation> Mesh<'a, T> {
         self.triangulation.simplex_count() - self.trim.map_or(0, Trim::count)
     }
 
-    /// What is across the facet opposite to corner `k`, if it is not left out.
+    /// The simplex across the facet opposite to corner `k`, if it is not left out.
     pub(crate) fn across(&self, s: T::Simplex, k: usize) -> Option<T::Simplex> {
         self.triangulation.across(s, k).filter(|&next| self.keeps(next))
     }
@@ -310,7 +310,7 @@ impl<T: Triangulation<Point = [f64; 2]>> Shape for Mesh<'_, T> {
 /// Points whose triangulations are drawn, and written where a format holds triangles alone: those of the plane as they
 /// are, those of space by their border.
 pub trait Drawable: Coordinates {
-    /// What files hold of such triangulations.
+    /// The contents of files of such triangulations.
     const CONTENTS: Contents;
 
     /// Whether triangulations of such points are written in a format if their elements are of second order.

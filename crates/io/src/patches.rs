@@ -18,7 +18,7 @@ pub struct Patches {
     pub triangles: Vec<[usize; 3]>,
     /// The polygon of each triangle, from 0.
     pub polygons: Vec<usize>,
-    /// What the coordinates mean.
+    /// The system of coordinates.
     pub crs: Option<Crs>,
     /// The attributes of the polygons, and the row of each; triangles have them in GeoJSON, FlatGeobuf and GeoPackage, and
     /// of VTK those that are numbers.

@@ -12,7 +12,7 @@ use delone_io::{
 };
 use delone_predicates::{Sign, orient2d};
 
-/// What a solver sees of a file.
+/// A file as a solver sees it.
 #[derive(Debug, Default)]
 struct Seen {
     nodes: BTreeMap<usize, [f64; 3]>,

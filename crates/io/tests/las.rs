@@ -6,7 +6,7 @@ use delone_io::{Cloud, Format, LasFilter, LasFlag, ReadOptions, Returns, read_po
 use las::point::{Classification, Format as Records};
 use las::{Builder, Point, Version, Writer};
 
-/// So many points at (i, 2 i, 3 i), of a pulse with three returns each three, every fifth withheld, every seventh in an overlap.
+/// `count` points at (i, 2 i, 3 i), of a pulse with three returns each three, every fifth withheld, every seventh in an overlap.
 fn file(count: u8, version: Version, records: u8, is_compressed: bool) -> Vec<u8> {
     let mut builder = Builder::from(version);
     builder.point_format = Records::new(records).expect("a format");

@@ -80,7 +80,7 @@ fn beside_a_half(random: &mut Random) -> Number {
     }
 }
 
-/// So many points of numbers of any kind, and of those at the ends of the range.
+/// `count` points of numbers of any kind, and of numbers at the ends of the range.
 fn rows(random: &mut Random, count: usize) -> Vec<[Number; 3]> {
     let mut rows: Vec<_> = (0..count).map(|_| [(); 3].map(|()| number(random))).collect();
     let ends = [
@@ -229,7 +229,7 @@ fn readers_of_text_give_the_nearest_double() {
     }
 }
 
-/// What is no coordinate: values, areas, holes, regions, attributes, cells of rasters and where these are.
+/// Numbers that are no coordinates: values, areas, holes, regions, attributes, cells of rasters and their places.
 #[test]
 fn other_numbers_are_the_nearest_doubles_too() {
     let mut random = Random::new(2);
@@ -341,7 +341,7 @@ fn nodes_of_inp(text: &str) -> Vec<[u64; 3]> {
     rows.collect()
 }
 
-/// What is read of a file of a mesh: each point once.
+/// The triangles of a mesh file, each point once.
 fn distinct(content: &[u8], format: Format, name: &str) -> Vec<[u64; 3]> {
     let mut rows = match format {
         Format::Inp => nodes_of_inp(str::from_utf8(content).expect("text")),

@@ -98,7 +98,7 @@ fn directories(bytes: &[u8]) -> Vec<Directory> {
     found
 }
 
-/// What `validate_cloud_optimized_geotiff` of GDAL asks for: directories first, tiles, overviews before the raster.
+/// The rules of GDAL's `validate_cloud_optimized_geotiff`: directories first, tiles, overviews before the raster.
 #[test]
 fn geotiff_is_optimized_for_clouds() {
     let (columns, rows) = (1300, 1100);

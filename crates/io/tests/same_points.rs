@@ -1,4 +1,4 @@
-//! The same points make the same triangles, whatever format they come from.
+//! Equal points make equal triangles, whatever format they come from.
 
 use std::io::Cursor;
 

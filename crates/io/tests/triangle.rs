@@ -1,4 +1,4 @@
-//! What the files of Triangle say beyond points and triangles: second order, attributes, markers, Voronoi diagrams.
+//! Files of Triangle beyond points and triangles: second order, attributes, markers, Voronoi diagrams.
 
 use std::collections::BTreeMap;
 

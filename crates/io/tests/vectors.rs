@@ -1,4 +1,4 @@
-//! What is written to formats of layers comes back as from GeoJSON: positions bit for bit, attributes, the system.
+//! Content written to formats of layers comes back as from GeoJSON: positions bit for bit, attributes, the system.
 
 use std::io::{Cursor, Write};
 
@@ -17,7 +17,7 @@ const LAYERS: &[Format] = &[
     Format::GeoPackage,
 ];
 
-/// What is compared: positions, heights, the cells of each row, the rows of positions, segments, the number of the system.
+/// The compared content: positions, heights, the cells of each row, the rows of positions, segments, the number of the system.
 type Content = (Vec<String>, Vec<Vec<String>>, Vec<Option<usize>>, Vec<[usize; 2]>, Option<u32>);
 
 fn content(format: Format, file: &[u8]) -> Content {

@@ -1,4 +1,4 @@
-//! What kinds of systems the numbers of the EPSG registry stand for: GeoTIFF has a key for each kind.
+//! Kinds of systems by their numbers in the EPSG registry: GeoTIFF has a key for each kind.
 //!
 //! From version 12.029 of the registry (October 2025), whose numbers are facts for everyone. Runs go over numbers that nobody has.
 //! Cost: O(log n) each.

@@ -20,7 +20,7 @@ const VERTICAL: u16 = 4_096;
 const DOUBLES: u16 = 34_736;
 const TEXTS: u16 = 34_737;
 
-/// What stands for a system that has no number.
+/// The key's value for a system without a number.
 const OWN: u16 = 32_767;
 
 /// The system that keys name, entries of four numbers after a head of four. A projected system wins over a geographic one.

@@ -1,4 +1,4 @@
-//! What files can hold, and the readers of it.
+//! Contents of files, and their readers.
 
 use std::fmt;
 

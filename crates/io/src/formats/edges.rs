@@ -14,7 +14,7 @@ pub struct Edges<'a, P> {
     pub points: &'a [P],
     /// Pairs of indices of points.
     pub pairs: &'a [[usize; 2]],
-    /// What the coordinates mean; formats that can say it do.
+    /// The system of coordinates; formats that can say it do.
     pub crs: Option<&'a Crs>,
 }
 

@@ -105,7 +105,7 @@ fn collect_document(content: &GeoJson, shapes: &mut Shapes) -> Result<(), Error>
 
 /// Takes the properties and the geometry of a feature; its identifier is a property too.
 fn collect_feature(feature: &Feature, shapes: &mut Shapes) -> Result<(), Error> {
-    /// What the identifier is called, where no property has the name.
+    /// Names of the column of identifiers; the first that no property has.
     const IDENTIFIERS: [&str; 2] = ["id", "fid"];
     shapes.feature();
     let identifier = match &feature.id {

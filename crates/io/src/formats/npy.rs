@@ -293,7 +293,7 @@ pub(crate) fn write_index_list(out: &mut dyn Write, values: &[i64]) -> io::Resul
     write_numbers(out, "i8", &[values.len()], values.iter().map(|value| value.to_le_bytes()))
 }
 
-/// What an archive holds.
+/// An array of an archive.
 pub(crate) enum Array<'a> {
     /// float64 of one dimension.
     Numbers(&'a [f64]),

@@ -163,7 +163,7 @@ fn fields(
         .ok_or_else(|| broken("the header does not describe its fields"))
 }
 
-/// What LZF compressed: two lengths, then literal runs and references back (Lehmann's liblzf).
+/// Decompresses LZF: two lengths, then literal runs and references back (Lehmann's liblzf).
 fn decompressed(data: &[u8]) -> Result<Vec<u8>, Error> {
     let wrong = || broken("the compressed data are damaged");
     let length = |at: usize| {

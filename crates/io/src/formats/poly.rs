@@ -10,7 +10,7 @@ use super::osmosis;
 use super::triangle::{AHEAD, NodeRows, Nodes, count};
 use crate::{Cloud, Constraints, Error, Graph, Mesh, Rings, Source};
 
-/// What opens a file beside the one that is read, by its extension.
+/// Opens a file beside the one that is read, by its extension.
 pub type Beside<'a> = &'a mut dyn FnMut(&str) -> Result<Box<dyn Source>, Error>;
 
 /// Reads a graph. Where the file has no points, they are in the `.node` file beside it.
@@ -251,7 +251,7 @@ pub(crate) fn write<T: Triangulation<Point = [f64; 2]>>(
     Rest { segments: &segments, markers, holes, regions }.write(out, mesh.base)
 }
 
-/// What follows the points.
+/// The part of a file after the points.
 struct Rest<'a> {
     segments: &'a [[usize; 2]],
     markers: Option<&'a [i64]>,

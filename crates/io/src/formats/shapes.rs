@@ -1,10 +1,10 @@
-//! What formats of geometries have in common: features with attributes, their positions, and lines and rings through them.
+//! Shapes: the common result of formats of geometries: features with attributes, their positions, and lines and rings through them.
 
 use std::ops::Range;
 
 use crate::{Cloud, Crs, Error, Features, Graph, GraphRing, Rings, Table, Value};
 
-/// What geometries are read for.
+/// The purpose that geometries are read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Points,
@@ -27,9 +27,9 @@ pub(crate) struct Shapes {
     rows: Vec<u32>,
     /// Attributes are kept, not their names alone.
     keeps_attributes: bool,
-    /// What the coordinates mean, where the file tells.
+    /// The system of coordinates, where the file tells.
     pub(super) crs: Option<Crs>,
-    /// What a user might want to know of how the file was read, and what it has and these shapes have not.
+    /// Remarks on how the file was read.
     pub(super) remarks: Vec<String>,
     pub(super) losses: Vec<String>,
 }

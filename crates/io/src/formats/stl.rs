@@ -83,7 +83,7 @@ enum Rounded {
     Turned,
 }
 
-/// What became of the triangles of a surface.
+/// Counts of the triangles of a surface, by outcome.
 #[derive(Default)]
 struct Count {
     infinite: usize,
@@ -149,7 +149,7 @@ impl Count {
         keeps
     }
 
-    /// What a user should know of `all` triangles.
+    /// Remarks on `all` triangles.
     fn remarks(&self, all: usize, is_closed: bool) -> Vec<String> {
         let Self { infinite, joined, flat, turned } = *self;
         let mut remarks = Vec::new();
@@ -178,7 +178,7 @@ impl Count {
     }
 }
 
-/// What single precision makes of a triangle. Triangles over the plane are seen from above, those around a body along the axis that
+/// A triangle in single precision. Triangles over the plane are seen from above, those around a body along the axis that
 /// is the nearest to their normal.
 fn rounded(corners: &[[f64; 3]; 3], is_closed: bool) -> Rounded {
     let single = corners.map(|p| p.map(|x| f64::from(x as f32)));
@@ -216,7 +216,7 @@ fn normal(&[a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
 /// Rounding along an axis may be this part of the extent along it, before coordinates are moved.
 const COARSEST: f64 = 1e-6;
 
-/// What is taken from the coordinates along each axis: nothing where rounding is fine enough, else a number of few digits below them.
+/// The shift of the coordinates along each axis: none where rounding is fine enough, else a number of few digits below them.
 fn shift(shape: &impl Shape) -> Option<[f64; 3]> {
     let bounds = Bounds::of(shape.positions());
     let extent = bounds.extent();

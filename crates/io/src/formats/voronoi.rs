@@ -63,7 +63,7 @@ pub fn write_voronoi_node<T: Triangulation<Point = [f64; 2]>>(
     Ok(rows.write(out)?)
 }
 
-/// What corners weigh at the circumcentre: in proportion to the sines of twice their angles. Their sum is 1.
+/// The weights of the corners at the circumcenter, in proportion to the sines of twice their angles. Their sum is 1.
 fn weights([a, b, c]: [[f64; 2]; 3]) -> [f64; 3] {
     let squared = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2);
     let (aa, bb, cc) = (squared(b, c), squared(c, a), squared(a, b));

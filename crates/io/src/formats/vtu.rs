@@ -11,7 +11,7 @@ use crate::{ColumnType, Mesh, Remark, Shape, Table};
 /// VTK's numbers for a triangle, for a tetrahedron, and for a triangle of second order, by their nodes.
 const KINDS: [(usize, u8); 3] = [(3, 5), (4, 10), (6, 22)];
 
-/// So many columns of attributes are written at most: each is an array of all cells.
+/// The largest number of columns of attributes: each is an array of all cells.
 const MOST_COLUMNS: usize = 256;
 
 pub(crate) fn write(out: &mut dyn Write, shape: &impl Shape) -> io::Result<Remark> {
@@ -89,7 +89,7 @@ impl<'a> Attributes<'a> {
     }
 }
 
-/// What a file holds: so many points, a value for each, and so many cells of so many corners, perhaps in regions, with attributes.
+/// A grid: points, a value for each, and cells of `width` corners, perhaps in regions, with attributes.
 #[derive(Clone, Copy)]
 struct Grid<'a> {
     points: usize,

@@ -87,7 +87,7 @@ pub(super) fn read_binary(bytes: &[u8], shapes: &mut Shapes) -> Result<(), Strin
 /// Collections in each other at most: nobody has more, and each takes a piece of the stack.
 const DEEPEST: u32 = 100;
 
-/// What is left of the bytes, and in which order numbers are.
+/// The rest of the bytes, and the order of numbers.
 struct Reader<'a> {
     rest: &'a [u8],
     is_big: bool,
@@ -204,7 +204,7 @@ pub(super) const COLLECTION: u32 = 7;
 const SURFACE: u32 = 15;
 const TIN: u32 = 16;
 const TRIANGLE: u32 = 17;
-/// What EWKB adds to a kind: positions have heights, or measures; the number of the system follows.
+/// Flags that EWKB adds to a kind: positions have heights, or measures; the number of the system follows.
 const WITH_HEIGHTS: u32 = 1 << 31;
 const WITH_MEASURES: u32 = 1 << 30;
 const WITH_SYSTEM: u32 = 1 << 29;

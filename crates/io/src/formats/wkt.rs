@@ -10,7 +10,7 @@ use super::wkb;
 use crate::error::excerpt;
 use crate::{Crs, Error, ReadOptions, Shape, Source};
 
-/// What geometries are called, and how deep their positions are in lists.
+/// The names of geometries, and how deep their positions are in lists.
 const KINDS: [(&str, usize); 9] = [
     ("POINT", 0),
     ("MULTIPOINT", 0),
@@ -23,10 +23,10 @@ const KINDS: [(&str, usize); 9] = [
     ("POLYHEDRALSURFACE", 2),
 ];
 
-/// What has rings.
+/// Geometries that have rings.
 const AREAS: [&str; 5] = ["POLYGON", "MULTIPOLYGON", "TRIANGLE", "TIN", "POLYHEDRALSURFACE"];
 
-/// What has geometries in it.
+/// The geometry that has geometries in it.
 const COLLECTION: &str = "GEOMETRYCOLLECTION";
 
 /// No geometry is in more collections.
@@ -98,7 +98,7 @@ struct Kind {
     empty: bool,
 }
 
-/// What is left of a text. A part that is not as it should be is `None`.
+/// The rest of a text. A part that is not as it should be is `None`.
 struct Reader<'a> {
     rest: &'a str,
 }

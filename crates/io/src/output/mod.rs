@@ -46,7 +46,7 @@ enum Sink {
     Stderr(BufWriter<Counted<Stderr>>),
 }
 
-/// What becomes of the file in the end.
+/// The fate of the file in the end.
 #[derive(Debug)]
 enum Place {
     /// It was written straight.

@@ -50,7 +50,7 @@ pub(super) enum How {
     Copy,
 }
 
-/// What brings back what was there before.
+/// A step that restores the earlier state.
 enum Undo {
     Remove(PathBuf),
     Rename { from: PathBuf, to: PathBuf },

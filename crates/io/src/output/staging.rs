@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-/// What the names of all these folders begin with.
+/// The first letters of the names of all these folders.
 const PREFIX: &str = ".delone-";
 
 /// Folders of this process that exist.

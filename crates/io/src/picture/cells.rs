@@ -12,7 +12,7 @@ use super::view::View;
 use crate::diagram::Tiles;
 use crate::{Error, Format};
 
-/// What to draw, and how.
+/// The style of a drawing.
 struct Style {
     view: View,
     density: Density,

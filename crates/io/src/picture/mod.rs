@@ -34,7 +34,7 @@ use delone::Triangulation;
 use crate::{Error, Format, Mesh};
 use view::View;
 
-/// What to draw. `None` leaves a choice to the room there is.
+/// Options of a drawing. `None` leaves a choice to the room there is.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The longer side in pixels.

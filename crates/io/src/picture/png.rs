@@ -204,7 +204,7 @@ impl Canvas {
         self.scale(view);
     }
 
-    /// What the colours mean.
+    /// The legend of the colours.
     pub(super) fn legend(&mut self, view: &View, ramp: &Ramp, low: &str, high: &str) {
         let Some(top) = view.strip() else { return };
         let (baseline, margin) = (top + 14.0, 24.0);

@@ -1,4 +1,4 @@
-//! What colour a triangle has: that of its region, shaded height, density, or its smallest angle.
+//! Colours of triangles: by region, shaded height, density, or smallest angle.
 
 use delone::Triangulation;
 

@@ -10,7 +10,7 @@ use super::view::View;
 use super::{check_size, colour};
 use crate::{Error, Format};
 
-/// What something in a sketch means, and so its colour.
+/// The role of something in a sketch, which decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Tone {
@@ -24,7 +24,7 @@ pub enum Tone {
     Old,
     /// Just made.
     New,
-    /// What it is all about.
+    /// The goal of the sketch.
     Goal,
 }
 
@@ -60,7 +60,7 @@ pub enum Mark {
     Ring([f64; 2], f64, Tone),
 }
 
-/// What is drawn, from the bottom to the top.
+/// The drawn things, from the bottom to the top.
 #[derive(Clone, Debug, Default)]
 pub struct Sketch {
     /// The marks.

@@ -134,7 +134,7 @@ impl Visible {
 /// The radius of a dot, in pixels.
 const DOT: f64 = 3.0;
 
-/// What is drawn: faces, and dots.
+/// The drawn faces and dots.
 type Drawn<'a> = (&'a [Visible], &'a [[f64; 2]]);
 
 fn png(out: &mut dyn Write, (faces, dots): Drawn, view: &View, style: &Style) -> Result<(), Error> {

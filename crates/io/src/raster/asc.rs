@@ -10,7 +10,7 @@ use super::{Raster, RasterInfo, Sample, placed};
 use crate::error::excerpt;
 use crate::{Crs, Error, Format, Source};
 
-/// What stands for no data where nothing else is said.
+/// The number for no data where nothing else is said.
 pub const ASC_NODATA: f64 = -9999.0;
 
 /// Writes rows as they come.
@@ -74,7 +74,7 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// What the head says.
+/// The head of a file.
 #[derive(Default)]
 struct Head {
     columns: Option<usize>,

@@ -1,4 +1,4 @@
-//! What a raster's own file cannot say of its place and its system of coordinates: in a file beside it, where other programs look for it.
+//! Files beside a raster, where other programs look for its place and its system of coordinates.
 //!
 //! `FILE.aux.xml` is GDAL's (PAM), `.prj` beside ASCII grids and the world file `.pgw` beside pictures are ESRI's.
 

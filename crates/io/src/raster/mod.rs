@@ -58,7 +58,7 @@ pub enum Compression {
     None,
 }
 
-/// What a cell of an overview of a GeoTIFF has.
+/// The value of a cell in an overview of a GeoTIFF.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overviews {
     /// The mean of the cells below that have data.
@@ -68,7 +68,7 @@ pub enum Overviews {
     Firsts,
 }
 
-/// What a file says of a raster besides its values.
+/// The description of a raster besides its values.
 ///
 /// ```
 /// use delone::surface::Grid;
@@ -83,7 +83,7 @@ pub enum Overviews {
 pub struct RasterInfo {
     /// Where the cells are, in the units of the system of coordinates.
     pub grid: Grid,
-    /// What the coordinates mean.
+    /// The system of coordinates.
     pub crs: Option<Crs>,
     /// The number that stands for no data; NaN does where there is none, and in arrays always. ASCII grids have -9999 then.
     pub nodata: Option<f64>,
@@ -209,11 +209,11 @@ impl<W: Write> RasterWriter<W> {
 pub struct Raster {
     /// Where the cells are.
     pub grid: Grid,
-    /// What the coordinates mean, where the file tells.
+    /// The system of coordinates, where the file tells.
     pub crs: Option<Crs>,
     /// The values row by row as the file has them; NaN where there is no data.
     pub values: Vec<f64>,
-    /// What users should know of how the file was read.
+    /// Remarks on how the file was read.
     pub remarks: Vec<String>,
 }
 

@@ -37,7 +37,7 @@ pub(super) struct Insert {
     pub(super) steps: [f64; 2],
 }
 
-/// What an entity is.
+/// The kind of an entity.
 pub(super) enum What {
     Is(Item),
     /// It is left out, and counted as that.

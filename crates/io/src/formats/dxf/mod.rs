@@ -41,7 +41,7 @@ impl Pairs {
     }
 }
 
-/// What is gathered of a drawing.
+/// A drawing as it is gathered.
 struct Drawing {
     shapes: Shapes,
     closed_are_polygons: bool,

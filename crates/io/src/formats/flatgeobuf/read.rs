@@ -11,7 +11,7 @@ fn wrong(what: impl std::fmt::Display) -> Error {
     Error::content(format!("FlatGeobuf: {what}"))
 }
 
-/// What the header of a file tells.
+/// The header of a file.
 struct Header {
     /// The kind of all geometries, 0 if each tells its own.
     geometry: u8,
@@ -106,7 +106,7 @@ impl Header {
 /// How many features there are, and the length of the index: nodes of 40 bytes, level over level.
 fn size(table: Table) -> Result<(u64, u64), Error> {
     const NODE: u64 = 40;
-    /// What a node has unless the header says something else.
+    /// Entries of a node of the index, unless the header says otherwise.
     const USUAL: u16 = 16;
     let numbers = || Ok((table.long(header::COUNT)?, table.short(header::NODE_SIZE)?));
     let (count, node) = numbers().map_err(|what: &str| wrong(format!("the header: {what}")))?;

@@ -17,7 +17,7 @@ pub(super) struct Table<'a> {
     length: usize,
 }
 
-/// What an offset that leads nowhere is.
+/// The message of an offset that leads nowhere.
 pub(super) const BROKEN: &str = "an offset points out of its buffer";
 
 type Found<T> = Result<T, &'static str>;

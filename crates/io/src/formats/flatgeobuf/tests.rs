@@ -1,4 +1,4 @@
-//! What others write: an index, all types of columns, systems by name, geometries of all kinds; and what is broken.
+//! Files of other programs: an index, all types of columns, systems by name, geometries of all kinds; and what is broken.
 
 use std::io::Cursor;
 

@@ -1,4 +1,4 @@
-//! What is said where SQLite is not compiled in.
+//! Errors where SQLite is not compiled in.
 
 use std::io::Write;
 

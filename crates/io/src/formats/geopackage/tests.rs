@@ -7,7 +7,7 @@ use rusqlite::{Connection, MAIN_DB};
 use super::database::{Database, MOST_IN_MEMORY};
 use crate::{Edges, Error, Format, Graph, ReadOptions, write_edges};
 
-/// What all layers need.
+/// The tables that all layers need.
 const HEAD: &str = "CREATE TABLE gpkg_geometry_columns (table_name, column_name, geometry_type_name, srs_id, z, m);
  CREATE TABLE gpkg_spatial_ref_sys (srs_name, srs_id, organization, organization_coordsys_id, definition, description);
  INSERT INTO gpkg_spatial_ref_sys VALUES ('', 7, 'EPSG', 25832, 'undefined', NULL), ('', 8, 'EPSG', 25833, 'undefined', NULL),

@@ -151,7 +151,7 @@ fn kind_of(column: ColumnType) -> &'static str {
     }
 }
 
-/// What the geometries of a layer are called.
+/// The type name of the geometries of a layer.
 fn name_of(form: Option<Form>) -> &'static str {
     match form {
         None => "GEOMETRY",

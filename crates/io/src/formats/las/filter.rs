@@ -97,7 +97,7 @@ pub struct LasFilter {
     pub heights: Option<[f64; 2]>,
 }
 
-/// What the attributes of a point say.
+/// The attributes of a point.
 #[derive(Clone, Copy)]
 pub(super) struct Attributes {
     pub(super) class: u8,

@@ -279,7 +279,7 @@ fn is_wanted<const N: usize>(line: &Line, kind: u32) -> Result<bool, Error> {
     Ok(corners == N)
 }
 
-/// What is read of elements.
+/// Elements as they are read.
 struct Rows<'a, const N: usize> {
     /// The numbers of the nodes, increasing.
     tags: &'a [u64],

@@ -135,7 +135,7 @@ impl Longer<'_> {
     }
 }
 
-/// So many bytes from there on; what is not there takes no memory.
+/// `length` bytes from a place on; missing ones take no memory.
 fn bytes(source: &mut (impl Read + Seek), at: u64, length: u64) -> Result<Vec<u8>, Error> {
     source.seek(SeekFrom::Start(at))?;
     let mut found = Vec::new();

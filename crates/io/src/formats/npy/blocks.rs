@@ -65,7 +65,7 @@ struct Blocks {
 }
 
 impl Blocks {
-    /// So many numbers from one on.
+    /// `count` numbers from one on.
     fn read(&mut self, first: usize, count: usize) -> Result<Vec<f64>, Error> {
         self.source.seek(SeekFrom::Start(self.start + (first as u64) * (self.size as u64)))?;
         let mut bytes = vec![0; count * self.size];

@@ -9,7 +9,7 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 /// NumPy itself reads no longer headers.
 const LONGEST: u64 = 10_000;
 
-/// What a header says about the numbers after it.
+/// The header of an array: the type and shape of its numbers.
 pub(super) struct Header {
     /// The type of a number without its byte order: `f8`.
     pub(super) kind: String,
@@ -123,7 +123,7 @@ fn wrong(what: &str) -> Error {
     Error::content(format!("no NumPy array: {what} cannot be read"))
 }
 
-/// What of a text is not read yet.
+/// The rest of a text, not read yet.
 struct Rest<'a>(&'a str);
 
 impl<'a> Rest<'a> {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use flate2::Crc;
 
-/// What 32 bits say where 64 follow.
+/// The 32-bit field that says that 64 bits follow.
 const LONG: [u8; 4] = [0xff; 4];
 /// The version that knows 64 bits, no flags, stored, and the first day there is.
 const ABOUT: [u8; 10] = [45, 0, 0, 0, 0, 0, 0, 0, 0x21, 0];

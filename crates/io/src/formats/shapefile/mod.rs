@@ -118,7 +118,7 @@ fn record(source: &mut Box<dyn Source>, content: &mut Vec<u8>) -> Result<bool, E
     if (read as u64) < length { Err(cut()) } else { Ok(true) }
 }
 
-/// What is left of a record.
+/// The rest of a record.
 struct Record<'a> {
     rest: &'a [u8],
 }
@@ -134,7 +134,7 @@ impl<'a> Record<'a> {
         Ok(u32::from_le_bytes(self.skip(4)?.try_into().unwrap_or_default()))
     }
 
-    /// So many items of a size.
+    /// `count` items of a size.
     fn items<const N: usize>(&mut self, count: u32) -> Result<&'a [[u8; N]], &'static str> {
         let size = (count as usize).checked_mul(N).ok_or("it ends inside of its geometry")?;
         Ok(self.skip(size)?.as_chunks().0)

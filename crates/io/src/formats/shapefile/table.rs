@@ -29,7 +29,7 @@ struct Field {
     end: usize,
 }
 
-/// What the next row is.
+/// The state of the next row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
     There,
@@ -150,7 +150,7 @@ impl Rows {
         Ok(Self { source, fields, page, left, width, row: Vec::new(), losses })
     }
 
-    /// What was not understood.
+    /// Columns and values that were not understood.
     pub(super) fn losses(&self) -> impl Iterator<Item = String> {
         self.losses.iter().cloned()
     }

@@ -13,7 +13,7 @@ pub(super) enum Columns {
     Geometry(usize),
 }
 
-/// What x and y are called together; names of one row belong together.
+/// Names of the columns x and y; names of one row belong together.
 const FAMILIES: [[&[&str]; 2]; 6] = [
     [&["x"], &["y"]],
     [&["easting", "east", "e"], &["northing", "north", "n"]],
@@ -23,7 +23,7 @@ const FAMILIES: [[&[&str]; 2]; 6] = [
     [&["laenge", "länge"], &["breite"]],
 ];
 
-/// What heights are called beside.
+/// Names of columns of heights.
 const HEIGHTS: [&str; 14] = [
     "z",
     "height",
@@ -41,10 +41,10 @@ const HEIGHTS: [&str; 14] = [
     "altura",
 ];
 
-/// What well-known text is called.
+/// Names of columns of well-known text.
 const GEOMETRIES: [&str; 5] = ["wkt", "geometry", "geom", "the_geom", "wkt_geom"];
 
-/// What stands where a value is missing: no name of a column.
+/// Texts for a missing value: no names of columns.
 const MISSING: [&str; 8] = ["na", "n/a", "nan", "null", "none", "nil", "inf", "missing"];
 
 /// Words that say nothing about the axis.
@@ -106,7 +106,7 @@ impl Columns {
         }
     }
 
-    /// What to tell the user, if it is not plain.
+    /// A remark on the columns that were taken, unless it is plain.
     pub(super) fn remark(&self, fields: &[String], header: bool) -> Option<String> {
         let name = |&k: &usize| {
             if header { crate::error::excerpt(&fields[k]).to_owned() } else { (k + 1).to_string() }

@@ -7,7 +7,7 @@ use crate::formats::wkt;
 /// A sign that is in no text, between the fields of lines that are one field.
 const WHOLE: char = '\u{1f}';
 
-/// What stands between fields.
+/// The separator of fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Separator {
     /// One sign; what is between two of them is a field, quoted or not.
@@ -141,7 +141,7 @@ fn unquoted(inner: &str) -> Cow<'_, str> {
     if inner.contains('"') { Cow::Owned(inner.replace("\"\"", "\"")) } else { Cow::Borrowed(inner) }
 }
 
-/// What a remark says, where a line is one as a whole.
+/// The text of a remark, where a line is one as a whole.
 pub(super) fn remark(line: &str) -> Option<&str> {
     let line = line.trim_start();
     ["#", "%", "//"].iter().find_map(|sign| line.strip_prefix(sign)).map(|rest| rest.trim_end())

@@ -77,7 +77,7 @@ pub(crate) fn has_geometries(source: Box<dyn Source>) -> bool {
     begun.is_ok_and(|table| matches!(table.columns, Some(Columns::Geometry(_))))
 }
 
-/// What a table is read for.
+/// The purpose that a table is read for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Wanted {
     Points,

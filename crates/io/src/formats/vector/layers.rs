@@ -1,4 +1,4 @@
-//! What there is to write, as layers: with the properties that GeoJSON has.
+//! Layers of everything that is written, with the properties that GeoJSON has.
 
 use delone::{Coordinates, Ring, Triangulation, VertexId};
 
@@ -78,19 +78,19 @@ impl<T: Tiles> Layer for Cells<'_, T> {
 /// Triangles, with their corners and the value that each has.
 pub(crate) struct Triangles<'a, S> {
     shape: &'a S,
-    /// What the values are called, and what they are.
+    /// The name of the values, and their type.
     value: (&'static str, ColumnType),
 }
 
 impl<'a, T: Triangulation<Point = [f64; 2]>> Triangles<'a, Mesh<'a, T>> {
-    /// Those of a triangulation, with their regions.
+    /// The triangles of a triangulation, with their regions.
     pub(crate) fn of_mesh(shape: &'a Mesh<'a, T>) -> Self {
         Self { shape, value: ("region", ColumnType::Number) }
     }
 }
 
 impl<'a> Triangles<'a, Patches> {
-    /// Those of polygons, with the number of their polygon.
+    /// The triangles of polygons, with the number of their polygon.
     pub(crate) fn of_patches(shape: &'a Patches) -> Self {
         Self { shape, value: ("polygon", ColumnType::Integer) }
     }

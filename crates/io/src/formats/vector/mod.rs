@@ -46,7 +46,7 @@ pub(super) fn number(crs: &Crs) -> Option<u32> {
     number.filter(|_| crs.vertical.is_none() || crs.wkt.is_none())
 }
 
-/// What geometries are made of.
+/// The kind of a geometry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Kind {
     #[default]
@@ -118,7 +118,7 @@ fn start(ends: &[usize], i: usize) -> usize {
     i.checked_sub(1).map_or(0, |before| ends[before])
 }
 
-/// What all geometries of a layer are.
+/// The form of all geometries of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Form {
     pub(crate) kind: Kind,
@@ -127,7 +127,7 @@ pub(crate) struct Form {
 }
 
 impl Form {
-    /// What a geometry is written as: in the form of its layer, or in its own.
+    /// The form in which a geometry is written: that of its layer, or its own.
     pub(crate) fn of(geometry: &Geometry, layer: Option<Self>) -> Self {
         layer.unwrap_or(Self { kind: geometry.kind, is_multiple: geometry.count() > 1 })
     }
@@ -149,7 +149,7 @@ pub(crate) type Take<'a> =
 
 /// Features to be written.
 pub(crate) trait Layer {
-    /// What it is called.
+    /// Its name.
     fn name(&self) -> &'static str;
 
     /// The columns of all features.
@@ -161,7 +161,7 @@ pub(crate) trait Layer {
     /// Whether positions have a third number.
     fn is_high(&self) -> bool;
 
-    /// What the coordinates mean.
+    /// The system of coordinates.
     fn crs(&self) -> Option<&Crs>;
 
     /// How many features there are.

@@ -12,7 +12,7 @@ pub(super) const POLYGON: u8 = 7;
 /// VTK's number of strips of triangles.
 pub(super) const STRIP: u8 = 6;
 
-/// What a cell is to us.
+/// The family of a kind of cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Family {
     /// Points, of which there is a list already.

@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         Ok(kind)
     }
 
-    /// So many numbers for each of `count` things.
+    /// `each` numbers for each of `count` things.
     fn numbers(&mut self, each: usize, count: usize, kind: Number, what: &str) -> Result<Vec<f64>, Error> {
         let ends = |there| Err(Error::Truncated(format!("after {there} of {count} {what}")));
         let rest = &self.bytes[self.at..];

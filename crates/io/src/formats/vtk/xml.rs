@@ -59,7 +59,7 @@ struct File<'a> {
     /// The type of lengths before arrays.
     length: Number,
     compressed: bool,
-    /// What is appended, and whether it is base64.
+    /// The appended data, and whether they are base64.
     appended: Option<(&'a [u8], bool)>,
 }
 
@@ -162,7 +162,7 @@ impl<'a> File<'a> {
         self.blocks(bytes, bytes.get(start..).ok_or_else(ended)?)
     }
 
-    /// The same in base64: lengths are encoded apart where the content is compressed.
+    /// The content of an array in base64: lengths are encoded apart where the content is compressed.
     fn base64(&self, text: &[u8]) -> Result<Vec<u8>, Error> {
         let text: Vec<u8> = text.iter().copied().filter(|byte| !byte.is_ascii_whitespace()).collect();
         let size = self.length.size();

@@ -32,7 +32,7 @@ impl Default for Light {
     }
 }
 
-/// What is made of heights.
+/// The kind of a relief.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReliefKind {
     /// Shades from 1 to 255 of ground that is lit from one side.
@@ -50,7 +50,7 @@ pub enum ReliefKind {
     Aspect,
 }
 
-/// What is made of heights, and how they are stretched before.
+/// A relief of heights, and how heights are stretched before.
 ///
 /// ```
 /// use delone::surface::Grid;
@@ -68,9 +68,9 @@ pub enum ReliefKind {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief {
-    /// What is made.
+    /// The kind.
     pub kind: ReliefKind,
-    /// What heights are multiplied by.
+    /// The factor of heights.
     pub z_factor: f64,
 }
 
@@ -138,12 +138,12 @@ impl ReliefRows {
 /// Where the lights of multidirectional shades are, in degrees clockwise from north.
 const AROUND: [f64; 4] = [225.0, 270.0, 315.0, 360.0];
 
-/// What is made of the slopes of a cell.
+/// The value of a cell by its slopes.
 #[derive(Clone, Copy, Debug)]
 enum Shader {
     /// The direction of a light.
     One([f64; 3]),
-    /// Those of four lights.
+    /// The directions of four lights.
     Four([[f64; 3]; 4]),
     Slope,
     Aspect,
@@ -203,7 +203,7 @@ mod tests {
     use super::{Light, Relief, ReliefKind};
     use crate::raster::placed;
 
-    /// What is made of the middle of nine heights in cells of two.
+    /// The value in the middle of nine heights in cells of size two.
     fn middle(kind: ReliefKind, z_factor: f64, heights: &[f64; 9]) -> f64 {
         let grid = placed([0.0, 6.0], [2.0, -2.0], 3, 3).expect("a raster");
         let mut rows = Relief { kind, z_factor }.rows(&grid, None);

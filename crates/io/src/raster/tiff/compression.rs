@@ -9,7 +9,7 @@ use crate::Error;
 pub(super) const NONE: u16 = 1;
 pub(super) const ZSTD: u16 = 50_000;
 
-/// What the `tiff` crate decodes, and Zstandard, which is decoded here.
+/// Compressions that the `tiff` crate decodes, and Zstandard, which is decoded here.
 const READ: [u16; 6] = [NONE, 5, 8, 32_946, 32_773, ZSTD];
 
 /// Refuses compressions that are not read.

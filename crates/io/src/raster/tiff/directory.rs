@@ -7,7 +7,7 @@ pub(super) const LONG: u16 = 4;
 const DOUBLE: u16 = 12;
 const LONG8: u16 = 16;
 
-/// What a directory says of one thing.
+/// An entry of a directory.
 #[derive(Clone, Debug)]
 pub(super) struct Tag {
     number: u16,

@@ -1,9 +1,9 @@
-//! What numbers of a GeoTIFF stand for: no data, or values after scale and offset.
+//! The meaning of numbers in a GeoTIFF: no data, or values after scale and offset.
 
 use crate::error::excerpt;
 use crate::{Error, xml};
 
-/// What numbers of a file stand for.
+/// The meaning of numbers in a file.
 pub(super) struct Meaning {
     pub(super) nodata: Option<f64>,
     scale: f64,
@@ -34,7 +34,7 @@ impl Meaning {
         Ok(meaning)
     }
 
-    /// What a cell has that is in no part of the file.
+    /// The value of a cell that is in no part of the file.
     pub(super) fn absent(&self) -> f64 {
         if self.nodata.is_some() { f64::NAN } else { self.value(0.0, None) }
     }

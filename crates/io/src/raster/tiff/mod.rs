@@ -46,7 +46,7 @@ mod tag {
     pub(super) const ABOUT: u16 = 42_112;
     pub(super) const NO_DATA: u16 = 42_113;
 
-    /// What a directory says of the kind of an image: that it is a smaller copy of another, or its mask.
+    /// Kinds of images in a directory: a smaller copy of another, or its mask.
     pub(super) const REDUCED: u32 = 1;
     pub(super) const MASK: u32 = 4;
 }

@@ -33,7 +33,7 @@ pub(crate) fn read_place(source: Box<dyn Source>) -> Result<(Grid, Option<Crs>),
     })
 }
 
-/// What the crate says, as an error of ours.
+/// Turns an error of the crate into ours.
 pub(super) fn broken(error: TiffError) -> Error {
     match error {
         TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {

@@ -13,7 +13,7 @@ use crate::raster::{Compression, Sample};
 const SIDE: usize = 512;
 /// The bytes of a band of rows at most, where tiles can be smaller.
 const BAND: usize = 1 << 25;
-/// What sides of tiles are multiples of (TIFF 6.0).
+/// Sides of tiles are multiples of this (TIFF 6.0).
 const UNIT: usize = 16;
 
 /// How the tiles of a file are.

@@ -20,7 +20,7 @@ use crate::limit::Counted;
 use crate::raster::{Overviews, RasterInfo, Sample};
 use crate::{Error, Format};
 
-/// What a small file has at most: offsets have 32 bits.
+/// Bytes, above which a file is BigTIFF: offsets of a small file have 32 bits.
 const SMALL: u64 = 4_000_000_000;
 /// Tiles of so many bytes wait in memory.
 const IN_MEMORY: usize = 1 << 24;
@@ -32,7 +32,7 @@ pub(in crate::raster) struct Writer<W> {
     shape: Shape,
     overviews: Overviews,
     nodata: f64,
-    /// What the directories of all levels say, and what only that of the raster does.
+    /// Tags of the directories of all levels, and of the raster's own.
     common: Vec<Tag>,
     own: Vec<Tag>,
     /// The raster and its overviews.
