@@ -1,4 +1,4 @@
-//! What cells are clipped to: a box, the hull, or polygons from a file.
+//! Regions that cells are clipped to: a box, the hull, or polygons from a file.
 
 use std::path::Path;
 

@@ -66,7 +66,7 @@ pub(crate) fn run<R: Room>(args: &DrawArgs, quiet: bool) -> Result<(), Failure> 
     stats.write(args.input.stats.as_deref())
 }
 
-/// What to draw, if that is to be had there.
+/// The options of a drawing, if the dimension has them.
 fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure> {
     if args.disks.is_some_and(|radius| !radius.is_finite() || radius < 0.0) {
         return Err(Failure::usage("--disks takes a radius", "as in --disks 0.5, in coordinate units"));
@@ -93,7 +93,7 @@ fn options(args: &DrawArgs, is_space: bool) -> Result<picture::Options, Failure>
     })
 }
 
-/// What is taken away.
+/// The cut of a drawing.
 fn cut(args: &DrawArgs) -> Result<Option<Cut>, Failure> {
     match args.cut[..] {
         [] => Ok(None),

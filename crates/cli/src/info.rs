@@ -71,7 +71,7 @@ pub(crate) fn run<R: Room>(args: &InfoArgs, quiet: bool) -> Result<(), Failure> 
     answer(&text)
 }
 
-/// What the file tells besides its points.
+/// Contents of the file besides its points.
 fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
     if let Some(crs) = &cloud.crs {
         line("coordinates", crs.to_string());
@@ -95,7 +95,7 @@ fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
     }
 }
 
-/// What is remarkable of segments, by name: nothing but crossings where there are some.
+/// Counts of remarkable segments, by name: only crossings where there are some.
 fn judged(graph: &Graph) -> Vec<(&'static str, usize)> {
     match Constrained2::from_parts(&graph.cloud.xy, &graph.segments) {
         Ok(c) => {

@@ -13,9 +13,9 @@ use crate::room::{self, Room};
 use crate::stats::{Stats, work_done};
 use crate::{files, outcome};
 
-/// What stands for the name of an instance in the name of an output.
+/// The placeholder of the name of an instance in the name of an output.
 pub(crate) const NAME: &str = "{}";
-/// What is told of each instance, and added up.
+/// Counts of each instance, which are added up.
 const COUNTS: [&str; 5] = ["points", "duplicates", "vertices", "simplices", "hull"];
 
 /// Preprocesses the centres and triangulates all instances.

@@ -106,7 +106,7 @@ fn check(args: &InterpolateArgs, format: Format, is_space: bool) -> Result<(), F
     files::check_formats(&[(args.output.clone(), format)], &[Contents::Rasters])
 }
 
-/// What the values are called: as their columns or files, or by the axis of heights.
+/// The names of the values: those of their columns or files, or the axis of heights.
 fn names(args: &InterpolateArgs) -> Vec<String> {
     if args.value.is_empty() {
         return vec!["z".to_owned()];

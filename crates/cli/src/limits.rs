@@ -1,4 +1,4 @@
-//! What a run may take: memory, as much as there is when it begins or as the user says; points and bytes of output, as the user says.
+//! Limits of a run: memory, as much as there is when it begins or as the user says; points and bytes of output, as the user says.
 
 use std::fs;
 use std::path::Path;

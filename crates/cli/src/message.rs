@@ -1,4 +1,4 @@
-//! What the program says when something is wrong: one line, then what to do.
+//! Messages of the program: one line on the fault, then advice.
 
 use std::fmt::Display;
 use std::io::Write;
@@ -134,7 +134,7 @@ pub(crate) fn usage(error: &clap::Error) -> ExitCode {
     Failure::usage(message, help).report()
 }
 
-/// What was done, on standard error.
+/// Tells on standard error what was done.
 pub(crate) fn say(quiet: bool, text: impl Display) {
     if !quiet {
         tell(text);
@@ -188,7 +188,7 @@ pub(crate) fn refuse_losses() -> Result<(), Failure> {
     }
 }
 
-/// What a user should look at, on standard error.
+/// Warns on standard error.
 pub(crate) fn warn(quiet: bool, text: impl Display) {
     if !quiet {
         tell(format_args!("warning: {text}"));

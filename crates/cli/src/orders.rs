@@ -11,14 +11,14 @@ use crate::message::Failure;
 use crate::progress::Phase;
 use crate::stats::Stats;
 
-/// What of a diagram is wanted.
+/// The wanted part of a diagram.
 pub(crate) struct Clipped<'a> {
     pub(crate) order: usize,
-    /// What it is clipped to.
+    /// The region that it is clipped to.
     pub(crate) region: &'a Region2,
     /// The length up to which sides are contracted.
     pub(crate) merge: Option<f64>,
-    /// What the coordinates mean.
+    /// The system of coordinates.
     pub(crate) crs: Option<&'a Crs>,
     /// The longer side of pictures.
     pub(crate) size: u32,

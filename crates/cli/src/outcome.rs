@@ -1,4 +1,4 @@
-//! What becomes of a triangulation that was asked for: remarks, a proof, counts and files.
+//! The end of a command: remarks, a proof, counts and files of a triangulation.
 
 use std::path::PathBuf;
 

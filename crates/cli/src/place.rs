@@ -8,10 +8,10 @@ use crate::args::PlaceArgs;
 use crate::files;
 use crate::message::Failure;
 
-/// What is known of the cells before points are read.
+/// The cells, as far as they are known before points are read.
 pub(crate) struct Place<'a> {
     args: &'a PlaceArgs,
-    /// Those of another raster, and its system.
+    /// The cells of another raster, and its system.
     like: Option<(Grid, Option<Crs>)>,
 }
 

@@ -11,7 +11,7 @@ use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
 
-/// So many polygons that are left out are named.
+/// Polygons left out that are named; more are counted.
 const NAMED: usize = 10;
 
 pub(crate) fn run(args: &PolygonsArgs, quiet: bool) -> Result<(), Failure> {

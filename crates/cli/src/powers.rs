@@ -65,7 +65,7 @@ pub(crate) fn run(
     stats.write(args.input.stats.as_deref())
 }
 
-/// What to clip to.
+/// The region to clip to.
 fn clip(args: &VoronoiArgs, points: &[[f64; 2]], quiet: bool) -> Result<Region2, Failure> {
     if is_polygon(args) {
         polygon_region(args, &files::rings(&args.clip, quiet)?)

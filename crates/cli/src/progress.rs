@@ -102,7 +102,7 @@ pub(crate) struct Watched<R> {
     unseen: u64,
 }
 
-/// So many bytes are a step of the bar.
+/// Bytes of a step of the bar.
 const STEP: u64 = 1 << 16;
 
 impl<R> Watched<R> {

@@ -1,4 +1,4 @@
-//! What `locate`, `nearest` and `furthest` have in common: a question for each of many points, and a row of indices for an answer.
+//! Queries: the common part of `locate`, `nearest` and `furthest`: many points, and a row of indices as the answer to each.
 
 use std::path::Path;
 

@@ -13,7 +13,7 @@ use crate::message::Failure;
 use crate::progress::Phase;
 use crate::stats::Stats;
 
-/// What stands for no data in hillshades, and in slopes and aspects.
+/// The number for no data in hillshades, and in slopes and aspects.
 const NO_SHADE: f64 = 0.0;
 const NO_ANGLE: f64 = -9999.0;
 

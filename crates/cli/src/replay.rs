@@ -15,7 +15,7 @@ use crate::stats::{Stats, work_done};
 
 /// Up to this number of vertices every operation is checked; beyond it, one in as many.
 const CHECKED: usize = 1000;
-/// What to do about a triangulation that is wrong.
+/// Advice about a triangulation that is wrong.
 const BUG: &str = "please report this with the input: it is a bug";
 
 /// One line.
@@ -121,7 +121,7 @@ fn parse<P: Coordinates>(line: &str) -> Result<Option<Operation<P>>, String> {
     }))
 }
 
-/// What was done and said.
+/// The outcome of a replay.
 struct Replayed<P> {
     answers: String,
     work: Work,

@@ -86,7 +86,7 @@ fn how(args: &SimplifyArgs) -> Result<Thinning, Failure> {
     Ok(args.points.map_or(how, |points| how.max_points(points)))
 }
 
-/// What is thinned.
+/// The input of thinning.
 enum Given {
     Raster(Raster),
     Points(Box<Graph>),

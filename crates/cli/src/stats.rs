@@ -1,4 +1,4 @@
-//! What was counted and timed, as JSON.
+//! Statistics: counts and times, as JSON.
 
 use std::io::Write;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What is in the program by its features: experiments, tables in Parquet. `folder.rs` has more of the second.
+//! Optional features of the program: experiments, tables in Parquet. `folder.rs` has more of the second.
 
 use std::fs;
 use std::process::{Command, Stdio};

@@ -105,7 +105,7 @@ fn indices_are_checked() {
     place.fail("check u", 1, "ids-");
 }
 
-/// What no proof can know: which index is whose, heights, neighbours, tables.
+/// Data that no proof can check: which index is whose, heights, neighbours, tables.
 #[test]
 fn content_is_checked() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! What a run may take: memory, points, content of compressed files, cells of a raster.
+//! Limits of a run: memory, points, content of compressed files, cells of a raster.
 
 use std::io::Write;
 

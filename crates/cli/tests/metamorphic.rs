@@ -1,4 +1,4 @@
-//! What units, order, repetition, threads, strategies, turns and moves do to all that the program makes: what they must, and nothing else.
+//! Units, order, repetition, threads, strategies, turns and moves change all outputs of the program as they must, and in no other way.
 //!
 //! Each row of the table is a command with what there is to compare of its files. Scaled by a power of two, in another order, with points
 //! twice, on any number of threads and by any strategy it gives the same numbers, to the bit. Turned or moved, sets without ties give the
@@ -109,7 +109,7 @@ fn rounded(mut shapes: Vec<Shape>) -> Vec<Shape> {
 /// Floating point chooses where new vertices go, and of equally long edges the least comes first; curves of tiles run along the axes.
 const NOT_TURNED: [&str; 4] = ["mesh", "window --points", "draw", "animate"];
 
-/// What is between points begins at the lexicographically least, as sums do, and squares of lengths at the first axis: turned, both are others.
+/// Sums begin at the lexicographically least point, and squares of lengths at the first axis: turned sets round both differently.
 const ROUNDED_IF_TURNED: [&str; 11] = [
     "triangulate --segments",
     "triangulate polygons",

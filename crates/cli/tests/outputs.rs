@@ -84,7 +84,7 @@ fn a_file_in_a_folder_that_may_not_be_written_survives() {
     assert_eq!(fs::read_dir(place.path("closed")).expect("readable").count(), 1);
 }
 
-/// What a killed run leaves goes with the next one in that folder, and what a run that still works has stays.
+/// Leavings of a killed run go with the next run in that folder, and files of a run that still works stay.
 #[test]
 fn left_overs_of_killed_runs_go() {
     let place = Place::new();

@@ -475,7 +475,7 @@ fn wrong_queries_are_named() {
     assert_eq!(place.succeed("locate points.csv --queries empty.csv -o - --to csv -q"), "x,y,a,b,c\n");
 }
 
-/// What is left out is named, with the way to get it.
+/// Features that are left out are named, with the way to get them.
 #[test]
 #[cfg(not(any(feature = "experiments", feature = "parquet")))]
 fn features_that_are_off_say_how_to_get_them() {

@@ -31,7 +31,7 @@ fn half_done(place: &Place) {
 
 const RESUME: &str = "tiles p.npy -o u --memory 1G --resume";
 
-/// What a change of a file is called, and how it is made.
+/// The name of a change of a file, and how it is made.
 type Change = (&'static str, fn(&mut Vec<u8>));
 
 /// Changes of a file that its name does not show.

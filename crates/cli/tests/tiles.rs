@@ -85,7 +85,7 @@ fn formats_and_files() {
     judge(&place, &format!("{} --class ground", scan.display()), "--tile 3000");
 }
 
-/// What is in the shards: points along a curve with their indices, and triangles of all of them.
+/// The content of the shards: points along a curve with their indices, and triangles of all of them.
 #[test]
 fn shards_hold_what_is_said() {
     let place = Place::new();
@@ -387,7 +387,7 @@ fn a_full_disk_is_told() {
     assert_eq!(manifest(&place, "t")["fingerprint"].as_str(), Some(expected.trim()));
 }
 
-/// What `--memory` allows is kept: in memory these points do not fit.
+/// The limit `--memory` holds: these points do not fit in memory.
 #[test]
 #[cfg(target_os = "linux")]
 fn memory_is_kept() {

@@ -9,7 +9,7 @@ use super::motion::window;
 use super::scene::{Seen, mesh};
 use crate::args::Show;
 
-/// So many times smaller a level is than the one below, so that there are several of few points.
+/// The ratio of sizes of two levels: small, so that few points have several levels.
 const RATIO: f64 = 4.0;
 
 /// Searches for random points: what each saw, sight by sight.

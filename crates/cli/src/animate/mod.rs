@@ -16,7 +16,7 @@ use crate::message::{Failure, note};
 use crate::progress::Phase;
 use crate::stats::Stats;
 
-/// What stands for the number of a picture in the name of an output.
+/// The placeholder of the number of a picture in the name of an output.
 const NUMBER: &str = "{}";
 
 pub(crate) fn run(args: &AnimateArgs, quiet: bool) -> Result<(), Failure> {
@@ -99,7 +99,7 @@ fn write_motion(
     })
 }
 
-/// The same for sketches.
+/// Writes the pictures of sketches.
 fn write_sketches(
     scene: &scene::Scene,
     args: &AnimateArgs,

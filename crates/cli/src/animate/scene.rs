@@ -1,4 +1,4 @@
-//! What sketches of algorithms have in common: the triangulation below, and what an algorithm has seen.
+//! Scenes: the common parts of sketches of algorithms: the triangulation below, and the steps of the algorithm.
 
 use delone::{Delaunay2, Error, Tally, Triangulation, VertexId};
 use delone_io::picture::{Mark, Sketch, Tone};
@@ -7,7 +7,7 @@ use super::motion::window;
 use super::{build, locate};
 use crate::args::{AnimateArgs, Show};
 
-/// What is shown, and in which window.
+/// A scene, and its window.
 pub(super) struct Scene {
     pub(super) sketches: Vec<Sketch>,
     pub(super) window: [[f64; 2]; 2],
@@ -53,7 +53,7 @@ pub(super) fn corners(d: &Delaunay2, triangle: [VertexId; 3]) -> Vec<[f64; 2]> {
     triangle.map(|v| d.point(v)).to_vec()
 }
 
-/// What an operation saw: the corners of triangles, or single vertices, and on which level.
+/// The steps of an operation: the corners of triangles, or single vertices, and their level.
 #[derive(Debug, Default)]
 pub(super) struct Seen {
     pub(super) sights: Vec<(usize, Vec<[f64; 2]>)>,

@@ -1,4 +1,4 @@
-//! What `alpha` takes.
+//! Arguments of `alpha`.
 
 use std::path::PathBuf;
 

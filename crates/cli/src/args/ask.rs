@@ -1,4 +1,4 @@
-//! What commands take that ask a triangulation: `locate`, `nearest`, `furthest`, `replay`.
+//! Arguments of commands that query a triangulation: `locate`, `nearest`, `furthest`, `replay`.
 
 use std::path::PathBuf;
 

@@ -17,7 +17,7 @@ pub(crate) struct EdgeArgs {
 }
 
 impl EdgeArgs {
-    /// What is left out.
+    /// The rule for simplices that are left out.
     pub(crate) fn border(&self) -> Border {
         Border {
             is_anywhere: self.max_edge_anywhere.is_some(),

@@ -1,4 +1,4 @@
-//! What `experiment` takes.
+//! Arguments of `experiment`.
 
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ fn experiment_names() -> impl TypedValueParser<Value = String> {
     PossibleValuesParser::new(EXPERIMENTS.iter().map(|experiment| experiment.name))
 }
 
-/// What each experiment shows, and examples.
+/// A line on each experiment, and examples.
 fn experiment_help() -> String {
     let list = EXPERIMENTS.iter().map(|e| format!("  {:<15} {}\n", e.name, e.about)).collect::<String>();
     format!("Experiments:\n{list}\n{EXPERIMENT_EXAMPLES}")

@@ -1,4 +1,4 @@
-//! What commands take that know segments.
+//! Arguments of commands with segments.
 
 use std::path::PathBuf;
 
@@ -13,10 +13,10 @@ pub(crate) struct GraphArgs {
     /// Segments between the points.
     #[arg(long, value_name = "FILE", help = formats::segments())]
     pub(crate) segments: Option<PathBuf>,
-    /// What happens where segments cross [default: refuse].
+    /// Treatment of segments that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,
-    /// What is inside [default: seeds for .poly, even-odd for polygons, all for lines].
+    /// The rule for the inside [default: seeds for .poly, even-odd for polygons, all for lines].
     #[arg(long, value_name = "RULE")]
     pub(crate) fill: Option<FillName>,
 }
@@ -28,7 +28,7 @@ impl GraphArgs {
     }
 }
 
-/// What happens where segments cross.
+/// The treatment of segments that cross.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CrossingsName {
     /// It is an error, which names two segments and the place.
@@ -37,14 +37,14 @@ pub(crate) enum CrossingsName {
     Split,
 }
 
-/// What is inside.
+/// The rule for the inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum FillName {
-    /// What an odd number of rings is around.
+    /// Places that an odd number of rings surrounds.
     EvenOdd,
-    /// What rings wind around in sum, counter-clockwise less clockwise.
+    /// Places around which the rings wind, counter-clockwise less clockwise.
     Nonzero,
-    /// What segments part from the outside, without the holes of a .poly file.
+    /// Places that segments separate from the outside, without the holes of a .poly file.
     Seeds,
     /// Everything in the convex hull.
     All,

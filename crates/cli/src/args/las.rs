@@ -24,7 +24,7 @@ pub(crate) struct LasArgs {
 }
 
 impl LasArgs {
-    /// What the library takes.
+    /// The filter of the library.
     pub(crate) fn filter(&self) -> LasFilter {
         LasFilter {
             classes: self.class.clone(),

@@ -11,7 +11,7 @@ use super::surface::CompressName;
 /// How the ground is lit.
 #[derive(Debug, Args)]
 pub(crate) struct LightArgs {
-    /// What heights are multiplied by before slopes are taken.
+    /// Factor of heights before slopes are taken.
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = factor, help_heading = "Hillshade")]
     pub(crate) z_factor: f64,
     /// Where the light comes from, in degrees clockwise from north.
@@ -38,7 +38,7 @@ impl LightArgs {
     }
 }
 
-/// What is made of heights.
+/// The kind of a relief.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ReliefName {
     /// Shades from 1 to 255.
@@ -80,7 +80,7 @@ pub(crate) struct ReliefArgs {
     /// Format of outputs whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// What is made.
+    /// The kind of the output.
     #[arg(long, value_name = "KIND", default_value = "hillshade")]
     pub(crate) kind: ReliefName,
     #[command(flatten)]
@@ -94,7 +94,7 @@ pub(crate) struct ReliefArgs {
 }
 
 impl ReliefArgs {
-    /// What is made.
+    /// The relief of the library.
     pub(crate) fn relief(&self) -> Relief {
         let kind = match self.kind {
             ReliefName::Hillshade => return self.light.hillshade(),

@@ -1,4 +1,4 @@
-//! What `mesh` takes.
+//! Arguments of `mesh`.
 
 use std::path::PathBuf;
 
@@ -55,7 +55,7 @@ pub(crate) struct MeshArgs {
     /// No longer edges.
     #[arg(long, allow_negative_numbers = true, value_name = "LENGTH", help_heading = "Quality")]
     pub(crate) max_edge: Option<f64>,
-    /// So many new vertices at most.
+    /// Largest number of new vertices.
     #[arg(long, value_name = "N", value_parser = count, help_heading = "Quality")]
     pub(crate) max_vertices: Option<usize>,
     /// Segments that may not be split [default: nothing].
@@ -109,7 +109,7 @@ pub(crate) struct MeshArgs {
     /// The longer side of pictures in pixels.
     #[arg(long, value_name = "PIXELS", default_value_t = 1600, value_parser = clap::value_parser!(u32).range(16..=20_000))]
     pub(crate) picture_size: u32,
-    /// What colours mean in pictures [default: regions, heights or density].
+    /// Meaning of colours in pictures [default: regions, heights or density].
     #[arg(long, value_name = "WHAT")]
     pub(crate) color: Option<ColorName>,
 }
@@ -119,13 +119,13 @@ pub(crate) struct MeshArgs {
 pub(crate) enum KeepName {
     /// All may.
     Nothing,
-    /// Those with the mesh on one side only.
+    /// Constraints with the mesh on one side only.
     Border,
     /// All segments.
     Constraints,
 }
 
-/// What colours mean.
+/// The meaning of colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ColorName {
     /// The smallest angle of each triangle.

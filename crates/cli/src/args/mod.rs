@@ -1,4 +1,4 @@
-//! What can be said on the command line: the commands and what they have in common; what is each one's own has files of
+//! The command line: the commands and their common arguments; arguments of one command have files of
 //! its own.
 
 mod alpha;
@@ -209,7 +209,7 @@ impl InputArgs {
         self.paths().into_iter().chain([other]).collect()
     }
 
-    /// What messages call the set.
+    /// The name of the set in messages.
     pub(crate) fn label(&self) -> PathBuf {
         match &self.input[..] {
             [one] => one.clone(),

@@ -20,7 +20,7 @@ pub(crate) struct PlaceArgs {
     pub(crate) like: Option<PathBuf>,
 }
 
-/// So many finite numbers between commas.
+/// `N` finite numbers between commas.
 fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
     let numbers: Option<[f64; N]> = numbers.ok().and_then(|numbers| numbers.try_into().ok());

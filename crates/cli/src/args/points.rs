@@ -1,4 +1,4 @@
-//! What commands take that make, describe and judge points and meshes: `generate`, `info`, `check`, `reduce`.
+//! Arguments of commands that make, describe and judge points and meshes: `generate`, `info`, `check`, `reduce`.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! What `polygons` takes.
+//! Arguments of `polygons`.
 
 use std::path::PathBuf;
 
@@ -41,10 +41,10 @@ pub(crate) struct PolygonsArgs {
     pub(crate) to: Option<Format>,
     #[command(flatten)]
     pub(crate) wkt: WktArgs,
-    /// What is inside of a polygon.
+    /// The rule for the inside of a polygon.
     #[arg(long, value_name = "RULE", default_value = "even-odd")]
     pub(crate) fill: PolygonFill,
-    /// What happens where sides of a polygon cross [default: refuse].
+    /// Treatment of sides of a polygon that cross [default: refuse].
     #[arg(long, value_name = "HOW")]
     pub(crate) crossings: Option<CrossingsName>,
     /// Leave out polygons that are refused, and say which, instead of failing.
@@ -58,11 +58,11 @@ pub(crate) struct PolygonsArgs {
     pub(crate) stats: Option<PathBuf>,
 }
 
-/// What is inside of a polygon.
+/// The rule for the inside of a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PolygonFill {
-    /// What an odd number of rings is around.
+    /// Places that an odd number of rings surrounds.
     EvenOdd,
-    /// What rings wind around in sum, counter-clockwise less clockwise.
+    /// Places around which the rings wind, counter-clockwise less clockwise.
     Nonzero,
 }

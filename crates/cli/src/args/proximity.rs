@@ -1,4 +1,4 @@
-//! What `graph` takes.
+//! Arguments of `graph`.
 
 use std::path::PathBuf;
 

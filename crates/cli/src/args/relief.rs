@@ -1,4 +1,4 @@
-//! What commands take that are about heights: `contours`, `simplify`.
+//! Arguments of commands about heights: `contours`, `simplify`.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What commands take that make shapes and pictures: `hull`, `voronoi`, `draw`, `animate`.
+//! Arguments of commands that make shapes and pictures: `hull`, `voronoi`, `draw`, `animate`.
 
 use std::path::PathBuf;
 
@@ -123,7 +123,7 @@ pub(crate) struct VoronoiArgs {
     pub(crate) to: Option<Format>,
     #[command(flatten)]
     pub(crate) wkt: WktArgs,
-    /// What to clip to: `box`, `hull` (the convex hull of the sites), or a file with polygons (geojson) or with the
+    /// The region to clip to: `box`, `hull` (the convex hull of the sites), or a file with polygons (geojson) or with the
     /// corners of one polygon (any format of points).
     #[arg(long, value_name = "REGION", default_value = "box")]
     pub(crate) clip: PathBuf,
@@ -266,7 +266,7 @@ pub(crate) struct AnimateArgs {
     /// Format of an output whose extension does not tell.
     #[arg(long, value_name = "FORMAT")]
     pub(crate) to: Option<Format>,
-    /// What to show.
+    /// The animation to show.
     #[arg(long, value_name = "WHAT", default_value = "motion")]
     pub(crate) show: Show,
     /// Number of steps, at most.
@@ -287,7 +287,7 @@ pub(crate) struct AnimateArgs {
     pub(crate) seed: u64,
 }
 
-/// What an animation shows.
+/// The subject of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Show {
     /// Points in Brownian motion, and their triangulation.

@@ -60,7 +60,7 @@ pub(crate) enum LocateName {
     Hierarchy,
     /// Split, flip, and trace all triangles that ever were; no removal. In space in bulk only.
     History,
-    /// The same without triangles that came and went in one insertion, by binary search; no removal.
+    /// A history without triangles that came and went in one insertion, by binary search; no removal.
     Stars,
     /// Search all triangles that ever were by their circles (the Delaunay tree).
     DelaunayTree,
@@ -86,7 +86,7 @@ enum Phase3 {
 enum WalkName {
     /// Across any edge that has the goal beyond it.
     Visibility,
-    /// The same in random order; in the plane.
+    /// A visibility walk that tests edges in random order; in the plane.
     Stochastic,
     /// Along the straight line; in the plane.
     Straight,
@@ -104,7 +104,7 @@ impl std::str::FromStr for Least {
     }
 }
 
-/// What an option is called.
+/// The name of an option.
 fn name(value: impl ValueEnum) -> String {
     value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }

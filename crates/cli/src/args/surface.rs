@@ -1,4 +1,4 @@
-//! What `dtm` and `interpolate` take.
+//! Arguments of `dtm` and `interpolate`.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub(crate) enum MethodName {
     Nearest,
     /// Natural neighbours with gradients: smooth at the points too (Sibson).
     Smooth,
-    /// The same by a cubic (Farin).
+    /// Smooth at the points too, by a cubic (Farin).
     Farin,
 }
 
@@ -234,7 +234,7 @@ pub(crate) struct InterpolateArgs {
     /// How GeoTIFF is compressed.
     #[arg(long, value_name = "HOW", default_value = "deflate")]
     pub(crate) compress: CompressName,
-    /// What there is outside of the hull.
+    /// Values outside of the hull.
     #[arg(long, value_name = "WHAT", default_value = "nothing")]
     pub(crate) outside: OutsideName,
     /// Output files.
@@ -251,7 +251,7 @@ pub(crate) struct InterpolateArgs {
     pub(crate) to: Option<Format>,
 }
 
-/// What there is outside of the hull.
+/// The values outside of the hull.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum OutsideName {
     /// Nothing: NaN.

@@ -1,4 +1,4 @@
-//! What `tiles` takes.
+//! Arguments of `tiles`.
 
 use std::path::PathBuf;
 

@@ -1,9 +1,9 @@
 //! The switches of Shewchuk's Triangle, in its grammar: letters in any order, numbers glued to some of them.
 
-/// What a letter does here.
+/// The effect of a letter here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Effect {
-    /// What it does there.
+    /// The effect that it has there.
     Same,
     /// Nothing: it chooses what does not matter here.
     Ignored,
@@ -55,7 +55,7 @@ const LETTERS: &[(char, &str, Effect, &str)] = &[
     ('s', "s", Effect::Ignored, "force segments in by splitting them: they are edges anyway"),
 ];
 
-/// What was asked for.
+/// The switches given.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Switches {
     letters: String,
@@ -129,14 +129,14 @@ impl Switches {
         self.letters.matches(letter).count()
     }
 
-    /// Those that change nothing, each once, and why.
+    /// The switches that change nothing, each once, with the reason.
     pub(crate) fn ignored(&self) -> impl Iterator<Item = (char, &'static str)> + '_ {
         let ignored = LETTERS.iter().filter(|known| known.2 == Effect::Ignored && self.has(known.0));
         ignored.map(|&(letter, _, _, text)| (letter, text))
     }
 }
 
-/// What each letter means.
+/// The table of letters.
 pub(crate) fn table() -> String {
     let line = |&(_, usage, effect, text): &(char, &str, Effect, &str)| {
         let ignored = if effect == Effect::Ignored { "ignored; " } else { "" };

@@ -1,4 +1,4 @@
-//! What `triangulate` takes, and names of algorithms.
+//! Arguments of `triangulate`, and names of algorithms.
 
 use std::path::PathBuf;
 
@@ -88,7 +88,7 @@ pub(crate) struct TriangulateArgs {
 }
 
 impl TriangulateArgs {
-    /// What is left out along the border.
+    /// The rule for simplices that are left out along the border.
     pub(crate) fn border(&self) -> Border {
         Border { slivers: self.drop_slivers, ..Border::long_edges(self.max_edge) }
     }

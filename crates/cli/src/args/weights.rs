@@ -1,4 +1,4 @@
-//! What commands take that know weights.
+//! Arguments of commands with weights.
 
 use std::path::Path;
 

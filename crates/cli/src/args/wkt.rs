@@ -10,12 +10,12 @@ use crate::message::Failure;
 /// How well-known text is written.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct WktArgs {
-    /// What outputs of well-known text hold [default: lines].
+    /// The form of outputs of well-known text [default: lines].
     #[arg(long, value_name = "FORM")]
     wkt: Option<WktForm>,
 }
 
-/// What a file of well-known text holds.
+/// The form of a file of well-known text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum WktForm {
     /// One geometry a line.

@@ -252,7 +252,7 @@ impl Constrained {
     }
 }
 
-/// What is inside where nothing else is said.
+/// The default rule for the inside.
 pub(crate) fn usual(input: &InputArgs, graph: &Graph) -> FillName {
     let is_poly = |path: &PathBuf| input.from.or_else(|| Format::of(path).ok()) == Some(Format::Poly);
     if input.input.iter().any(is_poly) && graph.rings.is_empty() {

@@ -18,13 +18,13 @@ enum Sheet {
     Shade(ShadeWriter<Output>),
 }
 
-/// What a raster says of itself.
+/// The description of a raster.
 pub(super) struct About {
     pub(super) grid: Grid,
     pub(super) crs: Option<Crs>,
     pub(super) nodata: Option<f64>,
     pub(super) compression: Compression,
-    /// What pictures show.
+    /// The relief of pictures.
     pub(super) relief: Relief,
 }
 

@@ -132,7 +132,7 @@ impl Part {
         Ok(rest)
     }
 
-    /// What is known of some cells, and the others.
+    /// The cells that are settled, and the others.
     fn ask(&self, method: MethodName, grid: &Grid, open: &[usize]) -> Result<Settled, delone::Error> {
         let mut settled = Vec::new();
         let mut surface = match method {

@@ -76,7 +76,7 @@ pub(super) fn workspace(outputs: &[(PathBuf, Format)]) -> Result<TemporaryFolder
     })
 }
 
-/// What tiles are made of, but for the folder and the memory.
+/// The arguments of tiles, but for the folder and the memory.
 pub(super) fn tiles(input: InputArgs) -> TilesArgs {
     TilesArgs {
         input,

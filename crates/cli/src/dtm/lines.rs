@@ -199,7 +199,7 @@ pub(super) fn no_polygon(path: &Path, help: &str) -> Failure {
     Failure::new(format!("{}: there is no polygon in it", path.display()), help)
 }
 
-/// What to give in a file's place.
+/// Advice on a file to give instead.
 pub(super) fn give(what: &str, contents: Contents) -> String {
     format!("give {what} in one of {}", Format::with(&[contents], Direction::Read))
 }

@@ -157,7 +157,7 @@ fn check(args: &DtmArgs, outputs: &[(PathBuf, Format)]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is to be done, whatever the surface comes from.
+/// The job, whatever the surface comes from.
 struct Job<'a> {
     args: &'a DtmArgs,
     outputs: &'a [(PathBuf, Format)],

@@ -30,7 +30,7 @@ pub(super) struct Surface<T: Triangulation> {
     slopes: Vec<[f64; 2]>,
 }
 
-/// What surfaces there are.
+/// The kinds of surfaces.
 pub(super) enum Kind {
     Points(Box<Surface<Delaunay2>>),
     Lines(Box<Surface<Constrained2>>),
@@ -173,7 +173,7 @@ impl<T: Triangulation<Point = [f64; 2]>> Surface<T> {
 }
 
 impl Kind {
-    /// What has to be known before rows are asked for.
+    /// Prepares the surface before rows are asked for.
     pub(super) fn prepare(&mut self, method: MethodName) -> Result<(), delone::Error> {
         if let Self::Points(surface) = self
             && method.is_bent()

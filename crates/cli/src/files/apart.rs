@@ -16,7 +16,7 @@ use crate::message::Failure;
 /// The files that this program has opened to read.
 static READ: Mutex<Vec<(Identity, PathBuf)>> = Mutex::new(Vec::new());
 
-/// What is the same for all names of a file.
+/// The identity of a file under all its names.
 #[cfg(unix)]
 type Identity = (u64, u64);
 #[cfg(not(unix))]
@@ -93,7 +93,7 @@ fn overwrites(path: &Path, other: &Path, does: &str) -> Failure {
     )
 }
 
-/// What is read besides when a file is read.
+/// The files that are read beside a file.
 fn read_with(path: &Path) -> Vec<PathBuf> {
     let Ok(format) = Format::of(path) else { return Vec::new() };
     if is_standard(path) || is_special(path) {
@@ -140,7 +140,7 @@ pub(crate) fn keep_names_apart<'a>(
     Ok(())
 }
 
-/// What is known of a file: another name of it is noticed too, and where standard input and output are files.
+/// A known file: another name of it is noticed too, and standard input and output where these are files.
 struct Known {
     identity: Option<Identity>,
     /// Where it is or will be, if it is no device or pipe, which may be named twice.
@@ -185,7 +185,7 @@ pub(super) fn check_open(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What `-` stands for.
+/// The meaning of `-`.
 fn or<'a>(path: &'a Path, standard: &'a str) -> &'a Path {
     if is_standard(path) { Path::new(standard) } else { path }
 }

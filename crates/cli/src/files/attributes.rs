@@ -7,7 +7,7 @@ use delone_io::{Cloud, Contents, Format};
 use super::systems::outputs;
 use crate::message::lost;
 
-/// What is known of attributes.
+/// The attributes of this run.
 struct Known {
     /// With which contents they are written, if the command does so.
     with: Option<Contents>,
@@ -27,7 +27,7 @@ pub(crate) struct Unshown {
 static KNOWN: Mutex<Known> =
     Mutex::new(Known { with: None, names: Vec::new(), unshown: Unshown { lines: false, points: false } });
 
-/// So many names are told.
+/// Names that a message lists; more are `...`.
 const MOST_NAMES: usize = 12;
 
 /// The command writes attributes with such contents, where a format has room for them: they are read from now on.

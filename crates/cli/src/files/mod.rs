@@ -27,7 +27,7 @@ use crate::limits;
 use crate::message::{Failure, lost, note};
 use crate::progress::Phase;
 
-/// What progress says while a file is read.
+/// The title of the progress bar while a file is read.
 const READING: &str = "reading";
 
 /// The format of a file: as said, or by its extension.
@@ -326,7 +326,7 @@ pub(crate) fn numbers(path: &Path, quiet: bool) -> Result<Vec<f64>, Failure> {
     delone_io::read_numbers(source, format).map_err(|error| Failure::file(path, &error))
 }
 
-/// What to do where a number for each point is not found.
+/// Advice where a number for each point is not found.
 const NUMBERS: &str = "name a file with one for each point, or a column of a text file";
 
 /// Refuses a column of files that have none.

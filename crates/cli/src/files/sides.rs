@@ -10,7 +10,7 @@ use super::apart::refuse_read;
 use super::is_special;
 use crate::message::{Failure, note, warn};
 
-/// What goes when the outputs of the command get their names.
+/// Files to remove when the outputs of the command get their names.
 static STALE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// Writes the file that says what a raster's own cannot. Files beside an earlier raster of that name, which would move this one elsewhere,

@@ -1,4 +1,4 @@
-//! What coordinates mean is passed on, or a line says where it is not.
+//! Systems of coordinates are passed on, or a line says where they are not.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock, PoisonError};

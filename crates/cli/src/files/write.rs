@@ -12,7 +12,7 @@ use super::{attributes, systems};
 use super::{is_special, is_standard};
 use crate::message::{Failure, lost, refuse_losses};
 
-/// What is written and has no name yet.
+/// Outputs that are written and have no name yet.
 static FINISHED: Mutex<Vec<Finished>> = Mutex::new(Vec::new());
 
 /// Gives all outputs of the command their names.
@@ -99,7 +99,7 @@ pub(crate) fn write_own<T>(
     attempt().map_err(|error| cannot_write(path, error))
 }
 
-/// What is wrong with an output.
+/// The failure of an output.
 pub(crate) fn cannot_write(path: &Path, error: delone_io::Error) -> Failure {
     match error {
         delone_io::Error::Io(error) => Failure::new(

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use delone::mesh::Dimension;
 use delone::{Constrained2, Domains2, Duplicate, TriangleId, Triangulation, VertexId};
 
-/// What is inside.
+/// The inside of a triangulation.
 #[derive(Debug)]
 pub(super) struct Kept<'a> {
     all: &'a Constrained2,
@@ -22,7 +22,7 @@ pub(super) struct Kept<'a> {
 }
 
 impl<'a> Kept<'a> {
-    /// What is inside of a triangulation. Points that no triangle uses may be dropped; the others keep their order.
+    /// Takes the inside of a triangulation. Points that no triangle uses may be dropped; the others keep their order.
     pub(super) fn of(all: &'a Constrained2, domains: &Domains2, drops: bool) -> Self {
         let mut is_inside = vec![false; all.mesh().slot_count()];
         let mut is_used = vec![!drops; all.points().len()];
@@ -39,7 +39,7 @@ impl<'a> Kept<'a> {
         Self { all, is_inside, triangles, points, old, new, edges: OnceLock::new() }
     }
 
-    /// What a vertex is called here.
+    /// The name of a vertex here.
     pub(super) fn name(&self, v: VertexId) -> Option<VertexId> {
         self.new[v.index()]
     }

@@ -260,7 +260,7 @@ impl Made {
     }
 }
 
-/// What the library refuses.
+/// The failure of a refusal by the library.
 fn refused(label: &Path, error: &Error) -> Failure {
     match error {
         Error::Size { .. } => Failure::new(error, "sizes and areas are positive wherever they are asked for"),

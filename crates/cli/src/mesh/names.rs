@@ -1,4 +1,4 @@
-//! What is written where: files that were named, or those that Triangle writes beside its input.
+//! Names of outputs: the files given, or those that Triangle writes beside its input.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use crate::args::{MeshArgs, Switches};
 use crate::files;
 use crate::message::Failure;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Content {
     Mesh(Format),

@@ -1,4 +1,4 @@
-//! What is wanted of a mesh and of its files: as options or Triangle's switches say.
+//! Plans: the criteria of a mesh and the form of its files, by options or by Triangle's switches.
 
 use delone::{Constrained2, Keep, Refinement};
 
@@ -14,7 +14,7 @@ pub(super) enum Written {
     Never,
 }
 
-/// What is wanted.
+/// The plan of a mesh.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub(super) min_angle: f64,
@@ -24,18 +24,18 @@ pub(super) struct Plan {
     pub(super) keep: Keep,
     /// Rounds of smoothing.
     pub(super) smooth: usize,
-    /// What happens to segments that cross.
+    /// The treatment of segments that cross.
     pub(super) crossings: CrossingsName,
     /// Whether the regions of triangles are written.
     pub(super) regions: Written,
     /// Whether the markers of points and segments are.
     pub(super) markers: Written,
-    /// What the first point is called, if not as in the input.
+    /// The number of the first point, if not as in the input.
     pub(super) base: Option<usize>,
     pub(super) traits: Traits,
 }
 
-/// What is so or not.
+/// Yes-or-no parts of the plan.
 #[derive(Clone, Copy, Debug)]
 #[allow(clippy::struct_excessive_bools)] // they are switches
 pub(super) struct Traits {
@@ -51,7 +51,7 @@ pub(super) struct Traits {
 }
 
 impl Plan {
-    /// What a command line says, if it can be done.
+    /// The plan of a command line, if it can be done.
     pub(super) fn of(args: &MeshArgs, quiet: bool) -> Result<Self, Failure> {
         let plan = match &args.triangle {
             Some(switches) => Self::of_switches(args, switches, quiet)?,
@@ -147,7 +147,7 @@ impl Plan {
         })
     }
 
-    /// The same for the library; what is inside and what is asked by place comes from files.
+    /// The criteria for the library; the inside, and sizes by place, come from files.
     pub(super) fn refinement<'a>(&self) -> Refinement<'a> {
         let mut wanted = Refinement::new()
             .min_angle(self.min_angle)

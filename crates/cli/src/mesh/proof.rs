@@ -14,7 +14,7 @@ use super::plan::Plan;
 /// place, so products and their sums have one below four of it, relative to the product of the two lengths.
 const ANGLE_ERROR: f64 = 8.0 * f64::EPSILON;
 
-/// What is wrong with a mesh, if anything is.
+/// The first flaw of a mesh, if any.
 pub(super) fn flaw(c: &Constrained2, refined: &Refined2, seeds: &Seeds2, plan: &Plan) -> Option<String> {
     if let Err(flaw) = c.check() {
         return Some(flaw.to_string());

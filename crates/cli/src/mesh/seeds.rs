@@ -1,4 +1,4 @@
-//! What is outside of a mesh, told by points: files of Triangle know no other way.
+//! Seeds: points that tell the outside of a mesh, because files of Triangle know no other way.
 
 use delone::{Constrained2, Domains2, Fill, Location2, Seeds2};
 use delone_predicates::orient2d;

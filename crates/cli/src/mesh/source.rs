@@ -1,4 +1,4 @@
-//! What a mesh is made of: files as they are named, or as Triangle finds them beside each other.
+//! Sources of a mesh: files as they are named, or as Triangle finds them beside each other.
 
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,7 @@ pub(super) fn with(stem: &Path, extension: &str) -> PathBuf {
 }
 
 impl Sources {
-    /// What a command line names.
+    /// The sources that a command line names.
     pub(super) fn of(args: &MeshArgs) -> Result<Self, Failure> {
         let mut sources = Self {
             input: args.input.clone(),
@@ -208,7 +208,7 @@ fn add_border(graph: &mut Graph, border: &[[usize; 2]]) {
     }
 }
 
-/// What was read.
+/// The content that was read.
 pub(super) struct Material {
     pub(super) graph: Graph,
     pub(super) fill: FillName,

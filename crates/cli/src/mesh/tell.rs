@@ -1,4 +1,4 @@
-//! What is said of a mesh: counts, angles, and what is left.
+//! The summary of a mesh: counts, angles, and triangles that are not as wanted.
 
 use delone::{Reason, RefinementReport2};
 use serde_json::{Map, Value, json};
@@ -23,7 +23,7 @@ pub(super) fn count(report: &RefinementReport2, points: usize, stats: &mut Stats
     stats.set("left", Value::Object(Map::from_iter(left)));
 }
 
-/// What statistics call a reason.
+/// The name of a reason in statistics.
 fn key(reason: Reason) -> &'static str {
     match reason {
         Reason::InputAngle => "input_angle",

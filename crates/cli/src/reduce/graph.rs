@@ -58,7 +58,7 @@ pub(super) fn run(args: &ReduceArgs, quiet: bool) -> Result<(), Failure> {
     stats.write(stats_path)
 }
 
-/// What fails, as a test.
+/// A test that fails as the graph does.
 fn test(points: &Points, segments: &Segments, why: &str) -> String {
     let rows: String = points.iter().map(|[x, y]| format!("        [{x:?}, {y:?}],\n")).collect();
     let (n, m) = (points.len(), segments.len());

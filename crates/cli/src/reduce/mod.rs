@@ -98,7 +98,7 @@ fn reduce<T: Copy>(mut all: Vec<T>, fails: impl Fn(&[T]) -> bool) -> Vec<T> {
     all
 }
 
-/// The same triangle from its least corner, so that it has one form: negative zero compares as zero.
+/// A triangle from its least corner on, so that it has one form: negative zero compares as zero.
 fn from_least([a, b, c]: [[f64; 2]; 3]) -> [[f64; 2]; 3] {
     if a < b && a < c {
         [a, b, c]
@@ -130,7 +130,7 @@ fn failure_of_delone(points: &Points) -> Option<String> {
 
 /// Why another program fails on some points, if it does; an error if it cannot be run at all.
 fn failure_of_command(command: &str, points: &Points, folder: &Path) -> Result<Option<String>, Failure> {
-    /// What a shell answers for a program that is not there, or that it may not run.
+    /// The exit codes of a shell for a program that is not there, or that it may not run.
     const NO_PROGRAM: [Option<i32>; 2] = [Some(127), Some(126)];
     let (input, output) = (folder.join("points.npy"), folder.join("triangles.npy"));
     _ = std::fs::remove_file(&output);

@@ -25,7 +25,7 @@ use crate::stats::Stats;
 pub(crate) trait Room: Change<Point: Drawable> {
     const WORDS: Words;
     type Algorithm: Copy;
-    /// What commands build with that leave no choice.
+    /// The algorithm of commands that leave no choice.
     const FASTEST: Self::Algorithm;
     type Hints: Imprecise<Triangulation = Self>;
     /// The corners of a simplex in a file.
@@ -50,7 +50,7 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// The edges of a proximity graph.
     fn graph(&self, graph: Graph) -> Result<Vec<[VertexId; 2]>, delone::Error>;
 
-    /// What the construction did.
+    /// Counters of the construction.
     fn counters(&self) -> Counters;
 
     /// The triangulation of points with weights.
@@ -59,7 +59,7 @@ pub(crate) trait Room: Change<Point: Drawable> {
     /// How to build it: what is chosen among.
     type RegularAlgorithm: Copy + Default;
 
-    /// The same by the names of options.
+    /// The algorithm for sites with weights, by the names of options.
     fn plan_regular(strategy: &StrategyArgs) -> Result<Self::RegularAlgorithm, Failure>;
 
     fn regular(
@@ -84,13 +84,13 @@ pub(crate) trait Room: Change<Point: Drawable> {
     ) -> Result<Verdict, Objection>;
 }
 
-/// What things are called.
+/// The words of a dimension.
 pub(crate) struct Words {
     /// A simplex, and several.
     pub(crate) simplex: [&'static str; 2],
-    /// What the corners of neighbours are that could be divided in another way.
+    /// The word for corners of neighbours that could be divided in another way.
     pub(crate) tied: &'static str,
-    /// What `check` calls simplices in negative order: in statistics, and in a sentence.
+    /// The words of `check` for simplices in negative order: in statistics, and in a sentence.
     pub(crate) negative: [&'static str; 2],
     /// And neighbours that are divided in another way than the canonical one.
     pub(crate) other: [&'static str; 2],
@@ -104,7 +104,7 @@ pub(crate) struct Plan<A> {
     pub(crate) locate: Option<LocateName>,
 }
 
-/// What has no parameters.
+/// The construction that has no parameters.
 const WITH_WEIGHTS: &str = "a construction with weights";
 
 /// Why simplices from elsewhere are wrong.
@@ -228,12 +228,12 @@ fn coordinates<T: Triangulation>(_: &T) -> usize {
     T::Point::COUNT
 }
 
-/// What is left out for its length.
+/// Simplices that are left out for their length.
 pub(crate) fn trim(d: &impl Triangulation, longest: Option<f64>, stats: &mut Stats) -> Option<Trim> {
     trim_border(d, &Border::long_edges(longest), stats, true)
 }
 
-/// What is left out along the border.
+/// Simplices that are left out along the border.
 pub(crate) fn trim_border(
     d: &impl Triangulation,
     rule: &Border,
@@ -258,7 +258,7 @@ pub(crate) fn tell_slivers(trim: &Trim, rule: &Border, stats: &mut Stats, quiet:
     }
 }
 
-/// What is written of a triangulation.
+/// The mesh of a triangulation to be written.
 pub(crate) fn mesh<'a, T: Triangulation>(
     d: &'a T,
     points: &'a [T::Point],

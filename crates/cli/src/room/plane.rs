@@ -1,4 +1,4 @@
-//! What is different in the plane.
+//! The program in the plane.
 
 use std::path::Path;
 

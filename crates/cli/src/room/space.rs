@@ -1,4 +1,4 @@
-//! What is different in space.
+//! The program in space.
 
 use std::path::Path;
 

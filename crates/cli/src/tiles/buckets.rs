@@ -25,14 +25,14 @@ pub(super) fn bucket(folder: &Path, node: Node) -> PathBuf {
     place(folder, "bucket", node, "bin")
 }
 
-/// What was put into a bucket: so many points, whose bytes have this hash.
+/// The content of a bucket: the number of its points, and the hash of their bytes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Filled {
     pub(super) points: u64,
     pub(super) sum: u64,
 }
 
-/// What a bucket holds.
+/// The points of a bucket.
 #[derive(Default)]
 pub(super) struct Content {
     pub(super) points: Vec<[f64; 2]>,
@@ -307,7 +307,7 @@ pub(super) fn cut_again(
     Ok(left_out)
 }
 
-/// What a rule makes of the heights of a bucket whose points are all equal.
+/// The height by a rule of a bucket whose points are all equal.
 fn height_of_all(
     folder: &Path,
     node: Node,

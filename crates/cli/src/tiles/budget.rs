@@ -6,9 +6,9 @@ use std::path::Path;
 
 use crate::message::Failure;
 
-/// What one point takes at the most while its tile is triangulated, read and written.
+/// Bytes of a point while its tile is triangulated, read and written, at most.
 const OF_TILE: u64 = 150;
-/// What one point of a border takes at the most while borders are joined.
+/// Bytes of a border's point while borders are joined, at most.
 const OF_JOIN: u64 = 300;
 /// The program itself, and what files are read and written through.
 const ITSELF: u64 = 40 << 20;
@@ -17,7 +17,7 @@ const LEAST: u64 = 64 << 20;
 /// Larger tiles gain nothing.
 const LARGEST: u64 = 4_000_000;
 
-/// What a run may take.
+/// The limits of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Budget {
     memory: u64,

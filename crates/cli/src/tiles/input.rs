@@ -44,7 +44,7 @@ impl<'a> Input<'a> {
         Ok(Self { args, formats, options: ReadOptions { las, columns, dimension, attributes: false } })
     }
 
-    /// What the input is now: files, and how they are read.
+    /// The input at present: files, and how they are read.
     pub(super) fn describe(&self) -> Result<Value, Failure> {
         Ok(json!({
             "files": manifest::describe(&self.args.input.input)?,

@@ -22,7 +22,7 @@ use crate::message::Failure;
 /// Its name in the folder.
 pub(crate) const NAME: &str = "tiles.json";
 
-/// What it says that it is, and in which version.
+/// The name of the format, with its version beside.
 const FORMAT: &str = "delone tiles";
 const VERSION: u64 = 2;
 
@@ -35,22 +35,22 @@ pub(crate) struct Manifest {
     pub(super) count: u64,
     pub(super) has_heights: bool,
     pub(super) cuts: Cuts,
-    /// What each tile's bucket has, once all points are in theirs.
+    /// The content of each tile's bucket, once all points are in theirs.
     pub(super) buckets: Option<BTreeMap<Node, Filled>>,
     /// Points that were left out because they equal the only one of their tile.
     pub(super) left_out: u64,
-    /// What came out, once all is done.
+    /// The outcome, once all is done.
     pub(super) outcome: Option<Outcome>,
 }
 
-/// What all tiles and seams have together.
+/// The sums of all tiles and seams.
 #[derive(Debug)]
 pub(crate) struct Outcome {
     pub(super) fingerprint: Fingerprint,
     pub(super) vertices: u64,
     pub(super) duplicates: u64,
     pub(super) hull: u64,
-    /// What is known of each node.
+    /// The record of each node.
     pub(super) nodes: Vec<Value>,
 }
 

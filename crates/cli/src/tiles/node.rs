@@ -1,4 +1,4 @@
-//! What is finished of a node: a file with a line that tells what it has, and its border behind.
+//! Finished nodes: a file with a line that describes the node, and its border behind.
 //!
 //! A node is done when this file has its name, because it is written last.
 
@@ -18,7 +18,7 @@ use super::sums::Sums;
 use crate::files;
 use crate::message::Failure;
 
-/// What a node has.
+/// The description of a node.
 #[derive(Clone, Debug)]
 pub(super) struct Done {
     pub(super) node: Node,
@@ -33,7 +33,7 @@ pub(super) struct Done {
     pub(super) sums: Sums,
 }
 
-/// What the hash of the border itself is called, XXH3 of 64 bits as those of other files.
+/// The key of the hash of the border itself, XXH3 of 64 bits as for other files.
 const SUM: &str = "sum";
 
 fn path(folder: &Path, node: Node) -> PathBuf {
@@ -116,7 +116,7 @@ impl Done {
         sync()
     }
 
-    /// What is known of a node, if it is done.
+    /// Reads the description of a node, if it is done.
     pub(super) fn find(folder: &Path, node: Node) -> Result<Option<Self>, Failure> {
         let path = path(folder, node);
         let file = match own::open(&path) {

@@ -13,7 +13,7 @@ use crate::message::Failure;
 
 const HELP: &str = "files of the folder were changed or lost: start again in another folder";
 
-/// What is wrong with a file that nobody should have changed.
+/// The failure of a file that nobody should have changed.
 pub(super) fn wrong(path: &Path, what: impl std::fmt::Display) -> Failure {
     Failure::new(format!("{}: {what}", path.display()), HELP)
 }
@@ -35,7 +35,7 @@ pub(super) fn triangles(path: &Path) -> Result<Vec<[u64; 3]>, Failure> {
     read(path, |source| delone_io::read_triangles(source, Format::Npy))
 }
 
-/// What is known of the corners of seams, by their names: each tile is asked once for what it knows of its points.
+/// Data of the corners of seams, by their names: each tile is asked once for its points.
 pub(super) fn corners<T: Copy>(
     path: &Path,
     cuts: &Cuts,

@@ -1,4 +1,4 @@
-//! What a run that goes on finds in its folder is held to what was written: nothing is trusted because it has a name.
+//! A resumed run compares each file in its folder with the hash that was written: nothing is trusted because it has a name.
 //!
 //! Buckets are held to theirs when they are read (`buckets.rs`).
 //!

@@ -36,7 +36,7 @@ struct Edge {
 }
 
 impl Edge {
-    /// The same for both directions.
+    /// The key of an edge, equal for both directions.
     fn key(&self) -> [u64; 2] {
         [self.from.0.min(self.to.0), self.from.0.max(self.to.0)]
     }

@@ -25,7 +25,7 @@ pub(super) struct Set {
     pub(super) steep: f64,
 }
 
-/// What is done to all coordinates.
+/// The change of all coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Map {
     /// The power of two that each axis is scaled by.
@@ -111,7 +111,7 @@ impl<'a> Given<'a> {
         given
     }
 
-    /// The same number of units in the set as it is.
+    /// The number of units in the set as it is.
     pub(super) fn length(&self, value: f64, power: i32) -> f64 {
         value * 2f64.powi(self.map.powers[0] * power)
     }
@@ -283,7 +283,7 @@ impl<'a> Given<'a> {
         serde_json::from_str(&self.place.read(name)).expect("JSON")
     }
 
-    /// What is said of each feature of a file, and its rings or lines.
+    /// The properties of each feature of a file, and its rings or lines.
     pub(super) fn features(&self, name: &str) -> Vec<(Value, Vec<Vec<Point>>)> {
         let Value::Array(features) = self.json(name)["features"].take() else { panic!("features") };
         let read = |mut feature: Value| {

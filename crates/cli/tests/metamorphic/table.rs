@@ -139,7 +139,7 @@ fn drawn(g: &Given, name: &str) -> Vec<Shape> {
     lines.map(|line| line.bytes().map(f64::from).collect()).collect()
 }
 
-/// What came of points one after the other, some of which go and move; and where queries are then.
+/// The result of points one after the other, some of which go and move; and the locations of queries then.
 fn replayed(g: &Given, options: &str, axes: usize) -> Vec<Shape> {
     let place = |p: Point| g.to(p)[..axes].iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(" ");
     let mut known: Vec<Point> = Vec::new();
@@ -371,7 +371,7 @@ const BAY: &[Point] = &[
     [-0.25, -0.125, 0.0],
 ];
 
-/// The same commands with three coordinates.
+/// Commands with three coordinates.
 pub(super) const SPACE: &[Row] = &[
     ("triangulate --dim 3", |g| {
         g.run("triangulate p.csv --dim 3 -o t.ele");

@@ -1,4 +1,4 @@
-//! What tests of the program share.
+//! Common parts of the tests of the program.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
