@@ -1,6 +1,8 @@
 //! GeoTIFF as others write it: masks, parts that are left out, pages, overviews, compressions. The files are made here, tag by tag.
 
+use std::fs;
 use std::io::{Cursor, Write};
+use std::path::Path;
 
 use delone_io::{Error, Format, Raster, read_raster};
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
@@ -193,5 +195,28 @@ fn compressions_that_are_not_read_are_named() {
         let error = read(&[image(1, 1, vec![vec![1]]).with(259, number)]).expect_err(name);
         assert_eq!(error.to_string(), format!("TIFF: values that are compressed with {name} are not read"));
         assert_eq!(error.help(), "convert it with gdal_translate -co COMPRESS=DEFLATE");
+    }
+}
+
+/// Files that GDAL wrote, of known values: where a mask or a tile that is left out says so there is none.
+#[test]
+fn files_of_gdal_are_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/rasters");
+    for name in
+        ["mask_deflate", "mask_tiled", "sparse", "zstd", "zstd_tiled", "overviews_lzw", "packbits_big"]
+    {
+        let bytes = fs::read(folder.join(format!("{name}.tif"))).expect(name);
+        let raster = read_raster(Box::new(Cursor::new(bytes)), Format::Tiff).expect(name);
+        assert_eq!((raster.grid.columns(), raster.grid.rows()), (50, 40), "{name}");
+        assert_eq!(raster.crs.as_ref().and_then(|crs| crs.epsg), Some(25_832), "{name}");
+        for (i, value) in raster.values.iter().enumerate() {
+            let (row, column) = (i / 50, i % 50);
+            let has_value = match name {
+                "sparse" => row < 16 && column < 16 || (16..32).contains(&row) && (32..48).contains(&column),
+                _ => !name.starts_with("mask") || !(row + column).is_multiple_of(5),
+            };
+            let expected = if has_value { ((7 * row + 3 * column) % 250) as f64 } else { f64::NAN };
+            assert!(value.total_cmp(&expected).is_eq(), "{name}: {value}, {expected} at {row}, {column}");
+        }
     }
 }

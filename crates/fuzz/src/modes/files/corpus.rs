@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use delone::Delaunay2;
 use delone::surface::Grid;
 use delone_generators::Kind;
-use delone_io::{Crs, Format, Mesh, RasterInfo, RasterWriter, Sample, picture};
+use delone_io::{Compression, Crs, Format, Mesh, RasterInfo, RasterWriter, Sample, picture};
 
 use super::{ARRAYS, E57, JSON, LAS, MAPS, MESHES, PLY, TEXT};
 
@@ -28,6 +28,17 @@ const HOSTILE: [(Format, &[u8]); 11] = [
     (Format::Ply, include_bytes!("../../../../../data/hostile/xuchar.ply")),
     (Format::Npy, include_bytes!("../../../../../data/hostile/hdrlen.npy")),
     (Format::Text, include_bytes!("../../../../../data/hostile/cr.csv")),
+];
+
+/// GeoTIFF as GDAL writes it: masks, tiles that are left out, overviews, all compressions.
+const RASTERS: [&[u8]; 7] = [
+    include_bytes!("../../../../../data/rasters/mask_deflate.tif"),
+    include_bytes!("../../../../../data/rasters/mask_tiled.tif"),
+    include_bytes!("../../../../../data/rasters/sparse.tif"),
+    include_bytes!("../../../../../data/rasters/zstd.tif"),
+    include_bytes!("../../../../../data/rasters/zstd_tiled.tif"),
+    include_bytes!("../../../../../data/rasters/overviews_lzw.tif"),
+    include_bytes!("../../../../../data/rasters/packbits_big.tif"),
 ];
 
 /// The files of a group.
@@ -136,7 +147,8 @@ fn arrays() -> Seeds {
         _ = archive.write_all(&plain.1);
     }
     let archive = archive.finish().map(Cursor::into_inner).unwrap_or_default();
-    vec![
+    let mut seeds: Seeds = RASTERS.iter().map(|&bytes| (Format::Tiff, bytes.to_vec())).collect();
+    seeds.extend([
         raster(Format::Tiff, Sample::F32),
         raster(Format::Tiff, Sample::F64),
         raster(Format::Tiff, Sample::U8),
@@ -147,7 +159,8 @@ fn arrays() -> Seeds {
         (Format::Npy, gzip(&plain.1)),
         plain,
         mesh(Format::Npy),
-    ]
+    ]);
+    seeds
 }
 
 /// A raster of several strips, with all that files say of it.
@@ -155,7 +168,14 @@ fn raster(format: Format, sample: Sample) -> (Format, Vec<u8>) {
     let write = || -> Result<Vec<u8>, delone_io::Error> {
         let grid = Grid::new([500.0, 900.0], [2.0, -2.0], 9, 150).map_err(std::io::Error::other)?;
         let crs = Crs { vertical: Some(7837), ..Crs::of_epsg(25_832) };
-        let info = RasterInfo { crs: Some(crs), nodata: Some(-9999.0), sample, ..RasterInfo::new(grid) };
+        let compression = if sample == Sample::F64 { Compression::Lzw } else { Compression::Deflate };
+        let info = RasterInfo {
+            crs: Some(crs),
+            nodata: Some(-9999.0),
+            sample,
+            compression,
+            ..RasterInfo::new(grid)
+        };
         let mut writer = RasterWriter::create(Cursor::new(Vec::new()), format, &info)?;
         let height = |i: usize| if i.is_multiple_of(11) { f64::NAN } else { (i * i % 250) as f64 };
         writer.write_rows(&(0..9 * 150).map(height).collect::<Vec<_>>())?;
