@@ -9,7 +9,9 @@ use std::sync::{Mutex, PoisonError};
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-use crate::closed;
+use delone_io::Format;
+
+use crate::{closed, files};
 
 /// Why a command did not do its work.
 #[derive(Debug)]
@@ -49,6 +51,12 @@ impl Failure {
         };
         let usage = matches!(error, Error::UnknownExtension(_) | Error::Unsupported { .. });
         Self { message, help: error.help().into_owned(), status: if usage { 2 } else { 1 } }
+    }
+
+    /// Something wrong with what is in a file of this format.
+    pub(crate) fn content(path: &Path, format: Format, error: &delone_io::Error) -> Self {
+        let help = error.help_with(format, &files::beginning(path, format));
+        Self { help: help.into_owned(), ..Self::file(path, error) }
     }
 
     /// Something wrong with points.

@@ -11,6 +11,7 @@ mod files;
 mod folder;
 mod folders;
 mod graph;
+mod helps;
 mod inputs;
 mod limits;
 mod mesh;

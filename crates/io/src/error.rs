@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::format::Fit;
 use crate::{Contents, Direction, Format};
 
 /// Why a file could not be read or written.
@@ -141,6 +142,31 @@ impl Error {
         Self::Content(what.into())
     }
 
+    /// Advice on a fault of a file of this format. `beginning` holds the first few thousand bytes of the file, or nothing where they are
+    /// unknown.
+    pub fn help_with(&self, format: Format, beginning: &[u8]) -> Cow<'static, str> {
+        if !matches!(self, Self::Line { .. } | Self::Content(_) | Self::Truncated(_)) {
+            return self.help();
+        }
+        match (format.fit(beginning), self) {
+            (Fit::Of(found), _) => {
+                let title = found.title();
+                let what = format!("it begins as {found} files do ({title})");
+                Cow::Owned(format!("{what}: give it that extension, or name the format with --from {found}"))
+            }
+            (Fit::Not, Self::Line { .. } | Self::Content(_)) => Cow::Owned(format!(
+                "it does not begin as {format} files do: check what it is, and name its format with --from"
+            )),
+            (_, Self::Line { .. }) if format == Format::Text => {
+                Cow::Borrowed("correct that line, or choose columns with --columns")
+            }
+            (_, Self::Content(_)) => {
+                Cow::Borrowed("correct it there, or write it anew with the program that it is from")
+            }
+            _ => self.help(),
+        }
+    }
+
     /// Advice to the user.
     pub fn help(&self) -> Cow<'static, str> {
         Cow::Borrowed(match self {
@@ -148,7 +174,7 @@ impl Error {
             Self::TooMuchOutput => "allow more with --max-output SIZE",
             Self::Expands => "if it is meant, allow memory with --max-memory SIZE, or decompress it first",
             Self::Io(_) => "check the name, the permissions and the room on the disk",
-            Self::Line { .. } => "correct that line, or choose columns with --columns",
+            Self::Line { .. } => "correct that line",
             Self::Content(_) => {
                 "check that the file is what its extension says, or name the format with --from"
             }

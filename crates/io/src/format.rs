@@ -1,5 +1,6 @@
 //! Formats, and how files say which one they are.
 
+mod beginning;
 mod contents;
 mod table;
 
@@ -7,6 +8,7 @@ use std::fmt;
 use std::path::Path;
 use std::str::FromStr;
 
+pub(crate) use beginning::Fit;
 pub(crate) use contents::Readers;
 pub use contents::{Contents, Direction};
 

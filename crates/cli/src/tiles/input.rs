@@ -82,7 +82,7 @@ impl<'a> Input<'a> {
             if let Some(failure) = stopped {
                 return Err(failure);
             }
-            let failed = |error| Failure::file(path, &error);
+            let failed = |error| Failure::content(path, format, &error);
             let mut about = found.map_err(failed)?;
             files::heed(&mut about, path, files::Role::Input, quiet)?;
             all.join(about).map_err(failed)?;
