@@ -6,7 +6,10 @@ use delone_io::Format;
 
 use crate::args::{Command, InputArgs};
 use crate::message::Failure;
-use crate::tiles;
+use crate::{files, tiles};
+
+/// What tells of the files of Entwine Point Tiles in its folder.
+const EPT: &str = "ept.json";
 
 /// The files of points of a command that reads some.
 fn input(command: &mut Command) -> Option<&mut InputArgs> {
@@ -34,14 +37,15 @@ fn input(command: &mut Command) -> Option<&mut InputArgs> {
     })
 }
 
-/// Puts the LAS and LAZ files of folders, nested ones too, in their place, by name; and the files that patterns stand for. A folder that
+/// Puts the LAS and LAZ files and the EPT of folders, nested ones too, in their place, by name; and the files that patterns stand for. A folder that
 /// `delone tiles` made stays one for commands that know them.
 pub(crate) fn expand(command: &mut Command) -> Result<(), Failure> {
     let may_be_tiles = matches!(command, Command::Info(_) | Command::Check(_));
     let Some(input) = input(command) else { return Ok(()) };
-    let takes_folders = input.from.is_none_or(|format| format == Format::Las);
+    let from = input.from;
+    let takes_folders = from.is_none_or(files::is_las);
     for path in std::mem::take(&mut input.input) {
-        let mut inside = if takes_folders { clouds(&path)? } else { Vec::new() };
+        let mut inside = if takes_folders { clouds(&path, from)? } else { Vec::new() };
         if !inside.is_empty() {
             input.input.append(&mut inside);
         } else if path.is_dir() && !may_be_tiles {
@@ -56,21 +60,27 @@ pub(crate) fn expand(command: &mut Command) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The files of point clouds in a folder and in those below, if it is a folder and not one of tiles. Links to folders are not followed: they may lead back.
-fn clouds(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+/// The files of point clouds in a folder and in those below, if it is a folder and not one of tiles. A folder of Entwine Point Tiles has one, the
+/// file that tells of the others. Links to folders are not followed: they may lead back.
+fn clouds(folder: &Path, from: Option<Format>) -> Result<Vec<PathBuf>, Failure> {
     let mut found = Vec::new();
     if !folder.is_dir() || folder.join(tiles::MANIFEST).exists() {
         return Ok(found);
     }
     let mut pending = vec![folder.to_owned()];
     while let Some(folder) = pending.pop() {
+        let one = folder.join(EPT);
+        if from != Some(Format::Las) && one.is_file() {
+            found.push(one);
+            continue;
+        }
         let failed = |error: std::io::Error| Failure::file(&folder, &error.into());
         for entry in std::fs::read_dir(&folder).map_err(failed)? {
             let entry = entry.map_err(failed)?;
             let path = entry.path();
             if entry.file_type().map_err(failed)?.is_dir() {
                 pending.push(path);
-            } else if Format::of(&path).ok() == Some(Format::Las) {
+            } else if from != Some(Format::Ept) && Format::of(&path).ok() == Some(Format::Las) {
                 found.push(path);
             }
         }

@@ -18,8 +18,9 @@ pub(crate) fn run(args: &FurthestArgs, quiet: bool) -> Result<(), Failure> {
     files::keep_apart(&args.input.paths_and(&args.queries), outputs)?;
     let format = answer_format(&args.output, args.to)?;
     let mut stats = Stats::start();
-    let (points, _) = room::read::<Delaunay2>(&args.input, quiet)?;
-    let (queries, about) = room::queries_with::<Delaunay2>(&args.queries, quiet)?;
+    let (input, dimensions) = files::attributes_apart(&args.input, &args.queries);
+    let (points, _) = room::read::<Delaunay2>(&input, quiet)?;
+    let (queries, about) = room::queries_with::<Delaunay2>(&args.queries, dimensions, quiet)?;
     stats.phase("read");
     let triangulation: Delaunay2 = build(&points, Delaunay2::FASTEST, &args.input.label(), quiet)?;
     remark(&triangulation, quiet);

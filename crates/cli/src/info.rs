@@ -77,6 +77,14 @@ fn file(cloud: &Cloud, line: &mut impl FnMut(&str, String), stats: &mut Stats) {
         line("coordinates", crs.to_string());
         stats.set("crs", crs.to_string());
     }
+    for (name, kind) in &cloud.dimensions {
+        line("extra bytes", format!("{name}: {kind}"));
+    }
+    if !cloud.dimensions.is_empty() {
+        let kinds: Map<String, Value> =
+            cloud.dimensions.iter().map(|(name, kind)| (name.clone(), kind.as_str().into())).collect();
+        stats.set("extra_bytes", kinds);
+    }
     if !cloud.classes.is_empty() {
         let name = |class: u8| {
             let known = LAS_CLASSES.iter().find(|entry| entry.1 == class).map(|entry| entry.0);

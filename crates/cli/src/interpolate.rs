@@ -31,7 +31,11 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     check(args, format, R::is_space())?;
     let mut stats = Stats::start();
     let place = Place::read(&args.place, quiet)?;
-    let (points, about) = room::read::<R>(&args.input, quiet)?;
+    let (input, dimensions) = match &args.queries {
+        Some(path) => files::attributes_apart(&args.input, path),
+        None => (args.input.clone(), Vec::new()),
+    };
+    let (points, about) = room::read::<R>(&input, quiet)?;
     let crs = place.crs(about.crs.as_ref());
     let label = args.input.label();
     let mut table = table(args, &about, points.len(), quiet)?;
@@ -39,7 +43,7 @@ fn run_in<R: Room + Surround>(args: &InterpolateArgs, quiet: bool) -> Result<(),
     let mut of_queries = Cloud::default();
     let (queries, grid) = match (&args.queries, args.grid) {
         (Some(path), _) => {
-            let (queries, about) = room::queries_with::<R>(path, quiet)?;
+            let (queries, about) = room::queries_with::<R>(path, dimensions, quiet)?;
             of_queries = about;
             (queries, None)
         }

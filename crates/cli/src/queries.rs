@@ -28,8 +28,9 @@ pub(crate) fn answer<R: Room>(
         std::iter::once(query.output.as_path()).chain(input.stats.as_deref()),
     )?;
     let mut stats = Stats::start();
-    let (points, _) = room::read::<R>(input, quiet)?;
-    let (queries, about) = room::queries_with::<R>(&query.queries, quiet)?;
+    let (own, dimensions) = files::attributes_apart(input, &query.queries);
+    let (points, _) = room::read::<R>(&own, quiet)?;
+    let (queries, about) = room::queries_with::<R>(&query.queries, dimensions, quiet)?;
     stats.phase("read");
     let mut d: R = room::build(&points, R::FASTEST, &input.label(), quiet)?;
     drop(points);

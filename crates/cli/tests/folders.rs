@@ -5,7 +5,7 @@ use std::fs;
 use crate::place::Place;
 
 /// A LAS file of three points of a class.
-fn scan(shift: i32, class: u8) -> Vec<u8> {
+pub(crate) fn scan(shift: i32, class: u8) -> Vec<u8> {
     let mut file = vec![0_u8; 227];
     file[..4].copy_from_slice(b"LASF");
     file[24..26].copy_from_slice(&[1, 2]);

@@ -13,6 +13,7 @@ mod folders;
 mod graph;
 mod helps;
 mod inputs;
+mod lidar;
 mod limits;
 mod mesh;
 mod metamorphic;

@@ -18,6 +18,8 @@ pub struct Cloud {
     pub classes: Vec<(u8, u64)>,
     /// How many points of LAS files have each flag ([`LasFlag::ALL`](crate::LasFlag::ALL)), those left out included.
     pub flags: [u64; 4],
+    /// What the extra bytes of LAS files have: names, and types in words.
+    pub dimensions: Vec<(String, String)>,
     /// The attributes of the points, by the features that they are of.
     pub features: Features,
     /// Remarks on how the file was read: which columns were taken, what was left out.
@@ -63,6 +65,15 @@ impl Cloud {
         }
     }
 
+    /// Adds dimensions of another file to those that are known.
+    pub(crate) fn add_dimensions(&mut self, others: &[(String, String)]) {
+        for other in others {
+            if !self.dimensions.contains(other) {
+                self.dimensions.push(other.clone());
+            }
+        }
+    }
+
     /// Makes one set of two files. Heights stay where both have them; systems of coordinates, and of heights that stay, must agree
     /// where both name one.
     pub fn join(&mut self, other: Self) -> Result<(), Error> {
@@ -86,6 +97,7 @@ impl Cloud {
             }
         }
         self.flags.iter_mut().zip(other.flags).for_each(|(sum, count)| *sum += count);
+        self.add_dimensions(&other.dimensions);
         self.remarks.extend(other.remarks.iter().cloned());
         self.losses.extend(other.losses.iter().cloned());
         self.features.join(self.xy.len(), &other.features, other.xy.len());

@@ -42,6 +42,17 @@ pub enum Error {
         /// The system of this file.
         theirs: String,
     },
+    /// The points of a file have no dimension of this name.
+    #[error("its points have no {}, but {}", clipped(name), clipped(names))]
+    NoDimension {
+        /// The name that was given.
+        name: String,
+        /// What the points have.
+        names: String,
+    },
+    /// The nodes of an EPT are stored in a way that is not read.
+    #[error("EPT: nodes of the type {:?} are not read", clipped(.0))]
+    DataType(String),
     /// The values of a raster are compressed in a way that is not read.
     #[error("TIFF: values that are compressed with {0} are not read")]
     Compression(String),
@@ -179,6 +190,8 @@ impl Error {
                 "check that the file is what its extension says, or name the format with --from"
             }
             Self::Systems { .. } => "transform one of them first",
+            Self::NoDimension { .. } => "name one of these, with extra bytes as delone info lists them",
+            Self::DataType(_) => "convert it with pdal translate ept.json out.copc.laz",
             Self::Compression(_) => "convert it with gdal_translate -co COMPRESS=DEFLATE",
             Self::OpenRing { .. } => "repeat the first position of the ring at its end",
             Self::PointsElsewhere => {

@@ -287,7 +287,7 @@ impl Table {
     }
 
     /// Appends the rows of another table; columns of one name are one.
-    fn append(&mut self, other: &Self) {
+    pub(crate) fn append(&mut self, other: &Self) {
         let places: Vec<u32> = other.names.iter().map(|name| self.column(name) as u32).collect();
         let (shift, cells) = (self.text.len(), self.ends.len());
         self.begins.extend(other.begins.iter().map(|begin| begin + cells));

@@ -56,6 +56,8 @@ pub enum Format {
     Edge,
     /// LAS and LAZ point clouds.
     Las,
+    /// Entwine Point Tiles.
+    Ept,
     /// E57 scans.
     E57,
     /// Leica's scans as text.
@@ -116,8 +118,20 @@ impl Format {
         TABLE.iter().map(|row| row.format)
     }
 
-    /// The format that a file's extension names; `.gz` after it says that the file is compressed.
+    /// The format that a file's extension names; `.gz` after it says that the file is compressed. A file `ept.json` is one of its own.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use delone_io::Format;
+    ///
+    /// assert_eq!(Format::of(Path::new("survey/ept.json"))?, Format::Ept);
+    /// assert_eq!(Format::of(Path::new("survey/a.json.gz"))?, Format::GeoJson);
+    /// # Ok::<(), delone_io::Error>(())
+    /// ```
     pub fn of(path: &Path) -> Result<Self, Error> {
+        if path.file_name().is_some_and(|name| name == crate::formats::ept::NAME) {
+            return Ok(Self::Ept);
+        }
         let inner = if is_gzip(path) { path.with_extension("") } else { path.to_owned() };
         let extension = inner.extension().and_then(|e| e.to_str()).unwrap_or_default();
         extension.parse().map_err(|_| Error::UnknownExtension(path.display().to_string()))

@@ -87,8 +87,11 @@ impl<T: BufRead + Seek + Send + Sync> Source for T {}
 pub struct ReadOptions {
     /// Which points of LAS files are taken.
     pub las: LasFilter,
-    /// Columns of text that are x, y and perhaps z: names of the header, or numbers from 1.
+    /// Columns of text that are x, y and perhaps z: names of the header, or numbers from 1. Of LAS files `x`, `y` and perhaps the dimension
+    /// that is the height, as in `x`, `y`, `intensity`.
     pub columns: Vec<String>,
+    /// Dimensions of LAS files that are attributes: those of records (`intensity`, `gps_time`, ...), and those of extra bytes.
+    pub dimensions: Vec<String>,
     /// Coordinates of a point where the format does not tell (raw numbers): 2 or 3.
     pub dimension: usize,
     /// Attributes of features are read, not their names alone.
@@ -105,10 +108,11 @@ pub fn read_points(source: Box<dyn Source>, format: Format, options: &ReadOption
     read_with(source, format, options, None)
 }
 
-/// Reads the points of a file and of those beside it ([`Format::sides`]), which `beside` opens by their extension.
+/// Reads the points of a file and of those beside it ([`Format::sides`]), which `beside` opens by their extension; those of an EPT by their
+/// path from the folder of `ept.json`, as in `ept-data/0-0-0-0.laz`.
 ///
 /// # Errors
-/// As [`read_points`]. A file that is not there is a remark.
+/// As [`read_points`]. A file that is not there is a remark, but of an EPT an error.
 pub fn read_points_beside(
     source: Box<dyn Source>,
     format: Format,
@@ -125,17 +129,18 @@ fn read_with(
     beside: Option<Beside>,
 ) -> Result<Cloud, Error> {
     let readers = format.readers();
-    match (readers.shapes, readers.points) {
-        (Some(read), _) => Ok(read(source, options, beside, Purpose::Points)?.cloud()),
-        (None, Some(read)) => read(source, options),
-        (None, None) => Err(format.without(Contents::Points, Direction::Read)),
+    match (readers.shapes, readers.parts, readers.points) {
+        (Some(read), ..) => Ok(read(source, options, beside, Purpose::Points)?.cloud()),
+        (None, Some(read), _) => read(source, options, beside, &mut Chunks::default()),
+        (None, None, Some(read)) => read(source, options),
+        (None, None, None) => Err(format.without(Contents::Points, Direction::Read)),
     }
 }
 
 /// Reads the points of a file in its order, about `most` at a time: `take` is given them, and may refuse to go on. What is
 /// returned has no points, and all else that the file tells.
 ///
-/// Formats are text, npy, raw numbers, and LAS or LAZ, where all files of a kind have heights or none has. Costs memory for
+/// Formats are text, npy, raw numbers, LAS or LAZ, and EPT, where all files of a kind have heights or none has. Costs memory for
 /// some 100 bytes a point of `most`, and 64 megabytes where chunks of LAZ are decoded on all cores.
 ///
 /// # Errors
@@ -161,9 +166,41 @@ pub fn read_chunks(
     most: usize,
     take: Take,
 ) -> Result<Cloud, Error> {
-    let reader = format.readers().pieces.ok_or_else(|| format.without(Contents::Pieces, Direction::Read))?;
+    read_chunks_with(source, format, options, most, take, None)
+}
+
+/// Reads the points of a file and of those beside it as [`read_chunks`] does, which `beside` opens as for [`read_points_beside`].
+///
+/// # Errors
+/// As [`read_chunks`].
+pub fn read_chunks_beside(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    most: usize,
+    take: Take,
+    beside: Beside,
+) -> Result<Cloud, Error> {
+    read_chunks_with(source, format, options, most, take, Some(beside))
+}
+
+fn read_chunks_with(
+    source: Box<dyn Source>,
+    format: Format,
+    options: &ReadOptions,
+    most: usize,
+    take: Take,
+    beside: Option<Beside>,
+) -> Result<Cloud, Error> {
+    let readers = format.readers();
+    // Rows of attributes are not taken in pieces.
+    let options = &ReadOptions { attributes: false, ..options.clone() };
     let mut chunks = Chunks(Some((most.max(1), &mut *take)));
-    let mut rest = reader(source, options, &mut chunks)?;
+    let mut rest = match (readers.parts, readers.pieces) {
+        (Some(read), _) => read(source, options, beside, &mut chunks)?,
+        (None, Some(read)) => read(source, options, &mut chunks)?,
+        (None, None) => return Err(format.without(Contents::Pieces, Direction::Read)),
+    };
     if !rest.xy.is_empty() {
         take(&rest.xy, rest.z.as_deref())?;
         rest.clear();
@@ -216,7 +253,7 @@ pub fn read_graph(
         (Some(read), ..) => read(source, options, beside, Purpose::Lines)?.graph(),
         (None, Some(read), _) => read(source, options, beside),
         (None, None, Some(read)) => read(source),
-        (None, None, None) => read_points(source, format, options).map(Graph::of_points),
+        (None, None, None) => read_with(source, format, options, beside).map(Graph::of_points),
     }
 }
 
@@ -292,7 +329,7 @@ fn read_rings_with(source: Box<dyn Source>, format: Format, beside: Option<Besid
         (Some(read), _) => Ok(read(source, &options, beside, Purpose::Polygons)?.rings()),
         (None, Some(read)) => read(source),
         (None, None) => {
-            let cloud = read_points(source, format, &options)?;
+            let cloud = read_with(source, format, &options, beside)?;
             Ok(Rings { rings: vec![cloud.xy], crs: cloud.crs, losses: cloud.losses })
         }
     }

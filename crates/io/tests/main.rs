@@ -10,6 +10,7 @@ mod geotiff;
 mod gpx;
 mod graphs;
 mod las;
+mod lidar;
 mod new_kind;
 mod numbers;
 mod rasters;

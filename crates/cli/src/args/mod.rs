@@ -175,7 +175,7 @@ pub(crate) struct InputArgs {
     #[arg(
         value_name = "IN", required = true,
         help = format!(
-            "Files of points, or - for standard input: {}, each also with .gz. Several files are one set; a folder stands for the las and laz files in it and below",
+            "Files of points, or - for standard input: {}, each also with .gz. Several files are one set; a folder stands for the las and laz files in it and below, or for its ept.json",
             formats::read(Contents::Points)
         )
     )]
@@ -185,7 +185,8 @@ pub(crate) struct InputArgs {
     pub(crate) from: Option<Format>,
     #[command(flatten)]
     pub(crate) las: LasArgs,
-    /// Columns of text that are x, y and perhaps z: names or numbers from 1, separated by commas.
+    /// Columns of text that are x, y and perhaps z: names or numbers from 1, separated by commas. Of LAS points x, y and a dimension that is
+    /// the height (intensity, gps_time, ..., or a name of extra bytes).
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
     /// Write what was counted and timed, and on how many threads at most, to a JSON file.

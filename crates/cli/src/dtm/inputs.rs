@@ -23,7 +23,7 @@ pub(super) fn resolve(args: &DtmArgs) -> InputArgs {
 
 /// Whether some file has classes of points.
 fn has_classes(input: &InputArgs) -> bool {
-    let is_las = |path: &PathBuf| input.from.or_else(|| Format::of(path).ok()) == Some(Format::Las);
+    let is_las = |path: &PathBuf| input.from.or_else(|| Format::of(path).ok()).is_some_and(files::is_las);
     input.input.iter().any(is_las)
 }
 

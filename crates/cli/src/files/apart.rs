@@ -42,8 +42,9 @@ pub(super) fn open(path: &Path) -> std::io::Result<File> {
     Ok(file)
 }
 
-/// Opens what lies beside a file, by its extension, in capital letters where the file's own is. Nothing is beside standard input.
-pub(super) fn beside(path: &Path) -> impl FnMut(&str) -> Result<Box<dyn Source>, delone_io::Error> {
+/// Opens what lies beside a file, by its extension, in capital letters where the file's own is, or by its path from the same folder.
+/// Nothing is beside standard input.
+pub(crate) fn beside(path: &Path) -> impl FnMut(&str) -> Result<Box<dyn Source>, delone_io::Error> {
     move |extension| {
         let beside = side(path, extension);
         let named = |error: std::io::Error| {
@@ -59,6 +60,9 @@ pub(super) fn beside(path: &Path) -> impl FnMut(&str) -> Result<Box<dyn Source>,
 
 /// The name of a file beside another one.
 pub(super) fn side(path: &Path, extension: &str) -> PathBuf {
+    if extension.contains('/') {
+        return path.with_file_name(extension);
+    }
     let is_capital = |own: &std::ffi::OsStr| own.as_encoded_bytes().iter().all(u8::is_ascii_uppercase);
     let capital = path.with_extension(extension.to_ascii_uppercase());
     if path.extension().is_some_and(is_capital) && capital.exists() {

@@ -14,7 +14,7 @@ use delone_io::{
     Beside, Cloud, Contents, Crs, Direction, Format, Graph, Raster, ReadOptions, Source, decompressed,
 };
 
-pub(crate) use apart::{keep_apart, keep_names_apart};
+pub(crate) use apart::{beside, keep_apart, keep_names_apart};
 pub(crate) use attributes::{Unshown, are_kept as are_attributes_kept, heed_unshown, keep_attributes};
 pub(crate) use sides::write_sides;
 pub(crate) use systems::{Role, say_system};
@@ -147,22 +147,31 @@ pub(crate) fn formats(args: &InputArgs) -> Result<Vec<Format>, Failure> {
     for path in &args.input {
         formats.push(format(path, args.from, "--from")?);
     }
-    if let Some(option) = args.las.option().filter(|_| !formats.contains(&Format::Las)) {
-        return Err(Failure::usage(
-            format!("{option} is for LAS and LAZ files"),
-            format!("leave {option} out"),
-        ));
+    let is_las = formats.iter().any(|&format| is_las(format));
+    if let Some(option) = args.las.option().filter(|_| !is_las) {
+        let what = format!("{option} is for LAS, LAZ and EPT");
+        return Err(Failure::usage(what, format!("leave {option} out")));
     }
-    if !args.columns.is_empty() && !formats.contains(&Format::Text) {
-        return Err(Failure::usage("--columns is for text files", "leave --columns out"));
+    if !args.columns.is_empty() && !is_las && !formats.contains(&Format::Text) {
+        return Err(Failure::usage("--columns is for text, LAS, LAZ and EPT", "leave --columns out"));
     }
     Ok(formats)
 }
 
+/// Whether points of a format have classes, returns and dimensions.
+pub(crate) fn is_las(format: Format) -> bool {
+    matches!(format, Format::Las | Format::Ept)
+}
+
 /// How the files of a command are read.
-fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
-    let attributes = are_attributes_kept();
-    ReadOptions { las: args.las.filter(), columns: args.columns.clone(), dimension, attributes }
+pub(crate) fn options(args: &InputArgs, dimension: usize) -> ReadOptions {
+    ReadOptions {
+        las: args.las.filter(),
+        columns: args.columns.clone(),
+        dimensions: args.las.attributes.clone(),
+        dimension,
+        attributes: are_attributes_kept(),
+    }
 }
 
 /// Reads the points of a command.
@@ -184,7 +193,7 @@ fn read_all(
     for (path, format) in args.input.iter().zip(formats) {
         let failed = |error| Failure::content(path, format, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
-        let mut cloud = read(source, format, &mut apart::beside(path)).map_err(failed)?;
+        let mut cloud = read(source, format, &mut beside(path)).map_err(failed)?;
         heed(&mut cloud, path, Role::Input, quiet)?;
         all.join(cloud).map_err(failed)?;
         limits::check_points(all.xy.len(), path)?;
@@ -213,8 +222,8 @@ type Surface = (Vec<[f64; 2]>, Vec<f64>, Cloud);
 /// Reads the points of a command with their heights: points of any format, or cells of rasters. The cloud has the rest of what is told.
 pub(crate) fn surface(args: &InputArgs, quiet: bool) -> Result<Surface, Failure> {
     let options = options(args, 3);
-    let mut all = read_all(args, quiet, |source, format, beside| match format.sides() {
-        [] => delone_io::read_surface(source, format, &options),
+    let mut all = read_all(args, quiet, |source, format, beside| match format {
+        Format::Npy => delone_io::read_surface(source, format, &options),
         _ => delone_io::read_points_beside(source, format, &options, beside),
     })?;
     need_heights(all.z.as_deref(), &args.label())?;
@@ -290,7 +299,7 @@ fn read_graph(
         let format = format(path, args.from, "--from")?;
         let failed = |error| Failure::content(path, format, &error);
         let (source, _phase) = open(path, format, READING, quiet)?;
-        let mut open = apart::beside(path);
+        let mut open = beside(path);
         let mut beside = |extension: &str| {
             let source = open(extension)?;
             besides.push(apart::side(path, extension));
@@ -357,17 +366,31 @@ pub(crate) fn column(args: &InputArgs, name: &str, quiet: bool) -> Result<Vec<f6
     Ok(all)
 }
 
-/// Reads points that are asked for.
-pub(crate) fn queries(path: &Path, dimension: usize, quiet: bool) -> Result<Cloud, Failure> {
+/// The input of a command, and the dimensions of LAS files that are attributes of its queries: those that are asked for, where these are such
+/// files.
+pub(crate) fn attributes_apart(input: &InputArgs, queries: &Path) -> (InputArgs, Vec<String>) {
+    let mut input = input.clone();
+    let is_of_queries = Format::of(queries).is_ok_and(is_las);
+    let names = if is_of_queries { std::mem::take(&mut input.las.attributes) } else { Vec::new() };
+    (input, names)
+}
+
+/// Reads points that are asked for, with some dimensions of LAS files as attributes.
+pub(crate) fn queries(
+    path: &Path,
+    dimension: usize,
+    dimensions: Vec<String>,
+    quiet: bool,
+) -> Result<Cloud, Failure> {
     let attributes = are_attributes_kept();
-    cloud(path, &ReadOptions { dimension, attributes, ..ReadOptions::default() }, quiet)
+    cloud(path, &ReadOptions { dimension, dimensions, attributes, ..ReadOptions::default() }, quiet)
 }
 
 /// Reads the points of a file beside those of the input.
 pub(crate) fn cloud(path: &Path, options: &ReadOptions, quiet: bool) -> Result<Cloud, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let cloud = delone_io::read_points_beside(source, format, options, &mut apart::beside(path));
+    let cloud = delone_io::read_points_beside(source, format, options, &mut beside(path));
     let mut cloud = cloud.map_err(|error| Failure::content(path, format, &error))?;
     heed(&mut cloud, path, Role::Beside, quiet)?;
     Ok(cloud)
@@ -399,7 +422,7 @@ pub(crate) fn holds_lines(path: &Path, format: Format) -> bool {
 pub(crate) fn rings(path: &Path, quiet: bool) -> Result<Vec<Vec<[f64; 2]>>, Failure> {
     let format = format_beside(path)?;
     let (source, _phase) = open(path, format, READING, quiet)?;
-    let found = delone_io::read_rings_beside(source, format, &mut apart::beside(path));
+    let found = delone_io::read_rings_beside(source, format, &mut beside(path));
     let mut found = found.map_err(|error| Failure::content(path, format, &error))?;
     found.losses.iter().for_each(|loss| lost(quiet, format_args!("{}: {loss}", path.display())));
     systems::heed(&mut found.crs, path, Role::Beside)?;

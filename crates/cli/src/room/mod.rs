@@ -142,12 +142,16 @@ pub(crate) fn bounds<P: AsRef<[f64]>>(points: &[P], label: &Path) -> Result<Boun
 
 /// Reads points that are asked for, or centres.
 pub(crate) fn queries<R: Room>(path: &Path, quiet: bool) -> Result<Vec<R::Point>, Failure> {
-    R::take_points(&mut files::queries(path, R::Point::COUNT, quiet)?, path)
+    R::take_points(&mut files::queries(path, R::Point::COUNT, Vec::new(), quiet)?, path)
 }
 
-/// Reads points that are asked for with their attributes, heights in the plane among them.
-pub(crate) fn queries_with<R: Room>(path: &Path, quiet: bool) -> Result<(Vec<R::Point>, Cloud), Failure> {
-    let mut cloud = files::queries(path, R::Point::COUNT, quiet)?;
+/// Reads points that are asked for with their attributes, heights in the plane among them, and dimensions of LAS files that are named.
+pub(crate) fn queries_with<R: Room>(
+    path: &Path,
+    dimensions: Vec<String>,
+    quiet: bool,
+) -> Result<(Vec<R::Point>, Cloud), Failure> {
+    let mut cloud = files::queries(path, R::Point::COUNT, dimensions, quiet)?;
     let points = R::take_points(&mut cloud, path)?;
     if let Some(heights) = cloud.z.take_if(|_| files::are_attributes_kept()) {
         cloud.features = cloud.features.with_heights(&heights);

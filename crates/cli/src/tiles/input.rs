@@ -40,8 +40,7 @@ impl<'a> Input<'a> {
             }
         }
         let dimension = if args.heights { 3 } else { 2 };
-        let (las, columns) = (args.input.las.filter(), args.input.columns.clone());
-        Ok(Self { args, formats, options: ReadOptions { las, columns, dimension, attributes: false } })
+        Ok(Self { args, formats, options: files::options(&args.input, dimension) })
     }
 
     /// The input at present: files, and how they are read.
@@ -55,35 +54,45 @@ impl<'a> Input<'a> {
         }))
     }
 
-    /// Reads all points in their order, and says what else the files tell.
-    pub(super) fn read(&self, what: &'static str, quiet: bool, take: Take) -> Result<Cloud, Failure> {
+    /// Reads all points in their order once more.
+    pub(super) fn read_again(&self, what: &'static str, quiet: bool, take: Take) -> Result<Cloud, Failure> {
+        self.read(what, quiet, true, take)
+    }
+
+    /// Reads all points in their order, and says what else the files tell, if that is not known from before.
+    fn read(&self, what: &'static str, quiet: bool, is_told: bool, take: Take) -> Result<Cloud, Failure> {
         let mut all = Cloud::default();
         let mut first = 0;
         for (path, &format) in self.args.input.input.iter().zip(&self.formats) {
             let (source, _phase) = files::open(path, format, what, quiet)?;
             // What stops is told by whoever takes, not by the reader.
             let mut stopped = None;
-            let found =
-                delone_io::read_chunks(source, format, &self.options, CHUNK, &mut |points, heights| {
-                    let outcome = match heights {
-                        None if self.args.heights => {
-                            let what = format!("{}: it has no heights", path.display());
-                            Err(Failure::new(what, "give files with heights: x, y and z"))
-                        }
-                        _ => limits::check_points(first as usize + points.len(), path)
-                            .and_then(|()| take(path, first, points, heights.filter(|_| self.args.heights))),
-                    };
-                    first += points.len() as u64;
-                    outcome.map_err(|failure| {
-                        stopped = Some(failure);
-                        delone_io::Error::Io(std::io::Error::other("stopped"))
-                    })
-                });
+            let mut offer = |points: &[[f64; 2]], heights: Option<&[f64]>| {
+                let outcome = match heights {
+                    None if self.args.heights => {
+                        let what = format!("{}: it has no heights", path.display());
+                        Err(Failure::new(what, "give files with heights: x, y and z"))
+                    }
+                    _ => limits::check_points(first as usize + points.len(), path)
+                        .and_then(|()| take(path, first, points, heights.filter(|_| self.args.heights))),
+                };
+                first += points.len() as u64;
+                outcome.map_err(|failure| {
+                    stopped = Some(failure);
+                    delone_io::Error::Io(std::io::Error::other("stopped"))
+                })
+            };
+            let (options, beside) = (&self.options, &mut files::beside(path));
+            let found = delone_io::read_chunks_beside(source, format, options, CHUNK, &mut offer, beside);
             if let Some(failure) = stopped {
                 return Err(failure);
             }
             let failed = |error| Failure::content(path, format, &error);
             let mut about = found.map_err(failed)?;
+            if is_told {
+                about.remarks.clear();
+                about.losses.clear();
+            }
             files::heed(&mut about, path, files::Role::Input, quiet)?;
             all.join(about).map_err(failed)?;
         }
@@ -98,7 +107,7 @@ impl<'a> Input<'a> {
     pub(super) fn survey(&self, some: usize, quiet: bool) -> Result<(u64, Vec<[f64; 2]>, Cloud), Failure> {
         let mut sample: Vec<(u64, [f64; 2])> = Vec::new();
         let (mut most, mut count) = (u64::MAX, 0);
-        let about = self.read("counting", quiet, &mut |path, first, points, heights| {
+        let about = self.read("counting", quiet, false, &mut |path, first, points, heights| {
             let heights = heights.unwrap_or_default();
             if let Some(k) = heights.iter().position(|z| !z.is_finite()) {
                 let (index, value) = (first as usize + k, heights[k]);

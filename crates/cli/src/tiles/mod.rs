@@ -243,7 +243,7 @@ fn distribute(
     let buffer = budget.buffer(plan.cuts.tiles().len());
     let mut buckets = Buckets::new(folder, &plan.cuts, Node::ROOT, has_heights, buffer)?;
     let mut count = 0;
-    input.read("distributing", quiet, &mut |_, first, points, heights| {
+    input.read_again("distributing", quiet, &mut |_, first, points, heights| {
         count += points.len() as u64;
         buckets.take(first, points, heights)
     })?;

@@ -131,6 +131,7 @@ type Whole = Box<dyn Source>;
 type Reader<T> = Option<fn(Whole) -> Result<T, Error>>;
 type PointReader = fn(Whole, &ReadOptions) -> Result<Cloud, Error>;
 type PieceReader = fn(Whole, &ReadOptions, &mut Chunks) -> Result<Cloud, Error>;
+type PartReader = fn(Whole, &ReadOptions, Option<Beside>, &mut Chunks) -> Result<Cloud, Error>;
 type ShapeReader = fn(Whole, &ReadOptions, Option<Beside>, Purpose) -> Result<Shapes, Error>;
 type LineReader = fn(Whole, &ReadOptions, Option<Beside>) -> Result<Graph, Error>;
 
@@ -139,6 +140,8 @@ type LineReader = fn(Whole, &ReadOptions, Option<Beside>) -> Result<Graph, Error
 pub(crate) struct Readers {
     /// Of a format of geometries: its points, lines and polygons, read by one function.
     pub(crate) shapes: Option<ShapeReader>,
+    /// Of a format whose points are in many files: all of them, or piece by piece.
+    pub(crate) parts: Option<PartReader>,
     pub(crate) points: Option<PointReader>,
     pub(crate) pieces: Option<PieceReader>,
     pub(crate) lines: Option<LineReader>,
@@ -159,6 +162,7 @@ impl Readers {
     /// Of a format that is written alone.
     pub(crate) const NONE: Self = Self {
         shapes: None,
+        parts: None,
         points: None,
         pieces: None,
         lines: None,
@@ -177,6 +181,7 @@ impl Readers {
     pub(crate) fn has(&self, contents: Contents) -> bool {
         match contents {
             Contents::Points | Contents::Lines | Contents::Polygons if self.shapes.is_some() => true,
+            Contents::Points | Contents::Pieces if self.parts.is_some() => true,
             Contents::Points => self.points.is_some(),
             Contents::Pieces => self.pieces.is_some(),
             Contents::Lines => self.lines.is_some(),

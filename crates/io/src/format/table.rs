@@ -6,8 +6,8 @@ use super::Contents::{
 };
 use super::{Contents, Format, Readers};
 use crate::formats::{
-    dxf, e57, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply, poly,
-    ptx, raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
+    dxf, e57, ept, flatgeobuf, geojson, geopackage, gpx, las, list, msh, npy, obj, off, pairs, pcd, ply,
+    poly, ptx, raw, shapefile, stl, text, triangle, vtk, wkb, wkt,
 };
 use crate::raster;
 
@@ -176,11 +176,15 @@ pub(super) const TABLE: &[Row] = &[
         title: "LAS, LAZ and COPC point clouds",
         names: &["las", "laz"],
         also: &[],
-        readers: Readers {
-            points: Some(|source, options| las::read(source, &options.las)),
-            pieces: Some(|source, options, pieces| las::read_in(source, &options.las, pieces)),
-            ..Readers::NONE
-        },
+        readers: Readers { points: Some(las::read), pieces: Some(las::read_in), ..Readers::NONE },
+        writes: &[],
+    },
+    Row {
+        format: Format::Ept,
+        title: "Entwine Point Tiles, by their ept.json",
+        names: &["ept"],
+        also: &[],
+        readers: Readers { parts: Some(ept::read), ..Readers::NONE },
         writes: &[],
     },
     Row {

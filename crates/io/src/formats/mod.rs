@@ -4,6 +4,7 @@ pub(crate) mod cells;
 pub(crate) mod dxf;
 pub(crate) mod e57;
 pub(crate) mod edges;
+pub(crate) mod ept;
 pub(crate) mod flatgeobuf;
 pub(crate) mod geojson;
 pub(crate) mod geopackage;

@@ -8,7 +8,7 @@ use delone::surface::Grid;
 use delone_generators::Kind;
 use delone_io::{Compression, Crs, Format, Mesh, RasterInfo, RasterWriter, Sample, picture};
 
-use super::{ARRAYS, E57, JSON, LAS, MAPS, MESHES, PLY, TEXT};
+use super::{ARRAYS, E57, JSON, LAS, MAPS, MESHES, PART, PLY, TEXT};
 
 pub(super) type Seeds = Vec<(Format, Vec<u8>)>;
 
@@ -198,8 +198,33 @@ fn tiles() -> Seeds {
         assert!(tile.is_ok(), "a tile of format {number} is written: {:?}", tile.err());
         seeds.extend(tile.into_iter().map(|bytes| (Format::Las, bytes)));
     }
+    seeds.extend(TREES.map(|tree| (Format::Las, tree.to_vec())));
+    let join = |[about, node]: [&[u8]; 2]| [about, b"{\"0-0-0-0\": 40}", node].join(PART);
+    seeds.extend(NODES.map(|files| (Format::Ept, join(files))));
     seeds
 }
+
+/// Files with an octree of points, or with extra bytes.
+const TREES: [&[u8]; 2] = [
+    include_bytes!("../../../../../data/lidar/small.copc.laz"),
+    include_bytes!("../../../../../data/lidar/small.laz"),
+];
+
+/// Octrees in many files: what tells of all, and one node of 40 points.
+const NODES: [[&[u8]; 2]; 3] = [
+    [
+        include_bytes!("../../../../../data/lidar/laszip/ept.json"),
+        include_bytes!("../../../../../data/lidar/laszip/ept-data/0-0-0-0.laz"),
+    ],
+    [
+        include_bytes!("../../../../../data/lidar/binary/ept.json"),
+        include_bytes!("../../../../../data/lidar/binary/ept-data/0-0-0-0.bin"),
+    ],
+    [
+        include_bytes!("../../../../../data/lidar/zstandard/ept.json"),
+        include_bytes!("../../../../../data/lidar/zstandard/ept-data/0-0-0-0.zst"),
+    ],
+];
 
 fn tile(number: u8, compressed: bool) -> Result<Vec<u8>, las::Error> {
     let mut about = las::Builder::from((1, 4));

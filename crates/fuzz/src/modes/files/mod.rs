@@ -9,7 +9,7 @@ use std::fs;
 use std::io::Cursor;
 
 use delone_generators::Random;
-use delone_io::{Cloud, Format, Graph, LasFilter, ReadOptions, Source, decompressed};
+use delone_io::{Beside, Cloud, Format, Graph, LasFilter, ReadOptions, Source, decompressed};
 
 pub(crate) use self::mutation::{Mutation, some};
 use crate::attack::{Attack, Judgement};
@@ -29,6 +29,9 @@ pub(crate) const GROUPS: usize = 8;
 /// Memory that a reader may take: for its buffers and threads, and for each byte of the file.
 const ROOM: u64 = 256 << 20;
 const ROOM_A_BYTE: u64 = 100;
+
+/// What is between the files of a seed of several.
+pub(super) const PART: &[u8] = b"\n--\n";
 
 /// No message is longer: users read them.
 const LONGEST_MESSAGE: usize = 600;
@@ -61,18 +64,39 @@ pub(crate) fn mutated(group: usize, mutations: &[Mutation], seed: u64) -> (Forma
 
 /// Reads a file in all ways that its format has.
 fn read(format: Format, bytes: &[u8]) -> Judgement {
-    let source = || decompressed(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Source>, format);
+    let own = if format == Format::Ept { part_of(bytes, 0) } else { bytes };
+    let source = || decompressed(Box::new(Cursor::new(own.to_vec())) as Box<dyn Source>, format);
     let options = |dimension, classes| ReadOptions {
         dimension,
         las: LasFilter { classes, ..LasFilter::default() },
         attributes: dimension == 2,
         ..ReadOptions::default()
     };
+    // What a file has beside it may be as broken as the file.
+    let mut beside = |name: &str| {
+        let part = |bytes: &[u8]| Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Source>);
+        match name.split('/').next() {
+            Some("dbf") => part(table_of(bytes)),
+            Some("ept-hierarchy") => part(part_of(bytes, 1)),
+            Some("ept-data") => part(part_of(bytes, 2)),
+            _ => source(),
+        }
+    };
+    let mut ways = vec![options(2, vec![]), options(3, vec![2])];
+    if matches!(format, Format::Las | Format::Ept) {
+        let within = Some([0.0, 0.0, 1060.0, 2060.0]);
+        ways.push(ReadOptions {
+            las: LasFilter { within, withheld: true, ..LasFilter::default() },
+            columns: ["x", "y", "Reflectance"].map(str::to_owned).to_vec(),
+            dimensions: ["intensity", "Pulse", "Normal[1]"].map(str::to_owned).to_vec(),
+            ..options(2, vec![])
+        });
+    }
     let mut said = Vec::new();
-    for (dimension, classes) in [(2, vec![]), (3, vec![2])] {
-        let options = options(dimension, classes);
-        let whole = source().and_then(|source| delone_io::read_points(source, format, &options));
-        in_chunks(source(), format, &options, &whole)?;
+    for options in ways {
+        let whole =
+            source().and_then(|source| delone_io::read_points_beside(source, format, &options, &mut beside));
+        in_chunks(source(), format, &options, &whole, &mut beside)?;
         match whole {
             Ok(cloud) if cloud.z.as_ref().is_some_and(|z| z.len() != cloud.xy.len()) => {
                 return Err(format!("{} points and {:?} heights", cloud.xy.len(), cloud.z.map(|z| z.len())));
@@ -81,11 +105,6 @@ fn read(format: Format, bytes: &[u8]) -> Judgement {
             Err(error) => said.push(error.to_string()),
         }
     }
-    // What a file has beside it may be as broken as the file.
-    let mut beside = |extension: &str| match extension {
-        "dbf" => Ok(Box::new(Cursor::new(table_of(bytes).to_vec())) as Box<dyn Source>),
-        _ => source(),
-    };
     let graph = source()
         .and_then(|source| delone_io::read_graph(source, format, &options(2, vec![]), Some(&mut beside)));
     match graph {
@@ -124,12 +143,25 @@ fn table_of(bytes: &[u8]) -> &[u8] {
     bytes.get(2 * words as usize..).unwrap_or_default()
 }
 
+/// A part of a seed of several files: `ept.json`, its hierarchy, or a node.
+fn part_of(bytes: &[u8], part: usize) -> &[u8] {
+    let mut rest = bytes;
+    for _ in 0..part {
+        let end = rest.windows(PART.len()).position(|word| word == PART);
+        rest = end.map_or(&[], |end| &rest[end + PART.len()..]);
+    }
+    let is_last = part == 2;
+    let end = rest.windows(PART.len()).position(|word| word == PART).filter(|_| !is_last);
+    &rest[..end.unwrap_or(rest.len())]
+}
+
 /// Whether points that are read in chunks are those that are read at once.
 fn in_chunks(
     source: Result<Box<dyn Source>, delone_io::Error>,
     format: Format,
     options: &ReadOptions,
     whole: &Result<Cloud, delone_io::Error>,
+    beside: Beside,
 ) -> Judgement {
     let bits = |xy: &[[f64; 2]]| xy.iter().map(|p| p.map(f64::to_bits)).collect::<Vec<_>>();
     let (mut xy, mut z) = (Vec::new(), Vec::new());
@@ -138,7 +170,8 @@ fn in_chunks(
         z.extend(heights.into_iter().flatten().map(|z| z.to_bits()));
         Ok(())
     };
-    let found = source.and_then(|source| delone_io::read_chunks(source, format, options, 3, &mut take));
+    let found = source
+        .and_then(|source| delone_io::read_chunks_beside(source, format, options, 3, &mut take, beside));
     match (whole, found) {
         (_, Err(delone_io::Error::Unsupported { .. })) | (Err(_), Err(_)) => Ok(()),
         (Ok(whole), Ok(_)) => {

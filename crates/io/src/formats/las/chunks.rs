@@ -11,9 +11,9 @@ use laz::record::{LayeredPointRecordDecompressor, RecordDecompressor, Sequential
 use laz::{DecompressionSelection, LazItem, LazItemType};
 use rayon::prelude::*;
 
-use super::{CHUNK, Counts, Kept, LasFilter, Tile, broken};
+use super::{CHUNK, Kept, Tile, Wanted, broken, copc};
 use crate::chunks::Chunks;
-use crate::{Cloud, Error, guard};
+use crate::{Error, guard};
 
 /// Bytes before the first chunk: where the table is.
 const OFFSET: u64 = ChunkTable::OFFSET_SIZE as u64;
@@ -25,15 +25,20 @@ const BLOCK: u64 = 1 << 10;
 const AHEAD: u64 = 1 << 24;
 
 /// One chunk: where it is and how many points it has.
-#[derive(Clone, Copy)]
-struct Chunk {
-    start: u64,
-    length: u64,
-    points: u64,
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct Chunk {
+    pub(super) start: u64,
+    pub(super) length: u64,
+    pub(super) points: u64,
 }
 
 /// Reads all points of a compressed file.
-pub(super) fn read(tile: &mut Tile, kept: &mut Kept, takers: &mut Chunks) -> Result<(), Error> {
+pub(super) fn read(
+    tile: &mut Tile,
+    wanted: &Wanted,
+    kept: &mut Kept,
+    takers: &mut Chunks,
+) -> Result<(), Error> {
     let compressed = laszip_record(tile)?;
     let vlr = LazVlr::from_buffer(&compressed).map_err(broken)?;
     // The kind is the record's first number; the crate does not tell it.
@@ -47,7 +52,7 @@ pub(super) fn read(tile: &mut Tile, kept: &mut Kept, takers: &mut Chunks) -> Res
         return Err(broken("its compressed fields are not those of its points"));
     }
     if kind == CompressorType::PointWise as u16 {
-        return decode_on(tile, items, tile.start, u64::MAX, kept, takers);
+        return decode_on(tile, items, (tile.start, u64::MAX), wanted, kept, takers);
     }
     if kind != CompressorType::PointWiseChunked as u16 && !layered {
         return Err(broken(format!("compression of kind {kind} is not known")));
@@ -58,9 +63,25 @@ pub(super) fn read(tile: &mut Tile, kept: &mut Kept, takers: &mut Chunks) -> Res
         None if vlr.uses_variable_size_chunks() => {
             return Err(broken("it has no table of chunks, which its variable chunks need"));
         }
-        None => return decode_on(tile, items, tile.start + OFFSET, vlr.chunk_size().into(), kept, takers),
+        None => {
+            let from = (tile.start + OFFSET, vlr.chunk_size().into());
+            return decode_on(tile, items, from, wanted, kept, takers);
+        }
     };
-    decode_all(tile, items, layered, &chunks, kept, takers)
+    let Some(chosen) = copc::select(tile, &chunks, wanted.filter.within)? else {
+        let total = tile.total;
+        return decode_all(tile, (items, layered), &chunks, total, wanted, kept, takers);
+    };
+    let bytes = |chunks: &[Chunk]| chunks.iter().map(|chunk| chunk.length).sum::<u64>();
+    kept.cloud.remarks.push(format!(
+        "{} of {} nodes are read, with {} of {} bytes of points",
+        chosen.len(),
+        chunks.iter().filter(|chunk| chunk.points > 0).count(),
+        bytes(&chosen),
+        bytes(&chunks)
+    ));
+    let total = chosen.iter().fold(0, |sum: u64, chunk| sum.saturating_add(chunk.points)).min(tile.total);
+    decode_all(tile, (items, layered), &chosen, total, wanted, kept, takers)
 }
 
 /// The record about compression.
@@ -167,13 +188,14 @@ fn layers(items: &[LazItem]) -> usize {
 /// Decodes chunks on all cores, as many at a time as are read ahead, and takes their points in order.
 fn decode_all(
     tile: &mut Tile,
-    items: &[LazItem],
-    layered: bool,
+    (items, layered): (&[LazItem], bool),
     chunks: &[Chunk],
+    total: u64,
+    wanted: &Wanted,
     kept: &mut Kept,
     takers: &mut Chunks,
 ) -> Result<(), Error> {
-    let mut rest = tile.total;
+    let mut rest = total;
     // Whoever takes chunks has little memory.
     let (ahead, most) = if takers.is_whole() {
         (AHEAD, 16 * CHUNK)
@@ -199,14 +221,14 @@ fn decode_all(
             }
         }
         if batch.is_empty() {
-            return Err(Error::Truncated(format!("after {} of {} points", tile.total - rest, tile.total)));
+            return Err(Error::Truncated(format!("after {} of {total} points", total - rest)));
         }
         let (record, buffer) = (tile.record, tile.buffer());
         let decoded: Vec<Result<Kept, Error>> = batch
             .into_par_iter()
             .map(|(points, bytes)| {
                 guard::decode("LAS", || {
-                    decode(bytes, points, items, layered, record, buffer.clone(), kept.filter)
+                    decode(bytes, points, (items, layered), record, buffer.clone(), wanted)
                 })
             })
             .collect();
@@ -219,26 +241,17 @@ fn decode_all(
     Ok(())
 }
 
-impl Kept<'_> {
-    /// Appends what was kept of a chunk.
-    fn append(&mut self, part: Kept) {
-        self.cloud.append(part.cloud);
-        self.counts.add(&part.counts);
-    }
-}
-
 /// Decodes so many points of one chunk.
-fn decode<'a>(
+fn decode(
     bytes: Vec<u8>,
     points: u64,
-    items: &[LazItem],
-    layered: bool,
+    (items, layered): (&[LazItem], bool),
     record: usize,
     mut data: PointData,
-    filter: &'a LasFilter,
-) -> Result<Kept<'a>, Error> {
+    wanted: &Wanted,
+) -> Result<Kept, Error> {
     let items = items.to_vec();
-    let mut part = Kept { cloud: Cloud::with_capacity(0, true), filter, counts: Counts::NONE };
+    let mut part = Kept::with_capacity(0, wanted.options);
     let mut decoder: Box<dyn RecordDecompressor<Cursor<Vec<u8>>>> = if layered {
         let head = record + 4 + 4 * layers(&items);
         let (_, length) =
@@ -251,16 +264,18 @@ fn decode<'a>(
         Box::new(SequentialPointRecordDecompressor::new(Cursor::new(bytes)))
     };
     decoder.set_fields_from(&items).map_err(broken)?;
-    decoder.set_selection(
-        DecompressionSelection::base().decompress_z().decompress_classification().decompress_flags(),
-    );
+    decoder.set_selection(if wanted.is_more() {
+        DecompressionSelection::all()
+    } else {
+        DecompressionSelection::base().decompress_z().decompress_classification().decompress_flags()
+    });
     let mut rest = points;
     while rest > 0 {
         let count = BLOCK.min(rest);
         for point in data.resize_for(count as usize).chunks_exact_mut(record) {
             decoder.decompress_next(point).map_err(early)?;
         }
-        part.take(&data);
+        part.take(&data, wanted);
         rest -= count;
     }
     Ok(part)
@@ -270,8 +285,8 @@ fn decode<'a>(
 fn decode_on(
     tile: &mut Tile,
     items: &[LazItem],
-    start: u64,
-    size: u64,
+    (start, size): (u64, u64),
+    wanted: &Wanted,
     kept: &mut Kept,
     takers: &mut Chunks,
 ) -> Result<(), Error> {
@@ -289,7 +304,7 @@ fn decode_on(
             decoder.decompress_next(point).map_err(early)?;
             seen += 1;
         }
-        kept.take(&data);
+        kept.take(&data, wanted);
         takers.offer(&mut kept.cloud)?;
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! Which points of LAS files are taken: by class, return, flags and height.
+//! Which points of LAS files are taken: by class, return, flags, height and place.
 //!
 //! Source: ASPRS LAS 1.4 R15, tables 7, 8, 9, 14 to 17.
 
@@ -82,7 +82,7 @@ impl FromStr for LasFlag {
     }
 }
 
-/// Which points of LAS and LAZ files are taken: by default all but those withheld.
+/// Which points of LAS, LAZ and EPT are taken: by default all but those withheld.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LasFilter {
     /// The classes; all when empty.
@@ -95,16 +95,18 @@ pub struct LasFilter {
     pub withheld: bool,
     /// The least and the largest height.
     pub heights: Option<[f64; 2]>,
+    /// A box in the plane with its border: the least x and y, and the largest. Of COPC and EPT, nodes that do not meet it are not read.
+    pub within: Option<[f64; 4]>,
 }
 
 /// The attributes of a point.
 #[derive(Clone, Copy)]
-pub(super) struct Attributes {
-    pub(super) class: u8,
+pub(crate) struct Attributes {
+    pub(crate) class: u8,
     /// The number of its return, and of all of its pulse.
-    returns: [u8; 2],
+    pub(crate) returns: [u8; 2],
     /// As [`LasFlag::ALL`].
-    pub(super) flags: [bool; 4],
+    pub(crate) flags: [bool; 4],
 }
 
 impl Attributes {
@@ -136,6 +138,11 @@ impl Attributes {
 }
 
 impl LasFilter {
+    /// Whether a point is in the box, if there is one.
+    pub(super) fn has(&self, [x, y]: [f64; 2]) -> bool {
+        self.within.is_none_or(|[x0, y0, x1, y1]| (x0..=x1).contains(&x) && (y0..=y1).contains(&y))
+    }
+
     /// Whether it takes all points that are not withheld.
     pub(super) fn is_plain(&self) -> bool {
         *self == Self { withheld: self.withheld, ..Self::default() }

@@ -4,7 +4,11 @@
 //! few times what is really there.
 
 mod chunks;
+mod copc;
+mod cubes;
+mod dimensions;
 mod filter;
+mod kept;
 mod system;
 
 use std::io::{Read, Seek, SeekFrom};
@@ -14,9 +18,12 @@ use las::{Builder, PointData, PointDataBuilder, Vlr};
 
 use crate::chunks::Chunks;
 use crate::guard;
-use crate::{Cloud, Error, Source};
-use filter::Attributes;
+use crate::{Cloud, Crs, Error, ReadOptions, Source};
+pub(crate) use cubes::{Cubes, Key};
+pub(crate) use dimensions::{Dimension, Kind, find};
+pub(crate) use filter::Attributes;
 pub use filter::{LasFilter, LasFlag, Returns};
+pub(crate) use kept::{Kept, Wanted};
 
 /// Points decoded at a time: bounded memory beside the result.
 const CHUNK: u64 = 50_000;
@@ -25,17 +32,21 @@ const CHUNK: u64 = 50_000;
 const POINTS_A_BYTE: u64 = 4096;
 
 /// Reads x, y and z of the points that the filter takes.
-pub(crate) fn read(source: Box<dyn Source>, filter: &LasFilter) -> Result<Cloud, Error> {
-    read_in(source, filter, &mut Chunks::default())
+pub(crate) fn read(source: Box<dyn Source>, options: &ReadOptions) -> Result<Cloud, Error> {
+    read_in(source, options, &mut Chunks::default())
 }
 
 /// Reads in chunks.
 pub(crate) fn read_in(
     source: Box<dyn Source>,
-    filter: &LasFilter,
+    options: &ReadOptions,
     chunks: &mut Chunks,
 ) -> Result<Cloud, Error> {
-    guard::decode("LAS", || Tile::open(source)?.read(filter, chunks))
+    guard::decode("LAS", || {
+        let tile = Tile::open(source)?;
+        let (crs, wanted) = (tile.crs(), Wanted::of(options, &tile.dimensions)?);
+        Ok(tile.read(&wanted, chunks)?.finish(crs, options))
+    })
 }
 
 fn broken(error: impl std::fmt::Display) -> Error {
@@ -43,61 +54,21 @@ fn broken(error: impl std::fmt::Display) -> Error {
 }
 
 /// A file whose header was read and found to fit the file.
-struct Tile {
+pub(crate) struct Tile {
     source: Box<dyn Source>,
     /// Bytes of the file.
     length: u64,
     /// Where the point records begin.
     start: u64,
-    total: u64,
+    pub(crate) total: u64,
     record: usize,
     about: Builder,
-}
-
-/// The points that were kept so far, and how many there were of each class.
-struct Kept<'a> {
-    cloud: Cloud,
-    filter: &'a LasFilter,
-    counts: Counts,
-}
-
-/// How many points there were of each class, with each flag, and how many were left out because they are withheld.
-#[derive(Clone, Copy)]
-struct Counts {
-    classes: [u64; 256],
-    flags: [u64; 4],
-    withheld: u64,
-}
-
-impl Counts {
-    const NONE: Self = Self { classes: [0; 256], flags: [0; 4], withheld: 0 };
-
-    fn add(&mut self, more: &Self) {
-        self.classes.iter_mut().zip(more.classes).for_each(|(sum, count)| *sum += count);
-        self.flags.iter_mut().zip(more.flags).for_each(|(sum, count)| *sum += count);
-        self.withheld += more.withheld;
-    }
-}
-
-impl Kept<'_> {
-    fn take(&mut self, data: &PointData) {
-        const WITHHELD: usize = 2;
-        for (((x, y), z), point) in data.x().zip(data.y()).zip(data.z()).zip(Attributes::of(data)) {
-            self.counts.classes[usize::from(point.class)] += 1;
-            self.counts.flags.iter_mut().zip(point.flags).for_each(|(sum, is_set)| *sum += u64::from(is_set));
-            if self.filter.takes(point, z) {
-                if point.flags[WITHHELD] && !self.filter.withheld {
-                    self.counts.withheld += 1;
-                } else {
-                    self.cloud.push([x, y], z);
-                }
-            }
-        }
-    }
+    /// What records have besides coordinates.
+    pub(crate) dimensions: Vec<Dimension>,
 }
 
 impl Tile {
-    fn open(mut source: Box<dyn Source>) -> Result<Self, Error> {
+    pub(crate) fn open(mut source: Box<dyn Source>) -> Result<Self, Error> {
         let length = source.seek(SeekFrom::End(0))?;
         source.rewind()?;
         let header = raw::Header::read_from(&mut source).map_err(early("inside the header"))?;
@@ -130,10 +101,17 @@ impl Tile {
             system::read_extended(&mut source, extended, length, &mut about)?;
         }
         let record = usize::from(header.point_data_record_length);
-        Ok(Self { source, length, start, total, record, about })
+        let dimensions = dimensions::of_records(about.point_format, record, &about.vlrs);
+        Ok(Self { source, length, start, total, record, about, dimensions })
     }
 
-    fn read(mut self, filter: &LasFilter, takers: &mut Chunks) -> Result<Cloud, Error> {
+    /// The system of coordinates that the file names.
+    pub(crate) fn crs(&self) -> Option<Crs> {
+        system::find(&self.about.vlrs)
+    }
+
+    /// Reads the points that are wanted.
+    pub(crate) fn read(mut self, wanted: &Wanted, takers: &mut Chunks) -> Result<Kept, Error> {
         let bytes = self.length - self.start;
         let (fits, claim) = if self.about.point_format.is_compressed {
             (bytes.saturating_mul(POINTS_A_BYTE), bytes)
@@ -144,31 +122,25 @@ impl Tile {
             return Err(Error::Truncated(format!("after {fits} of {} points", self.total)));
         }
         let capacity =
-            if filter.is_plain() && takers.is_whole() { self.total.min(claim) as usize } else { 0 };
-        let mut kept = Kept { cloud: Cloud::with_capacity(capacity, true), filter, counts: Counts::NONE };
+            if wanted.filter.is_plain() && takers.is_whole() { self.total.min(claim) as usize } else { 0 };
+        let mut kept = Kept::with_capacity(capacity, wanted.options);
+        let extra = self.dimensions.iter().filter(|own| own.is_extra);
+        kept.cloud.dimensions = extra.map(|own| (own.name.clone(), own.describe())).collect();
         self.source.seek(SeekFrom::Start(self.start))?;
         if self.about.point_format.is_compressed {
-            chunks::read(&mut self, &mut kept, takers)?;
+            chunks::read(&mut self, wanted, &mut kept, takers)?;
         } else {
             let mut data = self.buffer();
             let mut seen = 0;
             while seen < self.total {
                 let count = CHUNK.min(self.total - seen);
                 self.source.read_exact(data.resize_for(count as usize))?;
-                kept.take(&data);
+                kept.take(&data, wanted);
                 takers.offer(&mut kept.cloud)?;
                 seen += count;
             }
         }
-        let mut cloud = kept.cloud;
-        cloud.crs = system::find(&self.about.vlrs);
-        let counts = kept.counts;
-        cloud.classes = (0..=255).zip(counts.classes).filter(|entry| entry.1 > 0).collect();
-        cloud.flags = counts.flags;
-        if counts.withheld > 0 {
-            cloud.remarks.push(format!("{} points that are withheld are left out", counts.withheld));
-        }
-        Ok(cloud)
+        Ok(kept)
     }
 
     /// Room for records, and how to read their fields.

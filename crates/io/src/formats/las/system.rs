@@ -1,10 +1,12 @@
-//! The coordinate reference system of a LAS file: well-known text, or GeoTIFF keys, in its variable length records.
+//! The coordinate reference system of a LAS file: well-known text, or GeoTIFF keys, in its variable length records. Extended ones may also
+//! describe extra bytes.
 
 use std::io::{Read, Seek, SeekFrom};
 
 use las::raw::header::Evlr;
 use las::{Builder, Vlr};
 
+use super::dimensions;
 use crate::crs::keys::decode;
 use crate::{Crs, Error, Source};
 
@@ -18,7 +20,7 @@ const WELL_KNOWN_TEXT: u16 = 2_112;
 /// Bytes of an extended record before its content.
 const HEAD: u64 = 60;
 
-/// Reads the extended records about coordinates, and steps over the others, which may be as long as the points.
+/// Reads the extended records about coordinates and about extra bytes, and steps over the others, which may be as long as the points.
 pub(super) fn read_extended(
     source: &mut Box<dyn Source>,
     records: Evlr,
@@ -38,11 +40,14 @@ pub(super) fn read_extended(
         size.copy_from_slice(&head[20..28]);
         let size = u64::from_le_bytes(size);
         let next = (at + HEAD).checked_add(size).filter(|&next| next <= length).ok_or_else(end)?;
-        if head[2..18].starts_with(OWNER.as_bytes()) {
+        let record_id = u16::from_le_bytes([head[18], head[19]]);
+        let is_of = |owner: &str| head[2..18].starts_with(owner.as_bytes());
+        let is_extra = is_of(dimensions::OWNER) && record_id == dimensions::EXTRA_BYTES;
+        if is_of(OWNER) || is_extra {
             let mut data = vec![0; size as usize];
             source.read_exact(&mut data)?;
-            let record_id = u16::from_le_bytes([head[18], head[19]]);
-            about.vlrs.push(Vlr { user_id: OWNER.to_owned(), record_id, description: String::new(), data });
+            let user_id = if is_extra { dimensions::OWNER } else { OWNER }.to_owned();
+            about.vlrs.push(Vlr { user_id, record_id, description: String::new(), data });
         }
         at = next;
     }
